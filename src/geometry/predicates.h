@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cmath>
+
+#include "prohull/geometry.h"
+
+namespace prohull {
+
+enum class Side { Inside = -1, On = 0, Outside = 1 };
+
+constexpr Side opposite(Side s) { return Side(-int(s)); }
+
+/// The exact answer, by CGAL; slow. Coordinates must be finite.
+Side exact_side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p);
+
+/// The sign of the 2x2 determinant |b-a c-a| of the points without the coordinate `axis`, taken in cyclic order: of
+/// (y, z), (z, x) or (x, y) for axis 0, 1, 2. Exact; positive if a, b, c turn counter-clockwise seen from +axis.
+int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// The side of the supporting plane of (a, b, c) on which p lies; Outside sees them counter-clockwise.
+///   (1) On, if and only if the four points are coplanar
+///   (2) side(b, c, a, p) == side(a, b, c, p)
+///   (3) side(b, a, c, p) == opposite(side(a, b, c, p))
+/// Exact for all finite coordinates. The filter is Shewchuk's ("Adaptive Precision Floating-Point Arithmetic and Fast
+/// Robust Geometric Predicates", 1997, section 4.3): |error| <= (7 + 56 eps) eps * permanent with eps = 2^-53, valid as
+/// long as no product underflows, which the lower limit on the permanent sees to.
+inline Side side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
+  const double adx = a.x - p.x, ady = a.y - p.y, adz = a.z - p.z;
+  const double bdx = b.x - p.x, bdy = b.y - p.y, bdz = b.z - p.z;
+  const double cdx = c.x - p.x, cdy = c.y - p.y, cdz = c.z - p.z;
+  const double bdxcdy = bdx * cdy, cdxbdy = cdx * bdy;
+  const double cdxady = cdx * ady, adxcdy = adx * cdy;
+  const double adxbdy = adx * bdy, bdxady = bdx * ady;
+  // Shewchuk's orient3d is positive if p lies below the plane, that is inside.
+  const double det = adz * (bdxcdy - cdxbdy) + bdz * (cdxady - adxcdy) + cdz * (adxbdy - bdxady);
+  const double permanent = (std::abs(bdxcdy) + std::abs(cdxbdy)) * std::abs(adz) +
+                           (std::abs(cdxady) + std::abs(adxcdy)) * std::abs(bdz) +
+                           (std::abs(adxbdy) + std::abs(bdxady)) * std::abs(cdz);
+  constexpr double kEpsilon = 0x1p-53;
+  constexpr double kBound = (7.0 + 56.0 * kEpsilon) * kEpsilon;
+  const double bound = kBound * permanent;
+  if (permanent > 0x1p-900 && permanent < 0x1p1000) {
+    if (det > bound) return Side::Inside;
+    if (-det > bound) return Side::Outside;
+  }
+  return exact_side(a, b, c, p);
+}
+
+}  // namespace prohull

@@ -1,0 +1,29 @@
+#include "prohull/triangle_mesh.h"
+
+namespace prohull {
+
+Box bounding_box(const TriangleMesh& mesh) {
+  Box box;
+  for (const auto& t : mesh.triangles)
+    for (const VertexId v : t) box.extend(mesh.positions[v]);
+  return box;
+}
+
+double signed_volume(const TriangleMesh& mesh) {
+  const Box box = bounding_box(mesh);
+  if (box.is_empty()) return 0;
+  const Vec3 center = box.center();
+  // In units of the box, so that no product overflows before the last one.
+  const double unit = std::max({box.max.x - center.x, box.max.y - center.y, box.max.z - center.z});
+  if (unit == 0) return 0;
+  double sixfold = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = (mesh.positions[t[0]] - center) / unit, b = (mesh.positions[t[1]] - center) / unit,
+               c = (mesh.positions[t[2]] - center) / unit;
+    sixfold += dot(a, cross(b, c));
+  }
+  const double volume = sixfold / 6;
+  return volume == 0 ? 0 : volume * unit * unit * unit;
+}
+
+}  // namespace prohull

@@ -1,0 +1,60 @@
+#include "geometry/predicates.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace prohull {
+namespace {
+
+const Vec3 kA{0, 0, 0}, kB{1, 0, 0}, kC{0, 1, 0};
+
+TEST(Side, OutsideSeesTheTriangleCounterClockwise) {
+  EXPECT_EQ(side(kA, kB, kC, {0.3, 0.3, 1}), Side::Outside);
+  EXPECT_EQ(side(kA, kB, kC, {0.3, 0.3, -1}), Side::Inside);
+  EXPECT_EQ(side(kA, kB, kC, {17, -4, 0}), Side::On);
+}
+
+TEST(Side, TellsOneUlpApart) {
+  const double third = 1.0 / 3;
+  const Vec3 a{third, third, third}, b{1, third, third}, c{third, 1, third};
+  EXPECT_EQ(side(a, b, c, {0.7, 0.1, third}), Side::On);
+  EXPECT_EQ(side(a, b, c, {0.7, 0.1, std::nextafter(third, 1)}), Side::Outside);
+  EXPECT_EQ(side(a, b, c, {0.7, 0.1, std::nextafter(third, 0)}), Side::Inside);
+}
+
+TEST(Side, HoldsForTinyAndHugeCoordinates) {
+  for (const double scale : {0x1p-1074, 0x1p-500, 1.0, 0x1p500, 0x1p1000}) {
+    const Vec3 a = kA * scale, b = kB * scale, c = kC * scale;
+    EXPECT_EQ(side(a, b, c, {0, 0, scale}), Side::Outside) << scale;
+    EXPECT_EQ(side(a, b, c, {0, 0, -scale}), Side::Inside) << scale;
+    EXPECT_EQ(side(a, b, c, {scale, scale, 0}), Side::On) << scale;
+  }
+}
+
+TEST(Side, IsCyclicAndAntisymmetricOnNearlyCoplanarPoints) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 a{unit(random), unit(random), unit(random)}, b{unit(random), unit(random), unit(random)},
+        c{unit(random), unit(random), unit(random)};
+    const Vec3 p = a * 0.25 + b * 0.25 + c * 0.5;
+    const Side s = side(a, b, c, p);
+    ASSERT_EQ(s, exact_side(a, b, c, p));
+    ASSERT_EQ(side(b, c, a, p), s);
+    ASSERT_EQ(side(b, a, c, p), opposite(s));
+  }
+}
+
+TEST(Turn, IsCounterClockwiseSeenFromTheAxis) {
+  EXPECT_EQ(turn(2, kA, kB, kC), 1);
+  EXPECT_EQ(turn(2, kA, kC, kB), -1);
+  EXPECT_EQ(turn(0, kA, kB, kC), 0);
+  EXPECT_EQ(turn(0, kA, {0, 1, 0}, {0, 0, 1}), 1);
+  EXPECT_EQ(turn(1, kA, {0, 0, 1}, {1, 0, 0}), 1);
+}
+
+}  // namespace
+}  // namespace prohull
