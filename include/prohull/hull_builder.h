@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <numbers>
+#include <string_view>
+
+#include "prohull/progressive_hull.h"
+#include "prohull/triangle_mesh.h"
+
+namespace prohull {
+
+/// In which order edges are collapsed.
+enum class Strategy {
+  Lazy,    ///< enclosed volume, re-evaluated only when an edge comes to the front of the queue; best and fastest
+  Paper1,  ///< P&T 3.1.3, first strategy: enclosed volume, re-evaluated after each collapse nearby
+  Paper2,  ///< P&T 3.1.3, second strategy: the volume that the star spans with the centre of its link
+};
+
+/// The priority queue (P&T 3.1.4). Heap and RedBlackTree give the same hulls; Bucket sorts to an eighth of an octave.
+enum class QueueKind { Bucket, Heap, RedBlackTree };
+
+/// Why an edge was not collapsed.
+enum class Refusal {
+  LinkCondition,    ///< the surface would be pinched
+  Valence,          ///< the new vertex would have more than max_valence faces
+  NoRoomOutside,    ///< no point is outside of every face of the star (P&T formula 2)
+  Certificate,      ///< the best point, as stored, is not provably outside of every face
+  Compactness,      ///< a face would become too thin
+  NormalDeviation,  ///< a face would turn too far
+  Vanishing,        ///< a component of an inner hull would lose its volume, or turn inside out
+};
+constexpr std::size_t kRefusalKinds = 7;
+std::string_view name(Refusal refusal);
+
+class RefusalCounts {
+ public:
+  void count(Refusal refusal) { ++counts_[static_cast<std::size_t>(refusal)]; }
+  std::size_t operator[](Refusal refusal) const { return counts_[static_cast<std::size_t>(refusal)]; }
+
+ private:
+  std::array<std::size_t, kRefusalKinds> counts_{};
+};
+
+struct HullProgress {
+  std::size_t faces, original_faces, target_faces;
+};
+
+struct HullOptions {
+  std::size_t target_faces = 2000;  ///< at least 4
+  HullSide side = HullSide::Outer;
+  Strategy strategy = Strategy::Lazy;
+  unsigned max_valence = 12;                           ///< of a new vertex; bigger stars, bigger linear programs
+  double min_compactness_ratio = 0.8;                  ///< worst face of the star, after / before; in [0, 1]
+  double sufficient_compactness = 0.2;                 ///< good enough whatever it was before; Strategy::Lazy only
+  double max_normal_deviation = std::numbers::pi / 4;  ///< of a face that a collapse moves; radians, in [0, pi/2]
+  bool float32_coordinates = false;                    ///< new vertices have coordinates that a float32 file keeps
+  QueueKind queue = QueueKind::Bucket;
+  std::function<bool(const HullProgress&)> progress;   ///< called now and then; false stops with the hull made so far
+};
+
+enum class Stopped { TargetReached, NoLegalCollapse, Cancelled };
+
+struct HullResult {
+  ProgressiveHull hull;
+  Stopped stopped;
+  RefusalCounts refused;  ///< over the whole construction; an edge may be refused many times
+  RefusalCounts blocked;  ///< of the edges that are left, why each was refused last
+  std::size_t linear_programs = 0;
+};
+
+/// Simplifies `mesh` by edge collapses, every new vertex on the outside of all faces that it replaces, until
+/// target_faces or no collapse is legal (P&T 3.1). Every vertex is accepted by an exact predicate on its stored
+/// coordinates; the guarantees are those of ProgressiveHull.
+/// Throws InputError for options outside their range, or if `mesh` is not a closed 2-manifold oriented outwards
+/// (repair.h makes one where it can).
+///
+///   const HullResult result = build_hull(read_closed_mesh("horse.ply").mesh, {.target_faces = 500});
+///   write_mesh("hull.ply", result.hull.base());
+HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options = {});
+
+}  // namespace prohull

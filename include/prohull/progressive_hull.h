@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "prohull/triangle_mesh.h"
+
+namespace prohull {
+
+enum class HullSide {
+  Outer,  ///< every hull encloses the original mesh
+  Inner,  ///< every hull is enclosed by the original mesh
+};
+
+/// The inverse of the edge collapse that made one vertex s: s becomes the edge o-d, and the faces (o, d, l) and (d, o, r)
+/// come back. Faces and their corners are numbered as in the original mesh; `od` and `do_` name the corners (3 face +
+/// corner) that o has in the first and d in the second.
+struct VertexSplit {
+  VertexId o, d, l, r;
+  std::uint32_t od, do_;
+
+  bool operator==(const VertexSplit&) const = default;
+};
+
+/// A mesh at every resolution from a coarse base mesh up to the original (P&T 2, Hoppe 1996). Immutable; any number of
+/// threads may share one.
+/// Guaranteed: every level is a closed 2-manifold, and encloses the next finer one (HullSide::Inner: is enclosed by it)
+/// in the sense of winding numbers; the finest is the original mesh bit for bit.
+/// Not guaranteed: freedom from self-intersection.
+class ProgressiveHull {
+ public:
+  /// Vertices are numbered: those of the original mesh first, then one for each edge collapse in the order in which they
+  /// were made. `base_corners` holds the base mesh: for corner c of face f, at 3 f + c, its vertex, or kAbsent.
+  /// Throws InputError(Malformed) if that is not a base mesh with its splits.
+  ProgressiveHull(HullSide side, std::size_t original_vertices, PerVertex<Vec3> positions,
+                  std::vector<VertexId> base_corners, std::vector<VertexSplit> splits);
+
+  static constexpr VertexId kAbsent{0xffffffff};
+
+  HullSide side() const { return side_; }
+  std::size_t original_face_count() const { return base_corners_.size() / 3; }
+  std::size_t base_face_count() const { return original_face_count() - 2 * splits_.size(); }
+  std::size_t original_vertex_count() const { return original_vertices_; }
+
+  /// The finest level of at most `faces` faces, or the base mesh if that has more.
+  TriangleMesh level(std::size_t faces) const;
+  TriangleMesh base() const { return level(0); }
+  TriangleMesh original() const { return level(original_face_count()); }
+
+  const PerVertex<Vec3>& positions() const { return positions_; }
+  const std::vector<VertexId>& base_corners() const { return base_corners_; }
+  /// In the order of the collapses: splits()[i] replaces vertex made_vertex(i). The last comes first when refining.
+  const std::vector<VertexSplit>& splits() const { return splits_; }
+  VertexId made_vertex(std::size_t i) const { return VertexId(static_cast<std::uint32_t>(original_vertices_ + i)); }
+
+  bool operator==(const ProgressiveHull&) const = default;
+
+ private:
+  HullSide side_;
+  std::size_t original_vertices_;
+  PerVertex<Vec3> positions_;
+  std::vector<VertexId> base_corners_;
+  std::vector<VertexSplit> splits_;
+};
+
+}  // namespace prohull

@@ -1,0 +1,235 @@
+#include "prohull/hull_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "build/edge_queue.h"
+#include "build/placement.h"
+#include "build/shape_guards.h"
+#include "build/star.h"
+#include "prohull/error.h"
+#include "prohull/mesh_report.h"
+
+namespace prohull {
+namespace {
+
+// What is known of an edge between its visits.
+enum class EdgeState : std::uint8_t {
+  Fresh,  ///< its key is that of the star as it is
+  Stale,  ///< the star has changed since
+};
+
+double largest_coordinate(const Box& box) {
+  return std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x),
+                   std::abs(box.max.y), std::abs(box.max.z)});
+}
+
+template <class Queue>
+class HullBuilder {
+ public:
+  HullBuilder(const TriangleMesh& mesh, const HullOptions& options)
+      : options_(options),
+        original_vertices_(mesh.vertex_count()),
+        mesh_(mesh),
+        queue_(mesh_.edge_id_count()),
+        key_(mesh_.edge_id_count(), 0),
+        state_(mesh_.edge_id_count(), EdgeState::Stale),
+        last_refusal_(mesh_.edge_id_count(), Refusal::LinkCondition),
+        rounding_(largest_coordinate(bounding_box(mesh)) * (options.float32_coordinates ? 0x1p-23 : 0x1p-52)) {}
+
+  HullResult run() {
+    Stopped stopped = Stopped::NoLegalCollapse;
+    queue_all();
+    while (true) {
+      if (mesh_.face_count() <= options_.target_faces) {
+        stopped = Stopped::TargetReached;
+        break;
+      }
+      if (queue_.empty()) break;
+      if (cancelled()) {
+        stopped = Stopped::Cancelled;
+        break;
+      }
+      const EdgeId edge = queue_.pop();
+      gather_star(mesh_, edge, star_);
+      if (const auto why = refusal_of_topology()) {
+        refuse(edge, *why);
+        continue;
+      }
+      measure_star(mesh_, star_);
+      const auto placement = place();
+      if (!placement) {
+        refuse(edge, Refusal::NoRoomOutside);
+        continue;
+      }
+      if (state_[edge] == EdgeState::Stale) {
+        state_[edge] = EdgeState::Fresh;
+        key_[edge] = placement->added_volume;
+        if (options_.strategy == Strategy::Lazy && !queue_.precedes_all(key_[edge])) {
+          queue_.insert(edge, key_[edge]);
+          continue;
+        }
+      }
+      Vec3 apex;
+      if (const auto why = refusal_of_apex(*placement, apex)) {
+        refuse(edge, *why);
+        continue;
+      }
+      record_.push_back(mesh_.collapse(star_.edge, apex));
+      requeue_around(VertexId(static_cast<std::uint32_t>(mesh_.positions().size() - 1)));
+    }
+    return result(stopped);
+  }
+
+ private:
+  void queue_all() {
+    for (std::uint32_t i = 0; i < mesh_.edge_id_count(); ++i) evaluate_and_queue(EdgeId(i));
+  }
+
+  std::optional<Refusal> refusal_of_topology() const {
+    if (!satisfies_link_condition(star_)) return Refusal::LinkCondition;
+    if (star_.valence() > options_.max_valence) return Refusal::Valence;
+    return std::nullopt;
+  }
+
+  // The margin covers the rounding of the apex to its stored coordinates.
+  double margin() const { return 1e-10 + 2 * rounding_ / star_.scale; }
+
+  std::optional<Placement> place() {
+    ++linear_programs_;
+    return place_outside(star_, margin());
+  }
+
+  Vec3 as_stored(const Vec3& p) const {
+    if (!options_.float32_coordinates) return p;
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  }
+
+  // Where it would go, or why it may not. An end of the edge that adds nothing at all is preferred (not in the paper).
+  std::optional<Refusal> refusal_of_apex(const Placement& placement, Vec3& apex) {
+    constexpr double kFlat = 1e-7;  // of the star's cube; only saves exact tests where they cannot succeed
+    if (options_.strategy == Strategy::Lazy && placement.added_volume <= kFlat * star_.scale * star_.scale * star_.scale) {
+      if (const auto end = end_on_all_planes(mesh_, star_)) {
+        apex = mesh_.position(*end);
+        if (as_stored(apex) == apex && !refused_shape(star_, *end == star_.o ? star_.local_o : star_.local_d, options_))
+          return std::nullopt;
+      }
+    }
+    if (const auto why = refused_shape(star_, placement.local, options_)) return why;
+    apex = as_stored(star_.to_input(placement.local));
+    if (!is_outside(mesh_, star_, apex)) return Refusal::Certificate;
+    return std::nullopt;
+  }
+
+  void refuse(EdgeId edge, Refusal why) {
+    refused_.count(why);
+    last_refusal_[edge] = why;
+  }
+
+  // P&T Figure 3: the edges whose star has changed are those with an end on s or its link.
+  void requeue_around(VertexId s) {
+    const HalfEdgeId first = mesh_.out(s);
+    HalfEdgeId h = first;
+    do {
+      const HalfEdgeId around = mesh_.twin(h);
+      requeue(mesh_.edge(h));
+      // Edges between two link vertices are met from both: the one beside s is left to its own tail.
+      HalfEdgeId g = mesh_.rotated(around);
+      requeue(mesh_.edge(g));
+      for (g = mesh_.rotated(g); mesh_.rotated(g) != around; g = mesh_.rotated(g)) requeue(mesh_.edge(g));
+      h = mesh_.rotated(h);
+    } while (h != first);
+  }
+
+  void requeue(EdgeId edge) {
+    if (options_.strategy != Strategy::Lazy) {
+      if (queue_.contains(edge)) queue_.erase(edge);
+      evaluate_and_queue(edge);
+      return;
+    }
+    state_[edge] = EdgeState::Stale;
+    if (!queue_.contains(edge)) queue_.insert(edge, key_[edge]);
+  }
+
+  void evaluate_and_queue(EdgeId edge) {
+    gather_star(mesh_, edge, star_);
+    if (const auto why = refusal_of_topology()) return refuse(edge, *why);
+    measure_star(mesh_, star_);
+    if (options_.strategy == Strategy::Paper2) {
+      key_[edge] = link_center_volume(star_);
+    } else {
+      const auto placement = place();
+      if (!placement) return refuse(edge, Refusal::NoRoomOutside);
+      key_[edge] = placement->added_volume;
+    }
+    state_[edge] = EdgeState::Fresh;
+    queue_.insert(edge, key_[edge]);
+  }
+
+  bool cancelled() {
+    constexpr std::size_t kInterval = 1024;
+    if (!options_.progress || ++pops_ % kInterval != 0) return false;
+    return !options_.progress({mesh_.face_count(), mesh_.face_id_count(), options_.target_faces});
+  }
+
+  HullResult result(Stopped stopped) {
+    RefusalCounts blocked;
+    for (std::uint32_t i = 0; i < mesh_.edge_id_count(); ++i)
+      if (const EdgeId e{i}; mesh_.has(e) && !queue_.contains(e)) blocked.count(last_refusal_[e]);
+    std::vector<VertexId> corners(3 * mesh_.face_id_count());
+    for (std::uint32_t i = 0; i < corners.size(); ++i) corners[i] = mesh_.tail(HalfEdgeId(i));
+    ProgressiveHull hull(options_.side, original_vertices_, mesh_.positions(), std::move(corners), std::move(record_));
+    return {std::move(hull), stopped, refused_, blocked, linear_programs_};
+  }
+
+  const HullOptions options_;
+  const std::size_t original_vertices_;
+  HalfEdgeMesh mesh_;
+  Queue queue_;
+  PerEdge<double> key_;
+  PerEdge<EdgeState> state_;
+  PerEdge<Refusal> last_refusal_;
+  const double rounding_;  ///< the most by which storing moves a coordinate, with some room
+  Star star_;
+  std::vector<VertexSplit> record_;
+  RefusalCounts refused_;
+  std::size_t linear_programs_ = 0, pops_ = 0;
+};
+
+void check(const HullOptions& options) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw InputError(Defect::InvalidOption, what);
+  };
+  require(options.target_faces >= 4, "target_faces must be at least 4, the faces of a tetrahedron");
+  require(options.max_valence >= 3, "max_valence must be at least 3");
+  require(options.min_compactness_ratio >= 0 && options.min_compactness_ratio <= 1,
+          "min_compactness_ratio must be in [0, 1]");
+  require(options.sufficient_compactness >= 0 && options.sufficient_compactness <= 1,
+          "sufficient_compactness must be in [0, 1]");
+  require(options.max_normal_deviation >= 0 && options.max_normal_deviation <= std::numbers::pi / 2,
+          "max_normal_deviation must be in [0, pi/2] radians");
+}
+
+}  // namespace
+
+std::string_view name(Refusal refusal) {
+  constexpr std::array<std::string_view, kRefusalKinds> kNames = {
+      "link_condition", "valence", "no_room_outside", "certificate", "compactness", "normal_deviation", "vanishing"};
+  return kNames[static_cast<std::size_t>(refusal)];
+}
+
+HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
+  check(options);
+  const MeshReport report = inspect(mesh);
+  if (report.faces == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces");
+  if (!report.is_closed_manifold()) throw InputError(Defect::OpenEdge, report.first_defect);
+  switch (options.queue) {
+    case QueueKind::Bucket: return HullBuilder<EdgeBuckets>(mesh, options).run();
+    case QueueKind::Heap: return HullBuilder<EdgeHeap>(mesh, options).run();
+    default: return HullBuilder<EdgeTree>(mesh, options).run();
+  }
+}
+
+}  // namespace prohull

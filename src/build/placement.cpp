@@ -1,0 +1,84 @@
+#include "build/placement.h"
+
+#include <cmath>
+
+#include "geometry/predicates.h"
+
+namespace prohull {
+namespace {
+
+double cubed(double x) { return x * x * x; }
+
+// Six times P&T formula 3 in local units, not counting the margin.
+double sixfold_added_volume(const Star& star, const Vec3& p) {
+  double sum = 0;
+  for (std::size_t i = 0; i < star.planes.size(); ++i)
+    sum += star.double_areas[i] * (dot(star.planes[i].normal, p) - star.planes[i].offset);
+  return sum;
+}
+
+bool is_usable(const Vec3& p) {
+  // The star has size 1 around the origin: nothing beyond is a shape that the guards would let pass.
+  constexpr double kReach = 8;
+  return std::abs(p.x) <= kReach && std::abs(p.y) <= kReach && std::abs(p.z) <= kReach;
+}
+
+// Calls use(a, b, c) for the corners of each face of the star until one call returns false.
+template <class Use>
+bool all_faces(const HalfEdgeMesh& mesh, const Star& star, Use&& use) {
+  const Vec3 &o = mesh.position(star.o), &d = mesh.position(star.d);
+  const Vec3 &l = mesh.position(star.link[0]), &r = mesh.position(star.link[star.o_faces]);
+  if (!use(o, d, l) || !use(d, o, r)) return false;
+  for (std::size_t i = 0; i < star.link.size(); ++i)
+    if (!use(i < star.o_faces ? o : d, mesh.position(star.link[i]), mesh.position(star.link[star.after(i)])))
+      return false;
+  return true;
+}
+
+}  // namespace
+
+std::optional<Placement> place_outside(const Star& star, double margin) {
+  static thread_local std::vector<HalfSpace> constraints;
+  constraints.clear();
+  Vec3 objective;
+  for (std::size_t i = 0; i < star.planes.size(); ++i) {
+    if (star.double_areas[i] == 0) continue;
+    constraints.push_back({star.planes[i].normal, star.planes[i].offset + margin});
+    objective += star.planes[i].normal * star.double_areas[i];
+  }
+  LinearProgramResult best = solve_linear_program(objective, constraints);
+  if (best.status == LinearProgramStatus::Infeasible) return std::nullopt;
+  if (best.status == LinearProgramStatus::Ambiguous || !is_usable(best.x)) {
+    const auto nearest = nearest_feasible_point({}, constraints);
+    if (!nearest || !is_usable(*nearest)) return std::nullopt;
+    best.x = *nearest;
+  }
+  return Placement{best.x, std::max(0.0, sixfold_added_volume(star, best.x) / 6) * cubed(star.scale)};
+}
+
+std::optional<VertexId> end_on_all_planes(const HalfEdgeMesh& mesh, const Star& star) {
+  for (const VertexId end : {star.o, star.d}) {
+    const Vec3& p = mesh.position(end);
+    if (all_faces(mesh, star, [&](const Vec3& a, const Vec3& b, const Vec3& c) { return side(a, b, c, p) == Side::On; }))
+      return end;
+  }
+  return std::nullopt;
+}
+
+double link_center_volume(const Star& star) {
+  Vec3 center;
+  for (const Vec3& p : star.local) center += p;
+  center = center / static_cast<double>(star.local.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < star.planes.size(); ++i)
+    sum += star.double_areas[i] * std::abs(dot(star.planes[i].normal, center) - star.planes[i].offset);
+  return sum / 6 * cubed(star.scale);
+}
+
+bool is_outside(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex) {
+  return all_faces(mesh, star, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    return side(a, b, c, apex) != Side::Inside;
+  });
+}
+
+}  // namespace prohull

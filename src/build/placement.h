@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "build/star.h"
+
+namespace prohull {
+
+/// Where the new vertex may go, in the star's own frame, and the volume it adds there, in the input's unit.
+struct Placement {
+  Vec3 local;
+  double added_volume;
+};
+
+/// The point outside of all faces of the star that adds the least volume (P&T 3.1.2), by a linear program; where that has
+/// no single answer (flat stars), the one nearest to the edge's midpoint. It keeps a `margin` (local units) away from the
+/// planes, so that it still is outside when rounded.
+std::optional<Placement> place_outside(const Star& star, double margin);
+
+/// One end of the edge, if it lies exactly on all planes of the star, as in flat parts and along straight creases: then the
+/// collapse adds nothing.
+std::optional<VertexId> end_on_all_planes(const HalfEdgeMesh& mesh, const Star& star);
+
+/// P&T 3.1.3, second strategy: the unsigned volume between the star and the centre of its link, in the input's unit.
+double link_center_volume(const Star& star);
+
+/// Exact: the apex, as stored, is outside of or on the supporting plane of every face of the star.
+bool is_outside(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex);
+
+}  // namespace prohull

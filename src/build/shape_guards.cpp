@@ -1,0 +1,47 @@
+#include "build/shape_guards.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prohull {
+namespace {
+
+double squared_edges(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return squared_norm(b - a) + squared_norm(c - b) + squared_norm(a - c);
+}
+
+double least_compactness_before(const Star& star) {
+  const std::size_t n = star.link.size();
+  double least = std::min(
+      compactness(star.double_areas[n], squared_edges(star.local_o, star.local_d, star.local[0])),
+      compactness(star.double_areas[n + 1], squared_edges(star.local_d, star.local_o, star.local[star.o_faces])));
+  for (std::size_t i = 0; i < n; ++i)
+    least = std::min(least, compactness(star.double_areas[i], squared_edges(star.local_apex(i), star.local[i],
+                                                                            star.local[star.after(i)])));
+  return least;
+}
+
+}  // namespace
+
+double compactness(double double_area, double squared_edges) {
+  return squared_edges > 0 ? 2 * std::sqrt(3.0) * double_area / squared_edges : 0;
+}
+
+std::optional<Refusal> refused_shape(const Star& star, const Vec3& apex, const HullOptions& options) {
+  const double least_cosine = std::cos(options.max_normal_deviation);
+  double least_compactness = 1;
+  for (std::size_t i = 0; i < star.link.size(); ++i) {
+    const Vec3 &a = star.local[i], &b = star.local[star.after(i)];
+    const Vec3 n = cross(a - apex, b - apex);
+    const double length = norm(n);
+    if (star.double_areas[i] > 0 && dot(n, star.planes[i].normal) < least_cosine * length)
+      return Refusal::NormalDeviation;
+    least_compactness = std::min(least_compactness, compactness(length, squared_edges(apex, a, b)));
+  }
+  double required = options.min_compactness_ratio * least_compactness_before(star);
+  if (options.strategy == Strategy::Lazy) required = std::min(required, options.sufficient_compactness);
+  if (!(least_compactness > required)) return Refusal::Compactness;
+  return std::nullopt;
+}
+
+}  // namespace prohull

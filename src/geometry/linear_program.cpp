@@ -1,0 +1,174 @@
+#include "geometry/linear_program.h"
+
+#include <array>
+#include <cmath>
+
+namespace prohull {
+namespace {
+
+constexpr int kMaxIterations = 100;
+// Constraints are satisfied when not violated by more than this, relative to |normal| <= about 1 and |x| <= kFarAway.
+constexpr double kFeasible = 1e-12;
+
+constexpr std::ptrdiff_t kBox = -1;
+
+// Three tight constraints with independent normals. columns[i] . normal_j = (i == j), so that a step along columns[i]
+// leaves the other two tight.
+struct Basis {
+  std::array<Vec3, 3> columns;
+  std::array<std::ptrdiff_t, 3> constraint;
+  std::array<double, 3> multiplier;  ///< objective = sum of multiplier_i normal_i, all >= 0: dual feasible
+  Vec3 x;
+};
+
+Basis box_corner(const Vec3& objective) {
+  Basis basis;
+  for (int i = 0; i < 3; ++i) {
+    const double sign = objective[i] < 0 ? -1 : 1;
+    basis.columns[i] = {};
+    basis.columns[i][i] = sign;
+    basis.constraint[i] = kBox;
+    basis.multiplier[i] = std::abs(objective[i]);
+    basis.x[i] = -sign * kFarAway;
+  }
+  return basis;
+}
+
+std::ptrdiff_t most_violated(const Vec3& x, const std::vector<HalfSpace>& constraints) {
+  std::ptrdiff_t worst = -1;
+  double least = -kFeasible;
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const double slack = dot(constraints[i].normal, x) - constraints[i].offset;
+    if (slack < least) least = slack, worst = static_cast<std::ptrdiff_t>(i);
+  }
+  return worst;
+}
+
+// Lets constraint `entering` into the basis for the one whose multiplier reaches zero first; false if none does, that is,
+// if the basis and the entering constraint exclude each other.
+bool pivot(Basis& basis, std::ptrdiff_t entering, const HalfSpace& constraint) {
+  constexpr double kPivot = 1e-13;
+  int leaving = -1;
+  double least_ratio = 0;
+  std::array<double, 3> alpha;
+  for (int i = 0; i < 3; ++i) {
+    alpha[i] = dot(constraint.normal, basis.columns[i]);
+    if (alpha[i] <= kPivot) continue;
+    const double ratio = basis.multiplier[i] / alpha[i];
+    if (leaving < 0 || ratio < least_ratio) least_ratio = ratio, leaving = i;
+  }
+  if (leaving < 0) return false;
+  const Vec3 column = basis.columns[leaving] / alpha[leaving];
+  basis.x += column * (constraint.offset - dot(constraint.normal, basis.x));
+  for (int i = 0; i < 3; ++i) {
+    basis.columns[i] = basis.columns[i] + column * -alpha[i];
+    basis.multiplier[i] = std::max(0.0, basis.multiplier[i] - least_ratio * alpha[i]);
+  }
+  basis.columns[leaving] = column;
+  basis.multiplier[leaving] = least_ratio;
+  basis.constraint[leaving] = entering;
+  return true;
+}
+
+bool rests_on_box(const Basis& basis) {
+  return basis.constraint[0] == kBox || basis.constraint[1] == kBox || basis.constraint[2] == kBox;
+}
+
+}  // namespace
+
+LinearProgramResult solve_linear_program(const Vec3& objective, const std::vector<HalfSpace>& constraints) {
+  Basis basis = box_corner(objective);
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const std::ptrdiff_t entering = most_violated(basis.x, constraints);
+    if (entering < 0)
+      return {rests_on_box(basis) ? LinearProgramStatus::Ambiguous : LinearProgramStatus::Optimal, basis.x};
+    if (!pivot(basis, entering, constraints[static_cast<std::size_t>(entering)]))
+      return {LinearProgramStatus::Infeasible, basis.x};
+  }
+  return {LinearProgramStatus::Ambiguous, basis.x};
+}
+
+namespace {
+
+// Tight constraints, their normals made orthonormal by Gram-Schmidt, and the non-negative combination of the normals
+// that leads from the target to x.
+struct ActiveSet {
+  int size = 0;
+  std::array<std::size_t, 3> constraint;
+  std::array<double, 3> multiplier;
+};
+
+// Solves sum_j (normal_i . normal_j) r_j = normal_i . n for the active normals: r expresses the part of n in their span.
+bool express(const ActiveSet& active, const std::vector<HalfSpace>& constraints, const Vec3& n,
+             std::array<double, 3>& r) {
+  double m[3][4];
+  for (int i = 0; i < active.size; ++i) {
+    const Vec3& ni = constraints[active.constraint[i]].normal;
+    for (int j = 0; j < active.size; ++j) m[i][j] = dot(ni, constraints[active.constraint[j]].normal);
+    m[i][active.size] = dot(ni, n);
+  }
+  for (int k = 0; k < active.size; ++k) {
+    int best = k;
+    for (int i = k + 1; i < active.size; ++i)
+      if (std::abs(m[i][k]) > std::abs(m[best][k])) best = i;
+    if (m[best][k] == 0) return false;
+    for (int j = 0; j <= active.size; ++j) std::swap(m[k][j], m[best][j]);
+    for (int i = 0; i < active.size; ++i) {
+      if (i == k) continue;
+      const double factor = m[i][k] / m[k][k];
+      for (int j = k; j <= active.size; ++j) m[i][j] -= factor * m[k][j];
+    }
+  }
+  for (int i = 0; i < active.size; ++i) r[i] = m[i][active.size] / m[i][i];
+  return true;
+}
+
+void drop(ActiveSet& active, int i) {
+  --active.size;
+  for (int j = i; j < active.size; ++j) {
+    active.constraint[j] = active.constraint[j + 1];
+    active.multiplier[j] = active.multiplier[j + 1];
+  }
+}
+
+}  // namespace
+
+std::optional<Vec3> nearest_feasible_point(const Vec3& target, const std::vector<HalfSpace>& constraints) {
+  constexpr double kDependent = 1e-9;  // of the squared length of a normal that leaves the span of the active ones
+  Vec3 x = target;
+  ActiveSet active;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const std::ptrdiff_t entering = most_violated(x, constraints);
+    if (entering < 0) return x;
+    const HalfSpace& constraint = constraints[static_cast<std::size_t>(entering)];
+    double multiplier = 0;
+    while (true) {
+      std::array<double, 3> r{};
+      if (!express(active, constraints, constraint.normal, r)) return std::nullopt;
+      Vec3 direction = constraint.normal;
+      for (int i = 0; i < active.size; ++i)
+        direction = direction + constraints[active.constraint[i]].normal * -r[i];
+      int blocking = -1;
+      double dual_step = INFINITY;
+      for (int i = 0; i < active.size; ++i)
+        if (r[i] > 0 && active.multiplier[i] / r[i] < dual_step) dual_step = active.multiplier[i] / r[i], blocking = i;
+      const double slope = dot(direction, constraint.normal);
+      const bool moves = active.size < 3 && slope > kDependent * squared_norm(constraint.normal);
+      const double primal_step =
+          moves ? (constraint.offset - dot(constraint.normal, x)) / slope : INFINITY;
+      const double step = std::min(dual_step, primal_step);
+      if (step == INFINITY) return std::nullopt;  // infeasible
+      if (moves) x += direction * step;
+      for (int i = 0; i < active.size; ++i) active.multiplier[i] -= step * r[i];
+      multiplier += step;
+      if (primal_step <= dual_step) break;
+      drop(active, blocking);
+    }
+    active.constraint[active.size] = static_cast<std::size_t>(entering);
+    active.multiplier[active.size] = multiplier;
+    ++active.size;
+  }
+  return std::nullopt;
+}
+
+}  // namespace prohull

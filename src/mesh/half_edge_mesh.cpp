@@ -1,0 +1,185 @@
+#include "mesh/half_edge_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace prohull {
+namespace {
+
+constexpr EdgeId kNoEdge{0xffffffff};
+
+}  // namespace
+
+HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh) {
+  allocate(mesh.vertex_count(), mesh.face_count());
+  positions_ = mesh.positions;
+  for (const FaceId f : mesh.triangles.ids())
+    for (std::uint32_t c = 0; c < 3; ++c) tail_[HalfEdgeId(3 * index(f) + c)] = mesh.triangles[f][c];
+  link_twins();
+}
+
+HalfEdgeMesh::HalfEdgeMesh(PerVertex<Vec3> positions, const std::vector<VertexId>& corners)
+    : positions_(std::move(positions)) {
+  allocate(positions_.size(), corners.size() / 3);
+  std::copy(corners.begin(), corners.end(), tail_.begin());
+  link_twins();
+}
+
+void HalfEdgeMesh::allocate(std::size_t vertices, std::size_t faces) {
+  out_.assign(vertices, kNoHalfEdge);
+  valence_.assign(vertices, 0);
+  tail_.assign(3 * faces, kNoVertex);
+  twin_.assign(3 * faces, kNoHalfEdge);
+  edge_.assign(3 * faces, kNoEdge);
+  half_edge_.reserve(3 * faces / 2);
+}
+
+// Half-edges sorted by tail in linear time, then by tip within each tail, so that a twin is found by bisection.
+void HalfEdgeMesh::link_twins() {
+  std::vector<std::uint32_t> first(out_.size() + 1, 0);
+  for (const HalfEdgeId h : tail_.ids())
+    if (tail_[h] != kNoVertex) ++first[index(tail_[h]) + 1];
+  for (std::size_t v = 0; v < out_.size(); ++v) {
+    valence_[VertexId(static_cast<std::uint32_t>(v))] = first[v + 1];
+    first[v + 1] += first[v];
+  }
+  std::vector<HalfEdgeId> by_tail(first.back());
+  std::vector<std::uint32_t> cursor(first.begin(), first.end() - 1);
+  for (const HalfEdgeId h : tail_.ids())
+    if (tail_[h] != kNoVertex) by_tail[cursor[index(tail_[h])]++] = h;
+
+  const auto tip = [&](HalfEdgeId h) { return tail_[next(h)]; };
+  for (std::size_t v = 0; v < out_.size(); ++v)
+    std::sort(by_tail.begin() + first[v], by_tail.begin() + first[v + 1],
+              [&](HalfEdgeId a, HalfEdgeId b) { return tip(a) < tip(b); });
+  for (const HalfEdgeId h : tail_.ids()) {
+    const VertexId v = tail_[h];
+    if (v == kNoVertex) continue;
+    out_[v] = h;
+    if (index(h) % 3 == 0) ++face_count_;
+    if (twin_[h] != kNoHalfEdge) continue;
+    const VertexId w = tip(h);
+    const auto end = by_tail.begin() + first[index(w) + 1];
+    const auto found = std::lower_bound(by_tail.begin() + first[index(w)], end, v,
+                                        [&](HalfEdgeId g, VertexId x) { return tip(g) < x; });
+    assert(found != end && tip(*found) == v && twin_[*found] == kNoHalfEdge);
+    half_edge_.push_back(h);
+    pair(h, *found, EdgeId(static_cast<std::uint32_t>(half_edge_.size() - 1)));
+  }
+}
+
+// The half-edges around a vertex, counter-clockwise, from `from` to the one before `until`.
+void HalfEdgeMesh::set_tails_around(HalfEdgeId from, HalfEdgeId until, VertexId v) {
+  HalfEdgeId h = from;
+  do {
+    tail_[h] = v;
+    h = rotated(h);
+  } while (h != until);
+}
+
+VertexSplit HalfEdgeMesh::collapse(HalfEdgeId h, const Vec3& apex) {
+  const HalfEdgeId g = twin(h);
+  const HalfEdgeId dl = next(h), lo = previous(h), or_ = next(g), rd = previous(g);
+  const HalfEdgeId ld = twin(dl), ol = twin(lo), ro = twin(or_), dr = twin(rd);
+  const VertexId o = tail(h), d = tail(g), l = tail(lo), r = tail(rd);
+  const VertexId s = positions_.push_back(apex);
+
+  set_tails_around(h, h, s);
+  set_tails_around(g, g, s);
+  half_edge_[edge(h)] = half_edge_[edge(dl)] = half_edge_[edge(or_)] = kNoHalfEdge;
+  pair(ol, ld, edge(lo));
+  pair(dr, ro, edge(rd));
+  for (const HalfEdgeId dead : {h, dl, lo, g, or_, rd}) tail_[dead] = kNoVertex;
+
+  out_.push_back(ol);
+  valence_.push_back(valence_[o] + valence_[d] - 4);
+  out_[o] = out_[d] = kNoHalfEdge;
+  out_[l] = ld, out_[r] = ro;
+  --valence_[l], --valence_[r];
+  face_count_ -= 2;
+  return {o, d, l, r, index(h), index(g)};
+}
+
+void HalfEdgeMesh::split(VertexId s, const VertexSplit& record) {
+  const auto& [o, d, l, r, od, do_] = record;
+  const HalfEdgeId h{od}, g{do_};
+  const HalfEdgeId dl = next(h), lo = previous(h), or_ = next(g), rd = previous(g);
+  HalfEdgeId sl = out(s);
+  while (tip(sl) != l) sl = rotated(sl);
+  HalfEdgeId sr = sl;
+  std::uint32_t o_valence = 2;
+  for (; tip(sr) != r; sr = rotated(sr)) ++o_valence;
+  const HalfEdgeId ls = twin(sl), rs = twin(sr);
+
+  set_tails_around(sl, sr, o);
+  set_tails_around(sr, sl, d);
+  tail_[h] = o, tail_[dl] = d, tail_[lo] = l;
+  tail_[g] = d, tail_[or_] = o, tail_[rd] = r;
+  const auto revived = [&](HalfEdgeId x) {
+    if (edge_[x] != kNoEdge) return edge_[x];  // undoing a collapse of this very mesh: edges get back their ids
+    return half_edge_.push_back(kNoHalfEdge);
+  };
+  const EdgeId sl_edge = edge(sl), sr_edge = edge(sr);
+  pair(h, g, revived(h));
+  pair(dl, ls, revived(dl));
+  pair(sl, lo, sl_edge);
+  pair(or_, rs, revived(or_));
+  pair(sr, rd, sr_edge);
+
+  valence_[o] = o_valence;
+  valence_[d] = valence_[s] + 4 - valence_[o];
+  out_[o] = h, out_[d] = g, out_[s] = kNoHalfEdge;
+  out_[l] = lo, out_[r] = rd;
+  ++valence_[l], ++valence_[r];
+  face_count_ += 2;
+}
+
+TriangleMesh HalfEdgeMesh::triangle_mesh() const {
+  TriangleMesh mesh;
+  PerVertex<VertexId> renumbered(positions_.size(), kNoVertex);
+  for (const VertexId v : positions_.ids())
+    if (has(v)) renumbered[v] = mesh.positions.push_back(positions_[v]);
+  mesh.triangles.reserve(face_count_);
+  for (std::uint32_t f = 0; f < face_id_count(); ++f) {
+    if (!has(FaceId(f))) continue;
+    const auto [a, b, c] = corners(FaceId(f));
+    mesh.triangles.push_back({renumbered[a], renumbered[b], renumbered[c]});
+  }
+  return mesh;
+}
+
+std::optional<std::string> first_defect(const HalfEdgeMesh& mesh) {
+  std::size_t faces = 0, half_edges_seen_around_vertices = 0;
+  for (std::uint32_t i = 0; i < 3 * mesh.face_id_count(); ++i) {
+    const HalfEdgeId h{i};
+    if (mesh.tail(h) == kNoVertex) continue;
+    faces += i % 3 == 0;
+    const HalfEdgeId t = mesh.twin(h);
+    if (t == h || mesh.twin(t) != h) return fmt::format("half-edge {}: twin of twin is {}", i, index(mesh.twin(t)));
+    if (mesh.tail(mesh.next(h)) != mesh.tail(t))
+      return fmt::format("half-edge {}: ends at {}, its twin starts at {}", i, index(mesh.tail(mesh.next(h))),
+                         index(mesh.tail(t)));
+    if (mesh.edge(h) != mesh.edge(t)) return fmt::format("half-edge {}: its twin has another edge", i);
+    if (const HalfEdgeId e = mesh.half_edge(mesh.edge(h)); e != h && e != t)
+      return fmt::format("edge {}: names half-edge {}, not {} or {}", index(mesh.edge(h)), index(e), i, index(t));
+    if (!mesh.has(mesh.tail(h))) return fmt::format("half-edge {}: starts at removed vertex {}", i, index(mesh.tail(h)));
+  }
+  if (faces != mesh.face_count()) return fmt::format("{} faces, but face_count() is {}", faces, mesh.face_count());
+  for (const VertexId v : mesh.positions().ids()) {
+    if (!mesh.has(v)) continue;
+    std::size_t valence = 0;
+    HalfEdgeId h = mesh.out(v);
+    do {
+      if (mesh.tail(h) != v) return fmt::format("vertex {}: half-edge {} does not start there", index(v), index(h));
+      h = mesh.rotated(h);
+    } while (++valence <= 3 * faces && h != mesh.out(v));
+    if (valence != mesh.valence(v))
+      return fmt::format("vertex {}: {} faces around it, but valence() is {}", index(v), valence, mesh.valence(v));
+    half_edges_seen_around_vertices += valence;
+  }
+  if (half_edges_seen_around_vertices != 3 * faces) return "a vertex has more than one disk of faces";
+  return std::nullopt;
+}
+
+}  // namespace prohull
