@@ -29,7 +29,7 @@ enum class Refusal {
   Certificate,      ///< the best point, as stored, is not provably outside of every face
   Compactness,      ///< a face would become too thin
   NormalDeviation,  ///< a face would turn too far
-  Vanishing,        ///< a component of an inner hull would lose its volume, or turn inside out
+  SelfIntersection,  ///< faces would meet that share nothing there
 };
 constexpr std::size_t kRefusalKinds = 7;
 std::string_view name(Refusal refusal);
@@ -53,8 +53,9 @@ struct HullOptions {
   Strategy strategy = Strategy::Lazy;
   unsigned max_valence = 12;                           ///< of a new vertex; bigger stars, bigger linear programs
   double min_compactness_ratio = 0.8;                  ///< worst face of the star, after / before; in [0, 1]
-  double sufficient_compactness = 0.2;                 ///< good enough whatever it was before; Strategy::Lazy only
+  double sufficient_compactness = 0.15;                ///< good enough whatever it was before; Strategy::Lazy only
   double max_normal_deviation = std::numbers::pi / 4;  ///< of a face that a collapse moves; radians, in [0, pi/2]
+  bool allow_self_intersections = true;                ///< faster; inner hulls never do, they would stick out of the mesh
   bool float32_coordinates = false;                    ///< new vertices have coordinates that a float32 file keeps
   QueueKind queue = QueueKind::Bucket;
   std::function<bool(const HullProgress&)> progress;   ///< called now and then; false stops with the hull made so far
@@ -76,7 +77,8 @@ struct HullResult {
 /// Throws InputError for options outside their range, or if `mesh` is not a closed 2-manifold oriented outwards
 /// (repair.h makes one where it can).
 ///
-///   const HullResult result = build_hull(read_closed_mesh("horse.ply").mesh, {.target_faces = 500});
+///   const TriangleMesh horse = closed_mesh(read_mesh("horse.ply")).mesh;
+///   const HullResult result = build_hull(horse, {.target_faces = 500});
 ///   write_mesh("hull.ply", result.hull.base());
 HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options = {});
 

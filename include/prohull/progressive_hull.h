@@ -33,7 +33,7 @@ class ProgressiveHull {
  public:
   /// Vertices are numbered: those of the original mesh first, then one for each edge collapse in the order in which they
   /// were made. `base_corners` holds the base mesh: for corner c of face f, at 3 f + c, its vertex, or kAbsent.
-  /// Throws InputError(Malformed) if that is not a base mesh with its splits.
+  /// Requires that first_defect finds none; unused vertices are allowed.
   ProgressiveHull(HullSide side, std::size_t original_vertices, PerVertex<Vec3> positions,
                   std::vector<VertexId> base_corners, std::vector<VertexSplit> splits);
 
@@ -64,5 +64,9 @@ class ProgressiveHull {
   std::vector<VertexId> base_corners_;
   std::vector<VertexSplit> splits_;
 };
+
+/// "split 12 does not fit the mesh it refines", or nothing if the record is sound: a closed 2-manifold whose splits can
+/// all be made, down to the original. Says nothing of enclosure (see enclosure.h).
+std::optional<std::string> first_defect(const ProgressiveHull& hull);
 
 }  // namespace prohull

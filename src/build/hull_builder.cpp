@@ -7,6 +7,7 @@
 
 #include "build/edge_queue.h"
 #include "build/placement.h"
+#include "build/self_intersection_guard.h"
 #include "build/shape_guards.h"
 #include "build/star.h"
 #include "prohull/error.h"
@@ -37,7 +38,9 @@ class HullBuilder {
         key_(mesh_.edge_id_count(), 0),
         state_(mesh_.edge_id_count(), EdgeState::Stale),
         last_refusal_(mesh_.edge_id_count(), Refusal::LinkCondition),
-        rounding_(largest_coordinate(bounding_box(mesh)) * (options.float32_coordinates ? 0x1p-23 : 0x1p-52)) {}
+        rounding_(largest_coordinate(bounding_box(mesh)) * (options.float32_coordinates ? 0x1p-23 : 0x1p-52)) {
+    if (!options.allow_self_intersections || options.side == HullSide::Inner) guard_.emplace(mesh_);
+  }
 
   HullResult run() {
     Stopped stopped = Stopped::NoLegalCollapse;
@@ -77,8 +80,13 @@ class HullBuilder {
         refuse(edge, *why);
         continue;
       }
+      // The edges d-l and o-r merge into o-l and d-r.
+      unqueue(mesh_.edge(mesh_.next(star_.edge)));
+      unqueue(mesh_.edge(mesh_.next(mesh_.twin(star_.edge))));
       record_.push_back(mesh_.collapse(star_.edge, apex));
-      requeue_around(VertexId(static_cast<std::uint32_t>(mesh_.positions().size() - 1)));
+      const VertexId s{index(mesh_.positions().next_id()) - 1};
+      if (guard_) guard_->collapsed(mesh_, s);
+      requeue_around(s);
     }
     return result(stopped);
   }
@@ -120,6 +128,7 @@ class HullBuilder {
     if (const auto why = refused_shape(star_, placement.local, options_)) return why;
     apex = as_stored(star_.to_input(placement.local));
     if (!is_outside(mesh_, star_, apex)) return Refusal::Certificate;
+    if (guard_ && guard_->would_add_intersections(mesh_, star_, apex)) return Refusal::SelfIntersection;
     return std::nullopt;
   }
 
@@ -143,9 +152,13 @@ class HullBuilder {
     } while (h != first);
   }
 
+  void unqueue(EdgeId edge) {
+    if (queue_.contains(edge)) queue_.erase(edge);
+  }
+
   void requeue(EdgeId edge) {
     if (options_.strategy != Strategy::Lazy) {
-      if (queue_.contains(edge)) queue_.erase(edge);
+      unqueue(edge);
       evaluate_and_queue(edge);
       return;
     }
@@ -191,6 +204,7 @@ class HullBuilder {
   PerEdge<double> key_;
   PerEdge<EdgeState> state_;
   PerEdge<Refusal> last_refusal_;
+  std::optional<SelfIntersectionGuard> guard_;
   const double rounding_;  ///< the most by which storing moves a coordinate, with some room
   Star star_;
   std::vector<VertexSplit> record_;
@@ -216,7 +230,7 @@ void check(const HullOptions& options) {
 
 std::string_view name(Refusal refusal) {
   constexpr std::array<std::string_view, kRefusalKinds> kNames = {
-      "link_condition", "valence", "no_room_outside", "certificate", "compactness", "normal_deviation", "vanishing"};
+      "link_condition", "valence", "no_room_outside", "certificate", "compactness", "normal_deviation", "self_intersection"};
   return kNames[static_cast<std::size_t>(refusal)];
 }
 

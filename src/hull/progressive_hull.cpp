@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "mesh/half_edge_mesh.h"
-#include "prohull/error.h"
 #include "prohull/mesh_report.h"
 
 namespace prohull {
@@ -14,13 +15,76 @@ ProgressiveHull::ProgressiveHull(HullSide side, std::size_t original_vertices, P
       original_vertices_(original_vertices),
       positions_(std::move(positions)),
       base_corners_(std::move(base_corners)),
-      splits_(std::move(splits)) {
-}
+      splits_(std::move(splits)) {}
 
 TriangleMesh ProgressiveHull::level(std::size_t faces) const {
   HalfEdgeMesh mesh(positions_, base_corners_);
   for (std::size_t i = splits_.size(); i-- > 0 && mesh.face_count() + 2 <= faces;) mesh.split(made_vertex(i), splits_[i]);
-  return mesh.triangle_mesh();
+  TriangleMesh level = mesh.triangle_mesh();
+  if (mesh.face_count() < original_face_count()) return level;
+  // The original keeps its vertices as they were numbered, unused ones included.
+  level.positions = PerVertex<Vec3>(std::vector<Vec3>(
+      positions_.begin(), positions_.begin() + static_cast<std::ptrdiff_t>(original_vertices_)));
+  for (const FaceId f : level.triangles.ids()) level.triangles[f] = mesh.corners(f);
+  return level;
+}
+
+namespace {
+
+std::optional<std::string> first_defect_of_base(const ProgressiveHull& hull) {
+  const auto& corners = hull.base_corners();
+  if (corners.size() % 3 != 0) return "the base mesh ends within a face";
+  if (hull.positions().size() != hull.original_vertex_count() + hull.splits().size())
+    return fmt::format("{} positions for {} original vertices and {} splits", hull.positions().size(),
+                       hull.original_vertex_count(), hull.splits().size());
+  for (const VertexId v : hull.positions().ids())
+    if (!is_finite(hull.positions()[v])) return fmt::format("vertex {} has a coordinate that is not finite", index(v));
+  TriangleMesh base;
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    const std::array<VertexId, 3> face{corners[i], corners[i + 1], corners[i + 2]};
+    if (std::ranges::count(face, ProgressiveHull::kAbsent) == 3) continue;
+    if (std::ranges::any_of(face, [&](VertexId v) { return index(v) >= hull.positions().size(); }))
+      return fmt::format("face {} of the base mesh has a vertex that does not exist", i / 3);
+    base.triangles.push_back(face);
+  }
+  if (base.face_count() + 2 * hull.splits().size() != hull.original_face_count())
+    return fmt::format("a base mesh of {} faces and {} splits cannot make {} faces", base.face_count(),
+                       hull.splits().size(), hull.original_face_count());
+  base.positions = hull.positions();
+  if (const MeshReport report = inspect(base); !report.is_closed_manifold()) return "base mesh: " + report.first_defect;
+  return std::nullopt;
+}
+
+bool in_link(const HalfEdgeMesh& mesh, VertexId s, VertexId v) {
+  HalfEdgeId h = mesh.out(s);
+  do {
+    if (mesh.tip(h) == v) return true;
+    h = mesh.rotated(h);
+  } while (h != mesh.out(s));
+  return false;
+}
+
+bool is_possible(const HalfEdgeMesh& mesh, VertexId s, const VertexSplit& split) {
+  const auto exists = [&](VertexId v) { return index(v) < mesh.positions().size(); };
+  const auto absent = [&](std::uint32_t corner) {
+    return corner / 3 < mesh.face_id_count() && !mesh.has(FaceId{corner / 3});
+  };
+  const auto& [o, d, l, r, od, do_] = split;
+  return mesh.has(s) && exists(o) && exists(d) && o < s && d < s && o != d && !mesh.has(o) && !mesh.has(d) && l != r &&
+         in_link(mesh, s, l) && in_link(mesh, s, r) && absent(od) && absent(do_) && od / 3 != do_ / 3;
+}
+
+}  // namespace
+
+std::optional<std::string> first_defect(const ProgressiveHull& hull) {
+  if (auto defect = first_defect_of_base(hull)) return defect;
+  HalfEdgeMesh mesh(hull.positions(), hull.base_corners());
+  for (std::size_t i = hull.splits().size(); i-- > 0;) {
+    const VertexId s = hull.made_vertex(i);
+    if (!is_possible(mesh, s, hull.splits()[i])) return fmt::format("split {} does not fit the mesh it refines", i);
+    mesh.split(s, hull.splits()[i]);
+  }
+  return std::nullopt;
 }
 
 }  // namespace prohull

@@ -1,0 +1,109 @@
+#include "command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "prohull/error.h"
+#include "prohull/file.h"
+#include "prohull/mesh_io.h"
+
+namespace prohull::cli {
+namespace {
+
+volatile std::sig_atomic_t g_interrupted = 0;
+
+}  // namespace
+
+void catch_interrupts() {
+  const auto remember = [](int) { g_interrupted = 1; };
+  std::signal(SIGINT, remember);
+  std::signal(SIGTERM, remember);
+}
+
+bool interrupted() { return g_interrupted != 0; }
+
+ProgressLine::ProgressLine(std::string label) : label_(std::move(label)), shown_(false) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) fmt::print(stderr, "\r\x1b[K");
+}
+
+bool ProgressLine::operator()(double fraction) {
+  constexpr std::chrono::milliseconds kInterval(100);
+  const auto now = std::chrono::steady_clock::now();
+  if (isatty(STDERR_FILENO) && now - drawn_ >= kInterval) {
+    constexpr int kWidth = 30;
+    const int filled = static_cast<int>(kWidth * std::clamp(fraction, 0.0, 1.0));
+    fmt::print(stderr, "\r{:<8} [{:=<{}}{: <{}}] {:3.0f} %", label_, "", filled, "", kWidth - filled, 100 * fraction);
+    std::fflush(stderr);
+    shown_ = true;
+    drawn_ = now;
+  }
+  return !interrupted();
+}
+
+Input read_closed_mesh(const std::filesystem::path& path) {
+  Stopwatch reading;
+  TriangleMesh mesh = read_mesh(path);
+  const double read_seconds = reading.seconds();
+  if (interrupted()) throw Interrupted{};
+  Stopwatch repairing;
+  try {
+    ClosedMesh closed = closed_mesh(std::move(mesh));
+    return {std::move(closed), read_seconds, repairing.seconds()};
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), path.string() + ": " + error.what());
+  }
+}
+
+nlohmann::json facts(const MeshReport& report) {
+  return {{"faces", report.faces},
+          {"vertices", report.vertices},
+          {"components", report.components},
+          {"euler_characteristic", report.euler_characteristic},
+          {"volume", report.volume},
+          {"defects",
+           {{"open_edges", report.open_edges},
+            {"non_manifold_edges", report.non_manifold_edges},
+            {"misoriented_edges", report.misoriented_edges},
+            {"non_manifold_vertices", report.non_manifold_vertices},
+            {"repeated_corner_faces", report.repeated_corner_faces},
+            {"zero_area_faces", report.zero_area_faces},
+            {"non_finite_vertices", report.non_finite_vertices},
+            {"unused_vertices", report.unused_vertices}}}};
+}
+
+nlohmann::json facts(const Repairs& repairs) { return describe(repairs); }
+
+void write_report(const std::filesystem::path& path, nlohmann::json report) {
+  if (path.empty()) return;
+  report["version"] = PROHULL_VERSION;
+  write_file(path, report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+void add_report_option(CLI::App& command, std::filesystem::path& path) {
+  command.add_option("--report", path, "Also write the facts of the summary as JSON")->type_name("FILE.json");
+}
+
+void add_examples(CLI::App& command, const std::vector<std::string>& examples) {
+  std::string text = "Examples:\n";
+  for (const std::string& example : examples) text += "  " + example + "\n";
+  command.footer(text);
+}
+
+std::string grouped(std::size_t number) {
+  std::string digits = std::to_string(number);
+  for (std::ptrdiff_t i = std::ssize(digits) - 3; i > 0; i -= 3) digits.insert(static_cast<std::size_t>(i), ",");
+  return digits;
+}
+
+const std::vector<std::pair<std::string, HullSide>>& side_names() {
+  static const std::vector<std::pair<std::string, HullSide>> names{{"outer", HullSide::Outer},
+                                                                   {"inner", HullSide::Inner}};
+  return names;
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "prohull/hull_builder.h"
+#include "prohull/mesh_report.h"
+#include "prohull/repair.h"
+
+namespace prohull::cli {
+
+// What every subcommand shares: exit codes, progress, reports, and how facts are written down.
+
+constexpr int kDone = 0;
+constexpr int kAnswerIsNo = 1;   // verify failed, or a budget was not reached and --strict
+constexpr int kWrongUsage = 2;
+constexpr int kBadInput = 3;
+constexpr int kInterrupted = 130;
+
+/// Thrown where Ctrl-C is noticed; main turns it into kInterrupted.
+struct Interrupted {};
+
+/// Turns Ctrl-C and SIGTERM into a flag, so that commands end without a partial file.
+void catch_interrupts();
+bool interrupted();
+
+/// A line on stderr that is drawn again and again, if that is a terminal; ends when the object does.
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::string label);
+  ~ProgressLine();
+  /// False once the user has interrupted, as the library's progress callbacks want it.
+  bool operator()(double fraction);
+
+ private:
+  std::string label_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point drawn_;
+};
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// A mesh file read and made closed; errors name the file.
+struct Input {
+  ClosedMesh closed;
+  double read_seconds, repair_seconds;
+};
+Input read_closed_mesh(const std::filesystem::path& path);
+
+nlohmann::json facts(const MeshReport& report);
+nlohmann::json facts(const Repairs& repairs);
+
+/// Writes the report if a path was given.
+void write_report(const std::filesystem::path& path, nlohmann::json report);
+
+void add_report_option(CLI::App& command, std::filesystem::path& path);
+void add_examples(CLI::App& command, const std::vector<std::string>& examples);
+
+/// 96966 -> "96,966"
+std::string grouped(std::size_t number);
+
+/// A side by its name, for CLI::CheckedTransformer.
+const std::vector<std::pair<std::string, HullSide>>& side_names();
+
+// Each adds its subcommand to the program and leaves in `run` what to do when it is chosen; run returns the exit code.
+using Run = std::function<int()>;
+void add_build(CLI::App& app, Run& run);
+void add_info(CLI::App& app, Run& run);
+void add_lod(CLI::App& app, Run& run);
+void add_sample(CLI::App& app, Run& run);
+void add_verify(CLI::App& app, Run& run);
+
+}  // namespace prohull::cli

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include "command.h"
+#include "prohull/error.h"
+#include "prohull/hull_file.h"
+#include "prohull/mesh_io.h"
+
+namespace prohull::cli {
+namespace {
+
+struct Options {
+  std::filesystem::path in, report;
+};
+
+void print_defects(const MeshReport& report) {
+  const auto line = [](std::size_t count, const char* what) {
+    if (count > 0) fmt::print("  {:<14} {}\n", "", grouped(count) + " " + what);
+  };
+  line(report.open_edges, "open edges (one face)");
+  line(report.non_manifold_edges, "non-manifold edges (more than two faces)");
+  line(report.misoriented_edges, "edges whose faces disagree about the outside");
+  line(report.non_manifold_vertices, "non-manifold vertices");
+  line(report.repeated_corner_faces, "faces with the same vertex twice");
+  line(report.zero_area_faces, "faces without area (allowed)");
+  line(report.non_finite_vertices, "vertices that are not finite");
+  line(report.unused_vertices, "unused vertices (allowed)");
+  if (!report.first_defect.empty()) fmt::print("  {:<14} {}\n", "first", report.first_defect);
+}
+
+int describe_mesh(const Options& options) {
+  const TriangleMesh mesh = read_mesh(options.in);
+  const MeshReport report = inspect(mesh);
+  nlohmann::json json = facts(report);
+  json["path"] = options.in.string();
+  const Box& box = report.box;
+  fmt::print("{}\n", options.in.string());
+  fmt::print("  {:<14} {}\n", "faces", grouped(report.faces));
+  fmt::print("  {:<14} {}\n", "vertices", grouped(report.vertices));
+  fmt::print("  {:<14} {}\n", "components", grouped(report.components));
+  if (!box.is_empty())
+    fmt::print("  {:<14} ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), diagonal {:.6g}\n", "box", box.min.x,
+               box.min.y, box.min.z, box.max.x, box.max.y, box.max.z, box.diagonal());
+  if (report.is_closed_manifold()) {
+    const long genus = static_cast<long>(report.components) - report.euler_characteristic / 2;
+    json["genus"] = genus;
+    fmt::print("  {:<14} {}\n", "surface", "closed 2-manifold");
+    fmt::print("  {:<14} {}\n", "genus", genus);
+    fmt::print("  {:<14} {:.9g}{}\n", "volume", report.volume, report.volume < 0 ? " (inside out)" : "");
+  } else {
+    fmt::print("  {:<14} {}\n", "surface", report.faces == 0 ? "no faces" : "not a closed 2-manifold");
+  }
+  print_defects(report);
+  try {
+    const ClosedMesh closed = closed_mesh(mesh);
+    const auto repairs = describe(closed.repairs);
+    json["usable"] = true;
+    json["repairs"] = repairs;
+    fmt::print("  {:<14} yes{}\n", "hull possible", repairs.empty() ? "" : ", after these repairs:");
+    for (const std::string& repair : repairs) fmt::print("  {:<14} {}\n", "", repair);
+  } catch (const InputError& error) {
+    json["usable"] = false;
+    json["why_not"] = error.what();
+    fmt::print("  {:<14} no: {}\n", "hull possible", error.what());
+  }
+  write_report(options.report, json);
+  return kDone;
+}
+
+int describe_hull(const Options& options) {
+  const ProgressiveHull hull = load_hull(options.in);
+  const double original = signed_volume(hull.original()), base = signed_volume(hull.base());
+  fmt::print("{}\n", options.in.string());
+  fmt::print("  {:<14} {} progressive hull\n", "kind", hull.side() == HullSide::Outer ? "outer" : "inner");
+  fmt::print("  {:<14} {} faces, {} vertices, volume {:.9g}\n", "original", grouped(hull.original_face_count()),
+             grouped(hull.original_vertex_count()), original);
+  fmt::print("  {:<14} {} faces, volume {:.9g}, void {:.3f} %\n", "base", grouped(hull.base_face_count()), base,
+             100 * (base / original - 1));
+  fmt::print("  {:<14} {}\n", "splits", grouped(hull.splits().size()));
+  write_report(options.report,
+               {{"path", options.in.string()},
+                {"side", hull.side() == HullSide::Outer ? "outer" : "inner"},
+                {"original", {{"faces", hull.original_face_count()}, {"volume", original}}},
+                {"base", {{"faces", hull.base_face_count()}, {"volume", base}, {"void_ratio", base / original - 1}}},
+                {"splits", hull.splits().size()}});
+  return kDone;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("info", "Tell what a mesh or .phull file holds, and whether a hull can be built");
+  command.add_option("in", options->in, "Mesh (PLY, OBJ, OFF, STL; also .gz or .zip) or .phull file")
+      ->required()
+      ->type_name("FILE");
+  add_report_option(command, options->report);
+  add_examples(command, {"prohull info horse.ply", "prohull info horse.phull --report info.json"});
+  command.callback([options, &run] {
+    run = [options] { return is_hull_file(options->in) ? describe_hull(*options) : describe_mesh(*options); };
+  });
+}
+
+}  // namespace prohull::cli

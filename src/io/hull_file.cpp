@@ -1,0 +1,170 @@
+#include "prohull/hull_file.h"
+
+#include <fmt/format.h>
+#include <zstd.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+
+#include "io/atomic_file.h"
+#include "io/file_content.h"
+#include "prohull/error.h"
+
+// Layout (docs/phull.md): 8 bytes of magic, u32 version, then one zstd frame with its checksum. All numbers are
+// little-endian. The frame holds u32 side, u64 original vertices, u64 original faces, u64 splits, then arrays: positions
+// (3 doubles each), base corners (u32), and one array each of the splits' o, d, l, r, od, do (u32).
+
+namespace prohull {
+namespace {
+
+constexpr std::string_view kMagic("\x89PHULL\r\n", 8);
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kHeaderSize = 12;
+constexpr int kCompressionLevel = 3;
+
+class Encoder {
+ public:
+  template <class Integer>
+  void integer(Integer value) {
+    for (std::size_t i = 0; i < sizeof(Integer); ++i) bytes_.push_back(static_cast<char>(value >> (8 * i) & 0xff));
+  }
+  void real(double value) { integer(std::bit_cast<std::uint64_t>(value)); }
+  void reserve(std::size_t size) { bytes_.reserve(size); }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+class Decoder {
+ public:
+  explicit Decoder(std::string_view bytes) : bytes_(bytes) {}
+
+  std::size_t remaining() const { return bytes_.size() - at_; }
+  // Requires that many bytes to remain.
+  template <class Integer>
+  Integer integer() {
+    Integer value = 0;
+    for (std::size_t i = 0; i < sizeof(Integer); ++i)
+      value |= static_cast<Integer>(static_cast<Integer>(static_cast<unsigned char>(bytes_[at_ + i])) << (8 * i));
+    at_ += sizeof(Integer);
+    return value;
+  }
+  double real() { return std::bit_cast<double>(integer<std::uint64_t>()); }
+
+ private:
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+};
+
+constexpr std::uint32_t VertexSplit::*kCornerFields[] = {&VertexSplit::od, &VertexSplit::do_};
+constexpr VertexId VertexSplit::*kVertexFields[] = {&VertexSplit::o, &VertexSplit::d, &VertexSplit::l, &VertexSplit::r};
+constexpr std::size_t kPayloadHeaderSize = 4 + 3 * 8;
+
+std::string encoded(const ProgressiveHull& hull) {
+  Encoder out;
+  out.reserve(kPayloadHeaderSize + 24 * hull.positions().size() + 4 * hull.base_corners().size() +
+              24 * hull.splits().size());
+  out.integer(static_cast<std::uint32_t>(hull.side()));
+  out.integer(std::uint64_t{hull.original_vertex_count()});
+  out.integer(std::uint64_t{hull.original_face_count()});
+  out.integer(std::uint64_t{hull.splits().size()});
+  for (const Vec3& p : hull.positions())
+    for (int axis = 0; axis < 3; ++axis) out.real(p[axis]);
+  for (const VertexId v : hull.base_corners()) out.integer(index(v));
+  for (const auto field : kVertexFields)
+    for (const VertexSplit& split : hull.splits()) out.integer(index(split.*field));
+  for (const auto field : kCornerFields)
+    for (const VertexSplit& split : hull.splits()) out.integer(split.*field);
+  return out.bytes();
+}
+
+[[noreturn]] void malformed(const std::filesystem::path& name, std::string_view what) {
+  throw InputError(Defect::Malformed,
+                   fmt::format("{}: {}; build the hull again, or fetch the file again", name.string(), what));
+}
+
+ProgressiveHull decoded(std::string_view payload, const std::filesystem::path& name) {
+  if (payload.size() < kPayloadHeaderSize) malformed(name, "the hull's header is incomplete");
+  Decoder in(payload);
+  const auto side = in.integer<std::uint32_t>();
+  const auto vertices = in.integer<std::uint64_t>(), faces = in.integer<std::uint64_t>(),
+             splits = in.integer<std::uint64_t>();
+  constexpr std::uint64_t kMost = 0xfffffffe;
+  if (side > 1 || vertices > kMost || splits > kMost || vertices + splits > kMost || faces > kMost / 3)
+    malformed(name, "the hull's header is impossible");
+  if (in.remaining() != 24 * (vertices + splits) + 12 * faces + 24 * splits)
+    malformed(name, fmt::format("{} bytes for {} vertices, {} faces and {} splits", in.remaining(), vertices, faces, splits));
+
+  PerVertex<Vec3> positions(vertices + splits);
+  for (Vec3& p : positions)
+    for (int axis = 0; axis < 3; ++axis) p[axis] = in.real();
+  std::vector<VertexId> corners(3 * faces);
+  for (VertexId& v : corners) v = VertexId(in.integer<std::uint32_t>());
+  std::vector<VertexSplit> records(splits);
+  for (const auto field : kVertexFields)
+    for (VertexSplit& split : records) split.*field = VertexId(in.integer<std::uint32_t>());
+  for (const auto field : kCornerFields)
+    for (VertexSplit& split : records) split.*field = in.integer<std::uint32_t>();
+
+  ProgressiveHull hull(HullSide(side), vertices, std::move(positions), std::move(corners), std::move(records));
+  if (const auto defect = first_defect(hull)) malformed(name, *defect);
+  return hull;
+}
+
+// Real hulls shrink to a half or a third; whatever grows a thousandfold is made to exhaust memory.
+std::string decompressed(std::string_view frame, const std::filesystem::path& name) {
+  const std::size_t limit = 1000 * frame.size() + (1 << 20);
+  const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(), &ZSTD_freeDStream);
+  std::string payload;
+  ZSTD_inBuffer in{frame.data(), frame.size(), 0};
+  std::size_t state = 1;
+  while (state != 0) {
+    const std::size_t before = payload.size();
+    payload.resize(before + ZSTD_DStreamOutSize());
+    ZSTD_outBuffer out{payload.data() + before, payload.size() - before, 0};
+    state = ZSTD_decompressStream(stream.get(), &out, &in);
+    payload.resize(before + out.pos);
+    if (ZSTD_isError(state)) malformed(name, fmt::format("corrupted ({})", ZSTD_getErrorName(state)));
+    if (payload.size() > limit) malformed(name, "corrupted (it grows beyond all measure when decompressed)");
+    if (state != 0 && in.pos == in.size && out.pos < out.size)
+      malformed(name, fmt::format("truncated after {} bytes", frame.size() + kHeaderSize));
+  }
+  if (in.pos != in.size) malformed(name, fmt::format("{} bytes too many at its end", in.size - in.pos));
+  return payload;
+}
+
+}  // namespace
+
+void save_hull(const std::filesystem::path& path, const ProgressiveHull& hull) {
+  const std::string payload = encoded(hull);
+  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kCompressionLevel);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
+  std::string frame(ZSTD_compressBound(payload.size()), '\0');
+  frame.resize(ZSTD_compress2(context.get(), frame.data(), frame.size(), payload.data(), payload.size()));
+
+  Encoder version;
+  version.integer(kVersion);
+  AtomicFile file(path);
+  file.write(kMagic);
+  file.write(version.bytes());
+  file.write(frame);
+  file.commit();
+}
+
+ProgressiveHull load_hull(std::string_view content, const std::filesystem::path& name) {
+  if (!content.starts_with(kMagic)) malformed(name, "not a .phull file");
+  if (content.size() < kHeaderSize) malformed(name, fmt::format("truncated after {} bytes", content.size()));
+  const auto version = Decoder(content.substr(kMagic.size())).integer<std::uint32_t>();
+  if (version != kVersion)
+    throw InputError(Defect::UnknownFormat,
+                     fmt::format("{}: version {} of the .phull format; this program reads version {}: use the one that "
+                                 "wrote it, or a newer one",
+                                 name.string(), version, kVersion));
+  return decoded(decompressed(content.substr(kHeaderSize), name), name);
+}
+
+}  // namespace prohull

@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+
+#include "geometry/winding_number.h"
+#include "prohull/error.h"
+#include "prohull/repair.h"
+
+namespace prohull {
+namespace {
+
+// Vertices at equal positions become one, the first; -0 equals 0. Faces that then have a vertex twice go.
+void weld(TriangleMesh& mesh, Repairs& repairs) {
+  std::vector<VertexId> order;
+  order.reserve(mesh.vertex_count());
+  for (const VertexId v : mesh.positions.ids()) order.push_back(v);
+  const auto key = [&](VertexId v) {
+    const Vec3& p = mesh.positions[v];
+    return std::array{p.x, p.y, p.z};
+  };
+  std::sort(order.begin(), order.end(), [&](VertexId a, VertexId b) {
+    return key(a) != key(b) ? key(a) < key(b) : a < b;
+  });
+  PerVertex<VertexId> representative(mesh.vertex_count());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
+    representative[order[i]] = same ? representative[order[i - 1]] : order[i];
+    repairs.welded_vertices += same;
+  }
+  PerFace<std::array<VertexId, 3>> kept;
+  kept.reserve(mesh.face_count());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::array t{representative[a], representative[b], representative[c]};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) kept.push_back(t);
+  }
+  repairs.dropped_faces = mesh.face_count() - kept.size();
+  mesh.triangles = std::move(kept);
+}
+
+void turn(std::array<VertexId, 3>& t) { std::swap(t[1], t[2]); }
+
+// The connected component of every vertex: the least vertex of it.
+PerVertex<VertexId> component_of_vertices(const TriangleMesh& mesh) {
+  PerVertex<VertexId> parent;
+  for (const VertexId v : mesh.positions.ids()) parent.push_back(v);
+  const auto find = [&](VertexId v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& t : mesh.triangles)
+    for (const VertexId v : {t[1], t[2]}) {
+      const VertexId a = find(t[0]), b = find(v);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  for (const VertexId v : mesh.positions.ids()) parent[v] = find(v);
+  return parent;
+}
+
+// Whether the component lies inside the others: then its negative volume is a cavity's.
+bool is_nested(const TriangleMesh& component, std::span<const Triangle> others) {
+  for (const auto& t : component.triangles)
+    if (const auto winding = winding_number(component.positions[t[0]], others)) return *winding > 0;
+  return false;
+}
+
+void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs) {
+  if (signed_volume(mesh) < 0) {
+    for (auto& t : mesh.triangles) turn(t);
+    repairs.turned_components = components;
+    repairs.turned_faces = mesh.face_count();
+  }
+  if (components < 2) return;
+
+  const PerVertex<VertexId> component = component_of_vertices(mesh);
+  PerVertex<std::vector<FaceId>> faces(mesh.vertex_count());
+  for (const FaceId f : mesh.triangles.ids()) faces[component[mesh.triangles[f][0]]].push_back(f);
+  const auto part = [&](VertexId c) {
+    TriangleMesh some;
+    for (const FaceId f : faces[c]) {
+      std::array<VertexId, 3> t;
+      std::ranges::transform(mesh.triangles[f], t.begin(), [&](VertexId v) { return some.positions.push_back(mesh.positions[v]); });
+      some.triangles.push_back(t);
+    }
+    return some;
+  };
+  std::vector<VertexId> negative;
+  std::vector<Triangle> solid;
+  for (const VertexId c : faces.ids()) {
+    if (faces[c].empty()) continue;
+    if (signed_volume(part(c)) < 0) {
+      negative.push_back(c);
+    } else {
+      for (const FaceId f : faces[c]) solid.push_back(mesh.triangle(f));
+    }
+  }
+  for (const VertexId c : negative) {
+    if (is_nested(part(c), solid)) continue;
+    for (const FaceId f : faces[c]) turn(mesh.triangles[f]);
+    ++repairs.turned_components;
+    repairs.turned_faces += faces[c].size();
+  }
+}
+
+Defect kind(const MeshReport& report) {
+  if (report.non_finite_vertices) return Defect::NonFiniteCoordinate;
+  if (report.repeated_corner_faces) return Defect::Malformed;
+  if (report.non_manifold_edges) return Defect::NonManifoldEdge;
+  if (report.open_edges) return Defect::OpenEdge;
+  if (report.misoriented_edges) return Defect::InconsistentOrientation;
+  return Defect::NonManifoldVertex;
+}
+
+std::string why_not_closed(const MeshReport& report) {
+  std::string text = report.first_defect;
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) text += fmt::format("{}{} {}", text == report.first_defect ? " (in all: " : ", ", count, what);
+  };
+  add(report.open_edges, "open edges");
+  add(report.non_manifold_edges, "non-manifold edges");
+  add(report.misoriented_edges, "misoriented edges");
+  add(report.non_manifold_vertices, "non-manifold vertices");
+  add(report.repeated_corner_faces, "faces with a vertex twice");
+  add(report.non_finite_vertices, "vertices that are not finite");
+  return text + "); a hull needs a closed 2-manifold: close holes and separate parts that meet in an edge or vertex first";
+}
+
+void require_usable_size(const Box& box) {
+  constexpr double kLargest = 1e100, kSmallest = 1e-100;
+  const double reach = std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x),
+                                 std::abs(box.max.y), std::abs(box.max.z)});
+  if (reach > kLargest)
+    throw InputError(Defect::NonFiniteCoordinate,
+                     fmt::format("coordinates reach {:g}; beyond {:g} volumes overflow: scale the mesh", reach, kLargest));
+  if (box.diagonal() < kSmallest)
+    throw InputError(Defect::NoVolume,
+                     fmt::format("the mesh is only {:g} across; below {:g} volumes vanish: scale the mesh",
+                                 box.diagonal(), kSmallest));
+}
+
+}  // namespace
+
+std::vector<std::string> describe(const Repairs& repairs) {
+  std::vector<std::string> phrases;
+  if (repairs.welded_vertices > 0)
+    phrases.push_back(fmt::format("welded {} vertices at equal positions", repairs.welded_vertices));
+  if (repairs.dropped_faces > 0)
+    phrases.push_back(fmt::format("dropped {} faces that had the same vertex twice", repairs.dropped_faces));
+  if (repairs.turned_components > 0)
+    phrases.push_back(fmt::format("turned {} component{} that {} inside out ({} faces)", repairs.turned_components,
+                                  repairs.turned_components == 1 ? "" : "s",
+                                  repairs.turned_components == 1 ? "was" : "were", repairs.turned_faces));
+  return phrases;
+}
+
+ClosedMesh closed_mesh(TriangleMesh mesh) {
+  if (mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces: nothing to enclose");
+  constexpr std::size_t kMostFaces = 0xffffffff / 3;
+  if (mesh.face_count() >= kMostFaces)
+    throw InputError(Defect::InvalidOption, fmt::format("{} faces; at most {} are supported", mesh.face_count(), kMostFaces));
+  ClosedMesh closed{std::move(mesh), {}, {}};
+  closed.report = inspect(closed.mesh);
+  if (!closed.report.is_closed_manifold() && closed.report.non_finite_vertices == 0) {
+    weld(closed.mesh, closed.repairs);
+    closed.report = inspect(closed.mesh);
+  }
+  if (closed.report.faces == 0)
+    throw InputError(Defect::EmptyMesh, "no face has three different corners: nothing to enclose");
+  if (!closed.report.is_closed_manifold()) throw InputError(kind(closed.report), why_not_closed(closed.report));
+  require_usable_size(closed.report.box);
+  turn_outwards(closed.mesh, closed.report.components, closed.repairs);
+  closed.report.volume = signed_volume(closed.mesh);
+  if (!(closed.report.volume > 0)) throw InputError(Defect::NoVolume, "the mesh is closed but encloses no volume");
+  return closed;
+}
+
+}  // namespace prohull

@@ -1,0 +1,186 @@
+#include "prohull/replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geometry/predicates.h"
+#include "geometry/winding_number.h"
+
+namespace prohull {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffff;
+
+struct LinkEdge {
+  VertexId from, to;
+  std::uint32_t corner;  ///< of the face beside it, at the vertex whose link this is
+};
+
+/// The faces as they are now: a corner list, and for each vertex a chain of its corners.
+class Replay {
+ public:
+  explicit Replay(const ProgressiveHull& hull)
+      : hull_(hull),
+        vertex_(hull.base_corners()),
+        next_(vertex_.size(), kNone),
+        first_(hull.positions().size(), kNone),
+        wrong_side_(hull.side() == HullSide::Outer ? Side::Inside : Side::Outside) {
+    for (std::uint32_t c = 0; c < vertex_.size(); ++c)
+      if (vertex_[c] != ProgressiveHull::kAbsent) chain(c, vertex_[c]);
+  }
+
+  /// Undoes the collapse that made s; the reason if that proves nothing.
+  std::optional<std::string> split(VertexId s, const VertexSplit& record) {
+    if (!order_link(s, record.l)) return "the faces around its vertex are not one disk with l on its border";
+    const auto r = std::ranges::find(link_, record.r, &LinkEdge::from);
+    if (r == link_.end() || r == link_.begin()) return "r is not on the border of the star of its vertex, or is l";
+    if (is_taken(record.o) || is_taken(record.d) || record.o == record.d) return "its new vertices exist";
+    if (!has_room(record.od) || !has_room(record.do_) || record.od / 3 == record.do_ / 3)
+      return "its new faces exist already";
+    first_[s] = kNone;
+    for (auto e = link_.begin(); e != link_.end(); ++e) chain(e->corner, e < r ? record.o : record.d);
+    place(record.od, {record.o, record.d, record.l});
+    place(record.do_, {record.d, record.o, record.r});
+
+    const Vec3& apex = hull_.positions()[s];
+    for (const LinkEdge& e : link_)
+      if (is_on_wrong_side(e.corner / 3, apex)) return fmt::format("it sees face {} from the wrong side", e.corner / 3);
+    for (const std::uint32_t face : {record.od / 3, record.do_ / 3})
+      if (is_on_wrong_side(face, apex)) return fmt::format("it sees face {} from the wrong side", face);
+    return std::nullopt;
+  }
+
+  std::size_t signs() const { return signs_; }
+
+  /// Those of the finest level; none if a face has not come back.
+  std::vector<Triangle> triangles() const {
+    std::vector<Triangle> all;
+    if (std::ranges::count(vertex_, ProgressiveHull::kAbsent) > 0) return all;
+    for (std::uint32_t face = 0; face < vertex_.size() / 3; ++face) all.push_back(triangle(face));
+    return all;
+  }
+
+ private:
+  void chain(std::uint32_t corner, VertexId v) {
+    vertex_[corner] = v;
+    next_[corner] = first_[v];
+    first_[v] = corner;
+  }
+
+  static std::uint32_t following(std::uint32_t c) { return c % 3 == 2 ? c - 2 : c + 1; }
+
+  // The edges opposite to s, from l on, each starting where the one before ends; false if they are not one closed line.
+  bool order_link(VertexId s, VertexId l) {
+    by_start_.clear();
+    for (std::uint32_t c = first_[s]; c != kNone; c = next_[c])
+      by_start_.push_back({vertex_[following(c)], vertex_[following(following(c))], c});
+    std::ranges::sort(by_start_, {}, &LinkEdge::from);
+    link_.clear();
+    for (VertexId v = l; link_.size() < by_start_.size();) {
+      const auto e = std::ranges::lower_bound(by_start_, v, {}, &LinkEdge::from);
+      if (e == by_start_.end() || e->from != v) return false;
+      if (!link_.empty() && v == l) return false;
+      link_.push_back(*e);
+      v = e->to;
+    }
+    return !link_.empty() && link_.back().to == l;
+  }
+
+  bool is_taken(VertexId v) const { return index(v) >= first_.size() || first_[v] != kNone; }
+  bool has_room(std::uint32_t corner) const {
+    return corner < vertex_.size() && vertex_[corner] == ProgressiveHull::kAbsent;
+  }
+
+  void place(std::uint32_t corner, const std::array<VertexId, 3>& face) {
+    for (const VertexId v : face) {
+      chain(corner, v);
+      corner = following(corner);
+    }
+  }
+
+  Triangle triangle(std::uint32_t face) const {
+    const auto at = [&](std::uint32_t c) { return hull_.positions()[vertex_[3 * face + c]]; };
+    return {at(0), at(1), at(2)};
+  }
+
+  bool is_on_wrong_side(std::uint32_t face, const Vec3& apex) {
+    ++signs_;
+    const Triangle t = triangle(face);
+    return side(t.a, t.b, t.c, apex) == wrong_side_;
+  }
+
+  const ProgressiveHull& hull_;
+  std::vector<VertexId> vertex_;      ///< of each corner
+  std::vector<std::uint32_t> next_;   ///< corner of the same vertex
+  PerVertex<std::uint32_t> first_;    ///< corner of each vertex
+  const Side wrong_side_;
+  std::vector<LinkEdge> by_start_, link_;
+  std::size_t signs_ = 0;
+};
+
+using Corners = std::array<std::array<double, 3>, 3>;
+
+// Independent of orientation and of the order of the corners; -0 becomes 0. Triangles with two equal corners vanish.
+std::vector<Corners> sorted_corners(std::span<const Triangle> triangles) {
+  std::vector<Corners> all;
+  for (const Triangle& t : triangles) {
+    if (t.a == t.b || t.b == t.c || t.c == t.a) continue;
+    Corners corners;
+    std::ranges::transform(std::array{t.a, t.b, t.c}, corners.begin(), [](const Vec3& p) {
+      return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};
+    });
+    std::ranges::sort(corners);
+    all.push_back(corners);
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+bool is_well_formed(const ProgressiveHull& hull) {
+  return hull.positions().size() == hull.original_vertex_count() + hull.splits().size() &&
+         hull.base_corners().size() % 3 == 0 && std::ranges::all_of(hull.positions(), is_finite) &&
+         std::ranges::all_of(hull.base_corners(), [&](VertexId v) {
+           return v == ProgressiveHull::kAbsent || index(v) < hull.positions().size();
+         });
+}
+
+}  // namespace
+
+ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& original,
+                           const std::function<bool(double)>& progress) {
+  constexpr std::size_t kInterval = 4096;
+  ReplayReport report;
+  if (!is_well_formed(hull)) {
+    report.why_not = "it names vertices that do not exist, or that are not finite";
+    return report;
+  }
+  Replay replay(hull);
+  for (std::size_t i = hull.splits().size(); i-- > 0;) {
+    if (const auto why = replay.split(hull.made_vertex(i), hull.splits()[i])) {
+      report.why_not = fmt::format("split {}: {}", i, *why);
+      return report;
+    }
+    report.signs = replay.signs();
+    if (++report.splits % kInterval == 0 && progress &&
+        !progress(static_cast<double>(report.splits) / static_cast<double>(hull.splits().size()))) {
+      report.why_not = "cancelled";
+      return report;
+    }
+  }
+  std::vector<Triangle> theirs;
+  for (const FaceId f : original.triangles.ids()) theirs.push_back(original.triangle(f));
+  const std::vector<Triangle> finest = replay.triangles();
+  if (sorted_corners(finest) != sorted_corners(theirs))
+    report.why_not = "the finest level does not have the triangles of the original mesh";
+  else
+    report.holds = true;
+  return report;
+}
+
+}  // namespace prohull
