@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sample/add_quad.h"
 #include "sample/generators.h"
 #include "sample/index_of_key.h"
 
@@ -179,7 +180,7 @@ class PartMesher {
       for (std::uint32_t v = v_lines[panel.v]; v < v_lines[panel.v + 1]; ++v) {
         const VertexId a = lattice_vertex(panel.axis, u, v, w), b = lattice_vertex(panel.axis, u + 1, v, w);
         const VertexId c = lattice_vertex(panel.axis, u + 1, v + 1, w), d = lattice_vertex(panel.axis, u, v + 1, w);
-        panel.outside_grows ? add_quad(a, b, c, d) : add_quad(a, d, c, b);
+        panel.outside_grows ? add_quad(mesh_, a, b, c, d) : add_quad(mesh_, a, d, c, b);
       }
   }
 
@@ -197,7 +198,7 @@ class PartMesher {
                            : wall_vertex(bore, boundary[k], span, double(i) / divisions[span]);
         for (std::size_t k = 0; k < row.size(); ++k) {
           const std::size_t after = (k + 1) % row.size();
-          add_quad(row[k], row[after], next[after], next[k]);
+          add_quad(mesh_, row[k], row[after], next[after], next[k]);
         }
         row = std::move(next);
       }
@@ -274,19 +275,6 @@ class PartMesher {
       lattice_vertices_.push_back(
           mesh_.positions.push_back({lines_[0][line[0]], lines_[1][line[1]], lines_[2][line[2]]}));
     return lattice_vertices_[index];
-  }
-
-  void add_quad(VertexId a, VertexId b, VertexId c, VertexId d) {
-    const auto squared_length = [&](VertexId p, VertexId q) {
-      return squared_norm(mesh_.positions[p] - mesh_.positions[q]);
-    };
-    if (squared_length(a, c) <= squared_length(b, d)) {
-      mesh_.triangles.push_back({a, b, c});
-      mesh_.triangles.push_back({a, c, d});
-    } else {
-      mesh_.triangles.push_back({a, b, d});
-      mesh_.triangles.push_back({b, c, d});
-    }
   }
 
   const Part& part_;

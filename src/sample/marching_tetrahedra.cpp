@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "sample/add_quad.h"
 #include "sample/index_of_key.h"
 
 namespace prohull {
@@ -78,57 +79,48 @@ class MarchingTetrahedra {
 
   /// t[0] sees t[1], t[2], t[3] counter-clockwise: positively oriented.
   void march_tetrahedron(std::array<std::uint32_t, 4> t) {
-    std::array<std::uint32_t, 4> sorted{};  // those inside first, then those outside; an even permutation of t
-    std::size_t inside = 0;
-    for (const std::uint32_t p : t)
-      if (is_inside(p)) sorted[inside++] = p;
-    std::size_t end = inside;
-    for (const std::uint32_t p : t)
-      if (!is_inside(p)) sorted[end++] = p;
+    const auto inside = std::count_if(t.begin(), t.end(), [&](std::uint32_t p) { return is_inside(p); });
     if (inside == 0 || inside == 4) return;
-    if (is_odd(t, sorted)) inside >= 2 ? std::swap(sorted[0], sorted[1]) : std::swap(sorted[2], sorted[3]);
+    std::array<std::uint32_t, 4> sorted{};
+    std::size_t next_inside = 0, next_outside = std::size_t(inside);
+    for (const std::uint32_t p : t) sorted[is_inside(p) ? next_inside++ : next_outside++] = p;
+    // An even permutation of t keeps its orientation.
+    if (is_odd_partition(t)) inside >= 2 ? std::swap(sorted[0], sorted[1]) : std::swap(sorted[2], sorted[3]);
 
     const auto [a, b, c, d] = sorted;
-    if (inside == 1) return add_triangle(crossing(a, b), crossing(a, c), crossing(a, d));
-    if (inside == 3) return add_triangle(crossing(a, d), crossing(b, d), crossing(c, d));
-    add_quad(crossing(a, c), crossing(a, d), crossing(b, d), crossing(b, c));
+    // Braces, as they are evaluated in order.
+    if (inside == 1) return add_triangle({crossing(a, b), crossing(a, c), crossing(a, d)});
+    if (inside == 3) return add_triangle({crossing(a, d), crossing(b, d), crossing(c, d)});
+    const VertexId ac = crossing(a, c), ad = crossing(a, d), bd = crossing(b, d), bc = crossing(b, c);
+    add_quad(mesh_, ac, ad, bd, bc);
   }
 
   bool is_inside(std::uint32_t p) const { return samples_[p].value < 0; }
 
-  static bool is_odd(const std::array<std::uint32_t, 4>& from, const std::array<std::uint32_t, 4>& to) {
-    std::array<std::size_t, 4> place{};
-    for (std::size_t i = 0; i < 4; ++i)
-      place[i] = std::size_t(std::find(from.begin(), from.end(), to[i]) - from.begin());
-    int inversions = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = i + 1; j < 4; ++j) inversions += place[i] > place[j];
-    return inversions % 2 != 0;
+  /// Whether moving those inside to the front takes an odd number of swaps.
+  bool is_odd_partition(const std::array<std::uint32_t, 4>& t) const {
+    bool odd = false, outside_odd = false;
+    for (const std::uint32_t p : t) is_inside(p) ? odd ^= outside_odd : outside_odd ^= true;
+    return odd;
   }
 
-  void add_triangle(VertexId a, VertexId b, VertexId c) { mesh_.triangles.push_back({a, b, c}); }
-
-  void add_quad(VertexId a, VertexId b, VertexId c, VertexId d) {
-    const auto squared_length = [&](VertexId p, VertexId q) {
-      return squared_norm(mesh_.positions[p] - mesh_.positions[q]);
-    };
-    if (squared_length(a, c) <= squared_length(b, d)) {
-      add_triangle(a, b, c);
-      add_triangle(a, c, d);
-    } else {
-      add_triangle(a, b, d);
-      add_triangle(b, c, d);
-    }
-  }
+  void add_triangle(const std::array<VertexId, 3>& corners) { mesh_.triangles.push_back(corners); }
 
   /// Where the surface crosses the edge from p, inside, to q, outside.
   VertexId crossing(std::uint32_t p, std::uint32_t q) {
     const auto [index, is_new] = edges_.find_or_add(std::uint64_t(p) << 32 | q);
     if (is_new) {
-      const Sample &a = samples_[p], &b = samples_[q];
+      const Sample &inside = samples_[p], &outside = samples_[q];
+      const auto at = [&](double fraction) {
+        return inside.position + fraction * (outside.position - inside.position);
+      };
+      // Regula falsi: the second step has the curvature.
+      double fraction = inside.value / (inside.value - outside.value);
+      const double value = solid_(at(fraction));
+      if (value < 0) fraction += (1 - fraction) * value / (value - outside.value);
+      if (value > 0) fraction *= inside.value / (inside.value - value);
       // The clearance leaves more than this nearly always.
-      const double fraction = std::clamp(a.value / (a.value - b.value), 0.1, 0.9);
-      mesh_.positions.push_back(a.position + fraction * (b.position - a.position));
+      mesh_.positions.push_back(at(std::clamp(fraction, 0.1, 0.9)));
     }
     return VertexId(index);
   }

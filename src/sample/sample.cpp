@@ -24,7 +24,7 @@ constexpr std::array kSamples{
     Sample{{"asteroid", "rough, cratered rock", 0}, make_asteroid},
     Sample{{"box", "box with a square through-hole: planar faces only", 1}, make_box},
     Sample{{"bracket", "machined angle bracket: sharp edges, counterbored holes, a slot", 5}, make_bracket},
-    Sample{{"gyroid", "gyroid walls cut to a ball: thin, high genus", 0}, make_gyroid},
+    Sample{{"gyroid", "ball of gyroid walls: high genus, hollow all through", 26}, make_gyroid},
     Sample{{"pony", "toy horse: smooth body, thin limbs", 0}, make_pony},
 };
 

@@ -25,7 +25,7 @@ std::array<Crater, kCraters> asteroid_craters() {
     const double angle = 2 * std::numbers::pi * unit_random(seed), z = 2 * unit_random(seed + 1) - 1;
     const double ring = std::sqrt(1 - z * z);
     // Many small ones, few big ones.
-    const double radius = std::min(0.5, 0.09 / std::sqrt(unit_random(seed + 2) + 0.01));
+    const double radius = std::min(0.55, 0.12 / std::sqrt(unit_random(seed + 2) + 0.02));
     craters[std::size_t(i)] = {{ring * std::cos(angle), ring * std::sin(angle), z}, radius};
   }
   return craters;
@@ -43,12 +43,12 @@ double crater_height(double distance) {
 /// Its distance from the centre in direction u.
 double asteroid_radius(const Vec3& u, const std::array<Crater, kCraters>& craters) {
   double height = 1;
-  double amplitude = 0.35, frequency = 1.1;
+  double amplitude = 0.32, frequency = 1.1;
   for (std::uint64_t octave = 0; octave < 8; ++octave) {
     height += amplitude * gradient_noise(u * frequency, kAsteroidSeed + octave);
-    amplitude *= 0.45, frequency *= 2.1;
+    amplitude *= 0.4, frequency *= 2.1;
   }
-  for (const Crater& c : craters) height += 0.6 * c.radius * crater_height(norm(u - c.center) / c.radius);
+  for (const Crater& c : craters) height += 1.1 * c.radius * crater_height(norm(u - c.center) / c.radius);
   return std::max(height, 0.3);
 }
 

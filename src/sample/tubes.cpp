@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sample/add_quad.h"
 #include "sample/generators.h"
 
 namespace prohull {
@@ -34,20 +35,9 @@ TriangleMesh tube(std::size_t faces, double length, double radius, std::uint32_t
     }
   }
   const auto vertex = [&](std::uint32_t s, std::uint32_t k) { return VertexId(s % sections * sides + k % sides); };
-  const auto squared_length = [&](VertexId a, VertexId b) {
-    return squared_norm(mesh.positions[a] - mesh.positions[b]);
-  };
   for (std::uint32_t s = 0; s < sections; ++s)
-    for (std::uint32_t k = 0; k < sides; ++k) {
-      const VertexId a = vertex(s, k), b = vertex(s + 1, k), c = vertex(s + 1, k + 1), d = vertex(s, k + 1);
-      if (squared_length(a, c) <= squared_length(b, d)) {
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({a, c, d});
-      } else {
-        mesh.triangles.push_back({a, b, d});
-        mesh.triangles.push_back({b, c, d});
-      }
-    }
+    for (std::uint32_t k = 0; k < sides; ++k)
+      add_quad(mesh, vertex(s, k), vertex(s + 1, k), vertex(s + 1, k + 1), vertex(s, k + 1));
   return mesh;
 }
 
@@ -62,7 +52,7 @@ TriangleMesh make_torus(std::size_t faces) {
 
 /// On a torus, twice around it and three times through its hole; that torus' normal is the first axis of each section.
 TriangleMesh make_knot(std::size_t faces) {
-  constexpr double kSmall = 0.45, kRadius = 0.24, kLength = 15.6;
+  constexpr double kSmall = 0.45, kRadius = 0.25, kLength = 15.34;
   return tube(faces, kLength, kRadius, 24, [](double u) -> Section {
     const double around = 2 * kTurn * u, through = 3 * kTurn * u;
     const Vec3 outwards{std::cos(around), std::sin(around), 0}, along{-outwards.y, outwards.x, 0};
