@@ -45,17 +45,18 @@ struct Interval {
   std::uint32_t first, last;
 };
 
-/// A ring of the wall of an opening: the outline at a height along the axis.
+/// The outline of an opening at a height along its axis. Between two rings of equal height lies a flat shoulder.
 struct Ring {
   double height;
   Outline outline;
 };
 
-/// An opening through the part against the direction of `axis`, u and v being the next two axes in cyclic order.
+/// An opening through the part along `axis`, u and v being the next two axes in cyclic order. Its surface, the ends of
+/// its cells included, joins ring to ring, from the cells' boundary at the upper end to that at the lower end.
 struct Bore {
   std::size_t axis;
-  Interval u, v, w;  // the cells it is cut from, w along the axis
-  std::vector<Ring> rings;
+  Interval u, v, w;         // the cells it is cut from, w along the axis
+  std::vector<Ring> rings;  // from the upper end down
 };
 
 /// Cut from a block of cells between axis-parallel planes at dyadic coordinates.
@@ -84,14 +85,15 @@ class PartMesher {
   }
 
  private:
-  /// The side of a cell that is on the surface, outside being where w grows or shrinks.
+  /// The side of a cell that is on the surface; outside is where the coordinate along `axis` grows, or shrinks.
   struct Panel {
     std::size_t axis;
     std::uint32_t plane, u, v;
     bool outside_grows;
   };
 
-  bool is_solid(const std::array<std::uint32_t, 3>& cell) const {  // below the first cell is beyond the last, too
+  /// Nothing is beyond the block's cells; what would be cell -1 wraps round to the largest number.
+  bool is_solid(const std::array<std::uint32_t, 3>& cell) const {
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (cell[axis] >= divisions_[axis].size()) return false;
     return part_.is_solid(cell[0], cell[1], cell[2]);

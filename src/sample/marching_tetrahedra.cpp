@@ -144,7 +144,7 @@ class MarchingTetrahedra {
              solid_(s.position + Vec3{0, 0, h}) - s.value} /
         h;
     const double slope = norm(gradient), missing = clearance - std::abs(s.value) / slope;
-    if (!(missing > 0)) return s;  // nor if the slope is zero
+    if (!(missing > 0)) return s;  // a slope of zero ends here, too
     const Vec3 away = gradient * ((s.value < 0 ? -missing : missing) / slope);
     const Sample moved{s.position + away, solid_(s.position + away)};
     return (moved.value < 0) == (s.value < 0) && std::abs(moved.value) > std::abs(s.value) ? moved : s;

@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// A tube of `radius` around a closed curve of the given length, as a grid of quads closed in both directions, each cut
-/// along its shorter diagonal. section(u) is the centre and the two axes of the cross-section at u in [0, 1), the
-/// second axis a quarter turn from the first about the curve's direction.
+/// Across a curve: `first` x `second` points back along it.
 struct Section {
   Vec3 center, first, second;
 };
+
+/// A tube around a closed curve, section_at(u) with u in [0, 1), of the given length: a grid closed in both directions.
 template <class SectionAt>
 TriangleMesh tube(std::size_t faces, double length, double radius, std::uint32_t fewest_sections,
                   SectionAt section_at) {

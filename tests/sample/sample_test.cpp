@@ -120,16 +120,16 @@ TEST_P(EverySample, IsClosedManifoldAndOutwardAsABigMesh) {
 
 TEST_P(EverySample, HasTheFacesAskedFor) {
   const std::size_t fewest = fewest_faces(GetParam().name);
-  for (double faces = double(fewest); faces < 300'000; faces *= 1.07) {
+  for (double faces = double(fewest); faces < 100'000; faces *= 1.07) {
     const double ratio = double(make_sample(GetParam().name, std::size_t(faces)).face_count()) / faces;
     EXPECT_TRUE(0.8 <= ratio && ratio <= 1.2) << GetParam().name << " of " << faces << " faces: " << ratio;
   }
 }
 
 TEST_P(EverySample, IsFreeOfSelfIntersection) {
-  const std::size_t fewest = fewest_faces(GetParam().name);
-  for (const std::size_t faces : {fewest, fewest + fewest / 3, 2 * fewest, std::size_t(1000), std::size_t(20000)})
-    EXPECT_FALSE(intersects_itself(make_sample(GetParam().name, faces))) << GetParam().name << " of " << faces;
+  for (double faces = double(fewest_faces(GetParam().name)); faces < 30'000; faces *= 1.3)
+    EXPECT_FALSE(intersects_itself(make_sample(GetParam().name, std::size_t(faces))))
+        << GetParam().name << " of " << faces;
 }
 
 TEST_P(EverySample, IsTheSameEveryTime) {
