@@ -22,8 +22,8 @@ int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c);
 ///   (2) side(b, c, a, p) == side(a, b, c, p)
 ///   (3) side(b, a, c, p) == opposite(side(a, b, c, p))
 /// Exact for all finite coordinates. The filter is Shewchuk's ("Adaptive Precision Floating-Point Arithmetic and Fast
-/// Robust Geometric Predicates", 1997, section 4.3): |error| <= (7 + 56 eps) eps * permanent with eps = 2^-53, valid as
-/// long as no product underflows, which the lower limit on the permanent sees to.
+/// Robust Geometric Predicates", 1997, section 4.3): |error| <= (7 + 56 eps) eps * permanent with eps = 2^-53. Products
+/// that underflow add at most 2^-1072 (1 + |adz| + |bdz| + |cdz|), which the lower limit on the permanent makes negligible.
 inline Side side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
   const double adx = a.x - p.x, ady = a.y - p.y, adz = a.z - p.z;
   const double bdx = b.x - p.x, bdy = b.y - p.y, bdz = b.z - p.z;
@@ -39,7 +39,8 @@ inline Side side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
   constexpr double kEpsilon = 0x1p-53;
   constexpr double kBound = (7.0 + 56.0 * kEpsilon) * kEpsilon;
   const double bound = kBound * permanent;
-  if (permanent > 0x1p-900 && permanent < 0x1p1000) {
+  const double smallest = 0x1p-900 * (1 + std::abs(adz) + std::abs(bdz) + std::abs(cdz));
+  if (permanent > smallest && permanent < 0x1p1000) {
     if (det > bound) return Side::Inside;
     if (-det > bound) return Side::Outside;
   }

@@ -32,6 +32,14 @@ TEST(Side, HoldsForTinyAndHugeCoordinates) {
   }
 }
 
+TEST(Side, HoldsWhereProductsUnderflowUnderAHugeHeight) {
+  const double small = 0x1p-530, smaller = 0x1p-545, height = 0x1p200;  // small * smaller rounds to zero
+  const Vec3 a{0, 0, height}, b{small, smaller, 0}, c{0, 0, -height}, p{smaller, small, 1};
+  EXPECT_EQ(side(a, b, c, p), exact_side(a, b, c, p));
+  const Vec3 q{small, 0, 0}, r{0, smaller, 0}, s{small, smaller * 0.5, height};
+  EXPECT_EQ(side(q, r, s, {0, 0, 0}), exact_side(q, r, s, {0, 0, 0}));
+}
+
 TEST(Side, IsCyclicAndAntisymmetricOnNearlyCoplanarPoints) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE(testing::Message() << "seed " << seed);

@@ -1,0 +1,82 @@
+#include "geometry/triangle_intersection.h"
+
+#include <array>
+#include <utility>
+
+#include "geometry/triangle_predicates.h"
+
+namespace prohull {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+/// Permutes both so that the shared corners come first, in the same order; returns their number.
+int match_corners(Corners& s, Corners& t) {
+  int shared = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = shared; j < 3; ++j)
+      if (s[i] == t[j]) {
+        std::swap(s[shared], s[i]);
+        std::swap(t[shared], t[j]);
+        ++shared;
+        break;
+      }
+  return shared;
+}
+
+/// Whether the corners from `first` on lie strictly on one side of the supporting plane of t.
+bool strictly_beside(const Corners& t, const Corners& corners, int first) {
+  const Side s = side(t[0], t[1], t[2], corners[first]);
+  if (s == Side::On) return false;
+  for (int i = first + 1; i < 3; ++i)
+    if (side(t[0], t[1], t[2], corners[i]) != s) return false;
+  return true;
+}
+
+bool same_strict_sign(int u, int v, int w) { return u != 0 && u == v && u == w; }
+
+/// For p and q in the plane of t, which has an area along `axis`: disjoint convex polygons are separated strictly by
+/// the line of an edge of one of them.
+bool coplanar_segment_meets(const Corners& t, int axis, const Vec3& p, const Vec3& q) {
+  const int orientation = turn(axis, t[0], t[1], t[2]);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &a = t[i], &b = t[(i + 1) % 3];
+    if (turn_at_edge(axis, a, b, p) == -orientation && turn_at_edge(axis, a, b, q) == -orientation) return false;
+  }
+  return !same_strict_sign(turn_at_edge(axis, p, q, t[0]), turn_at_edge(axis, p, q, t[1]),
+                           turn_at_edge(axis, p, q, t[2]));
+}
+
+/// Whether the closed segment pq meets the closed triangle t.
+bool segment_meets(const Corners& t, int axis, const Vec3& p, const Vec3& q) {
+  const Side sp = side(t[0], t[1], t[2], p), sq = side(t[0], t[1], t[2], q);
+  if (sp == Side::On && sq == Side::On) return coplanar_segment_meets(t, axis, p, q);
+  if (sp == sq) return false;
+  const int u = int(side(p, q, t[0], t[1])), v = int(side(p, q, t[1], t[2]));  // the line pq passes t[0]t[1] on side u
+  if (u * v < 0) return false;
+  const int w = int(side(p, q, t[2], t[0]));
+  return u * w >= 0 && v * w >= 0;
+}
+
+/// Whether an edge of s, from its corner `first` on, meets t. A common point of two triangles that share nothing can be
+/// moved within both to an edge of one; with a shared corner, away from it to the edge opposite to it in one.
+bool edges_meet(const Corners& s, int first, const Corners& t, int axis) {
+  if (segment_meets(t, axis, s[1], s[2])) return true;
+  return first == 0 && (segment_meets(t, axis, s[0], s[1]) || segment_meets(t, axis, s[0], s[2]));
+}
+
+}  // namespace
+
+bool triangles_intersect(const Triangle& first, const Triangle& second) {
+  Corners s{first.a, first.b, first.c}, t{second.a, second.b, second.c};
+  const int shared = match_corners(s, t);
+  if (shared < 3 && (strictly_beside(s, t, shared) || strictly_beside(t, s, shared))) return false;
+
+  const auto s_axis = projection_axis(first), t_axis = projection_axis(second);
+  if (!s_axis || !t_axis) return false;
+  if (shared == 3) return true;
+  if (shared == 2) return turn(*s_axis, s[0], s[1], s[2]) == turn(*s_axis, s[0], s[1], t[2]);  // coplanar, overlapping
+  return edges_meet(s, shared, t, *t_axis) || edges_meet(t, shared, s, *s_axis);
+}
+
+}  // namespace prohull

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include "geometry/predicates.h"
+
+namespace prohull {
+
+inline bool is_corner(const Triangle& t, const Vec3& p) { return p == t.a || p == t.b || p == t.c; }
+
+/// The side of the supporting plane of t on which p lies; fast where p is one of its corners.
+inline Side side(const Triangle& t, const Vec3& p) { return is_corner(t, p) ? Side::On : side(t.a, t.b, t.c, p); }
+
+/// Whether u lies in the supporting plane of t.
+inline bool coplanar(const Triangle& t, const Triangle& u) {
+  return side(t, u.a) == Side::On && side(t, u.b) == Side::On && side(t, u.c) == Side::On;
+}
+
+/// turn(axis, a, b, p), fast where p is a or b.
+inline int turn_at_edge(int axis, const Vec3& a, const Vec3& b, const Vec3& p) {
+  return p == a || p == b ? 0 : turn(axis, a, b, p);
+}
+
+/// An axis along which t projects to a triangle with an area, usually the one closest to its normal;
+/// none if t has no area. Exact.
+inline std::optional<int> projection_axis(const Triangle& t) {
+  const Vec3 n = cross(t.b - t.a, t.c - t.a);
+  const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
+  const int guess = z >= x && z >= y ? 2 : y >= x ? 1 : 0;
+  for (const int axis : {guess, (guess + 1) % 3, (guess + 2) % 3})
+    if (turn(axis, t.a, t.b, t.c) != 0) return axis;
+  return std::nullopt;
+}
+
+}  // namespace prohull
