@@ -17,25 +17,32 @@ struct Offender {
 
 struct EnclosureReport {
   bool encloses = false;               ///< the verdict, exact
-  std::size_t faces_outside = 0;       ///< triangles of the inner mesh of which a part lies outside
+  std::size_t faces_outside = 0;       ///< triangles of the inner mesh of which a part lies outside; exact
   std::vector<Offender> worst;         ///< the farthest of them, farthest first
-  std::size_t cavities = 0;            ///< connected parts of the outer mesh that lie inside the inner solid: holes in the cover
+  std::size_t cavities = 0;            ///< connected parts of the outer mesh that leave a hole in the cover by themselves
   std::size_t self_intersections = 0;  ///< pairs of faces of the outer mesh that meet beyond shared corners and edges; exact
   double inner_volume = 0, outer_volume = 0;
-  double void_ratio = 0;               ///< (volume of outer - volume of inner) / volume of inner
+  double void_ratio = 0;               ///< (volume of outer - volume of inner) / volume of inner; 0 if inner has none
 };
 
 struct EnclosureOptions {
   std::size_t max_offenders = 5;
-  bool count_self_intersections = true;
   std::function<bool(double fraction)> progress;  ///< called now and then with [0, 1]; false cancels
 };
 
-/// Decides by exact predicates whether `outer` encloses `inner`, both closed and oriented either way (see docs/theory):
-/// whether every point that `inner` winds around at least once is wound around at least once by `outer`. Meshes may touch,
-/// share faces, self-intersect, have several components and cavities. No tolerance anywhere.
-/// Shares nothing with the construction of hulls but geometry/.
-/// Throws InputError if a mesh is empty, not closed (edges are matched by position) or has a non-finite coordinate.
+/// Decides whether `outer` encloses `inner`: whether every point, off both surfaces, that `inner` winds around at least
+/// once is wound around at least once by `outer`. Guaranteed: the answer is exact for all finite coordinates, by exact
+/// predicates and constructions, without any tolerance. It shares nothing with the construction of hulls but geometry/.
+///
+/// Required: two closed meshes (along every edge, matched by position, faces run as often one way as the other). They may
+/// touch, share vertices, edges and faces, overlap in a plane, intersect themselves, have faces without area, several
+/// components and cavities. A mesh with a negative volume is turned first, as a whole: single components that face
+/// inwards are cavities. Parts of a self-intersecting `inner` that it winds around zero or fewer times need no cover.
+///
+/// Throws InputError if a mesh is empty, not closed or has a non-finite coordinate; Cancelled if `progress` says so.
+///
+///     const EnclosureReport report = verify_enclosure(original, hull);
+///     if (!report.encloses && !report.worst.empty()) show(report.worst[0].face, report.worst[0].point);
 EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& outer,
                                  const EnclosureOptions& options = {});
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -28,6 +29,11 @@ class InputError : public std::runtime_error {
 
  private:
   Defect defect_;
+};
+
+/// Thrown when a progress callback asks to stop; nothing was written or changed.
+struct Cancelled : std::exception {
+  const char* what() const noexcept override { return "cancelled"; }
 };
 
 }  // namespace prohull

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "prohull/geometry.h"
+
+namespace prohull {
+
+/// A binary tree over boxes, halved at the median along the longest side: depth ceil(log2(count)) whatever the input.
+class Bvh {
+ public:
+  Bvh() = default;
+  explicit Bvh(const std::vector<Box>& boxes) : items_(boxes.size()) {
+    std::iota(items_.begin(), items_.end(), 0u);
+    nodes_.reserve(boxes.size());
+    if (!boxes.empty()) build(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
+    item_boxes_.reserve(boxes.size());
+    for (const std::uint32_t i : items_) item_boxes_.push_back(boxes[i]);
+  }
+
+  /// visit(item) for every item of which the box, and the boxes above it in the tree, are wanted(box).
+  template <class Wanted, class Visit>
+  void visit(Wanted wanted, Visit visit_item) const {
+    if (nodes_.empty()) return;
+    std::uint32_t stack[kMaxDepth], size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+      const Node& node = nodes_[stack[--size]];
+      if (!wanted(node.box)) continue;
+      if (node.is_leaf()) {
+        for (std::uint32_t i = node.begin; i < node.end; ++i)
+          if (wanted(item_boxes_[i])) visit_item(items_[i]);
+      } else {
+        stack[size++] = node.right;
+        stack[size++] = static_cast<std::uint32_t>(&node - nodes_.data()) + 1;
+      }
+    }
+  }
+
+  /// The least measure(item) of all, for measures that are never below bound(box) of a box around the item.
+  template <class Bound, class Measure>
+  double least(Bound bound, Measure measure) const {
+    double best = std::numeric_limits<double>::infinity();
+    if (!nodes_.empty()) descend(0, bound, measure, best);
+    return best;
+  }
+
+ private:
+  static constexpr std::uint32_t kLeafSize = 4, kMaxDepth = 64;
+
+  struct Node {
+    Box box;
+    std::uint32_t begin, end;  // of the items
+    std::uint32_t right;       // the left child follows its parent; 0 in a leaf
+    bool is_leaf() const { return right == 0; }
+  };
+
+  std::uint32_t build(const std::vector<Box>& boxes, std::uint32_t begin, std::uint32_t end) {
+    const auto self = static_cast<std::uint32_t>(nodes_.size());
+    Box box, centers;
+    for (std::uint32_t i = begin; i < end; ++i) box.extend(boxes[items_[i]]), centers.extend(boxes[items_[i]].center());
+    nodes_.push_back({box, begin, end, 0});
+    if (end - begin <= kLeafSize) return self;
+    const Vec3 size = centers.max * 0.5 - centers.min * 0.5;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
+                     [&](std::uint32_t i, std::uint32_t j) {
+                       const double ci = boxes[i].center()[axis], cj = boxes[j].center()[axis];
+                       return ci != cj ? ci < cj : i < j;
+                     });
+    build(boxes, begin, middle);
+    nodes_[self].right = build(boxes, middle, end);
+    return self;
+  }
+
+  template <class Bound, class Measure>
+  void descend(std::uint32_t n, Bound& bound, Measure& measure, double& best) const {
+    const Node& node = nodes_[n];
+    if (node.is_leaf()) {
+      for (std::uint32_t i = node.begin; i < node.end; ++i)
+        if (bound(item_boxes_[i]) < best) best = std::min(best, measure(items_[i]));
+      return;
+    }
+    const double left = bound(nodes_[n + 1].box), right = bound(nodes_[node.right].box);
+    const bool left_first = left <= right;
+    if (std::min(left, right) < best) descend(left_first ? n + 1 : node.right, bound, measure, best);
+    if (std::max(left, right) < best) descend(left_first ? node.right : n + 1, bound, measure, best);
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> items_;
+  std::vector<Box> item_boxes_;
+};
+
+}  // namespace prohull

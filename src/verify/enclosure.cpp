@@ -1,0 +1,256 @@
+#include "prohull/enclosure.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "prohull/error.h"
+#include "verify/contact.h"
+#include "verify/distance.h"
+#include "verify/self_intersection.h"
+#include "verify/subdivision.h"
+#include "verify/surface.h"
+#include "verify/winding.h"
+
+// Why the decision is complete. Let w_O and w_H be the winding numbers of the inner and the outer surface, and X the
+// open set where w_O >= 1 and w_H < 1: the mesh is enclosed if and only if X is empty. X is bounded, so if it is not
+// empty it has a boundary, made of faces of the arrangement of both surfaces.
+//
+//   (1) X lies beside some part of a triangle of O. check_inner_faces visits every triangle of O, cut along H (and O,
+//   where
+//       that matters), so that w_H and w_O are constant beside each piece, and evaluates one point of each: X is found.
+//   (2) X lies beside none. Then its boundary lies on H alone, and is made of whole pieces of faces of H as H cuts
+//   itself:
+//       where O crosses such a piece or covers a part of it, on the side of X, X would lie beside O; and where O only
+//       touches it from the other side, X goes on. check_outer_faces evaluates one point of each piece: X is found. A
+//       point that lies on O needs no answer: its piece does not bound X.
+//
+// What is found is a point beside which w_O >= 1 and w_H < 1, evaluated exactly; so what is rejected does not enclose.
+// Triangles of O whose interior H does not meet lie in one region of H, together with their neighbours, if some point
+// of the common edge is not on H: one evaluation answers for all of them.
+
+namespace prohull {
+namespace verify {
+namespace {
+
+/// What an evaluation says about the two sides of a piece of a triangle.
+struct Sides {
+  bool outside = false, inside = false;
+  bool any() const { return outside || inside; }
+};
+
+class Verifier {
+ public:
+  Verifier(const TriangleMesh& inner, const TriangleMesh& outer, const EnclosureOptions& options)
+      : inner_(inner, "inner"), outer_(outer, "outer"), options_(options) {}
+
+  EnclosureReport report() {
+    check_inner_faces();
+    check_outer_faces();
+    report_.faces_outside = offenders_.size();
+    report_.worst = worst_offenders();
+    report_.encloses = report_.faces_outside == 0 && report_.cavities == 0;
+    report_.inner_volume = inner_.volume;
+    report_.outer_volume = outer_.volume;
+    if (inner_.volume != 0) report_.void_ratio = (outer_.volume - inner_.volume) / inner_.volume;
+    progress(1);
+    return report_;
+  }
+
+ private:
+  /// The faces of a surface that cut a triangle, and the edges of the triangle that they may cover.
+  struct Neighbours {
+    std::vector<Triangle> cutters;
+    bool touches_interior = false;
+    std::uint8_t edges = 0;
+
+    void add(const Triangle& t, int axis, const Triangle& other) {
+      const TriangleContact c = contact(t, axis, other);
+      edges |= c.edges;
+      touches_interior |= c.interior != Contact::None;
+      if (c.interior == Contact::Crossing || c.interior == Contact::Covering) cutters.push_back(other);
+    }
+  };
+
+  struct Sample {
+    const Cell* cell;
+    SurfacePoint point;
+    Sides uncovered;  // w_H < 1
+  };
+
+  void check_inner_faces() {
+    Clusters clusters(inner_.faces.size());
+    std::vector<std::uint8_t> is_free(inner_.faces.size());        // H does not meet the interior
+    std::vector<std::uint8_t> open_edges(inner_.faces.size(), 0);  // bit e: edge e is not on H
+    for (FaceIndex f = 0; f < inner_.faces.size(); ++f) {
+      if (f % 1024 == 0) progress(0.7 * double(f) / double(inner_.faces.size()));
+      const Neighbours near = neighbours(inner_, f, outer_);
+      if (near.touches_interior) {
+        check_inner_face(f, near.cutters);
+      } else {
+        is_free[f] = 1;
+        open_edges[f] = std::uint8_t(~near.edges & 7);
+      }
+    }
+    const auto joins = [&](const FaceEdge& e) { return is_free[e.face] && (open_edges[e.face] >> e.edge & 1); };
+    join_along_edges(inner_, clusters, joins);
+    std::vector<std::uint8_t> is_uncovered(inner_.faces.size());  // by representative, which comes first in its cluster
+    for (FaceIndex f = 0; f < inner_.faces.size(); ++f) {
+      if (!is_free[f]) continue;
+      const FaceIndex r = clusters.representative(f);
+      if (r == f)
+        is_uncovered[r] = uncovered_sample(inner_, f, whole_cell(inner_.faces[f], inner_.axis[f])).uncovered.any();
+      if (is_uncovered[r]) check_inner_face(f, {});
+    }
+  }
+
+  /// Looks for a point beside face f of O where w_H < 1 and w_O >= 1; `cutters` are the faces of H that cut it.
+  void check_inner_face(FaceIndex f, std::vector<Triangle> cutters) {
+    const Triangle& t = inner_.faces[f];
+    std::vector<Cell> cells = subdivide(t, inner_.axis[f], cutters);
+    std::vector<Sample> suspects = uncovered_samples(f, cells);
+    if (suspects.empty()) return;
+    // Only where O intersects itself, w_O can differ between the points of a piece.
+    const Neighbours near = neighbours(inner_, f, inner_, f);
+    if (!near.cutters.empty()) {
+      cutters.insert(cutters.end(), near.cutters.begin(), near.cutters.end());
+      cells = subdivide(t, inner_.axis[f], cutters);
+      suspects = uncovered_samples(f, cells);
+    }
+    std::optional<Offender> farthest;
+    for (Sample& s : suspects) {
+      const WindingBeside w = winding(inner_, inner_, f, *s.cell, s.point);
+      if ((s.uncovered.outside && w.outside >= 1) || (s.uncovered.inside && w.inside >= 1)) {
+        const Offender offender = farthest_of(f, s);
+        if (!farthest || offender.distance > farthest->distance) farthest = offender;
+      }
+    }
+    if (farthest) offenders_.push_back(*farthest);
+  }
+
+  std::vector<Sample> uncovered_samples(FaceIndex f, const std::vector<Cell>& cells) {
+    std::vector<Sample> result;
+    for (const Cell& cell : cells) {
+      Sample s = uncovered_sample(inner_, f, cell);
+      if (s.uncovered.any()) result.push_back(std::move(s));
+    }
+    return result;
+  }
+
+  Sample uncovered_sample(const Surface& surface, FaceIndex f, const Cell& cell) {
+    Sample s{&cell, SurfacePoint(surface.faces[f], surface.axis[f], cell, random_), {}};
+    const WindingBeside w = winding(outer_, surface, f, cell, s.point);
+    s.uncovered = {w.outside < 1, w.inside < 1};
+    return s;
+  }
+
+  /// Looks for pieces of H beside which w_H < 1, in the midst of O.
+  void check_outer_faces() {
+    const auto pairs = self_intersections(outer_);
+    report_.self_intersections = pairs.size();
+    std::vector<std::vector<FaceIndex>> meets(outer_.faces.size());
+    for (const auto& [f, g] : pairs) meets[f].push_back(g), meets[g].push_back(f);
+    std::vector<std::uint8_t> bounds_hole(outer_.faces.size());
+    for (FaceIndex f = 0; f < outer_.faces.size(); ++f) {
+      if (f % 1024 == 0) progress(0.8 + 0.2 * double(f) / double(outer_.faces.size()));
+      Neighbours near;
+      for (const FaceIndex g : meets[f]) near.add(outer_.faces[f], outer_.axis[f], outer_.faces[g]);
+      for (const Cell& cell : subdivide(outer_.faces[f], outer_.axis[f], near.cutters))
+        if (bounds_a_hole(f, cell)) bounds_hole[f] = 1;
+    }
+    Clusters clusters(outer_.faces.size());
+    join_along_edges(outer_, clusters, [&](const FaceEdge& e) { return bounds_hole[e.face] != 0; });
+    for (FaceIndex f = 0; f < outer_.faces.size(); ++f)
+      if (bounds_hole[f] && clusters.representative(f) == f) ++report_.cavities;
+  }
+
+  bool bounds_a_hole(FaceIndex f, const Cell& cell) {
+    SurfacePoint p(outer_.faces[f], outer_.axis[f], cell, random_);
+    const WindingBeside inner = winding(inner_, outer_, f, cell, p);
+    if (inner.covered || inner.inside < 1) return false;
+    const WindingBeside outer = winding(outer_, outer_, f, cell, p);
+    return outer.inside < 1 || outer.outside < 1;
+  }
+
+  /// How other faces of `of` meet face f of `on`; `itself` is left out.
+  Neighbours neighbours(const Surface& on, FaceIndex f, const Surface& of, std::optional<FaceIndex> itself = {}) const {
+    Neighbours result;
+    const Box box = box_of(on.faces[f]);
+    of.bvh.visit([&](const Box& other) { return box.overlaps(other); },
+                 [&](FaceIndex g) {
+                   if (g != itself) result.add(on.faces[f], on.axis[f], of.faces[g]);
+                 });
+    return result;
+  }
+
+  /// The winding of `of` beside a piece of face f of `on`, at p or, if the ray from there meets an edge, at another
+  /// point.
+  WindingBeside winding(const Surface& of, const Surface& on, FaceIndex f, const Cell& cell, SurfacePoint& p) {
+    constexpr int kTries = 1000;  // a random ray meets an edge almost never, so that two tries are rare
+    for (int i = 0; i < kTries; ++i) {
+      if (const auto w = winding_beside(of, p)) return *w;
+      p = SurfacePoint(on.faces[f], on.axis[f], cell, random_);
+    }
+    throw std::logic_error("verify_enclosure: no ray misses the edges");
+  }
+
+  template <class Joins>
+  static void join_along_edges(const Surface& surface, Clusters& clusters, Joins joins) {
+    const std::vector<FaceEdge> sides = edges(surface);
+    for (std::size_t i = 0, end; i < sides.size(); i = end) {
+      std::optional<FaceIndex> first;
+      for (end = i; end < sides.size() && sides[end].key == sides[i].key; ++end) {
+        if (!joins(sides[end])) continue;
+        if (first)
+          clusters.join(*first, sides[end].face);
+        else
+          first = sides[end].face;
+      }
+    }
+  }
+
+  /// Of the sample and the corners of its piece, all of them outside or at the border of the outside.
+  Offender farthest_of(FaceIndex f, const Sample& s) const {
+    std::vector<Vec3> points{s.point.rounded()};
+    for (const PlanePoint& corner : *s.cell) points.push_back(rounded(lifted(inner_.faces[f], inner_.axis[f], corner)));
+    Offender farthest{inner_.source[f], points[0], -1};
+    for (const Vec3& p : points) {
+      const double d = outer_.bvh.least([&](const Box& box) { return distance(p, box); },
+                                        [&](FaceIndex h) { return distance(p, outer_.faces[h]); });
+      if (d > farthest.distance) farthest.point = p, farthest.distance = d;
+    }
+    return farthest;
+  }
+
+  std::vector<Offender> worst_offenders() {
+    const std::size_t count = std::min(options_.max_offenders, offenders_.size());
+    std::partial_sort(offenders_.begin(), offenders_.begin() + std::ptrdiff_t(count), offenders_.end(),
+                      [](const Offender& a, const Offender& b) {
+                        return a.distance != b.distance ? a.distance > b.distance : a.face < b.face;
+                      });
+    return {offenders_.begin(), offenders_.begin() + std::ptrdiff_t(count)};
+  }
+
+  void progress(double fraction) const {
+    if (options_.progress && !options_.progress(fraction)) throw Cancelled();
+  }
+
+  const Surface inner_, outer_;
+  const EnclosureOptions& options_;
+  std::mt19937 random_;  // the verdict does not depend on it
+  std::vector<Offender> offenders_;
+  EnclosureReport report_;
+};
+
+}  // namespace
+}  // namespace verify
+
+EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& outer,
+                                 const EnclosureOptions& options) {
+  return verify::Verifier(inner, outer, options).report();
+}
+
+}  // namespace prohull

@@ -1,0 +1,124 @@
+#include "verify/surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "geometry/triangle_predicates.h"
+#include "prohull/error.h"
+
+namespace prohull::verify {
+namespace {
+
+std::string text(const Vec3& p) { return fmt::format("({} {} {})", p.x, p.y, p.z); }
+
+void require_finite(const TriangleMesh& mesh, std::string_view name) {
+  if (mesh.triangles.empty()) throw InputError(Defect::EmptyMesh, fmt::format("the {} mesh has no triangle", name));
+  for (const FaceId f : mesh.triangles.ids())
+    for (const VertexId v : mesh.triangles[f])
+      if (index(v) >= mesh.vertex_count() || !is_finite(mesh.positions[v]))
+        throw InputError(
+            Defect::NonFiniteCoordinate,
+            fmt::format("the {} mesh: vertex {} of face {} has no finite position", name, index(v), index(f)));
+}
+
+/// For each vertex the first one, in lexicographic order, at its position; 0.0 and -0.0 are the same position.
+std::vector<std::uint32_t> numbered_by_position(const PerVertex<Vec3>& positions) {
+  std::vector<std::uint32_t> order(positions.size()), number(positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto at = [&](std::uint32_t v) -> const Vec3& { return positions[VertexId(v)]; };
+  std::erase_if(order, [&](std::uint32_t v) { return !is_finite(at(v)); });  // not used by any face
+  std::sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) {
+    const Vec3 &p = at(v), &q = at(w);
+    return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z != q.z ? p.z < q.z : v < w;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    number[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? number[order[i - 1]] : order[i];
+  return number;
+}
+
+std::uint64_t edge_key(std::uint32_t v, std::uint32_t w) {
+  return std::uint64_t(std::min(v, w)) << 32 | std::max(v, w);
+}
+
+/// Along every edge the faces must run as often one way as the other.
+void require_closed(const TriangleMesh& mesh, const std::vector<std::uint32_t>& number, std::string_view name) {
+  struct Use {
+    std::uint64_t key;
+    int direction;
+  };
+  std::vector<Use> uses;
+  uses.reserve(3 * mesh.face_count());
+  for (const auto& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = number[index(t[i])], w = number[index(t[(i + 1) % 3])];
+      if (v != w) uses.push_back({edge_key(v, w), v < w ? 1 : -1});
+    }
+  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.key < b.key; });
+  for (std::size_t i = 0, end; i < uses.size(); i = end) {
+    int sum = 0;
+    for (end = i; end < uses.size() && uses[end].key == uses[i].key; ++end) sum += uses[end].direction;
+    if (sum == 0) continue;
+    const Defect defect = end - i == 1   ? Defect::OpenEdge
+                          : end - i == 2 ? Defect::InconsistentOrientation
+                                         : Defect::NonManifoldEdge;
+    throw InputError(
+        defect, fmt::format("the {} mesh is not closed: edge {} - {} has {} face{}, not as many on one side as "
+                            "on the other; only closed meshes can be verified",
+                            name, text(mesh.positions[VertexId(uint32_t(uses[i].key >> 32))]),
+                            text(mesh.positions[VertexId(uint32_t(uses[i].key))]), end - i, end - i == 1 ? "" : "s"));
+  }
+}
+
+}  // namespace
+
+Surface::Surface(const TriangleMesh& mesh, std::string_view name) {
+  require_finite(mesh, name);
+  const auto number = numbered_by_position(mesh.positions);
+  require_closed(mesh, number, name);
+  std::vector<Box> boxes;
+  for (const FaceId f : mesh.triangles.ids()) {
+    const Triangle t = mesh.triangle(f);
+    const auto projected_along = projection_axis(t);
+    if (!projected_along) continue;
+    const auto& v = mesh.triangles[f];
+    faces.push_back(t);
+    axis.push_back(static_cast<std::uint8_t>(*projected_along));
+    corners.push_back({number[index(v[0])], number[index(v[1])], number[index(v[2])]});
+    source.push_back(f);
+    boxes.push_back(box_of(t));
+  }
+  bvh = Bvh(boxes);
+  volume = signed_volume(mesh);
+  if (volume_sign(faces) < 0) {
+    volume = -volume;
+    for (Triangle& t : faces) std::swap(t.b, t.c);
+    for (auto& c : corners) std::swap(c[1], c[2]);
+  }
+}
+
+Clusters::Clusters(std::size_t face_count) : parent_(face_count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+FaceIndex Clusters::representative(FaceIndex f) {
+  while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
+  return f;
+}
+
+void Clusters::join(FaceIndex f, FaceIndex g) {
+  f = representative(f), g = representative(g);
+  parent_[std::max(f, g)] = std::min(f, g);
+}
+
+std::vector<FaceEdge> edges(const Surface& surface) {
+  std::vector<FaceEdge> result;
+  result.reserve(3 * surface.faces.size());
+  for (FaceIndex f = 0; f < surface.faces.size(); ++f)
+    for (std::uint8_t e = 0; e < 3; ++e)
+      result.push_back({edge_key(surface.corners[f][e], surface.corners[f][(e + 1) % 3]), f, e});
+  std::sort(result.begin(), result.end(),
+            [](const FaceEdge& a, const FaceEdge& b) { return a.key != b.key ? a.key < b.key : a.face < b.face; });
+  return result;
+}
+
+}  // namespace prohull::verify

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "geometry/bvh.h"
+#include "prohull/triangle_mesh.h"
+
+namespace prohull::verify {
+
+using FaceIndex = std::uint32_t;  ///< of a face of a Surface
+
+inline Box box_of(const Triangle& t) {
+  Box box;
+  for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
+  return box;
+}
+
+/// A mesh as the verifier sees it: a closed chain of triangles, turned outwards as a whole if its volume is negative,
+/// without the faces that have no area: they bound nothing.
+struct Surface {
+  std::vector<Triangle> faces;
+  std::vector<std::uint8_t> axis;                     ///< along which the face projects to a triangle with an area
+  std::vector<std::array<std::uint32_t, 3>> corners;  ///< numbered by position: equal positions have equal numbers
+  std::vector<FaceId> source;                         ///< the face of the mesh
+  Bvh bvh;
+  double volume = 0;  ///< rounded
+
+  /// Throws InputError, with `name` in the message, if the mesh is empty, not closed or not finite.
+  Surface(const TriangleMesh& mesh, std::string_view name);
+};
+
+/// The connected components of some faces.
+class Clusters {
+ public:
+  explicit Clusters(std::size_t face_count);
+  FaceIndex representative(FaceIndex f);
+  void join(FaceIndex f, FaceIndex g);
+
+ private:
+  std::vector<FaceIndex> parent_;
+};
+
+/// Side e of a face, from its corner e to the next.
+struct FaceEdge {
+  std::uint64_t key;  ///< equal for sides with the same ends, in either direction
+  FaceIndex face;
+  std::uint8_t edge;
+};
+
+/// Sorted by key.
+std::vector<FaceEdge> edges(const Surface& surface);
+
+/// The sign of the signed volume of a closed chain of triangles. Exact.
+int volume_sign(const std::vector<Triangle>& faces);
+
+}  // namespace prohull::verify

@@ -1,0 +1,105 @@
+#include "verify/winding.h"
+
+#include <algorithm>
+
+#include "geometry/triangle_predicates.h"
+
+namespace prohull::verify {
+namespace {
+
+std::optional<int> certain_sign(const Interval& x) {
+  if (x.inf() > 0) return 1;
+  if (x.sup() < 0) return -1;
+  return std::nullopt;
+}
+
+template <class Field>
+Field turn_determinant(const Field& au, const Field& av, const Field& bu, const Field& bv, const Field& pu,
+                       const Field& pv) {
+  return (bu - au) * (pv - av) - (bv - av) * (pu - au);
+}
+
+/// Positive if p lies outside of the plane of h.
+template <class Field>
+Field side_determinant(const Triangle& h, const std::array<Field, 3>& p) {
+  const Field x(h.a.x), y(h.a.y), z(h.a.z);
+  const Field bx = Field(h.b.x) - x, by = Field(h.b.y) - y, bz = Field(h.b.z) - z;
+  const Field cx = Field(h.c.x) - x, cy = Field(h.c.y) - y, cz = Field(h.c.z) - z;
+  return (by * cz - bz * cy) * (p[0] - x) + (bz * cx - bx * cz) * (p[1] - y) + (bx * cy - by * cx) * (p[2] - z);
+}
+
+}  // namespace
+
+SurfacePoint::SurfacePoint(const Triangle& t, int axis, const Cell& cell, std::mt19937& random)
+    : support_(t), axis_(axis) {
+  std::uniform_int_distribution<int> weights(1 << 8, 1 << 16);
+  Number total(0);
+  PlanePoint sum{0, 0};
+  for (const PlanePoint& corner : cell) {
+    const Number weight(weights(random));
+    sum.u += weight * corner.u;
+    sum.v += weight * corner.v;
+    total += weight;
+  }
+  exact_ = lifted(t, axis, {sum.u / total, sum.v / total});
+  for (int i = 0; i < 3; ++i) approximate_[i] = exact_[i].approx();
+}
+
+int SurfacePoint::turn(const Vec3& a, const Vec3& b) const {
+  const int u = (axis_ + 1) % 3, v = (axis_ + 2) % 3;
+  {
+    const CGAL::Protect_FPU_rounding<true> upwards;
+    if (const auto sign =
+            certain_sign(turn_determinant<Interval>(a[u], a[v], b[u], b[v], approximate_[u], approximate_[v])))
+      return *sign;
+  }
+  return int(CGAL::sign(turn_determinant<Number>(a[u], a[v], b[u], b[v], exact_[u], exact_[v])));
+}
+
+Side SurfacePoint::side(const Triangle& h) const {
+  if (coplanar(support_, h)) return Side::On;
+  {
+    const CGAL::Protect_FPU_rounding<true> upwards;
+    if (const auto sign = certain_sign(side_determinant(h, approximate_))) return Side(*sign);
+  }
+  return Side(int(CGAL::sign(side_determinant(h, exact_))));
+}
+
+std::optional<WindingBeside> winding_beside(const Surface& surface, const SurfacePoint& p) {
+  const int axis = p.axis(), u = (axis + 1) % 3, v = (axis + 2) % 3;
+  int beyond = 0, at = 0;  // faces crossed by the ray after p, and at p: +1 if they face along the ray
+  bool covered = false, ambiguous = false;
+  const auto on_the_way = [&](const Box& box) {
+    return box.min[u] <= p.upper(u) && box.max[u] >= p.lower(u) && box.min[v] <= p.upper(v) &&
+           box.max[v] >= p.lower(v) && box.max[axis] >= p.lower(axis);
+  };
+  surface.bvh.visit(on_the_way, [&](FaceIndex f) {
+    const Triangle& h = surface.faces[f];
+    const int first = p.turn(h.a, h.b), second = p.turn(h.b, h.c);
+    if (first * second < 0) return;
+    const int third = p.turn(h.c, h.a);
+    if (first * third < 0 || second * third < 0) return;
+    if (first == 0 || second == 0 || third == 0) {
+      ambiguous = true;
+      return;
+    }
+    if (std::min({h.a[axis], h.b[axis], h.c[axis]}) > p.upper(axis)) {
+      beyond += first;
+      return;
+    }
+    const Side side = p.side(h);
+    if (side == Side::On) {
+      if (!coplanar(p.support(), h)) ambiguous = true;
+      at += first;
+      covered = true;
+    } else if ((side == Side::Inside) == (first > 0)) {
+      beyond += first;
+    }
+  });
+  if (ambiguous) return std::nullopt;
+  const bool faces_along = turn(axis, p.support().a, p.support().b, p.support().c) > 0;
+  const int above = beyond, below = beyond + at;
+  return WindingBeside{faces_along ? above : below, faces_along ? below : above, covered};
+}
+
+}  // namespace prohull::verify

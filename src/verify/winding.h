@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <random>
+
+#include "geometry/predicates.h"
+#include "verify/exact.h"
+#include "verify/subdivision.h"
+#include "verify/surface.h"
+
+namespace prohull::verify {
+
+/// A point inside a triangle, exactly on its plane; its coordinates are rational.
+class SurfacePoint {
+ public:
+  /// A random point inside `cell`, a piece of t.
+  SurfacePoint(const Triangle& t, int axis, const Cell& cell, std::mt19937& random);
+
+  const Triangle& support() const { return support_; }
+  int axis() const { return axis_; }
+  double lower(int coordinate) const { return approximate_[coordinate].inf(); }
+  double upper(int coordinate) const { return approximate_[coordinate].sup(); }
+  Vec3 rounded() const { return verify::rounded(exact_); }
+
+  /// turn(axis, a, b, this), exact.
+  int turn(const Vec3& a, const Vec3& b) const;
+  /// The side of the plane of h, exact.
+  Side side(const Triangle& h) const;
+
+ private:
+  Triangle support_;
+  int axis_;
+  std::array<Number, 3> exact_;
+  std::array<Interval, 3> approximate_;
+};
+
+/// The winding numbers of a surface beside a point of a triangle of it or of another.
+struct WindingBeside {
+  int outside = 0, inside = 0;  ///< just outside and just inside of the triangle
+  bool covered = false;         ///< faces of the surface, coplanar with the triangle, hold the point
+};
+
+/// Counts the faces that the ray from p along p.axis() crosses. None if the ray meets an edge, or if p lies on a
+/// face that is not coplanar with its triangle: take another point.
+std::optional<WindingBeside> winding_beside(const Surface& surface, const SurfacePoint& p);
+
+}  // namespace prohull::verify

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+
+#include <array>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "prohull/triangle_mesh.h"
+
+namespace prohull::oracle {
+
+// Decides enclosure by brute force and by other means than src/verify: solids are cut into tetrahedra by all planes
+// around, and the winding number of a point is the signed count of the cones from an apex over all faces that hold it.
+
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+using Point = Exact::Point_3;
+using Tetrahedron = std::array<Point, 4>;
+
+inline Point exact(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+struct Chain {
+  std::vector<std::array<Point, 3>> faces;
+  std::vector<CGAL::Bbox_3> boxes;
+
+  explicit Chain(const TriangleMesh& mesh) {
+    for (const FaceId f : mesh.triangles.ids()) {
+      const Triangle t = mesh.triangle(f);
+      faces.push_back({exact(t.a), exact(t.b), exact(t.c)});
+      boxes.push_back(faces.back()[0].bbox() + faces.back()[1].bbox() + faces.back()[2].bbox());
+    }
+  }
+};
+
+/// None if x lies on the boundary of a cone.
+inline std::optional<int> winding(const Chain& chain, const Point& apex, const Point& x) {
+  int sum = 0;
+  for (const auto& [a, b, c] : chain.faces) {
+    const int s = CGAL::orientation(apex, a, b, x), t = CGAL::orientation(apex, b, c, x);
+    if (s * t < 0) continue;
+    const int u = CGAL::orientation(apex, c, a, x);
+    if (s * u < 0 || t * u < 0) continue;
+    const int cone = CGAL::orientation(a, b, c, apex), base = CGAL::orientation(a, b, c, x);
+    if (cone == 0 || cone == -base) continue;
+    if (s == cone || t == cone || u == cone) continue;  // in the mirrored cone, behind the apex
+    if (s == 0 || t == 0 || u == 0 || base == 0) return std::nullopt;
+    sum -= cone;  // an apex inside sees the face clockwise: negative
+  }
+  return sum;
+}
+
+/// Cuts the tetrahedron by the plane: no piece has corners strictly on both sides.
+inline void cut(const Tetrahedron& t, const std::array<Point, 3>& plane, std::vector<Tetrahedron>& pieces) {
+  std::array<int, 4> side;
+  for (int i = 0; i < 4; ++i) side[i] = CGAL::orientation(plane[0], plane[1], plane[2], t[i]);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < i; ++j)
+      if (side[i] * side[j] < 0) {
+        const auto height = [&](const Point& p) {
+          return CGAL::determinant(plane[1] - plane[0], plane[2] - plane[0], p - plane[0]);
+        };
+        const auto hi = height(t[i]), hj = height(t[j]);
+        const Point x = t[i] + (t[j] - t[i]) * (hi / (hi - hj));
+        for (const int replaced : {i, j}) {
+          Tetrahedron half = t;
+          half[replaced] = x;
+          cut(half, plane, pieces);
+        }
+        return;
+      }
+  pieces.push_back(t);
+}
+
+inline Point random_point_in(const Tetrahedron& t, std::mt19937& random) {
+  std::uniform_int_distribution<int> weight(100, 1000);
+  const int w[] = {weight(random), weight(random), weight(random), weight(random)};
+  return CGAL::barycenter(t[0], w[0], t[1], w[1], t[2], w[2], t[3], w[3]);
+}
+
+/// Whether w_outer >= 1 wherever w_inner >= 1 inside the given tetrahedra.
+inline bool encloses_within(std::vector<Tetrahedron> domain, const Chain& inner, const Chain& outer,
+                            std::mt19937& random) {
+  for (const Chain* chain : {&inner, &outer})
+    for (std::size_t f = 0; f < chain->faces.size(); ++f) {
+      const auto& plane = chain->faces[f];
+      if (CGAL::collinear(plane[0], plane[1], plane[2])) continue;
+      std::vector<Tetrahedron> pieces;
+      for (const Tetrahedron& t : domain) {
+        const CGAL::Bbox_3 box = t[0].bbox() + t[1].bbox() + t[2].bbox() + t[3].bbox();
+        if (CGAL::do_overlap(box, chain->boxes[f]))
+          cut(t, plane, pieces);
+        else
+          pieces.push_back(t);
+      }
+      domain = std::move(pieces);
+    }
+  std::uniform_int_distribution<int> coordinate(-1000000, 1000000);
+  for (const Tetrahedron& t : domain) {
+    if (CGAL::coplanar(t[0], t[1], t[2], t[3])) continue;
+    for (;;) {
+      const Point apex = CGAL::barycenter(t[0], 0.25, t[1], 0.25, t[2], 0.25, t[3]) +
+                         Exact::Vector_3(coordinate(random), coordinate(random), coordinate(random));
+      const Point x = random_point_in(t, random);
+      const auto w_inner = winding(inner, apex, x), w_outer = winding(outer, apex, x);
+      if (!w_inner || !w_outer) continue;
+      if (*w_inner >= 1 && *w_outer < 1) return false;
+      break;
+    }
+  }
+  return true;
+}
+
+/// Turns neither mesh.
+inline bool encloses(const TriangleMesh& inner, const TriangleMesh& outer, std::mt19937& random) {
+  std::vector<Tetrahedron> cones;
+  const Chain inner_chain(inner), outer_chain(outer);
+  const Point apex = inner_chain.faces[0][0];
+  for (const auto& [a, b, c] : inner_chain.faces)
+    if (!CGAL::coplanar(a, b, c, apex)) cones.push_back({a, b, c, apex});
+  return encloses_within(cones, inner_chain, outer_chain, random);
+}
+
+}  // namespace prohull::oracle

@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include "geometry/triangle_predicates.h"
+#include "meshes.h"
+#include "prohull/enclosure.h"
+#include "verify/contact.h"
+#include "verify/oracle.h"
+
+namespace prohull {
+namespace {
+
+/// Closed chains of triangles with corners on a small integer grid, where contacts of every kind are frequent.
+class RandomChains {
+ public:
+  explicit RandomChains(unsigned seed) : random_(seed) {}
+
+  int uniform(int least, int most) { return std::uniform_int_distribution<int>(least, most)(random_); }
+  Vec3 corner() { return {double(uniform(0, 3)), double(uniform(0, 3)), double(uniform(0, 3))}; }
+
+  void add_tetrahedron(TriangleMesh& mesh) {
+    const Vec3 a = corner(), b = corner(), c = corner(), d = corner();
+    const TriangleMesh t = meshes::tetrahedron(a, b, c, d);
+    const Side s = side(a, b, c, d);
+    if (s != Side::On) mesh = meshes::together(mesh, s == Side::Outside ? t : meshes::inside_out(t));
+  }
+
+  /// Puts three faces in the place of one, around a new vertex. Outwards, the chain grows; else it may get a dent.
+  void split_face(TriangleMesh& mesh, bool outwards) {
+    const FaceId f = FaceId(uniform(0, int(mesh.face_count()) - 1));
+    Vec3 p = corner();
+    if (uniform(0, 3) == 0) {  // a hair's breadth
+      double& x = p[uniform(0, 2)];
+      x = std::nextafter(x, uniform(-9, 9));
+    }
+    const Triangle t = mesh.triangle(f);
+    if (outwards && side(t.a, t.b, t.c, p) == Side::Inside) return;
+    const VertexId v = mesh.positions.push_back(p);
+    const auto [a, b, c] = mesh.triangles[f];
+    mesh.triangles[f] = {a, b, v};
+    mesh.triangles.push_back({b, c, v});
+    mesh.triangles.push_back({c, a, v});
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+TEST(Enclosure, AgreesWithBruteForceOnRandomChains) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  RandomChains chains(seed);
+  std::mt19937 random(seed);
+  int enclosed = 0, rejected = 0;
+  while (enclosed + rejected < 400) {
+    TriangleMesh inner, outer;
+    for (int n = chains.uniform(1, 2); n > 0; --n) chains.add_tetrahedron(inner);
+    if (inner.triangles.empty()) continue;
+    if (chains.uniform(0, 2) == 0) chains.split_face(inner, false);
+    outer = inner;
+    const bool grows = chains.uniform(0, 1);
+    if (chains.uniform(0, 2) == 0) chains.add_tetrahedron(outer);
+    for (int n = chains.uniform(0, 3); n > 0; --n) chains.split_face(outer, true);
+    if (!grows) chains.split_face(outer, false);
+    if (signed_volume(inner) <= 0 || signed_volume(outer) <= 0) continue;  // would be turned
+
+    const bool truth = oracle::encloses(inner, outer, random);
+    ASSERT_EQ(verify_enclosure(inner, outer).encloses, truth) << "chain " << enclosed + rejected;
+    ASSERT_TRUE(truth || !grows);
+    const bool reverse = oracle::encloses(outer, inner, random);
+    ASSERT_EQ(verify_enclosure(outer, inner).encloses, reverse) << "reverse of chain " << enclosed + rejected;
+    ++(truth ? enclosed : rejected);
+  }
+  std::printf("%d enclosed, %d not\n", enclosed, rejected);
+  EXPECT_GT(enclosed, 50);
+  EXPECT_GT(rejected, 50);
+}
+
+}  // namespace
+}  // namespace prohull
