@@ -76,8 +76,6 @@ nlohmann::json facts(const MeshReport& report) {
             {"unused_vertices", report.unused_vertices}}}};
 }
 
-nlohmann::json facts(const Repairs& repairs) { return describe(repairs); }
-
 void write_report(const std::filesystem::path& path, nlohmann::json report) {
   if (path.empty()) return;
   report["version"] = PROHULL_VERSION;
@@ -95,9 +93,13 @@ void add_examples(CLI::App& command, const std::vector<std::string>& examples) {
 }
 
 std::string grouped(std::size_t number) {
-  std::string digits = std::to_string(number);
-  for (std::ptrdiff_t i = std::ssize(digits) - 3; i > 0; i -= 3) digits.insert(static_cast<std::size_t>(i), ",");
-  return digits;
+  const std::string digits = std::to_string(number);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
 }
 
 const std::vector<std::pair<std::string, HullSide>>& side_names() {

@@ -61,7 +61,6 @@ struct Input {
 Input read_closed_mesh(const std::filesystem::path& path);
 
 nlohmann::json facts(const MeshReport& report);
-nlohmann::json facts(const Repairs& repairs);
 
 /// Writes the report if a path was given.
 void write_report(const std::filesystem::path& path, nlohmann::json report);

@@ -10,6 +10,7 @@
 #include "build/self_intersection_guard.h"
 #include "build/shape_guards.h"
 #include "build/star.h"
+#include "geometry/float32.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
 
@@ -111,8 +112,7 @@ class HullBuilder {
   }
 
   Vec3 as_stored(const Vec3& p) const {
-    if (!options_.float32_coordinates) return p;
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    return options_.float32_coordinates ? nearest_float32(p) : p;
   }
 
   // Where it would go, or why it may not. An end of the edge that adds nothing at all is preferred (not in the paper).
@@ -226,6 +226,36 @@ void check(const HullOptions& options) {
           "max_normal_deviation must be in [0, pi/2] radians");
 }
 
+HullResult run_builder(const TriangleMesh& mesh, const HullOptions& options) {
+  switch (options.queue) {
+    case QueueKind::Bucket: return HullBuilder<EdgeBuckets>(mesh, options).run();
+    case QueueKind::Heap: return HullBuilder<EdgeHeap>(mesh, options).run();
+    default: return HullBuilder<EdgeTree>(mesh, options).run();
+  }
+}
+
+TriangleMesh turned(TriangleMesh mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+// Every face with its corners 1 and 2 exchanged: o and d exchange their roles, l and r their sides.
+HullResult turned(HullResult result) {
+  const auto corner = [](std::uint32_t c) { return c % 3 == 0 ? c : c / 3 * 3 + 3 - c % 3; };
+  const ProgressiveHull& hull = result.hull;
+  std::vector<VertexId> corners(hull.base_corners().size());
+  for (std::uint32_t c = 0; c < corners.size(); ++c) corners[corner(c)] = hull.base_corners()[c];
+  std::vector<VertexSplit> splits = hull.splits();
+  // (o, d, l) has become (o, l, d), that is (d, o, l): now on the right of o-d.
+  for (VertexSplit& split : splits) {
+    const auto second = [&](std::uint32_t od) { return corner(od % 3 == 2 ? od - 2 : od + 1); };
+    split = {split.o, split.d, split.r, split.l, second(split.do_), second(split.od)};
+  }
+  result.hull = ProgressiveHull(hull.side(), hull.original_vertex_count(), hull.positions(), std::move(corners),
+                                std::move(splits));
+  return result;
+}
+
 }  // namespace
 
 std::string_view name(Refusal refusal) {
@@ -239,11 +269,9 @@ HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
   const MeshReport report = inspect(mesh);
   if (report.faces == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces");
   if (!report.is_closed_manifold()) throw InputError(Defect::OpenEdge, report.first_defect);
-  switch (options.queue) {
-    case QueueKind::Bucket: return HullBuilder<EdgeBuckets>(mesh, options).run();
-    case QueueKind::Heap: return HullBuilder<EdgeHeap>(mesh, options).run();
-    default: return HullBuilder<EdgeTree>(mesh, options).run();
-  }
+  if (options.side == HullSide::Outer) return run_builder(mesh, options);
+  // An inner hull is the outer hull of the mesh turned inside out: what was inside of a face is then outside.
+  return turned(run_builder(turned(mesh), options));
 }
 
 }  // namespace prohull

@@ -5,7 +5,7 @@
 
 #include <bit>
 #include <cstdint>
-#include <cstring>
+#include <fstream>
 #include <memory>
 
 #include "io/atomic_file.h"
@@ -115,7 +115,7 @@ ProgressiveHull decoded(std::string_view payload, const std::filesystem::path& n
 }
 
 // Real hulls shrink to a half or a third; whatever grows a thousandfold is made to exhaust memory.
-std::string decompressed(std::string_view frame, const std::filesystem::path& name) {
+std::string unpacked(std::string_view frame, const std::filesystem::path& name) {
   const std::size_t limit = 1000 * frame.size() + (1 << 20);
   const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(), &ZSTD_freeDStream);
   std::string payload;
@@ -155,6 +155,15 @@ void save_hull(const std::filesystem::path& path, const ProgressiveHull& hull) {
   file.commit();
 }
 
+ProgressiveHull load_hull(const std::filesystem::path& path) { return load_hull(read_file(path), path); }
+
+bool is_hull_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string start(kMagic.size(), '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return in && start == kMagic;
+}
+
 ProgressiveHull load_hull(std::string_view content, const std::filesystem::path& name) {
   if (!content.starts_with(kMagic)) malformed(name, "not a .phull file");
   if (content.size() < kHeaderSize) malformed(name, fmt::format("truncated after {} bytes", content.size()));
@@ -164,7 +173,7 @@ ProgressiveHull load_hull(std::string_view content, const std::filesystem::path&
                      fmt::format("{}: version {} of the .phull format; this program reads version {}: use the one that "
                                  "wrote it, or a newer one",
                                  name.string(), version, kVersion));
-  return decoded(decompressed(content.substr(kHeaderSize), name), name);
+  return decoded(unpacked(content.substr(kHeaderSize), name), name);
 }
 
 }  // namespace prohull

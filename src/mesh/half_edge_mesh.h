@@ -72,6 +72,8 @@ class HalfEdgeMesh {
   /// Undoes the collapse that made `s`; requires its link to be in place.
   void split(VertexId s, const VertexSplit& record);
 
+  void move(VertexId v, const Vec3& position) { positions_[v] = position; }
+
   /// Of the faces that are there, in the order of their ids; vertices likewise, renumbered without gaps.
   TriangleMesh triangle_mesh() const;
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+
+#include "prohull/progressive_hull.h"
+#include "prohull/triangle_mesh.h"
+
+namespace prohull {
+
+struct Float32Hull {
+  TriangleMesh mesh;
+  std::size_t moved_vertices = 0;
+};
+
+/// The level of a hull, its vertices moved to coordinates that a float32 file (STL, GLB) keeps, each to the outside of
+/// or onto the planes of all its faces (HullSide::Inner: to the inside), so that the result still encloses. Vertices that
+/// already are such coordinates stay, unless a neighbour needs room.
+/// Throws InputError(NoVolume) if a vertex has no room to move even so; OBJ, OFF and PLY files keep doubles.
+Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side);
+
+}  // namespace prohull

@@ -1,0 +1,170 @@
+#include "prohull/float32_hull.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "geometry/float32.h"
+#include "geometry/linear_program.h"
+#include "geometry/predicates.h"
+#include "mesh/half_edge_mesh.h"
+#include "prohull/error.h"
+
+namespace prohull {
+namespace {
+
+class VertexMover {
+ public:
+  explicit VertexMover(const TriangleMesh& level) : mesh_(level) {}
+
+  Float32Hull run() {
+    std::vector<VertexId> pending;
+    for (const VertexId v : mesh_.positions().ids())
+      if (mesh_.has(v) && !is_float32(mesh_.position(v))) pending.push_back(v);
+    const std::size_t wanted = pending.size();
+    // Around a saddle the planes may meet in the vertex alone. Neighbours that move out tilt them and make room.
+    constexpr int kRounds = 24;
+    for (int round = 0; !pending.empty(); ++round) {
+      std::erase_if(pending, [&](VertexId v) { return move_nearby(v); });
+      if (pending.empty()) break;
+      if (round == kRounds) refuse(pending.front(), pending.size());
+      for (const VertexId v : pending) lift_neighbours(v, std::ldexp(1.0, round / 2 + 1));
+    }
+    Float32Hull result{mesh_.triangle_mesh(), 0};
+    result.moved_vertices = wanted + lifted_;
+    return result;
+  }
+
+ private:
+  [[noreturn]] void refuse(VertexId v, std::size_t count) const {
+    const Vec3& p = mesh_.position(v);
+    throw InputError(Defect::NoVolume,
+                     fmt::format("{} vertices, the first at ({:.9g}, {:.9g}, {:.9g}), cannot be moved outwards to float32 "
+                                 "coordinates; write a .ply, .obj or .off file, which keep doubles",
+                                 count, p.x, p.y, p.z));
+  }
+
+  // Does use(corner after v, corner before v) for each face around v.
+  template <class Use>
+  void around(VertexId v, Use&& use) const {
+    HalfEdgeId h = mesh_.out(v);
+    do {
+      use(mesh_.tip(h), mesh_.tail(mesh_.previous(h)));
+      h = mesh_.rotated(h);
+    } while (h != mesh_.out(v));
+  }
+
+  bool is_outside(VertexId v, const Vec3& p) const {
+    bool outside = true;
+    around(v, [&](VertexId a, VertexId b) {
+      outside = outside && side(mesh_.position(v), mesh_.position(a), mesh_.position(b), p) != Side::Inside;
+    });
+    return outside;
+  }
+
+  // The spacing of float32 coordinates around v, at most.
+  double spacing(VertexId v) const {
+    const Vec3& p = mesh_.position(v);
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 0x1p-120}) * 0x1p-23;
+  }
+
+  // The point that adds the least volume and is at least `clearance` outside of all planes around v, rounded; nothing if
+  // there is none close by.
+  std::optional<Vec3> lifted(VertexId v, double clearance) {
+    const Vec3 origin = mesh_.position(v);
+    constraints_.clear();
+    Vec3 objective;
+    around(v, [&](VertexId a, VertexId b) {
+      // In units of the clearance, so that the optimum is about 1 away; areas relative to the longest edge.
+      const Vec3 u = mesh_.position(a) - origin, w = mesh_.position(b) - origin;
+      const double length = std::max(norm(u), norm(w));
+      const Vec3 n = cross(u / length, w / length);
+      const double area = norm(n);
+      if (area == 0) return;
+      constraints_.push_back({n / area, 1});
+      objective += n * (length / spacing(v)) * length;
+    });
+    const double size = norm(objective);
+    if (size == 0 || !std::isfinite(size)) return std::nullopt;
+    const LinearProgramResult best = solve_linear_program(objective / size, constraints_);
+    Vec3 step = best.x;
+    if (best.status == LinearProgramStatus::Infeasible) return std::nullopt;
+    if (best.status == LinearProgramStatus::Ambiguous) {
+      const auto nearest = nearest_feasible_point({}, constraints_);
+      if (!nearest) return std::nullopt;
+      step = *nearest;
+    }
+    const Vec3 p = nearest_float32(origin + step * clearance);
+    return is_finite(p) && is_outside(v, p) ? std::optional(p) : std::nullopt;
+  }
+
+  bool move_nearby(VertexId v) {
+    const Vec3 p = mesh_.position(v);
+    std::optional<Vec3> best = nearest_corner(v);
+    for (double clearance = spacing(v); !best && clearance <= 64 * spacing(v); clearance *= 2) best = lifted(v, clearance);
+    if (best) mesh_.move(v, *best);
+    return best.has_value() || is_float32(p);
+  }
+
+  // Of the eight float32 points around v, the nearest that is outside.
+  std::optional<Vec3> nearest_corner(VertexId v) const {
+    const Vec3 p = mesh_.position(v);
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    std::optional<Vec3> best;
+    for (int i = 0; i < 8; ++i) {
+      Vec3 q;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float nearest = static_cast<float>(p[axis]);
+        const float below = nearest <= p[axis] ? nearest : std::nextafter(nearest, -kInfinity);
+        const float above = nearest >= p[axis] ? nearest : std::nextafter(nearest, kInfinity);
+        q[axis] = i >> axis & 1 ? above : below;
+      }
+      if (best && squared_norm(q - p) >= squared_norm(*best - p)) continue;
+      if (is_finite(q) && is_outside(v, q)) best = q;
+    }
+    return best;
+  }
+
+  void lift_neighbours(VertexId v, double spacings) {
+    std::vector<VertexId> neighbours;
+    around(v, [&](VertexId a, VertexId) { neighbours.push_back(a); });
+    for (const VertexId w : neighbours) {
+      if (const auto p = lifted(w, spacings * spacing(w))) {
+        lifted_ += is_float32(mesh_.position(w));
+        mesh_.move(w, *p);
+      }
+    }
+  }
+
+  HalfEdgeMesh mesh_;
+  std::vector<HalfSpace> constraints_;
+  std::size_t lifted_ = 0;
+};
+
+void turn(TriangleMesh& mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+}  // namespace
+
+Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side) {
+  for (const Vec3& p : level.positions)
+    if (constexpr double kMost = std::numeric_limits<float>::max();
+        std::abs(p.x) > kMost || std::abs(p.y) > kMost || std::abs(p.z) > kMost)
+      throw InputError(Defect::NonFiniteCoordinate,
+                       fmt::format("coordinates beyond {:g} do not fit the float32 of the file; write a .ply, .obj or "
+                                   ".off file, or scale the mesh", kMost));
+  if (std::ranges::all_of(level.positions, is_float32)) return {level, 0};
+  // An inner hull is the outer hull of the mesh turned inside out.
+  TriangleMesh turned = level;
+  if (side == HullSide::Inner) turn(turned);
+  Float32Hull result = VertexMover(turned).run();
+  if (side == HullSide::Inner) turn(result.mesh);
+  return result;
+}
+
+}  // namespace prohull

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "prohull/geometry.h"
+
+namespace prohull {
+
+/// The float32 nearest to x, as a double. Never inlined: g++ 12 vectorises pairs of these conversions to nothing.
+double nearest_float32(double x);
+
+inline Vec3 nearest_float32(const Vec3& p) { return {nearest_float32(p.x), nearest_float32(p.y), nearest_float32(p.z)}; }
+
+/// Whether a float32 keeps every bit.
+inline bool is_float32(const Vec3& p) { return nearest_float32(p) == p; }
+
+}  // namespace prohull
