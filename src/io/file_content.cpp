@@ -1,0 +1,183 @@
+#include "io/file_content.h"
+
+#include <archive.h>
+#include <archive_entry.h>
+#include <fmt/format.h>
+#define ZLIB_CONST  // inputs are const
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include "io/mesh_readers.h"
+#include "prohull/error.h"
+
+namespace prohull {
+namespace {
+
+constexpr std::size_t kChunk = std::size_t{1} << 18;
+
+[[noreturn]] void fail_to_read(const std::filesystem::path& path) {
+  throw InputError(Defect::CannotRead,
+                   fmt::format("{}: cannot read: {}", path.string(), std::generic_category().message(errno)));
+}
+
+[[noreturn]] void fail_to_decompress(const std::filesystem::path& name, std::string_view reason) {
+  throw InputError(Defect::Malformed, fmt::format("{}: cannot decompress: {}", name.string(), reason));
+}
+
+void check_limit(std::size_t size, std::size_t compressed, const std::filesystem::path& name) {
+  const std::size_t limit = decompression_limit(compressed);
+  if (size > limit)
+    fail_to_decompress(name, fmt::format("more than {} bytes come out of {}, which no mesh does; if it is one, "
+                                         "decompress it first",
+                                         limit, compressed));
+}
+
+/// Makes room for the next chunk behind the first `size` bytes.
+char* grow(std::string& bytes, std::size_t size) {
+  if (bytes.size() < size + kChunk) bytes.resize(std::max(size + kChunk, 2 * size));
+  return bytes.data() + size;
+}
+
+class Inflater {
+ public:
+  explicit Inflater(std::string_view compressed) {
+    constexpr int kGzip = 16;
+    if (inflateInit2(&stream_, MAX_WBITS + kGzip) != Z_OK) throw std::bad_alloc();
+    stream_.next_in = reinterpret_cast<const Bytef*>(compressed.data());
+    left_ = compressed.size();
+  }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+  ~Inflater() { inflateEnd(&stream_); }
+
+  int step(char* output, std::size_t& written) {
+    refill();
+    stream_.next_out = reinterpret_cast<Bytef*>(output);
+    stream_.avail_out = kChunk;
+    const int status = inflate(&stream_, Z_NO_FLUSH);
+    written += kChunk - stream_.avail_out;
+    return status;
+  }
+  /// gzip files may be joined one after the other; whatever else follows is ignored.
+  bool next_member() {
+    refill();
+    return stream_.avail_in > 0 && *stream_.next_in == 0x1F && inflateReset(&stream_) == Z_OK;
+  }
+  std::string_view message() const { return stream_.msg ? stream_.msg : "the data is damaged"; }
+
+ private:
+  void refill() {
+    if (stream_.avail_in > 0) return;
+    stream_.avail_in = static_cast<uInt>(std::min(left_, kChunk));
+    left_ -= stream_.avail_in;
+  }
+
+  z_stream stream_{};
+  std::size_t left_ = 0;
+};
+
+std::string gunzip(std::string_view compressed, const std::filesystem::path& name) {
+  Inflater inflater(compressed);
+  std::string bytes;
+  std::size_t size = 0;
+  while (true) {
+    const int status = inflater.step(grow(bytes, size), size);
+    check_limit(size, compressed.size(), name);
+    if (status == Z_STREAM_END && !inflater.next_member()) break;
+    if (status == Z_BUF_ERROR) fail_to_decompress(name, "the file is truncated");
+    if (status != Z_OK && status != Z_STREAM_END) fail_to_decompress(name, inflater.message());
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+class ZipReader {
+ public:
+  ZipReader(std::string_view compressed, const std::filesystem::path& name)
+      : compressed_(compressed), name_(name), archive_(archive_read_new(), archive_read_free) {
+    archive_read_support_format_zip(archive_.get());
+    if (archive_read_open_memory(archive_.get(), compressed.data(), compressed.size()) != ARCHIVE_OK) fail();
+  }
+
+  FileContent only_mesh() {
+    std::optional<FileContent> mesh;
+    archive_entry* entry = nullptr;
+    while (next(entry)) {
+      const char* const path = archive_entry_pathname(entry);
+      if (!path || !is_mesh(path)) continue;
+      if (mesh)
+        fail_to_decompress(name_, fmt::format("it has more than one mesh, {} and {}; extract the one you mean",
+                                              mesh->name.filename().string(), path));
+      mesh = FileContent{data(), name_ / std::filesystem::path(path).relative_path()};
+    }
+    if (!mesh) fail_to_decompress(name_, "it has no .ply, .obj, .off or .stl file");
+    return std::move(*mesh);
+  }
+
+ private:
+  /// Not the files "__MACOSX/._part.ply" with which macOS accompanies each file.
+  static bool is_mesh(const std::filesystem::path& path) {
+    return format_of_extension(path) && !path.filename().string().starts_with("._");
+  }
+
+  bool next(archive_entry*& entry) {
+    const int status = archive_read_next_header(archive_.get(), &entry);
+    if (status != ARCHIVE_OK && status != ARCHIVE_WARN && status != ARCHIVE_EOF) fail();
+    return status != ARCHIVE_EOF;
+  }
+
+  std::string data() {
+    std::string bytes;
+    std::size_t size = 0;
+    while (const auto read = archive_read_data(archive_.get(), grow(bytes, size), kChunk)) {
+      if (read < 0) fail();
+      size += static_cast<std::size_t>(read);
+      check_limit(size, compressed_.size(), name_);
+    }
+    bytes.resize(size);
+    return bytes;
+  }
+
+  [[noreturn]] void fail() const {
+    const char* const reason = archive_error_string(archive_.get());
+    fail_to_decompress(name_, reason ? reason : "the archive is damaged");
+  }
+
+  std::string_view compressed_;
+  const std::filesystem::path& name_;
+  std::unique_ptr<archive, decltype(&archive_read_free)> archive_;
+};
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path) {
+  const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file) fail_to_read(path);
+  std::string bytes;
+  std::size_t size = 0;
+  while (const std::size_t read = std::fread(grow(bytes, size), 1, kChunk, file.get())) size += read;
+  if (std::ferror(file.get())) fail_to_read(path);
+  bytes.resize(size);
+  return bytes;
+}
+
+std::size_t decompression_limit(std::size_t compressed) { return (std::size_t{64} << 20) + 200 * compressed; }
+
+std::optional<FileContent> decompressed(std::string_view bytes, const std::filesystem::path& name) {
+  if (bytes.starts_with("\x1F\x8B")) return FileContent{gunzip(bytes, name), name};
+  if (bytes.starts_with("PK\x03\x04")) return ZipReader(bytes, name).only_mesh();
+  return {};
+}
+
+FileContent read_file_content(const std::filesystem::path& path) {
+  FileContent content{read_file(path), path};
+  if (auto inside = decompressed(content.bytes, path)) content = std::move(*inside);
+  return content;
+}
+
+}  // namespace prohull

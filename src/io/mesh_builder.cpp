@@ -1,0 +1,103 @@
+#include "io/mesh_builder.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "io/triangulate_polygon.h"
+
+namespace prohull {
+namespace {
+
+constexpr std::int64_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
+
+bool is_restart(std::int64_t corner) { return corner == -1 || corner == kNoIndex; }
+
+}  // namespace
+
+void MeshBuilder::add_vertex(const Vec3& position, Place place) {
+  if (!is_finite(position))
+    fail_on_coordinate(position, fmt::format("vertex {}", first_number_ + vertex_count()), place);
+  if (vertex_count() == static_cast<std::size_t>(kNoIndex)) fail(file_, place, "more than 2^32 - 1 vertices");
+  mesh_.positions.push_back(position);
+}
+
+void MeshBuilder::fail_on_coordinate(const Vec3& position, std::string_view subject, Place place) const {
+  const int axis = !std::isfinite(position.x) ? 0 : !std::isfinite(position.y) ? 1 : 2;
+  fail(file_, place, fmt::format("{} has {} = {}; coordinates must be finite", subject, "xyz"[axis], position[axis]),
+       Defect::NonFiniteCoordinate);
+}
+
+VertexId MeshBuilder::checked(std::int64_t corner, Place place) {
+  if (corner < 0 || corner >= kNoIndex) fail_on_index(corner, place);
+  if (corner > highest_corner_) highest_corner_ = corner, highest_corner_place_ = place;
+  return VertexId(static_cast<std::uint32_t>(corner));
+}
+
+void MeshBuilder::fail_on_index(std::int64_t corner, Place place) const {
+  const auto shown = corner + static_cast<std::int64_t>(first_number_);
+  if (corner < 0)
+    fail(file_, place, fmt::format("the face has vertex {}; vertices count from {}", shown, first_number_));
+  fail(file_, place,
+       fmt::format("the face has vertex {}, but the file has {} vertices, counted from {}", shown, vertex_count(),
+                   first_number_));
+}
+
+void MeshBuilder::add_triangle(VertexId a, VertexId b, VertexId c, Place place) {
+  if (mesh_.face_count() == static_cast<std::size_t>(kNoIndex)) fail(file_, place, "more than 2^32 - 1 triangles");
+  mesh_.triangles.push_back({a, b, c});
+}
+
+void MeshBuilder::add_polygon(std::span<const std::int64_t> corners, Place place) {
+  if (corners.size() < 3) fail(file_, place, fmt::format("a face with {} corners; expected 3 or more", corners.size()));
+  if (corners.size() > 3)
+    polygons_.push_back(
+        {static_cast<std::uint32_t>(mesh_.face_count()), static_cast<std::uint32_t>(corners.size()), place});
+  const VertexId first = checked(corners[0], place);
+  VertexId last = checked(corners[1], place);
+  for (const std::int64_t corner : corners.subspan(2)) {
+    const VertexId next = checked(corner, place);
+    add_triangle(first, last, next, place);
+    last = next;
+  }
+}
+
+void MeshBuilder::add_triangle_strips(std::span<const std::int64_t> corners, Place place) {
+  std::size_t length = 0;
+  VertexId a{}, b{};
+  for (const std::int64_t corner : corners) {
+    if (is_restart(corner)) {
+      length = 0;
+      continue;
+    }
+    const VertexId c = checked(corner, place);
+    if (length >= 2 && a != b && b != c && c != a) {
+      if (length % 2 == 0)
+        add_triangle(a, b, c, place);
+      else
+        add_triangle(b, a, c, place);
+    }
+    a = b, b = c, ++length;
+  }
+}
+
+/// Replaces the fan of the polygon by triangles that do not overlap where it is not convex.
+void MeshBuilder::triangulate(const Polygon& polygon) {
+  const auto triangle = [&](std::uint32_t i) -> auto& { return mesh_.triangles[FaceId(polygon.first_triangle + i)]; };
+  std::vector<VertexId> corners = {triangle(0)[0], triangle(0)[1]};
+  for (std::uint32_t i = 0; i + 2 < polygon.corner_count; ++i) corners.push_back(triangle(i)[2]);
+  const auto triangles = triangulate_polygon(corners, mesh_.positions);
+  if (!triangles)
+    fail(file_, polygon.place,
+         fmt::format("a polygon with {} corners that is too intricate to triangulate; split it", polygon.corner_count));
+  for (std::uint32_t i = 0; i < triangles->size(); ++i) triangle(i) = (*triangles)[i];
+}
+
+TriangleMesh MeshBuilder::finish() {
+  if (highest_corner_ >= static_cast<std::int64_t>(vertex_count()))
+    fail_on_index(highest_corner_, highest_corner_place_);
+  for (const Polygon& polygon : polygons_) triangulate(polygon);
+  return std::move(mesh_);
+}
+
+}  // namespace prohull

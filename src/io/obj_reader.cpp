@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <vector>
+
+#include "io/mesh_builder.h"
+#include "io/mesh_readers.h"
+#include "io/text_scanner.h"
+
+namespace prohull {
+namespace {
+
+// Everything in the specification (appendix B1 of the Advanced Visualizer manual) that is not a vertex or a face.
+constexpr auto kIgnoredKeywords = std::to_array<std::string_view>(
+    {"vn",     "vt",     "vp",    "g",     "o",          "s",         "usemtl",   "mtllib", "l",        "p",   "mg",
+     "usemap", "maplib", "bevel", "lod",   "shadow_obj", "trace_obj", "c_interp", "con",    "d_interp", "deg", "cstype",
+     "bmat",   "step",   "curv",  "curv2", "surf",       "parm",      "trim",     "hole",   "scrv",     "sp",  "end",
+     "ctech",  "stech",  "call",  "csh",   "bsp",        "bzp",       "cdc",      "cdp",    "res"});
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view content, const std::string& file)
+      : scanner_(content, file, {.comments = true, .continued_lines = true}), builder_(file, 1) {}
+
+  TriangleMesh read() {
+    while (scanner_.next_line()) {
+      const std::string_view keyword = scanner_.word();
+      if (keyword == "v")
+        read_vertex();
+      else if (keyword == "f" || keyword == "fo")
+        read_face();
+      else if (!is_obj_keyword(keyword))
+        scanner_.fail(fmt::format("{} is not a record of an OBJ file", quoted(keyword)));
+    }
+    return builder_.finish();
+  }
+
+ private:
+  void read_vertex() {
+    Vec3 position;
+    for (int axis = 0; axis < 3; ++axis) position[axis] = scanner_.number("a coordinate");
+    builder_.add_vertex(position, scanner_.place());
+  }
+
+  void read_face() {
+    const Place place = scanner_.place();
+    corners_.clear();
+    while (!scanner_.at_line_end()) corners_.push_back(read_corner());
+    builder_.add_polygon(corners_, place);
+  }
+
+  /// vertex, vertex/texture, vertex//normal or vertex/texture/normal; a negative vertex counts back from the last one.
+  std::int64_t read_corner() {
+    const std::string_view word = scanner_.word();
+    std::int64_t number = 0;
+    const char* const end = word.data() + word.size();
+    const auto [rest, error] = std::from_chars(word.data(), end, number);
+    if (error != std::errc() || (rest != end && *rest != '/'))
+      scanner_.fail(fmt::format("{} is not a corner of a face; expected a vertex number", quoted(word)));
+    const auto count = static_cast<std::int64_t>(builder_.vertex_count());
+    if (number >= 0) return number - 1;
+    if (number < -count)
+      scanner_.fail(fmt::format("the face has vertex {}, but only {} vertices come before it", number, count));
+    return count + number;
+  }
+
+  TextScanner scanner_;
+  MeshBuilder builder_;
+  std::vector<std::int64_t> corners_;
+};
+
+}  // namespace
+
+bool is_obj_keyword(std::string_view word) {
+  return word == "v" || word == "f" || word == "fo" ||
+         std::find(kIgnoredKeywords.begin(), kIgnoredKeywords.end(), word) != kIgnoredKeywords.end();
+}
+
+TriangleMesh read_obj(std::string_view content, const std::string& file) { return ObjReader(content, file).read(); }
+
+}  // namespace prohull

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "prohull/error.h"
+
+namespace prohull {
+
+/// A spot in a file as error messages name it: lines are counted from 1, bytes from 0.
+struct Place {
+  enum class Unit { Line, Byte };
+  Unit unit = Unit::Line;
+  std::size_t number = 0;
+};
+
+/// Throws InputError "file: line 14: message".
+[[noreturn]] void fail(std::string_view file, Place place, std::string_view message, Defect defect = Defect::Malformed);
+
+/// A word of a hostile file, fit for a message: in quotes, shortened, without control characters.
+std::string quoted(std::string_view word);
+
+}  // namespace prohull

@@ -1,0 +1,228 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "io/byte_cursor.h"
+#include "io/mesh_builder.h"
+#include "io/mesh_readers.h"
+#include "io/ply_header.h"
+#include "io/text_scanner.h"
+
+namespace prohull {
+namespace {
+
+/// The record that a body is at, for messages.
+struct PlyRecord {
+  const PlyElement* element = nullptr;
+  std::size_t number = 0;
+
+  std::string name() const { return fmt::format("{} {} of {}", element->name, number + 1, element->count); }
+  std::string truncated(std::string_view where) const {
+    return fmt::format("the file ends {} {}; it is truncated or its count is wrong", where, name());
+  }
+};
+
+// A body hands out the values of one record after the other, in order: begin(record), then for each property
+// number(type), or count(type) and as many integer(type), or skip(...), then end().
+
+/// Each record stands on a line of its own.
+class AsciiBody {
+ public:
+  AsciiBody(const PlyHeader& header, const std::string& file)
+      : size_(header.body.size()), scanner_(header.body, file, {}, header.first_body_line) {}
+
+  void begin(const PlyRecord& record) {
+    if (!scanner_.next_line()) scanner_.fail(record.truncated("before"));
+    record_ = record;
+  }
+  void end() {
+    if (!scanner_.at_line_end())
+      scanner_.fail(
+          fmt::format("{} has more values than properties; or a count in the header is wrong", record_.name()));
+  }
+
+  double number(PlyType) { return scanner_.number("a number"); }
+  std::int64_t integer(PlyType) { return scanner_.integer("an integer"); }
+  std::size_t list_length(PlyType, PlyType) {
+    const std::int64_t length = scanner_.integer("the length of a list");
+    if (length < 0) scanner_.fail(fmt::format("a list of length {}", length));
+    return static_cast<std::size_t>(length);
+  }
+  void skip(std::size_t count, PlyType) {
+    for (; count > 0; --count)
+      if (scanner_.word().empty()) scanner_.fail("the line ends before the end of the record");
+  }
+
+  /// How many records at most are left, whatever the header claims.
+  std::size_t limit(const PlyElement& element) const {
+    return size_ / (2 * std::max<std::size_t>(1, element.properties.size())) + 1;
+  }
+  Place place() const { return scanner_.place(); }
+
+ private:
+  std::size_t size_;
+  TextScanner scanner_;
+  PlyRecord record_;
+};
+
+class BinaryBody {
+ public:
+  BinaryBody(std::string_view content, const PlyHeader& header, const std::string& file)
+      : file_(file),
+        size_(content.size()),
+        cursor_(content, content.size() - header.body.size(),
+                header.encoding == PlyEncoding::BigEndian ? std::endian::big : std::endian::little) {}
+
+  void begin(const PlyRecord& record) { record_ = record; }
+  void end() {}
+
+  double number(PlyType type) {
+    if (type == PlyType::Float32) return read<float>();
+    if (type == PlyType::Float64) return read<double>();
+    return static_cast<double>(integer(type));
+  }
+  std::int64_t integer(PlyType type) {
+    switch (type) {
+      case PlyType::Int8:
+        return read<std::int8_t>();
+      case PlyType::UInt8:
+        return read<std::uint8_t>();
+      case PlyType::Int16:
+        return read<std::int16_t>();
+      case PlyType::UInt16:
+        return read<std::uint16_t>();
+      case PlyType::Int32:
+        return read<std::int32_t>();
+      default:
+        return read<std::uint32_t>();
+    }
+  }
+  std::size_t list_length(PlyType type, PlyType item) {
+    const Place place = cursor_.place();
+    const std::int64_t length = integer(type);
+    if (length < 0) fail(file_, place, fmt::format("a list of length {}", length));
+    require(static_cast<std::size_t>(length), size_of(item));
+    return static_cast<std::size_t>(length);
+  }
+  void skip(std::size_t count, PlyType type) {
+    require(count, size_of(type));
+    cursor_.skip(count * size_of(type));
+  }
+
+  std::size_t limit(const PlyElement& element) const {
+    return cursor_.remaining() / std::max<std::size_t>(1, element.min_record_size());
+  }
+  Place place() const { return cursor_.place(); }
+
+ private:
+  template <class T>
+  T read() {
+    require(1, sizeof(T));
+    return cursor_.read<T>();
+  }
+  void require(std::size_t count, std::size_t size) const {
+    if (!cursor_.has(count, size)) fail(file_, {Place::Unit::Byte, size_}, record_.truncated("within"));
+  }
+
+  const std::string& file_;
+  std::size_t size_;
+  ByteCursor cursor_;
+  PlyRecord record_;
+};
+
+template <class Body>
+class PlyReader {
+ public:
+  PlyReader(const PlyHeader& header, Body body, const std::string& file)
+      : header_(header), body_(std::move(body)), file_(file), builder_(file, 0) {}
+
+  TriangleMesh read() {
+    for (const PlyElement& element : header_.elements) {
+      if (element.count == 0 || element.properties.empty()) continue;
+      if (element.name == "vertex")
+        read_vertices(element);
+      else if (element.name == "face")
+        read_lists(element, [&](auto corners, Place place) { builder_.add_polygon(corners, place); });
+      else if (element.name == "tristrips")
+        read_lists(element, [&](auto corners, Place place) { builder_.add_triangle_strips(corners, place); });
+      else
+        for_each_record(
+            element, [&](const PlyProperty& property, std::size_t) { skip(property); }, [](Place) {});
+    }
+    return builder_.finish();
+  }
+
+ private:
+  void read_vertices(const PlyElement& element) {
+    constexpr std::size_t kNoAxis = 3;
+    std::vector<std::size_t> axis_of(element.properties.size(), kNoAxis);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string_view name = std::string_view("xyz").substr(axis, 1);
+      const auto found = element.find(name);
+      if (!found || element.properties[*found].count_type)
+        fail_on_header(element, fmt::format("element vertex has no number named {}", name));
+      axis_of[*found] = axis;
+    }
+    builder_.reserve_vertices(std::min(element.count, body_.limit(element)));
+    Vec3 position;
+    const auto read_property = [&](const PlyProperty& property, std::size_t i) {
+      if (axis_of[i] == kNoAxis)
+        skip(property);
+      else
+        position[static_cast<int>(axis_of[i])] = body_.number(property.type);
+    };
+    for_each_record(element, read_property, [&](Place place) { builder_.add_vertex(position, place); });
+  }
+
+  template <class Add>
+  void read_lists(const PlyElement& element, Add add) {
+    const auto wanted = element.find("vertex_indices") ? element.find("vertex_indices") : element.find("vertex_index");
+    if (!wanted || !element.properties[*wanted].count_type || !is_integer(element.properties[*wanted].type))
+      fail_on_header(element, fmt::format("element {} has no list of integers named vertex_indices", element.name));
+    builder_.reserve_triangles(std::min(element.count, body_.limit(element)));
+    std::vector<std::int64_t> corners;
+    const auto read_property = [&](const PlyProperty& property, std::size_t i) {
+      if (i != *wanted) return skip(property);
+      corners.clear();
+      for (std::size_t left = body_.list_length(*property.count_type, property.type); left > 0; --left)
+        corners.push_back(body_.integer(property.type));
+    };
+    for_each_record(element, read_property, [&](Place place) { add(corners, place); });
+  }
+
+  template <class ReadProperty, class Finish>
+  void for_each_record(const PlyElement& element, ReadProperty read_property, Finish finish) {
+    for (std::size_t record = 0; record < element.count; ++record) {
+      body_.begin({&element, record});
+      const Place place = body_.place();
+      for (std::size_t i = 0; i < element.properties.size(); ++i) read_property(element.properties[i], i);
+      body_.end();
+      finish(place);
+    }
+  }
+
+  void skip(const PlyProperty& property) {
+    body_.skip(property.count_type ? body_.list_length(*property.count_type, property.type) : 1, property.type);
+  }
+
+  [[noreturn]] void fail_on_header(const PlyElement& element, std::string_view message) const {
+    fail(file_, {Place::Unit::Line, element.line}, message);
+  }
+
+  const PlyHeader& header_;
+  Body body_;
+  const std::string& file_;
+  MeshBuilder builder_;
+};
+
+}  // namespace
+
+TriangleMesh read_ply(std::string_view content, const std::string& file) {
+  const PlyHeader header = read_ply_header(content, file);
+  if (header.encoding == PlyEncoding::Ascii) return PlyReader(header, AsciiBody(header, file), file).read();
+  return PlyReader(header, BinaryBody(content, header, file), file).read();
+}
+
+}  // namespace prohull
