@@ -2,6 +2,7 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <random>
@@ -36,7 +37,9 @@ struct Chain {
 /// None if x lies on the boundary of a cone.
 inline std::optional<int> winding(const Chain& chain, const Point& apex, const Point& x) {
   int sum = 0;
-  for (const auto& [a, b, c] : chain.faces) {
+  for (std::size_t f = 0; f < chain.faces.size(); ++f) {
+    if (!CGAL::do_overlap(chain.boxes[f] + apex.bbox(), x.bbox())) continue;
+    const auto& [a, b, c] = chain.faces[f];
     const int s = CGAL::orientation(apex, a, b, x), t = CGAL::orientation(apex, b, c, x);
     if (s * t < 0) continue;
     const int u = CGAL::orientation(apex, c, a, x);
@@ -78,37 +81,43 @@ inline Point random_point_in(const Tetrahedron& t, std::mt19937& random) {
   return CGAL::barycenter(t[0], w[0], t[1], w[1], t[2], w[2], t[3], w[3]);
 }
 
-/// Whether w_outer >= 1 wherever w_inner >= 1 inside the given tetrahedra.
-inline bool encloses_within(std::vector<Tetrahedron> domain, const Chain& inner, const Chain& outer,
-                            std::mt19937& random) {
-  for (const Chain* chain : {&inner, &outer})
-    for (std::size_t f = 0; f < chain->faces.size(); ++f) {
-      const auto& plane = chain->faces[f];
-      if (CGAL::collinear(plane[0], plane[1], plane[2])) continue;
-      std::vector<Tetrahedron> pieces;
-      for (const Tetrahedron& t : domain) {
-        const CGAL::Bbox_3 box = t[0].bbox() + t[1].bbox() + t[2].bbox() + t[3].bbox();
-        if (CGAL::do_overlap(box, chain->boxes[f]))
-          cut(t, plane, pieces);
-        else
-          pieces.push_back(t);
-      }
-      domain = std::move(pieces);
+/// Cuts the pieces by the planes of the chain's faces, where those are near.
+inline std::vector<Tetrahedron> cut(std::vector<Tetrahedron> pieces, const Chain& chain) {
+  for (std::size_t f = 0; f < chain.faces.size(); ++f) {
+    const auto& plane = chain.faces[f];
+    if (CGAL::collinear(plane[0], plane[1], plane[2])) continue;
+    std::vector<Tetrahedron> smaller;
+    for (const Tetrahedron& t : pieces) {
+      const CGAL::Bbox_3 box = t[0].bbox() + t[1].bbox() + t[2].bbox() + t[3].bbox();
+      if (CGAL::do_overlap(box, chain.boxes[f]))
+        cut(t, plane, smaller);
+      else
+        smaller.push_back(t);
     }
-  std::uniform_int_distribution<int> coordinate(-1000000, 1000000);
-  for (const Tetrahedron& t : domain) {
-    if (CGAL::coplanar(t[0], t[1], t[2], t[3])) continue;
-    for (;;) {
-      const Point apex = CGAL::barycenter(t[0], 0.25, t[1], 0.25, t[2], 0.25, t[3]) +
-                         Exact::Vector_3(coordinate(random), coordinate(random), coordinate(random));
-      const Point x = random_point_in(t, random);
-      const auto w_inner = winding(inner, apex, x), w_outer = winding(outer, apex, x);
-      if (!w_inner || !w_outer) continue;
-      if (*w_inner >= 1 && *w_outer < 1) return false;
-      break;
-    }
+    pieces = std::move(smaller);
   }
-  return true;
+  std::erase_if(pieces, [](const Tetrahedron& t) { return CGAL::coplanar(t[0], t[1], t[2], t[3]); });
+  return pieces;
+}
+
+/// At any point inside a piece that the chain does not cut.
+inline int winding(const Chain& chain, const Tetrahedron& piece, std::mt19937& random) {
+  std::uniform_int_distribution<int> aside(-1000, 1000);
+  for (;;) {
+    // Far along an axis and only a little aside, so that few cones are near the point.
+    const Point apex = piece[0] + Exact::Vector_3(1e-5 * aside(random), 1e-5 * aside(random), 1e4);
+    if (const auto w = winding(chain, apex, random_point_in(piece, random))) return *w;
+  }
+}
+
+/// Whether w_outer >= 1 wherever w_inner >= 1 inside the given tetrahedra.
+inline bool encloses_within(const std::vector<Tetrahedron>& domain, const Chain& inner, const Chain& outer,
+                            std::mt19937& random) {
+  std::vector<Tetrahedron> solid = cut(domain, inner);
+  std::erase_if(solid, [&](const Tetrahedron& t) { return winding(inner, t, random) < 1; });
+  const std::vector<Tetrahedron> pieces = cut(solid, outer);
+  return std::none_of(pieces.begin(), pieces.end(),
+                      [&](const Tetrahedron& t) { return winding(outer, t, random) < 1; });
 }
 
 /// Turns neither mesh.
