@@ -32,7 +32,10 @@ class VertexMover {
       std::erase_if(pending, [&](VertexId v) { return move_nearby(v); });
       if (pending.empty()) break;
       if (round == kRounds) refuse(pending.front(), pending.size());
-      for (const VertexId v : pending) lift_neighbours(v, std::ldexp(1.0, round / 2 + 1));
+      std::vector<VertexId> cramped;
+      for (const auto& some : {pending, cramped_})
+        for (const VertexId v : some) lift_neighbours(v, std::ldexp(1.0, round / 2 + 1), cramped);
+      cramped_ = std::move(cramped);
     }
     Float32Hull result{mesh_.triangle_mesh(), 0};
     result.moved_vertices = wanted + lifted_;
@@ -129,19 +132,23 @@ class VertexMover {
     return best;
   }
 
-  void lift_neighbours(VertexId v, double spacings) {
+  // Notes those that have no room themselves.
+  void lift_neighbours(VertexId v, double spacings, std::vector<VertexId>& cramped) {
     std::vector<VertexId> neighbours;
     around(v, [&](VertexId a, VertexId) { neighbours.push_back(a); });
     for (const VertexId w : neighbours) {
       if (const auto p = lifted(w, spacings * spacing(w))) {
         lifted_ += is_float32(mesh_.position(w));
         mesh_.move(w, *p);
+      } else {
+        cramped.push_back(w);
       }
     }
   }
 
   HalfEdgeMesh mesh_;
   std::vector<HalfSpace> constraints_;
+  std::vector<VertexId> cramped_;  ///< neighbours that could not be lifted, for want of room: theirs are next
   std::size_t lifted_ = 0;
 };
 

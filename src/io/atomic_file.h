@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "prohull/file.h"
+
 namespace prohull {
 
 /// A file that appears whole or not at all: written beside its path under another name, then renamed by `commit`;
@@ -27,8 +29,5 @@ class AtomicFile {
   std::filesystem::path temporary_;  ///< empty if the target is written as it is
   std::FILE* file_ = nullptr;
 };
-
-/// Writes all of a file.
-void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace prohull

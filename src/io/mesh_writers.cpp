@@ -1,3 +1,4 @@
+#include "geometry/float32.h"
 #include "io/mesh_writers.h"
 
 #include <fmt/format.h>
@@ -59,7 +60,7 @@ Vec3 unit_normal(const Triangle& t) {
 
 bool is_float32(double value) {
   return std::abs(value) <= std::numeric_limits<float>::max() &&
-         static_cast<double>(static_cast<float>(value)) == value;
+         nearest_float32(value) == value;
 }
 
 std::string ply_content(const TriangleMesh& mesh) {
