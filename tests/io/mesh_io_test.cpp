@@ -115,6 +115,13 @@ TEST(WriteMesh, RefusesNamesItCannotWrite) {
   EXPECT_THROW(write_mesh("a.zip", tetrahedron()), InputError);
 }
 
+/// Some compilers take the rounding of two neighbouring doubles for nothing; see cmake/ProhullCompileOptions.cmake.
+TEST(Float32, RoundsEveryCoordinate) {
+  PerVertex<Vec3> positions(3, {0.1, 0.2, 0.3});
+  for (Vec3& p : positions) p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  for (const Vec3& p : positions) EXPECT_EQ(p, (Vec3{0.1f, 0.2f, 0.3f}));
+}
+
 TEST(RoundTrip, GivesTheSameMeshForRandomBits) {
   const unsigned seed = std::random_device{}();
   std::cout << "seed " << seed << "\n";
