@@ -156,7 +156,6 @@ TEST(RoundTrip, GivesTheSameMeshForRandomBits) {
   }
 }
 
-/// Every prefix of a good file is either refused or, where only trailing blanks are missing, read.
 TEST(Truncation, IsNoticedAtEveryByteOfBinaryFiles) {
   const TemporaryFolder folder;
   for (const char* name : {"a.ply", "a.stl"}) {

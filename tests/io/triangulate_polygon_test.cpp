@@ -89,7 +89,7 @@ TEST(TriangulatePolygon, KeepsTheBoundaryOfPolygonsThatAreNotSimple) {
   }
 }
 
-TEST(TriangulatePolygon, GivesUpOnHostilePolygons) {
+TEST(TriangulatePolygon, IsNotHeldUpByHostilePolygons) {
   std::string off = "OFF\n100000 1 0\n", face = "100000";
   for (int i = 0; i < 100000; ++i) {
     off += fmt::format("{} {} 0\n", i, i % 2);
