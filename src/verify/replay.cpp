@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "geometry/predicates.h"
-#include "geometry/winding_number.h"
+#include "geometry/orientation.h"
 
 namespace prohull {
 namespace {
@@ -57,6 +58,8 @@ class Replay {
   }
 
   std::size_t signs() const { return signs_; }
+
+  const std::vector<VertexId>& corners() const { return vertex_; }
 
   /// Those of the finest level; none if a face has not come back.
   std::vector<Triangle> triangles() const {
@@ -142,6 +145,33 @@ std::vector<Corners> sorted_corners(std::span<const Triangle> triangles) {
   return all;
 }
 
+// The components, connected by shared vertices, of the finest level: outwards, or cavities of others.
+bool faces_outwards(const Replay& replay, std::vector<Triangle> finest) {
+  const auto& corners = replay.corners();
+  std::vector<std::uint32_t> parent(corners.size());  // of vertices; there are fewer than corners
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto find = [&](VertexId v) {
+    std::uint32_t i = index(v);
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    const std::uint32_t a = find(corners[c]), b = find(corners[c / 3 * 3]);
+    parent[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<std::uint32_t> number(corners.size(), kNone), component;
+  std::uint32_t count = 0;
+  for (std::size_t c = 0; c < corners.size(); c += 3) {
+    std::uint32_t& known = number[find(corners[c])];
+    if (known == kNone) known = count++;
+    component.push_back(known);
+  }
+  const Orientation facing = orientation(std::move(finest), component, count);
+  return !facing.turn_all && std::ranges::all_of(facing.components, [](Facing f) {
+    return f == Facing::Outwards || f == Facing::Cavity;
+  });
+}
+
 bool is_well_formed(const ProgressiveHull& hull) {
   return hull.positions().size() == hull.original_vertex_count() + hull.splits().size() &&
          hull.base_corners().size() % 3 == 0 && std::ranges::all_of(hull.positions(), is_finite) &&
@@ -175,9 +205,11 @@ ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& orig
   }
   std::vector<Triangle> theirs;
   for (const FaceId f : original.triangles.ids()) theirs.push_back(original.triangle(f));
-  const std::vector<Triangle> finest = replay.triangles();
+  std::vector<Triangle> finest = replay.triangles();
   if (sorted_corners(finest) != sorted_corners(theirs))
     report.why_not = "the finest level does not have the triangles of the original mesh";
+  else if (!faces_outwards(replay, std::move(finest)))
+    report.why_not = "the finest level is inside out, or a component of it";
   else
     report.holds = true;
   return report;

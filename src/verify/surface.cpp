@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
 #include "prohull/error.h"
 
@@ -94,7 +95,8 @@ Surface::Surface(const TriangleMesh& mesh, std::string_view name) {
   }
   bvh = Bvh(boxes);
   volume = signed_volume(mesh);
-  if (volume_sign(faces) < 0) {
+  turned = volume_sign(faces) < 0;
+  if (turned) {
     volume = -volume;
     for (Triangle& t : faces) std::swap(t.b, t.c);
     for (auto& c : corners) std::swap(c[1], c[2]);

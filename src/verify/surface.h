@@ -18,8 +18,7 @@ inline Box box_of(const Triangle& t) {
   return box;
 }
 
-/// A mesh as the verifier sees it: a closed chain of triangles, turned outwards as a whole if its volume is negative,
-/// without the faces that have no area: they bound nothing.
+/// A mesh as the verifier sees it: a closed chain of triangles, turned outwards (see geometry/orientation.h), without the faces that have no area: they bound nothing.
 struct Surface {
   std::vector<Triangle> faces;
   std::vector<std::uint8_t> axis;                     ///< along which the face projects to a triangle with an area
@@ -27,6 +26,7 @@ struct Surface {
   std::vector<FaceId> source;                         ///< the face of the mesh
   Bvh bvh;
   double volume = 0;  ///< rounded
+  bool turned = false;
 
   /// Throws InputError, with `name` in the message, if the mesh is empty, not closed or not finite.
   Surface(const TriangleMesh& mesh, std::string_view name);
@@ -52,8 +52,5 @@ struct FaceEdge {
 
 /// Sorted by key.
 std::vector<FaceEdge> edges(const Surface& surface);
-
-/// The sign of the signed volume of a closed chain of triangles. Exact.
-int volume_sign(const std::vector<Triangle>& faces);
 
 }  // namespace prohull::verify
