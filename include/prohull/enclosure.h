@@ -49,7 +49,7 @@ EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& 
 
 /// The mesh turned as a whole if its volume is negative, then each component, connected by edges, whose volume is negative
 /// although it lies outside of the others, where it cannot be a cavity. What is verified against an original mesh is
-/// verified against this, as hulls are built from it. Exact. Throws as verify_enclosure does.
+/// verified against this, as hulls are built from it. Exact. Throws InputError if the mesh is empty or not finite.
 TriangleMesh turned_outwards(TriangleMesh mesh);
 
 /// Pairs of faces that meet beyond shared corners and edges, found by position. Exact. Throws as verify_enclosure does.

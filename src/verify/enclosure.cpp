@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "geometry/orientation.h"
 #include "prohull/error.h"
 #include "verify/contact.h"
 #include "verify/distance.h"
@@ -251,26 +250,6 @@ class Verifier {
 EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& outer,
                                  const EnclosureOptions& options) {
   return verify::Verifier(inner, outer, options).report();
-}
-
-TriangleMesh turned_outwards(TriangleMesh mesh) {
-  const verify::Surface surface(mesh, "original");
-  verify::Clusters clusters(surface.faces.size());
-  const std::vector<verify::FaceEdge> sides = verify::edges(surface);
-  for (std::size_t i = 1; i < sides.size(); ++i)
-    if (sides[i].key == sides[i - 1].key) clusters.join(sides[i].face, sides[i - 1].face);
-  std::vector<std::uint32_t> component(surface.faces.size());
-  std::uint32_t count = 0;
-  for (verify::FaceIndex f = 0; f < surface.faces.size(); ++f) {
-    const verify::FaceIndex first = clusters.representative(f);  // never greater than f
-    component[f] = first == f ? count++ : component[first];
-  }
-  const Orientation facing = orientation(surface.faces, component, count);
-  for (verify::FaceIndex f = 0; f < surface.faces.size(); ++f) {
-    auto& t = mesh.triangles[surface.source[f]];
-    if (surface.turned != (facing.components[component[f]] == Facing::InsideOut)) std::swap(t[1], t[2]);
-  }
-  return mesh;
 }
 
 std::size_t count_self_intersections(const TriangleMesh& mesh) {

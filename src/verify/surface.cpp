@@ -7,6 +7,7 @@
 
 #include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
+#include "prohull/enclosure.h"
 #include "prohull/error.h"
 
 namespace prohull::verify {
@@ -14,7 +15,7 @@ namespace {
 
 std::string text(const Vec3& p) { return fmt::format("({} {} {})", p.x, p.y, p.z); }
 
-void require_finite(const TriangleMesh& mesh, std::string_view name) {
+void require_usable(const TriangleMesh& mesh, std::string_view name) {
   if (mesh.triangles.empty()) throw InputError(Defect::EmptyMesh, fmt::format("the {} mesh has no triangle", name));
   for (const FaceId f : mesh.triangles.ids())
     for (const VertexId v : mesh.triangles[f]) {
@@ -78,7 +79,7 @@ void require_closed(const TriangleMesh& mesh, const std::vector<std::uint32_t>& 
 }  // namespace
 
 Surface::Surface(const TriangleMesh& mesh, std::string_view name) {
-  require_finite(mesh, name);
+  require_usable(mesh, name);
   const auto number = numbered_by_position(mesh.positions);
   require_closed(mesh, number, name);
   std::vector<Box> boxes;
@@ -95,8 +96,7 @@ Surface::Surface(const TriangleMesh& mesh, std::string_view name) {
   }
   bvh = Bvh(boxes);
   volume = signed_volume(mesh);
-  turned = volume_sign(faces) < 0;
-  if (turned) {
+  if (volume_sign(faces) < 0) {
     volume = -volume;
     for (Triangle& t : faces) std::swap(t.b, t.c);
     for (auto& c : corners) std::swap(c[1], c[2]);
@@ -126,4 +126,46 @@ std::vector<FaceEdge> edges(const Surface& surface) {
   return result;
 }
 
+namespace {
+
+/// The component of each face, connected by edges that are matched by position, numbered from 0; and how many there are.
+std::pair<std::vector<std::uint32_t>, std::uint32_t> components(const TriangleMesh& mesh) {
+  const auto number = numbered_by_position(mesh.positions);
+  std::vector<std::pair<std::uint64_t, FaceIndex>> sides;
+  for (const FaceId f : mesh.triangles.ids())
+    for (int i = 0; i < 3; ++i) {
+      const auto& t = mesh.triangles[f];
+      sides.emplace_back(edge_key(number[index(t[i])], number[index(t[(i + 1) % 3])]), index(f));
+    }
+  std::sort(sides.begin(), sides.end());
+  Clusters clusters(mesh.face_count());
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    if (sides[i].first == sides[i - 1].first) clusters.join(sides[i].second, sides[i - 1].second);
+  std::vector<std::uint32_t> component(mesh.face_count());
+  std::uint32_t count = 0;
+  for (FaceIndex f = 0; f < component.size(); ++f) {
+    const FaceIndex first = clusters.representative(f);  // never greater than f
+    component[f] = first == f ? count++ : component[first];
+  }
+  return {std::move(component), count};
+}
+
+}  // namespace
 }  // namespace prohull::verify
+
+namespace prohull {
+
+TriangleMesh turned_outwards(TriangleMesh mesh) {
+  verify::require_usable(mesh, "original");
+  const auto [component, count] = verify::components(mesh);
+  std::vector<Triangle> faces;
+  for (const FaceId f : mesh.triangles.ids()) faces.push_back(mesh.triangle(f));
+  const Orientation facing = orientation(std::move(faces), component, count);
+  for (const FaceId f : mesh.triangles.ids()) {
+    auto& t = mesh.triangles[f];
+    if (facing.turn_all != (facing.components[component[index(f)]] == Facing::InsideOut)) std::swap(t[1], t[2]);
+  }
+  return mesh;
+}
+
+}  // namespace prohull

@@ -26,7 +26,6 @@ struct Surface {
   std::vector<FaceId> source;                         ///< the face of the mesh
   Bvh bvh;
   double volume = 0;  ///< rounded
-  bool turned = false;
 
   /// Throws InputError, with `name` in the message, if the mesh is empty, not closed or not finite.
   Surface(const TriangleMesh& mesh, std::string_view name);
