@@ -20,7 +20,8 @@ struct EnclosureReport {
   std::size_t faces_outside = 0;       ///< triangles of the inner mesh of which a part lies outside; exact
   std::vector<Offender> worst;         ///< the farthest of them, farthest first
   std::size_t cavities = 0;            ///< connected parts of the outer mesh that leave a hole in the cover by themselves
-  std::size_t self_intersections = 0;  ///< pairs of faces of the outer mesh that meet beyond shared corners and edges; exact
+  /// Pairs of faces of the outer mesh that meet beyond shared corners and edges; exact. Faces without area do not count.
+  std::size_t self_intersections = 0;
   double inner_volume = 0, outer_volume = 0;
   double void_ratio = 0;               ///< (volume of outer - volume of inner) / volume of inner; 0 if inner has none
 };

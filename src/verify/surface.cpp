@@ -16,11 +16,14 @@ std::string text(const Vec3& p) { return fmt::format("({} {} {})", p.x, p.y, p.z
 void require_finite(const TriangleMesh& mesh, std::string_view name) {
   if (mesh.triangles.empty()) throw InputError(Defect::EmptyMesh, fmt::format("the {} mesh has no triangle", name));
   for (const FaceId f : mesh.triangles.ids())
-    for (const VertexId v : mesh.triangles[f])
-      if (index(v) >= mesh.vertex_count() || !is_finite(mesh.positions[v]))
-        throw InputError(
-            Defect::NonFiniteCoordinate,
-            fmt::format("the {} mesh: vertex {} of face {} has no finite position", name, index(v), index(f)));
+    for (const VertexId v : mesh.triangles[f]) {
+      if (index(v) >= mesh.vertex_count())
+        throw InputError(Defect::Malformed, fmt::format("the {} mesh: face {} refers to vertex {}, of {}", name,
+                                                        index(f), index(v), mesh.vertex_count()));
+      if (!is_finite(mesh.positions[v]))
+        throw InputError(Defect::NonFiniteCoordinate, fmt::format("the {} mesh: vertex {} of face {} is at {}", name,
+                                                                  index(v), index(f), text(mesh.positions[v])));
+    }
 }
 
 /// For each vertex the first one, in lexicographic order, at its position; 0.0 and -0.0 are the same position.
