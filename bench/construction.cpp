@@ -72,8 +72,8 @@ void time_peer(const TriangleMesh& mesh, std::size_t faces, std::optional<PeerRu
   if (run && (!best || run->seconds < best->seconds)) best = run;
 }
 
-// One hull down to the last of hull_faces holds all others; it is the whole of the proof but for the first, which is also
-// compared with the original by the exact verifier, which knows nothing of hulls.
+// One hull down to the last of hull_faces holds all others; it is the whole of the proof but for the first, which is
+// also compared with the original by the exact verifier, which knows nothing of hulls.
 void judge_fit(const TriangleMesh& mesh, Strategy strategy, const Options& options, StrategyFacts& facts) {
   const ProgressiveHull hull = build_hull(mesh, hull_options(strategy, options.hull_faces.back())).hull;
   const double volume = signed_volume(mesh);
@@ -82,8 +82,8 @@ void judge_fit(const TriangleMesh& mesh, Strategy strategy, const Options& optio
     const TriangleMesh level = hull.level(faces);
     facts.void_percent.push_back(level.face_count() <= faces ? void_percent(level, volume) : kUnknown);
   }
-  facts.certified = verify_replay(hull, mesh).holds &&
-                    verify_enclosure(mesh, hull.level(options.hull_faces.front())).encloses;
+  facts.certified =
+      verify_replay(hull, mesh).holds && verify_enclosure(mesh, hull.level(options.hull_faces.front())).encloses;
 }
 
 ModelFacts measure(const ModelSource& source, const Options& options) {
@@ -96,7 +96,8 @@ ModelFacts measure(const ModelSource& source, const Options& options) {
                    .peer = {}};
   const std::size_t faces = options.hull_faces.front();
   for (std::size_t round = 0; round < options.rounds; ++round) {
-    for (std::size_t i = 0; i < kStrategies.size(); ++i) time_strategy(mesh, kStrategies[i].strategy, faces, facts.of[i]);
+    for (std::size_t i = 0; i < kStrategies.size(); ++i)
+      time_strategy(mesh, kStrategies[i].strategy, faces, facts.of[i]);
     time_peer(mesh, faces, facts.peer);
     fmt::print(stderr, ", round {}", round + 1);
   }
@@ -109,12 +110,18 @@ ModelFacts measure(const ModelSource& source, const Options& options) {
 }
 
 std::string number(double value, int digits, std::string_view unit = "") {
-  return std::isnan(value) ? "" : fmt::format("{:.{}f}{}", value, digits, unit);
+  return std::isfinite(value) ? fmt::format("{:.{}f}{}", value, digits, unit) : "";
 }
 
 std::string difference(double ours, double papers) {
   const double percent = 100 * (ours / papers - 1);
-  return std::isnan(percent) ? "" : fmt::format("{:+.1f} %", percent);
+  return std::isfinite(percent) ? fmt::format("{:+.1f} %", std::round(10 * percent) / 10 + 0.0) : "";
+}
+
+// A hull that ends before the size asked for says so beside its time.
+std::string time_taken(const StrategyFacts& s) {
+  const bool reached = !std::isnan(s.void_percent.front());
+  return number(s.seconds, 3, " s") + (reached ? "" : fmt::format(" (ends at {})", s.fewest_faces));
 }
 
 double papers_void(const ModelFacts& m, Strategy strategy, std::size_t hull_faces) {
@@ -126,14 +133,14 @@ double papers_seconds(const ModelFacts& m, Strategy strategy, std::size_t hull_f
 }
 
 std::string construction_times(const std::vector<ModelFacts>& models, std::size_t faces) {
-  Table table({"model", "faces", "paper1", "paper2", "paper1 / paper2", "paper's 1st", "paper's 2nd", "paper's 1st / 2nd",
-               "lazy"});
+  Table table({"model", "faces", "paper1", "paper2", "paper1 / paper2", "paper's 1st", "paper's 2nd",
+               "paper's 1st / 2nd", "lazy"});
   for (const ModelFacts& m : models) {
-    const double first = papers_seconds(m, Strategy::Paper1, faces), second = papers_seconds(m, Strategy::Paper2, faces);
-    table.add({m.name, fmt::to_string(m.faces), number(m.of[kPaper1].seconds, 3, " s"),
-               number(m.of[kPaper2].seconds, 3, " s"), number(m.of[kPaper1].seconds / m.of[kPaper2].seconds, 2),
-               number(first, 0, " s"), number(second, 0, " s"),
-               number(first / second, 2), number(m.of[kLazy].seconds, 3, " s")});
+    const double first = papers_seconds(m, Strategy::Paper1, faces),
+                 second = papers_seconds(m, Strategy::Paper2, faces);
+    table.add({m.name, fmt::to_string(m.faces), time_taken(m.of[kPaper1]), time_taken(m.of[kPaper2]),
+               number(m.of[kPaper1].seconds / m.of[kPaper2].seconds, 2), number(first, 0, " s"),
+               number(second, 0, " s"), number(first / second, 2), time_taken(m.of[kLazy])});
   }
   return fmt::format("## Table 1: time to a hull of {} faces\n\n{}\n", faces, table.markdown());
 }
@@ -160,7 +167,7 @@ std::string peers(const std::vector<ModelFacts>& models, std::size_t faces) {
   Table table({"model", "faces", "lazy", "CGAL Garland-Heckbert", "lazy / Garland-Heckbert", "lazy per collapse"});
   for (const ModelFacts& m : models) {
     const StrategyFacts& lazy = m.of[kLazy];
-    table.add({m.name, fmt::to_string(m.faces), number(lazy.seconds, 3, " s"),
+    table.add({m.name, fmt::to_string(m.faces), time_taken(lazy),
                m.peer ? number(m.peer->seconds, 3, " s") : "not built",
                m.peer ? number(lazy.seconds / m.peer->seconds, 2) : "",
                number(1e6 * lazy.seconds / static_cast<double>(lazy.collapses), 2, " us")});
@@ -198,8 +205,8 @@ std::string csv(const std::vector<ModelFacts>& models, const std::vector<std::si
         const bool timed = k == 0;
         table.add({m.name, fmt::to_string(m.faces), std::string(strategy_name), fmt::to_string(hull_faces[k]),
                    number(s.void_percent[k], 4), number(papers_void(m, strategy, hull_faces[k]), 2),
-                   timed ? number(s.seconds, 4) : "", number(papers_seconds(m, strategy, hull_faces[k]), 0), timed ? fmt::to_string(s.collapses) : "",
-                   timed ? fmt::to_string(s.linear_programs) : "",
+                   timed ? number(s.seconds, 4) : "", number(papers_seconds(m, strategy, hull_faces[k]), 0),
+                   timed ? fmt::to_string(s.collapses) : "", timed ? fmt::to_string(s.linear_programs) : "",
                    timed && m.peer ? number(m.peer->seconds, 4) : "", s.certified ? "yes" : "no"});
       }
   return table.csv();
@@ -217,9 +224,10 @@ int run_construction(Options options) {
       fmt::print(stderr, "{}: refused, {}\n", source.name, error.what());
     }
   const std::size_t faces = options.hull_faces.front();
-  const std::string text = fmt::format("# Construction\n\n{}; processor time, best of {}\n\n", machine(), options.rounds) +
-                           construction_times(models, faces) + voids(models, options.hull_faces) + peers(models, faces) +
-                           work(models) + listed(refused);
+  const std::string text =
+      fmt::format("# Construction\n\n{}; processor time, best of {}\n\n", machine(), options.rounds) +
+      construction_times(models, faces) + voids(models, options.hull_faces) + peers(models, faces) + work(models) +
+      listed(refused);
   fmt::print("{}", text);
   if (!options.out.empty()) {
     std::filesystem::create_directories(options.out);

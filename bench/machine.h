@@ -9,8 +9,8 @@ namespace prohull::bench {
 /// "prohull 0.1.0, GNU 12.2.0, AMD EPYC, 2 cores": goes with every figure.
 std::string machine();
 
-/// The processor time, in seconds, that all threads of the program spend in `work`: what a clock on the wall shows for one
-/// thread on an idle machine, on a busy machine too, and never flattered by threads.
+/// The processor time, in seconds, that all threads of the program spend in `work`: what a clock on the wall shows for
+/// one thread on an idle machine, on a busy machine too, and never flattered by threads.
 template <class Work>
 double seconds_of(Work&& work) {
   const auto now = [] {

@@ -124,8 +124,9 @@ int run_memory(const Options& options) {
       const std::size_t mesh_bytes = held.peak_bytes - nothing, peak_bytes = built.peak_bytes - nothing;
       const double per_face = static_cast<double>(peak_bytes) / static_cast<double>(faces);
       constexpr double kMegabyte = 1e6;
-      table.add({source.name, fmt::to_string(faces), fmt::format("{:.1f} MB", static_cast<double>(mesh_bytes) / kMegabyte),
-                 fmt::format("{:.1f} MB", static_cast<double>(peak_bytes) / kMegabyte), fmt::format("{:.0f}", per_face)});
+      table.add(
+          {source.name, fmt::to_string(faces), fmt::format("{:.1f} MB", static_cast<double>(mesh_bytes) / kMegabyte),
+           fmt::format("{:.1f} MB", static_cast<double>(peak_bytes) / kMegabyte), fmt::format("{:.0f}", per_face)});
       csv.add({source.name, fmt::to_string(faces), fmt::to_string(options.hull_faces), fmt::to_string(mesh_bytes),
                fmt::to_string(peak_bytes), fmt::format("{:.1f}", per_face)});
     }

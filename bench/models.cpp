@@ -16,7 +16,8 @@ namespace {
 bool is_named_like_a_mesh(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 5> kExtensions{".ply", ".obj", ".off", ".stl", ".zip"};
   std::string extension = (path.extension() == ".gz" ? path.stem() : path).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return std::ranges::find(kExtensions, extension) != kExtensions.end();
 }
 
@@ -31,7 +32,8 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
       ->excludes(folder)
       ->type_name("NAME,...")
       ->capture_default_str();
-  command.add_option("--sample-faces", options.sample_faces, "About how many faces samples have")->capture_default_str();
+  command.add_option("--sample-faces", options.sample_faces, "About how many faces samples have")
+      ->capture_default_str();
 }
 
 std::vector<ModelSource> model_sources(const ModelOptions& options) {

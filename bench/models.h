@@ -21,8 +21,8 @@ void add_model_options(CLI::App& command, ModelOptions& options);
 
 /// Says where a mesh comes from; it is loaded when its turn comes.
 struct ModelSource {
-  std::string name;             ///< of the file up to its first dot, or of the sample
-  std::filesystem::path path;   ///< empty for a sample
+  std::string name;            ///< of the file up to its first dot, or of the sample
+  std::filesystem::path path;  ///< empty for a sample
   std::size_t sample_faces = 0;
 };
 

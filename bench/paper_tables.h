@@ -11,7 +11,7 @@ namespace prohull::bench {
 
 /// A row of P&T Tables 1 and 2; index 0 is the first strategy, 1 the second.
 struct PaperModel {
-  std::string_view key;                        ///< file names of the model contain it
+  std::string_view key;  ///< file names of the model contain it
   std::size_t faces;
   std::array<double, 2> seconds;               ///< Table 1, to 2,000 faces, on an 800 MHz Pentium III
   std::array<double, 2> void_percent_at_2000;  ///< Table 2

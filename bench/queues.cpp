@@ -43,8 +43,8 @@ AllQueues measure(const TriangleMesh& mesh, Strategy strategy, const Options& op
   for (std::size_t round = 0; round < options.rounds; ++round)
     for (std::size_t q = 0; q < kQueues.size(); ++q) {
       std::optional<HullResult> result;
-      const double seconds = seconds_of(
-          [&] { result = build_hull(mesh, hull_options(strategy, options.hull_faces, kQueues[q].kind)); });
+      const double seconds =
+          seconds_of([&] { result = build_hull(mesh, hull_options(strategy, options.hull_faces, kQueues[q].kind)); });
       all[q].seconds = std::min(all[q].seconds, seconds);
       all[q].void_percent = void_percent(result->hull.base(), signed_volume(mesh));
     }
@@ -68,8 +68,8 @@ int run_queues(const Options& options) {
         table.add(std::move(row));
         for (std::size_t q = 0; q < all.size(); ++q)
           csv.add({source.name, fmt::to_string(mesh.face_count()), std::string(strategy_name),
-                   std::string(kQueues[q].name), fmt::to_string(options.hull_faces), fmt::format("{:.4f}", all[q].seconds),
-                   fmt::format("{:.4f}", all[q].void_percent)});
+                   std::string(kQueues[q].name), fmt::to_string(options.hull_faces),
+                   fmt::format("{:.4f}", all[q].seconds), fmt::format("{:.4f}", all[q].void_percent)});
       }
     } catch (const InputError& error) {
       if (options.models.folder.empty()) throw;

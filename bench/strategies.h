@@ -12,7 +12,8 @@ struct NamedStrategy {
   std::string_view name;
 };
 inline constexpr std::array kStrategies{NamedStrategy{Strategy::Paper1, "paper1"},
-                                        NamedStrategy{Strategy::Paper2, "paper2"}, NamedStrategy{Strategy::Lazy, "lazy"}};
+                                        NamedStrategy{Strategy::Paper2, "paper2"},
+                                        NamedStrategy{Strategy::Lazy, "lazy"}};
 
 inline HullOptions hull_options(Strategy strategy, std::size_t faces, QueueKind queue = QueueKind::Bucket) {
   HullOptions options;
