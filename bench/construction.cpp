@@ -1,0 +1,259 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "command.h"
+#include "machine.h"
+#include "models.h"
+#include "paper_tables.h"
+#include "peers.h"
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
+#include "prohull/file.h"
+#include "prohull/hull_builder.h"
+#include "prohull/replay.h"
+#include "strategies.h"
+#include "table.h"
+
+namespace prohull::bench {
+namespace {
+
+// P&T Tables 1 and 2 with the paper's parameters, our own strategy beside the paper's two, and a peer beside ours.
+
+struct Options {
+  ModelOptions models;
+  std::vector<std::size_t> hull_faces{2000, 200};  ///< descending; the first is the one that is timed
+  std::size_t rounds = 3;
+  std::filesystem::path out;
+};
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+struct StrategyFacts {
+  double seconds = std::numeric_limits<double>::infinity();  ///< to the first of hull_faces, best of the rounds
+  std::size_t collapses = 0, linear_programs = 0;            ///< in that time
+  std::vector<double> void_percent;                          ///< at hull_faces; kUnknown where not reached
+  std::size_t fewest_faces = 0;
+  bool certified = false;
+
+  double linear_programs_per_collapse() const {
+    return static_cast<double>(linear_programs) / static_cast<double>(collapses);
+  }
+};
+
+struct ModelFacts {
+  std::string name;
+  std::size_t faces = 0;
+  const PaperModel* paper = nullptr;
+  std::array<StrategyFacts, kStrategies.size()> of;  ///< by the order of kStrategies
+  std::optional<PeerRun> peer;                       ///< best of the rounds
+};
+
+struct Refused {
+  std::string name, reason;
+};
+
+constexpr std::size_t kPaper1 = 0, kPaper2 = 1, kLazy = 2;
+
+void time_strategy(const TriangleMesh& mesh, Strategy strategy, std::size_t faces, StrategyFacts& facts) {
+  std::optional<HullResult> result;
+  facts.seconds =
+      std::min(facts.seconds, seconds_of([&] { result = build_hull(mesh, hull_options(strategy, faces)); }));
+  facts.collapses = result->hull.splits().size();
+  facts.linear_programs = result->linear_programs;
+}
+
+void time_peer(const TriangleMesh& mesh, std::size_t faces, std::optional<PeerRun>& best) {
+  const auto run = run_garland_heckbert(mesh, faces);
+  if (run && (!best || run->seconds < best->seconds)) best = run;
+}
+
+// One hull down to the last of hull_faces holds all others; it is the whole of the proof but for the first, which is
+// also compared with the original by the exact verifier, which knows nothing of hulls.
+void judge_fit(const TriangleMesh& mesh, Strategy strategy, const Options& options, StrategyFacts& facts) {
+  const ProgressiveHull hull = build_hull(mesh, hull_options(strategy, options.hull_faces.back())).hull;
+  const double volume = signed_volume(mesh);
+  facts.fewest_faces = hull.base_face_count();
+  for (const std::size_t faces : options.hull_faces) {
+    const TriangleMesh level = hull.level(faces);
+    facts.void_percent.push_back(level.face_count() <= faces ? void_percent(level, volume) : kUnknown);
+  }
+  facts.certified =
+      verify_replay(hull, mesh).holds && verify_enclosure(mesh, hull.level(options.hull_faces.front())).encloses;
+}
+
+ModelFacts measure(const ModelSource& source, const Options& options) {
+  const TriangleMesh mesh = load(source);
+  fmt::print(stderr, "{}: {} faces", source.name, mesh.face_count());
+  ModelFacts facts{.name = source.name,
+                   .faces = mesh.face_count(),
+                   .paper = paper_model(source.name, mesh.face_count()),
+                   .of = {},
+                   .peer = {}};
+  const std::size_t faces = options.hull_faces.front();
+  for (std::size_t round = 0; round < options.rounds; ++round) {
+    for (std::size_t i = 0; i < kStrategies.size(); ++i)
+      time_strategy(mesh, kStrategies[i].strategy, faces, facts.of[i]);
+    time_peer(mesh, faces, facts.peer);
+    fmt::print(stderr, ", round {}", round + 1);
+  }
+  for (std::size_t i = 0; i < kStrategies.size(); ++i) {
+    judge_fit(mesh, kStrategies[i].strategy, options, facts.of[i]);
+    fmt::print(stderr, ", {} {}", kStrategies[i].name, facts.of[i].certified ? "certified" : "NOT CERTIFIED");
+  }
+  fmt::print(stderr, "\n");
+  return facts;
+}
+
+std::string number(double value, int digits, std::string_view unit = "") {
+  return std::isfinite(value) ? fmt::format("{:.{}f}{}", value, digits, unit) : "";
+}
+
+std::string difference(double ours, double papers) {
+  const double percent = 100 * (ours / papers - 1);
+  return std::isfinite(percent) ? fmt::format("{:+.1f} %", std::round(10 * percent) / 10 + 0.0) : "";
+}
+
+// A hull that ends before the size asked for says so beside its time.
+std::string time_taken(const StrategyFacts& s) {
+  const bool reached = !std::isnan(s.void_percent.front());
+  return number(s.seconds, 3, " s") + (reached ? "" : fmt::format(" (ends at {})", s.fewest_faces));
+}
+
+double papers_void(const ModelFacts& m, Strategy strategy, std::size_t hull_faces) {
+  return m.paper ? m.paper->void_percent(strategy, hull_faces).value_or(kUnknown) : kUnknown;
+}
+
+double papers_seconds(const ModelFacts& m, Strategy strategy, std::size_t hull_faces) {
+  return m.paper ? m.paper->seconds_of(strategy, hull_faces).value_or(kUnknown) : kUnknown;
+}
+
+std::string construction_times(const std::vector<ModelFacts>& models, std::size_t faces) {
+  Table table({"model", "faces", "paper1", "paper2", "paper1 / paper2", "paper's 1st", "paper's 2nd",
+               "paper's 1st / 2nd", "lazy"});
+  for (const ModelFacts& m : models) {
+    const double first = papers_seconds(m, Strategy::Paper1, faces),
+                 second = papers_seconds(m, Strategy::Paper2, faces);
+    table.add({m.name, fmt::to_string(m.faces), time_taken(m.of[kPaper1]), time_taken(m.of[kPaper2]),
+               number(m.of[kPaper1].seconds / m.of[kPaper2].seconds, 2), number(first, 0, " s"),
+               number(second, 0, " s"), number(first / second, 2), time_taken(m.of[kLazy])});
+  }
+  return fmt::format("## Table 1: time to a hull of {} faces\n\n{}\n", faces, table.markdown());
+}
+
+std::string voids(const std::vector<ModelFacts>& models, const std::vector<std::size_t>& hull_faces) {
+  Table table({"model", "hull", "paper1", "paper's 1st", "difference", "paper2", "paper's 2nd", "difference", "lazy"});
+  for (const ModelFacts& m : models)
+    for (std::size_t k = 0; k < hull_faces.size(); ++k) {
+      std::vector<std::string> row{m.name, fmt::to_string(hull_faces[k])};
+      for (std::size_t i = 0; i < kStrategies.size(); ++i) {
+        const double ours = m.of[i].void_percent[k];
+        row.push_back(std::isnan(ours) ? fmt::format("(ends at {})", m.of[i].fewest_faces) : number(ours, 3, " %"));
+        if (i == kLazy) continue;
+        const double theirs = papers_void(m, kStrategies[i].strategy, hull_faces[k]);
+        row.push_back(number(theirs, 2, " %"));
+        row.push_back(difference(ours, theirs));
+      }
+      table.add(std::move(row));
+    }
+  return fmt::format("## Table 2: void of hulls\n\n{}\n", table.markdown());
+}
+
+std::string peers(const std::vector<ModelFacts>& models, std::size_t faces) {
+  Table table({"model", "faces", "lazy", "CGAL Garland-Heckbert", "lazy / Garland-Heckbert", "lazy per collapse"});
+  for (const ModelFacts& m : models) {
+    const StrategyFacts& lazy = m.of[kLazy];
+    table.add({m.name, fmt::to_string(m.faces), time_taken(lazy),
+               m.peer ? number(m.peer->seconds, 3, " s") : "not built",
+               m.peer ? number(lazy.seconds / m.peer->seconds, 2) : "",
+               number(1e6 * lazy.seconds / static_cast<double>(lazy.collapses), 2, " us")});
+  }
+  return fmt::format("## Peer: time to {} faces, in the same run (Garland-Heckbert does not enclose)\n\n{}\n", faces,
+                     table.markdown());
+}
+
+std::string work(const std::vector<ModelFacts>& models) {
+  Table table({"model", "collapses", "paper1: programs per collapse", "paper2", "lazy", "certified hulls"});
+  for (const ModelFacts& m : models) {
+    std::vector<std::string> row{m.name, fmt::to_string(m.of[kLazy].collapses)};
+    for (const StrategyFacts& s : m.of) row.push_back(number(s.linear_programs_per_collapse(), 1));
+    row.push_back(fmt::format("{} of {}", std::ranges::count(m.of, true, &StrategyFacts::certified), m.of.size()));
+    table.add(std::move(row));
+  }
+  return fmt::format("## Linear programs, and proof\n\n{}\n", table.markdown());
+}
+
+std::string listed(const std::vector<Refused>& refused) {
+  if (refused.empty()) return "";
+  std::string text = "## No closed mesh can be made of\n\n";
+  for (const Refused& r : refused) text += fmt::format("- {}: {}\n", r.name, r.reason);
+  return text;
+}
+
+std::string csv(const std::vector<ModelFacts>& models, const std::vector<std::size_t>& hull_faces) {
+  Table table({"mesh", "faces", "strategy", "hull_faces", "void_percent", "paper_void_percent", "seconds",
+               "paper_seconds", "collapses", "linear_programs", "peer_seconds", "certified"});
+  for (const ModelFacts& m : models)
+    for (std::size_t i = 0; i < kStrategies.size(); ++i)
+      for (std::size_t k = 0; k < hull_faces.size(); ++k) {
+        const auto [strategy, strategy_name] = kStrategies[i];
+        const StrategyFacts& s = m.of[i];
+        const bool timed = k == 0;
+        table.add({m.name, fmt::to_string(m.faces), std::string(strategy_name), fmt::to_string(hull_faces[k]),
+                   number(s.void_percent[k], 4), number(papers_void(m, strategy, hull_faces[k]), 2),
+                   timed ? number(s.seconds, 4) : "", number(papers_seconds(m, strategy, hull_faces[k]), 0),
+                   timed ? fmt::to_string(s.collapses) : "", timed ? fmt::to_string(s.linear_programs) : "",
+                   timed && m.peer ? number(m.peer->seconds, 4) : "", s.certified ? "yes" : "no"});
+      }
+  return table.csv();
+}
+
+int run_construction(Options options) {
+  std::ranges::sort(options.hull_faces, std::greater());
+  std::vector<ModelFacts> models;
+  std::vector<Refused> refused;
+  for (const ModelSource& source : model_sources(options.models)) try {
+      models.push_back(measure(source, options));
+    } catch (const InputError& error) {
+      if (options.models.folder.empty()) throw;
+      refused.push_back({source.name, error.what()});
+      fmt::print(stderr, "{}: refused, {}\n", source.name, error.what());
+    }
+  const std::size_t faces = options.hull_faces.front();
+  const std::string text =
+      fmt::format("# Construction\n\n{}; processor time, best of {}\n\n", machine(), options.rounds) +
+      construction_times(models, faces) + voids(models, options.hull_faces) + peers(models, faces) + work(models) +
+      listed(refused);
+  fmt::print("{}", text);
+  if (!options.out.empty()) {
+    std::filesystem::create_directories(options.out);
+    write_file(options.out / "construction.md", text);
+    write_file(options.out / "construction.csv", csv(models, options.hull_faces));
+  }
+  const bool all_certified = std::ranges::all_of(
+      models, [](const ModelFacts& m) { return std::ranges::all_of(m.of, &StrategyFacts::certified); });
+  return all_certified ? kDone : kAnswerIsNo;
+}
+
+}  // namespace
+
+void add_construction(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("construction", "The paper's Tables 1 and 2: time and void of hulls");
+  add_model_options(command, options->models);
+  command.add_option("--faces", options->hull_faces, "Sizes of hulls; the time is that to the largest")
+      ->delimiter(',')
+      ->check(CLI::Range(4, 1000000000))
+      ->capture_default_str();
+  command.add_option("--repeat", options->rounds, "Rounds, of which the best time counts")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--out", options->out, "Also write construction.md and construction.csv here")->type_name("DIR");
+  command.callback([options, &run] { run = [options] { return run_construction(*options); }; });
+}
+
+}  // namespace prohull::bench

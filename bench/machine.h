@@ -1,0 +1,26 @@
+#pragma once
+
+#include <ctime>
+#include <string>
+#include <utility>
+
+namespace prohull::bench {
+
+/// "prohull 0.1.0, GNU 12.2.0, AMD EPYC, 2 cores": goes with every figure.
+std::string machine();
+
+/// The processor time, in seconds, that all threads of the program spend in `work`: what a clock on the wall shows for
+/// one thread on an idle machine, on a busy machine too, and never flattered by threads.
+template <class Work>
+double seconds_of(Work&& work) {
+  const auto now = [] {
+    std::timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double start = now();
+  std::forward<Work>(work)();
+  return now() - start;
+}
+
+}  // namespace prohull::bench

@@ -1,0 +1,32 @@
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "command.h"
+#include "prohull/error.h"
+
+int main(int argc, char** argv) {
+  using namespace prohull::bench;
+  CLI::App app("prohull-bench " PROHULL_VERSION ": measures prohull and its peers, and reproduces the paper's tables.",
+               "prohull-bench");
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done; 1 a hull was not certified; 2 wrong usage; 3 bad input.");
+  Run run;
+  add_construction(app, run);
+  add_queues(app, run);
+  add_memory(app, run);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kWrongUsage;
+  }
+  try {
+    return run();
+  } catch (const prohull::InputError& error) {
+    fmt::print(stderr, "prohull-bench: {}\n", error.what());
+    return error.defect() == prohull::Defect::InvalidOption ? kWrongUsage : kBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "prohull-bench: {}\n", error.what());
+    return kBadInput;
+  }
+}

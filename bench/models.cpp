@@ -1,0 +1,59 @@
+#include "models.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+#include "prohull/error.h"
+#include "prohull/mesh_io.h"
+#include "prohull/repair.h"
+#include "prohull/sample.h"
+
+namespace prohull::bench {
+namespace {
+
+bool is_named_like_a_mesh(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 5> kExtensions{".ply", ".obj", ".off", ".stl", ".zip"};
+  std::string extension = (path.extension() == ".gz" ? path.stem() : path).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::ranges::find(kExtensions, extension) != kExtensions.end();
+}
+
+}  // namespace
+
+void add_model_options(CLI::App& command, ModelOptions& options) {
+  CLI::Option* folder = command.add_option("--models", options.folder, "Measure every mesh of this folder")
+                            ->check(CLI::ExistingDirectory)
+                            ->type_name("DIR");
+  command.add_option("--samples", options.samples, "Measure these bundled meshes (see prohull sample)")
+      ->delimiter(',')
+      ->excludes(folder)
+      ->type_name("NAME,...")
+      ->capture_default_str();
+  command.add_option("--sample-faces", options.sample_faces, "About how many faces samples have")
+      ->capture_default_str();
+}
+
+std::vector<ModelSource> model_sources(const ModelOptions& options) {
+  std::vector<ModelSource> sources;
+  if (options.folder.empty()) {
+    for (const std::string& sample : options.samples) sources.push_back({sample, {}, options.sample_faces});
+    return sources;
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(options.folder))
+    if (const auto& path = entry.path(); entry.is_regular_file() && is_named_like_a_mesh(path)) {
+      const std::string file = path.filename().string();
+      sources.push_back({file.substr(0, file.find('.')), path});
+    }
+  std::ranges::sort(sources, {}, &ModelSource::name);
+  return sources;
+}
+
+TriangleMesh load(const ModelSource& source) {
+  if (source.path.empty()) return make_sample(source.name, source.sample_faces);
+  return closed_mesh(read_mesh(source.path)).mesh;
+}
+
+}  // namespace prohull::bench

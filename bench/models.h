@@ -1,0 +1,35 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "prohull/triangle_mesh.h"
+
+namespace prohull::bench {
+
+/// Which meshes to measure: those of a folder, or bundled samples, so that every user can run every table.
+struct ModelOptions {
+  std::filesystem::path folder;
+  std::vector<std::string> samples{"sphere", "asteroid", "bracket", "pony"};
+  std::size_t sample_faces = 50000;
+};
+
+void add_model_options(CLI::App& command, ModelOptions& options);
+
+/// Says where a mesh comes from; it is loaded when its turn comes.
+struct ModelSource {
+  std::string name;            ///< of the file up to its first dot, or of the sample
+  std::filesystem::path path;  ///< empty for a sample
+  std::size_t sample_faces = 0;
+};
+
+/// Sorted by name. Files of the folder that are no meshes by their name are passed over.
+std::vector<ModelSource> model_sources(const ModelOptions& options);
+
+/// Closed and oriented outwards; throws InputError where that cannot be.
+TriangleMesh load(const ModelSource& source);
+
+}  // namespace prohull::bench

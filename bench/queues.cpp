@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+
+#include "command.h"
+#include "machine.h"
+#include "models.h"
+#include "prohull/error.h"
+#include "prohull/file.h"
+#include "prohull/hull_builder.h"
+#include "strategies.h"
+#include "table.h"
+
+namespace prohull::bench {
+namespace {
+
+// P&T 3.1.4, "Priority queue": is the red-black tree faster than the heap?
+
+struct Options {
+  ModelOptions models;
+  std::size_t hull_faces = 2000, rounds = 3;
+  std::filesystem::path out;
+};
+
+struct NamedQueue {
+  QueueKind kind;
+  std::string_view name;
+};
+constexpr std::array kQueues{NamedQueue{QueueKind::Heap, "heap"}, NamedQueue{QueueKind::RedBlackTree, "red-black tree"},
+                             NamedQueue{QueueKind::Bucket, "buckets"}};
+
+struct QueueFacts {
+  double seconds = std::numeric_limits<double>::infinity();
+  double void_percent = 0;
+};
+using AllQueues = std::array<QueueFacts, kQueues.size()>;
+
+AllQueues measure(const TriangleMesh& mesh, Strategy strategy, const Options& options) {
+  AllQueues all;
+  for (std::size_t round = 0; round < options.rounds; ++round)
+    for (std::size_t q = 0; q < kQueues.size(); ++q) {
+      std::optional<HullResult> result;
+      const double seconds =
+          seconds_of([&] { result = build_hull(mesh, hull_options(strategy, options.hull_faces, kQueues[q].kind)); });
+      all[q].seconds = std::min(all[q].seconds, seconds);
+      all[q].void_percent = void_percent(result->hull.base(), signed_volume(mesh));
+    }
+  return all;
+}
+
+int run_queues(const Options& options) {
+  Table table({"model", "strategy", "heap", "red-black tree", "buckets", "red-black tree / heap", "buckets / heap",
+               "void: heap", "void: red-black tree", "void: buckets"});
+  Table csv({"mesh", "faces", "strategy", "queue", "hull_faces", "seconds", "void_percent"});
+  for (const ModelSource& source : model_sources(options.models)) try {
+      const TriangleMesh mesh = load(source);
+      for (const auto& [strategy, strategy_name] : kStrategies) {
+        fmt::print(stderr, "{}: {} faces, {}\n", source.name, mesh.face_count(), strategy_name);
+        const AllQueues all = measure(mesh, strategy, options);
+        std::vector<std::string> row{source.name, std::string(strategy_name)};
+        for (const QueueFacts& q : all) row.push_back(fmt::format("{:.3f} s", q.seconds));
+        for (std::size_t q = 1; q < all.size(); ++q)
+          row.push_back(fmt::format("{:.2f}", all[q].seconds / all[0].seconds));
+        for (const QueueFacts& q : all) row.push_back(fmt::format("{:.3f} %", q.void_percent));
+        table.add(std::move(row));
+        for (std::size_t q = 0; q < all.size(); ++q)
+          csv.add({source.name, fmt::to_string(mesh.face_count()), std::string(strategy_name),
+                   std::string(kQueues[q].name), fmt::to_string(options.hull_faces),
+                   fmt::format("{:.4f}", all[q].seconds), fmt::format("{:.4f}", all[q].void_percent)});
+      }
+    } catch (const InputError& error) {
+      if (options.models.folder.empty()) throw;
+      fmt::print(stderr, "{}: refused, {}\n", source.name, error.what());
+    }
+  const std::string text =
+      fmt::format("# Priority queues: time and void of hulls of {} faces\n\n{}; processor time, best of {}\n\n{}",
+                  options.hull_faces, machine(), options.rounds, table.markdown());
+  fmt::print("{}", text);
+  if (!options.out.empty()) {
+    std::filesystem::create_directories(options.out);
+    write_file(options.out / "queues.md", text);
+    write_file(options.out / "queues.csv", csv.csv());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_queues(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("queues", "Heap, red-black tree and bucket queue against each other");
+  add_model_options(command, options->models);
+  command.add_option("--faces", options->hull_faces, "Size of the hulls")
+      ->check(CLI::Range(4, 1000000000))
+      ->capture_default_str();
+  command.add_option("--repeat", options->rounds, "Rounds, of which the best time counts")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--out", options->out, "Also write queues.md and queues.csv here")->type_name("DIR");
+  command.callback([options, &run] { run = [options] { return run_queues(*options); }; });
+}
+
+}  // namespace prohull::bench

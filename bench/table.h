@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace prohull::bench {
+
+/// Rows of text under named columns, for readers and for programs.
+class Table {
+ public:
+  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+
+  /// Requires one cell for each column; none may hold a comma, a quote or a bar.
+  void add(std::vector<std::string> cells);
+
+  bool empty() const { return rows_.empty(); }
+  std::string markdown() const;
+  std::string csv() const;
+
+ private:
+  std::vector<std::string> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace prohull::bench
