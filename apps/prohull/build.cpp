@@ -1,11 +1,12 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 
 #include "command.h"
-#include "prohull/float32_hull.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
+#include "prohull/float32_hull.h"
 #include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
 #include "prohull/replay.h"
@@ -59,19 +60,38 @@ HullResult build(const ClosedMesh& input, const Options& options) {
   return result;
 }
 
+// A file beside another one, of the same format, that becomes it once it is certified, and vanishes otherwise.
+class Candidate {
+ public:
+  explicit Candidate(const std::filesystem::path& target) : target_(target), path_(target) {
+    path_.replace_filename(fmt::format(".{}.{}.uncertified{}", target.stem().string(), getpid(), target.extension().string()));
+  }
+  Candidate(const Candidate&) = delete;
+  Candidate& operator=(const Candidate&) = delete;
+  ~Candidate() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+  void accept() { std::filesystem::rename(path_, target_); }
+
+ private:
+  std::filesystem::path target_, path_;
+};
+
 // The proof of what was written: the splits are replayed, and the file is read again and compared bit for bit with the
 // base mesh that they start from. Where rounding to the file's float32 moved vertices, the two files are compared exactly.
-bool certify(const HullResult& result, const TriangleMesh& base, const TriangleMesh& original, const Options& options) {
+bool certify(const HullResult& result, const std::filesystem::path& file, const TriangleMesh& original) {
   ProgressLine line("verify");
   const auto progress = [&](double fraction) { return line(fraction); };
-  const TriangleMesh written = read_mesh(options.out);
+  const TriangleMesh written = read_mesh(file);
   bool certified = verify_replay(result.hull, original, progress).holds;
-  if (certified && written != base) {
+  if (certified && written != result.hull.base()) {
     try {
       EnclosureOptions enclosure;
       enclosure.progress = progress;
-      certified = options.hull.side == HullSide::Outer ? verify_enclosure(original, written, enclosure).encloses
-                                                       : verify_enclosure(written, original, enclosure).encloses;
+      certified = result.hull.side() == HullSide::Outer ? verify_enclosure(original, written, enclosure).encloses
+                                                        : verify_enclosure(written, original, enclosure).encloses;
     } catch (const Cancelled&) {
       throw Interrupted{};
     }
@@ -104,13 +124,17 @@ int run_build(Options options) {
   const double build_seconds = building.seconds();
 
   Stopwatch writing;
-  write_mesh(options.out, hull);
-  if (!options.hierarchy.empty()) save_hull(options.hierarchy, result.hull);
+  Candidate candidate(options.out);
+  write_mesh(candidate.path(), hull);
   const double write_seconds = writing.seconds();
 
   Stopwatch verifying;
-  const bool certified = certify(result, hull, original.mesh, options);
+  const bool certified = certify(result, candidate.path(), original.mesh);
   const double verify_seconds = verifying.seconds();
+  if (certified) {
+    candidate.accept();
+    if (!options.hierarchy.empty()) save_hull(options.hierarchy, result.hull);
+  }
 
   const double volume = signed_volume(hull), void_ratio = volume / original.report.volume - 1;
   const bool reached = result.stopped == Stopped::TargetReached;
@@ -121,12 +145,12 @@ int run_build(Options options) {
   if (!reached)
     fmt::print("  no legal collapse is left above the {} faces asked for; what refused the {} edges left: {}\n",
                grouped(options.hull.target_faces), grouped(3 * hull.face_count() / 2), listed(result.blocked));
-  if (!options.hierarchy.empty())
+  if (certified && !options.hierarchy.empty())
     fmt::print("{}: all levels from {} to {} faces\n", options.hierarchy.string(), grouped(hull.face_count()),
                grouped(original.report.faces));
   fmt::print("  certified: {}\n", certified ? fmt::format("yes, the file as written {} the original",
                                                           outer ? "encloses" : "is enclosed by")
-                                            : "NO: do not use it, and please report this mesh");
+                                            : "NO: nothing was written; please report this mesh");
   fmt::print("  read {:.2f} s, build {:.2f} s, write {:.2f} s, verify {:.2f} s\n",
              input.read_seconds + input.repair_seconds, build_seconds, write_seconds, verify_seconds);
 

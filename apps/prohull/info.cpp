@@ -12,6 +12,11 @@ struct Options {
   std::filesystem::path in, report;
 };
 
+// Of all components together; of a closed manifold.
+long genus(const MeshReport& report) {
+  return static_cast<long>(report.components) - report.euler_characteristic / 2;
+}
+
 void print_defects(const MeshReport& report) {
   const auto line = [](std::size_t count, const char* what) {
     if (count > 0) fmt::print("  {:<14} {}\n", "", grouped(count) + " " + what);
@@ -41,10 +46,9 @@ int describe_mesh(const Options& options) {
     fmt::print("  {:<14} ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), diagonal {:.6g}\n", "box", box.min.x,
                box.min.y, box.min.z, box.max.x, box.max.y, box.max.z, box.diagonal());
   if (report.is_closed_manifold()) {
-    const long genus = static_cast<long>(report.components) - report.euler_characteristic / 2;
-    json["genus"] = genus;
+    json["genus"] = genus(report);
     fmt::print("  {:<14} {}\n", "surface", "closed 2-manifold");
-    fmt::print("  {:<14} {}\n", "genus", genus);
+    fmt::print("  {:<14} {}\n", "genus", genus(report));
     fmt::print("  {:<14} {:.9g}{}\n", "volume", report.volume, report.volume < 0 ? " (inside out)" : "");
   } else {
     fmt::print("  {:<14} {}\n", "surface", report.faces == 0 ? "no faces" : "not a closed 2-manifold");
@@ -57,6 +61,9 @@ int describe_mesh(const Options& options) {
     json["repairs"] = repairs;
     fmt::print("  {:<14} yes{}\n", "hull possible", repairs.empty() ? "" : ", after these repairs:");
     for (const std::string& repair : repairs) fmt::print("  {:<14} {}\n", "", repair);
+    if (!repairs.empty())
+      fmt::print("  {:<14} {} faces, {} components, genus {}, volume {:.9g}\n", "then", grouped(closed.report.faces),
+                 grouped(closed.report.components), genus(closed.report), closed.report.volume);
   } catch (const InputError& error) {
     json["usable"] = false;
     json["why_not"] = error.what();
