@@ -67,7 +67,8 @@ bool is_nested(const TriangleMesh& component, std::span<const Triangle> others) 
 }
 
 void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs) {
-  if (signed_volume(mesh) < 0) {
+  const bool is_inside_out = signed_volume(mesh) < 0;
+  if (is_inside_out) {
     for (auto& t : mesh.triangles) turn(t);
     repairs.turned_components = components;
     repairs.turned_faces = mesh.face_count();
@@ -99,8 +100,13 @@ void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs)
   for (const VertexId c : negative) {
     if (is_nested(part(c), solid)) continue;
     for (const FaceId f : faces[c]) turn(mesh.triangles[f]);
-    ++repairs.turned_components;
-    repairs.turned_faces += faces[c].size();
+    if (is_inside_out) {  // it was not: turned back
+      --repairs.turned_components;
+      repairs.turned_faces -= faces[c].size();
+    } else {
+      ++repairs.turned_components;
+      repairs.turned_faces += faces[c].size();
+    }
   }
 }
 
