@@ -27,7 +27,7 @@ struct EnclosureReport {
 
 struct EnclosureOptions {
   std::size_t max_offenders = 5;
-  std::function<bool(double fraction)> progress;  ///< called now and then with [0, 1]; false cancels
+  std::function<bool(double fraction)> progress = {};  ///< called now and then with [0, 1]; false cancels
 };
 
 /// Decides whether `outer` encloses `inner`: whether every point, off both surfaces, that `inner` winds around at least

@@ -58,7 +58,7 @@ struct HullOptions {
   bool allow_self_intersections = true;                ///< faster; inner hulls never do, they would stick out of the mesh
   bool float32_coordinates = false;                    ///< new vertices have coordinates that a float32 file keeps
   QueueKind queue = QueueKind::Bucket;
-  std::function<bool(const HullProgress&)> progress;   ///< called now and then; false stops with the hull made so far
+  std::function<bool(const HullProgress&)> progress = {};  ///< called now and then; false stops with the hull made so far
 };
 
 enum class Stopped { TargetReached, NoLegalCollapse, Cancelled };
