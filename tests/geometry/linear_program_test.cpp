@@ -341,8 +341,12 @@ void check_nearest(int count, int least_found, Make&& make) {
     const Program program = make(random);
     const Vec3 target = random.vector();
     const auto truth = nearest_by_trying_all(target, program), x = nearest_feasible_point(target, program.constraints);
-    ASSERT_EQ(x.has_value(), truth.has_value()) << "program " << i;
-    if (!x) continue;
+    if (!x) {
+      ASSERT_FALSE(exact_value(program, Within::Box, -1e-9)) << "program " << i;
+      continue;
+    }
+    ASSERT_TRUE(truth) << "program " << i;
+    if (reach(*truth) > kFarAway) continue;  // rounding grows with the distance
     ++found;
     ASSERT_LE(worst_violation(program, *x), kViolation) << "program " << i;
     ASSERT_NEAR(norm(*x - target), norm(*truth - target), 1e-8 * (1 + norm(*truth))) << "program " << i;
