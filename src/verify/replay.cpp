@@ -11,6 +11,7 @@
 
 #include "geometry/predicates.h"
 #include "geometry/winding_number.h"
+#include "verify/surface.h"
 
 namespace prohull {
 namespace {
@@ -64,6 +65,18 @@ class Replay {
     if (std::ranges::count(vertex_, ProgressiveHull::kAbsent) > 0) return all;
     for (std::uint32_t face = 0; face < vertex_.size() / 3; ++face) all.push_back(triangle(face));
     return all;
+  }
+
+  /// The same by connected components; requires all faces.
+  std::vector<std::vector<Triangle>> components() const {
+    const auto faces = static_cast<std::uint32_t>(vertex_.size() / 3);
+    verify::Clusters clusters(faces);
+    for (std::uint32_t corner : first_)
+      for (const std::uint32_t c = corner; corner != kNone; corner = next_[corner]) clusters.join(c / 3, corner / 3);
+    std::vector<std::vector<Triangle>> by_face(faces);
+    for (std::uint32_t face = 0; face < faces; ++face) by_face[clusters.representative(face)].push_back(triangle(face));
+    std::erase_if(by_face, [](const auto& some) { return some.empty(); });
+    return by_face;
   }
 
  private:
@@ -142,6 +155,24 @@ std::vector<Corners> sorted_corners(std::span<const Triangle> triangles) {
   return all;
 }
 
+/// Whether each component faces outwards, or inwards and lies inside those that do: then it bounds a cavity. Exact.
+bool is_oriented_outwards(const std::vector<std::vector<Triangle>>& components) {
+  std::vector<Triangle> solid;
+  std::vector<const std::vector<Triangle>*> negative;
+  for (const auto& component : components) {
+    if (verify::volume_sign(component) < 0)
+      negative.push_back(&component);
+    else
+      solid.insert(solid.end(), component.begin(), component.end());
+  }
+  const auto is_nested = [&](const std::vector<Triangle>* component) {
+    for (const Triangle& t : *component)
+      if (const auto winding = winding_number(t.a, solid)) return *winding > 0;
+    return false;
+  };
+  return std::ranges::all_of(negative, is_nested);
+}
+
 bool is_well_formed(const ProgressiveHull& hull) {
   return hull.positions().size() == hull.original_vertex_count() + hull.splits().size() &&
          hull.base_corners().size() % 3 == 0 && std::ranges::all_of(hull.positions(), is_finite) &&
@@ -178,6 +209,8 @@ ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& orig
   const std::vector<Triangle> finest = replay.triangles();
   if (sorted_corners(finest) != sorted_corners(theirs))
     report.why_not = "the finest level does not have the triangles of the original mesh";
+  else if (!is_oriented_outwards(replay.components()))
+    report.why_not = "the finest level is inside out, or a part of it is";
   else
     report.holds = true;
   return report;
