@@ -22,23 +22,38 @@ using namespace meshes;
 void check(const TriangleMesh& level, HullSide side) {
   const Float32Hull rounded = with_float32_coordinates(level, side);
   EXPECT_TRUE(std::ranges::all_of(rounded.mesh.positions, [](const Vec3& p) { return is_float32(p); }));
-  EXPECT_EQ(rounded.mesh.triangles, level.triangles) << "only vertices move";
+  ASSERT_EQ(rounded.mesh.triangles, level.triangles) << "only vertices move";
   EXPECT_GT(rounded.moved_vertices, 0u);
   EXPECT_TRUE(side == HullSide::Outer ? verify_enclosure(level, rounded.mesh).encloses
                                       : verify_enclosure(rounded.mesh, level).encloses);
   double farthest = 0;
   for (const VertexId v : level.positions.ids())
     farthest = std::max(farthest, norm(rounded.mesh.positions[v] - level.positions[v]));
-  EXPECT_LT(farthest, 1e-3 * bounding_box(level).diagonal());
+  EXPECT_LE(farthest, 1e-3 * bounding_box(level).diagonal()) << "neighbours have lifted each other without end";
 }
 
 TEST(Float32Hull, OfLevelsStillEncloses) {
-  for (const char* name : {"asteroid", "knot", "pony"})
+  for (const char* name : {"asteroid", "bracket"})
     for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
       SCOPED_TRACE(testing::Message() << name << ", side " << int(side));
       const TriangleMesh mesh = make_sample(name, 1000);
       check(build_hull(mesh, {.target_faces = 300, .side = side}).hull.base(), side);
     }
+}
+
+// At a saddle there may be no room; then it says so. What it returns always encloses.
+TEST(Float32Hull, OfThinLimbsStillEnclosesOrIsRefused) {
+  for (const char* name : {"knot", "pony", "torus"})
+    for (const HullSide side : {HullSide::Outer, HullSide::Inner})
+      for (const std::size_t faces : {50u, 200u, 400u, 800u}) {
+        SCOPED_TRACE(testing::Message() << name << ", side " << int(side) << ", " << faces << " faces");
+        const TriangleMesh level = build_hull(make_sample(name, 1000), {.target_faces = faces, .side = side}).hull.base();
+        try {
+          check(level, side);
+        } catch (const InputError& error) {
+          EXPECT_EQ(error.defect(), Defect::NoVolume) << error.what();
+        }
+      }
 }
 
 TEST(Float32Hull, OfConvexAndSaddleShapedMeshes) {
