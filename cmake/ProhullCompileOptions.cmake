@@ -1,8 +1,12 @@
 # How every target of the project is compiled. Floating-point expressions are never contracted, so that filters and
 # placements give the same bits at every optimisation level and with every compiler.
+# GCC 12 drops double(float(x)) from two neighbouring doubles where its SLP vectorizer joins them (-O2 and above; as in
+# p = {float(p.x), float(p.y), float(p.z)}), so that hulls would not be rounded to float32 before they are certified. The
+# test Float32.RoundsEveryCoordinate finds compilers that do.
 function(prohull_compile_options target)
   target_compile_options(${target} PRIVATE
     -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-qual
+    $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
     $<$<BOOL:${PROHULL_WERROR}>:-Werror>)
   if(PROHULL_SANITIZE)
     target_compile_options(${target} PRIVATE

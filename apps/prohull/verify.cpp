@@ -42,7 +42,8 @@ int replay(const Options& options) {
 }
 
 int compare(const Options& options) {
-  const TriangleMesh hull = read_mesh(options.hull), original = read_mesh(options.original);
+  const TriangleMesh hull = read_mesh(options.hull);
+  TriangleMesh original = read_mesh(options.original);
   const bool outer = options.side == HullSide::Outer;
   Stopwatch verifying;
   EnclosureReport report;
@@ -51,6 +52,7 @@ int compare(const Options& options) {
     EnclosureOptions enclosure;
     enclosure.progress = [&](double fraction) { return line(fraction); };
     try {
+      original = turned_outwards(std::move(original));
       report = outer ? verify_enclosure(original, hull, enclosure) : verify_enclosure(hull, original, enclosure);
     } catch (const Cancelled&) {
       throw Interrupted{};
@@ -74,7 +76,8 @@ int compare(const Options& options) {
     if (report.cavities > 0) fmt::print("  {} cavities inside it are not covered\n", grouped(report.cavities));
   }
   fmt::print("  hull: volume {:.9g}, void {:.3f} %\n", hull_volume, 100 * (hull_volume / original_volume - 1));
-  fmt::print("  {} intersects itself in {} pairs of faces\n", outside, grouped(report.self_intersections));
+  const std::size_t self_intersections = outer ? report.self_intersections : count_self_intersections(hull);
+  fmt::print("  {} intersects itself in {} pairs of faces\n", options.hull.string(), grouped(self_intersections));
 
   nlohmann::json worst = nlohmann::json::array();
   for (const Offender& o : report.worst)
@@ -87,7 +90,7 @@ int compare(const Options& options) {
                                 {"faces_outside", report.faces_outside},
                                 {"worst", worst},
                                 {"cavities", report.cavities},
-                                {"self_intersections", report.self_intersections},
+                                {"self_intersections", self_intersections},
                                 {"void_ratio", hull_volume / original_volume - 1},
                                 {"seconds", verifying.seconds()}});
   return report.encloses ? kDone : kAnswerIsNo;

@@ -20,7 +20,8 @@ struct EnclosureReport {
   std::size_t faces_outside = 0;       ///< triangles of the inner mesh of which a part lies outside; exact
   std::vector<Offender> worst;         ///< the farthest of them, farthest first
   std::size_t cavities = 0;            ///< connected parts of the outer mesh that leave a hole in the cover by themselves
-  std::size_t self_intersections = 0;  ///< pairs of faces of the outer mesh that meet beyond shared corners and edges; exact
+  /// Pairs of faces of the outer mesh that meet beyond shared corners and edges; exact. Faces without area do not count.
+  std::size_t self_intersections = 0;
   double inner_volume = 0, outer_volume = 0;
   double void_ratio = 0;               ///< (volume of outer - volume of inner) / volume of inner; 0 if inner has none
 };
@@ -37,7 +38,7 @@ struct EnclosureOptions {
 /// Required: two closed meshes (along every edge, matched by position, faces run as often one way as the other). They may
 /// touch, share vertices, edges and faces, overlap in a plane, intersect themselves, have faces without area, several
 /// components and cavities. A mesh with a negative volume is turned first, as a whole: single components that face
-/// inwards are cavities. Parts of a self-intersecting `inner` that it winds around zero or fewer times need no cover.
+/// inwards are cavities (turned_outwards turns those that cannot be). Parts of a self-intersecting `inner` that it winds around zero or fewer times need no cover.
 ///
 /// Throws InputError if a mesh is empty, not closed or has a non-finite coordinate; Cancelled if `progress` says so.
 ///
@@ -45,5 +46,13 @@ struct EnclosureOptions {
 ///     if (!report.encloses && !report.worst.empty()) show(report.worst[0].face, report.worst[0].point);
 EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& outer,
                                  const EnclosureOptions& options = {});
+
+/// The mesh turned as a whole if its volume is negative, then each component, connected by edges, whose volume is negative
+/// although it lies outside of the others, where it cannot be a cavity. What is verified against an original mesh is
+/// verified against this, as hulls are built from it. Exact. Throws InputError if the mesh is empty or not finite.
+TriangleMesh turned_outwards(TriangleMesh mesh);
+
+/// Pairs of faces that meet beyond shared corners and edges, found by position. Exact. Throws as verify_enclosure does.
+std::size_t count_self_intersections(const TriangleMesh& mesh);
 
 }  // namespace prohull

@@ -4,8 +4,8 @@
 
 namespace prohull {
 
-/// The float32 nearest to x, as a double. Never inlined: g++ 12 vectorises pairs of these conversions to nothing.
-double nearest_float32(double x);
+/// The float32 nearest to x, as a double. (g++ 12 may drop this rounding; see cmake/ProhullCompileOptions.cmake.)
+inline double nearest_float32(double x) { return static_cast<float>(x); }
 
 inline Vec3 nearest_float32(const Vec3& p) { return {nearest_float32(p.x), nearest_float32(p.y), nearest_float32(p.z)}; }
 

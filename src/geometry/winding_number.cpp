@@ -1,6 +1,6 @@
 #include "geometry/winding_number.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "geometry/predicates.h"
 
@@ -14,26 +14,37 @@ int turn_of_moved(const Vec3& a, const Vec3& b, const Vec3& p) {
   return a.x < b.x ? 1 : a.x > b.x ? -1 : 0;
 }
 
-bool may_cross(const Triangle& t, const Vec3& p) {
-  const auto [x0, x1] = std::minmax({t.a.x, t.b.x, t.c.x});
-  const auto [y0, y1] = std::minmax({t.a.y, t.b.y, t.c.y});
-  return x0 <= p.x && p.x <= x1 && y0 <= p.y && p.y <= y1 && std::max({t.a.z, t.b.z, t.c.z}) >= p.z;
+Box box_of(const Triangle& t) {
+  Box box;
+  for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
+  return box;
 }
 
 }  // namespace
 
-std::optional<int> winding_number(const Vec3& p, std::span<const Triangle> triangles) {
+WindingNumber::WindingNumber(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
+  std::vector<Box> boxes;
+  for (const Triangle& t : triangles_) boxes.push_back(box_of(t));
+  bvh_ = Bvh(boxes);
+}
+
+std::optional<int> WindingNumber::at(const Vec3& p) const {
   int winding = 0;
-  for (const Triangle& t : triangles) {
-    if (!may_cross(t, p)) continue;
+  bool undecided = false;
+  const auto met_by_ray = [&](const Box& box) {
+    return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y && box.max.z >= p.z;
+  };
+  bvh_.visit(met_by_ray, [&](std::uint32_t i) {
+    const Triangle& t = triangles_[i];
     const int turns = turn_of_moved(t.a, t.b, p);
-    if (turns == 0 || turn_of_moved(t.b, t.c, p) != turns || turn_of_moved(t.c, t.a, p) != turns) continue;
-    const Side s = side(t.a, t.b, t.c, p);
-    if (s == Side::On) return std::nullopt;
+    if (turns == 0 || turn_of_moved(t.b, t.c, p) != turns || turn_of_moved(t.c, t.a, p) != turns) return;
     // The ray leaves through a triangle that it sees from inside: counter-clockwise seen from +z, p below.
-    if (turns > 0 && s == Side::Inside) ++winding;
-    if (turns < 0 && s == Side::Outside) --winding;
-  }
+    const Side s = side(t.a, t.b, t.c, p);
+    undecided |= s == Side::On;
+    winding += turns > 0 && s == Side::Inside;
+    winding -= turns < 0 && s == Side::Outside;
+  });
+  if (undecided) return std::nullopt;
   return winding;
 }
 

@@ -1,15 +1,25 @@
 #pragma once
 
 #include <optional>
-#include <span>
+#include <vector>
 
+#include "geometry/bvh.h"
 #include "prohull/geometry.h"
 
 namespace prohull {
 
-/// How often closed, outwards oriented surfaces wind around p: the signed number of triangles that a ray from p crosses.
-/// Exact; rays through edges and corners are decided as if p were moved by an infinitesimal amount. Nothing if p lies in
-/// the plane of a triangle that decides.
-std::optional<int> winding_number(const Vec3& p, std::span<const Triangle> triangles);
+/// How often closed, outwards oriented surfaces wind around a point.
+class WindingNumber {
+ public:
+  explicit WindingNumber(std::vector<Triangle> triangles);
+
+  /// The signed number of triangles that a ray from p crosses. Exact; where it meets edges and corners it decides as if p
+  /// were moved by an infinitesimal amount. Nothing if p lies in the plane of a triangle that the ray meets.
+  std::optional<int> at(const Vec3& p) const;
+
+ private:
+  std::vector<Triangle> triangles_;
+  Bvh bvh_;
+};
 
 }  // namespace prohull

@@ -18,7 +18,9 @@ struct Place {
 /// Throws InputError "file: line 14: message".
 [[noreturn]] void fail(std::string_view file, Place place, std::string_view message, Defect defect = Defect::Malformed);
 
-/// A word of a hostile file, fit for a message: in quotes, shortened, without control characters.
+/// A word of a hostile file, fit for a message: shortened, without control characters.
+std::string printable(std::string_view word);
+/// The same in quotes.
 std::string quoted(std::string_view word);
 
 }  // namespace prohull

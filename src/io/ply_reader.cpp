@@ -18,14 +18,15 @@ struct PlyRecord {
   const PlyElement* element = nullptr;
   std::size_t number = 0;
 
-  std::string name() const { return fmt::format("{} {} of {}", element->name, number + 1, element->count); }
+  std::string name() const { return fmt::format("{} {} of {}", printable(element->name), number + 1, element->count); }
   std::string truncated(std::string_view where) const {
     return fmt::format("the file ends {} {}; it is truncated or its count is wrong", where, name());
   }
 };
 
 // A body hands out the values of one record after the other, in order: begin(record), then for each property
-// number(type), or count(type) and as many integer(type), or skip(...), then end().
+// number(type), or list_length(...) and as many integer(type), or skip(...), then end(). fits(...) bounds what is
+// reserved.
 
 /// Each record stands on a line of its own.
 class AsciiBody {
@@ -55,9 +56,9 @@ class AsciiBody {
       if (scanner_.word().empty()) scanner_.fail("the line ends before the end of the record");
   }
 
-  /// How many records at most are left, whatever the header claims.
-  std::size_t limit(const PlyElement& element) const {
-    return size_ / (2 * std::max<std::size_t>(1, element.properties.size())) + 1;
+  /// How many records with `items` items in a list can be left, whatever the header claims.
+  std::size_t fits(const PlyElement& element, std::size_t items, PlyType) const {
+    return size_ / (2 * (element.properties.size() + items));
   }
   Place place() const { return scanner_.place(); }
 
@@ -111,8 +112,8 @@ class BinaryBody {
     cursor_.skip(count * size_of(type));
   }
 
-  std::size_t limit(const PlyElement& element) const {
-    return cursor_.remaining() / std::max<std::size_t>(1, element.min_record_size());
+  std::size_t fits(const PlyElement& element, std::size_t items, PlyType item) const {
+    return cursor_.remaining() / (element.min_record_size() + items * size_of(item));
   }
   Place place() const { return cursor_.place(); }
 
@@ -165,7 +166,7 @@ class PlyReader {
         fail_on_header(element, fmt::format("element vertex has no number named {}", name));
       axis_of[*found] = axis;
     }
-    builder_.reserve_vertices(std::min(element.count, body_.limit(element)));
+    builder_.reserve_vertices(std::min(element.count, body_.fits(element, 0, PlyType::Int8)));
     Vec3 position;
     const auto read_property = [&](const PlyProperty& property, std::size_t i) {
       if (axis_of[i] == kNoAxis)
@@ -181,7 +182,7 @@ class PlyReader {
     const auto wanted = element.find("vertex_indices") ? element.find("vertex_indices") : element.find("vertex_index");
     if (!wanted || !element.properties[*wanted].count_type || !is_integer(element.properties[*wanted].type))
       fail_on_header(element, fmt::format("element {} has no list of integers named vertex_indices", element.name));
-    builder_.reserve_triangles(std::min(element.count, body_.limit(element)));
+    builder_.reserve_triangles(std::min(element.count, body_.fits(element, 3, element.properties[*wanted].type)));
     std::vector<std::int64_t> corners;
     const auto read_property = [&](const PlyProperty& property, std::size_t i) {
       if (i != *wanted) return skip(property);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "geometry/winding_number.h"
+#include "geometry/orientation.h"
 #include "prohull/error.h"
 #include "prohull/repair.h"
 
@@ -40,10 +40,8 @@ void weld(TriangleMesh& mesh, Repairs& repairs) {
   mesh.triangles = std::move(kept);
 }
 
-void turn(std::array<VertexId, 3>& t) { std::swap(t[1], t[2]); }
-
-// The connected component of every vertex: the least vertex of it.
-PerVertex<VertexId> component_of_vertices(const TriangleMesh& mesh) {
+// The connected component of every face, numbered from 0.
+std::vector<std::uint32_t> component_of_faces(const TriangleMesh& mesh) {
   PerVertex<VertexId> parent;
   for (const VertexId v : mesh.positions.ids()) parent.push_back(v);
   const auto find = [&](VertexId v) {
@@ -55,59 +53,35 @@ PerVertex<VertexId> component_of_vertices(const TriangleMesh& mesh) {
       const VertexId a = find(t[0]), b = find(v);
       parent[std::max(a, b)] = std::min(a, b);
     }
-  for (const VertexId v : mesh.positions.ids()) parent[v] = find(v);
-  return parent;
-}
-
-// Whether the component lies inside the others: then its negative volume is a cavity's.
-bool is_nested(const TriangleMesh& component, std::span<const Triangle> others) {
-  for (const auto& t : component.triangles)
-    if (const auto winding = winding_number(component.positions[t[0]], others)) return *winding > 0;
-  return false;
+  constexpr std::uint32_t kNone = 0xffffffff;
+  PerVertex<std::uint32_t> number(mesh.vertex_count(), kNone);
+  std::uint32_t count = 0;
+  std::vector<std::uint32_t> component;
+  for (const auto& t : mesh.triangles) {
+    std::uint32_t& known = number[find(t[0])];
+    if (known == kNone) known = count++;
+    component.push_back(known);
+  }
+  return component;
 }
 
 void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs) {
-  const bool is_inside_out = signed_volume(mesh) < 0;
-  if (is_inside_out) {
-    for (auto& t : mesh.triangles) turn(t);
-    repairs.turned_components = components;
-    repairs.turned_faces = mesh.face_count();
+  std::vector<Triangle> triangles;
+  for (const FaceId f : mesh.triangles.ids()) triangles.push_back(mesh.triangle(f));
+  const std::vector<std::uint32_t> component = component_of_faces(mesh);
+  const Orientation facing = orientation(std::move(triangles), component, components);
+  for (const FaceId f : mesh.triangles.ids()) {
+    const Facing own = facing.components[component[index(f)]];
+    if (own == Facing::Unclear)
+      throw InputError(Defect::InconsistentOrientation,
+                       fmt::format("the component of face {} is inside out, and lies partly inside and partly outside of "
+                                   "others: turn it, or make it a cavity of one of them",
+                                   index(f)));
+    if (facing.turn_all == (own == Facing::InsideOut)) continue;
+    std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+    ++repairs.turned_faces;
   }
-  if (components < 2) return;
-
-  const PerVertex<VertexId> component = component_of_vertices(mesh);
-  PerVertex<std::vector<FaceId>> faces(mesh.vertex_count());
-  for (const FaceId f : mesh.triangles.ids()) faces[component[mesh.triangles[f][0]]].push_back(f);
-  const auto part = [&](VertexId c) {
-    TriangleMesh some;
-    for (const FaceId f : faces[c]) {
-      std::array<VertexId, 3> t;
-      std::ranges::transform(mesh.triangles[f], t.begin(), [&](VertexId v) { return some.positions.push_back(mesh.positions[v]); });
-      some.triangles.push_back(t);
-    }
-    return some;
-  };
-  std::vector<VertexId> negative;
-  std::vector<Triangle> solid;
-  for (const VertexId c : faces.ids()) {
-    if (faces[c].empty()) continue;
-    if (signed_volume(part(c)) < 0) {
-      negative.push_back(c);
-    } else {
-      for (const FaceId f : faces[c]) solid.push_back(mesh.triangle(f));
-    }
-  }
-  for (const VertexId c : negative) {
-    if (is_nested(part(c), solid)) continue;
-    for (const FaceId f : faces[c]) turn(mesh.triangles[f]);
-    if (is_inside_out) {  // it was not: turned back
-      --repairs.turned_components;
-      repairs.turned_faces -= faces[c].size();
-    } else {
-      ++repairs.turned_components;
-      repairs.turned_faces += faces[c].size();
-    }
-  }
+  for (const Facing own : facing.components) repairs.turned_components += facing.turn_all != (own == Facing::InsideOut);
 }
 
 Defect kind(const MeshReport& report) {

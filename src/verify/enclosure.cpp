@@ -19,14 +19,13 @@
 // open set where w_O >= 1 and w_H < 1: the mesh is enclosed if and only if X is empty. X is bounded, so if it is not
 // empty it has a boundary, made of faces of the arrangement of both surfaces.
 //
-//   (1) X lies beside some part of a triangle of O. check_inner_faces visits every triangle of O, cut along H (and O,
-//   where
-//       that matters), so that w_H and w_O are constant beside each piece, and evaluates one point of each: X is found.
+//   (1) X lies beside some part of a triangle of O. check_inner_faces visits every triangle of O, cut along H (and
+//       O, where that matters), so that w_H and w_O are constant beside each piece, and evaluates one point of each:
+//       X is found.
 //   (2) X lies beside none. Then its boundary lies on H alone, and is made of whole pieces of faces of H as H cuts
-//   itself:
-//       where O crosses such a piece or covers a part of it, on the side of X, X would lie beside O; and where O only
-//       touches it from the other side, X goes on. check_outer_faces evaluates one point of each piece: X is found. A
-//       point that lies on O needs no answer: its piece does not bound X.
+//       itself: where O crosses such a piece or covers a part of it, on the side of X, X would lie beside O; and where
+//       O only touches it from the other side, X goes on. check_outer_faces evaluates one point of each piece: X is
+//       found. A point that lies on O needs no answer: its piece does not bound X.
 //
 // What is found is a point beside which w_O >= 1 and w_H < 1, evaluated exactly; so what is rejected does not enclose.
 // Triangles of O whose interior H does not meet lie in one region of H, together with their neighbours, if some point
@@ -251,6 +250,10 @@ class Verifier {
 EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& outer,
                                  const EnclosureOptions& options) {
   return verify::Verifier(inner, outer, options).report();
+}
+
+std::size_t count_self_intersections(const TriangleMesh& mesh) {
+  return verify::self_intersections(verify::Surface(mesh, "")).size();
 }
 
 }  // namespace prohull

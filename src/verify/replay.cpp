@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "geometry/predicates.h"
-#include "geometry/winding_number.h"
-#include "verify/surface.h"
+#include "geometry/orientation.h"
 
 namespace prohull {
 namespace {
@@ -59,24 +59,14 @@ class Replay {
 
   std::size_t signs() const { return signs_; }
 
+  const std::vector<VertexId>& corners() const { return vertex_; }
+
   /// Those of the finest level; none if a face has not come back.
   std::vector<Triangle> triangles() const {
     std::vector<Triangle> all;
     if (std::ranges::count(vertex_, ProgressiveHull::kAbsent) > 0) return all;
     for (std::uint32_t face = 0; face < vertex_.size() / 3; ++face) all.push_back(triangle(face));
     return all;
-  }
-
-  /// The same by connected components; requires all faces.
-  std::vector<std::vector<Triangle>> components() const {
-    const auto faces = static_cast<std::uint32_t>(vertex_.size() / 3);
-    verify::Clusters clusters(faces);
-    for (std::uint32_t corner : first_)
-      for (const std::uint32_t c = corner; corner != kNone; corner = next_[corner]) clusters.join(c / 3, corner / 3);
-    std::vector<std::vector<Triangle>> by_face(faces);
-    for (std::uint32_t face = 0; face < faces; ++face) by_face[clusters.representative(face)].push_back(triangle(face));
-    std::erase_if(by_face, [](const auto& some) { return some.empty(); });
-    return by_face;
   }
 
  private:
@@ -155,22 +145,31 @@ std::vector<Corners> sorted_corners(std::span<const Triangle> triangles) {
   return all;
 }
 
-/// Whether each component faces outwards, or inwards and lies inside those that do: then it bounds a cavity. Exact.
-bool is_oriented_outwards(const std::vector<std::vector<Triangle>>& components) {
-  std::vector<Triangle> solid;
-  std::vector<const std::vector<Triangle>*> negative;
-  for (const auto& component : components) {
-    if (verify::volume_sign(component) < 0)
-      negative.push_back(&component);
-    else
-      solid.insert(solid.end(), component.begin(), component.end());
-  }
-  const auto is_nested = [&](const std::vector<Triangle>* component) {
-    for (const Triangle& t : *component)
-      if (const auto winding = winding_number(t.a, solid)) return *winding > 0;
-    return false;
+// The components, connected by shared vertices, of the finest level: outwards, or cavities of others.
+bool faces_outwards(const Replay& replay, std::size_t vertices, std::vector<Triangle> finest) {
+  const auto& corners = replay.corners();
+  std::vector<std::uint32_t> parent(vertices);
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto find = [&](VertexId v) {
+    std::uint32_t i = index(v);
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
   };
-  return std::ranges::all_of(negative, is_nested);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    const std::uint32_t a = find(corners[c]), b = find(corners[c / 3 * 3]);
+    parent[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<std::uint32_t> number(vertices, kNone), component;
+  std::uint32_t count = 0;
+  for (std::size_t c = 0; c < corners.size(); c += 3) {
+    std::uint32_t& known = number[find(corners[c])];
+    if (known == kNone) known = count++;
+    component.push_back(known);
+  }
+  const Orientation facing = orientation(std::move(finest), component, count);
+  return !facing.turn_all && std::ranges::all_of(facing.components, [](Facing f) {
+    return f == Facing::Outwards || f == Facing::Cavity;
+  });
 }
 
 bool is_well_formed(const ProgressiveHull& hull) {
@@ -206,11 +205,11 @@ ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& orig
   }
   std::vector<Triangle> theirs;
   for (const FaceId f : original.triangles.ids()) theirs.push_back(original.triangle(f));
-  const std::vector<Triangle> finest = replay.triangles();
+  std::vector<Triangle> finest = replay.triangles();
   if (sorted_corners(finest) != sorted_corners(theirs))
     report.why_not = "the finest level does not have the triangles of the original mesh";
-  else if (!is_oriented_outwards(replay.components()))
-    report.why_not = "the finest level is inside out, or a part of it is";
+  else if (!faces_outwards(replay, hull.positions().size(), std::move(finest)))
+    report.why_not = "the finest level is inside out, or a component of it";
   else
     report.holds = true;
   return report;

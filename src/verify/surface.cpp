@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
+#include "prohull/enclosure.h"
 #include "prohull/error.h"
 
 namespace prohull::verify {
@@ -13,14 +15,17 @@ namespace {
 
 std::string text(const Vec3& p) { return fmt::format("({} {} {})", p.x, p.y, p.z); }
 
-void require_finite(const TriangleMesh& mesh, std::string_view name) {
+void require_usable(const TriangleMesh& mesh, std::string_view name) {
   if (mesh.triangles.empty()) throw InputError(Defect::EmptyMesh, fmt::format("the {} mesh has no triangle", name));
   for (const FaceId f : mesh.triangles.ids())
-    for (const VertexId v : mesh.triangles[f])
-      if (index(v) >= mesh.vertex_count() || !is_finite(mesh.positions[v]))
-        throw InputError(
-            Defect::NonFiniteCoordinate,
-            fmt::format("the {} mesh: vertex {} of face {} has no finite position", name, index(v), index(f)));
+    for (const VertexId v : mesh.triangles[f]) {
+      if (index(v) >= mesh.vertex_count())
+        throw InputError(Defect::Malformed, fmt::format("the {} mesh: face {} refers to vertex {}, of {}", name,
+                                                        index(f), index(v), mesh.vertex_count()));
+      if (!is_finite(mesh.positions[v]))
+        throw InputError(Defect::NonFiniteCoordinate, fmt::format("the {} mesh: vertex {} of face {} is at {}", name,
+                                                                  index(v), index(f), text(mesh.positions[v])));
+    }
 }
 
 /// For each vertex the first one, in lexicographic order, at its position; 0.0 and -0.0 are the same position.
@@ -74,7 +79,7 @@ void require_closed(const TriangleMesh& mesh, const std::vector<std::uint32_t>& 
 }  // namespace
 
 Surface::Surface(const TriangleMesh& mesh, std::string_view name) {
-  require_finite(mesh, name);
+  require_usable(mesh, name);
   const auto number = numbered_by_position(mesh.positions);
   require_closed(mesh, number, name);
   std::vector<Box> boxes;
@@ -121,4 +126,46 @@ std::vector<FaceEdge> edges(const Surface& surface) {
   return result;
 }
 
+namespace {
+
+/// The component of each face, connected by edges that are matched by position, numbered from 0; and how many there are.
+std::pair<std::vector<std::uint32_t>, std::uint32_t> components(const TriangleMesh& mesh) {
+  const auto number = numbered_by_position(mesh.positions);
+  std::vector<std::pair<std::uint64_t, FaceIndex>> sides;
+  for (const FaceId f : mesh.triangles.ids())
+    for (int i = 0; i < 3; ++i) {
+      const auto& t = mesh.triangles[f];
+      sides.emplace_back(edge_key(number[index(t[i])], number[index(t[(i + 1) % 3])]), index(f));
+    }
+  std::sort(sides.begin(), sides.end());
+  Clusters clusters(mesh.face_count());
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    if (sides[i].first == sides[i - 1].first) clusters.join(sides[i].second, sides[i - 1].second);
+  std::vector<std::uint32_t> component(mesh.face_count());
+  std::uint32_t count = 0;
+  for (FaceIndex f = 0; f < component.size(); ++f) {
+    const FaceIndex first = clusters.representative(f);  // never greater than f
+    component[f] = first == f ? count++ : component[first];
+  }
+  return {std::move(component), count};
+}
+
+}  // namespace
 }  // namespace prohull::verify
+
+namespace prohull {
+
+TriangleMesh turned_outwards(TriangleMesh mesh) {
+  verify::require_usable(mesh, "original");
+  const auto [component, count] = verify::components(mesh);
+  std::vector<Triangle> faces;
+  for (const FaceId f : mesh.triangles.ids()) faces.push_back(mesh.triangle(f));
+  const Orientation facing = orientation(std::move(faces), component, count);
+  for (const FaceId f : mesh.triangles.ids()) {
+    auto& t = mesh.triangles[f];
+    if (facing.turn_all != (facing.components[component[index(f)]] == Facing::InsideOut)) std::swap(t[1], t[2]);
+  }
+  return mesh;
+}
+
+}  // namespace prohull

@@ -18,8 +18,7 @@ inline Box box_of(const Triangle& t) {
   return box;
 }
 
-/// A mesh as the verifier sees it: a closed chain of triangles, turned outwards as a whole if its volume is negative,
-/// without the faces that have no area: they bound nothing.
+/// A mesh as the verifier sees it: a closed chain of triangles, turned outwards (see geometry/orientation.h), without the faces that have no area: they bound nothing.
 struct Surface {
   std::vector<Triangle> faces;
   std::vector<std::uint8_t> axis;                     ///< along which the face projects to a triangle with an area
@@ -52,8 +51,5 @@ struct FaceEdge {
 
 /// Sorted by key.
 std::vector<FaceEdge> edges(const Surface& surface);
-
-/// The sign of the signed volume of a closed chain of triangles. Exact.
-int volume_sign(const std::vector<Triangle>& faces);
 
 }  // namespace prohull::verify

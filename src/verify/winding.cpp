@@ -69,9 +69,9 @@ std::optional<WindingBeside> winding_beside(const Surface& surface, const Surfac
   const int axis = p.axis(), u = (axis + 1) % 3, v = (axis + 2) % 3;
   int beyond = 0, at = 0;  // faces crossed by the ray after p, and at p: +1 if they face along the ray
   bool covered = false, ambiguous = false;
-  const auto on_the_way = [&](const Box& box) {
-    return box.min[u] <= p.upper(u) && box.max[u] >= p.lower(u) && box.min[v] <= p.upper(v) &&
-           box.max[v] >= p.lower(v) && box.max[axis] >= p.lower(axis);
+  const auto on_the_way = [&](const Box& box) {  // true for unbounded approximations
+    return !(box.min[u] > p.upper(u) || box.max[u] < p.lower(u) || box.min[v] > p.upper(v) || box.max[v] < p.lower(v) ||
+             box.max[axis] < p.lower(axis));
   };
   surface.bvh.visit(on_the_way, [&](FaceIndex f) {
     const Triangle& h = surface.faces[f];

@@ -23,7 +23,8 @@ bool meet_beyond_shared(const Triangle& s, const Triangle& t) {
       if (p == q) shared.push_back(exact(p));
   const auto is_shared = [&](const Exact::Point_3& p) {
     if (shared.size() == 1) return p == shared[0];
-    return shared.size() == 2 && Exact::Segment_3(shared[0], shared[1]).has_on(p);
+    return shared.size() == 2 && CGAL::collinear(shared[0], p, shared[1]) &&
+           CGAL::collinear_are_ordered_along_line(shared[0], p, shared[1]);
   };
   const auto common = CGAL::intersection(Exact::Triangle_3(exact(s.a), exact(s.b), exact(s.c)),
                                          Exact::Triangle_3(exact(t.a), exact(t.b), exact(t.c)));

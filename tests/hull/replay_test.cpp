@@ -211,6 +211,19 @@ TEST(Replay, RejectsAComponentThatIsInsideOutButNotACavity) {
   EXPECT_FALSE(holds(together(ball, inside_out(beside)))) << "what is called its hull shrinks around the second ball";
 }
 
+TEST(Replay, OfAMeshWithMoreUnusedVerticesThanCorners) {
+  TriangleMesh mesh = octahedron();
+  TriangleMesh gaps;
+  gaps.positions = PerVertex<Vec3>(5000);
+  for (const Vec3& p : mesh.positions) gaps.positions.push_back(p);
+  for (const auto& [a, b, c] : mesh.triangles)
+    gaps.triangles.push_back({VertexId{index(a) + 5000}, VertexId{index(b) + 5000}, VertexId{index(c) + 5000}});
+  const ProgressiveHull hull = build_hull(gaps, {.target_faces = 6, .max_normal_deviation = 1.5}).hull;
+  EXPECT_TRUE(verify_replay(hull, gaps).holds);
+  EXPECT_TRUE(verify_replay(hull, mesh).holds);
+  EXPECT_EQ(hull.original(), gaps);
+}
+
 TEST(Replay, CanBeCancelled) {
   const TriangleMesh mesh = make_sample("asteroid", 12000);
   const ProgressiveHull hull = build_hull(mesh, {.target_faces = 1000}).hull;

@@ -1,14 +1,18 @@
 #include <CGAL/Gmpq.h>
+#include <CGAL/Interval_nt.h>
 
-#include "verify/exact.h"
-#include "verify/surface.h"
+#include <array>
 
-namespace prohull::verify {
+#include "geometry/orientation.h"
+
+namespace prohull {
 namespace {
+
+using Interval = CGAL::Interval_nt_advanced;
 
 /// Six times the volume, seen from a corner of the mesh, so that a distant mesh loses no digits.
 template <class Field>
-Field sixfold_volume(const std::vector<Triangle>& faces) {
+Field sixfold_volume(std::span<const Triangle> faces) {
   Field sum(0);
   if (faces.empty()) return sum;
   const Vec3 o = faces[0].a;
@@ -24,7 +28,7 @@ Field sixfold_volume(const std::vector<Triangle>& faces) {
 
 }  // namespace
 
-int volume_sign(const std::vector<Triangle>& faces) {
+int volume_sign(std::span<const Triangle> faces) {
   {
     const CGAL::Protect_FPU_rounding<true> upwards;
     const Interval sum = sixfold_volume<Interval>(faces);
@@ -34,4 +38,4 @@ int volume_sign(const std::vector<Triangle>& faces) {
   return int(CGAL::sign(sixfold_volume<CGAL::Gmpq>(faces)));
 }
 
-}  // namespace prohull::verify
+}  // namespace prohull

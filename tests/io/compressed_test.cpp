@@ -1,0 +1,106 @@
+#include <archive.h>
+#include <archive_entry.h>
+#include <zlib.h>
+
+#include "io/file_content.h"
+#include "io_testing.h"
+
+namespace prohull {
+namespace {
+
+const std::string kOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+std::string gzipped(std::string text) {
+  z_stream stream{};
+  deflateInit2(&stream, 9, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
+  std::string bytes(deflateBound(&stream, text.size()) + 64, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(text.data());
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
+  stream.avail_out = static_cast<uInt>(bytes.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  bytes.resize(stream.total_out);
+  deflateEnd(&stream);
+  return bytes;
+}
+
+std::string zipped(std::initializer_list<std::pair<const char*, std::string>> members) {
+  std::string bytes(1 << 20, '\0');
+  std::size_t size = 0;
+  archive* zip = archive_write_new();
+  archive_write_set_format_zip(zip);
+  archive_write_set_bytes_in_last_block(zip, 1);
+  archive_write_open_memory(zip, bytes.data(), bytes.size(), &size);
+  for (const auto& [name, content] : members) {
+    archive_entry* entry = archive_entry_new();
+    archive_entry_set_pathname(entry, name);
+    archive_entry_set_size(entry, static_cast<la_int64_t>(content.size()));
+    archive_entry_set_filetype(entry, AE_IFREG);
+    archive_entry_set_perm(entry, 0644);
+    archive_write_header(zip, entry);
+    archive_write_data(zip, content.data(), content.size());
+    archive_entry_free(entry);
+  }
+  archive_write_close(zip);
+  archive_write_free(zip);
+  bytes.resize(size);
+  return bytes;
+}
+
+TEST(Gzip, IsReadWhateverTheName) {
+  EXPECT_EQ(read_mesh(gzipped(kOff), "a.off.gz").face_count(), 1u);
+  EXPECT_EQ(read_mesh(gzipped(kOff), "a.off").face_count(), 1u);
+  EXPECT_EQ(read_mesh(gzipped(kOff), "a").face_count(), 1u);
+  EXPECT_EQ(read_mesh(kOff, "a.off.gz").face_count(), 1u);
+}
+
+TEST(Gzip, MayConsistOfSeveralMembers) {
+  EXPECT_EQ(read_mesh(gzipped(kOff.substr(0, 20)) + gzipped(kOff.substr(20)), "a.off.gz").face_count(), 1u);
+}
+
+TEST(Gzip, IsReadInManyChunks) {
+  std::string text(3 << 20, ' ');
+  for (std::size_t i = 0; i < text.size(); ++i) text[i] = static_cast<char>('a' + i * i % 23);
+  EXPECT_EQ(decompressed(gzipped(text), "a.gz")->bytes, text);
+}
+
+TEST(Gzip, ThatIsDamagedIsAnError) {
+  std::string bytes = gzipped(kOff);
+  expect_refused(std::string_view(bytes).substr(0, bytes.size() / 2), "a.off.gz",
+                 "a.off.gz: cannot decompress: the file is truncated");
+  bytes[bytes.size() - 6] ^= 1;
+  expect_refused(bytes, "a.off.gz", "a.off.gz: cannot decompress: incorrect data check");
+}
+
+TEST(Gzip, ThatWouldExhaustTheMemoryIsAnError) {
+  const std::string bomb = gzipped(std::string(200 << 20, '\0'));
+  expect_refused(bomb, "a.stl.gz",
+                 "a.stl.gz: cannot decompress: more than " + std::to_string(decompression_limit(bomb.size())) +
+                     " bytes come out of " + std::to_string(bomb.size()) +
+                     ", which no mesh does; if it is one, decompress it first");
+}
+
+TEST(Zip, IsReadIfItHasOneMesh) {
+  const std::string bytes = zipped({{"readme.txt", "hello"}, {"dir/a.off", kOff}, {"__MACOSX/dir/._a.off", "x"}});
+  EXPECT_EQ(read_mesh(bytes, "a.zip").face_count(), 1u);
+  expect_refused(zipped({{"a.off", "OFF\n3 1 0\n"}}), "a.zip",
+                 "a.zip/a.off: line 3: the file ends before vertex 1 of 3; it is truncated or its count is wrong");
+}
+
+TEST(Zip, WithoutOrWithSeveralMeshesIsAnError) {
+  expect_refused(zipped({{"readme.txt", "hello"}}), "a.zip",
+                 "a.zip: cannot decompress: it has no .ply, .obj, .off or .stl file");
+  expect_refused(zipped({{"a.off", kOff}, {"b.ply", kOff}}), "a.zip",
+                 "a.zip: cannot decompress: it has more than one mesh, a.off and b.ply; extract the one you mean");
+}
+
+TEST(Zip, ThatIsDamagedIsAnError) {
+  const std::string bytes = zipped({{"a.off", kOff}});
+  EXPECT_THROW(read_mesh(std::string_view(bytes).substr(0, 50), "a.zip"), InputError);
+  std::string changed = bytes;
+  changed[60] ^= 1;
+  EXPECT_THROW(read_mesh(changed, "a.zip"), InputError);
+}
+
+}  // namespace
+}  // namespace prohull
