@@ -19,7 +19,8 @@ namespace {
 
 class VertexMover {
  public:
-  explicit VertexMover(const TriangleMesh& level) : mesh_(level) {}
+  explicit VertexMover(const TriangleMesh& level)
+      : level_(level), diagonal_(bounding_box(level).diagonal()), mesh_(level) {}
 
   Float32Hull run() {
     std::vector<VertexId> pending;
@@ -35,6 +36,8 @@ class VertexMover {
       std::vector<VertexId> cramped;
       for (const auto& some : {pending, cramped_})
         for (const VertexId v : some) lift_neighbours(v, std::ldexp(1.0, round / 2 + 1), cramped);
+      std::ranges::sort(cramped);
+      cramped.erase(std::ranges::unique(cramped).begin(), cramped.end());
       cramped_ = std::move(cramped);
     }
     Float32Hull result{mesh_.triangle_mesh(), 0};
@@ -75,6 +78,9 @@ class VertexMover {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 0x1p-120}) * 0x1p-23;
   }
 
+  // How far v may move: neighbours that lift each other in turn would grow without end.
+  double reach(VertexId v) const { return std::max(diagonal_ / 1000, 4096 * spacing(v)); }
+
   // The point that adds the least volume and is at least `clearance` outside of all planes around v, rounded; nothing if
   // there is none close by.
   std::optional<Vec3> lifted(VertexId v, double clearance) {
@@ -102,7 +108,7 @@ class VertexMover {
       step = *nearest;
     }
     const Vec3 p = nearest_float32(origin + step * clearance);
-    return is_finite(p) && is_outside(v, p) ? std::optional(p) : std::nullopt;
+    return is_finite(p) && norm(p - level_.positions[v]) <= reach(v) && is_outside(v, p) ? std::optional(p) : std::nullopt;
   }
 
   bool move_nearby(VertexId v) {
@@ -146,6 +152,8 @@ class VertexMover {
     }
   }
 
+  const TriangleMesh& level_;
+  const double diagonal_;
   HalfEdgeMesh mesh_;
   std::vector<HalfSpace> constraints_;
   std::vector<VertexId> cramped_;  ///< neighbours that could not be lifted, for want of room: theirs are next

@@ -115,15 +115,20 @@ class HullBuilder {
     return options_.float32_coordinates ? nearest_float32(p) : p;
   }
 
-  // Where it would go, or why it may not. An end of the edge that adds nothing at all is preferred (not in the paper).
+  // Where it would go, or why it may not. An end of the edge that adds nothing at all is preferred (not in the paper);
+  // where the guards refuse it for now, so is the edge: any other apex would move flat parts by the margin.
   std::optional<Refusal> refusal_of_apex(const Placement& placement, Vec3& apex) {
     constexpr double kFlat = 1e-7;  // of the star's cube; only saves exact tests where they cannot succeed
     if (options_.strategy == Strategy::Lazy && placement.added_volume <= kFlat * star_.scale * star_.scale * star_.scale) {
-      if (const auto end = end_on_all_planes(mesh_, star_)) {
-        apex = mesh_.position(*end);
-        if (as_stored(apex) == apex && !refused_shape(star_, *end == star_.o ? star_.local_o : star_.local_d, options_))
+      std::optional<Refusal> why;
+      for (const VertexId end : {star_.o, star_.d}) {
+        apex = mesh_.position(end);
+        if (!lies_on_all_planes(mesh_, star_, apex)) continue;
+        why = refused_shape(star_, end == star_.o ? star_.local_o : star_.local_d, options_);
+        if (!why && as_stored(apex) == apex && !(guard_ && guard_->would_add_intersections(mesh_, star_, apex)))
           return std::nullopt;
       }
+      if (why) return why;
     }
     if (const auto why = refused_shape(star_, placement.local, options_)) return why;
     apex = as_stored(star_.to_input(placement.local));
@@ -269,6 +274,8 @@ HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
   const MeshReport report = inspect(mesh);
   if (report.faces == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces");
   if (!report.is_closed_manifold()) throw InputError(Defect::OpenEdge, report.first_defect);
+  if (!(report.volume > 0))
+    throw InputError(Defect::NoVolume, "the mesh is inside out or encloses nothing; closed_mesh turns what it can");
   if (options.side == HullSide::Outer) return run_builder(mesh, options);
   // An inner hull is the outer hull of the mesh turned inside out: what was inside of a face is then outside.
   return turned(run_builder(turned(mesh), options));

@@ -56,13 +56,8 @@ std::optional<Placement> place_outside(const Star& star, double margin) {
   return Placement{best.x, std::max(0.0, sixfold_added_volume(star, best.x) / 6) * cubed(star.scale)};
 }
 
-std::optional<VertexId> end_on_all_planes(const HalfEdgeMesh& mesh, const Star& star) {
-  for (const VertexId end : {star.o, star.d}) {
-    const Vec3& p = mesh.position(end);
-    if (all_faces(mesh, star, [&](const Vec3& a, const Vec3& b, const Vec3& c) { return side(a, b, c, p) == Side::On; }))
-      return end;
-  }
-  return std::nullopt;
+bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p) {
+  return all_faces(mesh, star, [&](const Vec3& a, const Vec3& b, const Vec3& c) { return side(a, b, c, p) == Side::On; });
 }
 
 double link_center_volume(const Star& star) {

@@ -17,9 +17,8 @@ struct Placement {
 /// planes, so that it still is outside when rounded.
 std::optional<Placement> place_outside(const Star& star, double margin);
 
-/// One end of the edge, if it lies exactly on all planes of the star, as in flat parts and along straight creases: then the
-/// collapse adds nothing.
-std::optional<VertexId> end_on_all_planes(const HalfEdgeMesh& mesh, const Star& star);
+/// Exact. Where an end of the edge does, as in flat parts and along straight creases, a collapse to it adds nothing.
+bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p);
 
 /// P&T 3.1.3, second strategy: the unsigned volume between the star and the centre of its link, in the input's unit.
 double link_center_volume(const Star& star);

@@ -38,8 +38,9 @@ void SelfIntersectionGuard::FloatBox::extend(const FloatBox& other) {
 }
 
 bool SelfIntersectionGuard::FloatBox::overlaps(const FloatBox& other) const {
-  return (min[0] <= other.max[0]) & (other.min[0] <= max[0]) & (min[1] <= other.max[1]) & (other.min[1] <= max[1]) &
-         (min[2] <= other.max[2]) & (other.min[2] <= max[2]);
+  // One branch for all: most boxes that are asked for overlap along some axes.
+  return (int(min[0] <= other.max[0]) & int(other.min[0] <= max[0]) & int(min[1] <= other.max[1]) &
+          int(other.min[1] <= max[1]) & int(min[2] <= other.max[2]) & int(other.min[2] <= max[2])) != 0;
 }
 
 bool SelfIntersectionGuard::FloatBox::contains(const FloatBox& other) const {

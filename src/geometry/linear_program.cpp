@@ -1,5 +1,6 @@
 #include "geometry/linear_program.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -70,18 +71,50 @@ bool pivot(Basis& basis, std::ptrdiff_t entering, const HalfSpace& constraint) {
   return true;
 }
 
-bool rests_on_box(const Basis& basis) {
-  return basis.constraint[0] == kBox || basis.constraint[1] == kBox || basis.constraint[2] == kBox;
+// Its sides that have left the basis bound x no longer.
+bool is_in_box(const Basis& basis) {
+  return std::ranges::count(basis.constraint, kBox) == 0 && std::abs(basis.x.x) <= kFarAway &&
+         std::abs(basis.x.y) <= kFarAway && std::abs(basis.x.z) <= kFarAway;
+}
+
+// Whether x, moved from vertex to vertex, still is where the three constraints of the basis are tight.
+bool has_drifted(const Basis& basis, const std::vector<HalfSpace>& constraints) {
+  return std::ranges::any_of(basis.constraint, [&](std::ptrdiff_t i) {
+    const auto& [normal, offset] = constraints[static_cast<std::size_t>(i)];
+    return std::abs(dot(normal, basis.x) - offset) > kFeasible;
+  });
+}
+
+// Computes the basis anew from its constraints, as after a passage through one of nearly dependent normals.
+void refresh(Basis& basis, const Vec3& objective, const std::vector<HalfSpace>& constraints) {
+  const auto at = [&](int i) -> const HalfSpace& {
+    return constraints[static_cast<std::size_t>(basis.constraint[static_cast<std::size_t>(i % 3)])];
+  };
+  const double determinant = dot(at(0).normal, cross(at(1).normal, at(2).normal));
+  if (determinant == 0) return;
+  basis.x = {};
+  for (int i = 0; i < 3; ++i) {
+    basis.columns[i] = cross(at(i + 1).normal, at(i + 2).normal) / determinant;
+    basis.multiplier[i] = std::max(0.0, dot(objective, basis.columns[i]));
+    basis.x += basis.columns[i] * at(i).offset;
+  }
 }
 
 }  // namespace
 
 LinearProgramResult solve_linear_program(const Vec3& objective, const std::vector<HalfSpace>& constraints) {
   Basis basis = box_corner(objective);
+  bool is_fresh = false;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const std::ptrdiff_t entering = most_violated(basis.x, constraints);
-    if (entering < 0)
-      return {rests_on_box(basis) ? LinearProgramStatus::Ambiguous : LinearProgramStatus::Optimal, basis.x};
+    if (entering < 0) {
+      if (!is_in_box(basis)) return {LinearProgramStatus::Ambiguous, basis.x};
+      if (is_fresh || !has_drifted(basis, constraints)) return {LinearProgramStatus::Optimal, basis.x};
+      refresh(basis, objective, constraints);
+      is_fresh = true;
+      continue;
+    }
+    is_fresh = false;
     if (!pivot(basis, entering, constraints[static_cast<std::size_t>(entering)]))
       return {LinearProgramStatus::Infeasible, basis.x};
   }

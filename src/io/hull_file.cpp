@@ -23,6 +23,7 @@ constexpr std::string_view kMagic("\x89PHULL\r\n", 8);
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeaderSize = 12;
 constexpr int kCompressionLevel = 3;
+constexpr int kMostWindowLog = 23;  ///< that level uses 21; a frame may ask for 128 MB, however short it is
 
 class Encoder {
  public:
@@ -118,6 +119,7 @@ ProgressiveHull decoded(std::string_view payload, const std::filesystem::path& n
 std::string unpacked(std::string_view frame, const std::filesystem::path& name) {
   const std::size_t limit = 1000 * frame.size() + (1 << 20);
   const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(), &ZSTD_freeDStream);
+  ZSTD_DCtx_setParameter(stream.get(), ZSTD_d_windowLogMax, kMostWindowLog);
   std::string payload;
   ZSTD_inBuffer in{frame.data(), frame.size(), 0};
   std::size_t state = 1;

@@ -146,9 +146,9 @@ std::vector<Corners> sorted_corners(std::span<const Triangle> triangles) {
 }
 
 // The components, connected by shared vertices, of the finest level: outwards, or cavities of others.
-bool faces_outwards(const Replay& replay, std::vector<Triangle> finest) {
+bool faces_outwards(const Replay& replay, std::size_t vertices, std::vector<Triangle> finest) {
   const auto& corners = replay.corners();
-  std::vector<std::uint32_t> parent(corners.size());  // of vertices; there are fewer than corners
+  std::vector<std::uint32_t> parent(vertices);
   std::iota(parent.begin(), parent.end(), 0u);
   const auto find = [&](VertexId v) {
     std::uint32_t i = index(v);
@@ -159,7 +159,7 @@ bool faces_outwards(const Replay& replay, std::vector<Triangle> finest) {
     const std::uint32_t a = find(corners[c]), b = find(corners[c / 3 * 3]);
     parent[std::max(a, b)] = std::min(a, b);
   }
-  std::vector<std::uint32_t> number(corners.size(), kNone), component;
+  std::vector<std::uint32_t> number(vertices, kNone), component;
   std::uint32_t count = 0;
   for (std::size_t c = 0; c < corners.size(); c += 3) {
     std::uint32_t& known = number[find(corners[c])];
@@ -208,7 +208,7 @@ ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& orig
   std::vector<Triangle> finest = replay.triangles();
   if (sorted_corners(finest) != sorted_corners(theirs))
     report.why_not = "the finest level does not have the triangles of the original mesh";
-  else if (!faces_outwards(replay, std::move(finest)))
+  else if (!faces_outwards(replay, hull.positions().size(), std::move(finest)))
     report.why_not = "the finest level is inside out, or a component of it";
   else
     report.holds = true;

@@ -1,0 +1,100 @@
+#include "prohull/float32_hull.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "geometry/float32.h"
+#include "meshes.h"
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
+#include "prohull/hull_builder.h"
+#include "prohull/mesh_report.h"
+#include "prohull/sample.h"
+
+namespace prohull {
+namespace {
+
+using namespace meshes;
+
+void check(const TriangleMesh& level, HullSide side) {
+  const Float32Hull rounded = with_float32_coordinates(level, side);
+  EXPECT_TRUE(std::ranges::all_of(rounded.mesh.positions, [](const Vec3& p) { return is_float32(p); }));
+  ASSERT_EQ(rounded.mesh.triangles, level.triangles) << "only vertices move";
+  EXPECT_GT(rounded.moved_vertices, 0u);
+  EXPECT_TRUE(side == HullSide::Outer ? verify_enclosure(level, rounded.mesh).encloses
+                                      : verify_enclosure(rounded.mesh, level).encloses);
+  double farthest = 0;
+  for (const VertexId v : level.positions.ids())
+    farthest = std::max(farthest, norm(rounded.mesh.positions[v] - level.positions[v]));
+  EXPECT_LE(farthest, 1e-3 * bounding_box(level).diagonal()) << "neighbours have lifted each other without end";
+}
+
+TEST(Float32Hull, OfLevelsStillEncloses) {
+  for (const char* name : {"asteroid", "bracket"})
+    for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+      SCOPED_TRACE(testing::Message() << name << ", side " << int(side));
+      const TriangleMesh mesh = make_sample(name, 1000);
+      check(build_hull(mesh, {.target_faces = 300, .side = side}).hull.base(), side);
+    }
+}
+
+// At a saddle there may be no room; then it says so. What it returns always encloses.
+TEST(Float32Hull, OfThinLimbsStillEnclosesOrIsRefused) {
+  for (const char* name : {"knot", "pony", "torus"})
+    for (const HullSide side : {HullSide::Outer, HullSide::Inner})
+      for (const std::size_t faces : {50u, 200u, 400u, 800u}) {
+        SCOPED_TRACE(testing::Message() << name << ", side " << int(side) << ", " << faces << " faces");
+        const TriangleMesh level = build_hull(make_sample(name, 1000), {.target_faces = faces, .side = side}).hull.base();
+        try {
+          check(level, side);
+        } catch (const InputError& error) {
+          EXPECT_EQ(error.defect(), Defect::NoVolume) << error.what();
+        }
+      }
+}
+
+TEST(Float32Hull, OfConvexAndSaddleShapedMeshes) {
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    SCOPED_TRACE(testing::Message() << "side " << int(side));
+    check(sphere(3), side);
+    check(moved(sphere(2), {0.1, 0.2, 0.3}), side);
+    check(scaled(torus(16, 8), 0.7), side);
+    check(scaled(box({0, 0, 0}, {1, 1, 1}), 0.1), side);
+  }
+}
+
+TEST(Float32Hull, IsTheMeshItselfWhereThatHasSuchCoordinates) {
+  const TriangleMesh mesh = box({0, 0, 0}, {1, 2, 0.1f});
+  const Float32Hull same = with_float32_coordinates(mesh, HullSide::Outer);
+  EXPECT_EQ(same.mesh, mesh);
+  EXPECT_EQ(same.moved_vertices, 0u);
+}
+
+TEST(Float32Hull, OfHullsBuiltOnFloat32CoordinatesNeedsNothing) {
+  TriangleMesh mesh = make_sample("asteroid", 1000);
+  for (Vec3& p : mesh.positions) p = nearest_float32(p);
+  ASSERT_TRUE(inspect(mesh).is_closed_manifold());
+  const TriangleMesh base = build_hull(mesh, {.target_faces = 200, .float32_coordinates = true}).hull.base();
+  EXPECT_EQ(with_float32_coordinates(base, HullSide::Outer).moved_vertices, 0u);
+}
+
+TEST(Float32Hull, RefusesWhatAFloat32CannotHold) {
+  const double largest = std::numeric_limits<float>::max();
+  const auto defect_of = [](const TriangleMesh& mesh) {
+    try {
+      with_float32_coordinates(mesh, HullSide::Outer);
+    } catch (const InputError& error) {
+      return error.defect();
+    }
+    return Defect::CannotRead;
+  };
+  EXPECT_EQ(defect_of(scaled(octahedron(), 1e39)), Defect::NonFiniteCoordinate);
+  EXPECT_EQ(defect_of(scaled(octahedron(), std::nextafter(largest, INFINITY))), Defect::NonFiniteCoordinate);
+  EXPECT_EQ(with_float32_coordinates(scaled(octahedron(), largest), HullSide::Outer).moved_vertices, 0u);
+}
+
+}  // namespace
+}  // namespace prohull

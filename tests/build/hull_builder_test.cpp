@@ -1,0 +1,326 @@
+#include "prohull/hull_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "geometry/float32.h"
+#include "meshes.h"
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
+#include "prohull/mesh_report.h"
+#include "prohull/replay.h"
+#include "prohull/sample.h"
+
+namespace prohull {
+namespace {
+
+using namespace meshes;
+
+#ifdef PROHULL_TESTS_ARE_SLOW
+constexpr std::size_t kFaces = 400;
+#else
+constexpr std::size_t kFaces = 1600;
+#endif
+
+TriangleMesh hollow_ball() { return together(sphere(4), inside_out(scaled(sphere(3), 0.6))); }
+TriangleMesh two_parts() { return together(sphere(3), moved(torus(20, 12), {0, 0, 1.7})); }
+
+std::size_t total(const RefusalCounts& counts) {
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < kRefusalKinds; ++i) sum += counts[static_cast<Refusal>(i)];
+  return sum;
+}
+
+EnclosureReport verify(const ProgressiveHull& hull, const TriangleMesh& original, const TriangleMesh& level) {
+  return hull.side() == HullSide::Outer ? verify_enclosure(original, level) : verify_enclosure(level, original);
+}
+
+/// All that is promised of any result.
+void check(const TriangleMesh& original, const HullOptions& options, const HullResult& result) {
+  const ProgressiveHull& hull = result.hull;
+  EXPECT_EQ(hull.side(), options.side);
+  EXPECT_EQ(first_defect(hull), std::nullopt);
+  EXPECT_EQ(hull.original(), original) << "bit for bit";
+  EXPECT_EQ(hull.original_face_count(), original.face_count());
+  EXPECT_EQ(hull.original_vertex_count(), original.vertex_count());
+
+  const ReplayReport replay = verify_replay(hull, original);
+  EXPECT_TRUE(replay.holds) << replay.why_not;
+  EXPECT_EQ(replay.splits, hull.splits().size());
+
+  const TriangleMesh base = hull.base();
+  EXPECT_EQ(base.face_count(), hull.base_face_count());
+  EXPECT_EQ(base, hull.level(hull.base_face_count()));
+  EXPECT_EQ(base, hull.level(hull.base_face_count() + 1)) << "levels are two faces apart";
+  const std::size_t between = (hull.base_face_count() + original.face_count()) / 2;
+  EXPECT_LE(hull.level(between).face_count(), between);
+  EXPECT_GE(hull.level(between).face_count() + 1, between);
+  for (const std::size_t faces : {std::size_t{0}, (3 * hull.base_face_count() + original.face_count()) / 4, between}) {
+    const TriangleMesh level = hull.level(faces);
+    const MeshReport report = inspect(level);
+    EXPECT_TRUE(report.is_closed_manifold()) << report.first_defect;
+    EXPECT_EQ(report.euler_characteristic, inspect(original).euler_characteristic);
+    EXPECT_TRUE(verify(hull, original, level).encloses) << level.face_count() << " faces";
+    if (options.float32_coordinates) {
+      // What it made; it may keep vertices of the original.
+      for (const VertexId v : level.positions.ids())
+        if (std::ranges::find(original.positions, level.positions[v]) == original.positions.end()) {
+          EXPECT_TRUE(is_float32(level.positions[v]));
+        }
+    }
+  }
+  switch (result.stopped) {
+    case Stopped::TargetReached:
+      EXPECT_LE(hull.base_face_count(), options.target_faces);
+      EXPECT_GE(hull.base_face_count() + 1, std::min(options.target_faces, original.face_count()));
+      break;
+    case Stopped::NoLegalCollapse:
+      EXPECT_GT(hull.base_face_count(), options.target_faces);
+      EXPECT_EQ(total(result.blocked), hull.base_face_count() / 2 * 3) << "every edge that is left was refused";
+      break;
+    case Stopped::Cancelled: ADD_FAILURE() << "nobody asked to"; break;
+  }
+  if (!options.allow_self_intersections || options.side == HullSide::Inner) {
+    EXPECT_LE(verify_enclosure(base, base).self_intersections, verify_enclosure(original, original).self_intersections);
+  }
+}
+
+struct Named {
+  std::string name;
+  TriangleMesh mesh;
+};
+
+std::vector<Named> meshes_to_simplify() {
+  std::vector<Named> all{{"hollow_ball", hollow_ball()}, {"two_parts", two_parts()}};
+  for (const char* name : {"asteroid", "torus", "knot", "box", "bracket"}) all.push_back({name, make_sample(name, kFaces)});
+  return all;
+}
+
+class BuildHull : public testing::TestWithParam<Named> {};
+
+TEST_P(BuildHull, KeepsItsPromisesForEveryStrategySideAndKindOfCoordinates) {
+  const TriangleMesh& mesh = GetParam().mesh;
+  for (const Strategy strategy : {Strategy::Lazy, Strategy::Paper1, Strategy::Paper2})
+    for (const HullSide side : {HullSide::Outer, HullSide::Inner})
+      for (const bool float32 : {false, true}) {
+        SCOPED_TRACE(testing::Message() << "strategy " << int(strategy) << ", side " << int(side) << ", float32 " << float32);
+        const HullOptions options{.target_faces = kFaces / 8,
+                                  .side = side,
+                                  .strategy = strategy,
+                                  .allow_self_intersections = strategy != Strategy::Lazy,
+                                  .float32_coordinates = float32};
+        check(mesh, options, build_hull(mesh, options));
+      }
+}
+
+TEST_P(BuildHull, KeepsItsPromisesWhenNoCollapseIsLeft) {
+  const TriangleMesh& mesh = GetParam().mesh;
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    const HullOptions options{.target_faces = 4, .side = side};
+    const HullResult result = build_hull(mesh, options);
+    if (inspect(mesh).euler_characteristic != 2) {
+      EXPECT_EQ(result.stopped, Stopped::NoLegalCollapse) << "only a sphere may become a tetrahedron";
+    }
+    check(mesh, options, result);
+  }
+}
+
+TEST_P(BuildHull, IsTheSameEveryTimeAndWithHeapAndTree) {
+  const TriangleMesh& mesh = GetParam().mesh;
+  for (const Strategy strategy : {Strategy::Lazy, Strategy::Paper1}) {
+    HullOptions options{.target_faces = kFaces / 4, .strategy = strategy};
+    EXPECT_EQ(build_hull(mesh, options).hull, build_hull(mesh, options).hull);
+    options.queue = QueueKind::Heap;
+    const HullResult heap = build_hull(mesh, options);
+    options.queue = QueueKind::RedBlackTree;
+    const HullResult tree = build_hull(mesh, options);
+    EXPECT_EQ(heap.hull, tree.hull);
+    EXPECT_EQ(heap.linear_programs, tree.linear_programs);
+    check(mesh, options, heap);
+  }
+}
+
+/// Collapses only: what was joined, not where the apex lies.
+bool have_equal_structure(const ProgressiveHull& a, const ProgressiveHull& b) {
+  return a.splits() == b.splits() && a.base_corners() == b.base_corners();
+}
+
+TEST_P(BuildHull, DoesNotDependOnTheUnit) {
+  const TriangleMesh& mesh = GetParam().mesh;
+  const HullOptions options{.target_faces = kFaces / 8, .allow_self_intersections = false};
+  const ProgressiveHull hull = build_hull(mesh, options).hull;
+  // Powers of eight keep volumes, that is keys, in the same eighths of octaves; scaling loses no bit.
+  for (const double scale : {0x1p20, 0x1p-20, 0x1p200, 0x1p-200}) {
+    const ProgressiveHull other = build_hull(scaled(mesh, scale), options).hull;
+    EXPECT_TRUE(have_equal_structure(other, hull)) << scale;
+    EXPECT_EQ(other.base(), scaled(hull.base(), scale)) << scale;
+  }
+}
+
+TEST_P(BuildHull, IsCertifiedFarFromTheOrigin) {
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    const TriangleMesh& mesh = GetParam().mesh;
+    const double far = 1e6 * bounding_box(mesh).diagonal();
+    const TriangleMesh away = moved(mesh, {far, -0.7 * far, 0.3 * far});
+    if (!inspect(away).is_closed_manifold()) continue;
+    const HullOptions options{.target_faces = kFaces / 4, .side = side};
+    const HullResult result = build_hull(away, options);
+    EXPECT_LT(result.hull.base_face_count(), mesh.face_count() / 2);
+    check(away, options, result);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, BuildHull, testing::ValuesIn(meshes_to_simplify()),
+                         [](const auto& parameter) { return parameter.param.name; });
+
+#ifndef PROHULL_TESTS_ARE_SLOW
+TEST(BuildHullOfAGyroid, OfHighGenus) {
+  const TriangleMesh gyroid = make_sample("gyroid", 22000);
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    const HullOptions options{.target_faces = 2000, .side = side};
+    check(gyroid, options, build_hull(gyroid, options));
+  }
+}
+#endif
+
+TEST(BuildHullOfFlatParts, ABoxIsReducedToItsCornersExactly) {
+  const TriangleMesh cube = box({0, 0, 0}, {1, 2, 3});
+  const TriangleMesh fine = subdivided(subdivided(subdivided(cube)));
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner})
+    for (const bool allow : {true, false}) {
+      const HullResult result =
+          build_hull(fine, {.target_faces = 12, .side = side, .allow_self_intersections = allow});
+      EXPECT_EQ(result.stopped, Stopped::TargetReached);
+      const TriangleMesh base = result.hull.base();
+      EXPECT_EQ(base.face_count(), 12u);
+      EXPECT_TRUE(verify_enclosure(base, fine).encloses && verify_enclosure(fine, base).encloses) << "no void at all";
+      for (const Vec3& p : base.positions)
+        EXPECT_EQ(std::ranges::count(cube.positions, p), 1) << "not a corner of the box";
+    }
+}
+
+TEST(BuildHullOfFlatParts, ABoxWithAHoleKeepsItsPlanes) {
+  const TriangleMesh mesh = make_sample("box", 3000);
+  const double volume = signed_volume(mesh);
+  std::size_t last = 3000;
+  for (const std::size_t target : {500u, 100u, 32u}) {
+    const HullResult result = build_hull(mesh, {.target_faces = target});
+    const TriangleMesh base = result.hull.base();
+    EXPECT_LT(base.face_count(), last);
+    last = base.face_count();
+    EXPECT_EQ(result.stopped, Stopped::TargetReached) << target;
+    EXPECT_TRUE(verify_enclosure(base, mesh).encloses) << "void with " << base.face_count() << " faces: "
+                                                       << signed_volume(base) / volume - 1;
+  }
+}
+
+TEST(BuildHullOptions, OutOfTheirRangesAreRefused) {
+  const TriangleMesh mesh = octahedron();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const HullOptions& wrong : {HullOptions{.target_faces = 3}, HullOptions{.target_faces = 0}, HullOptions{.max_valence = 2},
+                                   HullOptions{.min_compactness_ratio = -0.1}, HullOptions{.min_compactness_ratio = 1.1},
+                                   HullOptions{.min_compactness_ratio = nan}, HullOptions{.sufficient_compactness = -1},
+                                   HullOptions{.sufficient_compactness = 2}, HullOptions{.sufficient_compactness = nan},
+                                   HullOptions{.max_normal_deviation = -0.1}, HullOptions{.max_normal_deviation = 1.6},
+                                   HullOptions{.max_normal_deviation = nan}}) {
+    try {
+      build_hull(mesh, wrong);
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.defect(), Defect::InvalidOption) << error.what();
+    }
+  }
+  EXPECT_NO_THROW(build_hull(mesh, {.target_faces = 4, .max_valence = 3, .min_compactness_ratio = 1, .max_normal_deviation = 0}));
+}
+
+TEST(BuildHullInput, OtherThanAClosedManifoldIsRefused) {
+  TriangleMesh open = octahedron(), bad = octahedron(), fin = octahedron();
+  open.triangles.pop_back();
+  bad.positions[VertexId{2}].x = std::numeric_limits<double>::quiet_NaN();
+  fin.triangles.push_back({VertexId{0}, VertexId{2}, VertexId{3}});
+  for (const TriangleMesh& mesh : {open, bad, fin, TriangleMesh{}, soup(octahedron())})
+    EXPECT_THROW(build_hull(mesh), InputError);
+  EXPECT_THROW(build_hull(inside_out(octahedron())), InputError) << "an outer hull of it would be an inner one";
+}
+
+TEST(BuildHullInput, UnusedVerticesAndFacesWithoutAreaAreKept) {
+  TriangleMesh mesh = sphere(3);
+  mesh.positions.push_back({9, 9, 9});
+  // Split an edge in one of its faces only; a triangle without area closes the gap.
+  const auto [a, b, c] = mesh.triangles[FaceId{5}];
+  const VertexId middle = mesh.positions.push_back((mesh.positions[a] + mesh.positions[b]) * 0.5);
+  mesh.positions[middle] = mesh.positions[a];
+  mesh.triangles[FaceId{5}] = {a, middle, c};
+  mesh.triangles.push_back({middle, b, c});
+  mesh.triangles.push_back({a, b, middle});
+  ASSERT_TRUE(inspect(mesh).is_closed_manifold());
+  ASSERT_GT(inspect(mesh).zero_area_faces, 0u);
+  for (const bool allow : {true, false}) {
+    const HullOptions options{.target_faces = 40, .allow_self_intersections = allow};
+    check(mesh, options, build_hull(mesh, options));
+  }
+}
+
+TEST(BuildHullProgress, CancelsWithASoundHull) {
+  const TriangleMesh mesh = make_sample("asteroid", 4000);
+  int calls = 0;
+  std::size_t faces = 0;
+  const HullOptions options{.target_faces = 40, .progress = [&](const HullProgress& progress) {
+                              EXPECT_EQ(progress.original_faces, mesh.face_count());
+                              EXPECT_EQ(progress.target_faces, 40u);
+                              faces = progress.faces;
+                              return ++calls < 2;
+                            }};
+  const HullResult result = build_hull(mesh, options);
+  EXPECT_EQ(result.stopped, Stopped::Cancelled);
+  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(result.hull.base_face_count(), faces);
+  EXPECT_LT(faces, mesh.face_count());
+  EXPECT_GT(faces, 40u);
+  EXPECT_TRUE(verify_replay(result.hull, mesh).holds);
+  EXPECT_EQ(result.hull.original(), mesh);
+}
+
+TEST(BuildHullLimits, ValenceIsKeptAndNothingIsDoneForATargetThatIsReached) {
+  const TriangleMesh mesh = make_sample("asteroid", kFaces);
+  for (const unsigned valence : {6u, 8u, 12u}) {
+    const HullResult result = build_hull(mesh, {.target_faces = kFaces / 8, .max_valence = valence});
+    // A vertex keeps its valence or loses some once it is made.
+    const TriangleMesh base = result.hull.base();
+    PerVertex<unsigned> faces(base.vertex_count(), 0);
+    for (const auto& t : base.triangles)
+      for (const VertexId v : t) ++faces[v];
+    for (const VertexId v : base.positions.ids())
+      if (std::ranges::find(mesh.positions, base.positions[v]) == mesh.positions.end()) {
+        EXPECT_LE(faces[v], valence);
+      }
+  }
+  const HullResult nothing = build_hull(mesh, {.target_faces = 10 * kFaces});
+  EXPECT_EQ(nothing.stopped, Stopped::TargetReached);
+  EXPECT_TRUE(nothing.hull.splits().empty());
+  EXPECT_EQ(nothing.hull.base(), mesh);
+}
+
+TEST(BuildHullStrategies, AddLittleVoid) {
+  const TriangleMesh mesh = make_sample("pony", 4000);
+  const double volume = signed_volume(mesh);
+  for (const Strategy strategy : {Strategy::Lazy, Strategy::Paper1, Strategy::Paper2}) {
+    const double outer = signed_volume(build_hull(mesh, {.target_faces = 1000, .strategy = strategy}).hull.base()) / volume - 1;
+    EXPECT_GT(outer, 0);
+    EXPECT_LT(outer, 0.1) << "strategy " << int(strategy);
+    const double inner =
+        signed_volume(build_hull(mesh, {.target_faces = 1000, .side = HullSide::Inner, .strategy = strategy}).hull.base()) / volume - 1;
+    EXPECT_LT(inner, 0);
+    EXPECT_GT(inner, -0.1) << "strategy " << int(strategy);
+  }
+}
+
+TEST(BuildHullStrategies, RefusalsHaveNames) {
+  EXPECT_EQ(name(Refusal::LinkCondition), "link_condition");
+  EXPECT_EQ(name(Refusal::SelfIntersection), "self_intersection");
+}
+
+}  // namespace
+}  // namespace prohull
