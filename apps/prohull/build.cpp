@@ -106,6 +106,7 @@ int run_build(Options options) {
   options.hull.max_normal_deviation = options.normal_deviation_degrees * std::numbers::pi / 180;
   options.hull.allow_self_intersections = !options.no_self_intersections;
 
+  for (const auto& path : {options.out, options.hierarchy, options.report}) require_writable(path);
   const Input input = read_closed_mesh(options.in);
   const ClosedMesh& original = input.closed;
   fmt::print("{}: {} faces, {} component{}\n", options.in.string(), grouped(original.report.faces),

@@ -76,6 +76,17 @@ nlohmann::json facts(const MeshReport& report) {
             {"unused_vertices", report.unused_vertices}}}};
 }
 
+void require_writable(const std::filesystem::path& path) {
+  if (path.empty()) return;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write: there is no folder {}; create it first",
+                                                      path.string(), folder.string()));
+  if (access(folder.c_str(), W_OK) != 0)
+    throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write: {} takes no files from you; choose another folder",
+                                                      path.string(), folder.string()));
+}
+
 void write_report(const std::filesystem::path& path, nlohmann::json report) {
   if (path.empty()) return;
   report["version"] = PROHULL_VERSION;

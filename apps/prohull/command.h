@@ -62,6 +62,9 @@ Input read_closed_mesh(const std::filesystem::path& path);
 
 nlohmann::json facts(const MeshReport& report);
 
+/// Throws InputError(CannotWrite) if the folder of `path` does not take files: before the work, not after it.
+void require_writable(const std::filesystem::path& path);
+
 /// Writes the report if a path was given.
 void write_report(const std::filesystem::path& path, nlohmann::json report);
 

@@ -15,6 +15,7 @@ struct Options {
 
 int extract(const Options& options) {
   const bool float32 = stores_float32(mesh_format(options.out));
+  require_writable(options.out);
   const ProgressiveHull hull = load_hull(options.in);
   TriangleMesh level = hull.level(options.faces);
   if (float32 && level.face_count() < hull.original_face_count())

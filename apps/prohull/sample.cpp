@@ -14,6 +14,7 @@ struct Options {
 };
 
 int make(const Options& options) {
+  require_writable(options.out);
   const TriangleMesh mesh = make_sample(options.name, options.faces);
   if (interrupted()) throw Interrupted{};
   write_mesh(options.out, mesh);

@@ -8,6 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include "build/placement.h"
+#include "build/shape_guards.h"
+#include "build/star.h"
 #include "geometry/float32.h"
 #include "geometry/linear_program.h"
 #include "geometry/predicates.h"
@@ -27,12 +30,17 @@ class VertexMover {
     for (const VertexId v : mesh_.positions().ids())
       if (mesh_.has(v) && !is_float32(mesh_.position(v))) pending.push_back(v);
     const std::size_t wanted = pending.size();
-    // Around a saddle the planes may meet in the vertex alone. Neighbours that move out tilt them and make room.
+    // Around a saddle the planes may meet in the vertex alone. Neighbours that move out tilt them and make room; where even
+    // that fails, the vertex goes, by an edge collapse.
     constexpr int kRounds = 24;
     for (int round = 0; !pending.empty(); ++round) {
       std::erase_if(pending, [&](VertexId v) { return move_nearby(v); });
       if (pending.empty()) break;
-      if (round == kRounds) refuse(pending.front(), pending.size());
+      if (round == kRounds) {
+        std::erase_if(pending, [&](VertexId v) { return !mesh_.has(v) || move_nearby(v) || collapse_away(v); });
+        if (!pending.empty()) refuse(pending.front(), pending.size());
+        break;
+      }
       std::vector<VertexId> cramped;
       for (const auto& some : {pending, cramped_})
         for (const VertexId v : some) lift_neighbours(v, std::ldexp(1.0, round / 2 + 1), cramped);
@@ -152,12 +160,40 @@ class VertexMover {
     }
   }
 
+  // The collapse of an edge of v that adds the least volume, its shape within the guards if any is.
+  bool collapse_away(VertexId v) {
+    struct Choice {
+      bool misshapen;
+      double added_volume;
+      HalfEdgeId edge;
+      Vec3 apex;
+    };
+    std::optional<Choice> best;
+    HalfEdgeId h = mesh_.out(v);
+    do {
+      gather_star(mesh_, mesh_.edge(h), star_);
+      if (satisfies_link_condition(star_)) {
+        measure_star(mesh_, star_);
+        if (const auto placement = place_outside(star_, placement_margin(star_, 4 * spacing(v)))) {
+          const Choice choice{refused_shape(star_, placement->local, {}).has_value(), placement->added_volume, star_.edge,
+                              nearest_float32(star_.to_input(placement->local))};
+          const auto rank = [](const Choice& c) { return std::pair(c.misshapen, c.added_volume); };
+          if (prohull::is_outside(mesh_, star_, choice.apex) && (!best || rank(choice) < rank(*best))) best = choice;
+        }
+      }
+      h = mesh_.rotated(h);
+    } while (h != mesh_.out(v));
+    if (best) mesh_.collapse(best->edge, best->apex);
+    return best.has_value();
+  }
+
   const TriangleMesh& level_;
   const double diagonal_;
   HalfEdgeMesh mesh_;
   std::vector<HalfSpace> constraints_;
   std::vector<VertexId> cramped_;  ///< neighbours that could not be lifted, for want of room: theirs are next
   std::size_t lifted_ = 0;
+  Star star_;
 };
 
 void turn(TriangleMesh& mesh) {

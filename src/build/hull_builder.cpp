@@ -103,12 +103,9 @@ class HullBuilder {
     return std::nullopt;
   }
 
-  // The margin covers the rounding of the apex to its stored coordinates.
-  double margin() const { return 1e-10 + 2 * rounding_ / star_.scale; }
-
   std::optional<Placement> place() {
     ++linear_programs_;
-    return place_outside(star_, margin());
+    return place_outside(star_, placement_margin(star_, rounding_));
   }
 
   Vec3 as_stored(const Vec3& p) const {

@@ -17,6 +17,9 @@ struct Placement {
 /// planes, so that it still is outside when rounded.
 std::optional<Placement> place_outside(const Star& star, double margin);
 
+/// What place_outside needs where storing the vertex moves its coordinates by up to `rounding` (input unit).
+inline double placement_margin(const Star& star, double rounding) { return 1e-10 + 2 * rounding / star.scale; }
+
 /// Exact. Where an end of the edge does, as in flat parts and along straight creases, a collapse to it adds nothing.
 bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p);
 

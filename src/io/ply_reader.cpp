@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "geometry/float32.h"
 #include "io/byte_cursor.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
@@ -44,7 +45,11 @@ class AsciiBody {
           fmt::format("{} has more values than properties; or a count in the header is wrong", record_.name()));
   }
 
-  double number(PlyType) { return scanner_.number("a number"); }
+  // What other readers store for a property of type float, and so what a hull must enclose.
+  double number(PlyType type) {
+    const double value = scanner_.number("a number");
+    return type == PlyType::Float32 ? nearest_float32(value) : value;
+  }
   std::int64_t integer(PlyType) { return scanner_.integer("an integer"); }
   std::size_t list_length(PlyType, PlyType) {
     const std::int64_t length = scanner_.integer("the length of a list");
