@@ -178,7 +178,7 @@ TEST(Replay, TakesTheOriginalInAnyOrderAndTurned) {
   EXPECT_TRUE(verify_replay(hull, soup(mesh)).holds);
   TriangleMesh shuffled = mesh;
   std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), std::mt19937(1));
-  for (auto& t : shuffled.triangles) std::ranges::rotate(t, t.begin() + 1);
+  for (auto& t : shuffled.triangles) std::rotate(t.begin(), t.begin() + 1, t.end());
   EXPECT_TRUE(verify_replay(hull, shuffled).holds);
 }
 
