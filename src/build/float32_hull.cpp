@@ -45,7 +45,7 @@ class VertexMover {
       for (const auto& some : {pending, cramped_})
         for (const VertexId v : some) lift_neighbours(v, std::ldexp(1.0, round / 2 + 1), cramped);
       std::ranges::sort(cramped);
-      cramped.erase(std::ranges::unique(cramped).begin(), cramped.end());
+      cramped.erase(std::unique(cramped.begin(), cramped.end()), cramped.end());
       cramped_ = std::move(cramped);
     }
     Float32Hull result{mesh_.triangle_mesh(), 0};

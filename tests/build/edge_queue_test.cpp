@@ -31,7 +31,9 @@ class Reference {
     return e;
   }
   /// Whether an edge inserted now with this key would not be behind any other with a smaller key.
-  bool precedes_all(double key) const { return empty() || Rank()(EdgeId{0}, key, 0).first <= sorted_.begin()->first.first; }
+  bool precedes_all(double key) const {
+    return empty() || Rank()(EdgeId{0}, key, 0).first <= sorted_.begin()->first.first;
+  }
 
  private:
   using Place = std::pair<double, std::uint64_t>;
@@ -61,11 +63,16 @@ void compare_with_reference() {
   Reference<Rank> reference;
   const auto random_key = [&]() -> double {
     switch (random() % 6) {
-      case 0: return 0;
-      case 1: return static_cast<double>(random() % 4);
-      case 2: return std::ldexp(1.0, static_cast<int>(random() % 2000) - 1000);
-      case 3: return 1 + static_cast<double>(random() % 16) / 8;
-      default: return std::exp(std::uniform_real_distribution<double>(-20, 20)(random));
+      case 0:
+        return 0;
+      case 1:
+        return static_cast<double>(random() % 4);
+      case 2:
+        return std::ldexp(1.0, static_cast<int>(random() % 2000) - 1000);
+      case 3:
+        return 1 + static_cast<double>(random() % 16) / 8;
+      default:
+        return std::exp(std::uniform_real_distribution<double>(-20, 20)(random));
     }
   };
   for (int i = 0; i < rounds(200000); ++i) {

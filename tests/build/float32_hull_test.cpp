@@ -47,7 +47,8 @@ TEST(Float32Hull, OfThinLimbsStillEnclosesOrIsRefused) {
     for (const HullSide side : {HullSide::Outer, HullSide::Inner})
       for (const std::size_t faces : {50u, 200u, 400u, 800u}) {
         SCOPED_TRACE(testing::Message() << name << ", side " << int(side) << ", " << faces << " faces");
-        const TriangleMesh level = build_hull(make_sample(name, 1000), {.target_faces = faces, .side = side}).hull.base();
+        const TriangleMesh level =
+            build_hull(make_sample(name, 1000), {.target_faces = faces, .side = side}).hull.base();
         try {
           check(level, side);
         } catch (const InputError& error) {

@@ -20,12 +20,14 @@ using namespace meshes;
 
 #ifdef PROHULL_TESTS_ARE_SLOW
 constexpr std::size_t kFaces = 400;
+constexpr int kLevels = 2;
 #else
 constexpr std::size_t kFaces = 1600;
+constexpr int kLevels = 3;
 #endif
 
-TriangleMesh hollow_ball() { return together(sphere(4), inside_out(scaled(sphere(3), 0.6))); }
-TriangleMesh two_parts() { return together(sphere(3), moved(torus(20, 12), {0, 0, 1.7})); }
+TriangleMesh hollow_ball() { return together(sphere(kLevels + 1), inside_out(scaled(sphere(kLevels), 0.6))); }
+TriangleMesh two_parts() { return together(sphere(kLevels), moved(torus(20, 12), {0, 0, 1.7})); }
 
 std::size_t total(const RefusalCounts& counts) {
   std::size_t sum = 0;
@@ -80,7 +82,9 @@ void check(const TriangleMesh& original, const HullOptions& options, const HullR
       EXPECT_GT(hull.base_face_count(), options.target_faces);
       EXPECT_EQ(total(result.blocked), hull.base_face_count() / 2 * 3) << "every edge that is left was refused";
       break;
-    case Stopped::Cancelled: ADD_FAILURE() << "nobody asked to"; break;
+    case Stopped::Cancelled:
+      ADD_FAILURE() << "nobody asked to";
+      break;
   }
   if (!options.allow_self_intersections || options.side == HullSide::Inner) {
     EXPECT_LE(verify_enclosure(base, base).self_intersections, verify_enclosure(original, original).self_intersections);
@@ -94,7 +98,8 @@ struct Named {
 
 std::vector<Named> meshes_to_simplify() {
   std::vector<Named> all{{"hollow_ball", hollow_ball()}, {"two_parts", two_parts()}};
-  for (const char* name : {"asteroid", "torus", "knot", "box", "bracket"}) all.push_back({name, make_sample(name, kFaces)});
+  for (const char* name : {"asteroid", "torus", "knot", "box", "bracket"})
+    all.push_back({name, make_sample(name, kFaces)});
   return all;
 }
 
@@ -105,7 +110,8 @@ TEST_P(BuildHull, KeepsItsPromisesForEveryStrategySideAndKindOfCoordinates) {
   for (const Strategy strategy : {Strategy::Lazy, Strategy::Paper1, Strategy::Paper2})
     for (const HullSide side : {HullSide::Outer, HullSide::Inner})
       for (const bool float32 : {false, true}) {
-        SCOPED_TRACE(testing::Message() << "strategy " << int(strategy) << ", side " << int(side) << ", float32 " << float32);
+        SCOPED_TRACE(testing::Message() << "strategy " << int(strategy) << ", side " << int(side) << ", float32 "
+                                        << float32);
         const HullOptions options{.target_faces = kFaces / 8,
                                   .side = side,
                                   .strategy = strategy,
@@ -190,8 +196,7 @@ TEST(BuildHullOfFlatParts, ABoxIsReducedToItsCornersExactly) {
   const TriangleMesh fine = subdivided(subdivided(subdivided(cube)));
   for (const HullSide side : {HullSide::Outer, HullSide::Inner})
     for (const bool allow : {true, false}) {
-      const HullResult result =
-          build_hull(fine, {.target_faces = 12, .side = side, .allow_self_intersections = allow});
+      const HullResult result = build_hull(fine, {.target_faces = 12, .side = side, .allow_self_intersections = allow});
       EXPECT_EQ(result.stopped, Stopped::TargetReached);
       const TriangleMesh base = result.hull.base();
       EXPECT_EQ(base.face_count(), 12u);
@@ -211,20 +216,21 @@ TEST(BuildHullOfFlatParts, ABoxWithAHoleKeepsItsPlanes) {
     EXPECT_LT(base.face_count(), last);
     last = base.face_count();
     EXPECT_EQ(result.stopped, Stopped::TargetReached) << target;
-    EXPECT_TRUE(verify_enclosure(base, mesh).encloses) << "void with " << base.face_count() << " faces: "
-                                                       << signed_volume(base) / volume - 1;
+    EXPECT_TRUE(verify_enclosure(base, mesh).encloses)
+        << "void with " << base.face_count() << " faces: " << signed_volume(base) / volume - 1;
   }
 }
 
 TEST(BuildHullOptions, OutOfTheirRangesAreRefused) {
   const TriangleMesh mesh = octahedron();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const HullOptions& wrong : {HullOptions{.target_faces = 3}, HullOptions{.target_faces = 0}, HullOptions{.max_valence = 2},
-                                   HullOptions{.min_compactness_ratio = -0.1}, HullOptions{.min_compactness_ratio = 1.1},
-                                   HullOptions{.min_compactness_ratio = nan}, HullOptions{.sufficient_compactness = -1},
-                                   HullOptions{.sufficient_compactness = 2}, HullOptions{.sufficient_compactness = nan},
-                                   HullOptions{.max_normal_deviation = -0.1}, HullOptions{.max_normal_deviation = 1.6},
-                                   HullOptions{.max_normal_deviation = nan}}) {
+  for (const HullOptions& wrong :
+       {HullOptions{.target_faces = 3}, HullOptions{.target_faces = 0}, HullOptions{.max_valence = 2},
+        HullOptions{.min_compactness_ratio = -0.1}, HullOptions{.min_compactness_ratio = 1.1},
+        HullOptions{.min_compactness_ratio = nan}, HullOptions{.sufficient_compactness = -1},
+        HullOptions{.sufficient_compactness = 2}, HullOptions{.sufficient_compactness = nan},
+        HullOptions{.max_normal_deviation = -0.1}, HullOptions{.max_normal_deviation = 1.6},
+        HullOptions{.max_normal_deviation = nan}}) {
     try {
       build_hull(mesh, wrong);
       ADD_FAILURE();
@@ -232,7 +238,8 @@ TEST(BuildHullOptions, OutOfTheirRangesAreRefused) {
       EXPECT_EQ(error.defect(), Defect::InvalidOption) << error.what();
     }
   }
-  EXPECT_NO_THROW(build_hull(mesh, {.target_faces = 4, .max_valence = 3, .min_compactness_ratio = 1, .max_normal_deviation = 0}));
+  EXPECT_NO_THROW(
+      build_hull(mesh, {.target_faces = 4, .max_valence = 3, .min_compactness_ratio = 1, .max_normal_deviation = 0}));
 }
 
 TEST(BuildHullInput, OtherThanAClosedManifoldIsRefused) {
@@ -307,11 +314,15 @@ TEST(BuildHullStrategies, AddLittleVoid) {
   const TriangleMesh mesh = make_sample("pony", 4000);
   const double volume = signed_volume(mesh);
   for (const Strategy strategy : {Strategy::Lazy, Strategy::Paper1, Strategy::Paper2}) {
-    const double outer = signed_volume(build_hull(mesh, {.target_faces = 1000, .strategy = strategy}).hull.base()) / volume - 1;
+    const double outer =
+        signed_volume(build_hull(mesh, {.target_faces = 1000, .strategy = strategy}).hull.base()) / volume - 1;
     EXPECT_GT(outer, 0);
     EXPECT_LT(outer, 0.1) << "strategy " << int(strategy);
     const double inner =
-        signed_volume(build_hull(mesh, {.target_faces = 1000, .side = HullSide::Inner, .strategy = strategy}).hull.base()) / volume - 1;
+        signed_volume(
+            build_hull(mesh, {.target_faces = 1000, .side = HullSide::Inner, .strategy = strategy}).hull.base()) /
+            volume -
+        1;
     EXPECT_LT(inner, 0);
     EXPECT_GT(inner, -0.1) << "strategy " << int(strategy);
   }

@@ -39,8 +39,9 @@ TEST(Compactness, OfKnownTriangles) {
 
 // The top of a bipyramid over a square, made of the edge 0-1: collapsing it to a point above the square.
 TriangleMesh roof() {
-  return make({{-0.5, 0, 1}, {0.5, 0, 1}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {0, 0, -1}},
-              {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {1, 0, 4}, {1, 4, 5}, {1, 5, 2}, {3, 2, 6}, {4, 3, 6}, {5, 4, 6}, {2, 5, 6}});
+  return make(
+      {{-0.5, 0, 1}, {0.5, 0, 1}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {0, 0, -1}},
+      {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {1, 0, 4}, {1, 4, 5}, {1, 5, 2}, {3, 2, 6}, {4, 3, 6}, {5, 4, 6}, {2, 5, 6}});
 }
 
 TEST(ShapeGuards, LetAGoodApexPass) {
@@ -66,7 +67,8 @@ TEST(ShapeGuards, RefuseAThinFace) {
 TEST(ShapeGuards, NeverAllowAFaceWithoutArea) {
   const HalfEdgeMesh mesh(roof());
   const Star star = star_of(mesh, 0, 1);
-  const HullOptions lax{.min_compactness_ratio = 0, .sufficient_compactness = 0, .max_normal_deviation = std::numbers::pi / 2};
+  const HullOptions lax{
+      .min_compactness_ratio = 0, .sufficient_compactness = 0, .max_normal_deviation = std::numbers::pi / 2};
   EXPECT_EQ(refused_shape(star, to_local(star, {0, 1, 0}), lax), Refusal::Compactness) << "in line with 2 and 3";
 }
 
@@ -113,10 +115,12 @@ TEST(Placement, OfAFlatStarIsNearTheEdgesMiddle) {
     Star star;
     gather_star(mesh, EdgeId{e}, star);
     measure_star(mesh, star);
-    const bool is_flat = std::ranges::all_of(star.planes, [&](const HalfSpace& h) { return h.normal == star.planes[0].normal; });
+    const bool is_flat =
+        std::ranges::all_of(star.planes, [&](const HalfSpace& h) { return h.normal == star.planes[0].normal; });
     if (!is_flat) continue;
     ++flat;
-    EXPECT_TRUE(lies_on_all_planes(mesh, star, mesh.position(star.o)) && lies_on_all_planes(mesh, star, mesh.position(star.d)));
+    EXPECT_TRUE(lies_on_all_planes(mesh, star, mesh.position(star.o)) &&
+                lies_on_all_planes(mesh, star, mesh.position(star.d)));
     const auto placement = place_outside(star, 0);
     ASSERT_TRUE(placement);
     EXPECT_LT(norm(placement->local), 1e-12);

@@ -101,7 +101,8 @@ Status check(const Program& program) {
       EXPECT_GE(found, *relaxed - rounding);
     }
   } else {
-    // x satisfies the constraints, and no point in the box is better: were there a single best one inside, it would be x.
+    // x satisfies the constraints, and no point in the box is better: were there a single best one inside, it would be
+    // x.
     EXPECT_GE(reach(x), kFarAway - kRounding);
   }
   return status;
@@ -160,8 +161,7 @@ TEST(LinearProgram, AgreesWithAnExactSolverOnStars) {
 }
 
 TEST(LinearProgram, AgreesOnConstraintsFromAllSides) {
-  const Counts counts =
-      check_many(rounds(2000), [](RandomPrograms& r) { return r.around({}, 1, 4 + r.up_to(10)); });
+  const Counts counts = check_many(rounds(2000), [](RandomPrograms& r) { return r.around({}, 1, 4 + r.up_to(10)); });
   EXPECT_GT(counts.infeasible, rounds(100));
   EXPECT_GT(counts.optimal, rounds(100));
 }
@@ -279,8 +279,8 @@ void check_recorded(std::string_view sample, std::size_t faces) {
   Counts counts;
   int collapses = 0;
   for (int i = 0; i < rounds(1500) && !testing::Test::HasFailure(); ++i) {
-    const EdgeId edge{std::uniform_int_distribution<std::uint32_t>(
-        0, static_cast<std::uint32_t>(mesh.edge_id_count()) - 1)(random)};
+    const EdgeId edge{
+        std::uniform_int_distribution<std::uint32_t>(0, static_cast<std::uint32_t>(mesh.edge_id_count()) - 1)(random)};
     if (!mesh.has(edge)) continue;
     gather_star(mesh, edge, star);
     if (!satisfies_link_condition(star) || star.valence() > 12) continue;
@@ -355,7 +355,8 @@ void check_nearest(int count, int least_found, Make&& make) {
 }
 
 TEST(NearestFeasiblePoint, IsTheNearestOfAllSetsOfTightConstraints) {
-  check_nearest(rounds(3000), rounds(1500), [](RandomPrograms& r) { return r.around(r.direction(), 0.9, 3 + r.up_to(9)); });
+  check_nearest(rounds(3000), rounds(1500),
+                [](RandomPrograms& r) { return r.around(r.direction(), 0.9, 3 + r.up_to(9)); });
   check_nearest(rounds(3000), rounds(300), [](RandomPrograms& r) { return r.around({}, 1, 3 + r.up_to(6)); });
 }
 

@@ -22,7 +22,7 @@ std::vector<Triangle> triangles_of(const TriangleMesh& mesh) {
 TEST(WindingNumber, OfAnOctahedronAtEveryPointOfALattice) {
   // Most rays meet a vertex or an edge. Points on the surface itself have no answer that could be wrong.
   const WindingNumber faces(triangles_of(scaled(octahedron(), 4))),
-                              finer(triangles_of(subdivided(subdivided(scaled(octahedron(), 4)))));
+      finer(triangles_of(subdivided(subdivided(scaled(octahedron(), 4)))));
   for (int x = -5; x <= 5; ++x)
     for (int y = -5; y <= 5; ++y)
       for (int z = -5; z <= 5; ++z) {

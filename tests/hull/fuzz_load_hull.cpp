@@ -1,5 +1,5 @@
-// Whatever bytes a .phull file has, load_hull returns a sound hull, or throws InputError. The first byte chooses: the rest
-// is the file, or the payload within it, which is compressed here so that mutations get past its checksum.
+// Whatever bytes a .phull file has, load_hull returns a sound hull, or throws InputError. The first byte chooses: the
+// rest is the file, or the payload within it, which is compressed here so that mutations get past its checksum.
 #include <zstd.h>
 
 #include <cstddef>
@@ -31,7 +31,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const prohull::ProgressiveHull hull = prohull::load_hull(content, "fuzz.phull");
     if (first_defect(hull)) std::abort();
-    for (const std::size_t faces : {hull.base_face_count(), hull.original_face_count() / 2, hull.original_face_count()}) {
+    for (const std::size_t faces :
+         {hull.base_face_count(), hull.original_face_count() / 2, hull.original_face_count()}) {
       const prohull::TriangleMesh level = hull.level(faces);
       if (level.face_count() > 0 && !inspect(level).is_closed_manifold()) std::abort();
     }

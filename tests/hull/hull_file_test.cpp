@@ -206,9 +206,10 @@ TEST(HullFile, APayloadThatItsChecksumVouchesForIsCheckedToo) {
 
 TEST(HullFile, HostileCountsAreRefused) {
   constexpr std::uint64_t kMost = 0xffffffffffffffff;
-  for (const std::uint64_t huge : {std::uint64_t{0xfffffffe}, std::uint64_t{0xffffffff}, kMost / 24, kMost / 12, kMost / 2 + 1, kMost})
-    for (const std::string& some : {counts(0, huge, 0, 0), counts(0, 0, huge, 0), counts(0, 0, 0, huge), counts(0, huge, huge, huge),
-                                    counts(0, huge, 0, 1), counts(0, 1, 0, huge)})
+  for (const std::uint64_t huge :
+       {std::uint64_t{0xfffffffe}, std::uint64_t{0xffffffff}, kMost / 24, kMost / 12, kMost / 2 + 1, kMost})
+    for (const std::string& some : {counts(0, huge, 0, 0), counts(0, 0, huge, 0), counts(0, 0, 0, huge),
+                                    counts(0, huge, huge, huge), counts(0, huge, 0, 1), counts(0, 1, 0, huge)})
       EXPECT_EQ(defect_of(with_payload(some)), Defect::Malformed) << huge;
   EXPECT_EQ(defect_of(with_payload(counts(2, 0, 0, 0))), Defect::Malformed) << "there are two sides";
   EXPECT_EQ(defect_of(with_payload(counts(0xffffffff, 0, 0, 0))), Defect::Malformed);

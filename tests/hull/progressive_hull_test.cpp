@@ -64,8 +64,10 @@ TEST(FirstDefect, NamesWhatIsWrongWithTheBase) {
   };
   EXPECT_EQ(defect([](HullParts&) {}), "none");
   EXPECT_EQ(defect([](HullParts& p) { p.corners.pop_back(); }), "the base mesh ends within a face");
-  EXPECT_EQ(defect([](HullParts& p) { p.positions.pop_back(); }), "109 positions for 66 original vertices and 44 splits");
-  EXPECT_EQ(defect([](HullParts& p) { ++p.original_vertices; }), "110 positions for 67 original vertices and 44 splits");
+  EXPECT_EQ(defect([](HullParts& p) { p.positions.pop_back(); }),
+            "109 positions for 66 original vertices and 44 splits");
+  EXPECT_EQ(defect([](HullParts& p) { ++p.original_vertices; }),
+            "110 positions for 67 original vertices and 44 splits");
   EXPECT_EQ(defect([](HullParts& p) { p.positions[VertexId{7}].y = std::numeric_limits<double>::quiet_NaN(); }),
             "vertex 7 has a coordinate that is not finite");
   EXPECT_EQ(defect([](HullParts& p) { p.corners.insert(p.corners.end(), 3, ProgressiveHull::kAbsent); }),
@@ -73,10 +75,16 @@ TEST(FirstDefect, NamesWhatIsWrongWithTheBase) {
   const auto first_present = [](HullParts& p) -> VertexId& {
     return *std::ranges::find_if(p.corners, [](VertexId v) { return v != ProgressiveHull::kAbsent; });
   };
-  EXPECT_TRUE(defect([&](HullParts& p) { first_present(p) = VertexId{110}; }).ends_with("a vertex that does not exist"));
-  EXPECT_TRUE(defect([&](HullParts& p) { first_present(p) = ProgressiveHull::kAbsent; }).ends_with("a vertex that does not exist"));
-  EXPECT_TRUE(defect([&](HullParts& p) { std::swap((&first_present(p))[0], (&first_present(p))[1]); }).starts_with("base mesh: edge "));
-  EXPECT_TRUE(defect([&](HullParts& p) { (&first_present(p))[0] = (&first_present(p))[1]; }).starts_with("base mesh: "));
+  EXPECT_TRUE(
+      defect([&](HullParts& p) { first_present(p) = VertexId{110}; }).ends_with("a vertex that does not exist"));
+  EXPECT_TRUE(defect([&](HullParts& p) {
+                first_present(p) = ProgressiveHull::kAbsent;
+              }).ends_with("a vertex that does not exist"));
+  EXPECT_TRUE(defect([&](HullParts& p) {
+                std::swap((&first_present(p))[0], (&first_present(p))[1]);
+              }).starts_with("base mesh: edge "));
+  EXPECT_TRUE(
+      defect([&](HullParts& p) { (&first_present(p))[0] = (&first_present(p))[1]; }).starts_with("base mesh: "));
 }
 
 TEST(FirstDefect, NamesASplitThatCannotBeMade) {
@@ -88,9 +96,8 @@ TEST(FirstDefect, NamesASplitThatCannotBeMade) {
     return first_defect(parts.joined()).value_or("none");
   };
   const VertexId made = small_hull().made_vertex(last);
-  const VertexId in_base = *std::ranges::find_if(small_hull().base_corners(), [&](VertexId v) {
-    return v != ProgressiveHull::kAbsent && v != made;
-  });
+  const VertexId in_base = *std::ranges::find_if(
+      small_hull().base_corners(), [&](VertexId v) { return v != ProgressiveHull::kAbsent && v != made; });
   const std::string refused = "split 43 does not fit the mesh it refines";
   EXPECT_EQ(defect([](VertexSplit& s) { s.d = s.o; }), refused) << "both ends are one";
   EXPECT_EQ(defect([](VertexSplit& s) { s.r = s.l; }), refused) << "both sides are one";
@@ -122,16 +129,36 @@ TEST(FirstDefect, LetsNothingPassThatIsNotAClosedManifoldOnEveryLevel) {
       VertexSplit& other = parts.splits[random() % parts.splits.size()];
       const VertexId v{static_cast<std::uint32_t>(random() % 111)};
       switch (random() % 10) {
-        case 0: split.o = v; break;
-        case 1: split.d = v; break;
-        case 2: split.l = v; break;
-        case 3: split.r = v; break;
-        case 4: split.od = static_cast<std::uint32_t>(random() % 385); break;
-        case 5: split.do_ = static_cast<std::uint32_t>(random() % 385); break;
-        case 6: std::swap(split.l, split.r); break;
-        case 7: std::swap(split.od, other.od); break;
-        case 8: std::swap(split, other); break;
-        default: parts.corners[random() % parts.corners.size()] = v; break;
+        case 0:
+          split.o = v;
+          break;
+        case 1:
+          split.d = v;
+          break;
+        case 2:
+          split.l = v;
+          break;
+        case 3:
+          split.r = v;
+          break;
+        case 4:
+          split.od = static_cast<std::uint32_t>(random() % 385);
+          break;
+        case 5:
+          split.do_ = static_cast<std::uint32_t>(random() % 385);
+          break;
+        case 6:
+          std::swap(split.l, split.r);
+          break;
+        case 7:
+          std::swap(split.od, other.od);
+          break;
+        case 8:
+          std::swap(split, other);
+          break;
+        default:
+          parts.corners[random() % parts.corners.size()] = v;
+          break;
       }
     }
     const ProgressiveHull hull = parts.joined();

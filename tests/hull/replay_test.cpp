@@ -131,7 +131,7 @@ TEST(Replay, RejectsAnyChangeOfASplit) {
     change(parts.splits[i]);
     EXPECT_FALSE(verify_replay(parts.joined(), mesh).holds) << "split " << i << ": " << what;
   };
-  for (std::size_t i = 0; i < hull.splits().size(); i += rounds(10) > 9 ? 7 : 40) {
+  for (std::size_t i = 0; i<hull.splits().size(); i += rounds(10)> 9 ? 7 : 40) {
     reject(i, "l and r", [](VertexSplit& s) { std::swap(s.l, s.r); });
     reject(i, "o and d", [](VertexSplit& s) { std::swap(s.o, s.d); });
     reject(i, "r is l", [](VertexSplit& s) { s.r = s.l; });
@@ -178,7 +178,7 @@ TEST(Replay, TakesTheOriginalInAnyOrderAndTurned) {
   EXPECT_TRUE(verify_replay(hull, soup(mesh)).holds);
   TriangleMesh shuffled = mesh;
   std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), std::mt19937(1));
-  for (auto& t : shuffled.triangles) std::ranges::rotate(t, t.begin() + 1);
+  for (auto& t : shuffled.triangles) std::rotate(t.begin(), t.begin() + 1, t.end());
   EXPECT_TRUE(verify_replay(hull, shuffled).holds);
 }
 

@@ -58,8 +58,8 @@ class RandomCollapses {
 
   /// Somewhere, if the link condition allows it.
   bool collapse() {
-    const EdgeId edge{std::uniform_int_distribution<std::uint32_t>(
-        0, static_cast<std::uint32_t>(mesh.edge_id_count()) - 1)(random_)};
+    const EdgeId edge{
+        std::uniform_int_distribution<std::uint32_t>(0, static_cast<std::uint32_t>(mesh.edge_id_count()) - 1)(random_)};
     if (!mesh.has(edge) || !may_collapse(mesh, edge)) return false;
     const HalfEdgeId h = mesh.half_edge(edge);
     splits.push_back(mesh.collapse(h, mesh.position(mesh.tip(h))));
@@ -195,8 +195,8 @@ TEST(LinkCondition, RefusesAnEdgeAroundAThinHandle) {
 
 // The condition is exact: collapses that it refuses do break the surface, whatever the mesh.
 TEST(LinkCondition, RefusesExactlyWhatWouldBreakTheSurface) {
-  for (const TriangleMesh& mesh : {tetrahedron(), octahedron(), two_tetrahedra_joined_by_a_neck(), torus(3, 3), torus(8, 3),
-                                   box({0, 0, 0}, {1, 1, 1}), make_sample("box", 100)}) {
+  for (const TriangleMesh& mesh : {tetrahedron(), octahedron(), two_tetrahedra_joined_by_a_neck(), torus(3, 3),
+                                   torus(8, 3), box({0, 0, 0}, {1, 1, 1}), make_sample("box", 100)}) {
     const HalfEdgeMesh half_edges(mesh);
     for (std::uint32_t e = 0; e < half_edges.edge_id_count(); ++e) {
       const HalfEdgeId h = half_edges.half_edge(EdgeId(e));
@@ -210,8 +210,8 @@ TEST(LinkCondition, RefusesExactlyWhatWouldBreakTheSurface) {
       }
       const MeshReport report = inspect(collapsed);
       EXPECT_EQ(may_collapse(half_edges, EdgeId(e)), report.is_closed_manifold() && report.faces >= 4)
-          << "edge " << index(o) << "-" << index(d) << " of a mesh of " << mesh.face_count() << " faces: "
-          << report.first_defect;
+          << "edge " << index(o) << "-" << index(d) << " of a mesh of " << mesh.face_count()
+          << " faces: " << report.first_defect;
     }
   }
 }

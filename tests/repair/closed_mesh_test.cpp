@@ -75,8 +75,8 @@ TEST(ClosedMesh, DropsFacesWithAVertexTwice) {
 TEST(ClosedMesh, DropsFacesThatWeldingCollapses) {
   // Edge 0-1 of a soup, split by a needle whose third corner is a copy of 1.
   TriangleMesh mesh = soup(tetrahedron());
-  mesh.triangles.push_back({mesh.positions.push_back({0, 0, 0}), mesh.positions.push_back({1, 0, 0}),
-                            mesh.positions.push_back({1, 0, 0})});
+  mesh.triangles.push_back(
+      {mesh.positions.push_back({0, 0, 0}), mesh.positions.push_back({1, 0, 0}), mesh.positions.push_back({1, 0, 0})});
   const ClosedMesh closed = closed_mesh(mesh);
   EXPECT_EQ(closed.repairs.dropped_faces, 1u);
   EXPECT_EQ(closed.report.faces, 4u);
