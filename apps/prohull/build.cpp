@@ -64,7 +64,8 @@ HullResult build(const ClosedMesh& input, const Options& options) {
 class Candidate {
  public:
   explicit Candidate(const std::filesystem::path& target) : target_(target), path_(target) {
-    path_.replace_filename(fmt::format(".{}.{}.uncertified{}", target.stem().string(), getpid(), target.extension().string()));
+    path_.replace_filename(
+        fmt::format(".{}.{}.uncertified{}", target.stem().string(), getpid(), target.extension().string()));
   }
   Candidate(const Candidate&) = delete;
   Candidate& operator=(const Candidate&) = delete;
@@ -80,7 +81,8 @@ class Candidate {
 };
 
 // The proof of what was written: the splits are replayed, and the file is read again and compared bit for bit with the
-// base mesh that they start from. Where rounding to the file's float32 moved vertices, the two files are compared exactly.
+// base mesh that they start from. Where rounding to the file's float32 moved vertices, the two files are compared
+// exactly.
 bool certify(const HullResult& result, const std::filesystem::path& file, const TriangleMesh& original) {
   ProgressLine line("verify");
   const auto progress = [&](double fraction) { return line(fraction); };
@@ -149,44 +151,43 @@ int run_build(Options options) {
   if (certified && !options.hierarchy.empty())
     fmt::print("{}: all levels from {} to {} faces\n", options.hierarchy.string(), grouped(hull.face_count()),
                grouped(original.report.faces));
-  fmt::print("  certified: {}\n", certified ? fmt::format("yes, the file as written {} the original",
-                                                          outer ? "encloses" : "is enclosed by")
-                                            : "NO: nothing was written; please report this mesh");
+  fmt::print("  certified: {}\n",
+             certified ? fmt::format("yes, the file as written {} the original", outer ? "encloses" : "is enclosed by")
+                       : "NO: nothing was written; please report this mesh");
   fmt::print("  read {:.2f} s, build {:.2f} s, write {:.2f} s, verify {:.2f} s\n",
              input.read_seconds + input.repair_seconds, build_seconds, write_seconds, verify_seconds);
 
   nlohmann::json in = facts(original.report);
   in["path"] = options.in.string();
   in["repairs"] = describe(original.repairs);
-  write_report(options.report,
-               {{"input", in},
-                {"hull",
-                 {{"path", options.out.string()},
-                  {"faces", hull.face_count()},
-                  {"vertices", hull.vertex_count()},
-                  {"volume", volume},
-                  {"void_ratio", void_ratio},
-                  {"rounded_vertices", rounded}}},
-                {"certified", certified},
-                {"stopped", reached ? "target_reached" : "no_legal_collapse"},
-                {"refusals", facts_of(result.refused)},
-                {"blocked", facts_of(result.blocked)},
-                {"seconds",
-                 {{"read", input.read_seconds},
-                  {"repair", input.repair_seconds},
-                  {"build", build_seconds},
-                  {"write", write_seconds},
-                  {"verify", verify_seconds}}},
-                {"options",
-                 {{"faces", options.hull.target_faces},
-                  {"side", name_of(side_names(), options.hull.side)},
-                  {"strategy", name_of(strategy_names(), options.hull.strategy)},
-                  {"max_valence", options.hull.max_valence},
-                  {"min_compactness_ratio", options.hull.min_compactness_ratio},
-                  {"sufficient_compactness", options.hull.sufficient_compactness},
-                  {"max_normal_deviation_degrees", options.normal_deviation_degrees},
-                  {"allow_self_intersections", options.hull.allow_self_intersections},
-                  {"float32_coordinates", float32}}}});
+  write_report(options.report, {{"input", in},
+                                {"hull",
+                                 {{"path", options.out.string()},
+                                  {"faces", hull.face_count()},
+                                  {"vertices", hull.vertex_count()},
+                                  {"volume", volume},
+                                  {"void_ratio", void_ratio},
+                                  {"rounded_vertices", rounded}}},
+                                {"certified", certified},
+                                {"stopped", reached ? "target_reached" : "no_legal_collapse"},
+                                {"refusals", facts_of(result.refused)},
+                                {"blocked", facts_of(result.blocked)},
+                                {"seconds",
+                                 {{"read", input.read_seconds},
+                                  {"repair", input.repair_seconds},
+                                  {"build", build_seconds},
+                                  {"write", write_seconds},
+                                  {"verify", verify_seconds}}},
+                                {"options",
+                                 {{"faces", options.hull.target_faces},
+                                  {"side", name_of(side_names(), options.hull.side)},
+                                  {"strategy", name_of(strategy_names(), options.hull.strategy)},
+                                  {"max_valence", options.hull.max_valence},
+                                  {"min_compactness_ratio", options.hull.min_compactness_ratio},
+                                  {"sufficient_compactness", options.hull.sufficient_compactness},
+                                  {"max_normal_deviation_degrees", options.normal_deviation_degrees},
+                                  {"allow_self_intersections", options.hull.allow_self_intersections},
+                                  {"float32_coordinates", float32}}}});
   return !certified || (options.strict && !reached) ? kAnswerIsNo : kDone;
 }
 
@@ -196,8 +197,12 @@ void add_build(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   HullOptions& hull = options->hull;
   CLI::App& command = *app.add_subcommand("build", "Build a hull of a closed mesh, certified");
-  command.add_option("in", options->in, "Closed mesh: PLY, OBJ, OFF or STL, also .gz or .zip")->required()->type_name("IN");
-  command.add_option("-o,--out", options->out, "Where the hull goes: .ply, .obj, .off or .stl")->required()->type_name("OUT");
+  command.add_option("in", options->in, "Closed mesh: PLY, OBJ, OFF or STL, also .gz or .zip")
+      ->required()
+      ->type_name("IN");
+  command.add_option("-o,--out", options->out, "Where the hull goes: .ply, .obj, .off or .stl")
+      ->required()
+      ->type_name("OUT");
   command.add_option("--faces", hull.target_faces, "Stop at this many faces")->capture_default_str();
   command.add_option("--side", hull.side, "outer: encloses the mesh; inner: is enclosed by it")
       ->transform(CLI::CheckedTransformer(side_names()))
@@ -207,7 +212,8 @@ void add_build(CLI::App& app, Run& run) {
                   "lazy: tight and fast; paper1, paper2: the two of Platis and Theoharis (2003)")
       ->transform(CLI::CheckedTransformer(strategy_names()))
       ->default_str("lazy");
-  command.add_option("--hierarchy", options->hierarchy, "Also write all levels, for lod and verify")->type_name("H.phull");
+  command.add_option("--hierarchy", options->hierarchy, "Also write all levels, for lod and verify")
+      ->type_name("H.phull");
   command.add_flag("--no-self-intersections", options->no_self_intersections,
                    "Refuse collapses that would make the hull intersect itself (inner hulls always do)");
   command.add_flag("--strict", options->strict, "Exit with 1 if the face count is not reached");

@@ -83,8 +83,9 @@ void require_writable(const std::filesystem::path& path) {
     throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write: there is no folder {}; create it first",
                                                       path.string(), folder.string()));
   if (access(folder.c_str(), W_OK) != 0)
-    throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write: {} takes no files from you; choose another folder",
-                                                      path.string(), folder.string()));
+    throw InputError(Defect::CannotWrite,
+                     fmt::format("{}: cannot write: {} takes no files from you; choose another folder", path.string(),
+                                 folder.string()));
 }
 
 void write_report(const std::filesystem::path& path, nlohmann::json report) {

@@ -17,7 +17,7 @@ namespace prohull::cli {
 // What every subcommand shares: exit codes, progress, reports, and how facts are written down.
 
 constexpr int kDone = 0;
-constexpr int kAnswerIsNo = 1;   // verify failed, or a budget was not reached and --strict
+constexpr int kAnswerIsNo = 1;  // verify failed, or a budget was not reached and --strict
 constexpr int kWrongUsage = 2;
 constexpr int kBadInput = 3;
 constexpr int kInterrupted = 130;
@@ -45,9 +45,7 @@ class ProgressLine {
 
 class Stopwatch {
  public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -13,9 +13,7 @@ struct Options {
 };
 
 // Of all components together; of a closed manifold.
-long genus(const MeshReport& report) {
-  return static_cast<long>(report.components) - report.euler_characteristic / 2;
-}
+long genus(const MeshReport& report) { return static_cast<long>(report.components) - report.euler_characteristic / 2; }
 
 void print_defects(const MeshReport& report) {
   const auto line = [](std::size_t count, const char* what) {
@@ -96,7 +94,8 @@ int describe_hull(const Options& options) {
 
 void add_info(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("info", "Tell what a mesh or .phull file holds, and whether a hull can be built");
+  CLI::App& command =
+      *app.add_subcommand("info", "Tell what a mesh or .phull file holds, and whether a hull can be built");
   command.add_option("in", options->in, "Mesh (PLY, OBJ, OFF, STL; also .gz or .zip) or .phull file")
       ->required()
       ->type_name("FILE");

@@ -38,11 +38,12 @@ void add_lod(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("lod", "Extract any level of a .phull file");
   command.add_option("in", options->in, "What build --hierarchy wrote")->required()->type_name("H.phull");
-  command.add_option("-o,--out", options->out, "Where the level goes: .ply, .obj, .off or .stl")->required()->type_name("OUT");
+  command.add_option("-o,--out", options->out, "Where the level goes: .ply, .obj, .off or .stl")
+      ->required()
+      ->type_name("OUT");
   command.add_option("--faces", options->faces, "The finest level of at most this many faces; without, the base mesh");
   add_report_option(command, options->report);
-  add_examples(command, {"prohull lod horse.phull --faces 5000 -o level.ply",
-                         "prohull lod horse.phull -o base.stl"});
+  add_examples(command, {"prohull lod horse.phull --faces 5000 -o level.ply", "prohull lod horse.phull -o base.stl"});
   command.callback([options, &run] { run = [options] { return extract(*options); }; });
 }
 

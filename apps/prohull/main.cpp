@@ -14,8 +14,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "prohull " PROHULL_VERSION);
   app.require_subcommand(1);
   app.fallthrough(false);
-  app.footer("prohull COMMAND --help shows the options and examples of a command.\n"
-             "Exit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 130 interrupted.");
+  app.footer(
+      "prohull COMMAND --help shows the options and examples of a command.\n"
+      "Exit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 130 interrupted.");
   Run run;
   add_build(app, run);
   add_verify(app, run);

@@ -29,7 +29,8 @@ int replay(const Options& options) {
     fmt::print("yes: every level of {} {} {}; {} splits replayed, {} signs exact, {:.2f} s\n", options.hull.string(),
                relation, options.original.string(), grouped(report.splits), grouped(report.signs), verifying.seconds());
   else
-    fmt::print("NO: {} proves nothing about {}: {}\n", options.hull.string(), options.original.string(), report.why_not);
+    fmt::print("NO: {} proves nothing about {}: {}\n", options.hull.string(), options.original.string(),
+               report.why_not);
   write_report(options.report, {{"hull", options.hull.string()},
                                 {"original", options.original.string()},
                                 {"encloses", report.holds},
@@ -57,8 +58,8 @@ int compare(const Options& options) {
     } catch (const Cancelled&) {
       throw Interrupted{};
     } catch (const InputError& error) {
-      throw InputError(error.defect(), fmt::format("{} and {}: {}", options.hull.string(), options.original.string(),
-                                                   error.what()));
+      throw InputError(error.defect(),
+                       fmt::format("{} and {}: {}", options.hull.string(), options.original.string(), error.what()));
     }
   }
   const std::string inside = (outer ? options.original : options.hull).string();
@@ -101,12 +102,16 @@ int compare(const Options& options) {
 void add_verify(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand(
-      "verify", "Decide exactly whether a hull encloses a mesh; exits with 1 if it does not. A .phull file is a proof and "
-                "is replayed; any two closed mesh files are compared by exact predicates");
+      "verify",
+      "Decide exactly whether a hull encloses a mesh; exits with 1 if it does not. A .phull file is a proof and "
+      "is replayed; any two closed mesh files are compared by exact predicates");
   command.add_option("hull", options->hull, "Mesh or .phull file")->required()->type_name("HULL");
-  command.add_option("original", options->original, "The mesh that it should enclose")->required()->type_name("ORIGINAL");
+  command.add_option("original", options->original, "The mesh that it should enclose")
+      ->required()
+      ->type_name("ORIGINAL");
   command
-      .add_option("--side", options->side, "inner: decide whether ORIGINAL encloses HULL (a .phull file knows its side)")
+      .add_option("--side", options->side,
+                  "inner: decide whether ORIGINAL encloses HULL (a .phull file knows its side)")
       ->transform(CLI::CheckedTransformer(side_names()))
       ->default_str("outer");
   add_report_option(command, options->report);

@@ -10,20 +10,21 @@ namespace prohull {
 
 /// A triangle of the inner mesh of which a part lies outside of the outer mesh.
 struct Offender {
-  FaceId face;         ///< of the inner mesh
-  Vec3 point;          ///< a point of it outside of the outer mesh, rounded to double
-  double distance = 0; ///< from there to the outer mesh, in the input's unit, rounded
+  FaceId face;          ///< of the inner mesh
+  Vec3 point;           ///< a point of it outside of the outer mesh, rounded to double
+  double distance = 0;  ///< from there to the outer mesh, in the input's unit, rounded
 };
 
 struct EnclosureReport {
-  bool encloses = false;               ///< the verdict, exact
-  std::size_t faces_outside = 0;       ///< triangles of the inner mesh of which a part lies outside; exact
-  std::vector<Offender> worst;         ///< the farthest of them, farthest first
-  std::size_t cavities = 0;            ///< connected parts of the outer mesh that leave a hole in the cover by themselves
-  /// Pairs of faces of the outer mesh that meet beyond shared corners and edges; exact. Faces without area do not count.
+  bool encloses = false;          ///< the verdict, exact
+  std::size_t faces_outside = 0;  ///< triangles of the inner mesh of which a part lies outside; exact
+  std::vector<Offender> worst;    ///< the farthest of them, farthest first
+  std::size_t cavities = 0;       ///< connected parts of the outer mesh that leave a hole in the cover by themselves
+  /// Pairs of faces of the outer mesh that meet beyond shared corners and edges; exact. Faces without area do not
+  /// count.
   std::size_t self_intersections = 0;
   double inner_volume = 0, outer_volume = 0;
-  double void_ratio = 0;               ///< (volume of outer - volume of inner) / volume of inner; 0 if inner has none
+  double void_ratio = 0;  ///< (volume of outer - volume of inner) / volume of inner; 0 if inner has none
 };
 
 struct EnclosureOptions {
@@ -35,10 +36,11 @@ struct EnclosureOptions {
 /// once is wound around at least once by `outer`. Guaranteed: the answer is exact for all finite coordinates, by exact
 /// predicates and constructions, without any tolerance. It shares nothing with the construction of hulls but geometry/.
 ///
-/// Required: two closed meshes (along every edge, matched by position, faces run as often one way as the other). They may
-/// touch, share vertices, edges and faces, overlap in a plane, intersect themselves, have faces without area, several
-/// components and cavities. A mesh with a negative volume is turned first, as a whole: single components that face
-/// inwards are cavities (turned_outwards turns those that cannot be). Parts of a self-intersecting `inner` that it winds around zero or fewer times need no cover.
+/// Required: two closed meshes (along every edge, matched by position, faces run as often one way as the other). They
+/// may touch, share vertices, edges and faces, overlap in a plane, intersect themselves, have faces without area,
+/// several components and cavities. A mesh with a negative volume is turned first, as a whole: single components that
+/// face inwards are cavities (turned_outwards turns those that cannot be). Parts of a self-intersecting `inner` that it
+/// winds around zero or fewer times need no cover.
 ///
 /// Throws InputError if a mesh is empty, not closed or has a non-finite coordinate; Cancelled if `progress` says so.
 ///
@@ -47,9 +49,10 @@ struct EnclosureOptions {
 EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& outer,
                                  const EnclosureOptions& options = {});
 
-/// The mesh turned as a whole if its volume is negative, then each component, connected by edges, whose volume is negative
-/// although it lies outside of the others, where it cannot be a cavity. What is verified against an original mesh is
-/// verified against this, as hulls are built from it. Exact. Throws InputError if the mesh is empty or not finite.
+/// The mesh turned as a whole if its volume is negative, then each component, connected by edges, whose volume is
+/// negative although it lies outside of the others, where it cannot be a cavity. What is verified against an original
+/// mesh is verified against this, as hulls are built from it. Exact. Throws InputError if the mesh is empty or not
+/// finite.
 TriangleMesh turned_outwards(TriangleMesh mesh);
 
 /// Pairs of faces that meet beyond shared corners and edges, found by position. Exact. Throws as verify_enclosure does.

@@ -7,18 +7,18 @@
 namespace prohull {
 
 enum class Defect {
-  CannotRead,             ///< the file does not exist or the system refuses it
-  CannotWrite,            ///< the folder does not exist, is read-only, or is full
-  UnknownFormat,          ///< neither the name nor the content tells a format that is read or written here
-  Malformed,              ///< the file contradicts its own format; the message has the line or byte offset
-  NonFiniteCoordinate,    ///< NaN or infinity, or a value that the format cannot store
-  EmptyMesh,              ///< no triangle
-  OpenEdge,               ///< an edge with one face
-  NonManifoldEdge,        ///< an edge with more than two faces
-  InconsistentOrientation,///< neighbouring faces that disagree about the outside
-  NonManifoldVertex,      ///< faces around a vertex that are not one disk
-  NoVolume,               ///< closed, but encloses nothing
-  InvalidOption,          ///< an option outside its documented range
+  CannotRead,               ///< the file does not exist or the system refuses it
+  CannotWrite,              ///< the folder does not exist, is read-only, or is full
+  UnknownFormat,            ///< neither the name nor the content tells a format that is read or written here
+  Malformed,                ///< the file contradicts its own format; the message has the line or byte offset
+  NonFiniteCoordinate,      ///< NaN or infinity, or a value that the format cannot store
+  EmptyMesh,                ///< no triangle
+  OpenEdge,                 ///< an edge with one face
+  NonManifoldEdge,          ///< an edge with more than two faces
+  InconsistentOrientation,  ///< neighbouring faces that disagree about the outside
+  NonManifoldVertex,        ///< faces around a vertex that are not one disk
+  NoVolume,                 ///< closed, but encloses nothing
+  InvalidOption,            ///< an option outside its documented range
 };
 
 /// Thrown at the door, by whatever reads a file or takes a mesh; what() says what is wrong, where, and what to do.

@@ -23,12 +23,12 @@ enum class QueueKind { Bucket, Heap, RedBlackTree };
 
 /// Why an edge was not collapsed.
 enum class Refusal {
-  LinkCondition,    ///< the surface would be pinched
-  Valence,          ///< the new vertex would have more than max_valence faces
-  NoRoomOutside,    ///< no point is outside of every face of the star (P&T formula 2)
-  Certificate,      ///< the best point, as stored, is not provably outside of every face
-  Compactness,      ///< a face would become too thin
-  NormalDeviation,  ///< a face would turn too far
+  LinkCondition,     ///< the surface would be pinched
+  Valence,           ///< the new vertex would have more than max_valence faces
+  NoRoomOutside,     ///< no point is outside of every face of the star (P&T formula 2)
+  Certificate,       ///< the best point, as stored, is not provably outside of every face
+  Compactness,       ///< a face would become too thin
+  NormalDeviation,   ///< a face would turn too far
   SelfIntersection,  ///< faces would meet that share nothing there
 };
 constexpr std::size_t kRefusalKinds = 7;
@@ -55,10 +55,11 @@ struct HullOptions {
   double min_compactness_ratio = 0.8;                  ///< worst face of the star, after / before; in [0, 1]
   double sufficient_compactness = 0.15;                ///< good enough whatever it was before; Strategy::Lazy only
   double max_normal_deviation = std::numbers::pi / 4;  ///< of a face that a collapse moves; radians, in [0, pi/2]
-  bool allow_self_intersections = true;                ///< faster; inner hulls never do, they would stick out of the mesh
-  bool float32_coordinates = false;                    ///< new vertices have coordinates that a float32 file keeps
+  bool allow_self_intersections = true;  ///< faster; inner hulls never do, they would stick out of the mesh
+  bool float32_coordinates = false;      ///< new vertices have coordinates that a float32 file keeps
   QueueKind queue = QueueKind::Bucket;
-  std::function<bool(const HullProgress&)> progress = {};  ///< called now and then; false stops with the hull made so far
+  std::function<bool(const HullProgress&)> progress =
+      {};  ///< called now and then; false stops with the hull made so far
 };
 
 enum class Stopped { TargetReached, NoLegalCollapse, Cancelled };

@@ -17,13 +17,13 @@ MeshFormat mesh_format(const std::filesystem::path& path);
 bool stores_float32(MeshFormat format);
 
 /// Reads a mesh: PLY (ascii, binary little and big endian; triangle strips), OBJ, OFF, STL (ascii, binary), each also
-/// gzipped or alone in a zip archive. The name tells the format, the content if the name has none; a name that contradicts
-/// the content is an error. Coordinates keep their bits as doubles. Polygons are triangulated, also where they are not
-/// convex. STL corners at equal positions become one vertex; other formats keep their vertices as they are. Normals,
-/// colours, textures, lines and points are skipped, and so is what follows the last record that a header counts. A file
-/// without faces gives a mesh without triangles.
-/// Throws InputError with file, line or byte offset; memory use is bounded by the size of the content, not by what
-/// headers claim, and a compressed file must not grow more than 200 times (beyond 64 MiB).
+/// gzipped or alone in a zip archive. The name tells the format, the content if the name has none; a name that
+/// contradicts the content is an error. Coordinates keep their bits as doubles. Polygons are triangulated, also where
+/// they are not convex. STL corners at equal positions become one vertex; other formats keep their vertices as they
+/// are. Normals, colours, textures, lines and points are skipped, and so is what follows the last record that a header
+/// counts. A file without faces gives a mesh without triangles. Throws InputError with file, line or byte offset;
+/// memory use is bounded by the size of the content, not by what headers claim, and a compressed file must not grow
+/// more than 200 times (beyond 64 MiB).
 TriangleMesh read_mesh(const std::filesystem::path& path);
 
 /// The same for the content of a file; `name` gives the format and stands in error messages.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 
+#include "prohull/error.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
@@ -10,7 +11,7 @@ namespace prohull {
 /// What a mesh is and what is wrong with it. Edges and vertices are told apart by index, not by position.
 struct MeshReport {
   std::size_t faces = 0;
-  std::size_t vertices = 0;               ///< that triangles use
+  std::size_t vertices = 0;  ///< that triangles use
   std::size_t unused_vertices = 0;
   std::size_t components = 0;             ///< connected by shared vertices
   std::size_t non_finite_vertices = 0;    ///< a coordinate is NaN or infinite
@@ -22,15 +23,14 @@ struct MeshReport {
   std::size_t non_manifold_vertices = 0;  ///< faces around them are more than one disk or fan
   long euler_characteristic = 0;          ///< vertices - edges + faces
   Box box;
-  double volume = 0;                      ///< signed; meaningful for closed meshes
-  std::string first_defect;               ///< where the worst kind of defect occurs first; empty if there is none
+  double volume = 0;                        ///< signed; meaningful for closed meshes
+  Defect worst_defect = Defect::EmptyMesh;  ///< the worst kind there is; meaningful if first_defect is not empty
+  std::string first_defect;                 ///< where it occurs first; empty if there is none
 
   bool is_watertight() const {
     return faces > 0 && repeated_corner_faces + open_edges + non_manifold_edges + misoriented_edges == 0;
   }
-  bool is_closed_manifold() const {
-    return is_watertight() && non_manifold_vertices == 0 && non_finite_vertices == 0;
-  }
+  bool is_closed_manifold() const { return is_watertight() && non_manifold_vertices == 0 && non_finite_vertices == 0; }
 };
 
 MeshReport inspect(const TriangleMesh& mesh);

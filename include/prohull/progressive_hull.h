@@ -14,9 +14,9 @@ enum class HullSide {
   Inner,  ///< every hull is enclosed by the original mesh
 };
 
-/// The inverse of the edge collapse that made one vertex s: s becomes the edge o-d, and the faces (o, d, l) and (d, o, r)
-/// come back. Faces and their corners are numbered as in the original mesh; `od` and `do_` name the corners (3 face +
-/// corner) that o has in the first and d in the second.
+/// The inverse of the edge collapse that made one vertex s: s becomes the edge o-d, and the faces (o, d, l) and (d, o,
+/// r) come back. Faces and their corners are numbered as in the original mesh; `od` and `do_` name the corners (3 face
+/// + corner) that o has in the first and d in the second.
 struct VertexSplit {
   VertexId o, d, l, r;
   std::uint32_t od, do_;
@@ -31,8 +31,8 @@ struct VertexSplit {
 /// Not guaranteed: freedom from self-intersection.
 class ProgressiveHull {
  public:
-  /// Vertices are numbered: those of the original mesh first, then one for each edge collapse in the order in which they
-  /// were made. `base_corners` holds the base mesh: for corner c of face f, at 3 f + c, its vertex, or kAbsent.
+  /// Vertices are numbered: those of the original mesh first, then one for each edge collapse in the order in which
+  /// they were made. `base_corners` holds the base mesh: for corner c of face f, at 3 f + c, its vertex, or kAbsent.
   /// Requires that first_defect finds none; unused vertices are allowed.
   ProgressiveHull(HullSide side, std::size_t original_vertices, PerVertex<Vec3> positions,
                   std::vector<VertexId> base_corners, std::vector<VertexSplit> splits);

@@ -28,10 +28,10 @@ struct ClosedMesh {
   MeshReport report;  ///< of `mesh`
 };
 
-/// The mesh that hulls are built from: a closed 2-manifold of any number of components and any genus, outwards oriented.
-/// Vertices at equal positions are welded only if the mesh is not closed without. A mesh of negative volume is turned as a
-/// whole; then each component of negative volume is turned too, unless it lies inside others: there it bounds a cavity.
-/// Throws InputError for anything else, with the first offending edge or vertex.
+/// The mesh that hulls are built from: a closed 2-manifold of any number of components and any genus, outwards
+/// oriented. Vertices at equal positions are welded only if the mesh is not closed without. A mesh of negative volume
+/// is turned as a whole; then each component of negative volume is turned too, unless it lies inside others: there it
+/// bounds a cavity. Throws InputError for anything else, with the first offending edge or vertex.
 ClosedMesh closed_mesh(TriangleMesh mesh);
 
 }  // namespace prohull

@@ -26,8 +26,9 @@ struct TriangleMesh {
 /// Of the positions that triangles use.
 Box bounding_box(const TriangleMesh& mesh);
 
-/// The sum of the signed tetrahedra under all triangles: positive if a closed mesh is oriented outwards. Evaluated about
-/// the centre of the bounding box in double precision; may overflow to infinity, never to NaN, for huge coordinates.
+/// The sum of the signed tetrahedra under all triangles: positive if a closed mesh is oriented outwards. Evaluated
+/// about the centre of the bounding box in double precision; may overflow to infinity, never to NaN, for huge
+/// coordinates.
 double signed_volume(const TriangleMesh& mesh);
 
 }  // namespace prohull

@@ -11,8 +11,8 @@
 
 namespace prohull {
 
-// Three priority queues of edges with one interface. Keys are >= 0; the least comes first; equal keys are ordered by edge
-// (Heap, RedBlackTree) or by age (Bucket).
+// Three priority queues of edges with one interface. Keys are >= 0; the least comes first; equal keys are ordered by
+// edge (Heap, RedBlackTree) or by age (Bucket).
 
 /// A binary heap that knows where each edge is.
 class EdgeHeap {
@@ -108,7 +108,10 @@ class EdgeTree {
 class EdgeBuckets {
  public:
   explicit EdgeBuckets(std::size_t edges)
-      : next_(edges, kNone), previous_(edges, kNone), bucket_(edges, kNotQueued), first_(kBuckets, kNone),
+      : next_(edges, kNone),
+        previous_(edges, kNone),
+        bucket_(edges, kNotQueued),
+        first_(kBuckets, kNone),
         last_(kBuckets, kNone) {}
 
   bool empty() const { return size_ == 0; }
@@ -144,7 +147,8 @@ class EdgeBuckets {
   static constexpr std::size_t kBuckets = 1 << 14;
   static constexpr std::uint16_t kNotQueued = 0xffff;
 
-  // The exponent of a non-negative double and the first three bits of its mantissa, which are in the order of the values.
+  // The exponent of a non-negative double and the first three bits of its mantissa, which are in the order of the
+  // values.
   static std::uint16_t bucket_of(double key) {
     assert(key >= 0);
     return static_cast<std::uint16_t>(std::bit_cast<std::uint64_t>(key + 0.0) >> 49);

@@ -30,8 +30,8 @@ class VertexMover {
     for (const VertexId v : mesh_.positions().ids())
       if (mesh_.has(v) && !is_float32(mesh_.position(v))) pending.push_back(v);
     const std::size_t wanted = pending.size();
-    // Around a saddle the planes may meet in the vertex alone. Neighbours that move out tilt them and make room; where even
-    // that fails, the vertex goes, by an edge collapse.
+    // Around a saddle the planes may meet in the vertex alone. Neighbours that move out tilt them and make room; where
+    // even that fails, the vertex goes, by an edge collapse.
     constexpr int kRounds = 24;
     for (int round = 0; !pending.empty(); ++round) {
       std::erase_if(pending, [&](VertexId v) { return move_nearby(v); });
@@ -56,10 +56,11 @@ class VertexMover {
  private:
   [[noreturn]] void refuse(VertexId v, std::size_t count) const {
     const Vec3& p = mesh_.position(v);
-    throw InputError(Defect::NoVolume,
-                     fmt::format("{} vertices, the first at ({:.9g}, {:.9g}, {:.9g}), cannot be moved outwards to float32 "
-                                 "coordinates; write a .ply, .obj or .off file, which keep doubles",
-                                 count, p.x, p.y, p.z));
+    throw InputError(
+        Defect::NoVolume,
+        fmt::format("{} vertices, the first at ({:.9g}, {:.9g}, {:.9g}), cannot be moved outwards to float32 "
+                    "coordinates; write a .ply, .obj or .off file, which keep doubles",
+                    count, p.x, p.y, p.z));
   }
 
   // Does use(corner after v, corner before v) for each face around v.
@@ -89,8 +90,8 @@ class VertexMover {
   // How far v may move: neighbours that lift each other in turn would grow without end.
   double reach(VertexId v) const { return std::max(diagonal_ / 1000, 4096 * spacing(v)); }
 
-  // The point that adds the least volume and is at least `clearance` outside of all planes around v, rounded; nothing if
-  // there is none close by.
+  // The point that adds the least volume and is at least `clearance` outside of all planes around v, rounded; nothing
+  // if there is none close by.
   std::optional<Vec3> lifted(VertexId v, double clearance) {
     const Vec3 origin = mesh_.position(v);
     constraints_.clear();
@@ -116,13 +117,15 @@ class VertexMover {
       step = *nearest;
     }
     const Vec3 p = nearest_float32(origin + step * clearance);
-    return is_finite(p) && norm(p - level_.positions[v]) <= reach(v) && is_outside(v, p) ? std::optional(p) : std::nullopt;
+    return is_finite(p) && norm(p - level_.positions[v]) <= reach(v) && is_outside(v, p) ? std::optional(p)
+                                                                                         : std::nullopt;
   }
 
   bool move_nearby(VertexId v) {
     const Vec3 p = mesh_.position(v);
     std::optional<Vec3> best = nearest_corner(v);
-    for (double clearance = spacing(v); !best && clearance <= 64 * spacing(v); clearance *= 2) best = lifted(v, clearance);
+    for (double clearance = spacing(v); !best && clearance <= 64 * spacing(v); clearance *= 2)
+      best = lifted(v, clearance);
     if (best) mesh_.move(v, *best);
     return best.has_value() || is_float32(p);
   }
@@ -175,8 +178,8 @@ class VertexMover {
       if (satisfies_link_condition(star_)) {
         measure_star(mesh_, star_);
         if (const auto placement = place_outside(star_, placement_margin(star_, 4 * spacing(v)))) {
-          const Choice choice{refused_shape(star_, placement->local, {}).has_value(), placement->added_volume, star_.edge,
-                              nearest_float32(star_.to_input(placement->local))};
+          const Choice choice{refused_shape(star_, placement->local, {}).has_value(), placement->added_volume,
+                              star_.edge, nearest_float32(star_.to_input(placement->local))};
           const auto rank = [](const Choice& c) { return std::pair(c.misshapen, c.added_volume); };
           if (prohull::is_outside(mesh_, star_, choice.apex) && (!best || rank(choice) < rank(*best))) best = choice;
         }
@@ -208,7 +211,8 @@ Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side) {
         std::abs(p.x) > kMost || std::abs(p.y) > kMost || std::abs(p.z) > kMost)
       throw InputError(Defect::NonFiniteCoordinate,
                        fmt::format("coordinates beyond {:g} do not fit the float32 of the file; write a .ply, .obj or "
-                                   ".off file, or scale the mesh", kMost));
+                                   ".off file, or scale the mesh",
+                                   kMost));
   if (std::ranges::all_of(level.positions, is_float32)) return {level, 0};
   // An inner hull is the outer hull of the mesh turned inside out.
   TriangleMesh turned = level;

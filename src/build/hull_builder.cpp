@@ -44,57 +44,34 @@ class HullBuilder {
   }
 
   HullResult run() {
-    Stopped stopped = Stopped::NoLegalCollapse;
     queue_all();
-    while (true) {
-      if (mesh_.face_count() <= options_.target_faces) {
-        stopped = Stopped::TargetReached;
-        break;
-      }
-      if (queue_.empty()) break;
-      if (cancelled()) {
-        stopped = Stopped::Cancelled;
-        break;
-      }
+    while (mesh_.face_count() > options_.target_faces && !queue_.empty() && !cancelled()) {
       const EdgeId edge = queue_.pop();
       gather_star(mesh_, edge, star_);
-      if (const auto why = refusal_of_topology()) {
+      if (const auto why = refusal_of_topology()) {  // 3.1.4: link condition, valence
         refuse(edge, *why);
         continue;
       }
       measure_star(mesh_, star_);
-      const auto placement = place();
+      const auto placement = place();  // 3.1.2, linear program
       if (!placement) {
         refuse(edge, Refusal::NoRoomOutside);
         continue;
       }
-      if (state_[edge] == EdgeState::Stale) {
-        state_[edge] = EdgeState::Fresh;
-        key_[edge] = placement->added_volume;
-        if (options_.strategy == Strategy::Lazy && !queue_.precedes_all(key_[edge])) {
-          queue_.insert(edge, key_[edge]);
-          continue;
-        }
-      }
+      if (comes_too_early(edge, *placement)) continue;
       Vec3 apex;
-      if (const auto why = refusal_of_apex(*placement, apex)) {
+      if (const auto why = refusal_of_apex(*placement, apex)) {  // exact certificate; 3.1.4: shape
         refuse(edge, *why);
         continue;
       }
-      // The edges d-l and o-r merge into o-l and d-r.
-      unqueue(mesh_.edge(mesh_.next(star_.edge)));
-      unqueue(mesh_.edge(mesh_.next(mesh_.twin(star_.edge))));
-      record_.push_back(mesh_.collapse(star_.edge, apex));
-      const VertexId s{index(mesh_.positions().next_id()) - 1};
-      if (guard_) guard_->collapsed(mesh_, s);
-      requeue_around(s);
+      requeue_around(collapse(apex));  // Figure 3
     }
-    return result(stopped);
+    return result();
   }
 
  private:
   void queue_all() {
-    for (std::uint32_t i = 0; i < mesh_.edge_id_count(); ++i) evaluate_and_queue(EdgeId(i));
+    for (std::uint32_t i = 0; i < mesh_.edge_id_count() && !cancelled(); ++i) evaluate_and_queue(EdgeId(i));
   }
 
   std::optional<Refusal> refusal_of_topology() const {
@@ -108,15 +85,24 @@ class HullBuilder {
     return place_outside(star_, placement_margin(star_, rounding_));
   }
 
-  Vec3 as_stored(const Vec3& p) const {
-    return options_.float32_coordinates ? nearest_float32(p) : p;
+  Vec3 as_stored(const Vec3& p) const { return options_.float32_coordinates ? nearest_float32(p) : p; }
+
+  // Lazy only: the key of an edge whose star has changed is found now, and may send it back into the queue.
+  bool comes_too_early(EdgeId edge, const Placement& placement) {
+    if (state_[edge] == EdgeState::Fresh) return false;
+    state_[edge] = EdgeState::Fresh;
+    key_[edge] = placement.added_volume;
+    if (queue_.precedes_all(key_[edge])) return false;
+    queue_.insert(edge, key_[edge]);
+    return true;
   }
 
   // Where it would go, or why it may not. An end of the edge that adds nothing at all is preferred (not in the paper);
   // where the guards refuse it for now, so is the edge: any other apex would move flat parts by the margin.
   std::optional<Refusal> refusal_of_apex(const Placement& placement, Vec3& apex) {
     constexpr double kFlat = 1e-7;  // of the star's cube; only saves exact tests where they cannot succeed
-    if (options_.strategy == Strategy::Lazy && placement.added_volume <= kFlat * star_.scale * star_.scale * star_.scale) {
+    if (options_.strategy == Strategy::Lazy &&
+        placement.added_volume <= kFlat * star_.scale * star_.scale * star_.scale) {
       std::optional<Refusal> why;
       for (const VertexId end : {star_.o, star_.d}) {
         apex = mesh_.position(end);
@@ -137,6 +123,16 @@ class HullBuilder {
   void refuse(EdgeId edge, Refusal why) {
     refused_.count(why);
     last_refusal_[edge] = why;
+  }
+
+  VertexId collapse(const Vec3& apex) {
+    // The edges d-l and o-r merge into o-l and d-r.
+    unqueue(mesh_.edge(mesh_.next(star_.edge)));
+    unqueue(mesh_.edge(mesh_.next(mesh_.twin(star_.edge))));
+    const VertexId s = mesh_.positions().next_id();
+    record_.push_back(mesh_.collapse(star_.edge, apex));
+    if (guard_) guard_->collapsed(mesh_, s);
+    return s;
   }
 
   // P&T Figure 3: the edges whose star has changed are those with an end on s or its link.
@@ -185,18 +181,24 @@ class HullBuilder {
 
   bool cancelled() {
     constexpr std::size_t kInterval = 1024;
-    if (!options_.progress || ++pops_ % kInterval != 0) return false;
-    return !options_.progress({mesh_.face_count(), mesh_.face_id_count(), options_.target_faces});
+    if (!cancelled_ && options_.progress && ++steps_ % kInterval == 0)
+      cancelled_ = !options_.progress({mesh_.face_count(), mesh_.face_id_count(), options_.target_faces});
+    return cancelled_;
   }
 
-  HullResult result(Stopped stopped) {
+  Stopped stopped() const {
+    if (mesh_.face_count() <= options_.target_faces) return Stopped::TargetReached;
+    return cancelled_ ? Stopped::Cancelled : Stopped::NoLegalCollapse;
+  }
+
+  HullResult result() {
     RefusalCounts blocked;
     for (std::uint32_t i = 0; i < mesh_.edge_id_count(); ++i)
       if (const EdgeId e{i}; mesh_.has(e) && !queue_.contains(e)) blocked.count(last_refusal_[e]);
     std::vector<VertexId> corners(3 * mesh_.face_id_count());
     for (std::uint32_t i = 0; i < corners.size(); ++i) corners[i] = mesh_.tail(HalfEdgeId(i));
     ProgressiveHull hull(options_.side, original_vertices_, mesh_.positions(), std::move(corners), std::move(record_));
-    return {std::move(hull), stopped, refused_, blocked, linear_programs_};
+    return {std::move(hull), stopped(), refused_, blocked, linear_programs_};
   }
 
   const HullOptions options_;
@@ -211,7 +213,8 @@ class HullBuilder {
   Star star_;
   std::vector<VertexSplit> record_;
   RefusalCounts refused_;
-  std::size_t linear_programs_ = 0, pops_ = 0;
+  std::size_t linear_programs_ = 0, steps_ = 0;
+  bool cancelled_ = false;
 };
 
 void check(const HullOptions& options) {
@@ -230,9 +233,12 @@ void check(const HullOptions& options) {
 
 HullResult run_builder(const TriangleMesh& mesh, const HullOptions& options) {
   switch (options.queue) {
-    case QueueKind::Bucket: return HullBuilder<EdgeBuckets>(mesh, options).run();
-    case QueueKind::Heap: return HullBuilder<EdgeHeap>(mesh, options).run();
-    default: return HullBuilder<EdgeTree>(mesh, options).run();
+    case QueueKind::Bucket:
+      return HullBuilder<EdgeBuckets>(mesh, options).run();
+    case QueueKind::Heap:
+      return HullBuilder<EdgeHeap>(mesh, options).run();
+    default:
+      return HullBuilder<EdgeTree>(mesh, options).run();
   }
 }
 
@@ -261,8 +267,9 @@ HullResult turned(HullResult result) {
 }  // namespace
 
 std::string_view name(Refusal refusal) {
-  constexpr std::array<std::string_view, kRefusalKinds> kNames = {
-      "link_condition", "valence", "no_room_outside", "certificate", "compactness", "normal_deviation", "self_intersection"};
+  constexpr std::array<std::string_view, kRefusalKinds> kNames = {"link_condition",   "valence",     "no_room_outside",
+                                                                  "certificate",      "compactness", "normal_deviation",
+                                                                  "self_intersection"};
   return kNames[static_cast<std::size_t>(refusal)];
 }
 
@@ -270,7 +277,7 @@ HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
   check(options);
   const MeshReport report = inspect(mesh);
   if (report.faces == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces");
-  if (!report.is_closed_manifold()) throw InputError(Defect::OpenEdge, report.first_defect);
+  if (!report.is_closed_manifold()) throw InputError(report.worst_defect, report.first_defect);
   if (!(report.volume > 0))
     throw InputError(Defect::NoVolume, "the mesh is inside out or encloses nothing; closed_mesh turns what it can");
   if (options.side == HullSide::Outer) return run_builder(mesh, options);

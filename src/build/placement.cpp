@@ -57,7 +57,8 @@ std::optional<Placement> place_outside(const Star& star, double margin) {
 }
 
 bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p) {
-  return all_faces(mesh, star, [&](const Vec3& a, const Vec3& b, const Vec3& c) { return side(a, b, c, p) == Side::On; });
+  return all_faces(mesh, star,
+                   [&](const Vec3& a, const Vec3& b, const Vec3& c) { return side(a, b, c, p) == Side::On; });
 }
 
 double link_center_volume(const Star& star) {
@@ -71,9 +72,8 @@ double link_center_volume(const Star& star) {
 }
 
 bool is_outside(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex) {
-  return all_faces(mesh, star, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-    return side(a, b, c, apex) != Side::Inside;
-  });
+  return all_faces(mesh, star,
+                   [&](const Vec3& a, const Vec3& b, const Vec3& c) { return side(a, b, c, apex) != Side::Inside; });
 }
 
 }  // namespace prohull

@@ -12,9 +12,9 @@ struct Placement {
   double added_volume;
 };
 
-/// The point outside of all faces of the star that adds the least volume (P&T 3.1.2), by a linear program; where that has
-/// no single answer (flat stars), the one nearest to the edge's midpoint. It keeps a `margin` (local units) away from the
-/// planes, so that it still is outside when rounded.
+/// The point outside of all faces of the star that adds the least volume (P&T 3.1.2), by a linear program; where that
+/// has no single answer (flat stars), the one nearest to the edge's midpoint. It keeps a `margin` (local units) away
+/// from the planes, so that it still is outside when rounded.
 std::optional<Placement> place_outside(const Star& star, double margin);
 
 /// What place_outside needs where storing the vertex moves its coordinates by up to `rounding` (input unit).

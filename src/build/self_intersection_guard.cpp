@@ -74,9 +74,9 @@ void SelfIntersectionGuard::rebuild(const HalfEdgeMesh& mesh) {
   for (std::uint32_t i = 0; i < mesh.face_id_count(); ++i) {
     if (!mesh.has(FaceId{i})) continue;
     const FloatBox box = box_of(triangle(mesh, FaceId{i}));
-    by_code.emplace_back(morton_code({(box.min[0] + box.max[0]) / 2, (box.min[1] + box.max[1]) / 2,
-                                      (box.min[2] + box.max[2]) / 2}),
-                         FaceId{i});
+    by_code.emplace_back(
+        morton_code({(box.min[0] + box.max[0]) / 2, (box.min[1] + box.max[1]) / 2, (box.min[2] + box.max[2]) / 2}),
+        FaceId{i});
   }
   std::sort(by_code.begin(), by_code.end());
 
@@ -104,7 +104,8 @@ void SelfIntersectionGuard::collapsed(const HalfEdgeMesh& mesh, VertexId s) {
     const FaceId f{index(h) / 3};
     const FloatBox box = box_of(triangle(mesh, f));
     slots_[slot_of_[f]].box = box;
-    for (std::uint32_t i = first_leaf_ + slot_of_[f] / kLeafSize; i > 0 && !nodes_[i].contains(box); i /= 2) nodes_[i].extend(box);
+    for (std::uint32_t i = first_leaf_ + slot_of_[f] / kLeafSize; i > 0 && !nodes_[i].contains(box); i /= 2)
+      nodes_[i].extend(box);
     h = mesh.rotated(h);
   } while (h != mesh.out(s));
 }

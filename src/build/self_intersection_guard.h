@@ -44,12 +44,12 @@ class SelfIntersectionGuard {
   Vec3 center_;
   double inverse_unit_;
   std::size_t faces_when_built_ = 0;
-  std::vector<Slot> slots_;            ///< leaf i holds those from kLeafSize * i on
+  std::vector<Slot> slots_;  ///< leaf i holds those from kLeafSize * i on
   PerFace<std::uint32_t> slot_of_;
-  std::vector<FloatBox> nodes_;        ///< a complete binary tree: children of i are 2i and 2i+1, the root is 1
+  std::vector<FloatBox> nodes_;  ///< a complete binary tree: children of i are 2i and 2i+1, the root is 1
   std::uint32_t first_leaf_ = 1;
-  std::vector<Triangle> faces_;        ///< scratch
-  std::vector<FloatBox> face_boxes_;   ///< scratch
+  std::vector<Triangle> faces_;       ///< scratch
+  std::vector<FloatBox> face_boxes_;  ///< scratch
 };
 
 }  // namespace prohull

@@ -16,8 +16,8 @@ double least_compactness_before(const Star& star) {
       compactness(star.double_areas[n], squared_edges(star.local_o, star.local_d, star.local[0])),
       compactness(star.double_areas[n + 1], squared_edges(star.local_d, star.local_o, star.local[star.o_faces])));
   for (std::size_t i = 0; i < n; ++i)
-    least = std::min(least, compactness(star.double_areas[i], squared_edges(star.local_apex(i), star.local[i],
-                                                                            star.local[star.after(i)])));
+    least = std::min(least, compactness(star.double_areas[i],
+                                        squared_edges(star.local_apex(i), star.local[i], star.local[star.after(i)])));
   return least;
 }
 

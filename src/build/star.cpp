@@ -11,9 +11,11 @@ void gather_star(const HalfEdgeMesh& mesh, EdgeId edge, Star& star) {
   star.o = mesh.tail(h), star.d = mesh.tail(g);
   star.link.clear();
   // Around o from l to the one before r, then around d from r to the one before l.
-  for (HalfEdgeId a = mesh.rotated(h), end = mesh.next(g); a != end; a = mesh.rotated(a)) star.link.push_back(mesh.tip(a));
+  for (HalfEdgeId a = mesh.rotated(h), end = mesh.next(g); a != end; a = mesh.rotated(a))
+    star.link.push_back(mesh.tip(a));
   star.o_faces = star.link.size();
-  for (HalfEdgeId a = mesh.rotated(g), end = mesh.next(h); a != end; a = mesh.rotated(a)) star.link.push_back(mesh.tip(a));
+  for (HalfEdgeId a = mesh.rotated(g), end = mesh.next(h); a != end; a = mesh.rotated(a))
+    star.link.push_back(mesh.tip(a));
 }
 
 bool satisfies_link_condition(const Star& star) {
@@ -41,9 +43,7 @@ void measure_star(const HalfEdgeMesh& mesh, Star& star) {
   star.origin = o * 0.5 + d * 0.5;
   star.local.clear();
   double extent = 0;
-  const auto reach = [&](const Vec3& p) {
-    extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  };
+  const auto reach = [&](const Vec3& p) { extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)}); };
   reach(o - star.origin);
   for (const VertexId v : star.link) {
     star.local.push_back(mesh.position(v) - star.origin);

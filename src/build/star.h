@@ -7,8 +7,8 @@
 
 namespace prohull {
 
-/// The star of an edge o-d, in a frame of its own: origin at the edge's midpoint, about 1 in size, so that thresholds are
-/// relative and no product overflows.
+/// The star of an edge o-d, in a frame of its own: origin at the edge's midpoint, about 1 in size, so that thresholds
+/// are relative and no product overflows.
 struct Star {
   HalfEdgeId edge;
   VertexId o, d;
@@ -17,8 +17,8 @@ struct Star {
   std::size_t o_faces;
 
   Vec3 origin;
-  double scale;               ///< input unit = local unit * scale
-  std::vector<Vec3> local;    ///< of link
+  double scale;             ///< input unit = local unit * scale
+  std::vector<Vec3> local;  ///< of link
   Vec3 local_o, local_d;
 
   /// The supporting planes of the faces, unit normals outwards; those along the link, then (o, d, l) and (d, o, r).

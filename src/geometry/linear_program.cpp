@@ -45,8 +45,8 @@ std::ptrdiff_t most_violated(const Vec3& x, const std::vector<HalfSpace>& constr
   return worst;
 }
 
-// Lets constraint `entering` into the basis for the one whose multiplier reaches zero first; false if none does, that is,
-// if the basis and the entering constraint exclude each other.
+// Lets constraint `entering` into the basis for the one whose multiplier reaches zero first; false if none does, that
+// is, if the basis and the entering constraint exclude each other.
 bool pivot(Basis& basis, std::ptrdiff_t entering, const HalfSpace& constraint) {
   constexpr double kPivot = 1e-13;
   int leaving = -1;
@@ -131,7 +131,8 @@ struct ActiveSet {
   std::array<double, 3> multiplier;
 };
 
-// Solves sum_j (normal_i . normal_j) r_j = normal_i . n for the active normals: r expresses the part of n in their span.
+// Solves sum_j (normal_i . normal_j) r_j = normal_i . n for the active normals: r expresses the part of n in their
+// span.
 bool express(const ActiveSet& active, const std::vector<HalfSpace>& constraints, const Vec3& n,
              std::array<double, 3>& r) {
   double m[3][4];
@@ -179,16 +180,14 @@ std::optional<Vec3> nearest_feasible_point(const Vec3& target, const std::vector
       std::array<double, 3> r{};
       if (!express(active, constraints, constraint.normal, r)) return std::nullopt;
       Vec3 direction = constraint.normal;
-      for (int i = 0; i < active.size; ++i)
-        direction = direction + constraints[active.constraint[i]].normal * -r[i];
+      for (int i = 0; i < active.size; ++i) direction = direction + constraints[active.constraint[i]].normal * -r[i];
       int blocking = -1;
       double dual_step = INFINITY;
       for (int i = 0; i < active.size; ++i)
         if (r[i] > 0 && active.multiplier[i] / r[i] < dual_step) dual_step = active.multiplier[i] / r[i], blocking = i;
       const double slope = dot(direction, constraint.normal);
       const bool moves = active.size < 3 && slope > kDependent * squared_norm(constraint.normal);
-      const double primal_step =
-          moves ? (constraint.offset - dot(constraint.normal, x)) / slope : INFINITY;
+      const double primal_step = moves ? (constraint.offset - dot(constraint.normal, x)) / slope : INFINITY;
       const double step = std::min(dual_step, primal_step);
       if (step == INFINITY) return std::nullopt;  // infeasible
       if (moves) x += direction * step;

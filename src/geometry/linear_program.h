@@ -15,8 +15,8 @@ struct HalfSpace {
 };
 
 enum class LinearProgramStatus {
-  Optimal,    ///< one optimal vertex
-  Infeasible, ///< no point satisfies all constraints (nearer than kFarAway)
+  Optimal,     ///< one optimal vertex
+  Infeasible,  ///< no point satisfies all constraints (nearer than kFarAway)
   Ambiguous,  ///< optimal along a line or plane (all normals nearly in one plane), or farther than kFarAway, or stalled
 };
 

@@ -17,8 +17,7 @@ Facing facing_of_negative(const std::vector<Triangle>& component, const WindingN
 
 }  // namespace
 
-Orientation orientation(std::vector<Triangle> faces, std::span<const std::uint32_t> component,
-                        std::size_t components) {
+Orientation orientation(std::vector<Triangle> faces, std::span<const std::uint32_t> component, std::size_t components) {
   Orientation result;
   result.components.assign(components, Facing::Outwards);
   result.turn_all = volume_sign(faces) < 0;

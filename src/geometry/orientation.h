@@ -20,8 +20,8 @@ enum class Facing : std::uint8_t {
 };
 
 struct Orientation {
-  bool turn_all = false;            ///< the mesh as a whole is inside out: the volumes of its components add up to less than 0
-  std::vector<Facing> components;   ///< how each faces once that is done
+  bool turn_all = false;  ///< the mesh as a whole is inside out: the volumes of its components add up to less than 0
+  std::vector<Facing> components;  ///< how each faces once that is done
 };
 
 /// `component` has the number, below `components`, of each face's component. Exact.

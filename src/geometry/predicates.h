@@ -23,7 +23,8 @@ int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c);
 ///   (3) side(b, a, c, p) == opposite(side(a, b, c, p))
 /// Exact for all finite coordinates. The filter is Shewchuk's ("Adaptive Precision Floating-Point Arithmetic and Fast
 /// Robust Geometric Predicates", 1997, section 4.3): |error| <= (7 + 56 eps) eps * permanent with eps = 2^-53. Products
-/// that underflow add at most 2^-1072 (1 + |adz| + |bdz| + |cdz|), which the lower limit on the permanent makes negligible.
+/// that underflow add at most 2^-1072 (1 + |adz| + |bdz| + |cdz|), which the lower limit on the permanent makes
+/// negligible.
 inline Side side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
   const double adx = a.x - p.x, ady = a.y - p.y, adz = a.z - p.z;
   const double bdx = b.x - p.x, bdy = b.y - p.y, bdz = b.z - p.z;

@@ -85,9 +85,8 @@ bool projections_certainly_apart(const Corners& t, const Corners& s, int axis) {
   if (orientation == 0) return false;
   for (int i = 0; i < 3; ++i) {
     const Vec3 &a = t[i], &b = t[i == 2 ? 0 : i + 1];
-    if (std::ranges::all_of(s, [&](const Vec3& p) {
-          return p == a || p == b || certain_turn(axis, a, b, p) == -orientation;
-        }))
+    if (std::ranges::all_of(
+            s, [&](const Vec3& p) { return p == a || p == b || certain_turn(axis, a, b, p) == -orientation; }))
       return true;
   }
   return false;

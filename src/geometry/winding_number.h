@@ -13,9 +13,9 @@ class WindingNumber {
  public:
   explicit WindingNumber(std::vector<Triangle> triangles);
 
-  /// The signed number of triangles that a ray from p crosses. Exact; where it meets edges and corners it decides as if p
-  /// were moved by an infinitesimal amount. Nothing if p may lie on the surface: in the plane
-  /// of a triangle and in its box, or of a triangle that the moved ray meets.
+  /// The signed number of triangles that a ray from p crosses. Exact; where it meets edges and corners it decides as if
+  /// p were moved by an infinitesimal amount. Nothing if p may lie on the surface: in the plane of a triangle and in
+  /// its box, or of a triangle that the moved ray meets.
   std::optional<int> at(const Vec3& p) const;
 
  private:

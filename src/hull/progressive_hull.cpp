@@ -19,12 +19,13 @@ ProgressiveHull::ProgressiveHull(HullSide side, std::size_t original_vertices, P
 
 TriangleMesh ProgressiveHull::level(std::size_t faces) const {
   HalfEdgeMesh mesh(positions_, base_corners_);
-  for (std::size_t i = splits_.size(); i-- > 0 && mesh.face_count() + 2 <= faces;) mesh.split(made_vertex(i), splits_[i]);
+  for (std::size_t i = splits_.size(); i-- > 0 && mesh.face_count() + 2 <= faces;)
+    mesh.split(made_vertex(i), splits_[i]);
   TriangleMesh level = mesh.triangle_mesh();
   if (mesh.face_count() < original_face_count()) return level;
   // The original keeps its vertices as they were numbered, unused ones included.
-  level.positions = PerVertex<Vec3>(std::vector<Vec3>(
-      positions_.begin(), positions_.begin() + static_cast<std::ptrdiff_t>(original_vertices_)));
+  level.positions = PerVertex<Vec3>(
+      std::vector<Vec3>(positions_.begin(), positions_.begin() + static_cast<std::ptrdiff_t>(original_vertices_)));
   for (const FaceId f : level.triangles.ids()) level.triangles[f] = mesh.corners(f);
   return level;
 }

@@ -13,8 +13,8 @@
 #include "prohull/error.h"
 
 // Layout (docs/phull.md): 8 bytes of magic, u32 version, then one zstd frame with its checksum. All numbers are
-// little-endian. The frame holds u32 side, u64 original vertices, u64 original faces, u64 splits, then arrays: positions
-// (3 doubles each), base corners (u32), and one array each of the splits' o, d, l, r, od, do (u32).
+// little-endian. The frame holds u32 side, u64 original vertices, u64 original faces, u64 splits, then arrays:
+// positions (3 doubles each), base corners (u32), and one array each of the splits' o, d, l, r, od, do (u32).
 
 namespace prohull {
 namespace {
@@ -97,7 +97,8 @@ ProgressiveHull decoded(std::string_view payload, const std::filesystem::path& n
   if (side > 1 || vertices > kMost || splits > kMost || vertices + splits > kMost || faces > kMost / 3)
     malformed(name, "the hull's header is impossible");
   if (in.remaining() != 24 * (vertices + splits) + 12 * faces + 24 * splits)
-    malformed(name, fmt::format("{} bytes for {} vertices, {} faces and {} splits", in.remaining(), vertices, faces, splits));
+    malformed(name,
+              fmt::format("{} bytes for {} vertices, {} faces and {} splits", in.remaining(), vertices, faces, splits));
 
   PerVertex<Vec3> positions(vertices + splits);
   for (Vec3& p : positions)

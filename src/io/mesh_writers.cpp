@@ -1,5 +1,5 @@
-#include "geometry/float32.h"
 #include "io/mesh_writers.h"
+#include "geometry/float32.h"
 
 #include <fmt/format.h>
 
@@ -59,8 +59,7 @@ Vec3 unit_normal(const Triangle& t) {
 }  // namespace
 
 bool is_float32(double value) {
-  return std::abs(value) <= std::numeric_limits<float>::max() &&
-         nearest_float32(value) == value;
+  return std::abs(value) <= std::numeric_limits<float>::max() && nearest_float32(value) == value;
 }
 
 std::string ply_content(const TriangleMesh& mesh) {

@@ -163,7 +163,8 @@ std::optional<std::string> first_defect(const HalfEdgeMesh& mesh) {
     if (mesh.edge(h) != mesh.edge(t)) return fmt::format("half-edge {}: its twin has another edge", i);
     if (const HalfEdgeId e = mesh.half_edge(mesh.edge(h)); e != h && e != t)
       return fmt::format("edge {}: names half-edge {}, not {} or {}", index(mesh.edge(h)), index(e), i, index(t));
-    if (!mesh.has(mesh.tail(h))) return fmt::format("half-edge {}: starts at removed vertex {}", i, index(mesh.tail(h)));
+    if (!mesh.has(mesh.tail(h)))
+      return fmt::format("half-edge {}: starts at removed vertex {}", i, index(mesh.tail(h)));
   }
   if (faces != mesh.face_count()) return fmt::format("{} faces, but face_count() is {}", faces, mesh.face_count());
   for (const VertexId v : mesh.positions().ids()) {

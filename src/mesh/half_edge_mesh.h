@@ -23,8 +23,8 @@ using PerEdge = IndexedBy<EdgeId, T>;
 constexpr VertexId kNoVertex{0xffffffff};
 constexpr HalfEdgeId kNoHalfEdge{0xffffffff};
 
-/// A closed 2-manifold, its edges collapsible and every collapse exactly undoable: faces, half-edges and edges keep their
-/// ids for ever, vertices are never reused (a collapse makes a new one).
+/// A closed 2-manifold, its edges collapsible and every collapse exactly undoable: faces, half-edges and edges keep
+/// their ids for ever, vertices are never reused (a collapse makes a new one).
 class HalfEdgeMesh {
  public:
   /// Requires a closed 2-manifold, consistently oriented (MeshReport::is_closed_manifold).

@@ -60,7 +60,8 @@ class Inspector {
       for (const VertexId v : {a, b, c}) used_[v] = 1;
       connected_.join(index(a), index(b)), connected_.join(index(b), index(c));
       if (a == b || b == c || c == a) {
-        if (++report_.repeated_corner_faces == 1) note(2, fmt::format("face {} has the same vertex twice", index(f)));
+        if (++report_.repeated_corner_faces == 1)
+          note(2, Defect::Malformed, fmt::format("face {} has the same vertex twice", index(f)));
         continue;
       }
       const Triangle t = mesh_.triangle(f);
@@ -105,14 +106,15 @@ class Inspector {
     const auto faces = end - begin;
     if (begin->other == v) return;  // a face with the same vertex twice
     if (faces == 1) {
-      if (++report_.open_edges == 1) note(4, where() + " has 1 face, expected 2");
+      if (++report_.open_edges == 1) note(4, Defect::OpenEdge, where() + " has 1 face, expected 2");
     } else if (faces > 2) {
-      if (++report_.non_manifold_edges == 1) note(3, fmt::format("{} has {} faces, expected 2", where(), faces));
+      if (++report_.non_manifold_edges == 1)
+        note(3, Defect::NonManifoldEdge, fmt::format("{} has {} faces, expected 2", where(), faces));
     } else {
       const EdgeUse a = *begin, b = *(begin + 1);
       const bool opposed = a.away != b.away;
       if (!opposed && ++report_.misoriented_edges == 1)
-        note(5, where() + ": its two faces disagree about which side is outside");
+        note(5, Defect::InconsistentOrientation, where() + ": its two faces disagree about which side is outside");
       const std::uint32_t a_next = next_corner(a.corner), b_next = next_corner(b.corner);
       fans_.join(a.corner, opposed ? b_next : b.corner);
       fans_.join(a_next, opposed ? b.corner : b_next);
@@ -136,15 +138,17 @@ class Inspector {
       ++report_.vertices;
       report_.components += connected_.find(index(v)) == index(v);
       if (pinched[v] && ++report_.non_manifold_vertices == 1)
-        note(6, fmt::format("vertex {}: the faces around it are more than one disk", index(v)));
+        note(6, Defect::NonManifoldVertex,
+             fmt::format("vertex {}: the faces around it are more than one disk", index(v)));
       if (!is_finite(mesh_.positions[v]) && ++report_.non_finite_vertices == 1)
-        note(1, fmt::format("vertex {} has a coordinate that is not finite", index(v)));
+        note(1, Defect::NonFiniteCoordinate, fmt::format("vertex {} has a coordinate that is not finite", index(v)));
     }
   }
 
-  void note(int rank, std::string text) {
+  void note(int rank, Defect defect, std::string text) {
     if (rank >= rank_) return;
     rank_ = rank;
+    report_.worst_defect = defect;
     report_.first_defect = std::move(text);
   }
 

@@ -21,9 +21,8 @@ void weld(TriangleMesh& mesh, Repairs& repairs) {
     const Vec3& p = mesh.positions[v];
     return std::array{p.x, p.y, p.z};
   };
-  std::sort(order.begin(), order.end(), [&](VertexId a, VertexId b) {
-    return key(a) != key(b) ? key(a) < key(b) : a < b;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](VertexId a, VertexId b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
   PerVertex<VertexId> representative(mesh.vertex_count());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
@@ -73,24 +72,16 @@ void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs)
   for (const FaceId f : mesh.triangles.ids()) {
     const Facing own = facing.components[component[index(f)]];
     if (own == Facing::Unclear)
-      throw InputError(Defect::InconsistentOrientation,
-                       fmt::format("the component of face {} is inside out, and lies partly inside and partly outside of "
-                                   "others: turn it, or make it a cavity of one of them",
-                                   index(f)));
+      throw InputError(
+          Defect::InconsistentOrientation,
+          fmt::format("the component of face {} is inside out, and lies partly inside and partly outside of "
+                      "others: turn it, or make it a cavity of one of them",
+                      index(f)));
     if (facing.turn_all == (own == Facing::InsideOut)) continue;
     std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
     ++repairs.turned_faces;
   }
   for (const Facing own : facing.components) repairs.turned_components += facing.turn_all != (own == Facing::InsideOut);
-}
-
-Defect kind(const MeshReport& report) {
-  if (report.non_finite_vertices) return Defect::NonFiniteCoordinate;
-  if (report.repeated_corner_faces) return Defect::Malformed;
-  if (report.non_manifold_edges) return Defect::NonManifoldEdge;
-  if (report.open_edges) return Defect::OpenEdge;
-  if (report.misoriented_edges) return Defect::InconsistentOrientation;
-  return Defect::NonManifoldVertex;
 }
 
 std::string why_not_closed(const MeshReport& report) {
@@ -104,7 +95,8 @@ std::string why_not_closed(const MeshReport& report) {
   add(report.non_manifold_vertices, "non-manifold vertices");
   add(report.repeated_corner_faces, "faces with a vertex twice");
   add(report.non_finite_vertices, "vertices that are not finite");
-  return text + "); a hull needs a closed 2-manifold: close holes and separate parts that meet in an edge or vertex first";
+  return text +
+         "); a hull needs a closed 2-manifold: close holes and separate parts that meet in an edge or vertex first";
 }
 
 void require_usable_size(const Box& box) {
@@ -112,8 +104,9 @@ void require_usable_size(const Box& box) {
   const double reach = std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x),
                                  std::abs(box.max.y), std::abs(box.max.z)});
   if (reach > kLargest)
-    throw InputError(Defect::NonFiniteCoordinate,
-                     fmt::format("coordinates reach {:g}; beyond {:g} volumes overflow: scale the mesh", reach, kLargest));
+    throw InputError(
+        Defect::NonFiniteCoordinate,
+        fmt::format("coordinates reach {:g}; beyond {:g} volumes overflow: scale the mesh", reach, kLargest));
   if (box.diagonal() < kSmallest)
     throw InputError(Defect::NoVolume,
                      fmt::format("the mesh is only {:g} across; below {:g} volumes vanish: scale the mesh",
@@ -139,7 +132,8 @@ ClosedMesh closed_mesh(TriangleMesh mesh) {
   if (mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces: nothing to enclose");
   constexpr std::size_t kMostFaces = 0xffffffff / 3;
   if (mesh.face_count() >= kMostFaces)
-    throw InputError(Defect::InvalidOption, fmt::format("{} faces; at most {} are supported", mesh.face_count(), kMostFaces));
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("{} faces; at most {} are supported", mesh.face_count(), kMostFaces));
   ClosedMesh closed{std::move(mesh), {}, {}};
   closed.report = inspect(closed.mesh);
   if (!closed.report.is_closed_manifold() && closed.report.non_finite_vertices == 0) {
@@ -148,7 +142,7 @@ ClosedMesh closed_mesh(TriangleMesh mesh) {
   }
   if (closed.report.faces == 0)
     throw InputError(Defect::EmptyMesh, "no face has three different corners: nothing to enclose");
-  if (!closed.report.is_closed_manifold()) throw InputError(kind(closed.report), why_not_closed(closed.report));
+  if (!closed.report.is_closed_manifold()) throw InputError(closed.report.worst_defect, why_not_closed(closed.report));
   require_usable_size(closed.report.box);
   turn_outwards(closed.mesh, closed.report.components, closed.repairs);
   closed.report.volume = signed_volume(closed.mesh);

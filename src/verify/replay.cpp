@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "geometry/predicates.h"
 #include "geometry/orientation.h"
+#include "geometry/predicates.h"
 
 namespace prohull {
 namespace {
@@ -119,9 +119,9 @@ class Replay {
   }
 
   const ProgressiveHull& hull_;
-  std::vector<VertexId> vertex_;      ///< of each corner
-  std::vector<std::uint32_t> next_;   ///< corner of the same vertex
-  PerVertex<std::uint32_t> first_;    ///< corner of each vertex
+  std::vector<VertexId> vertex_;     ///< of each corner
+  std::vector<std::uint32_t> next_;  ///< corner of the same vertex
+  PerVertex<std::uint32_t> first_;   ///< corner of each vertex
   const Side wrong_side_;
   std::vector<LinkEdge> by_start_, link_;
   std::size_t signs_ = 0;
@@ -167,9 +167,8 @@ bool faces_outwards(const Replay& replay, std::size_t vertices, std::vector<Tria
     component.push_back(known);
   }
   const Orientation facing = orientation(std::move(finest), component, count);
-  return !facing.turn_all && std::ranges::all_of(facing.components, [](Facing f) {
-    return f == Facing::Outwards || f == Facing::Cavity;
-  });
+  return !facing.turn_all &&
+         std::ranges::all_of(facing.components, [](Facing f) { return f == Facing::Outwards || f == Facing::Cavity; });
 }
 
 bool is_well_formed(const ProgressiveHull& hull) {

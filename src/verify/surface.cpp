@@ -128,7 +128,8 @@ std::vector<FaceEdge> edges(const Surface& surface) {
 
 namespace {
 
-/// The component of each face, connected by edges that are matched by position, numbered from 0; and how many there are.
+/// The component of each face, connected by edges that are matched by position, numbered from 0; and how many there
+/// are.
 std::pair<std::vector<std::uint32_t>, std::uint32_t> components(const TriangleMesh& mesh) {
   const auto number = numbered_by_position(mesh.positions);
   std::vector<std::pair<std::uint64_t, FaceIndex>> sides;

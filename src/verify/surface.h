@@ -18,7 +18,8 @@ inline Box box_of(const Triangle& t) {
   return box;
 }
 
-/// A mesh as the verifier sees it: a closed chain of triangles, turned outwards (see geometry/orientation.h), without the faces that have no area: they bound nothing.
+/// A mesh as the verifier sees it: a closed chain of triangles, turned outwards (see geometry/orientation.h), without
+/// the faces that have no area: they bound nothing.
 struct Surface {
   std::vector<Triangle> faces;
   std::vector<std::uint8_t> axis;                     ///< along which the face projects to a triangle with an area
