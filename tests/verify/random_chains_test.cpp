@@ -51,7 +51,7 @@ TEST(Enclosure, AgreesWithBruteForceOnRandomChains) {
   RandomChains chains(seed);
   std::mt19937 random(seed);
   int enclosed = 0, rejected = 0;
-  while (enclosed + rejected < 40) {
+  while (enclosed + rejected < 40 || rejected == 0) {  // nine in ten enclose
     TriangleMesh inner, outer;
     for (int n = chains.uniform(1, 2); n > 0; --n) chains.add_tetrahedron(inner);
     if (inner.triangles.empty()) continue;
@@ -72,7 +72,6 @@ TEST(Enclosure, AgreesWithBruteForceOnRandomChains) {
   }
   std::printf("%d enclosed, %d not\n", enclosed, rejected);
   EXPECT_GT(enclosed, 0);
-  EXPECT_GT(rejected, 0);
 }
 
 }  // namespace
