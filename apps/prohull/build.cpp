@@ -63,9 +63,10 @@ HullResult build(const ClosedMesh& input, const Options& options) {
 // A file beside another one, of the same format, that becomes it once it is certified, and vanishes otherwise.
 class Candidate {
  public:
-  explicit Candidate(const std::filesystem::path& target) : target_(target), path_(target) {
+  explicit Candidate(const std::filesystem::path& target)
+      : target_(exists(target) ? canonical(target) : target), path_(target_) {
     path_.replace_filename(
-        fmt::format(".{}.{}.uncertified{}", target.stem().string(), getpid(), target.extension().string()));
+        fmt::format(".{}.{}.uncertified{}", target.stem().string(), getpid(), target_.extension().string()));
   }
   Candidate(const Candidate&) = delete;
   Candidate& operator=(const Candidate&) = delete;
@@ -104,10 +105,14 @@ bool certify(const HullResult& result, const std::filesystem::path& file, const 
 
 int run_build(Options options) {
   const bool float32 = stores_float32(mesh_format(options.out));
+  if (options.out.extension() == ".gz")
+    throw InputError(Defect::InvalidOption,
+                     options.out.string() + ": meshes are read from .gz, but not written; leave it out");
   options.hull.float32_coordinates = float32;
   options.hull.max_normal_deviation = options.normal_deviation_degrees * std::numbers::pi / 180;
   options.hull.allow_self_intersections = !options.no_self_intersections;
 
+  require_distinct({options.in, options.out, options.hierarchy, options.report});
   for (const auto& path : {options.out, options.hierarchy, options.report}) require_writable(path);
   const Input input = read_closed_mesh(options.in);
   const ClosedMesh& original = input.closed;
@@ -203,7 +208,9 @@ void add_build(CLI::App& app, Run& run) {
   command.add_option("-o,--out", options->out, "Where the hull goes: .ply, .obj, .off or .stl")
       ->required()
       ->type_name("OUT");
-  command.add_option("--faces", hull.target_faces, "Stop at this many faces")->capture_default_str();
+  command.add_option("--faces", hull.target_faces, "Stop at this many faces, at least 4")
+      ->capture_default_str()
+      ->check(CLI::Range(4.0, 1e9));
   command.add_option("--side", hull.side, "outer: encloses the mesh; inner: is enclosed by it")
       ->transform(CLI::CheckedTransformer(side_names()))
       ->default_str("outer");
@@ -221,21 +228,25 @@ void add_build(CLI::App& app, Run& run) {
   constexpr const char* kGuards = "Guards";
   command.add_option("--max-valence", hull.max_valence, "Most faces around a new vertex")
       ->capture_default_str()
+      ->check(CLI::Range(3.0, 1e6))
       ->group(kGuards);
   command
       .add_option("--compactness-ratio", hull.min_compactness_ratio,
                   "Least compactness of a star after a collapse, relative to before, 0 to 1")
       ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0))
       ->group(kGuards);
   command
       .add_option("--sufficient-compactness", hull.sufficient_compactness,
                   "Compactness that is enough whatever it was before, 0 to 1 (lazy only)")
       ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0))
       ->group(kGuards);
   command
       .add_option("--normal-deviation", options->normal_deviation_degrees,
                   "Most degrees by which a collapse may turn a face, 0 to 90")
       ->capture_default_str()
+      ->check(CLI::Range(0.0, 90.0))
       ->group(kGuards);
   add_examples(command, {"prohull build horse.ply --faces 2000 -o hull.ply",
                          "prohull build arm.stl --faces 500 -o arm_collision.stl --report arm.json",

@@ -82,10 +82,22 @@ void require_writable(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(folder))
     throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write: there is no folder {}; create it first",
                                                       path.string(), folder.string()));
+  if (std::filesystem::is_directory(path))
+    throw InputError(Defect::CannotWrite,
+                     fmt::format("{}: cannot write: it is a folder; name a file in it", path.string()));
   if (access(folder.c_str(), W_OK) != 0)
     throw InputError(Defect::CannotWrite,
                      fmt::format("{}: cannot write: {} takes no files from you; choose another folder", path.string(),
                                  folder.string()));
+}
+
+void require_distinct(const std::vector<std::filesystem::path>& paths) {
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (!paths[i].empty() && !paths[j].empty() && weakly_canonical(paths[i]) == weakly_canonical(paths[j]))
+        throw InputError(
+            Defect::InvalidOption,
+            fmt::format("{} is named twice, and would be overwritten; choose another name", paths[i].string()));
 }
 
 void write_report(const std::filesystem::path& path, nlohmann::json report) {

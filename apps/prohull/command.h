@@ -63,6 +63,10 @@ nlohmann::json facts(const MeshReport& report);
 /// Throws InputError(CannotWrite) if the folder of `path` does not take files: before the work, not after it.
 void require_writable(const std::filesystem::path& path);
 
+/// Throws InputError(InvalidOption) if two of the files are the same: one would overwrite the other. Empty paths are
+/// none.
+void require_distinct(const std::vector<std::filesystem::path>& paths);
+
 /// Writes the report if a path was given.
 void write_report(const std::filesystem::path& path, nlohmann::json report);
 

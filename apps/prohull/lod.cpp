@@ -15,7 +15,8 @@ struct Options {
 
 int extract(const Options& options) {
   const bool float32 = stores_float32(mesh_format(options.out));
-  require_writable(options.out);
+  require_distinct({options.in, options.out, options.report});
+  for (const auto& path : {options.out, options.report}) require_writable(path);
   const ProgressiveHull hull = load_hull(options.in);
   TriangleMesh level = hull.level(options.faces);
   if (float32 && level.face_count() < hull.original_face_count())
@@ -41,7 +42,8 @@ void add_lod(CLI::App& app, Run& run) {
   command.add_option("-o,--out", options->out, "Where the level goes: .ply, .obj, .off or .stl")
       ->required()
       ->type_name("OUT");
-  command.add_option("--faces", options->faces, "The finest level of at most this many faces; without, the base mesh");
+  command.add_option("--faces", options->faces, "The finest level of at most this many faces; without, the base mesh")
+      ->check(CLI::Range(0.0, 1e10));
   add_report_option(command, options->report);
   add_examples(command, {"prohull lod horse.phull --faces 5000 -o level.ply", "prohull lod horse.phull -o base.stl"});
   command.callback([options, &run] { run = [options] { return extract(*options); }; });

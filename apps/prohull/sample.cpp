@@ -32,7 +32,8 @@ void add_sample(CLI::App& app, Run& run) {
   command.add_option("name", options->name, "Which:" + names)->required()->type_name("NAME");
   command.add_option("-o,--out", options->out, "PLY, OBJ, OFF or STL")->required()->type_name("FILE");
   command.add_option("--faces", options->faces, "About how many, within 20 % where the shape allows")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(4.0, 1e9));
   add_examples(command, {"prohull sample asteroid -o asteroid.ply --faces 100000"});
   command.callback([options, &run] { run = [options] { return make(*options); }; });
 }

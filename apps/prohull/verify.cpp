@@ -71,10 +71,12 @@ int compare(const Options& options) {
   } else {
     fmt::print("NO: {} does not enclose {}, {:.2f} s\n", outside, inside, verifying.seconds());
     if (report.faces_outside > 0)
-      fmt::print("  {} of its faces lie outside, at least in part; the farthest:\n", grouped(report.faces_outside));
+      fmt::print("  {} faces of {} lie outside, at least in part; the farthest:\n", grouped(report.faces_outside),
+                 inside);
     for (const Offender& o : report.worst)
       fmt::print("    face {} at {}, {:.6g} outside\n", index(o.face), text(o.point), o.distance);
-    if (report.cavities > 0) fmt::print("  {} cavities inside it are not covered\n", grouped(report.cavities));
+    if (report.cavities > 0 && report.faces_outside == 0)
+      fmt::print("  {} cavities inside it are not covered\n", grouped(report.cavities));
   }
   fmt::print("  hull: volume {:.9g}, void {:.3f} %\n", hull_volume, 100 * (hull_volume / original_volume - 1));
   const std::size_t self_intersections = outer ? report.self_intersections : count_self_intersections(hull);

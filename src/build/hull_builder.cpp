@@ -115,7 +115,7 @@ class HullBuilder {
     }
     if (const auto why = refused_shape(star_, placement.local, options_)) return why;
     apex = as_stored(star_.to_input(placement.local));
-    if (!is_outside(mesh_, star_, apex)) return Refusal::Certificate;
+    if (!is_finite(apex) || !is_outside(mesh_, star_, apex)) return Refusal::Certificate;
     if (guard_ && guard_->would_add_intersections(mesh_, star_, apex)) return Refusal::SelfIntersection;
     return std::nullopt;
   }

@@ -1,6 +1,7 @@
 #include "build/placement.h"
 
 #include <cmath>
+#include <limits>
 
 #include "geometry/predicates.h"
 
@@ -53,7 +54,8 @@ std::optional<Placement> place_outside(const Star& star, double margin) {
     if (!nearest || !is_usable(*nearest)) return std::nullopt;
     best.x = *nearest;
   }
-  return Placement{best.x, std::max(0.0, sixfold_added_volume(star, best.x) / 6) * cubed(star.scale)};
+  const double volume = std::max(0.0, sixfold_added_volume(star, best.x) / 6) * cubed(star.scale);
+  return Placement{best.x, std::isfinite(volume) ? volume : std::numeric_limits<double>::max()};
 }
 
 bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p) {

@@ -91,7 +91,12 @@ expect 2 "no command" $prohull
 expect 2 "unknown option" $prohull build rock.ply -o x.ply --face 10
 expect 2 "no output" $prohull build rock.ply
 expect 2 "too few faces" $prohull build rock.ply --faces 3 -o x.ply
-says err "too few faces" "at least 4"
+says err "too few faces" "4"
+expect 2 "negative faces" $prohull build rock.ply --faces -5 -o x.ply
+expect 2 "angle out of range" $prohull build rock.ply --normal-deviation 91 -o x.ply
+expect 2 "hierarchy over the input" $prohull build rock.ply -o x.ply --hierarchy rock.ply
+says err "hierarchy over the input" "named twice"
+expect 2 "output in .gz" $prohull build rock.ply -o x.ply.gz
 expect 2 "unknown sample" $prohull sample cow -o x.ply
 says err "unknown sample" "sphere"
 expect 0 "help" $prohull build --help
@@ -126,6 +131,11 @@ head -c 5000 rock.phull >truncated.phull
 expect 3 "truncated .phull" $prohull info truncated.phull
 says err "truncated .phull" "truncated"
 expect 3 "a mesh is no .phull" $prohull lod rock.ply -o x.ply
+
+$prohull sample sphere -o sphere.obj --faces 5000 >/dev/null
+awk '/^v / { printf "v %.9e %.9e %.9e\n", $2 * 3.4e38, $3 * 3.4e38, $4 * 3.4e38; next } { print }' sphere.obj >edge.obj
+expect 0 "at the edge of float32" $prohull build edge.obj -o edge.stl --faces 100
+says out "at the edge of float32" "certified: yes"
 
 # An inside-out mesh is turned, and the turned one is what the hull encloses.
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 3 1\n3 1 3 2\n3 2 3 0\n' >inside_out.off
