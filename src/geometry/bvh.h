@@ -9,6 +9,12 @@
 
 namespace prohull {
 
+inline Box box_of(const Triangle& t) {
+  Box box;
+  for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
+  return box;
+}
+
 /// A binary tree over boxes, halved at the median along the longest side: depth ceil(log2(count)) whatever the input.
 class Bvh {
  public:

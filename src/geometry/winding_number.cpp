@@ -14,12 +14,6 @@ int turn_of_moved(const Vec3& a, const Vec3& b, const Vec3& p) {
   return a.x < b.x ? 1 : a.x > b.x ? -1 : 0;
 }
 
-Box box_of(const Triangle& t) {
-  Box box;
-  for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
-  return box;
-}
-
 bool contains(const Box& box, const Vec3& p) {
   return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y && box.min.z <= p.z &&
          p.z <= box.max.z;

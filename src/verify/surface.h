@@ -12,12 +12,6 @@ namespace prohull::verify {
 
 using FaceIndex = std::uint32_t;  ///< of a face of a Surface
 
-inline Box box_of(const Triangle& t) {
-  Box box;
-  for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
-  return box;
-}
-
 /// A mesh as the verifier sees it: a closed chain of triangles, turned outwards (see geometry/orientation.h), without
 /// the faces that have no area: they bound nothing.
 struct Surface {
