@@ -1,0 +1,174 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "prohull/progressive_hull.h"
+#include "prohull/triangle_mesh.h"
+
+namespace prohull {
+
+/// Where a segment or ray crosses the surface of a mesh.
+struct Hit {
+  FaceId face{};  ///< of the original mesh
+  double t = 0;   ///< segment: fraction of the way from a to b, in [0, 1]; ray: in lengths of its direction, >= 0
+  Vec3 position;  ///< at t; both are rounded
+  bool entering = true;  ///< from the outside of the face to its inside
+
+  bool operator==(const Hit&) const = default;
+};
+
+/// How queries are answered. All give the same answers but where said otherwise.
+enum class Engine {
+  Auto,             ///< the fastest that is exact: Bvh
+  Bvh,              ///< a tree of boxes over the original mesh
+  Refinement,       ///< P&T 3.2.1 with bounds (Refine::WhereBoundsMeet); for a ProgressiveHull
+  PaperRefinement,  ///< P&T 3.2.1 as published (Refine::WhereFacesMeet); may miss inner crossings
+  KDop6,            ///< trees of k-DOPs (Klosowski et al. 1998), the line clipped by the slabs
+  KDop14,
+  KDop18,
+  KDop26,
+  KDop6Overlap,   ///< the same trees, tested by the overlap of the segment's own k-DOP with the node's, as the paper's
+  KDop14Overlap,  ///< peer most likely did; segments and triangles only
+  KDop18Overlap,
+  KDop26Overlap,
+  Brute,  ///< every face, exactly
+};
+
+/// Each engine by its name: "auto", "bvh", "refinement", "paper-refinement", "kdop6" ... "kdop26-overlap", "brute".
+std::span<const std::pair<std::string_view, Engine>> engine_names();
+
+/// Which hull faces or vertices a query refines (P&T 3.2.1).
+enum class Refine {
+  WhereFacesMeet,  ///< as published: the corners of hull faces that the query meets. The first crossing of a segment or
+                   ///< ray that starts outside of the base hull is found always; crossings further in may be missed
+                   ///< where it passes below the hull (P&T Figure 5)
+  WhereBoundsMeet,  ///< every vertex with something below it that the query may meet: finds all crossings
+};
+
+/// What becomes of the refined hull between one query and the next (P&T 3.2.2).
+enum class BetweenQueries {
+  RollBack,  ///< to the base hull, after every `queries_per_roll_back` queries
+  Coarsen,   ///< kept, and coarsened where the query no longer meets it
+};
+
+struct RefinementOptions {
+  BetweenQueries between = BetweenQueries::RollBack;
+  unsigned queries_per_roll_back = 1;  ///< at least 1
+};
+
+/// What queries have cost; counted by the refinement engines only.
+struct QueryCounts {
+  std::size_t tests = 0;        ///< of faces against the query, those of the original included (P&T Table 3, "#tests")
+  std::size_t splits = 0;       ///< vertex splits made ("#splits")
+  std::size_t coarsenings = 0;  ///< collapses made between queries (BetweenQueries::Coarsen)
+
+  QueryCounts& operator+=(const QueryCounts& other) {
+    tests += other.tests, splits += other.splits, coarsenings += other.coarsenings;
+    return *this;
+  }
+};
+
+/// A mesh made ready for queries. Immutable and cheap to copy: copies share one, and so may any number of threads.
+/// Faces are those of the mesh that is handed over, or of the original mesh of the hull.
+class QueryIndex {
+ public:
+  /// Any triangles will do, closed or not. Throws InputError(NonFiniteCoordinate) for a vertex of a face that is not
+  /// finite, and InputError(InvalidOption) for the refinement engines, which need a hull.
+  explicit QueryIndex(TriangleMesh mesh, Engine engine = Engine::Auto);
+
+  /// Throws InputError(InvalidOption) for options outside their range.
+  explicit QueryIndex(const ProgressiveHull& hull, Engine engine = Engine::Auto, const RefinementOptions& options = {});
+
+  Engine engine() const;  ///< never Auto
+  std::size_t face_count() const;
+  std::size_t memory_bytes() const;  ///< of what all copies share
+
+ private:
+  friend class MeshQuery;
+  struct Shared;
+  std::shared_ptr<const Shared> shared_;
+};
+
+/// Asks a mesh. Keeps its scratch memory, which does not grow with the number of queries; use one per thread.
+///
+/// Segments and rays are answered as if moved by (e, e^2, e^3), for an e smaller than any distance: so they pass every
+/// edge and vertex to one side, and neither start, end nor run in a face. Hence every crossing is found once, those of
+/// a closed mesh enter and leave in turn, and which they are and in what order is exact. One that only touches, or only
+/// ends at, a face may cross it or not. Segments of no length, rays of no direction and faces without area cross
+/// nothing.
+///
+///     const QueryIndex index(mesh);
+///     MeshQuery query(index);
+///     for (const Segment& s : segments)
+///       if (const auto hit = query.first_hit(s)) mark(hit->face, hit->t);
+class MeshQuery {
+ public:
+  explicit MeshQuery(QueryIndex index);
+  ~MeshQuery();
+  MeshQuery(MeshQuery&&) noexcept;
+  MeshQuery& operator=(MeshQuery&&) noexcept;
+
+  /// The crossing nearest to the start. Coordinates must be finite, here and below.
+  std::optional<Hit> first_hit(const Segment& segment);
+  std::optional<Hit> first_hit(const Ray& ray);
+
+  /// Some crossing.
+  std::optional<Hit> any_hit(const Segment& segment);
+  std::optional<Hit> any_hit(const Ray& ray);
+
+  /// Every crossing, in the order in which the segment or ray passes them.
+  std::vector<Hit> all_hits(const Segment& segment);
+  std::vector<Hit> all_hits(const Ray& ray);
+
+  /// The faces that have a point in common with the triangle, ascending; touching counts, and nothing is moved. A
+  /// triangle without area is the segment or point that it is; so are faces.
+  std::vector<FaceId> faces_met(const Triangle& triangle);
+  bool meets(const Triangle& triangle);
+
+  /// Of all queries asked so far.
+  const QueryCounts& counts() const;
+
+  std::size_t memory_bytes() const;  ///< of this object alone
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+enum class HitMode { First, Any, All };
+
+struct BatchOptions {
+  unsigned threads = 0;  ///< 0: one for each core
+  std::function<bool(double fraction)> progress =
+      {};  ///< called now and then with [0, 1], by one thread at a time; false cancels
+};
+
+/// The hits of query i are hits[offsets[i]] to hits[offsets[i + 1] - 1].
+struct HitBatch {
+  std::vector<std::size_t> offsets;
+  std::vector<Hit> hits;
+  QueryCounts counts;
+};
+
+/// The faces met by triangle i are faces[offsets[i]] to faces[offsets[i + 1] - 1].
+struct FaceBatch {
+  std::vector<std::size_t> offsets;
+  std::vector<FaceId> faces;
+  QueryCounts counts;
+};
+
+/// Many queries by many threads; the answers are the same, in the same order, for any number of threads.
+/// Throws InputError(NonFiniteCoordinate) with the number of the first query that is not finite; Cancelled.
+HitBatch hits(const QueryIndex& index, std::span<const Segment> segments, HitMode mode,
+              const BatchOptions& options = {});
+HitBatch hits(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const BatchOptions& options = {});
+FaceBatch faces_met(const QueryIndex& index, std::span<const Triangle> triangles, const BatchOptions& options = {});
+
+}  // namespace prohull
