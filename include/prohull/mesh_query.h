@@ -133,7 +133,7 @@ class MeshQuery {
   bool meets(const Triangle& triangle);
 
   /// Of all queries asked so far.
-  const QueryCounts& counts() const;
+  QueryCounts counts() const;
 
   std::size_t memory_bytes() const;  ///< of this object alone
 
@@ -145,7 +145,7 @@ class MeshQuery {
 enum class HitMode { First, Any, All };
 
 struct BatchOptions {
-  unsigned threads = 0;  ///< 0: one for each core
+  unsigned threads = 0;  ///< at most, and no more than cores; 0: one for each core
   std::function<bool(double fraction)> progress =
       {};  ///< called now and then with [0, 1], by one thread at a time; false cancels
 };

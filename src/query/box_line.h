@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "query/line.h"
+
+namespace prohull {
+
+/// A line as boxes see it (slab test), conservative: false only if the line, unmoved, certainly misses the box up to
+/// some t. Slabs are given by their near and far planes along each axis.
+///
+/// (plane - origin) * inverse has a relative error of at most 3 eps + O(eps^2): of the difference, of 1 / direction,
+/// and of the product. It keeps its sign, so the far value times (1 + 8 eps) against the near one is safe. Axes along
+/// which this does not hold, for the direction is not 0 but below 2^-900 or overflowed, are left out: their origin is
+/// NaN, and NaN is never chosen below.
+struct BoxLine {
+  explicit BoxLine(const DirectedLine& line) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double d = line.direction[axis];
+      origin[axis] = d == 0 || (std::isfinite(d) && std::abs(d) >= 0x1p-900) ? line.origin[axis]
+                                                                             : std::numeric_limits<double>::quiet_NaN();
+      inverse[axis] = d == 0 ? std::numeric_limits<double>::infinity() : 1 / d;
+      backwards[axis] = d < 0;
+    }
+  }
+
+  static constexpr double kWiden = 1 + 8 * line_filter::kEpsilon;
+
+  double origin[3], inverse[3];
+  bool backwards[3];  ///< the near plane is that of the greater coordinate
+};
+
+inline bool may_meet(const BoxLine& line, const Box& box, double t_end) {
+  double from = 0, to = t_end;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box.min[axis], high = box.max[axis];
+    const double near = ((line.backwards[axis] ? high : low) - line.origin[axis]) * line.inverse[axis];
+    const double far = ((line.backwards[axis] ? low : high) - line.origin[axis]) * line.inverse[axis];
+    from = near > from ? near : from;
+    to = far < to ? far : to;
+  }
+  return from <= to * BoxLine::kWiden;
+}
+
+}  // namespace prohull

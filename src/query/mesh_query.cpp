@@ -1,0 +1,242 @@
+#include "prohull/mesh_query.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <array>
+#include <atomic>
+#include <mutex>
+
+#include "prohull/error.h"
+#include "query/engine.h"
+
+namespace prohull {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Engine>, 13> kEngineNames{
+    {{"auto", Engine::Auto},
+     {"bvh", Engine::Bvh},
+     {"refinement", Engine::Refinement},
+     {"paper-refinement", Engine::PaperRefinement},
+     {"kdop6", Engine::KDop6},
+     {"kdop14", Engine::KDop14},
+     {"kdop18", Engine::KDop18},
+     {"kdop26", Engine::KDop26},
+     {"kdop6-overlap", Engine::KDop6Overlap},
+     {"kdop14-overlap", Engine::KDop14Overlap},
+     {"kdop18-overlap", Engine::KDop18Overlap},
+     {"kdop26-overlap", Engine::KDop26Overlap},
+     {"brute", Engine::Brute}}};
+
+}  // namespace
+
+std::span<const std::pair<std::string_view, Engine>> engine_names() { return kEngineNames; }
+
+struct QueryIndex::Shared {
+  TriangleMesh mesh;
+  Engine kind;
+  std::unique_ptr<QueryEngine> engine;  ///< refers to `mesh`
+};
+
+namespace {
+
+void require_finite(const TriangleMesh& mesh) {
+  for (const FaceId f : mesh.triangles.ids())
+    for (const VertexId v : mesh.triangles[f])
+      if (!is_finite(mesh.positions[v]))
+        throw InputError(Defect::NonFiniteCoordinate,
+                         fmt::format("face {}: vertex {} has a coordinate that is not finite; remove such faces first",
+                                     index(f), index(v)));
+}
+
+std::unique_ptr<QueryEngine> make_engine(const TriangleMesh& mesh, Engine engine) {
+  switch (engine) {
+    case Engine::Brute:
+      return make_brute_engine(mesh);
+    case Engine::Auto:
+    case Engine::Bvh:
+      return make_bvh_engine(mesh);
+    default:
+      throw InputError(Defect::InvalidOption, "this engine refines a progressive hull, which a mesh is not");
+  }
+}
+
+}  // namespace
+
+QueryIndex::QueryIndex(TriangleMesh mesh, Engine engine) {
+  require_finite(mesh);
+  auto shared = std::make_shared<Shared>();
+  shared->mesh = std::move(mesh);
+  shared->kind = engine == Engine::Auto ? Engine::Bvh : engine;
+  shared->engine = make_engine(shared->mesh, shared->kind);
+  shared_ = std::move(shared);
+}
+
+QueryIndex::QueryIndex(const ProgressiveHull& hull, Engine engine, const RefinementOptions&)
+    : QueryIndex(hull.original(), engine) {}
+
+Engine QueryIndex::engine() const { return shared_->kind; }
+
+std::size_t QueryIndex::face_count() const { return shared_->mesh.face_count(); }
+
+std::size_t QueryIndex::memory_bytes() const {
+  const TriangleMesh& mesh = shared_->mesh;
+  return sizeof(Shared) + mesh.vertex_count() * sizeof(Vec3) + mesh.face_count() * sizeof(mesh.triangles[FaceId{}]) +
+         shared_->engine->memory_bytes();
+}
+
+struct MeshQuery::State {
+  explicit State(QueryIndex i) : index(std::move(i)), worker(index.shared_->engine->worker()) {}
+
+  HitCollector collected(const DirectedLine& line, HitMode mode) {
+    HitCollector hits(index.shared_->mesh, line, mode);
+    const bool is_a_point = line.end == line.origin && line.direction == Vec3{};
+    if (!is_a_point) worker->collect(line, hits);
+    return hits;
+  }
+  template <class Primitive>
+  std::optional<Hit> one(const Primitive& primitive, HitMode mode) {
+    const DirectedLine line(primitive);
+    return collected(line, mode).best();
+  }
+  template <class Primitive>
+  std::vector<Hit> all(const Primitive& primitive) {
+    const DirectedLine line(primitive);
+    return collected(line, HitMode::All).all();
+  }
+  FaceCollector collected(const Triangle& triangle, HitMode mode) {
+    FaceCollector faces(index.shared_->mesh, triangle, mode);
+    worker->collect(triangle, faces);
+    return faces;
+  }
+
+  QueryIndex index;
+  std::unique_ptr<QueryWorker> worker;
+};
+
+MeshQuery::MeshQuery(QueryIndex index) : state_(std::make_unique<State>(std::move(index))) {}
+MeshQuery::~MeshQuery() = default;
+MeshQuery::MeshQuery(MeshQuery&&) noexcept = default;
+MeshQuery& MeshQuery::operator=(MeshQuery&&) noexcept = default;
+
+std::optional<Hit> MeshQuery::first_hit(const Segment& segment) { return state_->one(segment, HitMode::First); }
+std::optional<Hit> MeshQuery::first_hit(const Ray& ray) { return state_->one(ray, HitMode::First); }
+std::optional<Hit> MeshQuery::any_hit(const Segment& segment) { return state_->one(segment, HitMode::Any); }
+std::optional<Hit> MeshQuery::any_hit(const Ray& ray) { return state_->one(ray, HitMode::Any); }
+
+std::vector<Hit> MeshQuery::all_hits(const Segment& segment) { return state_->all(segment); }
+std::vector<Hit> MeshQuery::all_hits(const Ray& ray) { return state_->all(ray); }
+
+std::vector<FaceId> MeshQuery::faces_met(const Triangle& triangle) {
+  return state_->collected(triangle, HitMode::All).all();
+}
+bool MeshQuery::meets(const Triangle& triangle) { return state_->collected(triangle, HitMode::Any).any(); }
+
+QueryCounts MeshQuery::counts() const { return state_->worker->counts(); }
+std::size_t MeshQuery::memory_bytes() const { return sizeof(State) + state_->worker->memory_bytes(); }
+
+namespace {
+
+bool is_finite(const Segment& s) { return prohull::is_finite(s.a) && prohull::is_finite(s.b); }
+bool is_finite(const Ray& r) { return prohull::is_finite(r.origin) && prohull::is_finite(r.direction); }
+bool is_finite(const Triangle& t) {
+  return prohull::is_finite(t.a) && prohull::is_finite(t.b) && prohull::is_finite(t.c);
+}
+
+/// Calls `progress` from whichever thread ends a piece of the work, one at a time.
+class SharedProgress {
+ public:
+  SharedProgress(const BatchOptions& options, std::size_t total) : progress_(options.progress), total_(total) {}
+  bool cancelled() const { return cancelled_; }
+  void add(std::size_t done) {
+    if (!progress_) return;
+    const std::lock_guard lock(mutex_);
+    done_ += done;
+    if (!cancelled_ && !progress_(static_cast<double>(done_) / static_cast<double>(total_))) cancelled_ = true;
+  }
+
+ private:
+  const std::function<bool(double)>& progress_;
+  std::size_t total_, done_ = 0;
+  std::mutex mutex_;
+  std::atomic<bool> cancelled_ = false;
+};
+
+template <class Answer>
+struct Batch {
+  std::vector<std::size_t> offsets{0};
+  std::vector<Answer> answers;
+  QueryCounts counts;
+};
+
+/// ask(query, primitive) -> std::vector<Answer>, or something else with begin and end.
+template <class Answer, class Primitive, class Ask>
+Batch<Answer> ask_all(const QueryIndex& index, std::span<const Primitive> primitives, const BatchOptions& options,
+                      Ask ask) {
+  for (std::size_t i = 0; i < primitives.size(); ++i)
+    if (!is_finite(primitives[i]))
+      throw InputError(Defect::NonFiniteCoordinate,
+                       fmt::format("query {} has a coordinate that is not finite; remove it", i));
+  constexpr std::size_t kChunk = 512;
+  std::vector<Batch<Answer>> chunks((primitives.size() + kChunk - 1) / kChunk);
+  SharedProgress progress(options, primitives.size());
+  oneapi::tbb::enumerable_thread_specific<MeshQuery> queries([&] { return MeshQuery(index); });
+  const int cores = oneapi::tbb::this_task_arena::max_concurrency();
+  oneapi::tbb::task_arena arena(
+      options.threads == 0 ? cores : static_cast<int>(std::min(options.threads, static_cast<unsigned>(cores))));
+  arena.execute([&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+      if (progress.cancelled()) return;
+      MeshQuery& query = queries.local();
+      const auto chunk = primitives.subspan(c * kChunk, std::min(kChunk, primitives.size() - c * kChunk));
+      for (const Primitive& primitive : chunk) {
+        const auto answers = ask(query, primitive);
+        chunks[c].answers.insert(chunks[c].answers.end(), answers.begin(), answers.end());
+        chunks[c].offsets.push_back(chunks[c].answers.size());
+      }
+      progress.add(chunk.size());
+    });
+  });
+  if (progress.cancelled()) throw Cancelled();
+
+  Batch<Answer> all;
+  all.offsets.reserve(primitives.size() + 1);
+  for (const Batch<Answer>& chunk : chunks) {
+    const std::size_t before = all.answers.size();
+    for (std::size_t i = 1; i < chunk.offsets.size(); ++i) all.offsets.push_back(before + chunk.offsets[i]);
+    all.answers.insert(all.answers.end(), chunk.answers.begin(), chunk.answers.end());
+  }
+  for (const MeshQuery& query : queries) all.counts += query.counts();
+  return all;
+}
+
+template <class Primitive>
+HitBatch all_hits_of(const QueryIndex& index, std::span<const Primitive> primitives, HitMode mode,
+                     const BatchOptions& options) {
+  auto batch = ask_all<Hit>(index, primitives, options, [mode](MeshQuery& query, const Primitive& primitive) {
+    if (mode == HitMode::All) return query.all_hits(primitive);
+    const auto hit = mode == HitMode::First ? query.first_hit(primitive) : query.any_hit(primitive);
+    return hit ? std::vector{*hit} : std::vector<Hit>{};
+  });
+  return {std::move(batch.offsets), std::move(batch.answers), batch.counts};
+}
+
+}  // namespace
+
+HitBatch hits(const QueryIndex& index, std::span<const Segment> segments, HitMode mode, const BatchOptions& options) {
+  return all_hits_of(index, segments, mode, options);
+}
+
+HitBatch hits(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const BatchOptions& options) {
+  return all_hits_of(index, rays, mode, options);
+}
+
+FaceBatch faces_met(const QueryIndex& index, std::span<const Triangle> triangles, const BatchOptions& options) {
+  auto batch = ask_all<FaceId>(index, triangles, options,
+                               [](MeshQuery& query, const Triangle& triangle) { return query.faces_met(triangle); });
+  return {std::move(batch.offsets), std::move(batch.answers), batch.counts};
+}
+
+}  // namespace prohull

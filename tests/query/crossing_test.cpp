@@ -1,0 +1,156 @@
+#include <CGAL/Gmpq.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <optional>
+#include <random>
+
+#include "effort.h"
+#include "query/box_line.h"
+#include "query/line.h"
+
+namespace prohull {
+namespace {
+
+using Number = CGAL::Gmpq;
+using Point = std::array<Number, 3>;
+
+Point exact(const Vec3& v) { return {v.x, v.y, v.z}; }
+Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point operator*(const Number& s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
+Number dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+bool is_negative(const Number& x) { return CGAL::sign(x) == CGAL::NEGATIVE; }
+
+/// A move so small that on the grids below it acts as an infinitesimal one, (e, e^2, e^3).
+Point tiny_move() {
+  Number e = 1;
+  for (int i = 0; i < 80; ++i) e = e / 2;
+  return {e, e * e, e * e * e};
+}
+
+struct TrueCrossing {
+  bool entering;
+  Number t;
+};
+
+/// By constructing the point where the line meets the plane, after an actual move of the line.
+std::optional<TrueCrossing> true_crossing(const Point& origin, const Point& direction, bool is_ray, const Triangle& f) {
+  const Point o = origin + tiny_move(), a = exact(f.a), b = exact(f.b), c = exact(f.c);
+  const Point n = cross(b - a, c - a);
+  const Number speed = dot(n, direction);
+  if (CGAL::is_zero(speed)) return std::nullopt;
+  const Number t = dot(n, a - o) / speed;
+  if (is_negative(t) || (!is_ray && is_negative(1 - t))) return std::nullopt;
+  const Point p = o + t * direction;
+  for (const auto& [u, v] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+    if (is_negative(dot(n, cross(v - u, p - u)))) return std::nullopt;
+  return TrueCrossing{is_negative(speed), t};
+}
+
+class CrossingOnGrid : public testing::TestWithParam<bool> {
+ protected:
+  Vec3 corner() { return {0.1 * grid_(random_), 0.1 * grid_(random_), 0.1 * grid_(random_)}; }
+  Triangle face() { return {corner(), corner(), corner()}; }
+
+  unsigned seed_ = std::random_device{}();
+  std::mt19937 random_{seed_};
+  std::uniform_int_distribution<int> grid_{-1, 1};
+};
+
+// Coordinates -0.1, 0, 0.1: lines run through corners, along edges and within planes more often than not.
+TEST_P(CrossingOnGrid, IsThatOfALineActuallyMoved) {
+  SCOPED_TRACE(testing::Message() << "seed " << seed_);
+  const bool is_ray = GetParam();
+  int crossings = 0, orders = 0;
+  for (int i = 0; i < rounds(20000); ++i) {
+    const Vec3 a = corner(), b = corner();
+    const DirectedLine line = is_ray ? DirectedLine(Ray{a, b}) : DirectedLine(Segment{a, b});
+    const Point direction = is_ray ? exact(b) : exact(b) - exact(a);
+    const Triangle first = face(), second = face();
+    const auto truth = true_crossing(exact(a), direction, is_ray, first);
+    const auto expected = !truth ? Crossing::None : truth->entering ? Crossing::Entering : Crossing::Leaving;
+    ASSERT_EQ(crossing(line, first), expected);
+    ASSERT_EQ(crossing(line, {first.b, first.c, first.a}), expected);
+    if (!truth) continue;
+    ++crossings;
+    EXPECT_TRUE(may_meet(line, first));
+    const Parameter at = parameter(line, first);
+    EXPECT_NEAR(at.t, CGAL::to_double(truth->t), 1e-9);
+
+    const auto other = true_crossing(exact(a), direction, is_ray, second);
+    if (!other) continue;
+    ++orders;
+    const Parameter at_other = parameter(line, second);
+    EXPECT_EQ(crosses_before(line, first, at, second, at_other), truth->t < other->t);
+    EXPECT_EQ(crosses_before(line, second, at_other, first, at), other->t < truth->t);
+  }
+  EXPECT_GT(crossings, rounds(20000) / 50);
+  EXPECT_GT(orders, rounds(20000) / 2000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Segments, CrossingOnGrid, testing::Values(false));
+INSTANTIATE_TEST_SUITE_P(Rays, CrossingOnGrid, testing::Values(true));
+
+TEST(Crossing, HasAnAnswerForTheGreatestAndTheLeastCoordinates) {
+  for (const double size : {1e-300, 1e-160, 1.0, 1e160, 1.5e308}) {
+    const Triangle face{{-size, -size, 0}, {size, -size, 0}, {0, size, 0}};
+    const DirectedLine through(Segment{{0, 0, size}, {0, 0, -size}}),
+        beside(Segment{{size, size, size}, {size, size, -size}});
+    EXPECT_EQ(crossing(through, face), Crossing::Entering) << size;
+    EXPECT_EQ(crossing(beside, face), Crossing::None) << size;
+    EXPECT_DOUBLE_EQ(parameter(through, face).t, 0.5) << size;
+    EXPECT_TRUE(may_meet(through, face));
+    Box box;
+    box.extend(face.a), box.extend(face.b), box.extend(face.c);
+    EXPECT_TRUE(may_meet(BoxLine(through), box, 1)) << size;
+  }
+}
+
+TEST(MayMeet, IsNeverFalseWhereALineTouches) {
+  // Segments that end at or pass through a point of the face, its edge or its corner, that rounding has moved a little.
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> coordinate(-1, 1), fraction(0, 1);
+  const auto point = [&] { return Vec3{coordinate(random), coordinate(random), coordinate(random)}; };
+  for (int i = 0; i < rounds(20000); ++i) {
+    const Triangle face{point(), point(), point()};
+    const Vec3 on = i % 3 == 0 ? face.a : i % 3 == 1 ? face.a : face.c;
+    const Vec3 away = point();
+    EXPECT_TRUE(may_meet(DirectedLine(Segment{away, on}), face));
+    EXPECT_TRUE(may_meet(DirectedLine(Segment{on, away}), face));
+    EXPECT_TRUE(may_meet(DirectedLine(Ray{on, away}), face));
+    Box box;
+    box.extend(face.a), box.extend(face.b), box.extend(face.c);
+    EXPECT_TRUE(may_meet(BoxLine(DirectedLine(Segment{away, on})), box, 1));
+    EXPECT_TRUE(may_meet(BoxLine(DirectedLine(Ray{on, away})), box, std::numeric_limits<double>::infinity()));
+  }
+}
+
+TEST(MayMeet, IsFalseForMostLinesThatPassBy) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const auto point = [&] { return Vec3{coordinate(random), coordinate(random), coordinate(random)}; };
+  for (int i = 0; i < 5000; ++i) {
+    const Triangle face{point(), point(), point()};
+    for (const DirectedLine& line : {DirectedLine(Segment{point(), point()}), DirectedLine(Ray{point(), point()})})
+      EXPECT_EQ(may_meet(line, face), crossing(line, face) != Crossing::None);
+  }
+}
+
+TEST(MayMeet, OfABoxKnowsAxisParallelLines) {
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  const double far = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(may_meet(BoxLine(DirectedLine(Ray{{0, 0.5, -1}, {0, 0, 1}})), box, far)) << "within a face";
+  EXPECT_TRUE(may_meet(BoxLine(DirectedLine(Ray{{0, 0, -1}, {0, -0.0, 1}})), box, far)) << "along an edge";
+  EXPECT_FALSE(may_meet(BoxLine(DirectedLine(Ray{{-0.1, 0.5, -1}, {0, 0, 1}})), box, far));
+  EXPECT_FALSE(may_meet(BoxLine(DirectedLine(Ray{{0.5, 0.5, -1}, {0, 0, -1}})), box, far)) << "behind";
+  EXPECT_FALSE(may_meet(BoxLine(DirectedLine(Segment{{0.5, 0.5, -2}, {0.5, 0.5, -1}})), box, 1)) << "beyond the end";
+}
+
+}  // namespace
+}  // namespace prohull

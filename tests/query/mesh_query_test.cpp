@@ -1,0 +1,203 @@
+#include "prohull/mesh_query.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "effort.h"
+#include "meshes.h"
+#include "prohull/error.h"
+#include "prohull/sample.h"
+
+namespace prohull {
+namespace {
+
+using namespace meshes;
+
+/// Segments that meet features: from, to, through and along the mesh's corners, edges and faces, and at random.
+std::vector<Segment> awkward_segments(const TriangleMesh& mesh, std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  const Box around = bounding_box(mesh);
+  const auto any_point = [&] {
+    std::uniform_real_distribution<double> unit(-0.5, 1.5);
+    return Vec3{around.min.x + unit(random) * (around.max.x - around.min.x),
+                around.min.y + unit(random) * (around.max.y - around.min.y),
+                around.min.z + unit(random) * (around.max.z - around.min.z)};
+  };
+  const auto any_triangle = [&] {
+    return mesh.triangle(FaceId(
+        std::uniform_int_distribution<std::uint32_t>(0, static_cast<std::uint32_t>(mesh.face_count()) - 1)(random)));
+  };
+  std::vector<Segment> segments;
+  while (segments.size() < count) {
+    const Triangle s = any_triangle(), t = any_triangle();
+    const Vec3 p = any_point();
+    segments.push_back({p, any_point()});
+    segments.push_back({p, s.a});                        // ends at a corner
+    segments.push_back({s.a, t.b});                      // from corner to corner
+    segments.push_back({p, 2 * s.a - p});                // through a corner, as nearly as doubles can
+    segments.push_back({2 * s.a - s.b, 2 * s.b - s.a});  // along an edge
+    segments.push_back({p, (s.a + s.b) * 0.5});          // to an edge
+    segments.push_back({s.a, (s.b + s.c) * 0.5});        // within a face
+    segments.push_back({{p.x, s.a.y, s.a.z}, {around.min.x, s.a.y, s.a.z}});  // axis-parallel, through a corner
+    segments.push_back({s.a, s.a});                                           // a point
+  }
+  segments.resize(count);
+  return segments;
+}
+
+std::vector<Ray> rays_along(const std::vector<Segment>& segments) {
+  std::vector<Ray> rays;
+  for (const Segment& s : segments) rays.push_back({s.a, s.b - s.a});
+  return rays;
+}
+
+TriangleMesh two_spheres_and_a_box() {
+  return together(together(sphere(2), moved(sphere(2), {3, 0, 0})), box({-1, 2, -1}, {1, 4, 1}));
+}
+
+TEST(MeshQuery, FindsWhereASegmentEntersAndLeaves) {
+  MeshQuery query{QueryIndex(box({0, 0, 0}, {1, 1, 1}))};
+  const Segment through{{0.3, 0.4, -1}, {0.3, 0.4, 3}};
+  const auto hits = query.all_hits(through);
+  ASSERT_EQ(hits.size(), 2u);
+  EXPECT_DOUBLE_EQ(hits[0].t, 0.25);
+  EXPECT_TRUE(hits[0].entering);
+  EXPECT_LT(norm(hits[0].position - Vec3{0.3, 0.4, 0}), 1e-15);
+  EXPECT_DOUBLE_EQ(hits[1].t, 0.5);
+  EXPECT_FALSE(hits[1].entering);
+  EXPECT_EQ(query.first_hit(through), hits[0]);
+  EXPECT_TRUE(query.any_hit(through));
+  EXPECT_FALSE(query.first_hit(Segment{{0.3, 0.4, -1}, {0.3, 0.4, -0.5}}));
+  EXPECT_DOUBLE_EQ(query.first_hit(Ray{{0.3, 0.4, 0.5}, {0, 0, 2}})->t, 0.25);
+  EXPECT_FALSE(query.first_hit(Ray{{0.3, 0.4, 2}, {0, 0, 2}}));
+}
+
+TEST(MeshQuery, EntersAndLeavesInTurnHoweverASegmentRuns) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  for (const TriangleMesh& mesh : {box({0, 0, 0}, {1, 1, 1}), octahedron(), torus(8, 6), two_spheres_and_a_box()}) {
+    MeshQuery query{QueryIndex(mesh)};
+    const Box around = bounding_box(mesh);
+    std::size_t hits = 0;
+    for (Segment s : awkward_segments(mesh, rounds(1000), seed)) {
+      // From far outside: to the middle of the segment, and on beyond the mesh.
+      const Vec3 d = s.b - s.a;
+      if (d == Vec3{}) continue;
+      const double reach = 4 * around.diagonal() / norm(d);
+      const auto found = query.all_hits(Segment{s.a - reach * d, s.a + reach * d});
+      EXPECT_EQ(found.size() % 2, 0u);
+      for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].entering, i % 2 == 0);
+      hits += found.size();
+    }
+    EXPECT_GT(hits, rounds(1000) / 2);
+  }
+}
+
+class Engines : public testing::TestWithParam<Engine> {};
+
+TEST_P(Engines, AnswerAsBruteForceDoes) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  for (const TriangleMesh& mesh :
+       {octahedron(), two_spheres_and_a_box(), soup(torus(8, 6)), make_sample("asteroid", 1000)}) {
+    MeshQuery truth{QueryIndex(mesh, Engine::Brute)}, query{QueryIndex(mesh, GetParam())};
+    const auto segments = awkward_segments(mesh, rounds(500), seed);
+    for (const Segment& s : segments) {
+      ASSERT_EQ(query.all_hits(s), truth.all_hits(s));
+      ASSERT_EQ(query.first_hit(s), truth.first_hit(s));
+      ASSERT_EQ(query.any_hit(s).has_value(), truth.any_hit(s).has_value());
+    }
+    for (const Ray& r : rays_along(segments)) {
+      ASSERT_EQ(query.all_hits(r), truth.all_hits(r));
+      ASSERT_EQ(query.first_hit(r), truth.first_hit(r));
+      ASSERT_EQ(query.any_hit(r).has_value(), truth.any_hit(r).has_value());
+    }
+    for (std::size_t i = 0; i + 2 < segments.size(); i += 20) {
+      const Triangle t{segments[i].a, segments[i + 1].b, segments[i + 2].b};
+      ASSERT_EQ(query.faces_met(t), truth.faces_met(t));
+      ASSERT_EQ(query.meets(t), truth.meets(t));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Query, Engines, testing::Values(Engine::Auto, Engine::Bvh), [](const auto& parameter) {
+  for (const auto& [name, engine] : engine_names())
+    if (engine == parameter.param) {
+      std::string identifier(name);
+      std::erase(identifier, '-');
+      return identifier;
+    }
+  return std::string("unnamed");
+});
+
+TEST(MeshQuery, OfAnEmptyMeshFindsNothing) {
+  MeshQuery query{QueryIndex(TriangleMesh{})};
+  EXPECT_FALSE(query.first_hit(Segment{{0, 0, 0}, {1, 1, 1}}));
+  EXPECT_FALSE(query.meets(Triangle{{0, 0, 0}, {1, 1, 1}, {0, 1, 0}}));
+}
+
+TEST(QueryIndex, RefusesWhatItCannotAnswer) {
+  TriangleMesh mesh = octahedron();
+  mesh.positions[VertexId{2}].y = std::nan("");
+  EXPECT_THROW(QueryIndex{mesh}, InputError);
+  EXPECT_THROW(QueryIndex(octahedron(), Engine::Refinement), InputError);
+}
+
+TEST(Hits, AreTheSameForAnyNumberOfThreads) {
+  const QueryIndex index(make_sample("asteroid", 2000));
+  const auto segments = awkward_segments(make_sample("asteroid", 2000), 3000, 5);
+  const HitBatch one = hits(index, segments, HitMode::All, {.threads = 1});
+  ASSERT_EQ(one.offsets.size(), segments.size() + 1);
+  MeshQuery query(index);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    EXPECT_EQ(std::vector(one.hits.begin() + static_cast<std::ptrdiff_t>(one.offsets[i]),
+                          one.hits.begin() + static_cast<std::ptrdiff_t>(one.offsets[i + 1])),
+              query.all_hits(segments[i]));
+  for (const unsigned threads : {0u, 2u, 5u}) {
+    const HitBatch many = hits(index, segments, HitMode::All, {.threads = threads});
+    EXPECT_EQ(many.offsets, one.offsets);
+    EXPECT_EQ(many.hits, one.hits);
+  }
+}
+
+TEST(Hits, NameTheFirstQueryThatIsNotFinite) {
+  std::vector<Segment> segments(10, {{0, 0, 0}, {1, 1, 1}});
+  segments[7].b.z = std::nan("");
+  segments[8].b.z = std::nan("");
+  try {
+    hits(QueryIndex(octahedron()), segments, HitMode::First);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("query 7"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Hits, CanBeCancelled) {
+  const std::vector<Segment> segments(5000, {{-1, 0.1, 0.2}, {1, 0.1, 0.2}});
+  EXPECT_THROW(hits(QueryIndex(octahedron()), segments, HitMode::First, {.progress = [](double) { return false; }}),
+               Cancelled);
+}
+
+TEST(FacesMet, OfManyTrianglesAreThoseOfEach) {
+  const QueryIndex index(box({0, 0, 0}, {1, 1, 1}));
+  const std::vector<Triangle> triangles{{{-1, 0.5, 0.5}, {2, 0.5, 0.4}, {2, 0.5, 0.6}},  // in left, out right
+                                        {{5, 5, 5}, {6, 5, 5}, {5, 6, 5}},               // far away
+                                        {{1, 1, 1}, {2, 2, 2}, {2, 2, 3}}};              // touches a corner
+  const FaceBatch batch = faces_met(index, triangles);
+  MeshQuery query(index);
+  ASSERT_EQ(batch.offsets.size(), 4u);
+  EXPECT_EQ(batch.faces.size(), batch.offsets[3]);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto met = query.faces_met(triangles[i]);
+    EXPECT_EQ(met.empty(), i == 1) << i;
+    EXPECT_EQ(std::vector(batch.faces.begin() + static_cast<std::ptrdiff_t>(batch.offsets[i]),
+                          batch.faces.begin() + static_cast<std::ptrdiff_t>(batch.offsets[i + 1])),
+              met);
+  }
+}
+
+}  // namespace
+}  // namespace prohull
