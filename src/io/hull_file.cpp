@@ -9,7 +9,6 @@
 #include <memory>
 
 #include "io/atomic_file.h"
-#include "io/file_content.h"
 #include "prohull/error.h"
 
 // Layout (docs/phull.md): 8 bytes of magic, u32 version, then one zstd frame with its checksum. All numbers are
