@@ -34,13 +34,16 @@ std::vector<Ray> read_rays(std::string_view content, const std::filesystem::path
 std::vector<Triangle> read_triangles(const std::filesystem::path& path);
 std::vector<Triangle> read_triangles(std::string_view content, const std::filesystem::path& name);
 
-/// Writes what read_segments reads, to .npy (of shape (n, 6), doubles) or .csv.
+enum class QueryFormat { Npy, Npz, Csv };
+
+/// The format that a file name asks for (.npy or .csv, in any case); throws InputError(UnknownFormat) for any other.
+QueryFormat segments_format(const std::filesystem::path& path);
+
+/// Writes what read_segments reads, to .npy (of shape (n, 6), doubles) or .csv, as mesh_io.h does.
 void write_segments(const std::filesystem::path& path, std::span<const Segment> segments);
 
-enum class HitsFormat { Csv, Npz };
-
-/// The format that a file name asks for (.csv or .npz, in any case); throws InputError(UnknownFormat) for any other.
-HitsFormat hits_format(const std::filesystem::path& path);
+/// The format that a file name asks for (.npz or .csv, in any case); throws InputError(UnknownFormat) for any other.
+QueryFormat hits_format(const std::filesystem::path& path);
 
 enum class HitsOf { Segments, Rays };
 

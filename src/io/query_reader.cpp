@@ -7,37 +7,29 @@
 #include "io/file_content.h"
 #include "io/npy_header.h"
 #include "io/number_table.h"
+#include "io/query_format.h"
 #include "prohull/file.h"
 #include "prohull/query_io.h"
 
 namespace prohull {
 namespace {
 
-enum class TableFormat { Npy, Npz, Csv };
-
-std::string_view extension(TableFormat format) {
-  return format == TableFormat::Npy ? ".npy" : format == TableFormat::Npz ? ".npz" : ".csv";
+std::optional<QueryFormat> format_of_name(const std::filesystem::path& name) {
+  if (lower_case_extension(name) == ".gz") return format_of_name(name.stem());
+  return query_format(name);
 }
 
-std::optional<TableFormat> format_of_name(const std::filesystem::path& name) {
-  const std::string found = lower_case_extension(name);
-  if (found == ".gz") return format_of_name(name.stem());
-  for (const TableFormat format : {TableFormat::Npy, TableFormat::Npz, TableFormat::Csv})
-    if (found == extension(format)) return format;
-  return {};
-}
-
-TableFormat format_of(std::string_view content, const std::filesystem::path& name) {
-  std::optional<TableFormat> found;
-  if (content.starts_with(kNpyMagic)) found = TableFormat::Npy;
-  if (is_zip(content)) found = TableFormat::Npz;
+QueryFormat format_of(std::string_view content, const std::filesystem::path& name) {
+  std::optional<QueryFormat> found;
+  if (content.starts_with(kNpyMagic)) found = QueryFormat::Npy;
+  if (is_zip(content)) found = QueryFormat::Npz;
   const auto named = format_of_name(name);
   if (!named && !found)
     throw InputError(Defect::UnknownFormat,
                      fmt::format("{}: unknown format; name it .npy, .npz or .csv", name.string()));
   if (named && found && named != found)
     throw InputError(Defect::Malformed, fmt::format("{}: its content is that of a file named {}; name it so",
-                                                    name.string(), extension(*found)));
+                                                    name.string(), extension_of(*found)));
   return named ? *named : *found;
 }
 
@@ -54,11 +46,11 @@ FileContent array_of_archive(std::string_view bytes, const std::filesystem::path
 void read_uncompressed(std::string_view content, const std::filesystem::path& name, const Columns& columns,
                        const RowSink& sink) {
   switch (format_of(content, name)) {
-    case TableFormat::Npy:
+    case QueryFormat::Npy:
       return read_npy(content, name.string(), columns, sink);
-    case TableFormat::Csv:
+    case QueryFormat::Csv:
       return read_csv(content, name.string(), columns, sink);
-    case TableFormat::Npz: {
+    case QueryFormat::Npz: {
       const FileContent array = array_of_archive(content, name, columns.array);
       return read_npy(array.bytes, array.name.string(), columns, sink);
     }

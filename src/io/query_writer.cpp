@@ -5,10 +5,10 @@
 #include "io/append.h"
 #include "io/extension.h"
 #include "io/npy_header.h"
+#include "io/query_format.h"
 #include "io/zip_writer.h"
 #include "prohull/error.h"
 #include "prohull/file.h"
-#include "prohull/query_io.h"
 
 namespace prohull {
 namespace {
@@ -107,30 +107,43 @@ std::string npy_content(std::span<const Segment> segments) {
   return out;
 }
 
-}  // namespace
-
-HitsFormat hits_format(const std::filesystem::path& path) {
-  const std::string extension = lower_case_extension(path);
-  if (extension == ".csv") return HitsFormat::Csv;
-  if (extension == ".npz") return HitsFormat::Npz;
-  throw InputError(Defect::UnknownFormat,
-                   fmt::format("{}: hits are written to .csv or .npz; name it so", path.string()));
+/// Of the name of a file of `what`, which is written in this format or as csv.
+QueryFormat format_for(std::string_view what, const std::filesystem::path& path, QueryFormat binary) {
+  const auto format = query_format(path);
+  if (format == binary || format == QueryFormat::Csv) return *format;
+  throw InputError(Defect::UnknownFormat, fmt::format("{}: {} are written to {} or .csv; name it so", path.string(),
+                                                      what, extension_of(binary)));
 }
 
+}  // namespace
+
+std::string_view extension_of(QueryFormat format) {
+  return format == QueryFormat::Npy ? ".npy" : format == QueryFormat::Npz ? ".npz" : ".csv";
+}
+
+std::optional<QueryFormat> query_format(const std::filesystem::path& path) {
+  const std::string extension = lower_case_extension(path);
+  for (const QueryFormat format : {QueryFormat::Npy, QueryFormat::Npz, QueryFormat::Csv})
+    if (extension == extension_of(format)) return format;
+  return {};
+}
+
+QueryFormat segments_format(const std::filesystem::path& path) {
+  return format_for("segments", path, QueryFormat::Npy);
+}
+
+QueryFormat hits_format(const std::filesystem::path& path) { return format_for("hits", path, QueryFormat::Npz); }
+
 void write_hits(const std::filesystem::path& path, const HitBatch& batch, HitsOf of) {
-  write_file(path, hits_format(path) == HitsFormat::Csv ? csv_content(batch, of) : npz_content(batch, of));
+  write_file(path, hits_format(path) == QueryFormat::Csv ? csv_content(batch, of) : npz_content(batch, of));
 }
 
 void write_faces_met(const std::filesystem::path& path, const FaceBatch& batch) {
-  write_file(path, hits_format(path) == HitsFormat::Csv ? csv_content(batch) : npz_content(batch));
+  write_file(path, hits_format(path) == QueryFormat::Csv ? csv_content(batch) : npz_content(batch));
 }
 
 void write_segments(const std::filesystem::path& path, std::span<const Segment> segments) {
-  const std::string extension = lower_case_extension(path);
-  if (extension != ".csv" && extension != ".npy")
-    throw InputError(Defect::UnknownFormat,
-                     fmt::format("{}: segments are written to .csv or .npy; name it so", path.string()));
-  write_file(path, extension == ".csv" ? csv_content(segments) : npy_content(segments));
+  write_file(path, segments_format(path) == QueryFormat::Csv ? csv_content(segments) : npy_content(segments));
 }
 
 }  // namespace prohull

@@ -69,7 +69,7 @@ bool TextScanner::at_line_end() {
 }
 
 bool TextScanner::ends_word(const char* p) const {
-  return p == end_ || *p == '\n' || is_blank(*p) || (syntax_.continued_lines && *p == '\\') || || is_separator(*p);
+  return p == end_ || *p == '\n' || is_blank(*p) || (syntax_.continued_lines && *p == '\\') || is_separator(*p);
 }
 
 std::string_view TextScanner::word() {

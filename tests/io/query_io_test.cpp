@@ -161,7 +161,7 @@ TEST(NpyReader, RefusesDamagedHeaders) {
   refuse("{'fortran_order': 0}", "28: the header is damaged: True or False was expected");
   refuse("{'shape': [2, 6]}", "20: the header is damaged: '(' was expected");
   refuse("{'shape': (2 6)}", "23: the header is damaged: ')' was expected");
-  refuse("{'color\n': 'red'}", "18: the header has an entry 'color?', which is not known");
+  refuse("{'color\n': 'red'}", "20: the header has an entry 'color?', which is not known");
   refused(npy(header("<f8", kShape), kTwoRows, 4), "s.npy",
           "s.npy: byte 8: version 4.0 of the format; versions 1 to 3 are read: save it with another numpy",
           Defect::UnknownFormat);
@@ -294,9 +294,9 @@ TEST(HitsWriter, WritesTheSameArchiveEveryTime) {
 TEST(HitsWriter, RefusesOtherNames) {
   const TemporaryFolder folder;
   expect_input_error([&] { write_hits("hits.npy", two_hits()); }, Defect::UnknownFormat,
-                     "hits.npy: hits are written to .csv or .npz; name it so");
+                     "hits.npy: hits are written to .npz or .csv; name it so");
   expect_input_error([&] { write_segments("s.npz", {}); }, Defect::UnknownFormat,
-                     "s.npz: segments are written to .csv or .npy; name it so");
+                     "s.npz: segments are written to .npy or .csv; name it so");
   EXPECT_EQ(folder.file_count(), 0u);
 }
 
