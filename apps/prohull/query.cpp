@@ -126,8 +126,10 @@ std::size_t count_answered(const std::vector<std::size_t>& offsets) {
 void print_summary(const Options& options, const Outcome& outcome) {
   const bool faces = outcome.noun == "triangle";
   const std::string out = options.out.empty() ? "" : options.out.string() + ": ";
-  fmt::print("{}{} {}; {} of {} {}s {} ({:.2f} %)\n", out, grouped(outcome.answers), faces ? "faces met" : "hits",
-             grouped(outcome.answered), grouped(outcome.queries), outcome.noun, faces ? "meet some" : "hit",
+  const bool one = outcome.answers == 1;
+  fmt::print("{}{} {}; {} of {} {}s {} ({:.2f} %)\n", out, grouped(outcome.answers),
+             faces ? (one ? "face met" : "faces met") : (one ? "hit" : "hits"), grouped(outcome.answered),
+             grouped(outcome.queries), outcome.noun, faces ? "meet some" : "hit",
              100 * outcome.per_query(outcome.answered));
   const unsigned threads = threads_used(options);
   fmt::print("  engine {}, {} thread{}: {} {}s per second\n", name_of(engines(), outcome.engine), threads,
