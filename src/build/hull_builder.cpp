@@ -131,7 +131,7 @@ class HullBuilder {
     unqueue(mesh_.edge(mesh_.next(mesh_.twin(star_.edge))));
     const VertexId s = mesh_.positions().next_id();
     record_.push_back(mesh_.collapse(star_.edge, apex));
-    if (guard_) guard_->collapsed(mesh_, s);
+    if (guard_) guard_->changed(mesh_, s);
     return s;
   }
 

@@ -1,0 +1,235 @@
+#include "build/tightening.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "build/shape_guards.h"
+#include "geometry/float32.h"
+#include "geometry/predicates.h"
+#include "geometry/tetrahedron_contact.h"
+
+namespace prohull {
+namespace {
+
+constexpr double kReach = 0.5;  ///< how far a vertex moves at once, along each axis, local
+
+std::vector<Triangle> triangles_of(const TriangleMesh& mesh) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(mesh.face_count());
+  for (const FaceId f : mesh.triangles.ids()) triangles.push_back(mesh.triangle(f));
+  return triangles;
+}
+
+Bvh tree_of(const TriangleMesh& mesh) {
+  std::vector<Box> boxes;
+  boxes.reserve(mesh.face_count());
+  for (const FaceId f : mesh.triangles.ids()) boxes.push_back(box_of(mesh.triangle(f)));
+  return Bvh(boxes);
+}
+
+double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
+
+}  // namespace
+
+Tightening::Tightening(const TriangleMesh& original, HalfEdgeMesh& mesh, const HullOptions& options, double rounding)
+    : original_(original),
+      mesh_(mesh),
+      options_(options),
+      rounding_(rounding),
+      tree_(tree_of(original)),
+      solid_(triangles_of(original)),
+      guard_(mesh) {}
+
+void Tightening::run() {
+  constexpr int kRounds = 12;
+  PerVertex<char> waiting(mesh_.positions().size(), 1);
+  for (int round = 0; round < kRounds; ++round) {
+    std::size_t moved = 0;
+    for (const VertexId v : mesh_.positions().ids()) {
+      if (!mesh_.has(v) || !waiting[v]) continue;
+      waiting[v] = 0;
+      if (!improve(v)) continue;
+      ++moved;
+      waiting[v] = 1;
+      for (const VertexId u : link_) waiting[u] = 1;
+    }
+    if (moved == 0) break;
+  }
+}
+
+bool Tightening::improve(VertexId v) {
+  gather(v);
+  if (!(norm(objective_) > 0)) return false;
+  const Vec3 from = mesh_.position(v);
+  // The second margin is for what rounding and the tolerances of the proposal have got wrong.
+  for (const double margin : {1e-10 + 2 * rounding_ / scale_, 1e-7 + 8 * rounding_ / scale_}) {
+    const auto apex = propose(margin);
+    if (!apex) return false;
+    for (const double step : {1.0, 0.5, 0.25}) {
+      const Vec3 local = *apex * step;
+      if (!has_good_shape(local)) continue;
+      Vec3 to = from + local * scale_;
+      if (options_.float32_coordinates) to = nearest_float32(to);
+      if (!keeps_enclosing(from, to)) continue;
+      if (guard_.would_add_intersections(mesh_, v, link_, to)) continue;
+      mesh_.move(v, to);
+      guard_.changed(mesh_, v);
+      return true;
+    }
+  }
+  return false;
+}
+
+void Tightening::gather(VertexId v) {
+  const Vec3 origin = mesh_.position(v);
+  link_.clear(), local_.clear(), candidates_.clear();
+  HalfEdgeId h = mesh_.out(v);
+  scale_ = 0;
+  do {
+    link_.push_back(mesh_.tip(h));
+    local_.push_back(mesh_.position(mesh_.tip(h)) - origin);
+    scale_ = std::max(scale_, norm(local_.back()));
+    h = mesh_.rotated(h);
+  } while (h != mesh_.out(v));
+  for (Vec3& p : local_) p = p / scale_;
+
+  objective_ = {};
+  Box box{origin - Vec3{1, 1, 1} * (kReach * scale_), origin + Vec3{1, 1, 1} * (kReach * scale_)};
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    objective_ += cross(local_[i], local_[i + 1 == link_.size() ? 0 : i + 1]);
+    box.extend(mesh_.position(link_[i]));
+  }
+  tree_.visit([&](const Box& b) { return b.overlaps(box); },
+              [&](std::uint32_t f) {
+                const Triangle t = original_.triangle(FaceId(f));
+                candidates_.push_back({(t.a - origin) / scale_, (t.b - origin) / scale_, (t.c - origin) / scale_});
+              });
+}
+
+// Cutting planes: the linear program without the original, then again and again with the points of the original that
+// its answer would leave outside.
+std::optional<Vec3> Tightening::propose(double margin) {
+  constexpr int kMaxPrograms = 16;
+  constexpr double kLeastGain = 1e-5;  // of the objective
+  constraints_.clear();
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      Vec3 normal;
+      normal[axis] = sign;
+      constraints_.push_back({normal, -kReach});
+    }
+  for (int i = 0; i < kMaxPrograms; ++i) {
+    LinearProgramResult best = solve_linear_program(objective_, constraints_);
+    if (best.status == LinearProgramStatus::Infeasible) return std::nullopt;
+    if (best.status == LinearProgramStatus::Ambiguous) {
+      const auto nearest = nearest_feasible_point({}, constraints_);
+      if (!nearest) return std::nullopt;
+      best.x = *nearest;
+    }
+    if (dot(objective_, best.x) > -kLeastGain * norm(objective_)) return std::nullopt;
+    if (!add_cuts(best.x, margin)) return best.x;
+  }
+  return std::nullopt;
+}
+
+// For each face of the star the point of the original that would be farthest outside.
+bool Tightening::add_cuts(const Vec3& apex, double margin) {
+  bool added = false;
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    const Vec3 &a = local_[i], &b = local_[i + 1 == link_.size() ? 0 : i + 1];
+    const Vec3 normal = cross(a - apex, b - apex);
+    if (determinant(a, b, apex) >= 0) continue;  // adds
+    Box box;
+    for (const Vec3& p : {Vec3{}, apex, a, b}) box.extend(p);
+    double depth = 0;
+    std::optional<Vec3> cut;
+    for (const Triangle& t : candidates_) {
+      const double da = dot(normal, t.a - apex), db = dot(normal, t.b - apex), dc = dot(normal, t.c - apex);
+      if (da <= depth && db <= depth && dc <= depth) continue;
+      if (!box.overlaps(box_of(t))) continue;
+      Vec3 deepest;
+      if (!deepest_point(t, i, apex, deepest)) continue;
+      const double d = dot(normal, deepest - apex);
+      if (cut && d <= depth) continue;
+      cut = deepest, depth = std::max(d, 0.0);
+    }
+    if (!cut) continue;
+    // The face (x, a, b) has q inside where dot(x - q, (a - q) cross (b - q)) is positive: linear in x.
+    Vec3 n = cross(a - *cut, b - *cut);
+    const double length = norm(n);
+    if (length < 1e-9) continue;
+    n = n / length;
+    constraints_.push_back({n, dot(n, *cut) + margin});
+    added = true;
+  }
+  return added;
+}
+
+// Clips by n . x <= offset.
+void clip(std::vector<Vec3>& polygon, const HalfSpace& keep, std::vector<Vec3>& result) {
+  result.clear();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
+    const double dp = dot(keep.normal, p) - keep.offset, dq = dot(keep.normal, q) - keep.offset;
+    if (dp <= 0) result.push_back(p);
+    if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) result.push_back(p + (q - p) * (dp / (dp - dq)));
+  }
+  std::swap(polygon, result);
+}
+
+// Of the part of t in the removed tetrahedron (0, apex, a, b), the point farthest outside of its new face.
+bool Tightening::deepest_point(const Triangle& t, std::size_t i, const Vec3& apex, Vec3& deepest) {
+  constexpr double kTouching = 1e-10;
+  const Vec3 &a = local_[i], &b = local_[i + 1 == link_.size() ? 0 : i + 1];
+  const Vec3 o;
+  polygon_ = {t.a, t.b, t.c};
+  const auto clip_by = [&](const Vec3& u, const Vec3& v, const Vec3& w, const Vec3& inside) {
+    Vec3 n = cross(v - u, w - u);
+    const double length = norm(n);
+    if (length == 0) return false;
+    n = n / length;
+    if (dot(n, inside - u) > 0) n = -n;
+    clip(polygon_, {n, dot(n, u) - kTouching}, clipped_);
+    return polygon_.size() >= 3;
+  };
+  if (!clip_by(apex, a, b, o) || !clip_by(o, a, b, apex) || !clip_by(o, apex, a, b) || !clip_by(o, apex, b, a))
+    return false;
+  const Vec3 normal = cross(a - apex, b - apex);
+  deepest = *std::ranges::max_element(polygon_, {}, [&](const Vec3& p) { return dot(normal, p); });
+  return true;
+}
+
+bool Tightening::has_good_shape(const Vec3& apex) const {
+  const double least_cosine = std::cos(options_.max_normal_deviation);
+  double before = 1, after = 1;
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    const Vec3 &a = local_[i], &b = local_[i + 1 == link_.size() ? 0 : i + 1];
+    const Vec3 n = cross(a, b), m = cross(a - apex, b - apex);
+    if (dot(n, m) < least_cosine * norm(n) * norm(m)) return false;
+    const double ab = squared_norm(b - a);
+    before = std::min(before, compactness(norm(n), squared_norm(a) + squared_norm(b) + ab));
+    after = std::min(after, compactness(norm(m), squared_norm(a - apex) + squared_norm(b - apex) + ab));
+  }
+  return after > std::min(options_.min_compactness_ratio * before, options_.sufficient_compactness);
+}
+
+bool Tightening::keeps_enclosing(const Vec3& from, const Vec3& to) const {
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    const Vec3 a = mesh_.position(link_[i]), b = mesh_.position(link_[i + 1 == link_.size() ? 0 : i + 1]);
+    if (side(from, a, b, to) != Side::Inside) continue;  // adds, or is flat
+    const Tetrahedron removed{from, a, b, to};
+    Box box;
+    for (const Vec3& p : {from, to, a, b}) box.extend(p);
+    bool met = false;
+    tree_.visit([&](const Box& other) { return !met && other.overlaps(box); },
+                [&](std::uint32_t f) { met = met || meets_interior(original_.triangle(FaceId(f)), removed); });
+    if (met) return false;
+    const Vec3 center = from * 0.25 + a * 0.25 + b * 0.25 + to * 0.25;
+    const bool is_inside = side(from, a, b, center) == Side::Inside && side(to, b, a, center) == Side::Inside &&
+                           side(from, to, a, center) == Side::Inside && side(from, b, to, center) == Side::Inside;
+    if (!is_inside || solid_.at(center).value_or(1) > 0) return false;
+  }
+  return true;
+}
+
+}  // namespace prohull
