@@ -21,17 +21,10 @@ struct Options {
   bool strict = false, no_self_intersections = false;
 };
 
-const std::vector<std::pair<std::string, Strategy>>& strategy_names() {
-  static const std::vector<std::pair<std::string, Strategy>> names{
+const Names<Strategy>& strategy_names() {
+  static const Names<Strategy> names{
       {"lazy", Strategy::Lazy}, {"paper1", Strategy::Paper1}, {"paper2", Strategy::Paper2}};
   return names;
-}
-
-template <class Value>
-std::string name_of(const std::vector<std::pair<std::string, Value>>& names, Value value) {
-  for (const auto& [name, v] : names)
-    if (v == value) return name;
-  return "";
 }
 
 nlohmann::json facts_of(const RefusalCounts& counts) {
@@ -211,14 +204,9 @@ void add_build(CLI::App& app, Run& run) {
   command.add_option("--faces", hull.target_faces, "Stop at this many faces, at least 4")
       ->capture_default_str()
       ->check(CLI::Range(4.0, 1e9));
-  command.add_option("--side", hull.side, "outer: encloses the mesh; inner: is enclosed by it")
-      ->transform(CLI::CheckedTransformer(side_names()))
-      ->default_str("outer");
-  command
-      .add_option("--strategy", hull.strategy,
-                  "lazy: tight and fast; paper1, paper2: the two of Platis and Theoharis (2003)")
-      ->transform(CLI::CheckedTransformer(strategy_names()))
-      ->default_str("lazy");
+  add_choice(command, "--side", hull.side, side_names(), "outer: encloses the mesh; inner: is enclosed by it");
+  add_choice(command, "--strategy", hull.strategy, strategy_names(),
+             "lazy: tight and fast; paper1, paper2: the two of Platis and Theoharis (2003)");
   command.add_option("--hierarchy", options->hierarchy, "Also write all levels, for lod and verify")
       ->type_name("H.phull");
   command.add_flag("--no-self-intersections", options->no_self_intersections,

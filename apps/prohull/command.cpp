@@ -8,6 +8,7 @@
 
 #include "prohull/error.h"
 #include "prohull/file.h"
+#include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
 
 namespace prohull::cli {
@@ -57,6 +58,12 @@ Input read_closed_mesh(const std::filesystem::path& path) {
   } catch (const InputError& error) {
     throw InputError(error.defect(), path.string() + ": " + error.what());
   }
+}
+
+std::variant<TriangleMesh, ProgressiveHull> read_mesh_or_hull(const std::filesystem::path& path) {
+  const std::string content = read_file(path);
+  if (is_hull_content(content)) return load_hull(content, path);
+  return read_mesh(content, path);
 }
 
 nlohmann::json facts(const MeshReport& report) {
@@ -126,9 +133,8 @@ std::string grouped(std::size_t number) {
   return text;
 }
 
-const std::vector<std::pair<std::string, HullSide>>& side_names() {
-  static const std::vector<std::pair<std::string, HullSide>> names{{"outer", HullSide::Outer},
-                                                                   {"inner", HullSide::Inner}};
+const Names<HullSide>& side_names() {
+  static const Names<HullSide> names{{"outer", HullSide::Outer}, {"inner", HullSide::Inner}};
   return names;
 }
 

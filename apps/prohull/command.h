@@ -7,6 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_report.h"
@@ -58,6 +61,9 @@ struct Input {
 };
 Input read_closed_mesh(const std::filesystem::path& path);
 
+/// What a mesh or .phull file holds; it is read once, so that it may be a pipe.
+std::variant<TriangleMesh, ProgressiveHull> read_mesh_or_hull(const std::filesystem::path& path);
+
 nlohmann::json facts(const MeshReport& report);
 
 /// Throws InputError(CannotWrite) if the folder of `path` does not take files: before the work, not after it.
@@ -76,14 +82,41 @@ void add_examples(CLI::App& command, const std::vector<std::string>& examples);
 /// 96966 -> "96,966"
 std::string grouped(std::size_t number);
 
-/// A side by its name, for CLI::CheckedTransformer.
-const std::vector<std::pair<std::string, HullSide>>& side_names();
+/// Values by their names, as the command line has them.
+template <class Value>
+using Names = std::vector<std::pair<std::string, Value>>;
+
+template <class Value>
+std::string name_of(const Names<Value>& names, Value value) {
+  for (const auto& [name, v] : names)
+    if (v == value) return name;
+  return "";
+}
+
+/// An option that takes one of the names, of which --help tells the one that `value` has as the default.
+template <class Value>
+CLI::Option* add_choice(CLI::App& command, const std::string& flag, Value& value, const Names<Value>& names,
+                        const std::string& description) {
+  std::vector<std::string> words;
+  for (const auto& [name, v] : names) words.push_back(name);
+  const auto set = [&value, names](const std::string& word) {
+    for (const auto& [name, v] : names)
+      if (name == word) value = v;
+  };
+  return command.add_option_function<std::string>(flag, set, description)
+      ->check(CLI::IsMember(words).description(""))
+      ->type_name(CLI::detail::join(words, "|"))
+      ->default_str(name_of(names, value));
+}
+
+const Names<HullSide>& side_names();
 
 // Each adds its subcommand to the program and leaves in `run` what to do when it is chosen; run returns the exit code.
 using Run = std::function<int()>;
 void add_build(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_lod(CLI::App& app, Run& run);
+void add_query(CLI::App& app, Run& run);
 void add_sample(CLI::App& app, Run& run);
 void add_verify(CLI::App& app, Run& run);
 

@@ -2,8 +2,6 @@
 
 #include "command.h"
 #include "prohull/error.h"
-#include "prohull/hull_file.h"
-#include "prohull/mesh_io.h"
 
 namespace prohull::cli {
 namespace {
@@ -30,8 +28,7 @@ void print_defects(const MeshReport& report) {
   if (!report.first_defect.empty()) fmt::print("  {:<14} {}\n", "first", report.first_defect);
 }
 
-int describe_mesh(const Options& options) {
-  const TriangleMesh mesh = read_mesh(options.in);
+int describe_mesh(const Options& options, const TriangleMesh& mesh) {
   const MeshReport report = inspect(mesh);
   nlohmann::json json = facts(report);
   json["path"] = options.in.string();
@@ -71,8 +68,7 @@ int describe_mesh(const Options& options) {
   return kDone;
 }
 
-int describe_hull(const Options& options) {
-  const ProgressiveHull hull = load_hull(options.in);
+int describe_hull(const Options& options, const ProgressiveHull& hull) {
   const double original = signed_volume(hull.original()), base = signed_volume(hull.base());
   fmt::print("{}\n", options.in.string());
   fmt::print("  {:<14} {} progressive hull\n", "kind", hull.side() == HullSide::Outer ? "outer" : "inner");
@@ -90,6 +86,12 @@ int describe_hull(const Options& options) {
   return kDone;
 }
 
+int run_info(const Options& options) {
+  const auto content = read_mesh_or_hull(options.in);
+  const auto* const hull = std::get_if<ProgressiveHull>(&content);
+  return hull ? describe_hull(options, *hull) : describe_mesh(options, std::get<TriangleMesh>(content));
+}
+
 }  // namespace
 
 void add_info(CLI::App& app, Run& run) {
@@ -101,9 +103,7 @@ void add_info(CLI::App& app, Run& run) {
       ->type_name("FILE");
   add_report_option(command, options->report);
   add_examples(command, {"prohull info horse.ply", "prohull info horse.phull --report info.json"});
-  command.callback([options, &run] {
-    run = [options] { return is_hull_file(options->in) ? describe_hull(*options) : describe_mesh(*options); };
-  });
+  command.callback([options, &run] { run = [options] { return run_info(*options); }; });
 }
 
 }  // namespace prohull::cli

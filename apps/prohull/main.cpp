@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   add_verify(app, run);
   add_info(app, run);
   add_lod(app, run);
+  add_query(app, run);
   add_sample(app, run);
   try {
     app.parse(argc, argv);

@@ -3,7 +3,6 @@
 #include "command.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
-#include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
 #include "prohull/replay.h"
 
@@ -17,8 +16,7 @@ struct Options {
 
 std::string text(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x, p.y, p.z); }
 
-int replay(const Options& options) {
-  const ProgressiveHull hull = load_hull(options.hull);
+int replay(const Options& options, const ProgressiveHull& hull) {
   const TriangleMesh original = read_mesh(options.original);
   Stopwatch verifying;
   ProgressLine line("verify");
@@ -42,8 +40,7 @@ int replay(const Options& options) {
   return report.holds ? kDone : kAnswerIsNo;
 }
 
-int compare(const Options& options) {
-  const TriangleMesh hull = read_mesh(options.hull);
+int compare(const Options& options, const TriangleMesh& hull) {
   TriangleMesh original = read_mesh(options.original);
   const bool outer = options.side == HullSide::Outer;
   Stopwatch verifying;
@@ -99,6 +96,12 @@ int compare(const Options& options) {
   return report.encloses ? kDone : kAnswerIsNo;
 }
 
+int run_verify(const Options& options) {
+  const auto hull = read_mesh_or_hull(options.hull);
+  const auto* const levels = std::get_if<ProgressiveHull>(&hull);
+  return levels ? replay(options, *levels) : compare(options, std::get<TriangleMesh>(hull));
+}
+
 }  // namespace
 
 void add_verify(CLI::App& app, Run& run) {
@@ -111,17 +114,12 @@ void add_verify(CLI::App& app, Run& run) {
   command.add_option("original", options->original, "The mesh that it should enclose")
       ->required()
       ->type_name("ORIGINAL");
-  command
-      .add_option("--side", options->side,
-                  "inner: decide whether ORIGINAL encloses HULL (a .phull file knows its side)")
-      ->transform(CLI::CheckedTransformer(side_names()))
-      ->default_str("outer");
+  add_choice(command, "--side", options->side, side_names(),
+             "inner: decide whether ORIGINAL encloses HULL (a .phull file knows its side)");
   add_report_option(command, options->report);
   add_examples(command, {"prohull verify hull.stl horse.ply", "prohull verify horse.phull horse.ply",
                          "prohull verify occluder.obj rock.obj --side inner"});
-  command.callback([options, &run] {
-    run = [options] { return is_hull_file(options->hull) ? replay(*options) : compare(*options); };
-  });
+  command.callback([options, &run] { run = [options] { return run_verify(*options); }; });
 }
 
 }  // namespace prohull::cli

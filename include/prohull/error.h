@@ -18,6 +18,7 @@ enum class Defect {
   InconsistentOrientation,  ///< neighbouring faces that disagree about the outside
   NonManifoldVertex,        ///< faces around a vertex that are not one disk
   NoVolume,                 ///< closed, but encloses nothing
+  NoLength,                 ///< a segment whose ends are equal, or a ray without direction
   InvalidOption,            ///< an option outside its documented range
 };
 

@@ -19,7 +19,8 @@ ProgressiveHull load_hull(const std::filesystem::path& path);
 /// The same for the content of a file; `name` stands in error messages.
 ProgressiveHull load_hull(std::string_view content, const std::filesystem::path& name);
 
-/// Whether the content starts as a .phull file does.
+/// Whether the content starts as a .phull file does. A pipe cannot be read again after is_hull_file: read_file first.
+bool is_hull_content(std::string_view content);
 bool is_hull_file(const std::filesystem::path& path);
 
 }  // namespace prohull

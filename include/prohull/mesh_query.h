@@ -35,7 +35,7 @@ enum class Engine {
   KDop18,
   KDop26,
   KDop6Overlap,   ///< the same trees, tested by the overlap of the segment's own k-DOP with the node's, as the paper's
-  KDop14Overlap,  ///< peer most likely did; segments and triangles only
+  KDop14Overlap,  ///< peer most likely did; a ray is cut off where it leaves the box of the mesh
   KDop18Overlap,
   KDop26Overlap,
   Brute,  ///< every face, exactly

@@ -49,6 +49,9 @@ class ProgressiveHull {
   TriangleMesh base() const { return level(0); }
   TriangleMesh original() const { return level(original_face_count()); }
 
+  /// The same record with level(faces) as its base mesh: vertices and faces keep their numbers.
+  ProgressiveHull with_base(std::size_t faces) const;
+
   const PerVertex<Vec3>& positions() const { return positions_; }
   const std::vector<VertexId>& base_corners() const { return base_corners_; }
   /// In the order of the collapses: splits()[i] replaces vertex made_vertex(i). The last comes first when refining.

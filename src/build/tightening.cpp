@@ -1,6 +1,7 @@
 #include "build/tightening.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "build/shape_guards.h"
@@ -96,7 +97,7 @@ void Tightening::gather(VertexId v) {
   objective_ = {};
   Box box{origin - Vec3{1, 1, 1} * (kReach * scale_), origin + Vec3{1, 1, 1} * (kReach * scale_)};
   for (std::size_t i = 0; i < link_.size(); ++i) {
-    objective_ += cross(local_[i], local_[i + 1 == link_.size() ? 0 : i + 1]);
+    objective_ += cross(local_[i], local_[after(i)]);
     box.extend(mesh_.position(link_[i]));
   }
   tree_.visit([&](const Box& b) { return b.overlaps(box); },
@@ -110,7 +111,7 @@ void Tightening::gather(VertexId v) {
 // its answer would leave outside.
 std::optional<Vec3> Tightening::propose(double margin) {
   constexpr int kMaxPrograms = 16;
-  constexpr double kLeastGain = 1e-5;  // of the objective
+  constexpr double kLeastGain = 1e-3;  // of the objective
   constraints_.clear();
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {1.0, -1.0}) {
@@ -132,78 +133,100 @@ std::optional<Vec3> Tightening::propose(double margin) {
   return std::nullopt;
 }
 
-// For each face of the star the point of the original that would be farthest outside.
-bool Tightening::add_cuts(const Vec3& apex, double margin) {
-  bool added = false;
-  for (std::size_t i = 0; i < link_.size(); ++i) {
-    const Vec3 &a = local_[i], &b = local_[i + 1 == link_.size() ? 0 : i + 1];
-    const Vec3 normal = cross(a - apex, b - apex);
-    if (determinant(a, b, apex) >= 0) continue;  // adds
-    Box box;
+namespace {
+
+/// Of the tetrahedron (0, apex, a, b) that moving a vertex from 0 to `apex` removes: planes with unit normals, which
+/// have it on their inner sides.
+struct Removed {
+  Removed(const Vec3& apex, const Vec3& a, const Vec3& b)
+      : new_face(plane(apex, a, b, Vec3{})),
+        others{plane(Vec3{}, a, b, apex), plane(Vec3{}, apex, a, b), plane(Vec3{}, apex, b, a)} {
     for (const Vec3& p : {Vec3{}, apex, a, b}) box.extend(p);
-    double depth = 0;
-    std::optional<Vec3> cut;
-    for (const Triangle& t : candidates_) {
-      const double da = dot(normal, t.a - apex), db = dot(normal, t.b - apex), dc = dot(normal, t.c - apex);
-      if (da <= depth && db <= depth && dc <= depth) continue;
-      if (!box.overlaps(box_of(t))) continue;
-      Vec3 deepest;
-      if (!deepest_point(t, i, apex, deepest)) continue;
-      const double d = dot(normal, deepest - apex);
-      if (cut && d <= depth) continue;
-      cut = deepest, depth = std::max(d, 0.0);
-    }
-    if (!cut) continue;
-    // The face (x, a, b) has q inside where dot(x - q, (a - q) cross (b - q)) is positive: linear in x.
-    Vec3 n = cross(a - *cut, b - *cut);
-    const double length = norm(n);
-    if (length < 1e-9) continue;
-    n = n / length;
-    constraints_.push_back({n, dot(n, *cut) + margin});
-    added = true;
   }
-  return added;
+  static HalfSpace plane(const Vec3& u, const Vec3& v, const Vec3& w, const Vec3& inside) {
+    const Vec3 n = cross(v - u, w - u);
+    const double length = norm(n);
+    const Vec3 unit = length > 0 ? n / length : Vec3{};
+    return dot(unit, inside - u) > 0 ? HalfSpace{unit, dot(unit, u)} : HalfSpace{-unit, -dot(unit, u)};
+  }
+  HalfSpace new_face;
+  std::array<HalfSpace, 3> others;
+  Box box;
+};
+
+double depth(const HalfSpace& plane, const Vec3& p) { return dot(plane.normal, p) - plane.offset; }
+
+constexpr double kTouching = 1e-10;  ///< local; the exact test decides
+
+bool is_beyond(const std::array<HalfSpace, 3>& planes, const Vec3& p) {
+  return std::ranges::all_of(planes, [&](const HalfSpace& plane) { return depth(plane, p) > kTouching; });
 }
 
-// Clips by n . x <= offset.
-void clip(std::vector<Vec3>& polygon, const HalfSpace& keep, std::vector<Vec3>& result) {
+/// Keeps what is deeper than kTouching.
+void clip(std::vector<Vec3>& polygon, const HalfSpace& plane, std::vector<Vec3>& result) {
   result.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3 &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
-    const double dp = dot(keep.normal, p) - keep.offset, dq = dot(keep.normal, q) - keep.offset;
-    if (dp <= 0) result.push_back(p);
+    const double dp = depth(plane, p) - kTouching, dq = depth(plane, q) - kTouching;
+    if (dp >= 0) result.push_back(p);
     if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) result.push_back(p + (q - p) * (dp / (dp - dq)));
   }
   std::swap(polygon, result);
 }
 
-// Of the part of t in the removed tetrahedron (0, apex, a, b), the point farthest outside of its new face.
-bool Tightening::deepest_point(const Triangle& t, std::size_t i, const Vec3& apex, Vec3& deepest) {
-  constexpr double kTouching = 1e-10;
-  const Vec3 &a = local_[i], &b = local_[i + 1 == link_.size() ? 0 : i + 1];
-  const Vec3 o;
-  polygon_ = {t.a, t.b, t.c};
-  const auto clip_by = [&](const Vec3& u, const Vec3& v, const Vec3& w, const Vec3& inside) {
-    Vec3 n = cross(v - u, w - u);
+}  // namespace
+
+// For each face of the star, the point of the original that would be farthest outside.
+bool Tightening::add_cuts(const Vec3& apex, double margin) {
+  bool added = false;
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    const Vec3 &a = local_[i], &b = local_[after(i)];
+    if (determinant(a, b, apex) >= 0) continue;  // adds
+    const auto cut = deepest_point(apex, a, b);
+    if (!cut) continue;
+    // The face (x, a, b) has q inside where dot(x - q, (a - q) cross (b - q)) is positive: linear in x.
+    const Vec3 n = cross(a - *cut, b - *cut);
     const double length = norm(n);
-    if (length == 0) return false;
-    n = n / length;
-    if (dot(n, inside - u) > 0) n = -n;
-    clip(polygon_, {n, dot(n, u) - kTouching}, clipped_);
-    return polygon_.size() >= 3;
-  };
-  if (!clip_by(apex, a, b, o) || !clip_by(o, a, b, apex) || !clip_by(o, apex, a, b) || !clip_by(o, apex, b, a))
-    return false;
-  const Vec3 normal = cross(a - apex, b - apex);
-  deepest = *std::ranges::max_element(polygon_, {}, [&](const Vec3& p) { return dot(normal, p); });
-  return true;
+    if (!(length > 0)) continue;
+    constraints_.push_back({n / length, dot(n, *cut) / length + margin});
+    added = true;
+  }
+  return added;
+}
+
+// Of the original, in the removed tetrahedron, the point farthest outside of the new face (apex, a, b): a corner, or
+// where there is none a point of an edge or face.
+std::optional<Vec3> Tightening::deepest_point(const Vec3& apex, const Vec3& a, const Vec3& b) {
+  const Removed removed(apex, a, b);
+  double deepest = kTouching;
+  std::optional<Vec3> point;
+  near_.clear();
+  for (const Triangle& t : candidates_) {
+    bool is_near = false;
+    for (const Vec3& p : {t.a, t.b, t.c}) {
+      const double d = depth(removed.new_face, p);
+      if (d <= kTouching) continue;
+      is_near = true;
+      if (d > deepest && is_beyond(removed.others, p)) deepest = d, point = p;
+    }
+    if (is_near && !point && removed.box.overlaps(box_of(t))) near_.push_back(t);
+  }
+  if (point) return point;
+  for (const Triangle& t : near_) {
+    polygon_ = {t.a, t.b, t.c};
+    clip(polygon_, removed.new_face, clipped_);
+    for (const HalfSpace& plane : removed.others) clip(polygon_, plane, clipped_);
+    for (const Vec3& p : polygon_)
+      if (const double d = depth(removed.new_face, p); polygon_.size() >= 3 && d > deepest) deepest = d, point = p;
+  }
+  return point;
 }
 
 bool Tightening::has_good_shape(const Vec3& apex) const {
   const double least_cosine = std::cos(options_.max_normal_deviation);
   double before = 1, after = 1;
   for (std::size_t i = 0; i < link_.size(); ++i) {
-    const Vec3 &a = local_[i], &b = local_[i + 1 == link_.size() ? 0 : i + 1];
+    const Vec3 &a = local_[i], &b = local_[after(i)];
     const Vec3 n = cross(a, b), m = cross(a - apex, b - apex);
     if (dot(n, m) < least_cosine * norm(n) * norm(m)) return false;
     const double ab = squared_norm(b - a);
@@ -215,7 +238,7 @@ bool Tightening::has_good_shape(const Vec3& apex) const {
 
 bool Tightening::keeps_enclosing(const Vec3& from, const Vec3& to) const {
   for (std::size_t i = 0; i < link_.size(); ++i) {
-    const Vec3 a = mesh_.position(link_[i]), b = mesh_.position(link_[i + 1 == link_.size() ? 0 : i + 1]);
+    const Vec3 a = mesh_.position(link_[i]), b = mesh_.position(link_[after(i)]);
     if (side(from, a, b, to) != Side::Inside) continue;  // adds, or is flat
     const Tetrahedron removed{from, a, b, to};
     Box box;

@@ -32,7 +32,8 @@ class Tightening {
   void gather(VertexId v);
   std::optional<Vec3> propose(double margin);
   bool add_cuts(const Vec3& apex, double margin);
-  bool deepest_point(const Triangle& t, std::size_t i, const Vec3& apex, Vec3& deepest);
+  std::optional<Vec3> deepest_point(const Vec3& apex, const Vec3& a, const Vec3& b);
+  std::size_t after(std::size_t i) const { return i + 1 == link_.size() ? 0 : i + 1; }
   bool has_good_shape(const Vec3& apex) const;
   bool keeps_enclosing(const Vec3& from, const Vec3& to) const;
 
@@ -51,6 +52,7 @@ class Tightening {
   std::vector<Triangle> candidates_;  ///< original faces nearby, local
   Vec3 objective_;
   std::vector<HalfSpace> constraints_;
+  std::vector<Triangle> near_;
   std::vector<Vec3> polygon_, clipped_;
 };
 

@@ -8,4 +8,8 @@ namespace prohull {
 /// area is the segment or point that it is. Exact for all finite coordinates.
 bool triangles_touch(const Triangle& s, const Triangle& t);
 
+/// True only if a plane separates the triangles strictly; with rounded arithmetic, so that those very near to each
+/// other may not count as apart.
+bool certainly_apart(const Triangle& s, const Triangle& t);
+
 }  // namespace prohull

@@ -17,10 +17,24 @@ ProgressiveHull::ProgressiveHull(HullSide side, std::size_t original_vertices, P
       base_corners_(std::move(base_corners)),
       splits_(std::move(splits)) {}
 
+namespace {
+
+/// How many splits are left to make on the finest level of at most `faces` faces.
+std::size_t splits_below(const ProgressiveHull& hull, std::size_t faces) {
+  const std::size_t base = hull.base_face_count();
+  return hull.splits().size() - (faces > base ? std::min((faces - base) / 2, hull.splits().size()) : 0);
+}
+
+HalfEdgeMesh refined(const ProgressiveHull& hull, std::size_t splits_left) {
+  HalfEdgeMesh mesh(hull.positions(), hull.base_corners());
+  for (std::size_t i = hull.splits().size(); i-- > splits_left;) mesh.split(hull.made_vertex(i), hull.splits()[i]);
+  return mesh;
+}
+
+}  // namespace
+
 TriangleMesh ProgressiveHull::level(std::size_t faces) const {
-  HalfEdgeMesh mesh(positions_, base_corners_);
-  for (std::size_t i = splits_.size(); i-- > 0 && mesh.face_count() + 2 <= faces;)
-    mesh.split(made_vertex(i), splits_[i]);
+  const HalfEdgeMesh mesh = refined(*this, splits_below(*this, faces));
   TriangleMesh level = mesh.triangle_mesh();
   if (mesh.face_count() < original_face_count()) return level;
   // The original keeps its vertices as they were numbered, unused ones included.
@@ -28,6 +42,19 @@ TriangleMesh ProgressiveHull::level(std::size_t faces) const {
       std::vector<Vec3>(positions_.begin(), positions_.begin() + static_cast<std::ptrdiff_t>(original_vertices_)));
   for (const FaceId f : level.triangles.ids()) level.triangles[f] = mesh.corners(f);
   return level;
+}
+
+ProgressiveHull ProgressiveHull::with_base(std::size_t faces) const {
+  const std::size_t left = splits_below(*this, faces);
+  const HalfEdgeMesh mesh = refined(*this, left);
+  std::vector<VertexId> corners;
+  corners.reserve(base_corners_.size());
+  for (std::uint32_t f = 0; f < mesh.face_id_count(); ++f)
+    for (const VertexId v : mesh.corners(FaceId(f))) corners.push_back(v);
+  const auto vertices = static_cast<std::ptrdiff_t>(original_vertices_ + left);
+  return ProgressiveHull(side_, original_vertices_,
+                         PerVertex<Vec3>(std::vector<Vec3>(positions_.begin(), positions_.begin() + vertices)),
+                         std::move(corners), {splits_.begin(), splits_.begin() + static_cast<std::ptrdiff_t>(left)});
 }
 
 namespace {

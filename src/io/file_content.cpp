@@ -14,6 +14,7 @@
 
 #include "io/mesh_readers.h"
 #include "prohull/error.h"
+#include "prohull/file.h"
 
 namespace prohull {
 namespace {
@@ -32,8 +33,8 @@ constexpr std::size_t kChunk = std::size_t{1} << 18;
 void check_limit(std::size_t size, std::size_t compressed, const std::filesystem::path& name) {
   const std::size_t limit = decompression_limit(compressed);
   if (size > limit)
-    fail_to_decompress(name, fmt::format("more than {} bytes come out of {}, which no mesh does; if it is one, "
-                                         "decompress it first",
+    fail_to_decompress(name, fmt::format("more than {} bytes come out of {}, which neither meshes nor queries do; if "
+                                         "it is right, decompress it first",
                                          limit, compressed));
 }
 
@@ -81,21 +82,6 @@ class Inflater {
   std::size_t left_ = 0;
 };
 
-std::string gunzip(std::string_view compressed, const std::filesystem::path& name) {
-  Inflater inflater(compressed);
-  std::string bytes;
-  std::size_t size = 0;
-  while (true) {
-    const int status = inflater.step(grow(bytes, size), size);
-    check_limit(size, compressed.size(), name);
-    if (status == Z_STREAM_END && !inflater.next_member()) break;
-    if (status == Z_BUF_ERROR) fail_to_decompress(name, "the file is truncated");
-    if (status != Z_OK && status != Z_STREAM_END) fail_to_decompress(name, inflater.message());
-  }
-  bytes.resize(size);
-  return bytes;
-}
-
 class ZipReader {
  public:
   ZipReader(std::string_view compressed, const std::filesystem::path& name)
@@ -104,33 +90,18 @@ class ZipReader {
     if (archive_read_open_memory(archive_.get(), compressed.data(), compressed.size()) != ARCHIVE_OK) fail();
   }
 
-  FileContent only_mesh() {
-    std::optional<FileContent> mesh;
+  /// Goes on to the next member that has a name; empty at the end.
+  std::optional<std::string> next() {
     archive_entry* entry = nullptr;
-    while (next(entry)) {
-      const char* const path = archive_entry_pathname(entry);
-      if (!path || !is_mesh(path)) continue;
-      if (mesh)
-        fail_to_decompress(name_, fmt::format("it has more than one mesh, {} and {}; extract the one you mean",
-                                              mesh->name.filename().string(), path));
-      mesh = FileContent{data(), name_ / std::filesystem::path(path).relative_path()};
+    while (true) {
+      const int status = archive_read_next_header(archive_.get(), &entry);
+      if (status == ARCHIVE_EOF) return {};
+      if (status != ARCHIVE_OK && status != ARCHIVE_WARN) fail();
+      if (const char* const path = archive_entry_pathname(entry)) return path;
     }
-    if (!mesh) fail_to_decompress(name_, "it has no .ply, .obj, .off or .stl file");
-    return std::move(*mesh);
   }
 
- private:
-  /// Not the files "__MACOSX/._part.ply" with which macOS accompanies each file.
-  static bool is_mesh(const std::filesystem::path& path) {
-    return format_of_extension(path) && !path.filename().string().starts_with("._");
-  }
-
-  bool next(archive_entry*& entry) {
-    const int status = archive_read_next_header(archive_.get(), &entry);
-    if (status != ARCHIVE_OK && status != ARCHIVE_WARN && status != ARCHIVE_EOF) fail();
-    return status != ARCHIVE_EOF;
-  }
-
+  /// Of the member that `next` has named.
   std::string data() {
     std::string bytes;
     std::size_t size = 0;
@@ -143,6 +114,7 @@ class ZipReader {
     return bytes;
   }
 
+ private:
   [[noreturn]] void fail() const {
     const char* const reason = archive_error_string(archive_.get());
     fail_to_decompress(name_, reason ? reason : "the archive is damaged");
@@ -152,6 +124,21 @@ class ZipReader {
   const std::filesystem::path& name_;
   std::unique_ptr<archive, decltype(&archive_read_free)> archive_;
 };
+
+/// Not the files "__MACOSX/._part.ply" with which macOS accompanies each file.
+bool is_mesh(const std::filesystem::path& member) {
+  return format_of_extension(member) && !member.filename().string().starts_with("._");
+}
+
+FileContent only_mesh(std::string_view bytes, const std::filesystem::path& name) {
+  std::vector<std::string> meshes = zip_members(bytes, name);
+  std::erase_if(meshes, [](const std::string& member) { return !is_mesh(member); });
+  if (meshes.empty()) fail_to_decompress(name, "it has no .ply, .obj, .off or .stl file");
+  if (meshes.size() > 1)
+    fail_to_decompress(
+        name, fmt::format("it has more than one mesh, {} and {}; extract the one you mean", meshes[0], meshes[1]));
+  return zip_member(bytes, name, meshes[0]);
+}
 
 }  // namespace
 
@@ -168,16 +155,43 @@ std::string read_file(const std::filesystem::path& path) {
 
 std::size_t decompression_limit(std::size_t compressed) { return (std::size_t{64} << 20) + 200 * compressed; }
 
-std::optional<FileContent> decompressed(std::string_view bytes, const std::filesystem::path& name) {
-  if (bytes.starts_with("\x1F\x8B")) return FileContent{gunzip(bytes, name), name};
-  if (bytes.starts_with("PK\x03\x04")) return ZipReader(bytes, name).only_mesh();
-  return {};
+bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }
+
+bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04") || bytes.starts_with("PK\x05\x06"); }
+
+std::string gunzip(std::string_view compressed, const std::filesystem::path& name) {
+  Inflater inflater(compressed);
+  std::string bytes;
+  std::size_t size = 0;
+  while (true) {
+    const int status = inflater.step(grow(bytes, size), size);
+    check_limit(size, compressed.size(), name);
+    if (status == Z_STREAM_END && !inflater.next_member()) break;
+    if (status == Z_BUF_ERROR) fail_to_decompress(name, "the file is truncated");
+    if (status != Z_OK && status != Z_STREAM_END) fail_to_decompress(name, inflater.message());
+  }
+  bytes.resize(size);
+  return bytes;
 }
 
-FileContent read_file_content(const std::filesystem::path& path) {
-  FileContent content{read_file(path), path};
-  if (auto inside = decompressed(content.bytes, path)) content = std::move(*inside);
-  return content;
+std::vector<std::string> zip_members(std::string_view bytes, const std::filesystem::path& name) {
+  std::vector<std::string> members;
+  ZipReader zip(bytes, name);
+  while (auto member = zip.next()) members.push_back(std::move(*member));
+  return members;
+}
+
+FileContent zip_member(std::string_view bytes, const std::filesystem::path& name, const std::string& member) {
+  ZipReader zip(bytes, name);
+  while (const auto next = zip.next())
+    if (*next == member) return {zip.data(), name / std::filesystem::path(member).relative_path()};
+  fail_to_decompress(name, fmt::format("it has no {}", member));
+}
+
+std::optional<FileContent> decompressed(std::string_view bytes, const std::filesystem::path& name) {
+  if (is_gzip(bytes)) return FileContent{gunzip(bytes, name), name};
+  if (is_zip(bytes)) return only_mesh(bytes, name);
+  return {};
 }
 
 }  // namespace prohull

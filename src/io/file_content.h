@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace prohull {
 
@@ -14,18 +15,24 @@ struct FileContent {
   std::filesystem::path name;
 };
 
-/// The bytes of a file as they are. Throws InputError(CannotRead) with the system's reason.
-std::string read_file(const std::filesystem::path& path);
-
 /// How many bytes `compressed` may become: 64 MiB + 200 for each. Meshes, even of zeros, stay far below; the formats
 /// would allow 1,032 and more, so that a small file could exhaust the memory.
 std::size_t decompression_limit(std::size_t compressed);
 
-/// What gzip, or a zip archive with one mesh in it, contains; empty if `bytes` are neither. A zip member is named
-/// "archive.zip/member.ply". Throws InputError(Malformed) if it is damaged or exceeds its limit.
-std::optional<FileContent> decompressed(std::string_view bytes, const std::filesystem::path& name);
+bool is_gzip(std::string_view bytes);
+bool is_zip(std::string_view bytes);
 
-/// `read_file`, then `decompressed`.
-FileContent read_file_content(const std::filesystem::path& path);
+// All that follow throw InputError(Malformed) if the content is damaged or exceeds its limit.
+
+std::string gunzip(std::string_view compressed, const std::filesystem::path& name);
+
+/// The names of what a zip archive contains, in its order.
+std::vector<std::string> zip_members(std::string_view bytes, const std::filesystem::path& name);
+
+/// One of them, which is then named "archive.zip/member.ply".
+FileContent zip_member(std::string_view bytes, const std::filesystem::path& name, const std::string& member);
+
+/// What gzip, or a zip archive with one mesh in it, contains; empty if `bytes` are neither.
+std::optional<FileContent> decompressed(std::string_view bytes, const std::filesystem::path& name);
 
 }  // namespace prohull

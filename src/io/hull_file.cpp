@@ -9,7 +9,6 @@
 #include <memory>
 
 #include "io/atomic_file.h"
-#include "io/file_content.h"
 #include "prohull/error.h"
 
 // Layout (docs/phull.md): 8 bytes of magic, u32 version, then one zstd frame with its checksum. All numbers are
@@ -160,15 +159,17 @@ void save_hull(const std::filesystem::path& path, const ProgressiveHull& hull) {
 
 ProgressiveHull load_hull(const std::filesystem::path& path) { return load_hull(read_file(path), path); }
 
+bool is_hull_content(std::string_view content) { return content.starts_with(kMagic); }
+
 bool is_hull_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::string start(kMagic.size(), '\0');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return in && start == kMagic;
+  return in && is_hull_content(start);
 }
 
 ProgressiveHull load_hull(std::string_view content, const std::filesystem::path& name) {
-  if (!content.starts_with(kMagic)) malformed(name, "not a .phull file");
+  if (!is_hull_content(content)) malformed(name, "not a .phull file");
   if (content.size() < kHeaderSize) malformed(name, fmt::format("truncated after {} bytes", content.size()));
   const auto version = Decoder(content.substr(kMagic.size())).integer<std::uint32_t>();
   if (version != kVersion)

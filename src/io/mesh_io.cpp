@@ -6,13 +6,14 @@
 #include <array>
 #include <string>
 
-#include "io/atomic_file.h"
+#include "io/extension.h"
 #include "io/file_content.h"
 #include "io/mesh_readers.h"
 #include "io/mesh_writers.h"
 #include "io/place.h"
 #include "io/text_scanner.h"
 #include "prohull/error.h"
+#include "prohull/file.h"
 
 namespace prohull {
 namespace {
@@ -33,13 +34,6 @@ constexpr std::array<FormatTraits, 4> kFormats = {{
 
 const FormatTraits& traits(MeshFormat format) {
   return *std::find_if(kFormats.begin(), kFormats.end(), [&](const FormatTraits& t) { return t.format == format; });
-}
-
-std::string lower_case_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
 }
 
 std::string_view first_word(std::string_view content) {

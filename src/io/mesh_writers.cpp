@@ -1,33 +1,17 @@
 #include "io/mesh_writers.h"
-#include "geometry/float32.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <charconv>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
+
+#include "geometry/float32.h"
+#include "io/append.h"
 
 namespace prohull {
 namespace {
-
-/// Little endian, whatever the machine.
-template <class T>
-void append_bytes(std::string& out, T value) {
-  char raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) std::reverse(raw, raw + sizeof(T));
-  out.append(raw, sizeof(T));
-}
-
-template <class Number>
-void append_number(std::string& out, Number value) {
-  char text[32];
-  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
-  out.append(text, end);
-}
 
 void append_line(std::string& out, const Vec3& p) {
   for (int axis = 0; axis < 3; ++axis) {

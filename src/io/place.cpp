@@ -3,10 +3,24 @@
 #include <fmt/format.h>
 
 namespace prohull {
+namespace {
+
+std::string text(Place place) {
+  switch (place.unit) {
+    case Place::Unit::Line:
+      return fmt::format("line {}", place.number);
+    case Place::Unit::Byte:
+      return fmt::format("byte {}", place.number);
+    case Place::Unit::Row:
+      return fmt::format("row {} (from 0)", place.number);
+  }
+  return {};
+}
+
+}  // namespace
 
 void fail(std::string_view file, Place place, std::string_view message, Defect defect) {
-  const char* unit = place.unit == Place::Unit::Line ? "line" : "byte";
-  throw InputError(defect, fmt::format("{}: {} {}: {}", file, unit, place.number, message));
+  throw InputError(defect, fmt::format("{}: {}: {}", file, text(place), message));
 }
 
 std::string printable(std::string_view word) {

@@ -8,9 +8,9 @@
 
 namespace prohull {
 
-/// A spot in a file as error messages name it: lines are counted from 1, bytes from 0.
+/// A spot in a file as error messages name it: lines are counted from 1, bytes and the rows of an array from 0.
 struct Place {
-  enum class Unit { Line, Byte };
+  enum class Unit { Line, Byte, Row };
   Unit unit = Unit::Line;
   std::size_t number = 0;
 };

@@ -69,19 +69,26 @@ bool TextScanner::at_line_end() {
 }
 
 bool TextScanner::ends_word(const char* p) const {
-  return p == end_ || *p == '\n' || is_blank(*p) || (syntax_.continued_lines && *p == '\\');
+  return p == end_ || *p == '\n' || is_blank(*p) || (syntax_.continued_lines && *p == '\\') || is_separator(*p);
 }
 
 std::string_view TextScanner::word() {
   if (at_line_end()) return {};
   const char* begin = at_++;
-  while (!ends_word(at_)) ++at_;
+  if (!is_separator(*begin))
+    while (!ends_word(at_)) ++at_;
   return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 
 std::string_view TextScanner::word_of_any_line() {
   if (at_line_end()) next_line();
   return word();
+}
+
+bool TextScanner::skip_separator() {
+  if (at_line_end() || !is_separator(*at_)) return false;
+  ++at_;
+  return true;
 }
 
 template <class Number>

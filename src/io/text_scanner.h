@@ -12,6 +12,7 @@ namespace prohull {
 struct TextSyntax {
   bool comments = false;         ///< from a '#' that starts a word to the end of the line
   bool continued_lines = false;  ///< a backslash at the end of a line joins it with the next
+  char separator = 0;            ///< also ends words, if it is not 0
 };
 
 /// Walks through a text in memory, word by word and line by line, and knows where it is. Lines end with LF or CR LF; a
@@ -29,6 +30,8 @@ class TextScanner {
   std::string_view word();
   /// The next word of this or a later line; empty at the end of the text.
   std::string_view word_of_any_line();
+  /// Whether the separator comes next on this line; goes on behind it.
+  bool skip_separator();
   void skip_rest_of_line() { at_ = line_end(); }
   /// The text from the start of the next line on.
   std::string_view rest_after_line() const {
@@ -48,6 +51,7 @@ class TextScanner {
  private:
   void skip_blanks();
   bool skip_continuation();
+  bool is_separator(char c) const { return syntax_.separator != 0 && c == syntax_.separator; }
   bool ends_word(const char* p) const;
   const char* line_end() const;
   template <class Number>

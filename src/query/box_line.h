@@ -11,27 +11,34 @@ namespace prohull {
 /// some t. Slabs are given by their near and far planes along each axis.
 ///
 /// (plane - origin) * inverse has a relative error of at most 3 eps + O(eps^2): of the difference, of 1 / direction,
-/// and of the product. It keeps its sign, so the far value times (1 + 8 eps) against the near one is safe. Axes along
-/// which this does not hold, for the direction is not 0 but below 2^-900 or overflowed, are left out: their origin is
-/// NaN, and NaN is never chosen below.
+/// and of the product, which may also underflow. It keeps its sign, so the far value, widened by 8 eps and a few of the
+/// least doubles, against the near one is safe. Axes along which this does not hold, for the direction is not 0 but not
+/// of a size whose inverse is a normal number, are left out: their origin is NaN, and NaN is never chosen below.
 struct BoxLine {
   explicit BoxLine(const DirectedLine& line) {
     for (int axis = 0; axis < 3; ++axis) {
       const double d = line.direction[axis];
-      origin[axis] = d == 0 || (std::isfinite(d) && std::abs(d) >= 0x1p-900) ? line.origin[axis]
-                                                                             : std::numeric_limits<double>::quiet_NaN();
+      origin[axis] = is_usable(d) ? line.origin[axis] : std::numeric_limits<double>::quiet_NaN();
       inverse[axis] = d == 0 ? std::numeric_limits<double>::infinity() : 1 / d;
       backwards[axis] = d < 0;
     }
   }
 
-  static constexpr double kWiden = 1 + 8 * line_filter::kEpsilon;
+  static bool is_usable(double d) { return d == 0 || (std::abs(d) >= 0x1p-900 && std::abs(d) <= 0x1p1000); }
+  static double widened(double far) { return far * (1 + 8 * line_filter::kEpsilon) + 0x1p-1070; }
 
   double origin[3], inverse[3];
   bool backwards[3];  ///< the near plane is that of the greater coordinate
 };
 
-inline bool may_meet(const BoxLine& line, const Box& box, double t_end) {
+/// The line is in the box only from t = from to t = to, and not at all if from > to. Certain: `to` is rounded up by
+/// more than `from` may be too great.
+struct Passage {
+  bool is_empty() const { return from > to; }
+  double from, to;
+};
+
+inline Passage passage(const BoxLine& line, const Box& box, double t_end) {
   double from = 0, to = t_end;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = box.min[axis], high = box.max[axis];
@@ -40,7 +47,11 @@ inline bool may_meet(const BoxLine& line, const Box& box, double t_end) {
     from = near > from ? near : from;
     to = far < to ? far : to;
   }
-  return from <= to * BoxLine::kWiden;
+  return {from, BoxLine::widened(to)};
+}
+
+inline bool may_meet(const BoxLine& line, const Box& box, double t_end) {
+  return !passage(line, box, t_end).is_empty();
 }
 
 }  // namespace prohull

@@ -83,5 +83,7 @@ class QueryEngine {
 
 std::unique_ptr<QueryEngine> make_brute_engine(const TriangleMesh& mesh);
 std::unique_ptr<QueryEngine> make_bvh_engine(const TriangleMesh& mesh);
+/// One of KDop6 to KDop26Overlap.
+std::unique_ptr<QueryEngine> make_kdop_engine(const TriangleMesh& mesh, Engine engine);
 
 }  // namespace prohull

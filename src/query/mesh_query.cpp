@@ -58,8 +58,11 @@ std::unique_ptr<QueryEngine> make_engine(const TriangleMesh& mesh, Engine engine
     case Engine::Auto:
     case Engine::Bvh:
       return make_bvh_engine(mesh);
-    default:
+    case Engine::Refinement:
+    case Engine::PaperRefinement:
       throw InputError(Defect::InvalidOption, "this engine refines a progressive hull, which a mesh is not");
+    default:
+      return make_kdop_engine(mesh, engine);
   }
 }
 

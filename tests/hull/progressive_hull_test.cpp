@@ -56,6 +56,19 @@ TEST(ProgressiveHull, MadeVerticesAreNumberedInTheOrderOfTheCollapses) {
   EXPECT_EQ(hull.positions().size(), 66u + 44);
 }
 
+TEST(ProgressiveHull, CanStartFromAnyOfItsLevels) {
+  const ProgressiveHull& hull = small_hull();
+  for (const std::size_t faces : {0u, 40u, 41u, 60u, 126u, 128u, 1000u}) {
+    const ProgressiveHull finer = hull.with_base(faces);
+    EXPECT_EQ(first_defect(finer), std::nullopt);
+    EXPECT_EQ(finer.base(), hull.level(faces));
+    EXPECT_EQ(finer.level(100), hull.level(std::max<std::size_t>(faces, 100)));
+    EXPECT_EQ(finer.original(), hull.original());
+  }
+  EXPECT_EQ(hull.with_base(0), hull);
+  EXPECT_EQ(hull.with_base(100).with_base(50), hull.with_base(100));
+}
+
 TEST(FirstDefect, NamesWhatIsWrongWithTheBase) {
   const auto defect = [](const std::function<void(HullParts&)>& change) {
     HullParts parts = parts_of(small_hull());

@@ -8,11 +8,6 @@
 namespace prohull {
 namespace {
 
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(AtomicFile, AppearsOnlyWhenCommitted) {
   const TemporaryFolder folder;
   const auto path = folder / "a.txt";
@@ -20,10 +15,10 @@ TEST(AtomicFile, AppearsOnlyWhenCommitted) {
   {
     AtomicFile file(path);
     file.write("new");
-    EXPECT_EQ(content_of(path), "old");
+    EXPECT_EQ(read_file(path), "old");
     file.commit();
   }
-  EXPECT_EQ(content_of(path), "new");
+  EXPECT_EQ(read_file(path), "new");
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
@@ -31,7 +26,7 @@ TEST(AtomicFile, VanishesWhenNotCommitted) {
   const TemporaryFolder folder;
   write_bytes(folder / "a.txt", "old");
   { AtomicFile(folder / "a.txt").write("new"); }
-  EXPECT_EQ(content_of(folder / "a.txt"), "old");
+  EXPECT_EQ(read_file(folder / "a.txt"), "old");
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
@@ -41,7 +36,7 @@ TEST(AtomicFile, WritesWhereALinkLeads) {
   std::filesystem::create_symlink(folder / "a.txt", folder / "link");
   write_file(folder / "link", "new");
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
-  EXPECT_EQ(content_of(folder / "a.txt"), "new");
+  EXPECT_EQ(read_file(folder / "a.txt"), "new");
 }
 
 TEST(AtomicFile, SaysWhyAndWhatToDo) {

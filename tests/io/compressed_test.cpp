@@ -1,7 +1,4 @@
-#include <archive.h>
-#include <archive_entry.h>
-#include <zlib.h>
-
+#include "compressing.h"
 #include "io/file_content.h"
 #include "io_testing.h"
 
@@ -9,43 +6,6 @@ namespace prohull {
 namespace {
 
 const std::string kOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-
-std::string gzipped(std::string text) {
-  z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
-  std::string bytes(deflateBound(&stream, text.size()) + 64, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(text.data());
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
-  stream.avail_out = static_cast<uInt>(bytes.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  bytes.resize(stream.total_out);
-  deflateEnd(&stream);
-  return bytes;
-}
-
-std::string zipped(std::initializer_list<std::pair<const char*, std::string>> members) {
-  std::string bytes(1 << 20, '\0');
-  std::size_t size = 0;
-  archive* zip = archive_write_new();
-  archive_write_set_format_zip(zip);
-  archive_write_set_bytes_in_last_block(zip, 1);
-  archive_write_open_memory(zip, bytes.data(), bytes.size(), &size);
-  for (const auto& [name, content] : members) {
-    archive_entry* entry = archive_entry_new();
-    archive_entry_set_pathname(entry, name);
-    archive_entry_set_size(entry, static_cast<la_int64_t>(content.size()));
-    archive_entry_set_filetype(entry, AE_IFREG);
-    archive_entry_set_perm(entry, 0644);
-    archive_write_header(zip, entry);
-    archive_write_data(zip, content.data(), content.size());
-    archive_entry_free(entry);
-  }
-  archive_write_close(zip);
-  archive_write_free(zip);
-  bytes.resize(size);
-  return bytes;
-}
 
 TEST(Gzip, IsReadWhateverTheName) {
   EXPECT_EQ(read_mesh(gzipped(kOff), "a.off.gz").face_count(), 1u);
@@ -77,7 +37,7 @@ TEST(Gzip, ThatWouldExhaustTheMemoryIsAnError) {
   expect_refused(bomb, "a.stl.gz",
                  "a.stl.gz: cannot decompress: more than " + std::to_string(decompression_limit(bomb.size())) +
                      " bytes come out of " + std::to_string(bomb.size()) +
-                     ", which no mesh does; if it is one, decompress it first");
+                     ", which neither meshes nor queries do; if it is right, decompress it first");
 }
 
 TEST(Zip, IsReadIfItHasOneMesh) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "prohull/error.h"
+#include "prohull/file.h"
 #include "prohull/mesh_io.h"
 
 namespace prohull {
@@ -63,7 +64,7 @@ void expect_input_error(Action action, Defect defect, std::string_view message) 
     action();
     ADD_FAILURE() << "no error, expected: " << message;
   } catch (const InputError& error) {
-    EXPECT_EQ(error.what(), message);
+    EXPECT_EQ(std::string_view(error.what()), message);
     EXPECT_EQ(error.defect(), defect) << error.what();
   }
 }

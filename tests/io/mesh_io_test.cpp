@@ -19,12 +19,6 @@ void expect_same_bits(const TriangleMesh& a, const TriangleMesh& b) {
           << "vertex " << index(v);
 }
 
-std::string content_of(const std::filesystem::path& path) {
-  std::stringstream content;
-  content << std::ifstream(path, std::ios::binary).rdbuf();
-  return content.str();
-}
-
 TEST(MeshFormat, IsToldByTheNameInAnyCase) {
   EXPECT_EQ(mesh_format("dir.off/a.ply"), MeshFormat::Ply);
   EXPECT_EQ(mesh_format("a.b.OBJ"), MeshFormat::Obj);
@@ -68,7 +62,7 @@ TEST(WriteMesh, KeepsEveryBitOfDoubles) {
     write_mesh(folder / name, mesh);
     expect_same_bits(read_mesh(folder / name), mesh);
   }
-  EXPECT_NE(content_of(folder / "a.ply").find("property double x"), std::string::npos);
+  EXPECT_NE(read_file(folder / "a.ply").find("property double x"), std::string::npos);
 }
 
 TEST(WriteMesh, KeepsEveryBitOfFloats) {
@@ -80,13 +74,13 @@ TEST(WriteMesh, KeepsEveryBitOfFloats) {
     write_mesh(folder / name, mesh);
     expect_same_bits(read_mesh(folder / name), mesh);
   }
-  EXPECT_NE(content_of(folder / "a.ply").find("property float x"), std::string::npos);
+  EXPECT_NE(read_file(folder / "a.ply").find("property float x"), std::string::npos);
 }
 
 TEST(WriteMesh, WritesBinaryStlWithUnitNormals) {
   const TemporaryFolder folder;
   write_mesh(folder / "a.stl", tetrahedron());
-  const std::string content = content_of(folder / "a.stl");
+  const std::string content = read_file(folder / "a.stl");
   ASSERT_EQ(content.size(), 84u + 4 * 50);
   EXPECT_TRUE(content.starts_with("prohull"));
   EXPECT_EQ(content.substr(84, 12), bytes_of(0.f) + bytes_of(0.f) + bytes_of(-1.f));
@@ -160,7 +154,7 @@ TEST(Truncation, IsNoticedAtEveryByteOfBinaryFiles) {
   const TemporaryFolder folder;
   for (const char* name : {"a.ply", "a.stl"}) {
     write_mesh(folder / name, tetrahedron());
-    const std::string content = content_of(folder / name);
+    const std::string content = read_file(folder / name);
     for (std::size_t size = 0; size < content.size(); ++size)
       EXPECT_THROW(read_mesh(std::string_view(content).substr(0, size), name), InputError) << name << " " << size;
   }

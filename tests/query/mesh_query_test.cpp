@@ -123,15 +123,19 @@ TEST_P(Engines, AnswerAsBruteForceDoes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Query, Engines, testing::Values(Engine::Auto, Engine::Bvh), [](const auto& parameter) {
-  for (const auto& [name, engine] : engine_names())
-    if (engine == parameter.param) {
-      std::string identifier(name);
-      std::erase(identifier, '-');
-      return identifier;
-    }
-  return std::string("unnamed");
-});
+INSTANTIATE_TEST_SUITE_P(Query, Engines,
+                         testing::Values(Engine::Auto, Engine::Bvh, Engine::KDop6, Engine::KDop14, Engine::KDop18,
+                                         Engine::KDop26, Engine::KDop6Overlap, Engine::KDop14Overlap,
+                                         Engine::KDop18Overlap, Engine::KDop26Overlap),
+                         [](const auto& parameter) {
+                           for (const auto& [name, engine] : engine_names())
+                             if (engine == parameter.param) {
+                               std::string identifier(name);
+                               std::erase(identifier, '-');
+                               return identifier;
+                             }
+                           return std::string("unnamed");
+                         });
 
 TEST(MeshQuery, OfAnEmptyMeshFindsNothing) {
   MeshQuery query{QueryIndex(TriangleMesh{})};

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "prohull/geometry.h"
+#include "prohull/mesh_query.h"
+
+namespace prohull {
+
+/// Files of queries and of their answers. Rows, and so queries, are counted from 0; lines of text from 1.
+
+/// Reads segments, one a row: x0,y0,z0,x1,y1,z1.
+///   .npy   an array of shape (n, 6) or (n, 2, 3), of floating point numbers of 32 or 64 bits or of integers, of either
+///          byte order, in C or Fortran order
+///   .npz   with one such array, or one called `segments`
+///   .csv   with commas; blank lines, comments from # on, and a first line of names are skipped; LF or CR LF
+/// Each also gzipped. The name tells the format, the content if the name has none; a name that contradicts the content
+/// is an error. Integers beyond 2^53 and decimals become the nearest double. A file without rows gives none.
+/// Throws InputError with file, row or line, and what to do: CannotRead, UnknownFormat, Malformed (another shape, kind
+/// of number, or truncated), NonFiniteCoordinate, NoLength for ends that are equal. Memory use is bounded by the size
+/// of the content, as in mesh_io.h.
+std::vector<Segment> read_segments(const std::filesystem::path& path);
+std::vector<Segment> read_segments(std::string_view content, const std::filesystem::path& name);
+
+/// Reads rays in the same way: x,y,z,dx,dy,dz, an array called `rays`; NoLength for a direction of zeros.
+std::vector<Ray> read_rays(const std::filesystem::path& path);
+std::vector<Ray> read_rays(std::string_view content, const std::filesystem::path& name);
+
+/// Reads triangles in the same way: x0,y0,z0,x1,y1,z1,x2,y2,z2, of shape (n, 9) or (n, 3, 3), an array called
+/// `triangles`. Triangles without area are allowed.
+std::vector<Triangle> read_triangles(const std::filesystem::path& path);
+std::vector<Triangle> read_triangles(std::string_view content, const std::filesystem::path& name);
+
+enum class QueryFormat { Npy, Npz, Csv };
+
+/// The format that a file name asks for (.npy or .csv, in any case); throws InputError(UnknownFormat) for any other.
+QueryFormat segments_format(const std::filesystem::path& path);
+
+/// Writes what read_segments reads, to .npy (of shape (n, 6), doubles) or .csv, as mesh_io.h does.
+void write_segments(const std::filesystem::path& path, std::span<const Segment> segments);
+
+/// The format that a file name asks for (.npz or .csv, in any case); throws InputError(UnknownFormat) for any other.
+QueryFormat hits_format(const std::filesystem::path& path);
+
+enum class HitsOf { Segments, Rays };
+
+/// Writes one row for each hit, in the order of the batch: segment (or ray), t, face, x, y, z, entering.
+///   .csv   with a line of names; the shortest decimals that read back as the same doubles; entering 0 or 1
+///   .npz   one array for each name: segment and face int64, entering bool, the others float64
+/// Written beside `path`, then renamed; the same bytes for the same batch. Throws InputError(UnknownFormat),
+/// InputError(CannotWrite).
+void write_hits(const std::filesystem::path& path, const HitBatch& batch, HitsOf of = HitsOf::Segments);
+
+/// The same for the faces that triangles meet: triangle, face.
+void write_faces_met(const std::filesystem::path& path, const FaceBatch& batch);
+
+}  // namespace prohull

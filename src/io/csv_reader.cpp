@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "io/number_table.h"
+#include "io/text_scanner.h"
+
+namespace prohull {
+namespace {
+
+constexpr TextSyntax kCsv{.comments = true, .separator = ','};
+
+bool is_number(std::string_view word) {
+  double value = 0;
+  const char* const end = word.data() + word.size();
+  const auto [rest, error] = std::from_chars(word.data(), end, value);
+  return error != std::errc::invalid_argument && rest == end;
+}
+
+/// A line without any number: a row of which one number is mistyped is none.
+bool is_line_of_names(TextScanner line) {
+  do {
+    if (is_number(line.word())) return false;
+  } while (line.skip_separator() || !line.at_line_end());
+  return true;
+}
+
+class CsvReader {
+ public:
+  CsvReader(std::string_view content, const std::string& file, const Columns& columns)
+      : scanner_(content, file, kCsv), columns_(columns), row_(columns.names.size()) {}
+
+  void read(const RowSink& sink) {
+    bool more = scanner_.next_line();
+    if (more && is_line_of_names(scanner_)) scanner_.skip_rest_of_line(), more = scanner_.next_line();
+    for (; more; more = scanner_.next_line()) {
+      read_row();
+      sink(row_, scanner_.place());
+    }
+  }
+
+ private:
+  void read_row() {
+    for (std::size_t i = 0; i < row_.size(); ++i) {
+      if (i > 0 && !scanner_.skip_separator()) fail(fmt::format("there is no comma after {}", columns_.names[i - 1]));
+      row_[i] = scanner_.number(columns_.names[i]);
+    }
+    if (!scanner_.at_line_end()) fail("it goes on after that");
+  }
+
+  [[noreturn]] void fail(std::string_view why) const {
+    scanner_.fail(fmt::format("{}; each line has {} numbers: {}", why, row_.size(), joined(columns_.names)));
+  }
+
+  TextScanner scanner_;
+  const Columns& columns_;
+  std::vector<double> row_;
+};
+
+}  // namespace
+
+std::string joined(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text.append(text.empty() ? "" : ",").append(name);
+  return text;
+}
+
+void read_csv(std::string_view content, const std::string& file, const Columns& columns, const RowSink& sink) {
+  CsvReader(content, file, columns).read(sink);
+}
+
+}  // namespace prohull

@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "io/extension.h"
+#include "io/file_content.h"
+#include "io/npy_header.h"
+#include "io/number_table.h"
+#include "io/query_format.h"
+#include "prohull/file.h"
+#include "prohull/query_io.h"
+
+namespace prohull {
+namespace {
+
+std::optional<QueryFormat> format_of_name(const std::filesystem::path& name) {
+  if (lower_case_extension(name) == ".gz") return format_of_name(name.stem());
+  return query_format(name);
+}
+
+QueryFormat format_of(std::string_view content, const std::filesystem::path& name) {
+  std::optional<QueryFormat> found;
+  if (content.starts_with(kNpyMagic)) found = QueryFormat::Npy;
+  if (is_zip(content)) found = QueryFormat::Npz;
+  const auto named = format_of_name(name);
+  if (!named && !found)
+    throw InputError(Defect::UnknownFormat,
+                     fmt::format("{}: unknown format; name it .npy, .npz or .csv", name.string()));
+  if (named && found && named != found)
+    throw InputError(Defect::Malformed, fmt::format("{}: its content is that of a file named {}; name it so",
+                                                    name.string(), extension_of(*found)));
+  return named ? *named : *found;
+}
+
+FileContent array_of_archive(std::string_view bytes, const std::filesystem::path& name, std::string_view array) {
+  std::vector<std::string> members = zip_members(bytes, name);
+  std::erase_if(members, [](const std::string& member) { return !member.ends_with(".npy"); });
+  const std::string wanted = std::string(array) + ".npy";
+  if (std::find(members.begin(), members.end(), wanted) != members.end()) return zip_member(bytes, name, wanted);
+  if (members.size() == 1) return zip_member(bytes, name, members[0]);
+  throw InputError(Defect::Malformed, fmt::format("{}: none of its {} arrays is called {}; save the one you mean alone",
+                                                  name.string(), members.size(), array));
+}
+
+void read_uncompressed(std::string_view content, const std::filesystem::path& name, const Columns& columns,
+                       const RowSink& sink) {
+  switch (format_of(content, name)) {
+    case QueryFormat::Npy:
+      return read_npy(content, name.string(), columns, sink);
+    case QueryFormat::Csv:
+      return read_csv(content, name.string(), columns, sink);
+    case QueryFormat::Npz: {
+      const FileContent array = array_of_archive(content, name, columns.array);
+      return read_npy(array.bytes, array.name.string(), columns, sink);
+    }
+  }
+}
+
+template <class Query>
+struct Traits;
+
+Vec3 point(std::span<const double> row, std::size_t first) { return {row[first], row[first + 1], row[first + 2]}; }
+
+template <>
+struct Traits<Segment> {
+  static Columns columns() { return {"segments", {"x0", "y0", "z0", "x1", "y1", "z1"}}; }
+  static Segment query(std::span<const double> row) { return {point(row, 0), point(row, 3)}; }
+  static std::optional<std::string_view> why_not(const Segment& s) {
+    if (s.a == s.b) return "the segment's ends are equal; leave it out";
+    return {};
+  }
+};
+
+template <>
+struct Traits<Ray> {
+  static Columns columns() { return {"rays", {"x", "y", "z", "dx", "dy", "dz"}}; }
+  static Ray query(std::span<const double> row) { return {point(row, 0), point(row, 3)}; }
+  static std::optional<std::string_view> why_not(const Ray& r) {
+    if (r.direction == Vec3{}) return "the ray's direction is zero; leave it out";
+    return {};
+  }
+};
+
+template <>
+struct Traits<Triangle> {
+  static Columns columns() { return {"triangles", {"x0", "y0", "z0", "x1", "y1", "z1", "x2", "y2", "z2"}}; }
+  static Triangle query(std::span<const double> row) { return {point(row, 0), point(row, 3), point(row, 6)}; }
+  static std::optional<std::string_view> why_not(const Triangle&) { return {}; }
+};
+
+template <class Query>
+std::vector<Query> read_queries(std::string_view content, const std::filesystem::path& name) {
+  const Columns columns = Traits<Query>::columns();
+  const std::string file = name.string();
+  std::vector<Query> queries;
+  const RowSink add = [&](std::span<const double> row, Place place) {
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (!std::isfinite(row[i]))
+        fail(file, place, fmt::format("{} is {}; expected finite numbers", columns.names[i], row[i]),
+             Defect::NonFiniteCoordinate);
+    queries.push_back(Traits<Query>::query(row));
+    if (const auto why = Traits<Query>::why_not(queries.back())) fail(file, place, *why, Defect::NoLength);
+  };
+  if (is_gzip(content))
+    read_uncompressed(gunzip(content, name), name, columns, add);
+  else
+    read_uncompressed(content, name, columns, add);
+  return queries;
+}
+
+}  // namespace
+
+std::vector<Segment> read_segments(std::string_view content, const std::filesystem::path& name) {
+  return read_queries<Segment>(content, name);
+}
+std::vector<Ray> read_rays(std::string_view content, const std::filesystem::path& name) {
+  return read_queries<Ray>(content, name);
+}
+std::vector<Triangle> read_triangles(std::string_view content, const std::filesystem::path& name) {
+  return read_queries<Triangle>(content, name);
+}
+
+std::vector<Segment> read_segments(const std::filesystem::path& path) { return read_segments(read_file(path), path); }
+std::vector<Ray> read_rays(const std::filesystem::path& path) { return read_rays(read_file(path), path); }
+std::vector<Triangle> read_triangles(const std::filesystem::path& path) {
+  return read_triangles(read_file(path), path);
+}
+
+}  // namespace prohull

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+struct archive;
+
+namespace prohull {
+
+/// Makes a zip archive in memory: members as they are, without compression or dates, so that the same members give the
+/// same bytes.
+class ZipWriter {
+ public:
+  ZipWriter();
+  ZipWriter(const ZipWriter&) = delete;
+  ZipWriter& operator=(const ZipWriter&) = delete;
+
+  void add(const std::string& name, std::string_view content);
+  /// Ends the archive.
+  std::string finish();
+
+ private:
+  void check(long status) const;
+
+  std::string bytes_;
+  std::unique_ptr<archive, int (*)(archive*)> archive_;
+};
+
+}  // namespace prohull
