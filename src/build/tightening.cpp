@@ -111,7 +111,7 @@ void Tightening::gather(VertexId v) {
 // its answer would leave outside.
 std::optional<Vec3> Tightening::propose(double margin) {
   constexpr int kMaxPrograms = 16;
-  constexpr double kLeastGain = 1e-3;  // of the objective
+  constexpr double kLeastGain = 1e-4;  // of the objective
   constraints_.clear();
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {1.0, -1.0}) {
@@ -224,16 +224,16 @@ std::optional<Vec3> Tightening::deepest_point(const Vec3& apex, const Vec3& a, c
 
 bool Tightening::has_good_shape(const Vec3& apex) const {
   const double least_cosine = std::cos(options_.max_normal_deviation);
-  double before = 1, after = 1;
+  double least_before = 1, least_after = 1;
   for (std::size_t i = 0; i < link_.size(); ++i) {
     const Vec3 &a = local_[i], &b = local_[after(i)];
     const Vec3 n = cross(a, b), m = cross(a - apex, b - apex);
     if (dot(n, m) < least_cosine * norm(n) * norm(m)) return false;
     const double ab = squared_norm(b - a);
-    before = std::min(before, compactness(norm(n), squared_norm(a) + squared_norm(b) + ab));
-    after = std::min(after, compactness(norm(m), squared_norm(a - apex) + squared_norm(b - apex) + ab));
+    least_before = std::min(least_before, compactness(norm(n), squared_norm(a) + squared_norm(b) + ab));
+    least_after = std::min(least_after, compactness(norm(m), squared_norm(a - apex) + squared_norm(b - apex) + ab));
   }
-  return after > std::min(options_.min_compactness_ratio * before, options_.sufficient_compactness);
+  return least_after > std::min(options_.min_compactness_ratio * least_before, options_.sufficient_compactness);
 }
 
 bool Tightening::keeps_enclosing(const Vec3& from, const Vec3& to) const {
