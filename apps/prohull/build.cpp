@@ -96,97 +96,135 @@ bool certify(const HullResult& result, const std::filesystem::path& file, const 
   return certified;
 }
 
-int run_build(Options options) {
-  const bool float32 = stores_float32(mesh_format(options.out));
+void check_outputs(const Options& options) {
+  mesh_format(options.out);
   if (options.out.extension() == ".gz")
     throw InputError(Defect::InvalidOption,
                      options.out.string() + ": meshes are read from .gz, but not written; leave it out");
-  options.hull.float32_coordinates = float32;
-  options.hull.max_normal_deviation = options.normal_deviation_degrees * std::numbers::pi / 180;
-  options.hull.allow_self_intersections = !options.no_self_intersections;
-
   require_distinct({options.in, options.out, options.hierarchy, options.report});
   for (const auto& path : {options.out, options.hierarchy, options.report}) require_writable(path);
-  const Input input = read_closed_mesh(options.in);
-  const ClosedMesh& original = input.closed;
-  fmt::print("{}: {} faces, {} component{}\n", options.in.string(), grouped(original.report.faces),
-             grouped(original.report.components), original.report.components == 1 ? "" : "s");
-  for (const std::string& repair : describe(original.repairs)) fmt::print("  {}\n", repair);
+}
 
+/// What was made, and whether it is proven.
+struct Outcome {
+  HullResult result;
+  TriangleMesh hull;  ///< as written
+  std::size_t rounded_vertices = 0;
+  bool certified = false;
+  double build_seconds = 0, write_seconds = 0, verify_seconds = 0;
+
+  bool reached() const { return result.stopped == Stopped::TargetReached; }
+};
+
+Outcome build_hull_and_base(const ClosedMesh& input, const Options& options) {
   Stopwatch building;
-  const HullResult result = build(original, options);
+  HullResult result = build(input, options);
   TriangleMesh hull = result.hull.base();
   std::size_t rounded = 0;
-  if (float32) {
+  if (options.hull.float32_coordinates) {
     Float32Hull moved = with_float32_coordinates(hull, options.hull.side);
     hull = std::move(moved.mesh);
     rounded = moved.moved_vertices;
   }
-  const double build_seconds = building.seconds();
+  return {std::move(result), std::move(hull), rounded, false, building.seconds()};
+}
 
+void write_certified(const ClosedMesh& input, const Options& options, Outcome& outcome) {
   Stopwatch writing;
   Candidate candidate(options.out);
-  write_mesh(candidate.path(), hull);
-  const double write_seconds = writing.seconds();
+  write_mesh(candidate.path(), outcome.hull);
+  outcome.write_seconds = writing.seconds();
 
   Stopwatch verifying;
-  const bool certified = certify(result, candidate.path(), original.mesh);
-  const double verify_seconds = verifying.seconds();
-  if (certified) {
-    candidate.accept();
-    if (!options.hierarchy.empty()) save_hull(options.hierarchy, result.hull);
-  }
+  outcome.certified = certify(outcome.result, candidate.path(), input.mesh);
+  outcome.verify_seconds = verifying.seconds();
+  if (!outcome.certified) return;
+  candidate.accept();
+  if (!options.hierarchy.empty()) save_hull(options.hierarchy, outcome.result.hull);
+}
 
-  const double volume = signed_volume(hull), void_ratio = volume / original.report.volume - 1;
-  const bool reached = result.stopped == Stopped::TargetReached;
+double void_ratio(const Outcome& outcome, const ClosedMesh& input) {
+  return signed_volume(outcome.hull) / input.report.volume - 1;
+}
+
+void print_input(const Options& options, const ClosedMesh& input) {
+  fmt::print("{}: {} faces, {} component{}\n", options.in.string(), grouped(input.report.faces),
+             grouped(input.report.components), input.report.components == 1 ? "" : "s");
+  for (const std::string& repair : describe(input.repairs)) fmt::print("  {}\n", repair);
+}
+
+void print_summary(const Options& options, const Input& input, const Outcome& outcome) {
   const bool outer = options.hull.side == HullSide::Outer;
+  const std::size_t faces = outcome.hull.face_count();
   fmt::print("{}: {} hull of {} faces, void {:.3f} %\n", options.out.string(), outer ? "outer" : "inner",
-             grouped(hull.face_count()), 100 * void_ratio);
-  if (rounded > 0) fmt::print("  moved {} vertices to coordinates that the file keeps\n", grouped(rounded));
-  if (!reached)
+             grouped(faces), 100 * void_ratio(outcome, input.closed));
+  if (outcome.rounded_vertices > 0)
+    fmt::print("  moved {} vertices to coordinates that the file keeps\n", grouped(outcome.rounded_vertices));
+  if (!outcome.reached())
     fmt::print("  no legal collapse is left above the {} faces asked for; what refused the {} edges left: {}\n",
-               grouped(options.hull.target_faces), grouped(3 * hull.face_count() / 2), listed(result.blocked));
-  if (certified && !options.hierarchy.empty())
-    fmt::print("{}: all levels from {} to {} faces\n", options.hierarchy.string(), grouped(hull.face_count()),
-               grouped(original.report.faces));
-  fmt::print("  certified: {}\n",
-             certified ? fmt::format("yes, the file as written {} the original", outer ? "encloses" : "is enclosed by")
-                       : "NO: nothing was written; please report this mesh");
+               grouped(options.hull.target_faces), grouped(3 * faces / 2), listed(outcome.result.blocked));
+  if (outcome.certified && !options.hierarchy.empty())
+    fmt::print("{}: all levels from {} to {} faces\n", options.hierarchy.string(), grouped(faces),
+               grouped(input.closed.report.faces));
+  fmt::print("  certified: {}\n", outcome.certified ? fmt::format("yes, the file as written {} the original",
+                                                                  outer ? "encloses" : "is enclosed by")
+                                                    : "NO: nothing was written; please report this mesh");
   fmt::print("  read {:.2f} s, build {:.2f} s, write {:.2f} s, verify {:.2f} s\n",
-             input.read_seconds + input.repair_seconds, build_seconds, write_seconds, verify_seconds);
+             input.read_seconds + input.repair_seconds, outcome.build_seconds, outcome.write_seconds,
+             outcome.verify_seconds);
+}
 
-  nlohmann::json in = facts(original.report);
+nlohmann::json options_report(const Options& options) {
+  const HullOptions& hull = options.hull;
+  return {{"faces", hull.target_faces},
+          {"side", name_of(side_names(), hull.side)},
+          {"strategy", name_of(strategy_names(), hull.strategy)},
+          {"max_valence", hull.max_valence},
+          {"min_compactness_ratio", hull.min_compactness_ratio},
+          {"sufficient_compactness", hull.sufficient_compactness},
+          {"max_normal_deviation_degrees", options.normal_deviation_degrees},
+          {"allow_self_intersections", hull.allow_self_intersections},
+          {"float32_coordinates", hull.float32_coordinates}};
+}
+
+nlohmann::json report_of(const Options& options, const Input& input, const Outcome& outcome) {
+  nlohmann::json in = facts(input.closed.report);
   in["path"] = options.in.string();
-  in["repairs"] = describe(original.repairs);
-  write_report(options.report, {{"input", in},
-                                {"hull",
-                                 {{"path", options.out.string()},
-                                  {"faces", hull.face_count()},
-                                  {"vertices", hull.vertex_count()},
-                                  {"volume", volume},
-                                  {"void_ratio", void_ratio},
-                                  {"rounded_vertices", rounded}}},
-                                {"certified", certified},
-                                {"stopped", reached ? "target_reached" : "no_legal_collapse"},
-                                {"refusals", facts_of(result.refused)},
-                                {"blocked", facts_of(result.blocked)},
-                                {"seconds",
-                                 {{"read", input.read_seconds},
-                                  {"repair", input.repair_seconds},
-                                  {"build", build_seconds},
-                                  {"write", write_seconds},
-                                  {"verify", verify_seconds}}},
-                                {"options",
-                                 {{"faces", options.hull.target_faces},
-                                  {"side", name_of(side_names(), options.hull.side)},
-                                  {"strategy", name_of(strategy_names(), options.hull.strategy)},
-                                  {"max_valence", options.hull.max_valence},
-                                  {"min_compactness_ratio", options.hull.min_compactness_ratio},
-                                  {"sufficient_compactness", options.hull.sufficient_compactness},
-                                  {"max_normal_deviation_degrees", options.normal_deviation_degrees},
-                                  {"allow_self_intersections", options.hull.allow_self_intersections},
-                                  {"float32_coordinates", float32}}}});
-  return !certified || (options.strict && !reached) ? kAnswerIsNo : kDone;
+  in["repairs"] = describe(input.closed.repairs);
+  return {{"input", in},
+          {"hull",
+           {{"path", options.out.string()},
+            {"faces", outcome.hull.face_count()},
+            {"vertices", outcome.hull.vertex_count()},
+            {"volume", signed_volume(outcome.hull)},
+            {"void_ratio", void_ratio(outcome, input.closed)},
+            {"rounded_vertices", outcome.rounded_vertices}}},
+          {"certified", outcome.certified},
+          {"stopped", outcome.reached() ? "target_reached" : "no_legal_collapse"},
+          {"refusals", facts_of(outcome.result.refused)},
+          {"blocked", facts_of(outcome.result.blocked)},
+          {"seconds",
+           {{"read", input.read_seconds},
+            {"repair", input.repair_seconds},
+            {"build", outcome.build_seconds},
+            {"write", outcome.write_seconds},
+            {"verify", outcome.verify_seconds}}},
+          {"options", options_report(options)}};
+}
+
+int run_build(Options options) {
+  check_outputs(options);
+  options.hull.float32_coordinates = stores_float32(mesh_format(options.out));
+  options.hull.max_normal_deviation = options.normal_deviation_degrees * std::numbers::pi / 180;
+  options.hull.allow_self_intersections = !options.no_self_intersections;
+
+  const Input input = read_closed_mesh(options.in);
+  print_input(options, input.closed);
+  Outcome outcome = build_hull_and_base(input.closed, options);
+  write_certified(input.closed, options, outcome);
+  print_summary(options, input, outcome);
+  write_report(options.report, report_of(options, input, outcome));
+  return !outcome.certified || (options.strict && !outcome.reached()) ? kAnswerIsNo : kDone;
 }
 
 }  // namespace

@@ -67,20 +67,11 @@ std::variant<TriangleMesh, ProgressiveHull> read_mesh_or_hull(const std::filesys
 }
 
 nlohmann::json facts(const MeshReport& report) {
-  return {{"faces", report.faces},
-          {"vertices", report.vertices},
-          {"components", report.components},
-          {"euler_characteristic", report.euler_characteristic},
-          {"volume", report.volume},
-          {"defects",
-           {{"open_edges", report.open_edges},
-            {"non_manifold_edges", report.non_manifold_edges},
-            {"misoriented_edges", report.misoriented_edges},
-            {"non_manifold_vertices", report.non_manifold_vertices},
-            {"repeated_corner_faces", report.repeated_corner_faces},
-            {"zero_area_faces", report.zero_area_faces},
-            {"non_finite_vertices", report.non_finite_vertices},
-            {"unused_vertices", report.unused_vertices}}}};
+  nlohmann::json defects;
+  for (const DefectCount& defect : defect_counts(report)) defects[std::string(defect.name)] = defect.count;
+  return {{"faces", report.faces},           {"vertices", report.vertices},
+          {"components", report.components}, {"euler_characteristic", report.euler_characteristic},
+          {"volume", report.volume},         {"defects", defects}};
 }
 
 void require_writable(const std::filesystem::path& path) {
@@ -121,16 +112,6 @@ void add_examples(CLI::App& command, const std::vector<std::string>& examples) {
   std::string text = "Examples:\n";
   for (const std::string& example : examples) text += "  " + example + "\n";
   command.footer(text);
-}
-
-std::string grouped(std::size_t number) {
-  const std::string digits = std::to_string(number);
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-    text += digits[i];
-  }
-  return text;
 }
 
 const Names<HullSide>& side_names() {

@@ -14,6 +14,7 @@
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_report.h"
 #include "prohull/repair.h"
+#include "prohull/text.h"
 
 namespace prohull::cli {
 
@@ -78,9 +79,6 @@ void write_report(const std::filesystem::path& path, nlohmann::json report);
 
 void add_report_option(CLI::App& command, std::filesystem::path& path);
 void add_examples(CLI::App& command, const std::vector<std::string>& examples);
-
-/// 96966 -> "96,966"
-std::string grouped(std::size_t number);
 
 /// Values by their names, as the command line has them.
 template <class Value>

@@ -14,17 +14,10 @@ struct Options {
 long genus(const MeshReport& report) { return static_cast<long>(report.components) - report.euler_characteristic / 2; }
 
 void print_defects(const MeshReport& report) {
-  const auto line = [](std::size_t count, const char* what) {
-    if (count > 0) fmt::print("  {:<14} {}\n", "", grouped(count) + " " + what);
-  };
-  line(report.open_edges, "open edges (one face)");
-  line(report.non_manifold_edges, "non-manifold edges (more than two faces)");
-  line(report.misoriented_edges, "edges whose faces disagree about the outside");
-  line(report.non_manifold_vertices, "non-manifold vertices");
-  line(report.repeated_corner_faces, "faces with the same vertex twice");
-  line(report.zero_area_faces, "faces without area (allowed)");
-  line(report.non_finite_vertices, "vertices that are not finite");
-  line(report.unused_vertices, "unused vertices (allowed)");
+  for (const DefectCount& defect : defect_counts(report))
+    if (defect.count > 0)
+      fmt::print("  {:<14} {} {}{}\n", "", grouped(defect.count), defect.description,
+                 defect.allowed ? " (allowed)" : "");
   if (!report.first_defect.empty()) fmt::print("  {:<14} {}\n", "first", report.first_defect);
 }
 

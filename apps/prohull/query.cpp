@@ -139,7 +139,7 @@ void print_summary(const Options& options, const Outcome& outcome) {
   fmt::print("  read {:.2f} s, index {:.2f} s, query {:.2f} s, write {:.2f} s\n", s.read, s.index, s.query, s.write);
 }
 
-nlohmann::json facts(const Options& options, const Outcome& outcome) {
+nlohmann::json report_of(const Options& options, const Outcome& outcome) {
   nlohmann::json json = {{"queries", outcome.queries},
                          {"kind", std::string(outcome.noun) + "s"},
                          {outcome.noun == "triangle" ? "faces_met" : "hits", outcome.answers},
@@ -200,7 +200,7 @@ int run_query(const Options& options) {
   fmt::print("{}: {} faces\n", options.in.string(), grouped(faces));
   if (options.random > 0) fmt::print("{} random segments, seed {}\n", grouped(options.random), options.seed);
   print_summary(options, outcome);
-  nlohmann::json json = facts(options, outcome);
+  nlohmann::json json = report_of(options, outcome);
   json["input"] = {{"path", options.in.string()}, {"faces", faces}};
   write_report(options.report, json);
   return kDone;

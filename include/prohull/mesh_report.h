@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "prohull/error.h"
 #include "prohull/triangle_mesh.h"
@@ -32,6 +34,17 @@ struct MeshReport {
   }
   bool is_closed_manifold() const { return is_watertight() && non_manifold_vertices == 0 && non_finite_vertices == 0; }
 };
+
+/// One kind of defect.
+struct DefectCount {
+  std::string_view name;         ///< "open_edges"
+  std::string_view description;  ///< "open edges"
+  std::size_t count;
+  bool allowed;  ///< hulls are built nevertheless
+};
+
+/// Every kind of defect, also those that the mesh has not.
+std::vector<DefectCount> defect_counts(const MeshReport& report);
 
 MeshReport inspect(const TriangleMesh& mesh);
 

@@ -162,6 +162,17 @@ class Inspector {
 
 }  // namespace
 
+std::vector<DefectCount> defect_counts(const MeshReport& report) {
+  return {{"open_edges", "open edges", report.open_edges, false},
+          {"non_manifold_edges", "edges with more than two faces", report.non_manifold_edges, false},
+          {"misoriented_edges", "edges whose faces disagree about the outside", report.misoriented_edges, false},
+          {"non_manifold_vertices", "non-manifold vertices", report.non_manifold_vertices, false},
+          {"repeated_corner_faces", "faces with the same vertex twice", report.repeated_corner_faces, false},
+          {"non_finite_vertices", "vertices that are not finite", report.non_finite_vertices, false},
+          {"zero_area_faces", "faces without area", report.zero_area_faces, true},
+          {"unused_vertices", "unused vertices", report.unused_vertices, true}};
+}
+
 MeshReport inspect(const TriangleMesh& mesh) { return Inspector(mesh).run(); }
 
 }  // namespace prohull

@@ -8,6 +8,7 @@
 #include "geometry/orientation.h"
 #include "prohull/error.h"
 #include "prohull/repair.h"
+#include "prohull/text.h"
 
 namespace prohull {
 namespace {
@@ -85,18 +86,15 @@ void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs)
 }
 
 std::string why_not_closed(const MeshReport& report) {
-  std::string text = report.first_defect;
-  const auto add = [&](std::size_t count, const char* what) {
-    if (count > 0) text += fmt::format("{}{} {}", text == report.first_defect ? " (in all: " : ", ", count, what);
-  };
-  add(report.open_edges, "open edges");
-  add(report.non_manifold_edges, "non-manifold edges");
-  add(report.misoriented_edges, "misoriented edges");
-  add(report.non_manifold_vertices, "non-manifold vertices");
-  add(report.repeated_corner_faces, "faces with a vertex twice");
-  add(report.non_finite_vertices, "vertices that are not finite");
-  return text +
-         "); a hull needs a closed 2-manifold: close holes and separate parts that meet in an edge or vertex first";
+  std::string counts;
+  for (const DefectCount& defect : defect_counts(report))
+    if (defect.count > 0 && !defect.allowed)
+      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", grouped(defect.count), defect.description);
+  return fmt::format(
+      "{} (in all: {}); a hull needs a closed 2-manifold: close holes and separate parts that meet in an edge or "
+      "vertex "
+      "first",
+      report.first_defect, counts);
 }
 
 void require_usable_size(const Box& box) {
@@ -118,13 +116,13 @@ void require_usable_size(const Box& box) {
 std::vector<std::string> describe(const Repairs& repairs) {
   std::vector<std::string> phrases;
   if (repairs.welded_vertices > 0)
-    phrases.push_back(fmt::format("welded {} vertices at equal positions", repairs.welded_vertices));
+    phrases.push_back(fmt::format("welded {} vertices at equal positions", grouped(repairs.welded_vertices)));
   if (repairs.dropped_faces > 0)
-    phrases.push_back(fmt::format("dropped {} faces that had the same vertex twice", repairs.dropped_faces));
+    phrases.push_back(fmt::format("dropped {} faces that had the same vertex twice", grouped(repairs.dropped_faces)));
   if (repairs.turned_components > 0)
-    phrases.push_back(fmt::format("turned {} component{} that {} inside out ({} faces)", repairs.turned_components,
-                                  repairs.turned_components == 1 ? "" : "s",
-                                  repairs.turned_components == 1 ? "was" : "were", repairs.turned_faces));
+    phrases.push_back(fmt::format("turned {} component{} that {} inside out ({} faces)",
+                                  grouped(repairs.turned_components), repairs.turned_components == 1 ? "" : "s",
+                                  repairs.turned_components == 1 ? "was" : "were", grouped(repairs.turned_faces)));
   return phrases;
 }
 
@@ -132,8 +130,8 @@ ClosedMesh closed_mesh(TriangleMesh mesh) {
   if (mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces: nothing to enclose");
   constexpr std::size_t kMostFaces = 0xffffffff / 3;
   if (mesh.face_count() >= kMostFaces)
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("{} faces; at most {} are supported", mesh.face_count(), kMostFaces));
+    throw InputError(Defect::InvalidOption, fmt::format("{} faces; at most {} are supported",
+                                                        grouped(mesh.face_count()), grouped(kMostFaces)));
   ClosedMesh closed{std::move(mesh), {}, {}};
   closed.report = inspect(closed.mesh);
   if (!closed.report.is_closed_manifold() && closed.report.non_finite_vertices == 0) {

@@ -6,6 +6,7 @@
 
 #include "meshes.h"
 #include "prohull/sample.h"
+#include "prohull/text.h"
 
 namespace prohull {
 namespace {
@@ -104,6 +105,20 @@ TEST(MeshReport, MisorientedEdges) {
   EXPECT_EQ(report.open_edges + report.non_manifold_edges + report.non_manifold_vertices, 0u);
   EXPECT_FALSE(report.is_watertight());
   EXPECT_EQ(report.first_defect, "edge 0-2: its two faces disagree about which side is outside");
+}
+
+TEST(MeshReport, NamesEachKindOfDefectOnce) {
+  TriangleMesh mesh = octahedron();
+  mesh.triangles.pop_back();
+  mesh.positions.push_back({9, 9, 9});
+  std::vector<std::string> found;
+  for (const DefectCount& defect : defect_counts(inspect(mesh)))
+    if (defect.count > 0)
+      found.push_back(grouped(1000 * defect.count) + " " + std::string(defect.name) +
+                      (defect.allowed ? ", allowed" : ""));
+  EXPECT_EQ(found, (std::vector<std::string>{"3,000 open_edges", "1,000 unused_vertices, allowed"}));
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(1234567), "1,234,567");
 }
 
 TEST(MeshReport, RepeatedCorner) {
