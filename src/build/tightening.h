@@ -1,59 +1,42 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <vector>
 
-#include "build/self_intersection_guard.h"
 #include "geometry/bvh.h"
-#include "geometry/linear_program.h"
 #include "geometry/winding_number.h"
 #include "mesh/half_edge_mesh.h"
 #include "prohull/hull_builder.h"
 
 namespace prohull {
 
-/// Moves the vertices of an outer hull towards the original mesh, one at a time, as far as the enclosure allows.
+/// What the vertices of a hull move towards.
+class Original {
+ public:
+  /// For an inner hull turned inside out, as the hull is: then it too is outside of it.
+  Original(TriangleMesh mesh, HullSide side);
+
+  const Bvh& tree() const { return tree_; }  ///< over the boxes of faces
+  Triangle triangle(std::uint32_t face) const { return mesh_.triangle(FaceId(face)); }
+  double largest_coordinate() const { return largest_coordinate_; }
+  /// Whether the hull must enclose the point, or may have to: true where that is not certain. Exact otherwise.
+  bool may_need_cover(const Vec3& p) const { return winding_.at(p).value_or(least_covered_) >= least_covered_; }
+
+ private:
+  TriangleMesh mesh_;
+  Bvh tree_;
+  WindingNumber winding_;
+  int least_covered_;
+  double largest_coordinate_;
+};
+
+/// Moves the vertices of a hull towards the original mesh, one at a time, in rounds until hardly anything is gained.
+/// Returns the number of moves. HullOptions gives the shape guards, float32_coordinates and progress.
 ///
 /// Moving a vertex from P to Q replaces its star. Along each edge (a, b) of its link lies a tetrahedron (P, Q, a, b);
 /// as chains, the new star is the old one plus those that are added outside minus those that are removed. So the hull
 /// still encloses if no removed tetrahedron holds a point of the solid in its inside: no original triangle meets the
-/// inside, and some point of it is outside of the original. Both are decided exactly, on stored coordinates.
-class Tightening {
- public:
-  /// `original` and `mesh` outlive this; `rounding` is the most by which storing moves a coordinate.
-  Tightening(const TriangleMesh& original, HalfEdgeMesh& mesh, const HullOptions& options, double rounding);
-
-  /// Rounds over the vertices until hardly anything is gained.
-  void run();
-
- private:
-  bool improve(VertexId v);
-  void gather(VertexId v);
-  std::optional<Vec3> propose(double margin);
-  bool add_cuts(const Vec3& apex, double margin);
-  std::optional<Vec3> deepest_point(const Vec3& apex, const Vec3& a, const Vec3& b);
-  std::size_t after(std::size_t i) const { return i + 1 == link_.size() ? 0 : i + 1; }
-  bool has_good_shape(const Vec3& apex) const;
-  bool keeps_enclosing(const Vec3& from, const Vec3& to) const;
-
-  const TriangleMesh& original_;
-  HalfEdgeMesh& mesh_;
-  const HullOptions& options_;
-  const double rounding_;
-  Bvh tree_;
-  WindingNumber solid_;
-  SelfIntersectionGuard guard_;
-
-  // The vertex in hand; `local` is in a frame with the origin there, the farthest link vertex at distance 1.
-  std::vector<VertexId> link_;
-  std::vector<Vec3> local_;
-  double scale_ = 1;
-  std::vector<Triangle> candidates_;  ///< original faces nearby, local
-  Vec3 objective_;
-  std::vector<HalfSpace> constraints_;
-  std::vector<Triangle> near_;
-  std::vector<Vec3> polygon_, clipped_;
-};
+/// inside, and some point of it is outside of the original. Both are decided exactly, on stored coordinates. Nor is a
+/// move made that adds a pair of intersecting faces.
+std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const HullOptions& options);
 
 }  // namespace prohull
