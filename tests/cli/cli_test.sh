@@ -8,7 +8,7 @@ trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 cd "$work" || exit 1
 checks=0
 failures=0
-engines="bvh brute"
+engines="bvh kdop6 kdop14 kdop18 kdop26 kdop6-overlap kdop14-overlap kdop18-overlap kdop26-overlap brute"
 
 fail() {
   failures=$((failures + 1))
