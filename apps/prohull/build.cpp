@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "command.h"
+#include "prohull/distance.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
@@ -20,6 +21,7 @@ struct Options {
   std::filesystem::path in, out, hierarchy, report;
   HullOptions hull;
   double normal_deviation_degrees = 45;
+  double max_distance = 0;  ///< 0: any
   bool strict = false, no_self_intersections = false, tight = false;
 };
 
@@ -51,10 +53,20 @@ struct Outcome {
   RefusalCounts refused, blocked;
   std::size_t rounded_vertices = 0;
   bool certified = false;
+  DistanceBounds distance = {};  ///< from the hull as written to the original
   double build_seconds = 0, write_seconds = 0, verify_seconds = 0;
 
   bool reached() const { return stopped == Stopped::TargetReached; }
 };
+
+std::size_t coarsest_within(const ProgressiveHull& hull, double distance) {
+  ProgressLine line("distance");
+  try {
+    return faces_within(hull, distance, {.progress = [&](double) { return line(0); }});
+  } catch (const Cancelled&) {
+    throw Interrupted{};
+  }
+}
 
 Outcome build(const ClosedMesh& input, const Options& options) {
   ProgressLine line("build");
@@ -69,6 +81,8 @@ Outcome build(const ClosedMesh& input, const Options& options) {
     outcome = {std::move(tight.mesh), std::nullopt, tight.stopped, tight.refused, tight.blocked};
   } else {
     HullResult result = build_hull(input.mesh, hull_options);
+    if (options.max_distance > 0 && result.stopped != Stopped::Cancelled)
+      result.hull = result.hull.with_base(coarsest_within(result.hull, options.max_distance));
     outcome = {result.hull.base(), std::move(result.hull), result.stopped, result.refused, result.blocked};
   }
   if (outcome.stopped == Stopped::Cancelled || interrupted()) throw Interrupted{};
@@ -136,6 +150,7 @@ Outcome build_for_file(const ClosedMesh& input, const Options& options) {
     outcome.rounded_vertices = moved.moved_vertices;
   }
   outcome.build_seconds = building.seconds();
+  outcome.distance = distance_bounds(outcome.hull, input.mesh, {.progress = [](double) { return !interrupted(); }});
   return outcome;
 }
 
@@ -166,8 +181,9 @@ void print_input(const Options& options, const ClosedMesh& input) {
 void print_summary(const Options& options, const Input& input, const Outcome& outcome) {
   const bool outer = options.hull.side == HullSide::Outer;
   const std::size_t faces = outcome.hull.face_count();
-  fmt::print("{}: {} hull of {} faces, void {:.3f} %\n", options.out.string(), outer ? "outer" : "inner",
-             grouped(faces), 100 * void_ratio(outcome, input.closed));
+  fmt::print("{}: {} hull of {} faces, void {:.3f} %, at most {:.4g} from the mesh\n", options.out.string(),
+             outer ? "outer" : "inner", grouped(faces), 100 * void_ratio(outcome, input.closed),
+             outcome.distance.upper);
   if (outcome.rounded_vertices > 0)
     fmt::print("  moved {} vertices to coordinates that the file keeps\n", grouped(outcome.rounded_vertices));
   if (!outcome.reached())
@@ -188,6 +204,7 @@ nlohmann::json options_report(const Options& options) {
   const HullOptions& hull = options.hull;
   return {{"faces", hull.target_faces},
           {"side", name_of(side_names(), hull.side)},
+          {"max_distance", options.max_distance > 0 ? nlohmann::json(options.max_distance) : nlohmann::json()},
           {"tight", options.tight},
           {"strategy", name_of(strategy_names(), hull.strategy)},
           {"max_valence", hull.max_valence},
@@ -209,6 +226,7 @@ nlohmann::json report_of(const Options& options, const Input& input, const Outco
             {"vertices", outcome.hull.vertex_count()},
             {"volume", signed_volume(outcome.hull)},
             {"void_ratio", void_ratio(outcome, input.closed)},
+            {"distance_bound", outcome.distance.upper},
             {"rounded_vertices", outcome.rounded_vertices}}},
           {"certified", outcome.certified},
           {"stopped", outcome.reached() ? "target_reached" : "no_legal_collapse"},
@@ -253,10 +271,18 @@ void add_build(CLI::App& app, Run& run) {
   command.add_option("--faces", hull.target_faces, "Stop at this many faces, at least 4")
       ->capture_default_str()
       ->check(CLI::Range(4.0, 1e9));
+  CLI::Option* max_distance =
+      command
+          .add_option(
+              "--max-distance", options->max_distance,
+              "The coarsest level, of at least --faces, with no point farther from the mesh, in its unit; proven")
+          ->check(CLI::PositiveNumber)
+          ->type_name("D");
   add_choice(command, "--side", hull.side, side_names(), "outer: encloses the mesh; inner: is enclosed by it");
   CLI::Option* tight = command.add_flag("--tight", options->tight,
                                         "Move vertices towards the mesh between collapses: the least void, never "
                                         "self-intersecting, some ten times slower");
+  tight->excludes(max_distance);
   add_choice(command, "--strategy", hull.strategy, strategy_names(),
              "lazy: tight and fast; paper1, paper2: the two of Platis and Theoharis (2003)");
   command.add_option("--hierarchy", options->hierarchy, "Also write all levels, for lod and verify")

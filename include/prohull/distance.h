@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 
+#include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
@@ -28,5 +29,10 @@ struct DistanceOptions {
 ///
 ///     const double reach = distance_bounds(hull, original).upper;
 DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to, const DistanceOptions& options = {});
+
+/// The faces of the coarsest level of a hull that is within `distance` of the original mesh, provenly: found by
+/// bisection, as if finer levels were never farther. The original itself if no other is. Throws as distance_bounds
+/// does.
+std::size_t faces_within(const ProgressiveHull& hull, double distance, const DistanceOptions& options = {});
 
 }  // namespace prohull
