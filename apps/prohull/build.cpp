@@ -2,14 +2,17 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <optional>
 
 #include "command.h"
+#include "prohull/distance.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
 #include "prohull/replay.h"
+#include "prohull/tight_hull.h"
 
 namespace prohull::cli {
 namespace {
@@ -18,7 +21,8 @@ struct Options {
   std::filesystem::path in, out, hierarchy, report;
   HullOptions hull;
   double normal_deviation_degrees = 45;
-  bool strict = false, no_self_intersections = false;
+  double max_distance = 0;  ///< 0: any
+  bool strict = false, no_self_intersections = false, tight = false;
 };
 
 const Names<Strategy>& strategy_names() {
@@ -41,16 +45,48 @@ std::string listed(const RefusalCounts& counts) {
   return text;
 }
 
-HullResult build(const ClosedMesh& input, const Options& options) {
+/// What was made, and whether it is proven.
+struct Outcome {
+  TriangleMesh hull;                      ///< as written
+  std::optional<ProgressiveHull> levels;  ///< unless it is a tight hull
+  Stopped stopped;
+  RefusalCounts refused, blocked;
+  std::size_t rounded_vertices = 0;
+  bool certified = false;
+  DistanceBounds distance = {};  ///< from the hull as written to the original
+  double build_seconds = 0, write_seconds = 0, verify_seconds = 0;
+
+  bool reached() const { return stopped == Stopped::TargetReached; }
+};
+
+std::size_t coarsest_within(const ProgressiveHull& hull, double distance) {
+  ProgressLine line("distance");
+  try {
+    return faces_within(hull, distance, {.progress = [&](double) { return line(0); }});
+  } catch (const Cancelled&) {
+    throw Interrupted{};
+  }
+}
+
+Outcome build(const ClosedMesh& input, const Options& options) {
   ProgressLine line("build");
   HullOptions hull_options = options.hull;
   hull_options.progress = [&](const HullProgress& p) {
     const double all = static_cast<double>(p.original_faces - std::min(p.target_faces, p.original_faces - 1));
     return line(static_cast<double>(p.original_faces - p.faces) / all);
   };
-  HullResult result = build_hull(input.mesh, hull_options);
-  if (result.stopped == Stopped::Cancelled || interrupted()) throw Interrupted{};
-  return result;
+  Outcome outcome;
+  if (options.tight) {
+    TightHull tight = build_tight_hull(input.mesh, hull_options);
+    outcome = {std::move(tight.mesh), std::nullopt, tight.stopped, tight.refused, tight.blocked};
+  } else {
+    HullResult result = build_hull(input.mesh, hull_options);
+    if (options.max_distance > 0 && result.stopped != Stopped::Cancelled)
+      result.hull = result.hull.with_base(coarsest_within(result.hull, options.max_distance));
+    outcome = {result.hull.base(), std::move(result.hull), result.stopped, result.refused, result.blocked};
+  }
+  if (outcome.stopped == Stopped::Cancelled || interrupted()) throw Interrupted{};
+  return outcome;
 }
 
 // A file beside another one, of the same format, that becomes it once it is certified, and vanishes otherwise.
@@ -74,20 +110,20 @@ class Candidate {
   std::filesystem::path target_, path_;
 };
 
-// The proof of what was written: the splits are replayed, and the file is read again and compared bit for bit with the
-// base mesh that they start from. Where rounding to the file's float32 moved vertices, the two files are compared
-// exactly.
-bool certify(const HullResult& result, const std::filesystem::path& file, const TriangleMesh& original) {
+// The proof of what was written: the file is read again. The splits of a progressive hull, replayed, lead from its base
+// mesh to the original; where the file holds another mesh, for it is tight or rounded to float32, that is compared with
+// the original exactly.
+bool certify(const Outcome& outcome, HullSide side, const std::filesystem::path& file, const TriangleMesh& original) {
   ProgressLine line("verify");
   const auto progress = [&](double fraction) { return line(fraction); };
   const TriangleMesh written = read_mesh(file);
-  bool certified = verify_replay(result.hull, original, progress).holds;
-  if (certified && written != result.hull.base()) {
+  bool certified = !outcome.levels || verify_replay(*outcome.levels, original, progress).holds;
+  if (certified && (!outcome.levels || written != outcome.levels->base())) {
     try {
       EnclosureOptions enclosure;
       enclosure.progress = progress;
-      certified = result.hull.side() == HullSide::Outer ? verify_enclosure(original, written, enclosure).encloses
-                                                        : verify_enclosure(written, original, enclosure).encloses;
+      certified = side == HullSide::Outer ? verify_enclosure(original, written, enclosure).encloses
+                                          : verify_enclosure(written, original, enclosure).encloses;
     } catch (const Cancelled&) {
       throw Interrupted{};
     }
@@ -105,28 +141,17 @@ void check_outputs(const Options& options) {
   for (const auto& path : {options.out, options.hierarchy, options.report}) require_writable(path);
 }
 
-/// What was made, and whether it is proven.
-struct Outcome {
-  HullResult result;
-  TriangleMesh hull;  ///< as written
-  std::size_t rounded_vertices = 0;
-  bool certified = false;
-  double build_seconds = 0, write_seconds = 0, verify_seconds = 0;
-
-  bool reached() const { return result.stopped == Stopped::TargetReached; }
-};
-
-Outcome build_hull_and_base(const ClosedMesh& input, const Options& options) {
+Outcome build_for_file(const ClosedMesh& input, const Options& options) {
   Stopwatch building;
-  HullResult result = build(input, options);
-  TriangleMesh hull = result.hull.base();
-  std::size_t rounded = 0;
+  Outcome outcome = build(input, options);
   if (options.hull.float32_coordinates) {
-    Float32Hull moved = with_float32_coordinates(hull, options.hull.side);
-    hull = std::move(moved.mesh);
-    rounded = moved.moved_vertices;
+    Float32Hull moved = with_float32_coordinates(outcome.hull, options.hull.side);
+    outcome.hull = std::move(moved.mesh);
+    outcome.rounded_vertices = moved.moved_vertices;
   }
-  return {std::move(result), std::move(hull), rounded, false, building.seconds()};
+  outcome.build_seconds = building.seconds();
+  outcome.distance = distance_bounds(outcome.hull, input.mesh, {.progress = [](double) { return !interrupted(); }});
+  return outcome;
 }
 
 void write_certified(const ClosedMesh& input, const Options& options, Outcome& outcome) {
@@ -136,11 +161,11 @@ void write_certified(const ClosedMesh& input, const Options& options, Outcome& o
   outcome.write_seconds = writing.seconds();
 
   Stopwatch verifying;
-  outcome.certified = certify(outcome.result, candidate.path(), input.mesh);
+  outcome.certified = certify(outcome, options.hull.side, candidate.path(), input.mesh);
   outcome.verify_seconds = verifying.seconds();
   if (!outcome.certified) return;
   candidate.accept();
-  if (!options.hierarchy.empty()) save_hull(options.hierarchy, outcome.result.hull);
+  if (!options.hierarchy.empty()) save_hull(options.hierarchy, *outcome.levels);
 }
 
 double void_ratio(const Outcome& outcome, const ClosedMesh& input) {
@@ -156,13 +181,14 @@ void print_input(const Options& options, const ClosedMesh& input) {
 void print_summary(const Options& options, const Input& input, const Outcome& outcome) {
   const bool outer = options.hull.side == HullSide::Outer;
   const std::size_t faces = outcome.hull.face_count();
-  fmt::print("{}: {} hull of {} faces, void {:.3f} %\n", options.out.string(), outer ? "outer" : "inner",
-             grouped(faces), 100 * void_ratio(outcome, input.closed));
+  fmt::print("{}: {} hull of {} faces, void {:.3f} %, at most {:.4g} from the mesh\n", options.out.string(),
+             outer ? "outer" : "inner", grouped(faces), 100 * void_ratio(outcome, input.closed),
+             outcome.distance.upper);
   if (outcome.rounded_vertices > 0)
     fmt::print("  moved {} vertices to coordinates that the file keeps\n", grouped(outcome.rounded_vertices));
   if (!outcome.reached())
     fmt::print("  no legal collapse is left above the {} faces asked for; what refused the {} edges left: {}\n",
-               grouped(options.hull.target_faces), grouped(3 * faces / 2), listed(outcome.result.blocked));
+               grouped(options.hull.target_faces), grouped(3 * faces / 2), listed(outcome.blocked));
   if (outcome.certified && !options.hierarchy.empty())
     fmt::print("{}: all levels from {} to {} faces\n", options.hierarchy.string(), grouped(faces),
                grouped(input.closed.report.faces));
@@ -178,6 +204,8 @@ nlohmann::json options_report(const Options& options) {
   const HullOptions& hull = options.hull;
   return {{"faces", hull.target_faces},
           {"side", name_of(side_names(), hull.side)},
+          {"max_distance", options.max_distance > 0 ? nlohmann::json(options.max_distance) : nlohmann::json()},
+          {"tight", options.tight},
           {"strategy", name_of(strategy_names(), hull.strategy)},
           {"max_valence", hull.max_valence},
           {"min_compactness_ratio", hull.min_compactness_ratio},
@@ -198,11 +226,12 @@ nlohmann::json report_of(const Options& options, const Input& input, const Outco
             {"vertices", outcome.hull.vertex_count()},
             {"volume", signed_volume(outcome.hull)},
             {"void_ratio", void_ratio(outcome, input.closed)},
+            {"distance_bound", outcome.distance.upper},
             {"rounded_vertices", outcome.rounded_vertices}}},
           {"certified", outcome.certified},
           {"stopped", outcome.reached() ? "target_reached" : "no_legal_collapse"},
-          {"refusals", facts_of(outcome.result.refused)},
-          {"blocked", facts_of(outcome.result.blocked)},
+          {"refusals", facts_of(outcome.refused)},
+          {"blocked", facts_of(outcome.blocked)},
           {"seconds",
            {{"read", input.read_seconds},
             {"repair", input.repair_seconds},
@@ -220,7 +249,7 @@ int run_build(Options options) {
 
   const Input input = read_closed_mesh(options.in);
   print_input(options, input.closed);
-  Outcome outcome = build_hull_and_base(input.closed, options);
+  Outcome outcome = build_for_file(input.closed, options);
   write_certified(input.closed, options, outcome);
   print_summary(options, input, outcome);
   write_report(options.report, report_of(options, input, outcome));
@@ -242,10 +271,22 @@ void add_build(CLI::App& app, Run& run) {
   command.add_option("--faces", hull.target_faces, "Stop at this many faces, at least 4")
       ->capture_default_str()
       ->check(CLI::Range(4.0, 1e9));
+  CLI::Option* max_distance =
+      command
+          .add_option(
+              "--max-distance", options->max_distance,
+              "The coarsest level, of at least --faces, with no point farther from the mesh, in its unit; proven")
+          ->check(CLI::PositiveNumber)
+          ->type_name("D");
   add_choice(command, "--side", hull.side, side_names(), "outer: encloses the mesh; inner: is enclosed by it");
+  CLI::Option* tight = command.add_flag("--tight", options->tight,
+                                        "Move vertices towards the mesh between collapses: the least void, never "
+                                        "self-intersecting, some ten times slower");
+  tight->excludes(max_distance);
   add_choice(command, "--strategy", hull.strategy, strategy_names(),
              "lazy: tight and fast; paper1, paper2: the two of Platis and Theoharis (2003)");
   command.add_option("--hierarchy", options->hierarchy, "Also write all levels, for lod and verify")
+      ->excludes(tight)
       ->type_name("H.phull");
   command.add_flag("--no-self-intersections", options->no_self_intersections,
                    "Refuse collapses that would make the hull intersect itself (inner hulls always do)");
@@ -276,6 +317,7 @@ void add_build(CLI::App& app, Run& run) {
       ->group(kGuards);
   add_examples(command, {"prohull build horse.ply --faces 2000 -o hull.ply",
                          "prohull build arm.stl --faces 500 -o arm_collision.stl --report arm.json",
+                         "prohull build arm.stl --faces 200 --tight -o arm_collision.stl",
                          "prohull build rock.obj --side inner --faces 300 -o occluder.obj",
                          "prohull build horse.ply --faces 200 -o hull.ply --hierarchy horse.phull"});
   command.callback([options, &run] { run = [options] { return run_build(*options); }; });

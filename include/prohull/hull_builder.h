@@ -38,6 +38,10 @@ class RefusalCounts {
  public:
   void count(Refusal refusal) { ++counts_[static_cast<std::size_t>(refusal)]; }
   std::size_t operator[](Refusal refusal) const { return counts_[static_cast<std::size_t>(refusal)]; }
+  RefusalCounts& operator+=(const RefusalCounts& other) {
+    for (std::size_t i = 0; i < kRefusalKinds; ++i) counts_[i] += other.counts_[i];
+    return *this;
+  }
 
  private:
   std::array<std::size_t, kRefusalKinds> counts_{};

@@ -11,6 +11,7 @@
 #include "build/placement.h"
 #include "build/shape_guards.h"
 #include "build/star.h"
+#include "build/turned.h"
 #include "geometry/float32.h"
 #include "geometry/linear_program.h"
 #include "geometry/predicates.h"
@@ -199,10 +200,6 @@ class VertexMover {
   Star star_;
 };
 
-void turn(TriangleMesh& mesh) {
-  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-}
-
 }  // namespace
 
 Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side) {
@@ -215,10 +212,8 @@ Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side) {
                                    kMost));
   if (std::ranges::all_of(level.positions, is_float32)) return {level, 0};
   // An inner hull is the outer hull of the mesh turned inside out.
-  TriangleMesh turned = level;
-  if (side == HullSide::Inner) turn(turned);
-  Float32Hull result = VertexMover(turned).run();
-  if (side == HullSide::Inner) turn(result.mesh);
+  Float32Hull result = VertexMover(side == HullSide::Inner ? turned(level) : level).run();
+  if (side == HullSide::Inner) result.mesh = turned(std::move(result.mesh));
   return result;
 }
 

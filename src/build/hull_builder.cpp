@@ -10,6 +10,7 @@
 #include "build/self_intersection_guard.h"
 #include "build/shape_guards.h"
 #include "build/star.h"
+#include "build/turned.h"
 #include "geometry/float32.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
@@ -131,7 +132,7 @@ class HullBuilder {
     unqueue(mesh_.edge(mesh_.next(mesh_.twin(star_.edge))));
     const VertexId s = mesh_.positions().next_id();
     record_.push_back(mesh_.collapse(star_.edge, apex));
-    if (guard_) guard_->collapsed(mesh_, s);
+    if (guard_) guard_->changed(mesh_, s);
     return s;
   }
 
@@ -240,11 +241,6 @@ HullResult run_builder(const TriangleMesh& mesh, const HullOptions& options) {
     default:
       return HullBuilder<EdgeTree>(mesh, options).run();
   }
-}
-
-TriangleMesh turned(TriangleMesh mesh) {
-  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-  return mesh;
 }
 
 // Every face with its corners 1 and 2 exchanged: o and d exchange their roles, l and r their sides.

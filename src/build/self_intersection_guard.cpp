@@ -14,8 +14,8 @@ Triangle triangle(const HalfEdgeMesh& mesh, FaceId f) {
   return {mesh.position(a), mesh.position(b), mesh.position(c)};
 }
 
-bool touches_star(const HalfEdgeMesh& mesh, const Star& star, FaceId f) {
-  return std::ranges::any_of(mesh.corners(f), [&](VertexId v) { return v == star.o || v == star.d; });
+bool has_corner(const HalfEdgeMesh& mesh, FaceId f, VertexId o, VertexId d) {
+  return std::ranges::any_of(mesh.corners(f), [&](VertexId v) { return v == o || v == d; });
 }
 
 // Spreads ten bits so that two zeros follow each.
@@ -97,7 +97,7 @@ void SelfIntersectionGuard::rebuild(const HalfEdgeMesh& mesh) {
   }
 }
 
-void SelfIntersectionGuard::collapsed(const HalfEdgeMesh& mesh, VertexId s) {
+void SelfIntersectionGuard::changed(const HalfEdgeMesh& mesh, VertexId s) {
   if (mesh.face_count() < faces_when_built_ / 2) return rebuild(mesh);
   HalfEdgeId h = mesh.out(s);
   do {
@@ -129,7 +129,8 @@ void SelfIntersectionGuard::visit(const FloatBox& box, Use&& use) const {
   }
 }
 
-std::size_t SelfIntersectionGuard::count_pairs(const HalfEdgeMesh& mesh, const Star& star,
+// Of `faces`, which take the place of the stars of o and d, among themselves and with the rest of the mesh.
+std::size_t SelfIntersectionGuard::count_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d,
                                                const std::vector<Triangle>& faces) {
   face_boxes_.clear();
   for (const Triangle& t : faces) face_boxes_.push_back(box_of(t));
@@ -138,7 +139,7 @@ std::size_t SelfIntersectionGuard::count_pairs(const HalfEdgeMesh& mesh, const S
 
   std::size_t pairs = 0;
   visit(whole, [&](const Slot& slot) {
-    if (!mesh.has(slot.face) || touches_star(mesh, star, slot.face)) return;
+    if (!mesh.has(slot.face) || has_corner(mesh, slot.face, o, d)) return;
     const Triangle other = triangle(mesh, slot.face);
     for (std::size_t i = 0; i < faces.size(); ++i)
       pairs += face_boxes_[i].overlaps(slot.box) && triangles_intersect(faces[i], other);
@@ -153,14 +154,28 @@ bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, co
   const auto link = [&](std::size_t i) { return mesh.position(star.link[i]); };
   faces_.clear();
   for (std::size_t i = 0; i < star.link.size(); ++i) faces_.push_back({apex, link(i), link(star.after(i))});
-  const std::size_t after = count_pairs(mesh, star, faces_);
+  const std::size_t after = count_pairs(mesh, star.o, star.d, faces_);
   if (after == 0) return false;
 
   const Vec3 &o = mesh.position(star.o), &d = mesh.position(star.d);
   for (std::size_t i = 0; i < star.link.size(); ++i) faces_[i].a = mesh.position(star.apex(i));
   faces_.push_back({o, d, link(0)});
   faces_.push_back({d, o, link(star.o_faces)});
-  return after > count_pairs(mesh, star, faces_);
+  return after > count_pairs(mesh, star.o, star.d, faces_);
+}
+
+bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, VertexId v,
+                                                    const std::vector<VertexId>& link, const Vec3& to) {
+  const auto set_star = [&](const Vec3& apex) {
+    faces_.clear();
+    for (std::size_t i = 0; i < link.size(); ++i)
+      faces_.push_back({apex, mesh.position(link[i]), mesh.position(link[i + 1 == link.size() ? 0 : i + 1])});
+  };
+  set_star(to);
+  const std::size_t after = count_pairs(mesh, v, v, faces_);
+  if (after == 0) return false;
+  set_star(mesh.position(v));
+  return after > count_pairs(mesh, v, v, faces_);
 }
 
 }  // namespace prohull

@@ -18,8 +18,11 @@ class SelfIntersectionGuard {
   /// that intersects itself can still be simplified, but its pairs are never multiplied.
   bool would_add_intersections(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex);
 
-  /// To be told of every collapse.
-  void collapsed(const HalfEdgeMesh& mesh, VertexId s);
+  /// The same for a vertex that would move; its link in order around it.
+  bool would_add_intersections(const HalfEdgeMesh& mesh, VertexId v, const std::vector<VertexId>& link, const Vec3& to);
+
+  /// To be told of every collapse, and of every vertex moved.
+  void changed(const HalfEdgeMesh& mesh, VertexId s);
 
  private:
   // In units of the mesh's box. Mapping a coordinate to float is monotone, so that boxes that overlap still do.
@@ -37,7 +40,7 @@ class SelfIntersectionGuard {
 
   void rebuild(const HalfEdgeMesh& mesh);
   FloatBox box_of(const Triangle& t) const;
-  std::size_t count_pairs(const HalfEdgeMesh& mesh, const Star& star, const std::vector<Triangle>& faces);
+  std::size_t count_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const std::vector<Triangle>& faces);
   template <class Use>
   void visit(const FloatBox& box, Use&& use) const;
 

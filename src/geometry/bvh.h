@@ -46,10 +46,10 @@ class Bvh {
     }
   }
 
-  /// The least measure(item) of all, for measures that are never below bound(box) of a box around the item.
+  /// The least measure(item) of all, for measures that are never below bound(box) of a box around the item; none that
+  /// is not below `best`.
   template <class Bound, class Measure>
-  double least(Bound bound, Measure measure) const {
-    double best = std::numeric_limits<double>::infinity();
+  double least(Bound bound, Measure measure, double best = std::numeric_limits<double>::infinity()) const {
     if (!nodes_.empty()) descend(0, bound, measure, best);
     return best;
   }

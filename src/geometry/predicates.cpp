@@ -1,6 +1,9 @@
 #include "geometry/predicates.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Gmpq.h>
+
+#include <array>
 
 namespace prohull {
 namespace {
@@ -19,6 +22,16 @@ Side exact_side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
 
 int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
   return static_cast<int>(CGAL::orientation(projected(axis, a), projected(axis, b), projected(axis, c)));
+}
+
+int exact_determinant_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e, const Vec3& f) {
+  using Number = CGAL::Gmpq;
+  const auto row = [](const Vec3& from, const Vec3& to) {
+    return std::array{Number(to.x) - Number(from.x), Number(to.y) - Number(from.y), Number(to.z) - Number(from.z)};
+  };
+  const auto u = row(a, b), v = row(c, d), w = row(e, f);
+  return int(CGAL::sign(u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+                        u[2] * (v[0] * w[1] - v[1] * w[0])));
 }
 
 }  // namespace prohull

@@ -1,0 +1,55 @@
+#include "geometry/tetrahedron_contact.h"
+
+#include <algorithm>
+#include <array>
+
+#include "geometry/predicates.h"
+
+namespace prohull {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+/// Whether all are on one side of the plane of t or on it.
+template <std::size_t N>
+bool on_one_side(const Triangle& t, const std::array<Vec3, N>& points, Side beside) {
+  return std::ranges::all_of(points, [&](const Vec3& p) { return side(t.a, t.b, t.c, p) != opposite(beside); });
+}
+
+/// Whether planes along the edges pq of the triangle, t its third corner, and rs of the tetrahedron, u and v the
+/// others, have the triangle on one side and the tetrahedron on the other.
+bool separated_along_edges(const Vec3& p, const Vec3& q, const Vec3& t, const Vec3& r, const Vec3& s, const Vec3& u,
+                           const Vec3& v) {
+  const int of_u = determinant_sign(p, q, r, s, r, u), of_v = determinant_sign(p, q, r, s, r, v);
+  if (of_u == 0 && of_v == 0) return false;  // parallel edges: other planes separate, if any does
+  if (of_u * of_v < 0) return false;
+  const int away = of_u != 0 ? of_u : of_v;  // the side on which the tetrahedron is, seen from rs
+  return determinant_sign(p, q, r, s, p, t) * away <= 0 && determinant_sign(p, q, r, s, p, r) * away >= 0;
+}
+
+}  // namespace
+
+// By the separating axis theorem: the difference of triangle and tetrahedron is a polytope with an inside, and its
+// facets are parallel to a face of either or to an edge of each.
+bool meets_interior(const Triangle& triangle, const Tetrahedron& tetrahedron) {
+  const Corners corners{triangle.a, triangle.b, triangle.c};
+  const auto& [a, b, c, d] = tetrahedron;
+  for (const Triangle& face : {Triangle{a, b, c}, Triangle{a, c, d}, Triangle{a, d, b}, Triangle{b, d, c}})
+    if (on_one_side(face, corners, Side::Outside)) return false;
+  const std::array<Vec3, 4> v{a, b, c, d};
+  if (on_one_side(triangle, v, Side::Outside) || on_one_side(triangle, v, Side::Inside)) {
+    // A triangle without area has no plane: everything is on it.
+    const bool has_plane =
+        std::ranges::any_of(v, [&](const Vec3& p) { return side(triangle.a, triangle.b, triangle.c, p) != Side::On; });
+    if (has_plane) return false;
+  }
+  constexpr std::array<std::array<int, 4>, 6> kEdges{
+      {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
+  for (int i = 0; i < 3; ++i)
+    for (const auto& [r, s, x, y] : kEdges)
+      if (separated_along_edges(corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3], v[r], v[s], v[x], v[y]))
+        return false;
+  return true;
+}
+
+}  // namespace prohull

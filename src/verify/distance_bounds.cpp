@@ -1,0 +1,161 @@
+#include "prohull/distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <vector>
+
+#include "geometry/bvh.h"
+#include "prohull/error.h"
+#include "verify/distance.h"
+
+namespace prohull {
+namespace {
+
+/// A point of t close to p, the closest but for rounding (Ericson, Real-Time Collision Detection, 5.1.5).
+Vec3 closest_point(const Vec3& p, const Triangle& t) {
+  const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a, bp = p - t.b, cp = p - t.c;
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
+               d6 = dot(ac, cp);
+  // Fractions in [0, 1], whatever rounding did: what is returned is a point of the triangle.
+  const auto fraction = [](double part, double rest) {
+    const double whole = part + rest;
+    return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0;
+  };
+  if (d1 <= 0 && d2 <= 0) return t.a;
+  if (d3 >= 0 && d4 <= d3) return t.b;
+  if (d6 >= 0 && d5 <= d6) return t.c;
+  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return t.a + ab * fraction(d1, -d3);
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return t.a + ac * fraction(d2, -d6);
+  if (va <= 0 && d4 >= d3 && d5 >= d6) return t.b + (t.c - t.b) * fraction(d4 - d3, d5 - d6);
+  const double v = fraction(vb, va + vc), w = std::min(fraction(vc, va + vb), 1 - v);
+  return t.a + ab * v + ac * w;
+}
+
+/// Part of a face of `from`, and how far it is from `to` at most.
+struct Cell {
+  std::array<Vec3, 3> corners;
+  std::array<std::uint32_t, 3> nearest;  ///< faces of `to`, to each corner
+  double upper;
+  bool operator<(const Cell& other) const { return upper < other.upper; }
+};
+
+class Search {
+ public:
+  Search(const TriangleMesh& from, const TriangleMesh& to, const DistanceOptions& options)
+      : from_(from), to_(to), options_(options) {
+    std::vector<Box> boxes;
+    double largest = 0;
+    for (const FaceId f : to.triangles.ids()) boxes.push_back(box_of(to.triangle(f)));
+    tree_ = Bvh(boxes);
+    for (const TriangleMesh* mesh : {&from, &to}) {
+      const Box box = bounding_box(*mesh);
+      for (int axis = 0; axis < 3; ++axis)
+        largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
+    }
+    // A closest point is computed from differences, within 16 eps of the largest coordinate for each of its own (a sum
+    // of three with factors in [0, 1]); its distance to p, and cells cut at rounded midpoints, add as much again.
+    rounding_ = 64 * 0x1p-53 * largest;
+  }
+
+  DistanceBounds run() {
+    for (const FaceId f : from_.triangles.ids()) {
+      const Triangle t = from_.triangle(f);
+      push({t.a, t.b, t.c}, {nearest(t.a), nearest(t.b), nearest(t.c)});
+    }
+    while (cells_.top().upper > (1 + options_.relative_gap) * bounds_.lower && seen_ < options_.max_cells) cut();
+    bounds_.upper = std::max(cells_.top().upper, bounds_.lower) + rounding_;
+    return bounds_;
+  }
+
+ private:
+  std::uint32_t nearest(const Vec3& p, double known = std::numeric_limits<double>::infinity(),
+                        std::uint32_t guess = 0) {
+    std::uint32_t best = guess;
+    tree_.least([&](const Box& box) { return verify::distance(p, box); },
+                [&](std::uint32_t f) {
+                  const double d = distance(p, f);
+                  if (d < known) known = d, best = f;
+                  return d;
+                },
+                known);
+    if (known > bounds_.lower) bounds_.lower = known, bounds_.farthest = p;
+    return best;
+  }
+
+  double distance(const Vec3& p, std::uint32_t f) const { return norm(p - closest_point(p, to_.triangle(FaceId(f)))); }
+
+  void push(const std::array<Vec3, 3>& corners, const std::array<std::uint32_t, 3>& near) {
+    constexpr std::size_t kInterval = 4096;
+    if (++seen_ % kInterval == 0 && options_.progress &&
+        !options_.progress(static_cast<double>(seen_) / static_cast<double>(options_.max_cells + from_.face_count())))
+      throw Cancelled();
+    double upper = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t f : near) {
+      double farthest = 0;
+      for (const Vec3& p : corners) farthest = std::max(farthest, distance(p, f));
+      upper = std::min(upper, farthest);
+    }
+    cells_.push({corners, near, upper});
+  }
+
+  // At the middle of the longest edge: cells stay as round as the face was.
+  void cut() {
+    const Cell cell = cells_.top();
+    cells_.pop();
+    int longest = 0;
+    double length = -1;
+    for (int i = 0; i < 3; ++i)
+      if (const double l = squared_norm(cell.corners[(i + 1) % 3] - cell.corners[i]); l > length)
+        length = l, longest = i;
+    const int i = longest, j = (i + 1) % 3, k = (i + 2) % 3;
+    const auto& c = cell.corners;
+    const Vec3 middle = c[i] * 0.5 + c[j] * 0.5;
+    const std::uint32_t near = nearest(middle, distance(middle, cell.nearest[i]), cell.nearest[i]);
+    push({c[i], middle, c[k]}, {cell.nearest[i], near, cell.nearest[k]});
+    push({middle, c[j], c[k]}, {near, cell.nearest[j], cell.nearest[k]});
+  }
+
+  const TriangleMesh &from_, &to_;
+  const DistanceOptions& options_;
+  Bvh tree_;
+  double rounding_;
+  std::priority_queue<Cell> cells_;
+  std::size_t seen_ = 0;
+  DistanceBounds bounds_;
+};
+
+void check(const TriangleMesh& mesh) {
+  if (mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, "there is no distance without faces");
+  for (const FaceId f : mesh.triangles.ids())
+    for (const VertexId v : mesh.triangles[f])
+      if (!is_finite(mesh.positions[v]))
+        throw InputError(Defect::NonFiniteCoordinate, "there is no distance from coordinates that are not finite");
+}
+
+}  // namespace
+
+DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to, const DistanceOptions& options) {
+  check(from);
+  check(to);
+  return Search(from, to, options).run();
+}
+
+std::size_t faces_within(const ProgressiveHull& hull, double distance, const DistanceOptions& options) {
+  const TriangleMesh original = hull.original();
+  // In splits made from the base mesh: fewer than `from` are too few, `near` are enough.
+  std::size_t from = 0, near = hull.splits().size();
+  while (from < near) {
+    const std::size_t middle = from + (near - from) / 2;
+    const TriangleMesh level = hull.level(hull.base_face_count() + 2 * middle);
+    if (distance_bounds(level, original, options).upper <= distance)
+      near = middle;
+    else
+      from = middle + 1;
+  }
+  return hull.base_face_count() + 2 * near;
+}
+
+}  // namespace prohull

@@ -1,0 +1,79 @@
+#include "prohull/tight_hull.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/float32.h"
+#include "meshes.h"
+#include "prohull/enclosure.h"
+#include "prohull/float32_hull.h"
+#include "prohull/mesh_report.h"
+#include "prohull/sample.h"
+
+namespace prohull {
+namespace {
+
+using namespace meshes;
+
+class TightHulls : public testing::TestWithParam<const char*> {};
+
+TEST_P(TightHulls, EncloseWithLessVoidAndDoNotIntersectThemselves) {
+  const TriangleMesh mesh = make_sample(GetParam(), 3000);
+  const double volume = signed_volume(mesh);
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    const HullOptions options{.target_faces = 300, .side = side};
+    const TightHull tight = build_tight_hull(mesh, options);
+    EXPECT_EQ(tight.stopped, Stopped::TargetReached);
+    EXPECT_EQ(tight.mesh.face_count(), 300u);
+    EXPECT_GT(tight.moved_vertices, 0u);
+    EXPECT_TRUE(inspect(tight.mesh).is_closed_manifold());
+    EXPECT_EQ(count_self_intersections(tight.mesh), 0u);
+    const bool outer = side == HullSide::Outer;
+    EXPECT_TRUE((outer ? verify_enclosure(mesh, tight.mesh) : verify_enclosure(tight.mesh, mesh)).encloses);
+    const double loose_void = std::abs(signed_volume(build_hull(mesh, options).hull.base()) - volume);
+    EXPECT_LT(std::abs(signed_volume(tight.mesh) - volume), loose_void);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, TightHulls, testing::Values("asteroid", "knot", "pony"),
+                         [](const auto& sample) { return std::string(sample.param); });
+
+TEST(TightHull, KeepsABoxThatIsAHullOfItself) {
+  const TightHull tight = build_tight_hull(subdivided(subdivided(box({0, 0, 0}, {1, 2, 3}))), {.target_faces = 12});
+  EXPECT_EQ(tight.mesh.face_count(), 12u);
+  EXPECT_DOUBLE_EQ(signed_volume(tight.mesh), 6);
+}
+
+TEST(TightHull, OfSeveralComponentsAndHandlesEncloses) {
+  const TriangleMesh mesh =
+      together(together(sphere(4), moved(sphere(4), {2.1, 0, 0})), moved(torus(40, 20), {0, 4, 0}));
+  const TightHull tight = build_tight_hull(mesh, {.target_faces = 200});
+  EXPECT_TRUE(verify_enclosure(mesh, tight.mesh).encloses);
+  EXPECT_EQ(count_self_intersections(tight.mesh), 0u);
+}
+
+TEST(TightHull, OfFloat32CoordinatesHasThemAndEncloses) {
+  const TriangleMesh mesh = make_sample("asteroid", 2000);
+  const TightHull tight = build_tight_hull(mesh, {.target_faces = 200, .float32_coordinates = true});
+  const Float32Hull rounded = with_float32_coordinates(tight.mesh, HullSide::Outer);
+  for (const Vec3& p : rounded.mesh.positions) EXPECT_TRUE(is_float32(p));
+  EXPECT_TRUE(verify_enclosure(mesh, rounded.mesh).encloses);
+}
+
+TEST(TightHull, IsTheSameEveryTime) {
+  const TriangleMesh mesh = make_sample("knot", 2000);
+  EXPECT_EQ(build_tight_hull(mesh, {.target_faces = 200}).mesh, build_tight_hull(mesh, {.target_faces = 200}).mesh);
+}
+
+TEST(TightHull, CanBeCancelledAndStillEncloses) {
+  const TriangleMesh mesh = make_sample("asteroid", 4000);
+  int calls = 0;
+  HullOptions options{.target_faces = 100};
+  options.progress = [&](const HullProgress&) { return ++calls < 20; };
+  const TightHull tight = build_tight_hull(mesh, options);
+  EXPECT_EQ(tight.stopped, Stopped::Cancelled);
+  EXPECT_GT(tight.mesh.face_count(), 100u);
+  EXPECT_TRUE(verify_enclosure(mesh, tight.mesh).encloses);
+}
+
+}  // namespace
+}  // namespace prohull

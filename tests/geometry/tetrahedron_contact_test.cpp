@@ -1,0 +1,91 @@
+#include "geometry/tetrahedron_contact.h"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "effort.h"
+#include "geometry/predicates.h"
+
+namespace prohull {
+namespace {
+
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+
+Exact::Point_3 exact(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+/// The definition, by construction: the triangle is clipped by the four planes; what is left meets the inside if its
+/// centre, a point of the relative inside, lies strictly inside of all planes.
+bool truly_meets_interior(const Triangle& t, const Tetrahedron& v) {
+  std::vector<Exact::Point_3> polygon{exact(t.a), exact(t.b), exact(t.c)};
+  const Exact::Plane_3 planes[] = {{exact(v.a), exact(v.b), exact(v.c)},
+                                   {exact(v.a), exact(v.c), exact(v.d)},
+                                   {exact(v.a), exact(v.d), exact(v.b)},
+                                   {exact(v.b), exact(v.d), exact(v.c)}};
+  for (const auto& plane : planes) {
+    std::vector<Exact::Point_3> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const auto &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+      const auto sp = plane.oriented_side(p), sq = plane.oriented_side(q);
+      if (sp != CGAL::ON_POSITIVE_SIDE) kept.push_back(p);
+      if (int(sp) * int(sq) < 0) {
+        const Exact::Vector_3 n = plane.orthogonal_vector();
+        const Exact::FT s = (n * (plane.point() - p)) / (n * (q - p));
+        kept.push_back(p + s * (q - p));
+      }
+    }
+    polygon = std::move(kept);
+    if (polygon.empty()) return false;
+  }
+  Exact::Vector_3 sum(0, 0, 0);
+  for (const auto& p : polygon) sum = sum + (p - CGAL::ORIGIN);
+  const Exact::Point_3 center = CGAL::ORIGIN + sum / Exact::FT(static_cast<int>(polygon.size()));
+  for (const auto& plane : planes)
+    if (plane.oriented_side(center) != CGAL::ON_NEGATIVE_SIDE) return false;
+  return true;
+}
+
+TEST(MeetsInterior, AgreesWithTheClippedTriangleOnASmallGrid) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> grid(0, 3);
+  const auto corner = [&] { return Vec3{0.1 * grid(random), 0.1 * grid(random), 0.1 * grid(random)}; };
+  int met = 0, touched = 0;
+  for (int i = 0; i < rounds(20000); ++i) {
+    Tetrahedron v{corner(), corner(), corner(), corner()};
+    const Side s = side(v.a, v.b, v.c, v.d);
+    if (s == Side::On) continue;
+    if (s == Side::Outside) std::swap(v.b, v.c);
+    const Triangle t{corner(), corner(), corner()};  // often without area
+    const bool truth = truly_meets_interior(t, v);
+    (truth ? met : touched) += 1;
+    ASSERT_EQ(meets_interior(t, v), truth);
+    ASSERT_EQ(meets_interior({t.c, t.a, t.b}, {v.b, v.c, v.a, v.d}), truth);
+  }
+  EXPECT_GT(met, rounds(20000) / 10);
+  EXPECT_GT(touched, rounds(20000) / 10);
+}
+
+TEST(MeetsInterior, IsFalseForTheFacesOfTheTetrahedron) {
+  const Tetrahedron v{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0.1, 0.2, 0.7}};
+  ASSERT_EQ(side(v.a, v.b, v.c, v.d), Side::Inside);
+  EXPECT_FALSE(meets_interior({v.a, v.b, v.c}, v));
+  EXPECT_FALSE(meets_interior({v.a, v.b, v.d}, v));
+  EXPECT_TRUE(meets_interior({v.a, v.b, (v.c + v.d) * 0.5}, v)) << "through the middle";
+}
+
+TEST(DeterminantSign, IsZeroForEdgesInOnePlaneAndTurnsWithTheOrder) {
+  const Vec3 a{0.1, 0.2, 0.3}, b{0.7, 0.1, 0.3}, c{0.4, 0.9, 0.3}, d{0.2, 0.2, 0.3}, e{0.1, 0.1, 0.3}, f{0.5, 0.6, 0.3};
+  EXPECT_EQ(determinant_sign(a, b, c, d, e, f), 0);
+  const Vec3 up{0.5, 0.6, 0.30000000000000004};
+  const int sign = determinant_sign(a, b, c, d, e, up);
+  EXPECT_NE(sign, 0);
+  EXPECT_EQ(determinant_sign(c, d, a, b, e, up), -sign);
+  EXPECT_EQ(determinant_sign(b, a, c, d, e, up), -sign);
+}
+
+}  // namespace
+}  // namespace prohull

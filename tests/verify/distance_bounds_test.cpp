@@ -1,0 +1,107 @@
+#include "prohull/distance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "effort.h"
+#include "meshes.h"
+#include "prohull/error.h"
+#include "prohull/hull_builder.h"
+#include "prohull/sample.h"
+#include "verify/distance.h"
+
+namespace prohull {
+namespace {
+
+using namespace meshes;
+
+/// The farthest of points spread over the faces of one mesh from the other, by looking at all its faces.
+double sampled_distance(const TriangleMesh& from, const TriangleMesh& to, int steps) {
+  double farthest = 0;
+  for (const FaceId f : from.triangles.ids()) {
+    const Triangle t = from.triangle(f);
+    for (int i = 0; i <= steps; ++i)
+      for (int j = 0; i + j <= steps; ++j) {
+        const Vec3 p = t.a + (t.b - t.a) * (double(i) / steps) + (t.c - t.a) * (double(j) / steps);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const FaceId g : to.triangles.ids()) nearest = std::min(nearest, verify::distance(p, to.triangle(g)));
+        farthest = std::max(farthest, nearest);
+      }
+  }
+  return farthest;
+}
+
+TEST(DistanceBounds, OfABoxAroundABoxIsThatOfItsCorners) {
+  const DistanceBounds bounds = distance_bounds(box({-2, -2, -2}, {2, 2, 2}), box({-1, -1, -1}, {1, 1, 1}));
+  EXPECT_NEAR(bounds.lower, std::sqrt(3.0), 1e-12);
+  EXPECT_GE(bounds.upper, std::sqrt(3.0));
+  EXPECT_LE(bounds.upper, 1.01 * std::sqrt(3.0) + 1e-12);
+  EXPECT_EQ(std::abs(bounds.farthest.x * bounds.farthest.y * bounds.farthest.z), 8);
+}
+
+TEST(DistanceBounds, IsFoundWhereNoCornerIs) {
+  // A lid over a V-shaped valley.
+  const TriangleMesh valley = make({{-1, -5, 1}, {0, -5, 0}, {1, -5, 1}, {-1, 5, 1}, {0, 5, 0}, {1, 5, 1}},
+                                   {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}});
+  const TriangleMesh lid = make({{-1, -5, 1}, {1, -5, 1}, {1, 5, 1}, {-1, 5, 1}}, {{0, 1, 2}, {0, 2, 3}});
+  const DistanceBounds bounds = distance_bounds(lid, valley, {.relative_gap = 0.001});
+  EXPECT_NEAR(bounds.upper, std::sqrt(0.5), 0.002);
+  EXPECT_NEAR(bounds.farthest.x, 0, 0.01);
+}
+
+TEST(DistanceBounds, HoldTheSampledDistanceOfHulls) {
+  const TriangleMesh mesh = make_sample("knot", 1000);
+  const ProgressiveHull hull = build_hull(mesh, {.target_faces = 100}).hull;
+  for (const std::size_t faces : {100, 200, 500}) {
+    const TriangleMesh level = hull.level(faces);
+    const double sampled = sampled_distance(level, mesh, rounds(8));
+    const DistanceBounds bounds = distance_bounds(level, mesh);
+    EXPECT_GE(bounds.upper, sampled);
+    EXPECT_LE(bounds.upper, 1.010001 * bounds.lower);
+    EXPECT_GE(bounds.lower, 0.9 * sampled);
+    const DistanceBounds hasty = distance_bounds(level, mesh, {.max_cells = 1});
+    EXPECT_GE(hasty.upper, bounds.lower) << "loose, and true";
+  }
+}
+
+TEST(DistanceBounds, OfAMeshFromItselfIsNextToNothing) {
+  const TriangleMesh mesh = octahedron();
+  EXPECT_LT(distance_bounds(mesh, mesh).upper, 1e-12);
+}
+
+TEST(DistanceBounds, OfNeedlesAndPointsAreThoseOfTheirCorners) {
+  const TriangleMesh needle = make({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}});
+  const TriangleMesh point = make({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, {{0, 1, 2}});
+  EXPECT_NEAR(distance_bounds(needle, point).upper, std::sqrt(5.0), 0.03);
+  EXPECT_NEAR(distance_bounds(point, needle).upper, 1, 1e-12);
+}
+
+TEST(DistanceBounds, RefuseWhatHasNoDistance) {
+  EXPECT_THROW(distance_bounds(TriangleMesh{}, octahedron()), InputError);
+  TriangleMesh broken = octahedron();
+  broken.positions[VertexId{1}].x = std::nan("");
+  EXPECT_THROW(distance_bounds(octahedron(), broken), InputError);
+  EXPECT_THROW(distance_bounds(make_sample("knot", 5000), make_sample("sphere", 5000),
+                               {.relative_gap = 0, .progress = [](double) { return false; }}),
+               Cancelled);
+}
+
+TEST(FacesWithin, IsACoarserLevelForAGreaterDistance) {
+  const TriangleMesh mesh = make_sample("asteroid", 3000);
+  const ProgressiveHull hull = build_hull(mesh, {.target_faces = 50}).hull;
+  const double reach = bounding_box(mesh).diagonal();
+  std::size_t finer = mesh.face_count() + 1;
+  for (const double distance : {0.001, 0.01, 0.03}) {
+    const std::size_t faces = faces_within(hull, distance * reach);
+    EXPECT_LT(faces, finer);
+    EXPECT_LE(distance_bounds(hull.level(faces), mesh).upper, distance * reach);
+    finer = faces;
+  }
+  EXPECT_EQ(faces_within(hull, 100 * reach), hull.base_face_count());
+  EXPECT_EQ(faces_within(hull, 0), mesh.face_count());
+}
+
+}  // namespace
+}  // namespace prohull
