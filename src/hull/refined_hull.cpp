@@ -45,16 +45,16 @@ RefinableHull::RefinableHull(ProgressiveHull hull)
 }
 
 void RefinableHull::record_star(const HalfEdgeMesh& mesh, VertexId made) {
-  const VertexSplit& split = split_of(made);
-  HalfEdgeId first = mesh.out(made);
-  while (mesh.tip(first) != split.l) first = mesh.rotated(first);
   Node& node = nodes_[number(made)];
-  node.corners = corners_.size();
+  node.split = hull_.splits()[number(made)];
+  HalfEdgeId first = mesh.out(made);
+  while (mesh.tip(first) != node.split.l) first = mesh.rotated(first);
+  node.star = stars_.size();
   HalfEdgeId h = first;
   do {
-    if (mesh.tip(h) == split.r) node.corners_of_o = node.corner_count;
-    corners_.push_back(index(h));
-    ++node.corner_count;
+    if (mesh.tip(h) == node.split.r) node.corners_of_o = node.star_size;
+    stars_.push_back(index(h));
+    ++node.star_size;
     h = mesh.rotated(h);
   } while (h != first);
 }
@@ -94,7 +94,7 @@ Box RefinableHull::completed_faces(const HalfEdgeMesh& mesh, VertexId made) cons
 std::size_t RefinableHull::memory_bytes() const {
   return sizeof(*this) + hull_.positions().size() * sizeof(Vec3) + hull_.base_corners().size() * sizeof(VertexId) +
          hull_.splits().size() * sizeof(VertexSplit) + nodes_.capacity() * sizeof(Node) +
-         corners_.capacity() * sizeof(std::uint32_t) + needs_.capacity() * sizeof(VertexId) +
+         stars_.capacity() * sizeof(std::uint32_t) + needs_.capacity() * sizeof(VertexId) +
          bounds_.capacity() * sizeof(Box);
 }
 
@@ -125,8 +125,7 @@ void RefinedHull::make_split(VertexId made) {
   const auto& [o, d, l, r, od, do_] = hull_->split_of(made);
   const auto star = hull_->star(made);
   const std::uint32_t of_o = hull_->corners_of_o(made);
-  for (const std::uint32_t corner : star.first(of_o)) corners_[corner] = o;
-  for (const std::uint32_t corner : star.subspan(of_o)) corners_[corner] = d;
+  for (std::size_t i = 0; i < star.size(); ++i) corners_[star[i]] = i < of_o ? o : d;
   const FaceCorners odl(od), dor(do_);
   corners_[odl.here] = o, corners_[odl.next] = d, corners_[odl.previous] = l;
   corners_[dor.here] = d, corners_[dor.next] = o, corners_[dor.previous] = r;
