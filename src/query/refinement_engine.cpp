@@ -210,7 +210,10 @@ class RefinementWorker final : public QueryWorker {
 
   template <class Probe>
   void split_corners(FaceId face, const Probe& probe) {
-    for (const VertexId v : hull_.corners(face)) {
+    const auto corners = hull_.corners(face);
+    for (const VertexId v : corners)
+      if (shared_.hull->is_made(v)) __builtin_prefetch(&shared_.hull->split_of(v));
+    for (const VertexId v : corners) {
       if (!shared_.hull->is_made(v)) continue;
       if (shared_.refine == Refine::WhereBoundsMeet && !probe.may_meet(shared_.hull->bounds(v))) continue;
       const std::size_t count = hull_.split(v);
