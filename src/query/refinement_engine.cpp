@@ -174,6 +174,10 @@ class RefinementWorker final : public QueryWorker {
   void collect(const DirectedLine& line, HitCollector& hits) override { answer(LineProbe(line, shared_.frame), hits); }
   void collect(const Triangle& triangle, FaceCollector& faces) override { answer(TriangleProbe(triangle), faces); }
 
+  void forget() override {
+    hull_.roll_back();
+    queries_ = 0;
+  }
   QueryCounts counts() const override { return counts_; }
   std::size_t memory_bytes() const override {
     return sizeof(*this) + hull_.memory_bytes() + candidates_.memory_bytes();
@@ -185,10 +189,8 @@ class RefinementWorker final : public QueryWorker {
     if (shared_.options.between == BetweenQueries::Coarsen)
       counts_.coarsenings += hull_.coarsen([&](VertexId made) { return !is_wanted(probe, made); });
     if (probe.may_meet(shared_.box)) refine(probe, found);
-    if (shared_.options.between == BetweenQueries::RollBack && ++queries_ >= shared_.options.queries_per_roll_back) {
-      hull_.roll_back();
-      queries_ = 0;
-    }
+    if (shared_.options.between == BetweenQueries::RollBack && ++queries_ >= shared_.options.queries_per_roll_back)
+      forget();
   }
 
   // P&T 3.2.1.
