@@ -16,12 +16,12 @@ namespace {
 Vec3 scaled(const Vec3& p, double by) { return p * by; }
 
 /// A frame with triangles in it, and segments near them, of all kinds: on small grids, where they touch; far outside;
-/// tiny; along axes.
+/// tiny; through the middles of their edges, as nearly as doubles can.
 struct Scene {
   Scene(std::mt19937& random, double scale) {
     const bool grid = random() % 2;
     const auto coordinate = [&] {
-      return grid ? 0.25 * std::uniform_int_distribution<int>(-4, 4)(random)
+      return grid ? 0.1 * std::uniform_int_distribution<int>(-9, 9)(random)
                   : std::uniform_real_distribution<double>(-1, 1)(random);
     };
     const auto point = [&] { return Vec3{coordinate(), coordinate(), coordinate()}; };
@@ -38,6 +38,10 @@ struct Scene {
       const double far = std::array{1.0, 1.0, 3.0, 1e-3, 1e5}[random() % 5];
       segments.push_back({place(p), place(p + (q - p) * far)});
       segments.push_back({place(p - (q - p) * far), place(p + (q - p) * far)});
+      const Triangle& t = triangles[random() % 20];
+      const Vec3 start = place(p), middle = t.a * 0.5 + t.b * 0.5;
+      segments.push_back({start, middle});
+      segments.push_back({start, middle + (middle - start)});
     }
   }
   Box frame;
