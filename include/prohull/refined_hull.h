@@ -30,13 +30,13 @@ class RefinableHull {
 
   /// Whether v was made by a collapse, so that it can be split.
   bool is_made(VertexId v) const { return index(v) >= original_vertices_; }
-  const VertexSplit& split_of(VertexId made) const { return hull_.splits()[number(made)]; }
+  const VertexSplit& split_of(VertexId made) const { return nodes_[number(made)].split; }
 
   /// The corners (3 face + corner) at which `made` stands when it is split, counter-clockwise seen from outside: first
   /// those that become o's, from the one before l on, then those that become d's, from the one before r on.
   std::span<const std::uint32_t> star(VertexId made) const {
     const Node& node = nodes_[number(made)];
-    return {corners_.data() + node.corners, node.corner_count};
+    return {stars_.data() + node.star, node.star_size};
   }
   std::uint32_t corners_of_o(VertexId made) const { return nodes_[number(made)].corners_of_o; }  ///< how many
 
@@ -56,9 +56,10 @@ class RefinableHull {
 
  private:
   friend class RefinedHull;
-  struct Node {
-    std::size_t corners, needs;  // where they begin
-    std::uint32_t corners_of_o, corner_count, need_count;
+  struct alignas(64) Node {  // one cache line: memory is what a split waits for
+    VertexSplit split;
+    std::uint32_t star_size, corners_of_o, need_count;
+    std::size_t star, needs;  // where they begin
   };
 
   std::uint32_t number(VertexId made) const {
@@ -72,7 +73,7 @@ class RefinableHull {
   ProgressiveHull hull_;
   std::uint32_t original_vertices_;
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> corners_;
+  std::vector<std::uint32_t> stars_;
   std::vector<VertexId> needs_;
   std::vector<Box> bounds_;
 };

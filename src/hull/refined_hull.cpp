@@ -15,6 +15,9 @@ PerVertex<VertexId> parents_of(const ProgressiveHull& hull) {
   return parents;
 }
 
+/// Memory that is not in a cache is most of what a split waits for.
+void prefetch(const void* p) { __builtin_prefetch(p); }
+
 struct FaceCorners {
   explicit FaceCorners(std::uint32_t corner) {
     const std::uint32_t c = corner % 3, first = corner - c;
@@ -45,16 +48,16 @@ RefinableHull::RefinableHull(ProgressiveHull hull)
 }
 
 void RefinableHull::record_star(const HalfEdgeMesh& mesh, VertexId made) {
-  const VertexSplit& split = split_of(made);
-  HalfEdgeId first = mesh.out(made);
-  while (mesh.tip(first) != split.l) first = mesh.rotated(first);
   Node& node = nodes_[number(made)];
-  node.corners = corners_.size();
+  node.split = hull_.splits()[number(made)];
+  HalfEdgeId first = mesh.out(made);
+  while (mesh.tip(first) != node.split.l) first = mesh.rotated(first);
+  node.star = stars_.size();
   HalfEdgeId h = first;
   do {
-    if (mesh.tip(h) == split.r) node.corners_of_o = node.corner_count;
-    corners_.push_back(index(h));
-    ++node.corner_count;
+    if (mesh.tip(h) == node.split.r) node.corners_of_o = node.star_size;
+    stars_.push_back(index(h));
+    ++node.star_size;
     h = mesh.rotated(h);
   } while (h != first);
 }
@@ -94,7 +97,7 @@ Box RefinableHull::completed_faces(const HalfEdgeMesh& mesh, VertexId made) cons
 std::size_t RefinableHull::memory_bytes() const {
   return sizeof(*this) + hull_.positions().size() * sizeof(Vec3) + hull_.base_corners().size() * sizeof(VertexId) +
          hull_.splits().size() * sizeof(VertexSplit) + nodes_.capacity() * sizeof(Node) +
-         corners_.capacity() * sizeof(std::uint32_t) + needs_.capacity() * sizeof(VertexId) +
+         stars_.capacity() * sizeof(std::uint32_t) + needs_.capacity() * sizeof(VertexId) +
          bounds_.capacity() * sizeof(Box);
 }
 
@@ -110,6 +113,7 @@ std::size_t RefinedHull::split(VertexId made) {
   while (!pending_.empty()) {
     auto& [vertex, seen] = pending_.back();
     const auto needs = hull_->needs(vertex);
+    prefetch(hull_->star(vertex).data());
     while (seen < needs.size() && is_split(needs[seen])) ++seen;
     if (seen < needs.size()) {
       pending_.push_back({needs[seen], 0});
@@ -125,14 +129,17 @@ void RefinedHull::make_split(VertexId made) {
   const auto& [o, d, l, r, od, do_] = hull_->split_of(made);
   const auto star = hull_->star(made);
   const std::uint32_t of_o = hull_->corners_of_o(made);
-  for (const std::uint32_t corner : star.first(of_o)) corners_[corner] = o;
-  for (const std::uint32_t corner : star.subspan(of_o)) corners_[corner] = d;
+  for (std::size_t i = 0; i < star.size(); ++i) corners_[star[i]] = i < of_o ? o : d;
   const FaceCorners odl(od), dor(do_);
   corners_[odl.here] = o, corners_[odl.next] = d, corners_[odl.previous] = l;
   corners_[dor.here] = d, corners_[dor.next] = o, corners_[dor.previous] = r;
   for (const VertexId needed : hull_->needs(made)) ++dependents(needed);
   dependents(made) = 0;
   splits_.push_back(made);
+  for (const VertexId v : {o, d}) {
+    prefetch(&hull_->positions()[v]);
+    if (hull_->is_made(v)) prefetch(&hull_->split_of(v));
+  }
 }
 
 void RefinedHull::restore_star(VertexId made) {

@@ -69,6 +69,8 @@ class QueryWorker {
   virtual ~QueryWorker() = default;
   virtual void collect(const DirectedLine& line, HitCollector& hits) = 0;
   virtual void collect(const Triangle& triangle, FaceCollector& faces) = 0;
+  /// Whatever was kept of earlier queries, counts excepted.
+  virtual void forget() {}
   virtual QueryCounts counts() const { return {}; }
   virtual std::size_t memory_bytes() const { return sizeof(*this); }
 };

@@ -11,6 +11,7 @@
 
 #include "prohull/error.h"
 #include "query/engine.h"
+#include "query/refinement_engine.h"
 
 namespace prohull {
 namespace {
@@ -77,8 +78,19 @@ QueryIndex::QueryIndex(TriangleMesh mesh, Engine engine) {
   shared_ = std::move(shared);
 }
 
-QueryIndex::QueryIndex(const ProgressiveHull& hull, Engine engine, const RefinementOptions&)
-    : QueryIndex(hull.original(), engine) {}
+QueryIndex::QueryIndex(const ProgressiveHull& hull, Engine engine, const RefinementOptions& options) {
+  if (engine != Engine::Refinement && engine != Engine::PaperRefinement) {
+    *this = QueryIndex(hull.original(), engine);
+    return;
+  }
+  if (options.queries_per_roll_back < 1) throw InputError(Defect::InvalidOption, "queries per roll back: at least 1");
+  auto shared = std::make_shared<Shared>();
+  shared->mesh = hull.original();
+  shared->kind = engine;
+  shared->engine = make_refinement_engine(
+      hull, engine == Engine::Refinement ? Refine::WhereBoundsMeet : Refine::WhereFacesMeet, options);
+  shared_ = std::move(shared);
+}
 
 Engine QueryIndex::engine() const { return shared_->kind; }
 
@@ -140,6 +152,11 @@ bool MeshQuery::meets(const Triangle& triangle) { return state_->collected(trian
 QueryCounts MeshQuery::counts() const { return state_->worker->counts(); }
 std::size_t MeshQuery::memory_bytes() const { return sizeof(State) + state_->worker->memory_bytes(); }
 
+/// Each piece of a batch starts afresh, so that answers and counts are the same whatever thread had which before.
+struct QueryBatch {
+  static void start(MeshQuery& query) { query.state_->worker->forget(); }
+};
+
 namespace {
 
 bool is_finite(const Segment& s) { return prohull::is_finite(s.a) && prohull::is_finite(s.b); }
@@ -193,6 +210,7 @@ Batch<Answer> ask_all(const QueryIndex& index, std::span<const Primitive> primit
     oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
       if (progress.cancelled()) return;
       MeshQuery& query = queries.local();
+      QueryBatch::start(query);
       const auto chunk = primitives.subspan(c * kChunk, std::min(kChunk, primitives.size() - c * kChunk));
       for (const Primitive& primitive : chunk) {
         const auto answers = ask(query, primitive);

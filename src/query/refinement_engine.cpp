@@ -1,0 +1,275 @@
+#include "query/refinement_engine.h"
+
+#include <array>
+#include <cstring>
+#include <optional>
+
+#include "geometry/bvh.h"
+#include "geometry/triangle_contact.h"
+#include "prohull/refined_hull.h"
+#include "query/balls.h"
+#include "query/box_line.h"
+#include "query/line_sieve.h"
+
+namespace prohull {
+namespace {
+
+// What a query is to faces and boxes: may_meet is false only if they certainly have no point in common.
+
+class LineProbe {
+ public:
+  LineProbe(const DirectedLine& line, const Box& frame) : line_(line), box_line_(line), sieve_(line, frame) {}
+  bool may_meet(const Triangle& face) const { return !sieve_.passes(face) && prohull::may_meet(line_, face); }
+  bool may_meet(const Box& box) const { return prohull::may_meet(box_line_, box, line_.t_end); }
+  void mark(const Balls& balls, std::span<std::uint8_t> marks) const { balls.mark(line_, marks); }
+
+ private:
+  const DirectedLine& line_;
+  BoxLine box_line_;
+  LineSieve sieve_;
+};
+
+class TriangleProbe {
+ public:
+  explicit TriangleProbe(const Triangle& triangle) : triangle_(triangle), box_(box_of(triangle)) {}
+  bool may_meet(const Triangle& face) const { return box_.overlaps(box_of(face)) && !certainly_apart(triangle_, face); }
+  bool may_meet(const Box& box) const { return box_.overlaps(box); }
+  void mark(const Balls& balls, std::span<std::uint8_t> marks) const { balls.mark(box_, marks); }
+
+ private:
+  const Triangle& triangle_;
+  Box box_;
+};
+
+std::vector<FaceId> base_faces_of(const ProgressiveHull& hull) {
+  std::vector<FaceId> faces;
+  for (std::uint32_t f = 0; f < hull.original_face_count(); ++f)
+    if (hull.base_corners()[3 * std::size_t{f}] != ProgressiveHull::kAbsent) faces.push_back(FaceId(f));
+  return faces;
+}
+
+/// All that a query must meet to have anything to do with a face of the base mesh: the face itself, or the original
+/// faces below its corners.
+std::vector<Vec3> reach_of(const RefinedHull& base, FaceId face, Refine refine) {
+  const Triangle t = base.triangle(face);
+  if (refine == Refine::WhereFacesMeet || base.is_original(face)) return {t.a, t.b, t.c};
+  Box box;
+  for (const VertexId v : base.corners(face))
+    if (base.refinable().is_made(v)) box.extend(base.refinable().bounds(v));
+  std::vector<Vec3> corners;
+  for (const double x : {box.min.x, box.max.x})
+    for (const double y : {box.min.y, box.max.y})
+      for (const double z : {box.min.z, box.max.z}) corners.push_back({x, y, z});
+  return corners;
+}
+
+/// What all threads share.
+struct Shared {
+  Shared(const ProgressiveHull& progressive, Refine what, const RefinementOptions& between_queries)
+      : hull(std::make_shared<const RefinableHull>(progressive)),
+        refine(what),
+        options(between_queries),
+        base_faces(base_faces_of(progressive)) {
+    const RefinedHull base(hull);
+    std::vector<std::vector<Vec3>> reaches;
+    for (const FaceId f : base_faces)
+      for (const Vec3& p : reaches.emplace_back(reach_of(base, f, refine))) box.extend(p);
+    balls = Balls(box);
+    for (const Vec3& p : hull->positions()) frame.extend(p);
+    for (const auto& reach : reaches) balls.add(reach);
+  }
+
+  std::size_t memory_bytes() const {
+    return sizeof(*this) + hull->memory_bytes() + base_faces.capacity() * sizeof(FaceId) + balls.memory_bytes();
+  }
+
+  std::shared_ptr<const RefinableHull> hull;
+  Refine refine;
+  RefinementOptions options;
+  std::vector<FaceId> base_faces;
+  Box box;             ///< a query that misses it meets nothing
+  Box frame;           ///< of all positions
+  Balls balls{Box{}};  ///< of each base face: a query that misses it need not look at the face
+};
+
+/// The list of candidate faces, first in first out, without duplicates (P&T 3.2.1). Faces of the base mesh come first,
+/// in their order; those of which it is known that the query misses them are passed over, but counted.
+class Candidates {
+ public:
+  explicit Candidates(const Shared& shared)
+      : shared_(shared),
+        base_size_(static_cast<std::uint32_t>(shared.base_faces.size())),
+        state_(shared.hull->hull().original_face_count(), 0),
+        marks_(base_size_ + 1) {
+    for (std::uint32_t i = 0; i < base_size_; ++i) state_[shared.base_faces[i]] = i + 1;
+  }
+
+  /// All faces of the base mesh; requires an empty list.
+  template <class Probe>
+  void start(const Probe& probe) {
+    probe.mark(shared_.balls, std::span(marks_).first(base_size_));
+    turn_ = 0;
+  }
+
+  /// At most `count` more faces will be added before the next is taken.
+  void reserve(std::size_t count) {
+    if (queue_.size() < added_ + count) queue_.resize(2 * (added_ + count));
+  }
+
+  // Without branches: which faces are new to the list cannot be foretold.
+  void add(FaceId face) {
+    std::uint32_t& state = state_[face];
+    const std::uint32_t place = state & kPlace;  // from 1
+    const bool has_turn = place > turn_;
+    marks_[has_turn ? place - 1 : base_size_] = 1;
+    queue_[added_] = face;
+    added_ += !has_turn && !(state & kWaiting);
+    state |= has_turn ? 0 : kWaiting;
+  }
+
+  /// Adds to `passed` the number of candidates taken from the list, the one returned included.
+  std::optional<FaceId> take(std::size_t& passed) {
+    if (turn_ < base_size_) {
+      const auto* mark = static_cast<const std::uint8_t*>(std::memchr(marks_.data() + turn_, 1, base_size_ - turn_));
+      const auto next = mark ? static_cast<std::uint32_t>(mark - marks_.data()) : base_size_;
+      passed += next - turn_;
+      turn_ = next;
+      if (mark) {
+        ++passed;
+        return shared_.base_faces[turn_++];
+      }
+    }
+    if (taken_ == added_) return std::nullopt;
+    ++passed;
+    const FaceId face = queue_[taken_++];
+    state_[face] &= ~kWaiting;
+    return face;
+  }
+
+  void clear() {
+    while (taken_ < added_) state_[queue_[taken_++]] &= ~kWaiting;
+    taken_ = added_ = 0;
+  }
+
+  std::size_t memory_bytes() const {
+    return state_.size() * sizeof(std::uint32_t) + marks_.capacity() + queue_.capacity() * sizeof(FaceId);
+  }
+
+ private:
+  static constexpr std::uint32_t kWaiting = 0x80000000, kPlace = 0x7fffffff;
+
+  const Shared& shared_;
+  std::uint32_t base_size_;
+  PerFace<std::uint32_t> state_;     // place among the faces of the base mesh, from 1, or 0; whether it is in queue_
+  std::vector<std::uint8_t> marks_;  // of base faces: to be looked at; the last is nobody's
+  std::uint32_t turn_ = 0;           // of base faces: the next
+  std::vector<FaceId> queue_;        // from taken_ to added_
+  std::size_t taken_ = 0, added_ = 0;
+};
+
+class RefinementWorker final : public QueryWorker {
+ public:
+  explicit RefinementWorker(const Shared& shared) : shared_(shared), hull_(shared.hull), candidates_(shared) {}
+
+  void collect(const DirectedLine& line, HitCollector& hits) override { answer(LineProbe(line, shared_.frame), hits); }
+  void collect(const Triangle& triangle, FaceCollector& faces) override { answer(TriangleProbe(triangle), faces); }
+
+  void forget() override {
+    hull_.roll_back();
+    queries_ = 0;
+  }
+  QueryCounts counts() const override { return counts_; }
+  std::size_t memory_bytes() const override {
+    return sizeof(*this) + hull_.memory_bytes() + candidates_.memory_bytes();
+  }
+
+ private:
+  template <class Probe, class Collector>
+  void answer(const Probe& probe, Collector& found) {
+    if (shared_.options.between == BetweenQueries::Coarsen)
+      counts_.coarsenings += hull_.coarsen([&](VertexId made) { return !is_wanted(probe, made); });
+    if (probe.may_meet(shared_.box)) refine(probe, found);
+    if (shared_.options.between == BetweenQueries::RollBack && ++queries_ >= shared_.options.queries_per_roll_back)
+      forget();
+  }
+
+  // P&T 3.2.1.
+  template <class Probe, class Collector>
+  void refine(const Probe& probe, Collector& found) {
+    candidates_.start(probe);
+    for (const VertexId made : hull_.splits()) add_faces_of(made);
+    while (!found.is_complete()) {
+      const auto face = candidates_.take(counts_.tests);
+      if (!face) break;
+      if (hull_.is_original(*face)) {
+        if (probe.may_meet(hull_.triangle(*face))) found.offer(*face);
+      } else if (shared_.refine == Refine::WhereBoundsMeet || probe.may_meet(hull_.triangle(*face))) {
+        split_corners(*face, probe);
+      }
+    }
+    candidates_.clear();
+  }
+
+  template <class Probe>
+  void split_corners(FaceId face, const Probe& probe) {
+    const auto corners = hull_.corners(face);
+    for (const VertexId v : corners)
+      if (shared_.hull->is_made(v)) __builtin_prefetch(&shared_.hull->split_of(v));
+    for (const VertexId v : corners) {
+      if (!shared_.hull->is_made(v)) continue;
+      if (shared_.refine == Refine::WhereBoundsMeet && !probe.may_meet(shared_.hull->bounds(v))) continue;
+      const std::size_t count = hull_.split(v);
+      counts_.splits += count;
+      for (const VertexId made : hull_.splits().last(count)) add_faces_of(made);
+    }
+  }
+
+  /// The faces that the split of a vertex changed or brought forth: the stars of o and d.
+  void add_faces_of(VertexId made) {
+    const auto star = shared_.hull->star(made);
+    candidates_.reserve(star.size() + 2);
+    for (const std::uint32_t corner : star) candidates_.add(FaceId(corner / 3));
+    const VertexSplit& split = shared_.hull->split_of(made);
+    candidates_.add(FaceId(split.od / 3));
+    candidates_.add(FaceId(split.do_ / 3));
+  }
+
+  // P&T 3.2.2: whether the query meets what the hull would be without the split, so that it would be made again.
+  template <class Probe>
+  bool is_wanted(const Probe& probe, VertexId made) const {
+    if (shared_.refine == Refine::WhereBoundsMeet) return probe.may_meet(shared_.hull->bounds(made));
+    for (const std::uint32_t corner : shared_.hull->star(made)) {
+      const FaceId face{corner / 3};
+      Triangle t = hull_.triangle(face);
+      (corner % 3 == 0 ? t.a : corner % 3 == 1 ? t.b : t.c) = shared_.hull->positions()[made];
+      if (probe.may_meet(t)) return true;
+    }
+    return false;
+  }
+
+  const Shared& shared_;
+  RefinedHull hull_;
+  Candidates candidates_;
+  QueryCounts counts_;
+  unsigned queries_ = 0;  // since the last roll back
+};
+
+class RefinementEngine final : public QueryEngine {
+ public:
+  RefinementEngine(const ProgressiveHull& hull, Refine refine, const RefinementOptions& options)
+      : shared_(hull, refine, options) {}
+  std::unique_ptr<QueryWorker> worker() const override { return std::make_unique<RefinementWorker>(shared_); }
+  std::size_t memory_bytes() const override { return shared_.memory_bytes(); }
+
+ private:
+  Shared shared_;
+};
+
+}  // namespace
+
+std::unique_ptr<QueryEngine> make_refinement_engine(const ProgressiveHull& hull, Refine refine,
+                                                    const RefinementOptions& options) {
+  return std::make_unique<RefinementEngine>(hull, refine, options);
+}
+
+}  // namespace prohull
