@@ -6,7 +6,7 @@
 namespace prohull::bench {
 
 constexpr int kDone = 0;
-constexpr int kAnswerIsNo = 1;  // a hull is not certified
+constexpr int kAnswerIsNo = 1;  // a hull is not certified, or an answer is wrong
 constexpr int kWrongUsage = 2;
 constexpr int kBadInput = 3;
 
@@ -14,6 +14,7 @@ constexpr int kBadInput = 3;
 using Run = std::function<int()>;
 void add_construction(CLI::App& app, Run& run);
 void add_memory(CLI::App& app, Run& run);
+void add_queries(CLI::App& app, Run& run);
 void add_queues(CLI::App& app, Run& run);
 
 }  // namespace prohull::bench

@@ -31,8 +31,6 @@ struct Options {
   std::filesystem::path out;
 };
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 struct StrategyFacts {
   double seconds = std::numeric_limits<double>::infinity();  ///< to the first of hull_faces, best of the rounds
   std::size_t collapses = 0, linear_programs = 0;            ///< in that time
@@ -107,15 +105,6 @@ ModelFacts measure(const ModelSource& source, const Options& options) {
   }
   fmt::print(stderr, "\n");
   return facts;
-}
-
-std::string number(double value, int digits, std::string_view unit = "") {
-  return std::isfinite(value) ? fmt::format("{:.{}f}{}", value, digits, unit) : "";
-}
-
-std::string difference(double ours, double papers) {
-  const double percent = 100 * (ours / papers - 1);
-  return std::isfinite(percent) ? fmt::format("{:+.1f} %", std::round(10 * percent) / 10 + 0.0) : "";
 }
 
 // A hull that ends before the size asked for says so beside its time.

@@ -10,10 +10,11 @@ int main(int argc, char** argv) {
   CLI::App app("prohull-bench " PROHULL_VERSION ": measures prohull and its peers, and reproduces the paper's tables.",
                "prohull-bench");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done; 1 a hull was not certified; 2 wrong usage; 3 bad input.");
+  app.footer("Exit codes: 0 done; 1 a hull was not certified or an answer was wrong; 2 wrong usage; 3 bad input.");
   Run run;
   add_construction(app, run);
   add_queues(app, run);
+  add_queries(app, run);
   add_memory(app, run);
   try {
     app.parse(argc, argv);

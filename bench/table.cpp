@@ -4,8 +4,18 @@
 #include <fmt/ranges.h>
 
 #include <cassert>
+#include <cmath>
 
 namespace prohull::bench {
+
+std::string number(double value, int digits, std::string_view unit) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}{}", value, digits, unit) : "";
+}
+
+std::string difference(double ours, double papers) {
+  const double percent = 100 * (ours / papers - 1);
+  return std::isfinite(percent) ? fmt::format("{:+.1f} %", std::round(10 * percent) / 10 + 0.0) : "";
+}
 
 void Table::add(std::vector<std::string> cells) {
   assert(cells.size() == columns_.size());

@@ -1,9 +1,18 @@
 #pragma once
 
+#include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace prohull::bench {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// Cells; empty for what is not finite.
+std::string number(double value, int digits, std::string_view unit = "");
+/// Of ours from the paper's: "+1.5 %".
+std::string difference(double ours, double papers);
 
 /// Rows of text under named columns, for readers and for programs.
 class Table {

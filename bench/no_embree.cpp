@@ -1,0 +1,7 @@
+#include "query_peers.h"
+
+namespace prohull::bench {
+
+std::unique_ptr<QueryPeer> make_embree(const TriangleMesh&, bool) { return nullptr; }
+
+}  // namespace prohull::bench

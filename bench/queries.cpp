@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "command.h"
+#include "machine.h"
+#include "prohull/error.h"
+#include "prohull/file.h"
+#include "prohull/random_segments.h"
+#include "query_section.h"
+#include "strategies.h"
+
+namespace prohull::bench {
+
+const ProgressiveHull& QueryModel::hull(Strategy strategy) const {
+  const auto named = std::ranges::find(kStrategies, strategy, &NamedStrategy::strategy);
+  return hulls[static_cast<std::size_t>(named - kStrategies.begin())];
+}
+
+std::vector<double> best_seconds(std::size_t rounds, std::span<const std::function<void()>> contestants) {
+  std::vector<double> best(contestants.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t round = 0; round < rounds; ++round)
+    for (std::size_t i = 0; i < contestants.size(); ++i) best[i] = std::min(best[i], seconds_of(contestants[i]));
+  return best;
+}
+
+std::size_t ask_all(MeshQuery& query, std::span<const Segment> segments) {
+  std::size_t hits = 0;
+  for (const Segment& s : segments) hits += query.all_hits(s).size();
+  return hits;
+}
+
+namespace {
+
+QueryModel load_model(const ModelSource& source, const QueryOptions& options) {
+  QueryModel model{.name = source.name, .mesh = load(source), .hulls = {}, .segments = {}, .paper = nullptr};
+  for (const auto& [strategy, name] : kStrategies)
+    model.hulls.push_back(build_hull(model.mesh, hull_options(strategy, QueryModel::kSmallestBase)).hull);
+  model.segments = random_segments(bounding_box(model.mesh), options.segments, options.seed);
+  model.paper = paper_model(model.name, model.mesh.face_count());
+  return model;
+}
+
+int run_queries(QueryOptions options) {
+  if (options.segments == 0) options.segments = options.models.folder.empty() ? 1000 : 10000;
+  std::vector<std::unique_ptr<QuerySection>> sections;
+  sections.push_back(make_bases_section());
+  sections.push_back(make_kdops_section());
+  sections.push_back(make_updates_section());
+  sections.push_back(make_memory_section());
+  sections.push_back(make_correctness_section());
+  for (const ModelSource& source : model_sources(options.models)) try {
+      fmt::print(stderr, "{}", source.name);
+      const QueryModel model = load_model(source, options);
+      fmt::print(stderr, ": {} faces", model.mesh.face_count());
+      for (const auto& section : sections) section->measure(model, options);
+      fmt::print(stderr, "\n");
+    } catch (const InputError& error) {
+      if (options.models.folder.empty()) throw;
+      fmt::print(stderr, ": refused, {}\n", error.what());
+    }
+  std::string text = fmt::format(
+      "# Queries\n\n{}; {} random segments per model (P&T 4.2), seed {}; processor time of one thread, best of {}\n",
+      machine(), options.segments, options.seed, options.rounds);
+  for (const auto& section : sections) text += '\n' + section->text();
+  fmt::print("{}", text);
+  if (!options.out.empty()) {
+    std::filesystem::create_directories(options.out);
+    write_file(options.out / "queries.md", text);
+    for (const auto& section : sections) section->write(options.out);
+  }
+  const bool all_hold = std::ranges::all_of(sections, [](const auto& section) { return section->holds(); });
+  return all_hold ? kDone : kAnswerIsNo;
+}
+
+}  // namespace
+
+void add_queries(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<QueryOptions>();
+  CLI::App& command = *app.add_subcommand("queries", "The paper's Tables 3 and 4, Figure 8 and section 3.2.2");
+  add_model_options(command, options->models);
+  command.add_option("--segments", options->segments, "That are timed [10000; for samples 1000]")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--check", options->checked, "How many segments are compared with exact brute force")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--repeat", options->rounds, "Rounds, of which the best time counts")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--seed", options->seed, "Of the random segments")->capture_default_str();
+  command.add_option("--out", options->out, "Also write queries.md, one CSV per table and Figure 8 here")
+      ->type_name("DIR");
+  command.callback([options, &run] { run = [options] { return run_queries(*options); }; });
+}
+
+}  // namespace prohull::bench
