@@ -52,7 +52,7 @@ Parameter parameter(const DirectedLine& line, const Triangle& face) {
                   : std::numeric_limits<double>::infinity();
   // Beyond this the rounded t is not worth showing: all but parallel to the plane, or huge coordinates.
   constexpr double kGoodEnough = 0x1p-30;
-  if (!(error <= kGoodEnough * std::max(1.0, std::abs(t)))) {
+  if (!(error < kGoodEnough * std::max(1.0, std::abs(t)))) {
     const double exact = exact_parameter(line, face);
     return {std::clamp(exact, 0.0, line.t_end), 2 * kEpsilon * std::abs(exact)};
   }

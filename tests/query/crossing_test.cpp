@@ -110,6 +110,17 @@ TEST(Crossing, HasAnAnswerForTheGreatestAndTheLeastCoordinates) {
   }
 }
 
+TEST(Crossing, IsAtAFiniteTWhereTheLineAllButRunsInTheFace) {
+  // From a corner along an edge, so nearly that the rounded speed towards the plane is 0, and the exact one is not.
+  const Vec3 start{-0.59999999999999998, 7.347880794884119e-17, 4.8985871965894131e-17};
+  const Triangle face{{-0.56568542494923801, 0.56568542494923812, 0.34641016151377552},
+                      start,
+                      {-0.42426406871192845, 0.42426406871192851, 4.8985871965894131e-17}};
+  const DirectedLine line(Ray{start, {0.17573593128807152, 0.42426406871192845, 0}});
+  ASSERT_NE(crossing(line, face), Crossing::None);
+  EXPECT_EQ(parameter(line, face).t, 0);
+}
+
 TEST(MayMeet, IsNeverFalseWhereALineTouches) {
   // Segments that end at or pass through a point of the face, its edge or its corner, that rounding has moved a little.
   const unsigned seed = std::random_device{}();

@@ -67,7 +67,7 @@ TEST_P(Engines, AnswerAsBruteForceDoes) {
   for (const TriangleMesh& mesh :
        {octahedron(), two_spheres_and_a_box(), soup(torus(8, 6)), make_sample("asteroid", 1000)}) {
     MeshQuery truth{QueryIndex(mesh, Engine::Brute)}, query{QueryIndex(mesh, GetParam())};
-    const auto segments = awkward_segments(mesh, rounds(500), seed);
+    const auto segments = awkward_segments(mesh, rounds(250), seed);
     for (const Segment& s : segments) {
       ASSERT_EQ(query.all_hits(s), truth.all_hits(s));
       ASSERT_EQ(query.first_hit(s), truth.first_hit(s));
