@@ -182,9 +182,8 @@ class BasesSection final : public QuerySection {
   std::string text() const override {
     return fmt::format(
         "## Table 3: hulls as published, by size of the base mesh\n\n"
-        "Time for 10,000 segments, all crossings; faces tested and vertices split per segment, those that miss the "
-        "box\n"
-        "counted too. The time against the paper's hulls of another time is told by the ratio to brute force.\n\n{}",
+        "Time for 10,000 segments, all crossings; faces tested and vertices split per segment, those that miss the\n"
+        "bounding box counted too.\n\n{}",
         table3(models_));
   }
 

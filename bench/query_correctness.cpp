@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "exhaustive_scan.h"
 #include "prohull/file.h"
@@ -19,21 +20,22 @@ constexpr std::size_t kBase = 1000;
 struct CheckedEngine {
   std::string_view name;
   Engine engine;
-  std::size_t one_in;  ///< of the segments are asked; slow engines get fewer
+  std::size_t most;  ///< segments that are asked; slow engines get fewer
 };
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 constexpr std::array kEngines{
     CheckedEngine{"brute", Engine::Brute, 1000},
-    CheckedEngine{"bvh", Engine::Bvh, 1},
-    CheckedEngine{"kdop6", Engine::KDop6, 1},
-    CheckedEngine{"kdop14", Engine::KDop14, 1},
-    CheckedEngine{"kdop18", Engine::KDop18, 1},
-    CheckedEngine{"kdop26", Engine::KDop26, 1},
-    CheckedEngine{"kdop6-overlap", Engine::KDop6Overlap, 50},
-    CheckedEngine{"kdop14-overlap", Engine::KDop14Overlap, 50},
-    CheckedEngine{"kdop18-overlap", Engine::KDop18Overlap, 50},
-    CheckedEngine{"kdop26-overlap", Engine::KDop26Overlap, 50},
-    CheckedEngine{"refinement", Engine::Refinement, 1},
-    CheckedEngine{"paper-refinement", Engine::PaperRefinement, 1},
+    CheckedEngine{"bvh", Engine::Bvh, kAll},
+    CheckedEngine{"kdop6", Engine::KDop6, kAll},
+    CheckedEngine{"kdop14", Engine::KDop14, kAll},
+    CheckedEngine{"kdop18", Engine::KDop18, kAll},
+    CheckedEngine{"kdop26", Engine::KDop26, kAll},
+    CheckedEngine{"kdop6-overlap", Engine::KDop6Overlap, 20000},
+    CheckedEngine{"kdop14-overlap", Engine::KDop14Overlap, 20000},
+    CheckedEngine{"kdop18-overlap", Engine::KDop18Overlap, 20000},
+    CheckedEngine{"kdop26-overlap", Engine::KDop26Overlap, 20000},
+    CheckedEngine{"refinement", Engine::Refinement, kAll},
+    CheckedEngine{"paper-refinement", Engine::PaperRefinement, kAll},
 };
 
 using Truth = std::vector<std::vector<Hit>>;
@@ -86,7 +88,7 @@ Facts check_engine(const QueryModel& model, const CheckedEngine& checked, std::s
   const bool is_hull = checked.engine == Engine::Refinement || checked.engine == Engine::PaperRefinement;
   const QueryIndex index = is_hull ? QueryIndex(model.hull(Strategy::Paper2).with_base(kBase), checked.engine)
                                    : QueryIndex(model.mesh, checked.engine);
-  const auto asked = segments.first((segments.size() + checked.one_in - 1) / checked.one_in);
+  const auto asked = segments.first(std::min(segments.size(), checked.most));
   Facts facts{.model = model.name,
               .engine = std::string(checked.name),
               .is_ours = true,

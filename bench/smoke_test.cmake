@@ -29,3 +29,16 @@ run(queues --samples asteroid --sample-faces 2000 --faces 400 --repeat 1)
 expect("${printed}" "| model | strategy | heap | red-black tree | buckets |")
 run(memory --samples asteroid --sample-faces 2000 --faces 400)
 expect("${printed}" "| model | faces | mesh | peak | bytes per face |")
+
+run(queries --samples asteroid --sample-faces 2000 --segments 100 --check 300 --repeat 1 --out ${OUT})
+foreach(column "| model | strategy | base | time | brute force / time |" "| model | segments that meet | paper's | 6-DOPs |"
+        "| model | engine | first | any | all |" "| model | batch | between queries | time |"
+        "| model | engine | index | query object |" "| asteroid | bvh | 300 |" "| asteroid | paper-refinement | 300 |")
+  expect("${printed}" "${column}")
+endforeach()
+file(READ ${OUT}/queries.md markdown)
+expect("${printed}" "${markdown}")
+foreach(table table3 figure8 table4 trees updates query_memory correctness)
+  file(READ ${OUT}/${table}.csv csv)
+  expect("${csv}" "\nasteroid,")
+endforeach()
