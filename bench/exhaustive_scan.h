@@ -21,17 +21,20 @@ class ExhaustiveScan {
 
  private:
   using Float4 = float __attribute__((vector_size(16)));
-  /// The boxes of four faces, by their centre and half their size along each axis.
+  /// By their centre and half their size along each axis.
   struct FourBoxes {
     Float4 center[3], half[3];
   };
+  class Line;
 
+  static void set(FourBoxes& boxes, std::size_t lane, const Box& box);
   std::vector<FaceId> not_certainly_missed(const Segment& segment) const;
 
   const TriangleMesh& mesh_;
   Vec3 center_;
-  double scale_;  ///< (p - center) scale is in [-1, 1]^3 for points of the mesh, but for rounding
-  std::vector<FourBoxes> boxes_;
+  double scale_;                  ///< (p - center) scale is in [-1, 1]^3 for points of the mesh, but for rounding
+  FourBoxes around_{};            ///< lane 0: the whole mesh
+  std::vector<FourBoxes> boxes_;  ///< of the faces
 };
 
 }  // namespace prohull::bench
