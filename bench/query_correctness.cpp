@@ -15,8 +15,6 @@
 namespace prohull::bench {
 namespace {
 
-constexpr std::size_t kBase = 1000;
-
 struct CheckedEngine {
   std::string_view name;
   Engine engine;
@@ -86,8 +84,8 @@ std::span<const Hit> hits_of(const HitBatch& batch, std::size_t i) {
 Facts check_engine(const QueryModel& model, const CheckedEngine& checked, std::span<const Segment> segments,
                    const Truth& truth) {
   const bool is_hull = checked.engine == Engine::Refinement || checked.engine == Engine::PaperRefinement;
-  const QueryIndex index = is_hull ? QueryIndex(model.hull(Strategy::Paper2).with_base(kBase), checked.engine)
-                                   : QueryIndex(model.mesh, checked.engine);
+  const QueryIndex index =
+      is_hull ? QueryIndex(model.hull_of_table4(), checked.engine) : QueryIndex(model.mesh, checked.engine);
   const auto asked = segments.first(std::min(segments.size(), checked.most));
   Facts facts{.model = model.name,
               .engine = std::string(checked.name),

@@ -20,7 +20,7 @@ struct Facts {
 class MemorySection final : public QuerySection {
  public:
   void measure(const QueryModel& model, const QueryOptions& options) override {
-    const ProgressiveHull hull = model.hull(Strategy::Paper2).with_base(1000);
+    const ProgressiveHull hull = model.hull_of_table4();
     for (const auto& [name, engine] : {std::pair{"bvh", Engine::Bvh},
                                        {"kdop26", Engine::KDop26},
                                        {"refinement", Engine::Refinement},

@@ -13,8 +13,6 @@ namespace {
 
 // P&T 3.2.2: does it pay to keep the refined hull from one query to the next?
 
-constexpr std::size_t kBase = 1000;
-
 struct NamedUpdate {
   std::string_view name;
   RefinementOptions options;
@@ -77,7 +75,7 @@ struct Facts {
 class UpdatesSection final : public QuerySection {
  public:
   void measure(const QueryModel& model, const QueryOptions& options) override {
-    const ProgressiveHull hull = model.hull(Strategy::Paper2).with_base(kBase);
+    const ProgressiveHull hull = model.hull_of_table4();
     for (const Batch& batch :
          {Batch{"random", model.segments}, picture(bounding_box(model.mesh), model.segments.size()),
           sweep(model.mesh, model.segments.size())})
@@ -95,9 +93,9 @@ class UpdatesSection final : public QuerySection {
     }
     return fmt::format(
         "## 3.2.2: what becomes of the refined hull between queries\n\n"
-        "Per query, all crossings, refined as published from {} faces, second strategy. random: the segments of Table "
+        "Per query, all crossings, refined as published, the hull of Table 4. random: the segments of Table "
         "3;\npicture: through neighbouring pixels; sweep: short segments along the surface.\n\n{}",
-        kBase, table.markdown());
+        table.markdown());
   }
 
   void write(const std::filesystem::path& folder) const override {
