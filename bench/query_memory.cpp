@@ -9,17 +9,20 @@
 namespace prohull::bench {
 namespace {
 
+constexpr int kTimes = 10;
+
 struct Facts {
   std::string model, engine;
-  std::size_t queries;                              ///< many
-  std::size_t index, fresh, after_one, after_many;  ///< bytes
+  std::size_t queries;
+  std::size_t index, fresh, after_one, after_all, after_repeated;  ///< bytes
 
-  bool is_constant() const { return fresh == after_one && fresh == after_many; }
+  /// What the biggest query needs is there once all have been asked.
+  bool is_settled() const { return after_all == after_repeated; }
 };
 
 class MemorySection final : public QuerySection {
  public:
-  void measure(const QueryModel& model, const QueryOptions& options) override {
+  void measure(const QueryModel& model, const QueryOptions&) override {
     const ProgressiveHull hull = model.hull_of_table4();
     for (const auto& [name, engine] : {std::pair{"bvh", Engine::Bvh},
                                        {"kdop26", Engine::KDop26},
@@ -27,35 +30,37 @@ class MemorySection final : public QuerySection {
                                        {"paper-refinement", Engine::PaperRefinement}}) {
       const QueryIndex index(hull, engine);
       MeshQuery query(index);
-      Facts facts{model.name, name, 10 * options.segments, index.memory_bytes(), query.memory_bytes(), 0, 0};
+      Facts facts{model.name, name, model.segments.size(), index.memory_bytes(), query.memory_bytes(), 0, 0, 0};
       query.all_hits(model.segments[0]);
       facts.after_one = query.memory_bytes();
-      for (std::size_t asked = 1; asked < facts.queries; ++asked)
-        query.all_hits(model.segments[asked % model.segments.size()]);
-      facts.after_many = query.memory_bytes();
+      ask_all(query, model.segments);
+      facts.after_all = query.memory_bytes();
+      for (int i = 1; i < kTimes; ++i) ask_all(query, model.segments);
+      facts.after_repeated = query.memory_bytes();
       facts_.push_back(std::move(facts));
     }
   }
 
   std::string text() const override {
-    Table table({"model", "engine", "index", "query object", "after 1 query", "after many", "many"});
+    Table table({"model", "engine", "index", "query object", "after 1 query", "after all segments",
+                 fmt::format("after all {} times", kTimes)});
     for (const Facts& f : facts_)
       table.add({f.model, f.engine, fmt::format("{:.1f} MB", static_cast<double>(f.index) / 1e6),
                  fmt::format("{} bytes", f.fresh), fmt::format("{} bytes", f.after_one),
-                 fmt::format("{} bytes", f.after_many), fmt::to_string(f.queries)});
+                 fmt::format("{} bytes", f.after_all), fmt::format("{} bytes", f.after_repeated)});
     return "## Memory of an index, and of a query object before and after queries\n\n" + table.markdown();
   }
 
   void write(const std::filesystem::path& folder) const override {
-    Table table(
-        {"mesh", "engine", "index_bytes", "query_bytes", "query_bytes_after_1", "queries", "query_bytes_after"});
+    Table table({"mesh", "engine", "segments", "index_bytes", "query_bytes", "query_bytes_after_1",
+                 "query_bytes_after_all", fmt::format("query_bytes_after_{}_times", kTimes)});
     for (const Facts& f : facts_)
-      table.add({f.model, f.engine, fmt::to_string(f.index), fmt::to_string(f.fresh), fmt::to_string(f.after_one),
-                 fmt::to_string(f.queries), fmt::to_string(f.after_many)});
+      table.add({f.model, f.engine, fmt::to_string(f.queries), fmt::to_string(f.index), fmt::to_string(f.fresh),
+                 fmt::to_string(f.after_one), fmt::to_string(f.after_all), fmt::to_string(f.after_repeated)});
     write_file(folder / "query_memory.csv", table.csv());
   }
 
-  bool holds() const override { return std::ranges::all_of(facts_, &Facts::is_constant); }
+  bool holds() const override { return std::ranges::all_of(facts_, &Facts::is_settled); }
 
  private:
   std::vector<Facts> facts_;
