@@ -96,12 +96,13 @@ struct Shared {
 /// in their order; those of which it is known that the query misses them are passed over, but counted.
 class Candidates {
  public:
-  explicit Candidates(const Shared& shared)
+  /// Uses the tags of the hull's faces.
+  Candidates(const Shared& shared, RefinedHull& hull)
       : shared_(shared),
+        hull_(hull),
         base_size_(static_cast<std::uint32_t>(shared.base_faces.size())),
-        state_(shared.hull->hull().original_face_count(), 0),
         marks_(base_size_ + 1) {
-    for (std::uint32_t i = 0; i < base_size_; ++i) state_[shared.base_faces[i]] = i + 1;
+    for (std::uint32_t i = 0; i < base_size_; ++i) hull_.tag(shared.base_faces[i]) = i + 1;
   }
 
   /// All faces of the base mesh; requires an empty list.
@@ -118,13 +119,13 @@ class Candidates {
 
   // Without branches: which faces are new to the list cannot be foretold.
   void add(FaceId face) {
-    std::uint32_t& state = state_[face];
-    const std::uint32_t place = state & kPlace;  // from 1
+    std::uint32_t& tag = hull_.tag(face);
+    const std::uint32_t place = tag & kPlace;  // from 1
     const bool has_turn = place > turn_;
     marks_[has_turn ? place - 1 : base_size_] = 1;
     queue_[added_] = face;
-    added_ += !has_turn && !(state & kWaiting);
-    state |= has_turn ? 0 : kWaiting;
+    added_ += !has_turn && !(tag & kWaiting);
+    tag |= has_turn ? 0 : kWaiting;
   }
 
   /// Adds to `passed` the number of candidates taken from the list, the one returned included.
@@ -142,25 +143,24 @@ class Candidates {
     if (taken_ == added_) return std::nullopt;
     ++passed;
     const FaceId face = queue_[taken_++];
-    state_[face] &= ~kWaiting;
+    hull_.tag(face) &= ~kWaiting;
     return face;
   }
 
   void clear() {
-    while (taken_ < added_) state_[queue_[taken_++]] &= ~kWaiting;
+    while (taken_ < added_) hull_.tag(queue_[taken_++]) &= ~kWaiting;
     taken_ = added_ = 0;
   }
 
-  std::size_t memory_bytes() const {
-    return state_.size() * sizeof(std::uint32_t) + marks_.capacity() + queue_.capacity() * sizeof(FaceId);
-  }
+  std::size_t memory_bytes() const { return marks_.capacity() + queue_.capacity() * sizeof(FaceId); }
 
  private:
+  // Tags: the place among the faces of the base mesh, from 1, or 0 for others; whether the face is in queue_.
   static constexpr std::uint32_t kWaiting = 0x80000000, kPlace = 0x7fffffff;
 
   const Shared& shared_;
+  RefinedHull& hull_;
   std::uint32_t base_size_;
-  PerFace<std::uint32_t> state_;     // place among the faces of the base mesh, from 1, or 0; whether it is in queue_
   std::vector<std::uint8_t> marks_;  // of base faces: to be looked at; the last is nobody's
   std::uint32_t turn_ = 0;           // of base faces: the next
   std::vector<FaceId> queue_;        // from taken_ to added_
@@ -169,7 +169,7 @@ class Candidates {
 
 class RefinementWorker final : public QueryWorker {
  public:
-  explicit RefinementWorker(const Shared& shared) : shared_(shared), hull_(shared.hull), candidates_(shared) {}
+  explicit RefinementWorker(const Shared& shared) : shared_(shared), hull_(shared.hull), candidates_(shared, hull_) {}
 
   void collect(const DirectedLine& line, HitCollector& hits) override { answer(LineProbe(line, shared_.frame), hits); }
   void collect(const Triangle& triangle, FaceCollector& faces) override { answer(TriangleProbe(triangle), faces); }
@@ -214,7 +214,7 @@ class RefinementWorker final : public QueryWorker {
   void split_corners(FaceId face, const Probe& probe) {
     const auto corners = hull_.corners(face);
     for (const VertexId v : corners)
-      if (shared_.hull->is_made(v)) __builtin_prefetch(&shared_.hull->split_of(v));
+      if (shared_.hull->is_made(v)) shared_.hull->prefetch(v);
     for (const VertexId v : corners) {
       if (!shared_.hull->is_made(v)) continue;
       if (shared_.refine == Refine::WhereBoundsMeet && !probe.may_meet(shared_.hull->bounds(v))) continue;
@@ -228,10 +228,8 @@ class RefinementWorker final : public QueryWorker {
   void add_faces_of(VertexId made) {
     const auto star = shared_.hull->star(made);
     candidates_.reserve(star.size() + 2);
-    for (const std::uint32_t corner : star) candidates_.add(FaceId(corner / 3));
-    const VertexSplit& split = shared_.hull->split_of(made);
-    candidates_.add(FaceId(split.od / 3));
-    candidates_.add(FaceId(split.do_ / 3));
+    for (const std::uint32_t corner : star) candidates_.add(FaceId(corner / 4));
+    for (const FaceId face : shared_.hull->new_faces(made)) candidates_.add(face);
   }
 
   // P&T 3.2.2: whether the query meets what the hull would be without the split, so that it would be made again.
@@ -239,9 +237,8 @@ class RefinementWorker final : public QueryWorker {
   bool is_wanted(const Probe& probe, VertexId made) const {
     if (shared_.refine == Refine::WhereBoundsMeet) return probe.may_meet(shared_.hull->bounds(made));
     for (const std::uint32_t corner : shared_.hull->star(made)) {
-      const FaceId face{corner / 3};
-      Triangle t = hull_.triangle(face);
-      (corner % 3 == 0 ? t.a : corner % 3 == 1 ? t.b : t.c) = shared_.hull->positions()[made];
+      Triangle t = hull_.triangle(FaceId(corner / 4));
+      (corner % 4 == 0 ? t.a : corner % 4 == 1 ? t.b : t.c) = shared_.hull->positions()[made];
       if (probe.may_meet(t)) return true;
     }
     return false;
