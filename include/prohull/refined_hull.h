@@ -124,15 +124,16 @@ class RefinedHull {
 
   /// The vertices that are split, in an order in which they can be.
   std::span<const VertexId> splits() const { return splits_; }
-  bool is_split(VertexId made) const { return dependents_[hull_->number(made)] != kWhole; }
+  bool is_split(VertexId made) const { return is_split_[hull_->number(made)]; }
 
   /// Splits `made` and, before it, whatever must be split so that it and its link are there. Returns the number of
   /// splits, which are the last of splits(); none if it is split already.
   std::size_t split(VertexId made);
 
-  /// Whether the collapse that made a vertex can be made again: it is split, and no other split needs it to be.
-  bool can_unsplit(VertexId made) const { return dependents_[hull_->number(made)] == 0; }
-  /// Undoes the split of a vertex; requires can_unsplit. Takes time in proportion to the splits after it in splits().
+  /// Whether the collapse that made a vertex can be made again: it is split, and no other split needs it to be. Takes
+  /// time in proportion to the splits after it in splits(), as does unsplit.
+  bool can_unsplit(VertexId made) const;
+  /// Undoes the split of a vertex; requires can_unsplit.
   void unsplit(VertexId made);
   /// Undoes, from the last split to the first, each that can be undone by then and is unwanted(made). Returns how many.
   template <class Unwanted>
@@ -146,8 +147,6 @@ class RefinedHull {
   std::size_t memory_bytes() const;  ///< of this object alone
 
  private:
-  static constexpr std::uint32_t kWhole = 0xffffffff;
-
   struct Pending {
     std::uint32_t split;
     std::uint32_t needs_seen;
@@ -157,11 +156,10 @@ class RefinedHull {
   void put(VertexId v, std::uint32_t corner) { faces_[corner] = index(v); }
   void make_split(VertexId made);
   void restore_star(VertexId made);
-  void undo(VertexId made);
 
   std::shared_ptr<const RefinableHull> hull_;
-  std::vector<std::uint32_t> faces_;       ///< of each its corners' vertices and its tag
-  std::vector<std::uint32_t> dependents_;  ///< of each split made: the splits that need it; kWhole where none was made
+  std::vector<std::uint32_t> faces_;    ///< of each its corners' vertices and its tag
+  std::vector<std::uint8_t> is_split_;  ///< each by its number; a bool, but for coarsen
   std::vector<VertexId> splits_;
   std::vector<Pending> pending_;
 };
@@ -169,16 +167,20 @@ class RefinedHull {
 template <class Unwanted>
 std::size_t RefinedHull::coarsen(Unwanted unwanted) {
   // Those that a split needs are before it, and what is kept is moved to the end: one pass sees to all.
+  constexpr std::uint8_t kNeeded = 2;
   auto kept = splits_.end();
   for (auto split = splits_.end(); split != splits_.begin();) {
-    --split;
-    if (can_unsplit(*split) && unwanted(*split))
-      undo(*split);
-    else
-      *--kept = *split;
+    const VertexId made = *--split;
+    if (is_split_[hull_->number(made)] != kNeeded && unwanted(made)) {
+      restore_star(made);
+    } else {
+      for (const std::uint32_t needed : hull_->needs(made)) is_split_[needed] = kNeeded;
+      *--kept = made;
+    }
   }
   const auto undone = static_cast<std::size_t>(kept - splits_.begin());
   splits_.erase(splits_.begin(), kept);
+  for (const VertexId made : splits_) is_split_[hull_->number(made)] = true;
   return undone;
 }
 

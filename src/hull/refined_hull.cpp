@@ -103,7 +103,7 @@ std::size_t RefinableHull::memory_bytes() const {
 }
 
 RefinedHull::RefinedHull(std::shared_ptr<const RefinableHull> hull)
-    : hull_(std::move(hull)), dependents_(hull_->hull().splits().size(), kWhole) {
+    : hull_(std::move(hull)), is_split_(hull_->hull().splits().size(), false) {
   const std::vector<VertexId>& corners = hull_->hull().base_corners();
   faces_.resize(corners.size() / 3 * 4);
   for (std::uint32_t c = 0; c < corners.size(); ++c) put(corners[c], widened(c));
@@ -117,7 +117,7 @@ std::size_t RefinedHull::split(VertexId made) {
     auto& [number, seen] = pending_.back();
     const VertexId next = hull_->hull().made_vertex(number);
     const auto needs = hull_->needs(next);
-    while (seen < needs.size() && dependents_[needs[seen]] != kWhole) ++seen;
+    while (seen < needs.size() && is_split_[needs[seen]]) ++seen;
     if (seen < needs.size()) {
       pending_.push_back({needs[seen], 0});
     } else {
@@ -134,8 +134,7 @@ void RefinedHull::make_split(VertexId made) {
   for (std::size_t i = 0; i < star.size(); ++i) put(i < corners_of_o ? o : d, star[i]);
   put(o, odl[0]), put(d, odl[1]), put(l, odl[2]);
   put(d, dor[0]), put(o, dor[1]), put(r, dor[2]);
-  for (const std::uint32_t needed : hull_->needs(made)) ++dependents_[needed];
-  dependents_[hull_->number(made)] = 0;
+  is_split_[hull_->number(made)] = true;
   splits_.push_back(made);
   for (const VertexId v : {o, d}) {
     __builtin_prefetch(&hull_->positions()[v]);
@@ -148,17 +147,19 @@ void RefinedHull::restore_star(VertexId made) {
   const auto& node = hull_->nodes_[hull_->number(made)];
   for (const auto& face : {node.odl, node.dor})
     for (const std::uint32_t corner : face) put(ProgressiveHull::kAbsent, corner);
-  dependents_[hull_->number(made)] = kWhole;
+  is_split_[hull_->number(made)] = false;
 }
 
-void RefinedHull::undo(VertexId made) {
-  assert(can_unsplit(made));
-  restore_star(made);
-  for (const std::uint32_t needed : hull_->needs(made)) --dependents_[needed];
+bool RefinedHull::can_unsplit(VertexId made) const {
+  if (!is_split(made)) return false;
+  for (auto split = splits_.rbegin(); *split != made; ++split)
+    if (std::ranges::count(hull_->needs(*split), hull_->number(made)) > 0) return false;
+  return true;
 }
 
 void RefinedHull::unsplit(VertexId made) {
-  undo(made);
+  assert(can_unsplit(made));
+  restore_star(made);
   splits_.erase(std::find(splits_.rbegin(), splits_.rend(), made).base() - 1);
 }
 
@@ -186,7 +187,7 @@ TriangleMesh RefinedHull::triangle_mesh() const {
 }
 
 std::size_t RefinedHull::memory_bytes() const {
-  return sizeof(*this) + faces_.capacity() * sizeof(std::uint32_t) + dependents_.capacity() * sizeof(std::uint32_t) +
+  return sizeof(*this) + faces_.capacity() * sizeof(std::uint32_t) + is_split_.capacity() +
          splits_.capacity() * sizeof(VertexId) + pending_.capacity() * sizeof(Pending);
 }
 

@@ -101,44 +101,49 @@ class Candidates {
       : shared_(shared),
         hull_(hull),
         base_size_(static_cast<std::uint32_t>(shared.base_faces.size())),
-        marks_(base_size_ + 1) {
-    for (std::uint32_t i = 0; i < base_size_; ++i) hull_.tag(shared.base_faces[i]) = i + 1;
+        marks_(1 + base_size_) {
+    for (std::uint32_t i = 0; i < base_size_; ++i) hull_.tag(shared.base_faces[i]) = tag(1 + i);
   }
 
   /// All faces of the base mesh; requires an empty list.
   template <class Probe>
   void start(const Probe& probe) {
-    probe.mark(shared_.balls, std::span(marks_).first(base_size_));
-    turn_ = 0;
+    probe.mark(shared_.balls, std::span(marks_).last(base_size_));
+    last_taken_ = 0;
   }
 
-  /// At most `count` more faces will be added before the next is taken.
-  void reserve(std::size_t count) {
-    if (queue_.size() < added_ + count) queue_.resize(2 * (added_ + count));
-  }
-
-  // Without branches: which faces are new to the list cannot be foretold.
-  void add(FaceId face) {
-    std::uint32_t& tag = hull_.tag(face);
-    const std::uint32_t place = tag & kPlace;  // from 1
-    const bool has_turn = place > turn_;
-    marks_[has_turn ? place - 1 : base_size_] = 1;
-    queue_[added_] = face;
-    added_ += !has_turn && !(tag & kWaiting);
-    tag |= has_turn ? 0 : kWaiting;
+  /// The faces that the split of a vertex changed or brought forth: the stars of o and d.
+  void add_faces_of(VertexId made) {
+    const auto star = shared_.hull->star(made);
+    const auto new_faces = shared_.hull->new_faces(made);
+    if (queue_.size() < added_ + star.size() + 2) queue_.resize(2 * (added_ + star.size() + 2));
+    // Without branches, for which faces are new to the list cannot be foretold; and by copies, which no store changes.
+    FaceId* end = queue_.data() + added_;
+    std::uint8_t* marks = marks_.data();
+    std::uint32_t* tags = &hull_.tag(FaceId{0});
+    const std::uint32_t last_tag = tag(last_taken_) | kWaiting;
+    const auto add = [&](std::uint32_t face) {
+      const std::uint32_t old = tags[4 * face];
+      const bool had_turn = old <= last_tag;
+      marks[had_turn ? kNobody : place(old)] = 1;
+      *end = FaceId(face);
+      end += had_turn & ~old & kWaiting;
+      tags[4 * face] = old | (had_turn ? kWaiting : 0);
+    };
+    for (const std::uint32_t corner : star) add(corner / 4);
+    for (const FaceId face : new_faces) add(index(face));
+    added_ = static_cast<std::size_t>(end - queue_.data());
   }
 
   /// Adds to `passed` the number of candidates taken from the list, the one returned included.
   std::optional<FaceId> take(std::size_t& passed) {
-    if (turn_ < base_size_) {
-      const auto* mark = static_cast<const std::uint8_t*>(std::memchr(marks_.data() + turn_, 1, base_size_ - turn_));
+    if (last_taken_ < base_size_) {
+      const std::uint8_t* rest = marks_.data() + last_taken_ + 1;
+      const auto* mark = static_cast<const std::uint8_t*>(std::memchr(rest, 1, base_size_ - last_taken_));
       const auto next = mark ? static_cast<std::uint32_t>(mark - marks_.data()) : base_size_;
-      passed += next - turn_;
-      turn_ = next;
-      if (mark) {
-        ++passed;
-        return shared_.base_faces[turn_++];
-      }
+      passed += next - last_taken_;
+      last_taken_ = next;
+      if (mark) return shared_.base_faces[next - 1];
     }
     if (taken_ == added_) return std::nullopt;
     ++passed;
@@ -155,14 +160,16 @@ class Candidates {
   std::size_t memory_bytes() const { return marks_.capacity() + queue_.capacity() * sizeof(FaceId); }
 
  private:
-  // Tags: the place among the faces of the base mesh, from 1, or 0 for others; whether the face is in queue_.
-  static constexpr std::uint32_t kWaiting = 0x80000000, kPlace = 0x7fffffff;
+  // Tags: the place of a face among those of the base mesh, counted from 1, and 0 for others; whether it is in queue_.
+  static constexpr std::uint32_t kWaiting = 1, kNobody = 0;
+  static std::uint32_t tag(std::uint32_t place) { return 2 * place; }
+  static std::uint32_t place(std::uint32_t tag) { return tag / 2; }
 
   const Shared& shared_;
   RefinedHull& hull_;
   std::uint32_t base_size_;
-  std::vector<std::uint8_t> marks_;  // of base faces: to be looked at; the last is nobody's
-  std::uint32_t turn_ = 0;           // of base faces: the next
+  std::vector<std::uint8_t> marks_;  // by place: to be looked at
+  std::uint32_t last_taken_ = 0;     // place of the last face of the base mesh that had its turn
   std::vector<FaceId> queue_;        // from taken_ to added_
   std::size_t taken_ = 0, added_ = 0;
 };
@@ -197,15 +204,16 @@ class RefinementWorker final : public QueryWorker {
   template <class Probe, class Collector>
   void refine(const Probe& probe, Collector& found) {
     candidates_.start(probe);
-    for (const VertexId made : hull_.splits()) add_faces_of(made);
+    for (const VertexId made : hull_.splits()) candidates_.add_faces_of(made);
     while (!found.is_complete()) {
       const auto face = candidates_.take(counts_.tests);
       if (!face) break;
-      if (hull_.is_original(*face)) {
-        if (probe.may_meet(hull_.triangle(*face))) found.offer(*face);
-      } else if (shared_.refine == Refine::WhereBoundsMeet || probe.may_meet(hull_.triangle(*face))) {
+      if (shared_.refine == Refine::WhereFacesMeet || hull_.is_original(*face))
+        if (!probe.may_meet(hull_.triangle(*face))) continue;
+      if (hull_.is_original(*face))
+        found.offer(*face);
+      else
         split_corners(*face, probe);
-      }
     }
     candidates_.clear();
   }
@@ -220,16 +228,8 @@ class RefinementWorker final : public QueryWorker {
       if (shared_.refine == Refine::WhereBoundsMeet && !probe.may_meet(shared_.hull->bounds(v))) continue;
       const std::size_t count = hull_.split(v);
       counts_.splits += count;
-      for (const VertexId made : hull_.splits().last(count)) add_faces_of(made);
+      for (const VertexId made : hull_.splits().last(count)) candidates_.add_faces_of(made);
     }
-  }
-
-  /// The faces that the split of a vertex changed or brought forth: the stars of o and d.
-  void add_faces_of(VertexId made) {
-    const auto star = shared_.hull->star(made);
-    candidates_.reserve(star.size() + 2);
-    for (const std::uint32_t corner : star) candidates_.add(FaceId(corner / 4));
-    for (const FaceId face : shared_.hull->new_faces(made)) candidates_.add(face);
   }
 
   // P&T 3.2.2: whether the query meets what the hull would be without the split, so that it would be made again.
