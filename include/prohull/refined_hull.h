@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +19,8 @@ class HalfEdgeMesh;
 /// threads may share one.
 ///
 /// A vertex is split only when its link is in place, as it was when its collapse was made. Then its star is what it was
-/// too, down to the numbers of its faces. So stars are recorded once, and refining needs no connectivity.
+/// too, down to the numbers of its faces (docs/theory.md). So stars are recorded once, and refining needs no
+/// connectivity.
 class RefinableHull {
  public:
   /// Requires that first_defect(hull) finds none. Takes memory in proportion to the valences of all vertices made: 12
@@ -30,21 +32,28 @@ class RefinableHull {
 
   /// Whether v was made by a collapse, so that it can be split.
   bool is_made(VertexId v) const { return index(v) >= original_vertices_; }
-  const VertexSplit& split_of(VertexId made) const { return nodes_[number(made)].split; }
+  /// Of a vertex that was made, here and below.
+  const VertexSplit& split_of(VertexId made) const { return hull_.splits()[number(made)]; }
 
-  /// The corners (3 face + corner) at which `made` stands when it is split, counter-clockwise seen from outside: first
-  /// those that become o's, from the one before l on, then those that become d's, from the one before r on.
+  /// The corners, as 4 face + corner, at which `made` stands when it is split, counter-clockwise seen from outside:
+  /// first those that become o's, from the one before l on, then those that become d's, from the one before r on.
   std::span<const std::uint32_t> star(VertexId made) const {
     const Node& node = nodes_[number(made)];
-    return {stars_.data() + node.star, node.star_size};
+    return {pool_.data() + node.pool, node.star_size};
   }
   std::uint32_t corners_of_o(VertexId made) const { return nodes_[number(made)].corners_of_o; }  ///< how many
 
-  /// The vertices that must be split before `made`, to bring forth `made` and its link; without some that others of
-  /// them need. All have greater numbers.
-  std::span<const VertexId> needs(VertexId made) const {
+  /// The faces (o, d, l) and (d, o, r), which the split brings forth.
+  std::array<FaceId, 2> new_faces(VertexId made) const {
     const Node& node = nodes_[number(made)];
-    return {needs_.data() + node.needs, node.need_count};
+    return {FaceId(node.odl[0] / 4), FaceId(node.dor[0] / 4)};
+  }
+
+  /// The splits that come before that of `made`, to bring forth `made` and its link, without some that others of them
+  /// need; as places in hull().splits(), all greater than its own.
+  std::span<const std::uint32_t> needs(VertexId made) const {
+    const Node& node = nodes_[number(made)];
+    return {pool_.data() + node.pool + node.star_size, node.needs_size};
   }
 
   /// Of the original faces that come about when `made` or a vertex below it is split, as the last split of their
@@ -52,14 +61,19 @@ class RefinableHull {
   /// May be empty.
   const Box& bounds(VertexId made) const { return bounds_[number(made)]; }
 
+  /// To be called some time before `made` is split: starts to bring what that takes into the cache.
+  void prefetch(VertexId made) const { __builtin_prefetch(&nodes_[number(made)]); }
+
   std::size_t memory_bytes() const;
 
  private:
   friend class RefinedHull;
+
   struct alignas(64) Node {  // one cache line: memory is what a split waits for
-    VertexSplit split;
-    std::uint32_t star_size, corners_of_o, need_count;
-    std::size_t star, needs;  // where they begin
+    VertexId o, d, l, r;
+    std::array<std::uint32_t, 3> odl, dor;  // corners of the faces that come back, as 4 face + corner
+    std::uint32_t star_size, corners_of_o, needs_size;
+    std::size_t pool;  // where the star and, after it, the needs are
   };
 
   std::uint32_t number(VertexId made) const {
@@ -73,8 +87,7 @@ class RefinableHull {
   ProgressiveHull hull_;
   std::uint32_t original_vertices_;
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> stars_;
-  std::vector<VertexId> needs_;
+  std::vector<std::uint32_t> pool_;
   std::vector<Box> bounds_;
 };
 
@@ -90,11 +103,11 @@ class RefinedHull {
   const RefinableHull& refinable() const { return *hull_; }
 
   std::size_t face_count() const { return hull_->hull().base_face_count() + 2 * splits_.size(); }
-  bool has(FaceId f) const { return corners_[3 * std::size_t{index(f)}] != ProgressiveHull::kAbsent; }
+  bool has(FaceId f) const { return corners(f)[0] != ProgressiveHull::kAbsent; }
   /// Of a face that is there, here and below.
   std::array<VertexId, 3> corners(FaceId f) const {
-    const VertexId* first = corners_.data() + 3 * std::size_t{index(f)};
-    return {first[0], first[1], first[2]};
+    const std::uint32_t* face = faces_.data() + first(f);
+    return {VertexId(face[0]), VertexId(face[1]), VertexId(face[2])};
   }
   Triangle triangle(FaceId f) const {
     const PerVertex<Vec3>& positions = hull_->positions();
@@ -106,18 +119,21 @@ class RefinedHull {
     const auto [a, b, c] = corners(f);
     return !hull_->is_made(a) && !hull_->is_made(b) && !hull_->is_made(c);
   }
+  /// A word for the caller's own use, in the same cache line; 0 at first. Of any face, there or not.
+  std::uint32_t& tag(FaceId f) { return faces_[first(f) + 3]; }
 
   /// The vertices that are split, in an order in which they can be.
   std::span<const VertexId> splits() const { return splits_; }
-  bool is_split(VertexId made) const { return dependents(made) != kWhole; }
+  bool is_split(VertexId made) const { return is_split_[hull_->number(made)]; }
 
   /// Splits `made` and, before it, whatever must be split so that it and its link are there. Returns the number of
   /// splits, which are the last of splits(); none if it is split already.
   std::size_t split(VertexId made);
 
-  /// Whether the collapse that made a vertex can be made again: it is split, and no other split needs it to be.
-  bool can_unsplit(VertexId made) const { return dependents(made) == 0; }
-  /// Undoes the split of a vertex; requires can_unsplit. Takes time in proportion to the splits after it in splits().
+  /// Whether the collapse that made a vertex can be made again: it is split, and no other split needs it to be. Takes
+  /// time in proportion to the splits after it in splits(), as does unsplit.
+  bool can_unsplit(VertexId made) const;
+  /// Undoes the split of a vertex; requires can_unsplit.
   void unsplit(VertexId made);
   /// Undoes, from the last split to the first, each that can be undone by then and is unwanted(made). Returns how many.
   template <class Unwanted>
@@ -131,22 +147,19 @@ class RefinedHull {
   std::size_t memory_bytes() const;  ///< of this object alone
 
  private:
-  static constexpr std::uint32_t kWhole = 0xffffffff;
-
   struct Pending {
-    VertexId made;
+    std::uint32_t split;
     std::uint32_t needs_seen;
   };
 
-  const std::uint32_t& dependents(VertexId made) const { return dependents_[hull_->number(made)]; }
-  std::uint32_t& dependents(VertexId made) { return dependents_[hull_->number(made)]; }
+  static std::size_t first(FaceId f) { return 4 * std::size_t{index(f)}; }
+  void put(VertexId v, std::uint32_t corner) { faces_[corner] = index(v); }
   void make_split(VertexId made);
   void restore_star(VertexId made);
-  void undo(VertexId made);
 
   std::shared_ptr<const RefinableHull> hull_;
-  std::vector<VertexId> corners_;          ///< as ProgressiveHull::base_corners
-  std::vector<std::uint32_t> dependents_;  ///< of each split made: the splits that need it; kWhole where none was made
+  std::vector<std::uint32_t> faces_;    ///< of each its corners' vertices and its tag
+  std::vector<std::uint8_t> is_split_;  ///< each by its number; a bool, but for coarsen
   std::vector<VertexId> splits_;
   std::vector<Pending> pending_;
 };
@@ -154,16 +167,20 @@ class RefinedHull {
 template <class Unwanted>
 std::size_t RefinedHull::coarsen(Unwanted unwanted) {
   // Those that a split needs are before it, and what is kept is moved to the end: one pass sees to all.
+  constexpr std::uint8_t kNeeded = 2;
   auto kept = splits_.end();
   for (auto split = splits_.end(); split != splits_.begin();) {
-    --split;
-    if (can_unsplit(*split) && unwanted(*split))
-      undo(*split);
-    else
-      *--kept = *split;
+    const VertexId made = *--split;
+    if (is_split_[hull_->number(made)] != kNeeded && unwanted(made)) {
+      restore_star(made);
+    } else {
+      for (const std::uint32_t needed : hull_->needs(made)) is_split_[needed] = kNeeded;
+      *--kept = made;
+    }
   }
   const auto undone = static_cast<std::size_t>(kept - splits_.begin());
   splits_.erase(splits_.begin(), kept);
+  for (const VertexId made : splits_) is_split_[hull_->number(made)] = true;
   return undone;
 }
 

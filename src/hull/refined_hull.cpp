@@ -1,6 +1,7 @@
 #include "prohull/refined_hull.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "mesh/half_edge_mesh.h"
 
@@ -15,16 +16,16 @@ PerVertex<VertexId> parents_of(const ProgressiveHull& hull) {
   return parents;
 }
 
-/// Memory that is not in a cache is most of what a split waits for.
-void prefetch(const void* p) { __builtin_prefetch(p); }
+/// From 3 face + corner to 4 face + corner.
+std::uint32_t widened(std::uint32_t corner) { return corner + corner / 3; }
 
-struct FaceCorners {
-  explicit FaceCorners(std::uint32_t corner) {
-    const std::uint32_t c = corner % 3, first = corner - c;
-    here = corner, next = first + (c + 1) % 3, previous = first + (c + 2) % 3;
-  }
-  std::uint32_t here, next, previous;
-};
+/// This corner of a face, the next and the one after it.
+std::array<std::uint32_t, 3> corners_from(std::uint32_t corner) {
+  const std::uint32_t first = corner / 3 * 3, c = corner % 3;
+  return {widened(corner), widened(first + (c + 1) % 3), widened(first + (c + 2) % 3)};
+}
+
+HalfEdgeId half_edge(std::uint32_t widened_corner) { return HalfEdgeId(widened_corner - widened_corner / 4); }
 
 }  // namespace
 
@@ -48,15 +49,15 @@ RefinableHull::RefinableHull(ProgressiveHull hull)
 }
 
 void RefinableHull::record_star(const HalfEdgeMesh& mesh, VertexId made) {
+  const auto& [o, d, l, r, od, do_] = split_of(made);
   Node& node = nodes_[number(made)];
-  node.split = hull_.splits()[number(made)];
+  node = {o, d, l, r, corners_from(od), corners_from(do_), 0, 0, 0, pool_.size()};
   HalfEdgeId first = mesh.out(made);
-  while (mesh.tip(first) != node.split.l) first = mesh.rotated(first);
-  node.star = stars_.size();
+  while (mesh.tip(first) != l) first = mesh.rotated(first);
   HalfEdgeId h = first;
   do {
-    if (mesh.tip(h) == node.split.r) node.corners_of_o = node.star_size;
-    stars_.push_back(index(h));
+    if (mesh.tip(h) == r) node.corners_of_o = node.star_size;
+    pool_.push_back(widened(index(h)));
     ++node.star_size;
     h = mesh.rotated(h);
   } while (h != first);
@@ -64,61 +65,63 @@ void RefinableHull::record_star(const HalfEdgeMesh& mesh, VertexId made) {
 
 void RefinableHull::record_needs(const HalfEdgeMesh& mesh, VertexId made, const PerVertex<VertexId>& parents) {
   std::vector<VertexId> makers{parents[made]};
-  for (const std::uint32_t corner : star(made)) makers.push_back(parents[mesh.tip(HalfEdgeId(corner))]);
+  for (const std::uint32_t corner : star(made)) makers.push_back(parents[mesh.tip(half_edge(corner))]);
   std::ranges::sort(makers);
   makers.erase(std::unique(makers.begin(), makers.end()), makers.end());
   if (makers.back() == ProgressiveHull::kAbsent) makers.pop_back();
 
   // Saves a third of them; longer lists are left as they are, so that the time is linear whatever the hull.
   constexpr std::size_t kReduced = 16;
-  const auto implied = [&](VertexId v) {
-    return std::ranges::any_of(makers, [&](VertexId w) { return w < v && std::ranges::binary_search(needs(w), v); });
+  const auto is_implied = [&](VertexId v) {
+    return std::ranges::any_of(makers,
+                               [&](VertexId w) { return w < v && std::ranges::binary_search(needs(w), number(v)); });
   };
   Node& node = nodes_[number(made)];
-  node.needs = needs_.size();
-  for (const VertexId v : makers)
-    if (makers.size() > kReduced || !implied(v)) needs_.push_back(v);
-  node.need_count = static_cast<std::uint32_t>(needs_.size() - node.needs);
+  for (const VertexId v : makers) {
+    if (makers.size() <= kReduced && is_implied(v)) continue;
+    pool_.push_back(number(v));
+    ++node.needs_size;
+  }
 }
 
 Box RefinableHull::completed_faces(const HalfEdgeMesh& mesh, VertexId made) const {
   Box box;
-  const auto add_if_original = [&](std::uint32_t corner) {
-    const auto face = mesh.corners(FaceId(corner / 3));
-    if (std::ranges::any_of(face, [&](VertexId v) { return is_made(v); })) return;
-    for (const VertexId v : face) box.extend(positions()[v]);
+  const auto add_if_original = [&](FaceId f) {
+    const auto corners = mesh.corners(f);
+    if (std::ranges::any_of(corners, [&](VertexId v) { return is_made(v); })) return;
+    for (const VertexId v : corners) box.extend(positions()[v]);
   };
-  std::ranges::for_each(star(made), add_if_original);
-  add_if_original(split_of(made).od);
-  add_if_original(split_of(made).do_);
+  for (const std::uint32_t corner : star(made)) add_if_original(FaceId(corner / 4));
+  for (const FaceId f : new_faces(made)) add_if_original(f);
   return box;
 }
 
 std::size_t RefinableHull::memory_bytes() const {
   return sizeof(*this) + hull_.positions().size() * sizeof(Vec3) + hull_.base_corners().size() * sizeof(VertexId) +
          hull_.splits().size() * sizeof(VertexSplit) + nodes_.capacity() * sizeof(Node) +
-         stars_.capacity() * sizeof(std::uint32_t) + needs_.capacity() * sizeof(VertexId) +
-         bounds_.capacity() * sizeof(Box);
+         pool_.capacity() * sizeof(std::uint32_t) + bounds_.capacity() * sizeof(Box);
 }
 
 RefinedHull::RefinedHull(std::shared_ptr<const RefinableHull> hull)
-    : hull_(std::move(hull)),
-      corners_(hull_->hull().base_corners()),
-      dependents_(hull_->hull().splits().size(), kWhole) {}
+    : hull_(std::move(hull)), is_split_(hull_->hull().splits().size(), false) {
+  const std::vector<VertexId>& corners = hull_->hull().base_corners();
+  faces_.resize(corners.size() / 3 * 4);
+  for (std::uint32_t c = 0; c < corners.size(); ++c) put(corners[c], widened(c));
+}
 
 std::size_t RefinedHull::split(VertexId made) {
-  const std::size_t before = splits_.size();
   if (is_split(made)) return 0;
-  pending_.push_back({made, 0});
+  const std::size_t before = splits_.size();
+  pending_.push_back({hull_->number(made), 0});
   while (!pending_.empty()) {
-    auto& [vertex, seen] = pending_.back();
-    const auto needs = hull_->needs(vertex);
-    prefetch(hull_->star(vertex).data());
-    while (seen < needs.size() && is_split(needs[seen])) ++seen;
+    auto& [number, seen] = pending_.back();
+    const VertexId next = hull_->hull().made_vertex(number);
+    const auto needs = hull_->needs(next);
+    while (seen < needs.size() && is_split_[needs[seen]]) ++seen;
     if (seen < needs.size()) {
       pending_.push_back({needs[seen], 0});
     } else {
-      make_split(vertex);
+      make_split(next);
       pending_.pop_back();
     }
   }
@@ -126,38 +129,37 @@ std::size_t RefinedHull::split(VertexId made) {
 }
 
 void RefinedHull::make_split(VertexId made) {
-  const auto& [o, d, l, r, od, do_] = hull_->split_of(made);
+  const auto& [o, d, l, r, odl, dor, star_size, corners_of_o, needs_size, pool] = hull_->nodes_[hull_->number(made)];
   const auto star = hull_->star(made);
-  const std::uint32_t of_o = hull_->corners_of_o(made);
-  for (std::size_t i = 0; i < star.size(); ++i) corners_[star[i]] = i < of_o ? o : d;
-  const FaceCorners odl(od), dor(do_);
-  corners_[odl.here] = o, corners_[odl.next] = d, corners_[odl.previous] = l;
-  corners_[dor.here] = d, corners_[dor.next] = o, corners_[dor.previous] = r;
-  for (const VertexId needed : hull_->needs(made)) ++dependents(needed);
-  dependents(made) = 0;
+  for (std::size_t i = 0; i < star.size(); ++i) put(i < corners_of_o ? o : d, star[i]);
+  put(o, odl[0]), put(d, odl[1]), put(l, odl[2]);
+  put(d, dor[0]), put(o, dor[1]), put(r, dor[2]);
+  is_split_[hull_->number(made)] = true;
   splits_.push_back(made);
   for (const VertexId v : {o, d}) {
-    prefetch(&hull_->positions()[v]);
-    if (hull_->is_made(v)) prefetch(&hull_->split_of(v));
+    __builtin_prefetch(&hull_->positions()[v]);
+    if (hull_->is_made(v)) hull_->prefetch(v);
   }
 }
 
 void RefinedHull::restore_star(VertexId made) {
-  for (const std::uint32_t corner : hull_->star(made)) corners_[corner] = made;
-  const VertexSplit& split = hull_->split_of(made);
-  for (const std::uint32_t corner : {split.od, split.do_})
-    std::fill_n(corners_.begin() + (corner - corner % 3), 3, ProgressiveHull::kAbsent);
-  dependents(made) = kWhole;
+  for (const std::uint32_t corner : hull_->star(made)) put(made, corner);
+  const auto& node = hull_->nodes_[hull_->number(made)];
+  for (const auto& face : {node.odl, node.dor})
+    for (const std::uint32_t corner : face) put(ProgressiveHull::kAbsent, corner);
+  is_split_[hull_->number(made)] = false;
 }
 
-void RefinedHull::undo(VertexId made) {
-  assert(can_unsplit(made));
-  restore_star(made);
-  for (const VertexId needed : hull_->needs(made)) --dependents(needed);
+bool RefinedHull::can_unsplit(VertexId made) const {
+  if (!is_split(made)) return false;
+  for (auto split = splits_.rbegin(); *split != made; ++split)
+    if (std::ranges::count(hull_->needs(*split), hull_->number(made)) > 0) return false;
+  return true;
 }
 
 void RefinedHull::unsplit(VertexId made) {
-  undo(made);
+  assert(can_unsplit(made));
+  restore_star(made);
   splits_.erase(std::find(splits_.rbegin(), splits_.rend(), made).base() - 1);
 }
 
@@ -169,20 +171,23 @@ void RefinedHull::roll_back() {
 TriangleMesh RefinedHull::triangle_mesh() const {
   TriangleMesh mesh;
   PerVertex<VertexId> renumbered(hull_->positions().size(), ProgressiveHull::kAbsent);
-  for (const VertexId v : corners_)
-    if (v != ProgressiveHull::kAbsent) renumbered[v] = v;
-  for (const VertexId v : renumbered)
-    if (v != ProgressiveHull::kAbsent) renumbered[v] = mesh.positions.push_back(hull_->positions()[v]);
+  const PerFace<bool>::Ids faces(static_cast<std::uint32_t>(faces_.size() / 4));
+  for (const FaceId f : faces)
+    if (has(f))
+      for (const VertexId v : corners(f)) renumbered[v] = v;
+  for (VertexId& v : renumbered)
+    if (v != ProgressiveHull::kAbsent) v = mesh.positions.push_back(hull_->positions()[v]);
   mesh.triangles.reserve(face_count());
-  for (std::size_t corner = 0; corner < corners_.size(); corner += 3)
-    if (corners_[corner] != ProgressiveHull::kAbsent)
-      mesh.triangles.push_back(
-          {renumbered[corners_[corner]], renumbered[corners_[corner + 1]], renumbered[corners_[corner + 2]]});
+  for (const FaceId f : faces) {
+    if (!has(f)) continue;
+    const auto [a, b, c] = corners(f);
+    mesh.triangles.push_back({renumbered[a], renumbered[b], renumbered[c]});
+  }
   return mesh;
 }
 
 std::size_t RefinedHull::memory_bytes() const {
-  return sizeof(*this) + corners_.capacity() * sizeof(VertexId) + dependents_.capacity() * sizeof(std::uint32_t) +
+  return sizeof(*this) + faces_.capacity() * sizeof(std::uint32_t) + is_split_.capacity() +
          splits_.capacity() * sizeof(VertexId) + pending_.capacity() * sizeof(Pending);
 }
 

@@ -96,80 +96,87 @@ struct Shared {
 /// in their order; those of which it is known that the query misses them are passed over, but counted.
 class Candidates {
  public:
-  explicit Candidates(const Shared& shared)
+  /// Uses the tags of the hull's faces.
+  Candidates(const Shared& shared, RefinedHull& hull)
       : shared_(shared),
+        hull_(hull),
         base_size_(static_cast<std::uint32_t>(shared.base_faces.size())),
-        state_(shared.hull->hull().original_face_count(), 0),
-        marks_(base_size_ + 1) {
-    for (std::uint32_t i = 0; i < base_size_; ++i) state_[shared.base_faces[i]] = i + 1;
+        marks_(1 + base_size_) {
+    for (std::uint32_t i = 0; i < base_size_; ++i) hull_.tag(shared.base_faces[i]) = tag(1 + i);
   }
 
   /// All faces of the base mesh; requires an empty list.
   template <class Probe>
   void start(const Probe& probe) {
-    probe.mark(shared_.balls, std::span(marks_).first(base_size_));
-    turn_ = 0;
+    probe.mark(shared_.balls, std::span(marks_).last(base_size_));
+    last_taken_ = 0;
   }
 
-  /// At most `count` more faces will be added before the next is taken.
-  void reserve(std::size_t count) {
-    if (queue_.size() < added_ + count) queue_.resize(2 * (added_ + count));
-  }
-
-  // Without branches: which faces are new to the list cannot be foretold.
-  void add(FaceId face) {
-    std::uint32_t& state = state_[face];
-    const std::uint32_t place = state & kPlace;  // from 1
-    const bool has_turn = place > turn_;
-    marks_[has_turn ? place - 1 : base_size_] = 1;
-    queue_[added_] = face;
-    added_ += !has_turn && !(state & kWaiting);
-    state |= has_turn ? 0 : kWaiting;
+  /// The faces that the split of a vertex changed or brought forth: the stars of o and d.
+  void add_faces_of(VertexId made) {
+    const auto star = shared_.hull->star(made);
+    const auto new_faces = shared_.hull->new_faces(made);
+    if (queue_.size() < added_ + star.size() + 2) queue_.resize(2 * (added_ + star.size() + 2));
+    // Without branches, for which faces are new to the list cannot be foretold; and by copies, which no store changes.
+    FaceId* end = queue_.data() + added_;
+    std::uint8_t* marks = marks_.data();
+    std::uint32_t* tags = &hull_.tag(FaceId{0});
+    const std::uint32_t last_tag = tag(last_taken_) | kWaiting;
+    const auto add = [&](std::uint32_t face) {
+      const std::uint32_t old = tags[4 * face];
+      const bool had_turn = old <= last_tag;
+      marks[had_turn ? kNobody : place(old)] = 1;
+      *end = FaceId(face);
+      end += had_turn & ~old & kWaiting;
+      tags[4 * face] = old | (had_turn ? kWaiting : 0);
+    };
+    for (const std::uint32_t corner : star) add(corner / 4);
+    for (const FaceId face : new_faces) add(index(face));
+    added_ = static_cast<std::size_t>(end - queue_.data());
   }
 
   /// Adds to `passed` the number of candidates taken from the list, the one returned included.
   std::optional<FaceId> take(std::size_t& passed) {
-    if (turn_ < base_size_) {
-      const auto* mark = static_cast<const std::uint8_t*>(std::memchr(marks_.data() + turn_, 1, base_size_ - turn_));
+    if (last_taken_ < base_size_) {
+      const std::uint8_t* rest = marks_.data() + last_taken_ + 1;
+      const auto* mark = static_cast<const std::uint8_t*>(std::memchr(rest, 1, base_size_ - last_taken_));
       const auto next = mark ? static_cast<std::uint32_t>(mark - marks_.data()) : base_size_;
-      passed += next - turn_;
-      turn_ = next;
-      if (mark) {
-        ++passed;
-        return shared_.base_faces[turn_++];
-      }
+      passed += next - last_taken_;
+      last_taken_ = next;
+      if (mark) return shared_.base_faces[next - 1];
     }
     if (taken_ == added_) return std::nullopt;
     ++passed;
     const FaceId face = queue_[taken_++];
-    state_[face] &= ~kWaiting;
+    hull_.tag(face) &= ~kWaiting;
     return face;
   }
 
   void clear() {
-    while (taken_ < added_) state_[queue_[taken_++]] &= ~kWaiting;
+    while (taken_ < added_) hull_.tag(queue_[taken_++]) &= ~kWaiting;
     taken_ = added_ = 0;
   }
 
-  std::size_t memory_bytes() const {
-    return state_.size() * sizeof(std::uint32_t) + marks_.capacity() + queue_.capacity() * sizeof(FaceId);
-  }
+  std::size_t memory_bytes() const { return marks_.capacity() + queue_.capacity() * sizeof(FaceId); }
 
  private:
-  static constexpr std::uint32_t kWaiting = 0x80000000, kPlace = 0x7fffffff;
+  // Tags: the place of a face among those of the base mesh, counted from 1, and 0 for others; whether it is in queue_.
+  static constexpr std::uint32_t kWaiting = 1, kNobody = 0;
+  static std::uint32_t tag(std::uint32_t place) { return 2 * place; }
+  static std::uint32_t place(std::uint32_t tag) { return tag / 2; }
 
   const Shared& shared_;
+  RefinedHull& hull_;
   std::uint32_t base_size_;
-  PerFace<std::uint32_t> state_;     // place among the faces of the base mesh, from 1, or 0; whether it is in queue_
-  std::vector<std::uint8_t> marks_;  // of base faces: to be looked at; the last is nobody's
-  std::uint32_t turn_ = 0;           // of base faces: the next
+  std::vector<std::uint8_t> marks_;  // by place: to be looked at
+  std::uint32_t last_taken_ = 0;     // place of the last face of the base mesh that had its turn
   std::vector<FaceId> queue_;        // from taken_ to added_
   std::size_t taken_ = 0, added_ = 0;
 };
 
 class RefinementWorker final : public QueryWorker {
  public:
-  explicit RefinementWorker(const Shared& shared) : shared_(shared), hull_(shared.hull), candidates_(shared) {}
+  explicit RefinementWorker(const Shared& shared) : shared_(shared), hull_(shared.hull), candidates_(shared, hull_) {}
 
   void collect(const DirectedLine& line, HitCollector& hits) override { answer(LineProbe(line, shared_.frame), hits); }
   void collect(const Triangle& triangle, FaceCollector& faces) override { answer(TriangleProbe(triangle), faces); }
@@ -197,15 +204,16 @@ class RefinementWorker final : public QueryWorker {
   template <class Probe, class Collector>
   void refine(const Probe& probe, Collector& found) {
     candidates_.start(probe);
-    for (const VertexId made : hull_.splits()) add_faces_of(made);
+    for (const VertexId made : hull_.splits()) candidates_.add_faces_of(made);
     while (!found.is_complete()) {
       const auto face = candidates_.take(counts_.tests);
       if (!face) break;
-      if (hull_.is_original(*face)) {
-        if (probe.may_meet(hull_.triangle(*face))) found.offer(*face);
-      } else if (shared_.refine == Refine::WhereBoundsMeet || probe.may_meet(hull_.triangle(*face))) {
+      if (shared_.refine == Refine::WhereFacesMeet || hull_.is_original(*face))
+        if (!probe.may_meet(hull_.triangle(*face))) continue;
+      if (hull_.is_original(*face))
+        found.offer(*face);
+      else
         split_corners(*face, probe);
-      }
     }
     candidates_.clear();
   }
@@ -214,24 +222,14 @@ class RefinementWorker final : public QueryWorker {
   void split_corners(FaceId face, const Probe& probe) {
     const auto corners = hull_.corners(face);
     for (const VertexId v : corners)
-      if (shared_.hull->is_made(v)) __builtin_prefetch(&shared_.hull->split_of(v));
+      if (shared_.hull->is_made(v)) shared_.hull->prefetch(v);
     for (const VertexId v : corners) {
       if (!shared_.hull->is_made(v)) continue;
       if (shared_.refine == Refine::WhereBoundsMeet && !probe.may_meet(shared_.hull->bounds(v))) continue;
       const std::size_t count = hull_.split(v);
       counts_.splits += count;
-      for (const VertexId made : hull_.splits().last(count)) add_faces_of(made);
+      for (const VertexId made : hull_.splits().last(count)) candidates_.add_faces_of(made);
     }
-  }
-
-  /// The faces that the split of a vertex changed or brought forth: the stars of o and d.
-  void add_faces_of(VertexId made) {
-    const auto star = shared_.hull->star(made);
-    candidates_.reserve(star.size() + 2);
-    for (const std::uint32_t corner : star) candidates_.add(FaceId(corner / 3));
-    const VertexSplit& split = shared_.hull->split_of(made);
-    candidates_.add(FaceId(split.od / 3));
-    candidates_.add(FaceId(split.do_ / 3));
   }
 
   // P&T 3.2.2: whether the query meets what the hull would be without the split, so that it would be made again.
@@ -239,9 +237,8 @@ class RefinementWorker final : public QueryWorker {
   bool is_wanted(const Probe& probe, VertexId made) const {
     if (shared_.refine == Refine::WhereBoundsMeet) return probe.may_meet(shared_.hull->bounds(made));
     for (const std::uint32_t corner : shared_.hull->star(made)) {
-      const FaceId face{corner / 3};
-      Triangle t = hull_.triangle(face);
-      (corner % 3 == 0 ? t.a : corner % 3 == 1 ? t.b : t.c) = shared_.hull->positions()[made];
+      Triangle t = hull_.triangle(FaceId(corner / 4));
+      (corner % 4 == 0 ? t.a : corner % 4 == 1 ? t.b : t.c) = shared_.hull->positions()[made];
       if (probe.may_meet(t)) return true;
     }
     return false;
