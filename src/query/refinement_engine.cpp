@@ -1,8 +1,9 @@
 #include "query/refinement_engine.h"
 
-#include <array>
+#include <algorithm>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "geometry/bvh.h"
 #include "geometry/triangle_contact.h"
@@ -116,7 +117,7 @@ class Candidates {
   void add_faces_of(VertexId made) {
     const auto star = shared_.hull->star(made);
     const auto new_faces = shared_.hull->new_faces(made);
-    if (queue_.size() < added_ + star.size() + 2) queue_.resize(2 * (added_ + star.size() + 2));
+    make_room(star.size() + new_faces.size());
     // Without branches, for which faces are new to the list cannot be foretold; and by copies, which no store changes.
     FaceId* end = queue_.data() + added_;
     std::uint8_t* marks = marks_.data();
@@ -160,6 +161,14 @@ class Candidates {
   std::size_t memory_bytes() const { return marks_.capacity() + queue_.capacity() * sizeof(FaceId); }
 
  private:
+  void make_room(std::size_t count) {
+    if (added_ + count <= queue_.size()) return;
+    std::copy(queue_.begin() + static_cast<std::ptrdiff_t>(taken_),
+              queue_.begin() + static_cast<std::ptrdiff_t>(added_), queue_.begin());
+    added_ -= std::exchange(taken_, 0);
+    if (2 * (added_ + count) > queue_.size()) queue_.resize(2 * (added_ + count));
+  }
+
   // Tags: the place of a face among those of the base mesh, counted from 1, and 0 for others; whether it is in queue_.
   static constexpr std::uint32_t kWaiting = 1, kNobody = 0;
   static std::uint32_t tag(std::uint32_t place) { return 2 * place; }

@@ -207,6 +207,20 @@ TEST(RefinedHull, TellsFacesOfTheOriginal) {
   EXPECT_GT(others, 0u);
 }
 
+TEST(RefinedHull, KeepsAWordForTheCallerWithEachFace) {
+  const ProgressiveHull& hull = torus_hull();
+  RefinedHull refined(refinable(hull));
+  for (std::uint32_t f = 0; f < hull.original_face_count(); ++f) {
+    EXPECT_EQ(refined.tag(FaceId(f)), 0u);
+    refined.tag(FaceId(f)) = f;
+  }
+  for (const VertexId made : made_vertices(hull)) refined.split(made);
+  EXPECT_EQ(refined.triangle_mesh(), hull.original());
+  refined.roll_back();
+  EXPECT_EQ(all_corners(refined), hull.base_corners());
+  for (std::uint32_t f = 0; f < hull.original_face_count(); ++f) EXPECT_EQ(refined.tag(FaceId(f)), f);
+}
+
 TEST(RefinableHull, BoundsAreThoseOfTheFacesThatSplitsBelowComplete) {
   const ProgressiveHull& hull = torus_hull();
   std::vector<VertexId> last_split(hull.original_face_count(), ProgressiveHull::kAbsent);
