@@ -16,6 +16,13 @@ namespace {
 
 volatile std::sig_atomic_t g_interrupted = 0;
 
+// A pipe, as /dev/stdin may be, has no canonical name.
+std::filesystem::path resolved(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::path canonical = weakly_canonical(path, error);
+  return error ? path : canonical;
+}
+
 }  // namespace
 
 void catch_interrupts() {
@@ -92,7 +99,7 @@ void require_writable(const std::filesystem::path& path) {
 void require_distinct(const std::vector<std::filesystem::path>& paths) {
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (!paths[i].empty() && !paths[j].empty() && weakly_canonical(paths[i]) == weakly_canonical(paths[j]))
+      if (!paths[i].empty() && !paths[j].empty() && resolved(paths[i]) == resolved(paths[j]))
         throw InputError(
             Defect::InvalidOption,
             fmt::format("{} is named twice, and would be overwritten; choose another name", paths[i].string()));

@@ -115,6 +115,7 @@ void add_build(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_lod(CLI::App& app, Run& run);
 void add_query(CLI::App& app, Run& run);
+void add_render(CLI::App& app, Run& run);
 void add_sample(CLI::App& app, Run& run);
 void add_verify(CLI::App& app, Run& run);
 

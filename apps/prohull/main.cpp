@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   add_info(app, run);
   add_lod(app, run);
   add_query(app, run);
+  add_render(app, run);
   add_sample(app, run);
   try {
     app.parse(argc, argv);

@@ -81,6 +81,37 @@ gzip -kf rock.ply
 expect 0 "gzip" $prohull build rock.ply.gz --faces 500 -o from_gzip.stl
 cmp -s from_gzip.stl hull.stl || fail "the same hull from a gzipped file"
 
+# --- pictures ---
+# is_png FILE NAME WIDTH HEIGHT, in hexadecimal: the signature, and the first chunk with the size
+is_png() {
+  checks=$((checks + 1))
+  [ "$(head -c 24 "$1" | od -A n -t x1 | tr -d ' \n')" = "89504e470d0a1a0a0000000d49484452$3$4" ] || fail "$2: no such PNG"
+}
+expect 0 "render" $prohull render rock.ply -o rock.png --size 160x120 --report render.json
+says out "render tells what it drew" "rock.png: 160 x 120, 20,"
+says render.json "report: size" '"width": 160'
+is_png rock.png "render" 000000a0 00000078
+for threads in 1 2; do
+  expect 0 "hull over mesh" $prohull render hull.stl --over rock.ply --wireframe --ground --threads $threads \
+    --size 160x120 -o over$threads.png
+done
+checks=$((checks + 1))
+cmp -s over1.png over2.png || fail "the same picture by any number of threads"
+expect 0 "levels side by side" $prohull render rock.phull --faces original,2000 --size 200x100 -o levels.png
+says out "levels side by side" " + 2,000 faces"
+is_png levels.png "levels side by side" 000000c8 00000064
+expect 0 "a palette" $prohull render rock.phull --faces original,2000 --size 200x100 --palette -o small.png
+is_png small.png "a palette" 000000c8 00000064
+checks=$((checks + 1))
+[ "$(wc -c <small.png)" -lt "$(wc -c <levels.png)" ] || fail "a palette makes smaller files"
+expect 0 "split" $prohull render rock.phull --split original --size 160x120 --background transparent -o split.png
+expect 0 "refined along a segment" $prohull render rock.phull --segment 3,0.1,0.2,-3,0.1,0.2 --refine --zoom 2 \
+  --center 1,0,0 --size 160x120 -o refined.png --report refined.json
+says refined.json "crossings" '"found": ['
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 1\n3 0 1 2\n' >triangle.off
+expect 0 "an open mesh" $prohull render triangle.off --size 16x16 -o open.png
+expect 0 "from a pipe" sh -c "cat rock.ply | $prohull render /dev/stdin --size 16x16 -o pipe.png"
+
 # --- what cannot be reached ---
 $prohull sample box -o box.ply --faces 2000 >/dev/null
 expect 0 "the least face count" $prohull build box.ply --faces 4 -o least.ply
@@ -188,6 +219,28 @@ says err "hierarchy over the input" "named twice"
 expect 2 "output in .gz" $prohull build rock.ply -o x.ply.gz
 expect 2 "a side by number" $prohull build rock.ply -o x.ply --side 1
 says err "a side by number" "outer"
+expect 2 "a picture of another kind" $prohull render rock.ply -o picture.jpg
+says err "a picture of another kind" ".png"
+for size in 0x10 10 10x 10x10x10 99999x10 ax10; do
+  expect 2 "size $size" $prohull render rock.ply -o wrong.png --size $size
+done
+expect 2 "no colour" $prohull render rock.ply -o wrong.png --color mauve
+says err "no colour" "orange"
+expect 2 "no background" $prohull render rock.ply -o wrong.png --background none
+expect 2 "no level" $prohull render rock.phull -o wrong.png --faces many
+expect 2 "levels of a mesh" $prohull render rock.ply -o wrong.png --faces 100
+expect 2 "two zooms, three panels" $prohull render rock.ply rock.ply rock.ply -o wrong.png --zoom 1 --zoom 2
+says err "two zooms, three panels" "--zoom is given 2 times"
+expect 2 "no samples" $prohull render rock.ply -o wrong.png --samples 0
+expect 2 "refined along nothing" $prohull render rock.phull -o wrong.png --refine
+expect 2 "a mesh refined" $prohull render rock.ply -o wrong.png --refine --segment 3,0,0,-3,0,0
+says err "a mesh refined" ".phull"
+for segment in 1,2,3 1,2,3,4,5,6,7 1,2,3,4,5,nan 1,2,3,1,2,3 a,b,c,d,e,f; do
+  expect 2 "segment $segment" $prohull render rock.ply -o wrong.png --segment $segment
+done
+expect 2 "more panels than pixels" $prohull render rock.ply rock.ply rock.ply -o wrong.png --size 2x2
+expect 2 "picture and report in one" $prohull render rock.ply -o wrong.png --report wrong.png
+absent "wrong.png" "wrong usage"
 expect 2 "unknown sample" $prohull sample cow -o x.ply
 says err "unknown sample" "sphere"
 expect 0 "help" $prohull build --help
@@ -221,6 +274,12 @@ bad "unknown format" hull.json "hull.json"
 head -c 5000 rock.phull >truncated.phull
 expect 3 "truncated .phull" $prohull info truncated.phull
 says err "truncated .phull" "truncated"
+expect 3 "a picture of nothing" $prohull render empty.off -o bad.png
+says err "a picture of nothing" "no faces"
+expect 3 "a picture of NaN" $prohull render nan.off -o bad.png
+expect 3 "a picture of no file" $prohull render rock.ply --over nowhere.ply -o bad.png
+says err "a picture of no file" "nowhere.ply"
+absent "bad.png" "bad input"
 expect 3 "a mesh is no .phull" $prohull lod rock.ply -o x.ply
 
 $prohull sample sphere -o sphere.obj --faces 5000 >/dev/null
@@ -260,6 +319,14 @@ code=$?
 checks=$((checks + 1))
 [ $code -eq 130 ] || fail "Ctrl-C of a query: exit code $code, expected 130"
 absent "interrupted*" "Ctrl-C of a query"
+$prohull render big.ply --size 4000x3000 --samples 256 -o interrupted.png >out 2>err &
+sleep 1
+kill -INT $! 2>/dev/null
+wait $!
+code=$?
+checks=$((checks + 1))
+[ $code -eq 130 ] || fail "Ctrl-C of a picture: exit code $code, expected 130"
+absent "interrupted*" "Ctrl-C of a picture"
 
 echo "$((checks - failures)) passed, $failures failed"
 [ $failures -eq 0 ]

@@ -1,0 +1,402 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "command.h"
+#include "prohull/error.h"
+#include "prohull/file.h"
+#include "render/compose.h"
+#include "render/draw.h"
+#include "render/mesh_table.h"
+#include "render/refine_along.h"
+
+namespace prohull::cli {
+namespace {
+
+using render::MeshTable;
+using render::PanelPlan;
+using render::Rgb;
+
+struct Options {
+  std::vector<std::filesystem::path> in;
+  std::filesystem::path out, report;
+  std::vector<std::string> over, split, colors, faces, centers;
+  std::vector<double> zooms, line_widths;
+  std::string segment;
+  bool refine = false, wireframe = false, palette = false;
+  std::optional<double> crease_degrees;
+  double azimuth_degrees = 35, elevation_degrees = 20, field_of_view_degrees = 25;
+  render::Look look;
+  std::string size = "1024x768", background = "white";
+  int samples = 4, threads = 0;
+};
+
+constexpr std::string_view kOriginal = "original", kNone = "none", kTransparent = "transparent";
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
+
+/// Whether all of the text is a number.
+template <class Number>
+bool parse(std::string_view text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return rest == end && error == std::errc();
+}
+
+Rgb color_of(const std::string& text) {
+  if (const auto color = render::parse_color(text)) return *color;
+  refuse(fmt::format("'{}' is no colour; say #rrggbb, or one of {}", text, render::color_names()));
+}
+
+struct Size {
+  int width = 0, height = 0;
+};
+
+Size size_of(const std::string& text) {
+  constexpr int kMax = render::Image::kMaxSide;
+  Size size;
+  const std::size_t cross = std::min(text.find('x'), text.size());
+  if (!parse(text.substr(0, cross), size.width) || !parse(text.substr(std::min(cross + 1, text.size())), size.height) ||
+      std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > kMax)
+    refuse(fmt::format("'{}' is no size; say WIDTHxHEIGHT in pixels, as 1024x768, at most {} each", text, kMax));
+  return size;
+}
+
+std::size_t level_of(const std::string& text) {
+  std::size_t faces = MeshTable::kFinest;
+  if (text != kOriginal && !parse(text, faces))
+    refuse(fmt::format("'{}' is no level; say a number of faces, or {}", text, kOriginal));
+  return faces;
+}
+
+/// Numbers separated by commas.
+template <std::size_t kCount>
+std::array<double, kCount> numbers_of(const std::string& text, const char* what) {
+  std::array<double, kCount> numbers;
+  std::size_t count = 0;
+  for (const std::string& number : CLI::detail::split(text, ','))
+    if (count == kCount || !parse(number, numbers[count]) || !std::isfinite(numbers[count++]))
+      refuse(fmt::format("'{}' is no {}; say {} numbers with commas between them", text, what, kCount));
+  if (count < kCount) refuse(fmt::format("'{}' is no {}; it has {} numbers, not {}", text, what, count, kCount));
+  return numbers;
+}
+
+Vec3 point_of(const std::string& text) {
+  const auto [x, y, z] = numbers_of<3>(text, "point");
+  return {x, y, z};
+}
+
+Segment segment_of(const std::string& text) {
+  const auto [ax, ay, az, bx, by, bz] = numbers_of<6>(text, "segment");
+  const Segment segment{{ax, ay, az}, {bx, by, bz}};
+  if (segment.a == segment.b) refuse(fmt::format("'{}': the ends of the segment are the same", text));
+  return segment;
+}
+
+/// Of options that are given once, for all panels, or once for each.
+template <class Value>
+std::optional<Value> for_panel(const std::vector<Value>& values, std::size_t i) {
+  if (values.empty()) return std::nullopt;
+  return values[values.size() == 1 ? 0 : i];
+}
+
+/// A panel for each mesh, and for each level that is asked for of each .phull file.
+class Planner {
+ public:
+  Planner(const Options& options, MeshTable& table) : options_(options), table_(table) {
+    std::vector<std::pair<std::filesystem::path, std::size_t>> shown;
+    for (const auto& path : options.in)
+      for (const std::size_t level : levels(path)) shown.emplace_back(path, level);
+    require_fit(shown.size());
+    for (const auto& [path, level] : shown) add(path, level);
+  }
+  const std::vector<PanelPlan>& plans() const { return plans_; }
+
+ private:
+  void require_fit(std::size_t panels) {
+    const auto once_or_for_each = [panels](std::string_view option, std::size_t count) {
+      if (count > 1 && count != panels)
+        refuse(fmt::format("{} is given {} times; say it once, or for each of the {} panels", option, count, panels));
+    };
+    once_or_for_each("--over", options_.over.size());
+    once_or_for_each("--split", options_.split.size());
+    once_or_for_each("--color", options_.colors.size());
+    once_or_for_each("--line-width", options_.line_widths.size());
+    once_or_for_each("--zoom", options_.zooms.size());
+    once_or_for_each("--center", options_.centers.size());
+    const auto is_hull = [&](const auto& path) { return table_.is_hull(path); };
+    if (!options_.faces.empty() && std::ranges::none_of(options_.in, is_hull))
+      refuse("--faces is for .phull files; a mesh file has one level only");
+  }
+
+  std::vector<std::size_t> levels(const std::filesystem::path& path) {
+    if (!table_.is_hull(path)) return {MeshTable::kFinest};
+    if (options_.faces.empty()) return {0};
+    std::vector<std::size_t> levels;
+    for (const std::string& text : options_.faces) levels.push_back(level_of(text));
+    return levels;
+  }
+
+  void add(const std::filesystem::path& path, std::size_t level) {
+    const std::size_t i = plans_.size();
+    PanelPlan plan;
+    plan.inside = companion(options_.over, path);
+    plan.right = companion(options_.split, path);
+    if (options_.refine) {
+      add_refined(path, level, plan);
+    } else {
+      plan.shown = table_.add(path, level);
+      if (!options_.segment.empty()) plan.segment = crossings(plan.inside.value_or(plan.shown));
+    }
+    const bool is_hull = plan.inside || plan.right || level != MeshTable::kFinest;
+    plan.color = color_of(for_panel(options_.colors, i).value_or(is_hull ? "blue" : "clay"));
+    if (options_.wireframe) plan.line_width = for_panel(options_.line_widths, i).value_or(1);
+    plan.zoom = for_panel(options_.zooms, i).value_or(1);
+    if (const auto center = for_panel(options_.centers, i); center && *center != kNone) plan.center = point_of(*center);
+    plans_.push_back(std::move(plan));
+    if (interrupted()) throw Interrupted{};
+  }
+
+  void add_refined(const std::filesystem::path& path, std::size_t level, PanelPlan& plan) {
+    if (!table_.is_hull(path)) refuse(fmt::format("{}: only .phull files can be refined", path.string()));
+    const Segment segment = segment_of(options_.segment);
+    render::RefinedAlong refined = render::refine_along(table_.hull(path).with_base(level), segment);
+    plan.shown = table_.add(std::move(refined.hull));
+    plan.segment = {segment, std::move(refined.found), std::move(refined.missed)};
+  }
+
+  render::MarkedSegment crossings(std::size_t mesh) const {
+    render::MarkedSegment marked{segment_of(options_.segment), {}, {}};
+    for (const Hit& hit : MeshQuery(QueryIndex(table_.meshes()[mesh])).all_hits(marked.segment))
+      marked.found.push_back(hit.t);
+    return marked;
+  }
+
+  std::optional<std::size_t> companion(const std::vector<std::string>& names, const std::filesystem::path& of) {
+    const auto name = for_panel(names, plans_.size());
+    if (!name || *name == kNone) return std::nullopt;
+    return table_.add(*name == kOriginal ? of : std::filesystem::path(*name), MeshTable::kFinest);
+  }
+
+  const Options& options_;
+  MeshTable& table_;
+  std::vector<PanelPlan> plans_;
+};
+
+render::Look look_of(const Options& options) {
+  render::Look look = options.look;
+  if (options.crease_degrees) look.crease_angle = radians(*options.crease_degrees);
+  look.view.azimuth = radians(options.azimuth_degrees);
+  look.view.elevation = radians(options.elevation_degrees);
+  look.view.field_of_view = radians(options.field_of_view_degrees);
+  return look;
+}
+
+void require_sound(const Options& options) {
+  if (options.out.extension() != ".png") refuse(options.out.string() + ": pictures are written as .png");
+  std::vector<std::filesystem::path> files{options.out, options.report};
+  for (const auto& path : options.in)
+    if (std::ranges::find(files, path) == files.end()) files.push_back(path);
+  require_distinct(files);
+  for (const auto& path : {options.out, options.report}) require_writable(path);
+  if (options.refine && options.segment.empty()) refuse("--refine needs the --segment to refine along");
+}
+
+/// "200" or "96,966 + 2,000 + 200"
+std::string face_counts(const std::vector<PanelPlan>& plans, const MeshTable& table) {
+  std::string text;
+  for (const PanelPlan& plan : plans)
+    text += (text.empty() ? "" : " + ") + grouped(table.meshes()[plan.shown].face_count());
+  return text;
+}
+
+nlohmann::json facts_of(const std::vector<PanelPlan>& plans, const MeshTable& table) {
+  nlohmann::json panels = nlohmann::json::array();
+  for (const PanelPlan& plan : plans) {
+    nlohmann::json panel{{"faces", table.meshes()[plan.shown].face_count()}};
+    if (plan.inside) panel["faces_inside"] = table.meshes()[*plan.inside].face_count();
+    if (plan.segment) panel["crossings"] = {{"found", plan.segment->found}, {"missed", plan.segment->missed}};
+    if (plan.right) panel["faces_right"] = table.meshes()[*plan.right].face_count();
+    panels.push_back(panel);
+  }
+  return panels;
+}
+
+render::Image drawn(const std::vector<render::Panel>& panels, const Size& size, const Options& options) {
+  ProgressLine line("render");
+  render::DrawOptions draw_options{.samples = options.samples, .background = {}, .threads = options.threads};
+  if (options.background != kTransparent) draw_options.background = color_of(options.background);
+  draw_options.progress = [&](double fraction) { return line(fraction); };
+  try {
+    return render::draw(size.width, size.height, panels, draw_options);
+  } catch (const Cancelled&) {
+    throw Interrupted{};
+  }
+}
+
+int run_render(const Options& options) {
+  const Stopwatch watch;
+  require_sound(options);
+  const Size size = size_of(options.size);
+  const render::Look look = look_of(options);
+  if (options.background != kTransparent) color_of(options.background);
+
+  MeshTable table;
+  const std::vector<PanelPlan> plans = Planner(options, table).plans();
+  if (static_cast<std::size_t>(size.width) < plans.size())
+    refuse(fmt::format("{} panels do not fit into {} pixels", plans.size(), size.width));
+  const auto panels = render::compose(plans, table.meshes(), look, size.width, size.height);
+  const render::Image image = drawn(panels, size, options);
+  const std::string png = options.palette ? render::encode_small_png(image) : render::encode_png(image);
+  if (interrupted()) throw Interrupted{};
+  write_file(options.out, png);
+
+  fmt::print("{}: {} x {}, {} faces, {:.1f} s\n", options.out.string(), size.width, size.height,
+             face_counts(plans, table), watch.seconds());
+  write_report(options.report, {{"path", options.out.string()},
+                                {"width", size.width},
+                                {"height", size.height},
+                                {"panels", facts_of(plans, table)},
+                                {"bytes", png.size()},
+                                {"seconds", watch.seconds()}});
+  return kDone;
+}
+
+void add_content_options(CLI::App& command, Options& options) {
+  constexpr const char* kContent = "What is drawn";
+  command
+      .add_option("--faces", options.faces,
+                  "Levels of .phull files, each in a panel: numbers of faces, or 'original'; without, the base mesh")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("N,...")
+      ->group(kContent);
+  command
+      .add_option("--over", options.over,
+                  "Draw IN translucent over this mesh; 'original': over the finest level of the .phull file itself; "
+                  "once, or for each panel, 'none' for none")
+      ->allow_extra_args(false)
+      ->type_name("MESH")
+      ->group(kContent);
+  command.add_option("--split", options.split, "Draw IN in the left half, and this mesh in the right one; as --over")
+      ->allow_extra_args(false)
+      ->type_name("MESH")
+      ->group(kContent);
+  command
+      .add_option("--segment", options.segment,
+                  "Draw a segment, and where it crosses IN, or the mesh that IN is drawn over")
+      ->type_name("X,Y,Z,X,Y,Z")
+      ->group(kContent);
+  command
+      .add_flag("--refine", options.refine,
+                "Refine the hull of a .phull file along the segment, as Platis and Theoharis (2003) do; crossings are "
+                "green where this finds them, and red where it does not")
+      ->group(kContent);
+}
+
+void add_look_options(CLI::App& command, Options& options) {
+  constexpr const char* kLook = "Look";
+  command.add_flag("--wireframe", options.wireframe, "Draw the edges of IN")->group(kLook);
+  command.add_option("--line-width", options.line_widths, "Of edges, in pixels; once, or for each panel")
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0.0, 100.0).description(""))
+      ->default_str("1")
+      ->type_name("WIDTH")
+      ->group(kLook);
+  command
+      .add_option(
+          "--crease", options.crease_degrees,
+          "Faces that meet at less than so many degrees look smooth, 0 to 180; without, 40 for meshes of 10,000 "
+          "faces or more and 0 for others")
+      ->check(CLI::Range(0.0, 180.0))
+      ->group(kLook);
+  command
+      .add_option("--color", options.colors,
+                  fmt::format("Of IN: #rrggbb, {}; once, or for each panel. Without, hulls are "
+                              "blue and other meshes are of clay",
+                              render::color_names()))
+      ->allow_extra_args(false)
+      ->type_name("COLOR")
+      ->group(kLook);
+  command.add_option("--opacity", options.look.opacity, "Of IN with --over, 0 to 1")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(kLook);
+  command.add_flag("--ground", options.look.ground, "Let shadows fall on a ground below")->group(kLook);
+  command.add_option("--background", options.background, "A colour, or 'transparent'")
+      ->capture_default_str()
+      ->type_name("COLOR")
+      ->group(kLook);
+}
+
+void add_view_options(CLI::App& command, Options& options) {
+  constexpr const char* kView = "View";
+  const Names<int> axes{{"x", 0}, {"y", 1}, {"z", 2}};
+  add_choice(command, "--up", options.look.view.up, axes, "The axis that points up")->group(kView);
+  command
+      .add_option("--azimuth", options.azimuth_degrees, "Degrees around that axis; 0 is the front, 90 the right side")
+      ->capture_default_str()
+      ->check(CLI::Range(-360.0, 360.0))
+      ->group(kView);
+  command.add_option("--elevation", options.elevation_degrees, "Degrees above the horizon, -90 to 90")
+      ->capture_default_str()
+      ->check(CLI::Range(-90.0, 90.0))
+      ->group(kView);
+  command
+      .add_option("--zoom", options.zooms, "1: all is seen; above, only what is in the middle; once, or for each panel")
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0.01, 1000.0).description(""))
+      ->default_str("1")
+      ->type_name("FACTOR")
+      ->group(kView);
+  command
+      .add_option("--center", options.centers,
+                  "What is in the middle of the picture; once, or for each panel, 'none' for none")
+      ->allow_extra_args(false)
+      ->type_name("X,Y,Z")
+      ->group(kView);
+  command.add_option("--fov", options.field_of_view_degrees, "Degrees across the shorter side of a panel, 1 to 120")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 120.0))
+      ->group(kView);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("render", "Draw meshes and hulls, side by side, as a PNG picture");
+  command.add_option("in", options->in, "Meshes (PLY, OBJ, OFF, STL; also .gz or .zip) or .phull files")
+      ->required()
+      ->type_name("IN");
+  command.add_option("-o,--out", options->out, "Where the picture goes")->required()->type_name("OUT.png");
+  command.add_option("--size", options->size, "Of the picture, in pixels")
+      ->capture_default_str()
+      ->type_name("WIDTHxHEIGHT");
+  command.add_option("--samples", options->samples, "Per pixel, 1 to 256: more are smoother")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256));
+  command.add_flag("--palette", options->palette, "At most 256 colours: a file of less than half the size");
+  command.add_option("--threads", options->threads, "0: one for each core; the picture is the same for any number")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  add_report_option(command, options->report);
+  add_content_options(command, *options);
+  add_look_options(command, *options);
+  add_view_options(command, *options);
+  add_examples(command,
+               {"prohull render horse.ply -o horse.png --ground",
+                "prohull render hull.ply --over horse.ply --wireframe -o both.png",
+                "prohull render hull.stl --split horse.ply --wireframe -o halves.png",
+                "prohull render horse.phull --faces original,2000,200 --wireframe -o levels.png --size 1200x400",
+                "prohull render pump.stl -o pump.png --up y --azimuth 120 --background transparent"});
+  command.callback([options, &run] { run = [options] { return run_render(*options); }; });
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,72 @@
+#include "render/draw.h"
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "prohull/error.h"
+
+namespace prohull::render {
+namespace {
+
+struct Task {
+  std::size_t panel;
+  Rectangle tile;
+};
+
+std::vector<Task> tiles(const std::vector<Panel>& panels) {
+  constexpr int kSide = 48;
+  std::vector<Task> tasks;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const Rectangle& place = panels[i].place;
+    for (int y = place.top; y < place.bottom; y += kSide)
+      for (int x = place.left; x < place.right; x += kSide)
+        tasks.push_back({i, {x, y, std::min(x + kSide, place.right), std::min(y + kSide, place.bottom)}});
+  }
+  return tasks;
+}
+
+/// Counts what is done, and throws when the caller wants to stop.
+class Progress {
+ public:
+  Progress(std::size_t all, const std::function<bool(double)>& report) : all_(all), report_(report) {}
+  void advance() {
+    if (!report_) return;
+    const std::scoped_lock lock(mutex_);
+    if (!report_(static_cast<double>(++done_) / static_cast<double>(all_))) throw Cancelled();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t done_ = 0, all_;
+  const std::function<bool(double)>& report_;
+};
+
+std::vector<TileRenderer> renderers(const std::vector<Panel>& panels, const Pattern& pattern) {
+  std::vector<TileRenderer> result;
+  for (const Panel& panel : panels) result.emplace_back(panel, pattern);
+  return result;
+}
+
+}  // namespace
+
+Image draw(int width, int height, const std::vector<Panel>& panels, const DrawOptions& options) {
+  Image image(width, height);
+  const std::vector<Task> tasks = tiles(panels);
+  const Pattern pattern(options.samples);
+  Progress progress(tasks.size(), options.progress);
+  oneapi::tbb::enumerable_thread_specific<std::vector<TileRenderer>> mine([&] { return renderers(panels, pattern); });
+  const auto draw_tile = [&](std::size_t i) {
+    mine.local()[tasks[i].panel].draw(tasks[i].tile, options.background, image);
+    progress.advance();
+  };
+  const int cores = oneapi::tbb::this_task_arena::max_concurrency();
+  oneapi::tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, cores) : cores);
+  arena.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, tasks.size(), draw_tile); });
+  return image;
+}
+
+}  // namespace prohull::render

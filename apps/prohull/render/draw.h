@@ -1,0 +1,19 @@
+#pragma once
+
+#include <functional>
+
+#include "render/tile.h"
+
+namespace prohull::render {
+
+struct DrawOptions {
+  int samples = 4;                                     ///< per pixel, at least 1
+  std::optional<Rgb> background;                       ///< none: transparent
+  int threads = 0;                                     ///< 0: one for each core
+  std::function<bool(double fraction)> progress = {};  ///< called by one thread at a time; false cancels
+};
+
+/// A picture with each panel in its place. The same bits for any number of threads. Throws Cancelled.
+Image draw(int width, int height, const std::vector<Panel>& panels, const DrawOptions& options);
+
+}  // namespace prohull::render

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <array>
+
+#include "prohull/triangle_mesh.h"
+
+namespace prohull::render {
+
+/// Of length 1; zero for a face without area.
+Vec3 face_normal(const Triangle& triangle);
+
+using CornerNormals = PerFace<std::array<Vec3, 3>>;
+
+/// For each corner of a face the mean, weighted by angle, of the normals around its vertex that are within
+/// `crease_angle` (radians) of the face's own: smooth surfaces look smooth, and sharp edges stay sharp.
+CornerNormals corner_normals(const TriangleMesh& mesh, double crease_angle);
+
+/// At a point of the triangle, of length 1.
+Vec3 interpolated_normal(const Triangle& triangle, const std::array<Vec3, 3>& corners, const Vec3& point);
+
+}  // namespace prohull::render
