@@ -21,7 +21,7 @@ namespace {
 // What a collapse costs as meshes grow, and what the guard of self-intersections adds.
 
 struct Options {
-  ModelOptions models{.samples = {"pony"}, .sample_faces = 97000};
+  ModelOptions models{.folder = {}, .samples = {"pony"}, .sample_faces = 97000};
   std::size_t hull_faces = 2000, subdivisions = 3, rounds = 3;
   std::filesystem::path out;
 };
