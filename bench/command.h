@@ -16,5 +16,6 @@ void add_construction(CLI::App& app, Run& run);
 void add_memory(CLI::App& app, Run& run);
 void add_queries(CLI::App& app, Run& run);
 void add_queues(CLI::App& app, Run& run);
+void add_scale(CLI::App& app, Run& run);
 
 }  // namespace prohull::bench

@@ -29,6 +29,10 @@ run(queues --samples asteroid --sample-faces 2000 --faces 400 --repeat 1)
 expect("${printed}" "| model | strategy | heap | red-black tree | buckets |")
 run(memory --samples asteroid --sample-faces 2000 --faces 400)
 expect("${printed}" "| model | faces | mesh | peak | bytes per face |")
+run(scale --samples asteroid --sample-faces 1000 --subdivisions 1 --faces 400 --repeat 1 --out ${OUT})
+expect("${printed}" "| mesh | faces | per collapse | guarded | guarded / unguarded | programs per collapse |")
+file(READ ${OUT}/scale.csv csv)
+expect("${csv}" "mesh,faces,guarded,seconds,collapses,linear_programs,us_per_collapse")
 
 run(queries --samples asteroid --sample-faces 2000 --segments 100 --check 300 --repeat 1 --out ${OUT})
 foreach(column "| model | strategy | base | time | brute force / time |" "| model | segments that meet | paper's | 6-DOPs |"

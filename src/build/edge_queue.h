@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstdint>
@@ -13,6 +14,12 @@ namespace prohull {
 
 // Three priority queues of edges with one interface. Keys are >= 0; the least comes first; equal keys are ordered by
 // edge (Heap, RedBlackTree) or by age (Bucket).
+
+/// A queue that knows what comes next before it is popped.
+template <class Queue>
+concept ForeseesEdges = requires(Queue queue) {
+  queue.upcoming(std::size_t{});
+};
 
 /// A binary heap that knows where each edge is.
 class EdgeHeap {
@@ -104,48 +111,56 @@ class EdgeTree {
   std::set<std::pair<double, EdgeId>> tree_;
 };
 
-/// Eight buckets to an octave, first in first out within each: all operations take constant time.
+/// Eight buckets to an octave, first in first out within each: all operations take constant time. A bucket is an array
+/// in which erased edges leave their entries behind, so that what comes next is known and can be fetched early.
 class EdgeBuckets {
  public:
-  explicit EdgeBuckets(std::size_t edges)
-      : next_(edges, kNone),
-        previous_(edges, kNone),
-        bucket_(edges, kNotQueued),
-        first_(kBuckets, kNone),
-        last_(kBuckets, kNone) {}
+  explicit EdgeBuckets(std::size_t edges) : places_(edges), buckets_(kBuckets) {}
 
   bool empty() const { return size_ == 0; }
-  bool contains(EdgeId e) const { return bucket_[e] != kNotQueued; }
-  bool precedes_all(double key) const { return empty() || bucket_of(key) <= least(); }
+  bool contains(EdgeId e) const { return places_[e].bucket != kNotQueued; }
+  bool precedes_all(double key) { return empty() || bucket_of(key) <= least(); }
 
   void insert(EdgeId e, double key) {
     assert(!contains(e));
     const std::uint16_t b = bucket_of(key);
-    bucket_[e] = b;
-    next_[e] = kNone;
-    previous_[e] = last_[b];
-    (last_[b] == kNone ? first_[b] : next_[last_[b]]) = e;
-    last_[b] = e;
+    places_[e] = {static_cast<std::uint32_t>(buckets_[b].entries.size()), b};
+    buckets_[b].entries.push_back(e);
     if (b < least_) least_ = b;
     ++size_;
   }
   void erase(EdgeId e) {
-    const std::uint16_t b = bucket_[e];
-    (previous_[e] == kNone ? first_[b] : next_[previous_[e]]) = next_[e];
-    (next_[e] == kNone ? last_[b] : previous_[next_[e]]) = previous_[e];
-    bucket_[e] = kNotQueued;
+    places_[e].bucket = kNotQueued;
     --size_;
+    if (++left_behind_ > kRoom + size_) remove_left_behind();
   }
   EdgeId pop() {
-    const EdgeId e = first_[least()];
-    erase(e);
+    Bucket& bucket = buckets_[least()];
+    const EdgeId e = bucket.entries[bucket.first++];
+    places_[e].bucket = kNotQueued;
+    --size_;
     return e;
   }
 
+  /// The edge that is pop()ped after `skipped` others, if nothing changes until then; only a guess. Requires an edge.
+  EdgeId upcoming(std::size_t skipped) {
+    const Bucket& bucket = buckets_[least()];
+    return bucket.entries[std::min(bucket.first + skipped, bucket.entries.size() - 1)];
+  }
+  void prefetch(EdgeId e) const { __builtin_prefetch(&places_[e]); }
+
  private:
-  static constexpr EdgeId kNone{0xffffffff};
-  static constexpr std::size_t kBuckets = 1 << 14;
+  static constexpr std::size_t kBuckets = 1 << 14, kRoom = 1 << 16;
   static constexpr std::uint16_t kNotQueued = 0xffff;
+
+  struct Place {
+    std::uint32_t entry = 0;
+    std::uint16_t bucket = kNotQueued;
+  };
+  struct Bucket {
+    std::vector<EdgeId> entries;
+    std::size_t first = 0;  ///< those before are gone
+  };
 
   // The exponent of a non-negative double and the first three bits of its mantissa, which are in the order of the
   // values.
@@ -153,16 +168,40 @@ class EdgeBuckets {
     assert(key >= 0);
     return static_cast<std::uint16_t>(std::bit_cast<std::uint64_t>(key + 0.0) >> 49);
   }
-  std::uint16_t least() const {
-    while (first_[least_] == kNone) ++least_;
-    return least_;
+  bool is_queued(std::uint16_t b, std::size_t entry) const {
+    const Place& place = places_[buckets_[b].entries[entry]];
+    return place.bucket == b && place.entry == entry;
+  }
+  // The first bucket with an edge, its first entry that of an edge.
+  std::uint16_t least() {
+    while (true) {
+      Bucket& bucket = buckets_[least_];
+      for (; bucket.first < bucket.entries.size(); ++bucket.first, --left_behind_)
+        if (is_queued(least_, bucket.first)) return least_;
+      bucket = {};
+      ++least_;
+    }
+  }
+  void remove_left_behind() {
+    for (std::uint16_t b = least_; b < kBuckets; ++b) {
+      Bucket& bucket = buckets_[b];
+      std::uint32_t kept = 0;
+      for (std::size_t i = bucket.first; i < bucket.entries.size(); ++i) {
+        if (!is_queued(b, i)) continue;
+        const EdgeId e = bucket.entries[i];
+        bucket.entries[kept] = e;
+        places_[e].entry = kept++;
+      }
+      bucket.entries.resize(kept);
+      bucket.first = 0;
+    }
+    left_behind_ = 0;
   }
 
-  PerEdge<EdgeId> next_, previous_;
-  PerEdge<std::uint16_t> bucket_;
-  std::vector<EdgeId> first_, last_;
-  mutable std::uint16_t least_ = kBuckets - 1;  ///< no bucket before it holds an edge
-  std::size_t size_ = 0;
+  PerEdge<Place> places_;
+  std::vector<Bucket> buckets_;
+  std::uint16_t least_ = kBuckets - 1;  ///< no bucket before it holds an edge
+  std::size_t size_ = 0, left_behind_ = 0;
 };
 
 }  // namespace prohull

@@ -9,6 +9,7 @@
 #include "build/placement.h"
 #include "build/self_intersection_guard.h"
 #include "build/shape_guards.h"
+#include "build/spatial_order.h"
 #include "build/star.h"
 #include "build/turned.h"
 #include "geometry/float32.h"
@@ -18,10 +19,16 @@
 namespace prohull {
 namespace {
 
-// What is known of an edge between its visits.
-enum class EdgeState : std::uint8_t {
-  Fresh,  ///< its key is that of the star as it is
-  Stale,  ///< the star has changed since
+// What is known of an edge between its visits. Times count the collapses, from 1.
+struct EdgeFacts {
+  double key = 0;
+  std::uint32_t evaluated = 0;  ///< when the key was that of the star
+  Refusal last_refusal = Refusal::LinkCondition;
+};
+
+struct VertexFacts {
+  std::uint32_t changed = 1;  ///< when a face around it last did
+  bool has_refused = false;   ///< an edge that ends here may be out of the queue
 };
 
 double largest_coordinate(const Box& box) {
@@ -35,11 +42,11 @@ class HullBuilder {
   HullBuilder(const TriangleMesh& mesh, const HullOptions& options)
       : options_(options),
         original_vertices_(mesh.vertex_count()),
-        mesh_(mesh),
+        order_(mesh),
+        mesh_(order_.reordered(mesh)),
         queue_(mesh_.edge_id_count()),
-        key_(mesh_.edge_id_count(), 0),
-        state_(mesh_.edge_id_count(), EdgeState::Stale),
-        last_refusal_(mesh_.edge_id_count(), Refusal::LinkCondition),
+        edges_(mesh_.edge_id_count()),
+        vertices_(mesh.vertex_count()),
         rounding_(largest_coordinate(bounding_box(mesh)) * (options.float32_coordinates ? 0x1p-23 : 0x1p-52)) {
     if (!options.allow_self_intersections || options.side == HullSide::Inner) guard_.emplace(mesh_);
   }
@@ -48,6 +55,7 @@ class HullBuilder {
     queue_all();
     while (mesh_.face_count() > options_.target_faces && !queue_.empty() && !cancelled()) {
       const EdgeId edge = queue_.pop();
+      prefetch_upcoming();
       gather_star(mesh_, edge, star_);
       if (const auto why = refusal_of_topology()) {  // 3.1.4: link condition, valence
         refuse(edge, *why);
@@ -65,14 +73,63 @@ class HullBuilder {
         refuse(edge, *why);
         continue;
       }
-      requeue_around(collapse(apex));  // Figure 3
+      const VertexId s = collapse(apex);
+      if (options_.strategy == Strategy::Lazy)
+        mark_changed_around(s);
+      else
+        reevaluate_around(s);  // Figure 3
     }
     return result();
   }
 
  private:
   void queue_all() {
-    for (std::uint32_t i = 0; i < mesh_.edge_id_count() && !cancelled(); ++i) evaluate_and_queue(EdgeId(i));
+    for (std::uint32_t i = 0; i < mesh_.edge_id_count() && !cancelled(); ++i)
+      options_.strategy == Strategy::Lazy ? estimate_and_queue(EdgeId{i}) : evaluate_and_queue(EdgeId{i});
+  }
+
+  // Lazy only: instead of a linear program for every edge of the input.
+  void estimate_and_queue(EdgeId edge) {
+    gather_star(mesh_, edge, star_);
+    edges_[edge].key = estimated_volume(mesh_, star_);
+    queue_.insert(edge, edges_[edge].key);
+  }
+
+  // Edges that follow each other in the queue lie anywhere in the mesh: what is known of them comes into the cache in
+  // steps, as each is needed to find the next.
+  void prefetch_upcoming() {
+    if constexpr (ForeseesEdges<Queue>) {
+      if (queue_.empty()) return;
+      const auto half_edge = [&](std::size_t skipped) { return mesh_.half_edge(queue_.upcoming(skipped)); };
+      const EdgeId far = queue_.upcoming(20);
+      queue_.prefetch(far);
+      mesh_.prefetch(far);
+      __builtin_prefetch(&edges_[far]);
+      if (const HalfEdgeId h = half_edge(16); h != kNoHalfEdge) mesh_.prefetch(h);
+      if (const HalfEdgeId h = half_edge(12); h != kNoHalfEdge) prefetch_end(h), mesh_.prefetch(mesh_.twin(h));
+      if (const HalfEdgeId h = half_edge(8); h != kNoHalfEdge) prefetch_end(mesh_.twin(h)), prefetch_faces<0>(h);
+      if (const HalfEdgeId h = half_edge(5); h != kNoHalfEdge) prefetch_faces<1>(h);
+      if (const HalfEdgeId h = half_edge(2); h != kNoHalfEdge) prefetch_faces<2>(h);
+    }
+  }
+
+  void prefetch_end(HalfEdgeId h) {
+    mesh_.prefetch(mesh_.tail(h));
+    __builtin_prefetch(&vertices_[mesh_.tail(h)]);
+  }
+
+  // The faces `distance` away from the edge's own, around either end, on either side; and the last corners on the way.
+  template <int distance>
+  void prefetch_faces(HalfEdgeId h) {
+    for (const HalfEdgeId side : {h, mesh_.twin(h)}) {
+      HalfEdgeId around_tail = side, around_tip = mesh_.next(side);  // towards and away from the link
+      for (int i = 0; i < distance; ++i) {
+        around_tail = mesh_.rotated(around_tail);
+        around_tip = mesh_.next(mesh_.twin(around_tip));
+      }
+      mesh_.prefetch(mesh_.tip(around_tail)), mesh_.prefetch(mesh_.tip(around_tip));
+      mesh_.prefetch(mesh_.rotated(around_tail)), mesh_.prefetch(mesh_.twin(around_tip));
+    }
   }
 
   std::optional<Refusal> refusal_of_topology() const {
@@ -88,13 +145,23 @@ class HullBuilder {
 
   Vec3 as_stored(const Vec3& p) const { return options_.float32_coordinates ? nearest_float32(p) : p; }
 
+  std::uint32_t now() const { return static_cast<std::uint32_t>(record_.size() + 1); }
+
+  bool is_fresh(EdgeId edge) const {
+    return edges_[edge].evaluated >= std::max(vertices_[star_.o].changed, vertices_[star_.d].changed);
+  }
+
+  void set_key(EdgeId edge, double key) {
+    edges_[edge].key = key;
+    edges_[edge].evaluated = now();
+  }
+
   // Lazy only: the key of an edge whose star has changed is found now, and may send it back into the queue.
   bool comes_too_early(EdgeId edge, const Placement& placement) {
-    if (state_[edge] == EdgeState::Fresh) return false;
-    state_[edge] = EdgeState::Fresh;
-    key_[edge] = placement.added_volume;
-    if (queue_.precedes_all(key_[edge])) return false;
-    queue_.insert(edge, key_[edge]);
+    if (is_fresh(edge)) return false;
+    set_key(edge, placement.added_volume);
+    if (queue_.precedes_all(placement.added_volume)) return false;
+    queue_.insert(edge, placement.added_volume);
     return true;
   }
 
@@ -123,7 +190,8 @@ class HullBuilder {
 
   void refuse(EdgeId edge, Refusal why) {
     refused_.count(why);
-    last_refusal_[edge] = why;
+    edges_[edge].last_refusal = why;
+    vertices_[star_.o].has_refused = vertices_[star_.d].has_refused = true;
   }
 
   VertexId collapse(const Vec3& apex) {
@@ -132,21 +200,47 @@ class HullBuilder {
     unqueue(mesh_.edge(mesh_.next(mesh_.twin(star_.edge))));
     const VertexId s = mesh_.positions().next_id();
     record_.push_back(mesh_.collapse(star_.edge, apex));
+    vertices_.push_back({now(), vertices_[star_.o].has_refused || vertices_[star_.d].has_refused});
     if (guard_) guard_->changed(mesh_, s);
     return s;
   }
 
-  // P&T Figure 3: the edges whose star has changed are those with an end on s or its link.
-  void requeue_around(VertexId s) {
+  // The edges whose star has changed are those with an end on s or its link. Lazy: they are evaluated when their turn
+  // comes; those that were refused get another.
+  void mark_changed_around(VertexId s) {
+    mark_changed(s);
+    const HalfEdgeId first = mesh_.out(s);
+    HalfEdgeId h = first;
+    do {
+      mark_changed(mesh_.tip(h));
+      h = mesh_.rotated(h);
+    } while (h != first);
+  }
+
+  void mark_changed(VertexId v) {
+    vertices_[v].changed = now();
+    if (!vertices_[v].has_refused) return;
+    vertices_[v].has_refused = false;
+    const HalfEdgeId first = mesh_.out(v);
+    HalfEdgeId h = first;
+    do {
+      const EdgeId edge = mesh_.edge(h);
+      if (!queue_.contains(edge)) queue_.insert(edge, edges_[edge].key);
+      h = mesh_.rotated(h);
+    } while (h != first);
+  }
+
+  // P&T Figure 3.
+  void reevaluate_around(VertexId s) {
     const HalfEdgeId first = mesh_.out(s);
     HalfEdgeId h = first;
     do {
       const HalfEdgeId around = mesh_.twin(h);
-      requeue(mesh_.edge(h));
+      reevaluate(mesh_.edge(h));
       // Edges between two link vertices are met from both: the one beside s is left to its own tail.
       HalfEdgeId g = mesh_.rotated(around);
-      requeue(mesh_.edge(g));
-      for (g = mesh_.rotated(g); mesh_.rotated(g) != around; g = mesh_.rotated(g)) requeue(mesh_.edge(g));
+      reevaluate(mesh_.edge(g));
+      for (g = mesh_.rotated(g); mesh_.rotated(g) != around; g = mesh_.rotated(g)) reevaluate(mesh_.edge(g));
       h = mesh_.rotated(h);
     } while (h != first);
   }
@@ -155,14 +249,9 @@ class HullBuilder {
     if (queue_.contains(edge)) queue_.erase(edge);
   }
 
-  void requeue(EdgeId edge) {
-    if (options_.strategy != Strategy::Lazy) {
-      unqueue(edge);
-      evaluate_and_queue(edge);
-      return;
-    }
-    state_[edge] = EdgeState::Stale;
-    if (!queue_.contains(edge)) queue_.insert(edge, key_[edge]);
+  void reevaluate(EdgeId edge) {
+    unqueue(edge);
+    evaluate_and_queue(edge);
   }
 
   void evaluate_and_queue(EdgeId edge) {
@@ -170,14 +259,13 @@ class HullBuilder {
     if (const auto why = refusal_of_topology()) return refuse(edge, *why);
     measure_star(mesh_, star_);
     if (options_.strategy == Strategy::Paper2) {
-      key_[edge] = link_center_volume(star_);
+      set_key(edge, link_center_volume(star_));
     } else {
       const auto placement = place();
       if (!placement) return refuse(edge, Refusal::NoRoomOutside);
-      key_[edge] = placement->added_volume;
+      set_key(edge, placement->added_volume);
     }
-    state_[edge] = EdgeState::Fresh;
-    queue_.insert(edge, key_[edge]);
+    queue_.insert(edge, edges_[edge].key);
   }
 
   bool cancelled() {
@@ -195,20 +283,30 @@ class HullBuilder {
   HullResult result() {
     RefusalCounts blocked;
     for (std::uint32_t i = 0; i < mesh_.edge_id_count(); ++i)
-      if (const EdgeId e{i}; mesh_.has(e) && !queue_.contains(e)) blocked.count(last_refusal_[e]);
+      if (const EdgeId e{i}; mesh_.has(e) && !queue_.contains(e)) blocked.count(edges_[e].last_refusal);
+    return {hull_as_numbered_in_the_input(), stopped(), refused_, blocked, linear_programs_};
+  }
+
+  ProgressiveHull hull_as_numbered_in_the_input() {
     std::vector<VertexId> corners(3 * mesh_.face_id_count());
-    for (std::uint32_t i = 0; i < corners.size(); ++i) corners[i] = mesh_.tail(HalfEdgeId(i));
-    ProgressiveHull hull(options_.side, original_vertices_, mesh_.positions(), std::move(corners), std::move(record_));
-    return {std::move(hull), stopped(), refused_, blocked, linear_programs_};
+    for (std::uint32_t c = 0; c < corners.size(); ++c)
+      corners[order_.given_corner(c)] = order_.given(mesh_.tail(HalfEdgeId{c}));
+    PerVertex<Vec3> positions(mesh_.positions().size());
+    for (const VertexId v : positions.ids()) positions[order_.given(v)] = mesh_.position(v);
+    for (auto& [o, d, l, r, od, do_] : record_) {
+      o = order_.given(o), d = order_.given(d), l = order_.given(l), r = order_.given(r);
+      od = order_.given_corner(od), do_ = order_.given_corner(do_);
+    }
+    return {options_.side, original_vertices_, std::move(positions), std::move(corners), std::move(record_)};
   }
 
   const HullOptions options_;
   const std::size_t original_vertices_;
+  const SpatialOrder order_;
   HalfEdgeMesh mesh_;
   Queue queue_;
-  PerEdge<double> key_;
-  PerEdge<EdgeState> state_;
-  PerEdge<Refusal> last_refusal_;
+  PerEdge<EdgeFacts> edges_;
+  PerVertex<VertexFacts> vertices_;
   std::optional<SelfIntersectionGuard> guard_;
   const double rounding_;  ///< the most by which storing moves a coordinate, with some room
   Star star_;

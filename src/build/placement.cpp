@@ -1,5 +1,6 @@
 #include "build/placement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,9 @@ namespace prohull {
 namespace {
 
 double cubed(double x) { return x * x * x; }
+
+// A volume may be beyond all numbers, or nothing at all if a part of it is.
+double finite(double volume) { return std::isfinite(volume) ? volume : std::numeric_limits<double>::max(); }
 
 // Six times P&T formula 3 in local units, not counting the margin.
 double sixfold_added_volume(const Star& star, const Vec3& p) {
@@ -55,7 +59,7 @@ std::optional<Placement> place_outside(const Star& star, double margin) {
     best.x = *nearest;
   }
   const double volume = std::max(0.0, sixfold_added_volume(star, best.x) / 6) * cubed(star.scale);
-  return Placement{best.x, std::isfinite(volume) ? volume : std::numeric_limits<double>::max()};
+  return Placement{best.x, finite(volume)};
 }
 
 bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p) {
@@ -71,6 +75,22 @@ double link_center_volume(const Star& star) {
   for (std::size_t i = 0; i < star.planes.size(); ++i)
     sum += star.double_areas[i] * std::abs(dot(star.planes[i].normal, center) - star.planes[i].offset);
   return sum / 6 * cubed(star.scale);
+}
+
+double estimated_volume(const HalfEdgeMesh& mesh, const Star& star) {
+  const Vec3 &o = mesh.position(star.o), &d = mesh.position(star.d);
+  Vec3 center;
+  for (const VertexId v : star.link) center += mesh.position(v) - o;
+  center = o + center / static_cast<double>(star.link.size());
+  double to_center = 0, to_o = 0, to_d = 0;
+  all_faces(mesh, star, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 n = cross(b - a, c - a);
+    to_center += std::abs(dot(n, center - a));
+    to_o += std::abs(dot(n, o - a));
+    to_d += std::abs(dot(n, d - a));
+    return true;
+  });
+  return finite(std::min({0.4 * to_center, to_o, to_d}) / 6);
 }
 
 bool is_outside(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex) {

@@ -4,32 +4,19 @@
 #include <bit>
 #include <limits>
 
+#include "geometry/morton_code.h"
 #include "geometry/triangle_intersection.h"
 
 namespace prohull {
 namespace {
 
-Triangle triangle(const HalfEdgeMesh& mesh, FaceId f) {
-  const auto [a, b, c] = mesh.corners(f);
-  return {mesh.position(a), mesh.position(b), mesh.position(c)};
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+Triangle triangle(const HalfEdgeMesh& mesh, const std::array<VertexId, 3>& corners) {
+  return {mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2])};
 }
 
-bool has_corner(const HalfEdgeMesh& mesh, FaceId f, VertexId o, VertexId d) {
-  return std::ranges::any_of(mesh.corners(f), [&](VertexId v) { return v == o || v == d; });
-}
-
-// Spreads ten bits so that two zeros follow each.
-std::uint32_t spread(std::uint32_t x) {
-  x = (x | x << 16) & 0x030000ff;
-  x = (x | x << 8) & 0x0300f00f;
-  x = (x | x << 4) & 0x030c30c3;
-  return (x | x << 2) & 0x09249249;
-}
-
-std::uint32_t morton_code(const std::array<float, 3>& p) {
-  const auto cell = [](float x) { return static_cast<std::uint32_t>(std::clamp(511.5f + 511.5f * x, 0.0f, 1023.0f)); };
-  return spread(cell(p[0])) | spread(cell(p[1])) << 1 | spread(cell(p[2])) << 2;
-}
+Triangle triangle(const HalfEdgeMesh& mesh, FaceId f) { return triangle(mesh, mesh.corners(f)); }
 
 }  // namespace
 
@@ -43,9 +30,33 @@ bool SelfIntersectionGuard::FloatBox::overlaps(const FloatBox& other) const {
           int(other.min[1] <= max[1]) & int(min[2] <= other.max[2]) & int(other.min[2] <= max[2])) != 0;
 }
 
-bool SelfIntersectionGuard::FloatBox::contains(const FloatBox& other) const {
-  return min[0] <= other.min[0] && other.max[0] <= max[0] && min[1] <= other.min[1] && other.max[1] <= max[1] &&
-         min[2] <= other.min[2] && other.max[2] <= max[2];
+const SelfIntersectionGuard::Node SelfIntersectionGuard::kEmptyNode = [] {
+  const Float4 infinity{kInfinity, kInfinity, kInfinity, kInfinity};
+  return Node{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+}();
+
+void SelfIntersectionGuard::Node::set(std::uint32_t child, const FloatBox& box) {
+  for (int axis = 0; axis < 3; ++axis) min[axis][child] = box.min[axis], max[axis][child] = box.max[axis];
+}
+
+SelfIntersectionGuard::FloatBox SelfIntersectionGuard::Node::box() const {
+  FloatBox all;
+  for (int i = 0; i < 3; ++i) {
+    all.min[i] = std::min(std::min(min[i][0], min[i][1]), std::min(min[i][2], min[i][3]));
+    all.max[i] = std::max(std::max(max[i][0], max[i][1]), std::max(max[i][2], max[i][3]));
+  }
+  return all;
+}
+
+SelfIntersectionGuard::Node SelfIntersectionGuard::Node::four(const FloatBox& box) {
+  Node node;
+  for (std::uint32_t child = 0; child < kWidth; ++child) node.set(child, box);
+  return node;
+}
+
+inline unsigned SelfIntersectionGuard::Node::overlapping(const Node& other) const {
+  return mask((min[0] <= other.max[0]) & (max[0] >= other.min[0]) & (min[1] <= other.max[1]) &
+              (max[1] >= other.min[1]) & (min[2] <= other.max[2]) & (max[2] >= other.min[2]));
 }
 
 SelfIntersectionGuard::SelfIntersectionGuard(const HalfEdgeMesh& mesh) : slot_of_(mesh.face_id_count()) {
@@ -55,127 +66,199 @@ SelfIntersectionGuard::SelfIntersectionGuard(const HalfEdgeMesh& mesh) : slot_of
   center_ = box.center();
   const Vec3 half = box.max * 0.5 - box.min * 0.5;
   inverse_unit_ = 1 / std::max({half.x, half.y, half.z, std::numeric_limits<double>::min()});
-  rebuild(mesh);
+  sort_faces(mesh);
+  pack(mesh);
+}
+
+SelfIntersectionGuard::FloatBox SelfIntersectionGuard::box_of(const Box& box) const {
+  FloatBox result;
+  for (int i = 0; i < 3; ++i) {
+    result.min[i] = static_cast<float>((box.min[i] - center_[i]) * inverse_unit_);
+    result.max[i] = static_cast<float>((box.max[i] - center_[i]) * inverse_unit_);
+  }
+  return result;
 }
 
 SelfIntersectionGuard::FloatBox SelfIntersectionGuard::box_of(const Triangle& t) const {
-  FloatBox box;
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = static_cast<float>((std::min({t.a[i], t.b[i], t.c[i]}) - center_[i]) * inverse_unit_);
-    box.max[i] = static_cast<float>((std::max({t.a[i], t.b[i], t.c[i]}) - center_[i]) * inverse_unit_);
-  }
-  return box;
+  const auto of = [&](int i, auto&& choose) { return choose({t.a[i], t.b[i], t.c[i]}); };
+  const auto least = [](std::initializer_list<double> x) { return std::min(x); };
+  const auto greatest = [](std::initializer_list<double> x) { return std::max(x); };
+  return box_of(Box{{of(0, least), of(1, least), of(2, least)}, {of(0, greatest), of(1, greatest), of(2, greatest)}});
 }
 
-void SelfIntersectionGuard::rebuild(const HalfEdgeMesh& mesh) {
-  faces_when_built_ = mesh.face_count();
-  std::vector<std::pair<std::uint32_t, FaceId>> by_code;
-  by_code.reserve(faces_when_built_);
+void SelfIntersectionGuard::sort_faces(const HalfEdgeMesh& mesh) {
+  std::vector<std::uint64_t> by_code;
+  by_code.reserve(mesh.face_count());
   for (std::uint32_t i = 0; i < mesh.face_id_count(); ++i) {
     if (!mesh.has(FaceId{i})) continue;
-    const FloatBox box = box_of(triangle(mesh, FaceId{i}));
-    by_code.emplace_back(
-        morton_code({(box.min[0] + box.max[0]) / 2, (box.min[1] + box.max[1]) / 2, (box.min[2] + box.max[2]) / 2}),
-        FaceId{i});
+    const auto [min, max] = box_of(triangle(mesh, FaceId{i}));
+    const std::uint32_t code = morton_code((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2);
+    by_code.push_back(std::uint64_t{code} << 32 | i);
   }
   std::sort(by_code.begin(), by_code.end());
+  face_at_.reserve(by_code.size());
+  for (const std::uint64_t code : by_code) face_at_.push_back(FaceId{static_cast<std::uint32_t>(code)});
+}
 
-  const auto leaves = static_cast<std::uint32_t>((by_code.size() + kLeafSize - 1) / kLeafSize);
-  first_leaf_ = std::bit_ceil(std::max(leaves, 1u));
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const FloatBox empty{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  nodes_.assign(2 * first_leaf_, empty);
-  slots_.clear();
-  for (const auto& [code, f] : by_code) {
-    slot_of_[f] = static_cast<std::uint32_t>(slots_.size());
-    slots_.push_back({f, box_of(triangle(mesh, f))});
-    nodes_[first_leaf_ + slot_of_[f] / kLeafSize].extend(slots_.back().box);
+// The order of the faces along the curve is kept: they move little.
+void SelfIntersectionGuard::pack(const HalfEdgeMesh& mesh) {
+  std::erase_if(face_at_, [&](FaceId f) { return !mesh.has(f); });
+  faces_when_packed_ = face_at_.size();
+  levels_.clear();
+  std::size_t children = face_at_.size();
+  do {
+    children = (children + kWidth - 1) / kWidth;
+    levels_.emplace_back(children, kEmptyNode);
+  } while (children > 1);
+  for (std::uint32_t slot = 0; slot < face_at_.size(); ++slot) {
+    slot_of_[face_at_[slot]] = slot;
+    levels_[0][slot / kWidth].set(slot % kWidth, box_of(triangle(mesh, face_at_[slot])));
   }
-  for (std::uint32_t i = first_leaf_; i-- > 1;) {
-    nodes_[i] = nodes_[2 * i];
-    nodes_[i].extend(nodes_[2 * i + 1]);
-  }
+  for (std::size_t level = 1; level < levels_.size(); ++level)
+    for (std::uint32_t i = 0; i < levels_[level - 1].size(); ++i)
+      levels_[level][i / kWidth].set(i % kWidth, levels_[level - 1][i].box());
 }
 
 void SelfIntersectionGuard::changed(const HalfEdgeMesh& mesh, VertexId s) {
-  if (mesh.face_count() < faces_when_built_ / 2) return rebuild(mesh);
-  HalfEdgeId h = mesh.out(s);
+  if (mesh.face_count() < faces_when_packed_ / 2) return pack(mesh);
+  const HalfEdgeId first = mesh.out(s);
+  HalfEdgeId h = first;
   do {
     const FaceId f{index(h) / 3};
-    const FloatBox box = box_of(triangle(mesh, f));
-    slots_[slot_of_[f]].box = box;
-    for (std::uint32_t i = first_leaf_ + slot_of_[f] / kLeafSize; i > 0 && !nodes_[i].contains(box); i /= 2)
-      nodes_[i].extend(box);
+    place(slot_of_[f], box_of(triangle(mesh, f)));
     h = mesh.rotated(h);
-  } while (h != mesh.out(s));
+  } while (h != first);
 }
 
-template <class Use>
-void SelfIntersectionGuard::visit(const FloatBox& box, Use&& use) const {
-  std::array<std::uint32_t, 64> stack;
-  std::size_t size = 0;
-  stack[size++] = 1;
-  while (size > 0) {
-    const std::uint32_t i = stack[--size];
-    if (!nodes_[i].overlaps(box)) continue;
-    if (i < first_leaf_) {
-      stack[size++] = 2 * i + 1;
-      stack[size++] = 2 * i;
-      continue;
+// Boxes of the upper levels only grow; where much is gone they soon are packed anew.
+void SelfIntersectionGuard::place(std::uint32_t slot, const FloatBox& box) {
+  levels_[0][slot / kWidth].set(slot % kWidth, box);
+  std::uint32_t child = slot / kWidth;
+  for (std::size_t level = 1; level < levels_.size(); ++level) {
+    Node& node = levels_[level][child / kWidth];
+    const std::uint32_t lane = child % kWidth;
+    bool grows = false;
+    for (int i = 0; i < 3; ++i) {
+      grows |= box.min[i] < node.min[i][lane] || box.max[i] > node.max[i][lane];
+      node.min[i][lane] = std::min<float>(node.min[i][lane], box.min[i]);
+      node.max[i][lane] = std::max<float>(node.max[i][lane], box.max[i]);
     }
-    const std::size_t begin = std::size_t{i - first_leaf_} * kLeafSize;
-    for (std::size_t k = begin; k < std::min(begin + kLeafSize, slots_.size()); ++k)
-      if (slots_[k].box.overlaps(box)) use(slots_[k]);
+    if (!grows) return;
+    child /= kWidth;
   }
 }
 
-// Of `faces`, which take the place of the stars of o and d, among themselves and with the rest of the mesh.
-std::size_t SelfIntersectionGuard::count_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d,
-                                               const std::vector<Triangle>& faces) {
-  face_boxes_.clear();
-  for (const Triangle& t : faces) face_boxes_.push_back(box_of(t));
-  FloatBox whole = face_boxes_.front();
-  for (const FloatBox& box : face_boxes_) whole.extend(box);
+// Sets others_ to the faces near `box` without a corner at o or d. In steps, each of which asks the cache for all that
+// the next reads; and with few branches, which nothing could predict.
+void SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const FloatBox& box) {
+  const Node boxes = Node::four(box);
+  nodes_.assign(1, 0);
+  for (std::size_t level = levels_.size(); level-- > 0;) {
+    children_.resize(kWidth * nodes_.size());
+    std::size_t count = 0;
+    for (const std::uint32_t i : nodes_) {
+      const unsigned met = levels_[level][i].overlapping(boxes);
+      for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+        children_[count] = kWidth * i + lane;
+        count += met >> lane & 1;
+      }
+    }
+    children_.resize(count);
+    std::swap(nodes_, children_);
+    if (level == 0) break;
+    for (const std::uint32_t i : nodes_) {
+      const Node& node = levels_[level - 1][i];
+      __builtin_prefetch(&node.min), __builtin_prefetch(&node.max[2]);
+      if (level == 1) __builtin_prefetch(&face_at_[kWidth * i]);
+    }
+  }
+  for (const std::uint32_t slot : nodes_) mesh.prefetch(face_at_[slot]);
+  others_.resize(nodes_.size());
+  std::size_t count = 0;
+  for (const std::uint32_t slot : nodes_) {
+    const auto corners = mesh.corners(face_at_[slot]);
+    const bool has_gone = corners[0] == kNoVertex;
+    if (has_gone) levels_[0][slot / kWidth].set(slot % kWidth, kEmptyNode.box());
+    bool is_other = !has_gone;
+    for (const VertexId v : corners) is_other &= v != o && v != d;
+    others_[count] = corners;
+    count += is_other;
+  }
+  others_.resize(count);
+  for (const auto& corners : others_)
+    for (const VertexId v : corners) mesh.prefetch(v);
+}
 
-  std::size_t pairs = 0;
-  visit(whole, [&](const Slot& slot) {
-    if (!mesh.has(slot.face) || has_corner(mesh, slot.face, o, d)) return;
-    const Triangle other = triangle(mesh, slot.face);
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      pairs += face_boxes_[i].overlaps(slot.box) && triangles_intersect(faces[i], other);
-  });
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      pairs += face_boxes_[i].overlaps(face_boxes_[j]) && triangles_intersect(faces[i], faces[j]);
+// Of `faces_`, the faces of `fan_`, that take the place of the stars of o and d, among themselves and with the rest.
+std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d) {
+  std::size_t pairs = fan_.is_certainly_embedded() ? 0 : count_pairs_among_faces();
+  find_others(mesh, o, d, box_of(fan_.box()));
+  for (const auto& corners : others_) {
+    const Triangle other = triangle(mesh, corners);
+    for (std::uint64_t met = fan_.perhaps_met(other, corners); met != 0; met &= met - 1)
+      pairs += triangles_intersect(faces_[static_cast<std::size_t>(std::countr_zero(met))], other);
+  }
   return pairs;
 }
 
-bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex) {
-  const auto link = [&](std::size_t i) { return mesh.position(star.link[i]); };
-  faces_.clear();
-  for (std::size_t i = 0; i < star.link.size(); ++i) faces_.push_back({apex, link(i), link(star.after(i))});
-  const std::size_t after = count_pairs(mesh, star.o, star.d, faces_);
-  if (after == 0) return false;
+// The same of any `faces_`.
+std::size_t SelfIntersectionGuard::count_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d) {
+  face_boxes_.clear();
+  for (const Triangle& t : faces_) face_boxes_.push_back(box_of(t));
+  FloatBox whole = face_boxes_.front();
+  for (const FloatBox& box : face_boxes_) whole.extend(box);
+  std::size_t pairs = count_pairs_among_faces();
+  find_others(mesh, o, d, whole);
+  for (const auto& corners : others_) {
+    const Triangle other = triangle(mesh, corners);
+    const FloatBox box = box_of(other);
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+      pairs += face_boxes_[i].overlaps(box) && triangles_intersect(faces_[i], other);
+  }
+  return pairs;
+}
 
-  const Vec3 &o = mesh.position(star.o), &d = mesh.position(star.d);
-  for (std::size_t i = 0; i < star.link.size(); ++i) faces_[i].a = mesh.position(star.apex(i));
-  faces_.push_back({o, d, link(0)});
-  faces_.push_back({d, o, link(star.o_faces)});
-  return after > count_pairs(mesh, star.o, star.d, faces_);
+std::size_t SelfIntersectionGuard::count_pairs_among_faces() const {
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < faces_.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) pairs += triangles_intersect(faces_[i], faces_[j]);
+  return pairs;
+}
+
+void SelfIntersectionGuard::set_faces(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link, auto&& apex) {
+  faces_.clear();
+  for (std::size_t i = 0; i < link.size(); ++i)
+    faces_.push_back({apex(i), mesh.position(link[i]), mesh.position(link[i + 1 == link.size() ? 0 : i + 1])});
+}
+
+bool SelfIntersectionGuard::adds_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d,
+                                       const std::vector<VertexId>& link, const Vec3& apex, auto&& set_faces_before) {
+  set_faces(mesh, link, [&](std::size_t) { return apex; });
+  std::size_t after;
+  if (link.size() <= Fan::kMostFaces) {
+    fan_.set(mesh, link, apex);
+    after = count_pairs_of_fan(mesh, o, d);
+  } else {
+    after = count_pairs(mesh, o, d);
+  }
+  if (after == 0) return false;
+  set_faces_before();
+  return after > count_pairs(mesh, o, d);
+}
+
+bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex) {
+  return adds_pairs(mesh, star.o, star.d, star.link, apex, [&] {
+    const Vec3 &o = mesh.position(star.o), &d = mesh.position(star.d);
+    set_faces(mesh, star.link, [&](std::size_t i) { return i < star.o_faces ? o : d; });
+    faces_.push_back({o, d, mesh.position(star.link[0])});
+    faces_.push_back({d, o, mesh.position(star.link[star.o_faces])});
+  });
 }
 
 bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, VertexId v,
                                                     const std::vector<VertexId>& link, const Vec3& to) {
-  const auto set_star = [&](const Vec3& apex) {
-    faces_.clear();
-    for (std::size_t i = 0; i < link.size(); ++i)
-      faces_.push_back({apex, mesh.position(link[i]), mesh.position(link[i + 1 == link.size() ? 0 : i + 1])});
-  };
-  set_star(to);
-  const std::size_t after = count_pairs(mesh, v, v, faces_);
-  if (after == 0) return false;
-  set_star(mesh.position(v));
-  return after > count_pairs(mesh, v, v, faces_);
+  return adds_pairs(mesh, v, v, link, to,
+                    [&] { set_faces(mesh, link, [&](std::size_t) { return mesh.position(v); }); });
 }
 
 }  // namespace prohull

@@ -3,13 +3,15 @@
 #include <array>
 #include <vector>
 
+#include "build/fan.h"
 #include "build/star.h"
+#include "geometry/simd.h"
 #include "mesh/half_edge_mesh.h"
 
 namespace prohull {
 
 /// Knows which collapses would make faces meet that do not share the point where they meet. Exact; the faces of the
-/// mesh lie in a tree of boxes that grow with the collapses and are made anew whenever half of the faces are gone.
+/// mesh lie in a tree of boxes, which follow the collapses and are packed anew whenever half of the faces are gone.
 class SelfIntersectionGuard {
  public:
   explicit SelfIntersectionGuard(const HalfEdgeMesh& mesh);
@@ -30,29 +32,44 @@ class SelfIntersectionGuard {
     std::array<float, 3> min, max;
     void extend(const FloatBox& other);
     bool overlaps(const FloatBox& other) const;
-    bool contains(const FloatBox& other) const;
   };
-  struct Slot {
-    FaceId face;
-    FloatBox box;
+  // The boxes of four children, one in each lane.
+  struct Node {
+    Float4 min[3], max[3];
+    void set(std::uint32_t child, const FloatBox& box);
+    FloatBox box() const;
+    unsigned overlapping(const Node& other) const;  ///< lane by lane
+    static Node four(const FloatBox& box);
   };
-  static constexpr std::uint32_t kLeafSize = 4;
+  static constexpr std::uint32_t kWidth = 4;
+  static const Node kEmptyNode;
 
-  void rebuild(const HalfEdgeMesh& mesh);
+  void sort_faces(const HalfEdgeMesh& mesh);
+  void pack(const HalfEdgeMesh& mesh);
+  void place(std::uint32_t slot, const FloatBox& box);
+  FloatBox box_of(const Box& box) const;
   FloatBox box_of(const Triangle& t) const;
-  std::size_t count_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const std::vector<Triangle>& faces);
-  template <class Use>
-  void visit(const FloatBox& box, Use&& use) const;
+  void find_others(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const FloatBox& box);
+  std::size_t count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d);
+  std::size_t count_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d);
+  std::size_t count_pairs_among_faces() const;
+  void set_faces(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link, auto&& apex);
+  bool adds_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const std::vector<VertexId>& link, const Vec3& apex,
+                  auto&& set_faces_before);
 
   Vec3 center_;
   double inverse_unit_;
-  std::size_t faces_when_built_ = 0;
-  std::vector<Slot> slots_;  ///< leaf i holds those from kLeafSize * i on
+  std::size_t faces_when_packed_ = 0;
+  std::vector<FaceId> face_at_;  ///< by slot
   PerFace<std::uint32_t> slot_of_;
-  std::vector<FloatBox> nodes_;  ///< a complete binary tree: children of i are 2i and 2i+1, the root is 1
-  std::uint32_t first_leaf_ = 1;
-  std::vector<Triangle> faces_;       ///< scratch
-  std::vector<FloatBox> face_boxes_;  ///< scratch
+  std::vector<std::vector<Node>> levels_;  ///< children of node i are slots, or nodes of the level before, from 4i on
+
+  // Scratch.
+  Fan fan_;
+  std::vector<Triangle> faces_;
+  std::vector<FloatBox> face_boxes_;
+  std::vector<std::uint32_t> nodes_, children_;
+  std::vector<std::array<VertexId, 3>> others_;
 };
 
 }  // namespace prohull

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/simd.h"
+
 namespace prohull {
 
 void gather_star(const HalfEdgeMesh& mesh, EdgeId edge, Star& star) {
@@ -28,12 +30,17 @@ bool satisfies_link_condition(const Star& star) {
 
 namespace {
 
-void add_plane(Star& star, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 n = cross(b - a, c - a);
-  const double length = norm(n);
-  const Vec3 unit = length > 0 ? n / length : Vec3{};
-  star.planes.push_back({unit, dot(unit, a)});
-  star.double_areas.push_back(length);
+// Of two faces (a, b, c), one in each lane, for places i and j.
+void set_planes(Star& star, std::size_t i, std::size_t j, const Vec3Pair& a, const Vec3Pair& b, const Vec3Pair& c) {
+  const Vec3Pair n = cross(b - a, c - a);
+  const Double2 length = sqrt(dot(n, n));
+  const Vec3Pair unit = n / length;
+  const Double2 offset = dot(unit, a);
+  const auto set = [&](std::size_t face, int lane) {
+    star.double_areas[face] = length[lane];
+    star.planes[face] = length[lane] > 0 ? HalfSpace{unit[lane], offset[lane]} : HalfSpace{{}, 0};
+  };
+  set(i, 0), set(j, 1);
 }
 
 }  // namespace
@@ -53,11 +60,15 @@ void measure_star(const HalfEdgeMesh& mesh, Star& star) {
   for (Vec3& p : star.local) p = p / star.scale;
   star.local_o = (o - star.origin) / star.scale, star.local_d = (d - star.origin) / star.scale;
 
-  star.planes.clear(), star.double_areas.clear();
-  for (std::size_t i = 0; i < star.link.size(); ++i)
-    add_plane(star, star.local_apex(i), star.local[i], star.local[star.after(i)]);
-  add_plane(star, star.local_o, star.local_d, star.local[0]);
-  add_plane(star, star.local_d, star.local_o, star.local[star.o_faces]);
+  const std::size_t n = star.link.size();
+  star.planes.resize(n + 2), star.double_areas.resize(n + 2);
+  for (std::size_t i = 0; i < n; i += 2) {
+    const std::size_t j = i + 1 == n ? i : i + 1;
+    set_planes(star, i, j, both(star.local_apex(i), star.local_apex(j)), both(star.local[i], star.local[j]),
+               both(star.local[star.after(i)], star.local[star.after(j)]));
+  }
+  set_planes(star, n, n + 1, both(star.local_o, star.local_d), both(star.local_d, star.local_o),
+             both(star.local[0], star.local[star.o_faces]));
 }
 
 }  // namespace prohull

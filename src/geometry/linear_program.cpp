@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+
+#include "geometry/simd.h"
 
 namespace prohull {
 namespace {
@@ -35,14 +38,28 @@ Basis box_corner(const Vec3& objective) {
   return basis;
 }
 
+Double2 slacks(const Vec3Pair& x, const HalfSpace& a, const HalfSpace& b) {
+  return dot(both(a.normal, b.normal), x) - Double2{a.offset, b.offset};
+}
+
+// The first of those violated most, or -1. Without branches, which nothing could predict.
 std::ptrdiff_t most_violated(const Vec3& x, const std::vector<HalfSpace>& constraints) {
-  std::ptrdiff_t worst = -1;
-  double least = -kFeasible;
-  for (std::size_t i = 0; i < constraints.size(); ++i) {
-    const double slack = dot(constraints[i].normal, x) - constraints[i].offset;
-    if (slack < least) least = slack, worst = static_cast<std::ptrdiff_t>(i);
-  }
-  return worst;
+  using Index2 = std::int64_t __attribute__((vector_size(16)));
+  const Vec3Pair at = both(x);
+  Double2 least = both(-kFeasible);
+  Index2 worst = {-1, -1}, i = {0, 1};
+  const auto take = [&](const HalfSpace& a, const HalfSpace& b) {
+    const Double2 slack = slacks(at, a, b);
+    const auto is_less = slack < least;
+    least = is_less ? slack : least;
+    worst = is_less ? i : worst;
+    i += 2;
+  };
+  const std::size_t even = constraints.size() / 2 * 2;
+  for (std::size_t k = 0; k < even; k += 2) take(constraints[k], constraints[k + 1]);
+  if (even < constraints.size()) take(constraints[even], constraints[even]);  // lane 1 only ties with lane 0
+  const bool is_second = least[1] < least[0] || (least[1] == least[0] && worst[1] < worst[0]);
+  return static_cast<std::ptrdiff_t>(is_second ? worst[1] : worst[0]);
 }
 
 // Lets constraint `entering` into the basis for the one whose multiplier reaches zero first; false if none does, that

@@ -15,22 +15,21 @@ HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh) {
   allocate(mesh.vertex_count(), mesh.face_count());
   positions_ = mesh.positions;
   for (const FaceId f : mesh.triangles.ids())
-    for (std::uint32_t c = 0; c < 3; ++c) tail_[HalfEdgeId(3 * index(f) + c)] = mesh.triangles[f][c];
+    for (std::uint32_t c = 0; c < 3; ++c) half_edges_[HalfEdgeId(3 * index(f) + c)].tail = mesh.triangles[f][c];
   link_twins();
 }
 
 HalfEdgeMesh::HalfEdgeMesh(PerVertex<Vec3> positions, const std::vector<VertexId>& corners)
     : positions_(std::move(positions)) {
   allocate(positions_.size(), corners.size() / 3);
-  std::copy(corners.begin(), corners.end(), tail_.begin());
+  for (const HalfEdgeId h : half_edges_.ids()) half_edges_[h].tail = corners[index(h)];
   link_twins();
 }
 
 void HalfEdgeMesh::allocate(std::size_t vertices, std::size_t faces) {
   out_.assign(vertices, kNoHalfEdge);
   valence_.assign(vertices, 0);
-  tail_.assign(3 * faces, kNoVertex);
-  twin_.assign(3 * faces, kNoHalfEdge);
+  half_edges_.assign(3 * faces, {kNoVertex, kNoHalfEdge});
   edge_.assign(3 * faces, kNoEdge);
   half_edge_.reserve(3 * faces / 2);
 }
@@ -38,32 +37,31 @@ void HalfEdgeMesh::allocate(std::size_t vertices, std::size_t faces) {
 // Half-edges sorted by tail in linear time, then by tip within each tail, so that a twin is found by bisection.
 void HalfEdgeMesh::link_twins() {
   std::vector<std::uint32_t> first(out_.size() + 1, 0);
-  for (const HalfEdgeId h : tail_.ids())
-    if (tail_[h] != kNoVertex) ++first[index(tail_[h]) + 1];
+  for (const HalfEdgeId h : half_edges_.ids())
+    if (tail(h) != kNoVertex) ++first[index(tail(h)) + 1];
   for (std::size_t v = 0; v < out_.size(); ++v) {
     valence_[VertexId(static_cast<std::uint32_t>(v))] = first[v + 1];
     first[v + 1] += first[v];
   }
   std::vector<HalfEdgeId> by_tail(first.back());
   std::vector<std::uint32_t> cursor(first.begin(), first.end() - 1);
-  for (const HalfEdgeId h : tail_.ids())
-    if (tail_[h] != kNoVertex) by_tail[cursor[index(tail_[h])]++] = h;
+  for (const HalfEdgeId h : half_edges_.ids())
+    if (tail(h) != kNoVertex) by_tail[cursor[index(tail(h))]++] = h;
 
-  const auto tip = [&](HalfEdgeId h) { return tail_[next(h)]; };
   for (std::size_t v = 0; v < out_.size(); ++v)
     std::sort(by_tail.begin() + first[v], by_tail.begin() + first[v + 1],
               [&](HalfEdgeId a, HalfEdgeId b) { return tip(a) < tip(b); });
-  for (const HalfEdgeId h : tail_.ids()) {
-    const VertexId v = tail_[h];
+  for (const HalfEdgeId h : half_edges_.ids()) {
+    const VertexId v = tail(h);
     if (v == kNoVertex) continue;
     out_[v] = h;
     if (index(h) % 3 == 0) ++face_count_;
-    if (twin_[h] != kNoHalfEdge) continue;
+    if (twin(h) != kNoHalfEdge) continue;
     const VertexId w = tip(h);
     const auto end = by_tail.begin() + first[index(w) + 1];
     const auto found = std::lower_bound(by_tail.begin() + first[index(w)], end, v,
                                         [&](HalfEdgeId g, VertexId x) { return tip(g) < x; });
-    assert(found != end && tip(*found) == v && twin_[*found] == kNoHalfEdge);
+    assert(found != end && tip(*found) == v && twin(*found) == kNoHalfEdge);
     half_edge_.push_back(h);
     pair(h, *found, EdgeId(static_cast<std::uint32_t>(half_edge_.size() - 1)));
   }
@@ -73,7 +71,7 @@ void HalfEdgeMesh::link_twins() {
 void HalfEdgeMesh::set_tails_around(HalfEdgeId from, HalfEdgeId until, VertexId v) {
   HalfEdgeId h = from;
   do {
-    tail_[h] = v;
+    half_edges_[h].tail = v;
     h = rotated(h);
   } while (h != until);
 }
@@ -90,7 +88,7 @@ VertexSplit HalfEdgeMesh::collapse(HalfEdgeId h, const Vec3& apex) {
   half_edge_[edge(h)] = half_edge_[edge(dl)] = half_edge_[edge(or_)] = kNoHalfEdge;
   pair(ol, ld, edge(lo));
   pair(dr, ro, edge(rd));
-  for (const HalfEdgeId dead : {h, dl, lo, g, or_, rd}) tail_[dead] = kNoVertex;
+  for (const HalfEdgeId dead : {h, dl, lo, g, or_, rd}) half_edges_[dead].tail = kNoVertex;
 
   out_.push_back(ol);
   valence_.push_back(valence_[o] + valence_[d] - 4);
@@ -114,8 +112,8 @@ void HalfEdgeMesh::split(VertexId s, const VertexSplit& record) {
 
   set_tails_around(sl, sr, o);
   set_tails_around(sr, sl, d);
-  tail_[h] = o, tail_[dl] = d, tail_[lo] = l;
-  tail_[g] = d, tail_[or_] = o, tail_[rd] = r;
+  half_edges_[h].tail = o, half_edges_[dl].tail = d, half_edges_[lo].tail = l;
+  half_edges_[g].tail = d, half_edges_[or_].tail = o, half_edges_[rd].tail = r;
   const auto revived = [&](HalfEdgeId x) {
     if (edge_[x] != kNoEdge) return edge_[x];  // undoing a collapse of this very mesh: edges get back their ids
     return half_edge_.push_back(kNoHalfEdge);

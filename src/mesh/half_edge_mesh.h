@@ -35,15 +35,21 @@ class HalfEdgeMesh {
 
   HalfEdgeId next(HalfEdgeId h) const { return HalfEdgeId(index(h) % 3 == 2 ? index(h) - 2 : index(h) + 1); }
   HalfEdgeId previous(HalfEdgeId h) const { return HalfEdgeId(index(h) % 3 == 0 ? index(h) + 2 : index(h) - 1); }
-  HalfEdgeId twin(HalfEdgeId h) const { return twin_[h]; }
-  VertexId tail(HalfEdgeId h) const { return tail_[h]; }
-  VertexId tip(HalfEdgeId h) const { return tail_[twin_[h]]; }
+  HalfEdgeId twin(HalfEdgeId h) const { return half_edges_[h].twin; }
+  VertexId tail(HalfEdgeId h) const { return half_edges_[h].tail; }
+  VertexId tip(HalfEdgeId h) const { return tail(next(h)); }
   EdgeId edge(HalfEdgeId h) const { return edge_[h]; }
   HalfEdgeId half_edge(EdgeId e) const { return half_edge_[e]; }
   /// Some half-edge that starts at v.
   HalfEdgeId out(VertexId v) const { return out_[v]; }
   /// The next half-edge that starts where h does, counter-clockwise seen from outside.
-  HalfEdgeId rotated(HalfEdgeId h) const { return twin_[previous(h)]; }
+  HalfEdgeId rotated(HalfEdgeId h) const { return twin(previous(h)); }
+
+  /// Hints that what is known of an element will be read soon.
+  void prefetch(EdgeId e) const { __builtin_prefetch(&half_edge_[e]); }
+  void prefetch(HalfEdgeId h) const { __builtin_prefetch(&half_edges_[h]); }
+  void prefetch(FaceId f) const { prefetch(HalfEdgeId(3 * index(f))), prefetch(HalfEdgeId(3 * index(f) + 2)); }
+  void prefetch(VertexId v) const { __builtin_prefetch(&positions_[v].x), __builtin_prefetch(&positions_[v].z); }
 
   const Vec3& position(VertexId v) const { return positions_[v]; }
   std::uint32_t valence(VertexId v) const { return valence_[v]; }
@@ -52,13 +58,13 @@ class HalfEdgeMesh {
   /// All ids ever given, whether the element still is in the mesh or not.
   const PerVertex<Vec3>& positions() const { return positions_; }
   std::size_t edge_id_count() const { return half_edge_.size(); }
-  std::size_t face_id_count() const { return tail_.size() / 3; }
-  bool has(FaceId f) const { return tail_[HalfEdgeId(3 * index(f))] != kNoVertex; }
+  std::size_t face_id_count() const { return half_edges_.size() / 3; }
+  bool has(FaceId f) const { return tail(HalfEdgeId(3 * index(f))) != kNoVertex; }
   bool has(EdgeId e) const { return half_edge_[e] != kNoHalfEdge; }
   bool has(VertexId v) const { return out_[v] != kNoHalfEdge; }
   std::array<VertexId, 3> corners(FaceId f) const {
     const HalfEdgeId h{3 * index(f)};
-    return {tail_[h], tail_[HalfEdgeId(index(h) + 1)], tail_[HalfEdgeId(index(h) + 2)]};
+    return {tail(h), tail(HalfEdgeId(index(h) + 1)), tail(HalfEdgeId(index(h) + 2))};
   }
 
   //      l               l      collapse(o-d): faces (o,d,l) and (d,o,r) vanish, s stands for o and d.
@@ -78,10 +84,16 @@ class HalfEdgeMesh {
   TriangleMesh triangle_mesh() const;
 
  private:
+  // What a walk around a vertex reads lies together.
+  struct HalfEdge {
+    VertexId tail;
+    HalfEdgeId twin;
+  };
+
   void allocate(std::size_t vertices, std::size_t faces);
   void link_twins();
   void pair(HalfEdgeId a, HalfEdgeId b, EdgeId e) {
-    twin_[a] = b, twin_[b] = a;
+    half_edges_[a].twin = b, half_edges_[b].twin = a;
     edge_[a] = edge_[b] = e;
     half_edge_[e] = a;
   }
@@ -90,8 +102,7 @@ class HalfEdgeMesh {
   PerVertex<Vec3> positions_;
   PerVertex<HalfEdgeId> out_;
   PerVertex<std::uint32_t> valence_;
-  PerHalfEdge<VertexId> tail_;
-  PerHalfEdge<HalfEdgeId> twin_;
+  PerHalfEdge<HalfEdge> half_edges_;
   PerHalfEdge<EdgeId> edge_;
   PerEdge<HalfEdgeId> half_edge_;
   std::size_t face_count_ = 0;

@@ -5,12 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/simd.h"
 #include "prohull/triangle_mesh.h"
 #include "query/line.h"
 
 namespace prohull {
-
-using Float4 = float __attribute__((vector_size(16)));
 
 /// What a WideBvh sees of a line: float32 planes meet float32 origins, conservatively.
 ///

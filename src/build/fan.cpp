@@ -1,0 +1,179 @@
+#include "build/fan.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+namespace prohull {
+namespace {
+
+Vec3Pair magnitudes(const Vec3Pair& a) { return {abs(a.x), abs(a.y), abs(a.z)}; }
+Vec3 magnitudes(const Vec3& a) { return {std::abs(a.x), std::abs(a.y), std::abs(a.z)}; }
+
+/// The cross product, all terms of it added.
+Vec3Pair minors_of(const Vec3Pair& a, const Vec3Pair& b) {
+  return {a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x};
+}
+Vec3 minors_of(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x};
+}
+
+double sum(const Vec3& a) { return a.x + a.y + a.z; }
+
+Double2 along(const Vec3Pair& a, int axis) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; }
+
+}  // namespace
+
+void Fan::set(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link, const Vec3& apex) {
+  assert(link.size() >= 3 && link.size() <= kMostFaces);
+  count_ = link.size();
+  ids_.assign((count_ + 3) / 4, {Truth4{-1, -1, -1, -1}});  // kNoVertex
+  for (std::size_t i = 0; i < count_; ++i) ids_[i / 4].four[i % 4] = static_cast<std::int32_t>(index(link[i]));
+  apex_ = apex;
+  vertices_.clear(), faces_.clear();
+  box_ = {};
+  box_.extend(apex);
+  const std::size_t n = link.size();
+  const auto vertex = [&](std::size_t i) -> const Vec3& { return i < n ? mesh.position(link[i]) : apex; };
+  for (std::size_t i = 0; i <= n; i += 2) vertices_.push_back(both(vertex(i), vertex(i + 1)));
+  for (std::size_t i = 0; i < n; ++i) box_.extend(vertex(i));
+  is_moderate_ = sum(box_.max - box_.min) < kReach;
+  Vec3 normal;
+  const auto around = [&](std::size_t i) -> const Vec3& { return vertex(i < n ? i : i - n); };
+  for (std::size_t i = 0; i < n; i += 2) {
+    const Vec3Pair a = both(around(i), around(i + 1)) - both(apex), b = both(around(i + 1), around(i + 2)) - both(apex);
+    faces_.push_back({cross(a, b), minors_of(magnitudes(a), magnitudes(b))});
+    normal += faces_.back().normal[0] + faces_.back().normal[1];
+  }
+  const Vec3 size = magnitudes(normal);
+  const int axis = size.z >= size.x && size.z >= size.y ? 2 : size.y >= size.x ? 1 : 0;
+  walls_.clear();
+  is_embedded_ = is_moderate_ && see_along(axis);
+}
+
+// If, seen along the axis, all faces turn the same way around the apex, and the link once, the fan is the graph of a
+// function over the plane across. Sets the walls if so.
+bool Fan::see_along(int axis) {
+  const auto turn = [&](const TwoFaces& two, Double2 sign) { return sign * along(two.normal, axis); };
+  const auto all_turn = [&](double sign) {
+    return std::ranges::all_of(faces_, [&](const TwoFaces& two) {
+      return mask(turn(two, both(sign)) > kBound * along(two.minors, axis) + kTiny) == 3;
+    });
+  };
+  u_ = axis == 2 ? 0 : axis + 1, v_ = axis == 0 ? 2 : axis - 1;
+  if (!all_turn(1)) {
+    if (!all_turn(-1)) return false;
+    std::swap(u_, v_);
+  }
+  const std::size_t n = count_;
+  const auto vertex = [&](std::size_t i) { return vertices_[i / 2][static_cast<int>(i % 2)]; };
+  int rises = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 from = vertex(i), to = vertex(i + 1 == n ? 0 : i + 1);
+    rises += from[v_] < apex_[v_] && to[v_] >= apex_[v_];
+    walls_.push_back({from[u_], from[v_], to[u_] - from[u_], to[v_] - from[v_], 0});
+  }
+  if (rises != 1) return false;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint64_t ends = std::uint64_t{1} << i | next(std::uint64_t{1} << i);
+    const std::uint64_t vertices = within(walls_[i]) | ends;
+    walls_[i].faces_within = vertices & previous(vertices);  // the apex is, of any wall
+  }
+  return true;
+}
+
+/// Where a point lies across from the wall, positive inside, and the most by which rounding moves that.
+template <class Number>
+Number Fan::depth(const Wall& wall, Number u, Number v, Number& bound) const {
+  const Number left = wall.du * (v - wall.v), right = wall.dv * (u - wall.u);
+  using prohull::abs, std::abs;
+  bound = kBound * (abs(left) + abs(right)) + kTiny;
+  return left - right;
+}
+
+/// The link vertices strictly inside of the wall.
+std::uint64_t Fan::within(const Wall& wall) const {
+  std::uint64_t inside = 0;
+  for (std::size_t i = 0; 2 * i < count_; ++i) {
+    Double2 bound;
+    const Double2 deep = depth(wall, along(vertices_[i], u_), along(vertices_[i], v_), bound);
+    inside |= std::uint64_t{mask(deep > bound)} << 2 * i;
+  }
+  return inside & all_faces();
+}
+
+/// Whether all corners of t but some are strictly outside of the wall; bit k tells of corner k.
+bool Fan::is_outside(const Triangle& t, const Wall& wall, unsigned but) const {
+  const auto outside = [&](const Vec3& p) {
+    double bound;
+    return unsigned(depth(wall, p[u_], p[v_], bound) < -bound);
+  };
+  return (but | outside(t.a) | outside(t.b) << 1 | outside(t.c) << 2) == 7;
+}
+
+/// The places of a vertex in the link: one or none.
+std::uint64_t Fan::places(VertexId v) const {
+  const auto id = static_cast<std::int32_t>(index(v));
+  const Truth4 all{id, id, id, id};
+  std::uint64_t places = 0;
+  for (std::size_t i = 0; i < ids_.size(); ++i) places |= std::uint64_t{mask(ids_[i].four == all)} << 4 * i;
+  return places;
+}
+
+std::uint64_t Fan::perhaps_met(const Triangle& t, const std::array<VertexId, 3>& corners) const {
+  const std::array<std::uint64_t, 3> at_corner{places(corners[0]), places(corners[1]), places(corners[2])};
+  const std::uint64_t shared = at_corner[0] | at_corner[1] | at_corner[2];
+
+  const Vec3 extent = magnitudes(t.b - t.a) + magnitudes(t.c - t.a) + magnitudes(box_.max - t.a);
+  if (!is_moderate_ || !(sum(extent) < kReach)) return all_faces();
+  std::uint64_t met = all_faces();
+  if (is_embedded_)
+    for (std::uint64_t walls = shared | previous(shared); walls != 0; walls &= walls - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(walls));
+      const std::uint64_t ends = std::uint64_t{1} << i | next(std::uint64_t{1} << i);
+      unsigned at_ends = 0;
+      for (unsigned k = 0; k < 3; ++k) at_ends |= unsigned((at_corner[k] & ends) != 0) << k;
+      if (is_outside(t, walls_[i], at_ends)) met &= ~walls_[i].faces_within;
+      if (met == 0) return 0;
+    }
+  if (is_beside(t, shared)) return 0;
+  return met & ~faces_beside(t, at_corner);
+}
+
+/// Whether all of the fan but the `shared` vertices lies strictly on one side of the plane of t.
+bool Fan::is_beside(const Triangle& t, std::uint64_t shared) const {
+  const Vec3 u = t.b - t.a, v = t.c - t.a;
+  const Vec3 low = magnitudes(box_.min - t.a), high = magnitudes(box_.max - t.a);
+  const Vec3 reach{std::max(low.x, high.x), std::max(low.y, high.y), std::max(low.z, high.z)};
+  const double bound = kBound * dot(minors_of(magnitudes(u), magnitudes(v)), reach) + kTiny;
+  const Vec3Pair normal = both(cross(u, v)), origin = both(t.a);
+  std::uint64_t above = shared, below = shared;
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    const Double2 height = dot(normal, vertices_[i] - origin);
+    above |= std::uint64_t{mask(height > bound)} << 2 * i;
+    below |= std::uint64_t{mask(height < -bound)} << 2 * i;
+  }
+  const std::uint64_t all = 2 * all_faces() + 1;
+  return (above & all) == all || (below & all) == all;
+}
+
+/// The faces of which the plane has t strictly on one side but for the corners that they share.
+std::uint64_t Fan::faces_beside(const Triangle& t, const std::array<std::uint64_t, 3>& at_corner) const {
+  const std::array<Vec3, 3> corners{t.a - apex_, t.b - apex_, t.c - apex_};
+  std::array<std::uint64_t, 2> sides{~std::uint64_t{0}, ~std::uint64_t{0}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3Pair p = both(corners[k]), size = both(magnitudes(corners[k]));
+    const std::uint64_t sharing = at_corner[k] | previous(at_corner[k]);
+    std::uint64_t above = sharing, below = sharing;
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      const Double2 height = dot(faces_[i].normal, p), bound = kBound * dot(faces_[i].minors, size) + kTiny;
+      above |= std::uint64_t{mask(height > bound)} << 2 * i;
+      below |= std::uint64_t{mask(height < -bound)} << 2 * i;
+    }
+    sides[0] &= above, sides[1] &= below;
+  }
+  return sides[0] | sides[1];
+}
+
+}  // namespace prohull

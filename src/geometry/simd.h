@@ -1,0 +1,65 @@
+#pragma once
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include <cmath>
+
+#include "prohull/geometry.h"
+
+namespace prohull {
+
+// Vectors as g++ and clang have them on every processor. Each lane rounds as a scalar does: the same bits everywhere.
+using Double2 = double __attribute__((vector_size(16)));
+using Float4 = float __attribute__((vector_size(16)));
+using Truth2 = decltype(Double2{} < Double2{});  ///< of comparisons: -1 or 0
+using Truth4 = decltype(Float4{} < Float4{});
+
+inline Double2 both(double x) { return Double2{x, x}; }
+
+inline Double2 sqrt(Double2 x) {
+#ifdef __SSE2__
+  return _mm_sqrt_pd(x);
+#else
+  return Double2{std::sqrt(x[0]), std::sqrt(x[1])};
+#endif
+}
+
+inline Double2 abs(Double2 x) { return x < 0 ? -x : x; }
+
+/// Bit i is set where lane i is true.
+inline unsigned mask(Truth2 lanes) {
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(lanes)));
+#else
+  return unsigned(lanes[0] != 0) | unsigned(lanes[1] != 0) << 1;
+#endif
+}
+inline unsigned mask(Truth4 lanes) {
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
+#else
+  return unsigned(lanes[0] != 0) | unsigned(lanes[1] != 0) << 1 | unsigned(lanes[2] != 0) << 2 |
+         unsigned(lanes[3] != 0) << 3;
+#endif
+}
+
+/// Two points or directions, one in each lane.
+struct Vec3Pair {
+  Double2 x, y, z;
+
+  Vec3 operator[](int lane) const { return {x[lane], y[lane], z[lane]}; }
+};
+
+inline Vec3Pair both(const Vec3& a, const Vec3& b) { return {Double2{a.x, b.x}, Double2{a.y, b.y}, Double2{a.z, b.z}}; }
+inline Vec3Pair both(const Vec3& a) { return both(a, a); }
+
+inline Vec3Pair operator-(const Vec3Pair& a, const Vec3Pair& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3Pair operator/(const Vec3Pair& a, Double2 s) { return {a.x / s, a.y / s, a.z / s}; }
+inline Double2 dot(const Vec3Pair& a, const Vec3Pair& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3Pair cross(const Vec3Pair& a, const Vec3Pair& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+}  // namespace prohull

@@ -1,0 +1,192 @@
+#include "build/self_intersection_guard.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "build/fan.h"
+#include "effort.h"
+#include "geometry/triangle_intersection.h"
+#include "meshes.h"
+#include "prohull/sample.h"
+
+namespace prohull {
+namespace {
+
+using namespace meshes;
+
+using Corners = std::array<VertexId, 3>;
+
+Triangle triangle(const HalfEdgeMesh& mesh, const Corners& corners) {
+  return {mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2])};
+}
+
+/// Pairs of `faces` that meet, and pairs of one of them and a face of the mesh without a corner at o or d.
+std::size_t pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const std::vector<Triangle>& faces) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) count += triangles_intersect(faces[i], faces[j]);
+  for (std::uint32_t f = 0; f < mesh.face_id_count(); ++f) {
+    if (!mesh.has(FaceId{f})) continue;
+    const Corners corners = mesh.corners(FaceId{f});
+    if (std::ranges::any_of(corners, [&](VertexId v) { return v == o || v == d; })) continue;
+    for (const Triangle& t : faces) count += triangles_intersect(t, triangle(mesh, corners));
+  }
+  return count;
+}
+
+std::vector<Triangle> fan(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link, const Vec3& apex) {
+  std::vector<Triangle> faces;
+  for (std::size_t i = 0; i < link.size(); ++i)
+    faces.push_back({apex, mesh.position(link[i]), mesh.position(link[(i + 1) % link.size()])});
+  return faces;
+}
+
+std::vector<VertexId> link_of(const HalfEdgeMesh& mesh, VertexId v) {
+  std::vector<VertexId> link;
+  HalfEdgeId h = mesh.out(v);
+  do {
+    link.push_back(mesh.tip(h));
+    h = mesh.rotated(h);
+  } while (h != mesh.out(v));
+  return link;
+}
+
+bool adds_pairs(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex) {
+  std::vector<Triangle> before;
+  for (const VertexId end : {star.o, star.d}) {
+    HalfEdgeId h = mesh.out(end);
+    do {
+      const Corners corners = mesh.corners(FaceId{index(h) / 3});
+      if (end == star.o || std::ranges::find(corners, star.o) == corners.end())
+        before.push_back(triangle(mesh, corners));
+      h = mesh.rotated(h);
+    } while (h != mesh.out(end));
+  }
+  return pairs(mesh, star.o, star.d, fan(mesh, star.link, apex)) > pairs(mesh, star.o, star.d, before);
+}
+
+bool adds_pairs(const HalfEdgeMesh& mesh, VertexId v, const std::vector<VertexId>& link, const Vec3& to) {
+  return pairs(mesh, v, v, fan(mesh, link, to)) > pairs(mesh, v, v, fan(mesh, link, mesh.position(v)));
+}
+
+struct Random {
+  std::mt19937 engine{std::random_device{}()};
+  Vec3 direction() {
+    std::normal_distribution<double> normal;
+    return {normal(engine), normal(engine), normal(engine)};
+  }
+  std::size_t below(std::size_t n) { return engine() % n; }
+};
+
+/// A point about as far from `p` as `reach`; now and then in a plane or at a vertex of the mesh.
+Vec3 point_near(Random& random, const HalfEdgeMesh& mesh, const std::vector<VertexId>& link, const Vec3& p,
+                double reach) {
+  const auto some = [&] { return mesh.position(link[random.below(link.size())]); };
+  switch (random.below(4)) {
+    case 0:
+      return some() * 0.5 + some() * 0.5;
+    case 1:
+      return p;
+    default:
+      return p + random.direction() * (reach * std::exp2(-static_cast<double>(random.below(6))));
+  }
+}
+
+std::vector<TriangleMesh> meshes_to_change() {
+  return {sphere(2),
+          torus(12, 8),
+          together(sphere(2), moved(sphere(2), {1.7, 0, 0})),
+          make_sample("pony", 600),
+          make_sample("bracket", 500),
+          scaled(make_sample("knot", 600), 0x1p-100)};
+}
+
+// While the mesh is simplified and its vertices are moved, with new pairs every now and then.
+TEST(SelfIntersectionGuard, AgreesWithExactTestsOfAllPairs) {
+  Random random;
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  random.engine.seed(seed);
+  int added = 0, kept = 0;
+  for (const TriangleMesh& original : meshes_to_change()) {
+    HalfEdgeMesh mesh(original);
+    SelfIntersectionGuard guard(mesh);
+    const auto count = [&](bool adds) {
+      ++(adds ? added : kept);
+      return adds;
+    };
+    for (int i = 0; i < rounds(200); ++i) {
+      const EdgeId edge{static_cast<std::uint32_t>(random.below(mesh.edge_id_count()))};
+      if (!mesh.has(edge)) continue;
+      Star star;
+      gather_star(mesh, edge, star);
+      const Vec3 middle = mesh.position(star.o) * 0.5 + mesh.position(star.d) * 0.5;
+      const double reach = 3 * norm(mesh.position(star.o) - mesh.position(star.d));
+      const Vec3 apex = point_near(random, mesh, star.link, middle, reach);
+      const bool adds = count(adds_pairs(mesh, star, apex));
+      ASSERT_EQ(guard.would_add_intersections(mesh, star, apex), adds);
+      if (satisfies_link_condition(star) && mesh.face_count() > 20 && (!adds || random.below(10) == 0)) {
+        const VertexId s = mesh.positions().next_id();
+        mesh.collapse(star.edge, apex);
+        guard.changed(mesh, s);
+      }
+
+      const VertexId v = mesh.corners(FaceId{index(mesh.out(star.link[0])) / 3})[0];
+      const std::vector<VertexId> link = link_of(mesh, v);
+      const Vec3 to = point_near(random, mesh, link, mesh.position(v), reach / 3);
+      const bool adds_too = count(adds_pairs(mesh, v, link, to));
+      ASSERT_EQ(guard.would_add_intersections(mesh, v, link, to), adds_too);
+      if (!adds_too) {
+        mesh.move(v, to);
+        guard.changed(mesh, v);
+      }
+    }
+  }
+  EXPECT_GT(added, rounds(20));
+  EXPECT_GT(kept, rounds(20));
+}
+
+// Most faces around a star of a smooth mesh are told apart from it without an exact test: that is what the fan is for.
+TEST(Fan, IsCertainWhereverThereIsNoDoubt) {
+  for (const double scale : {1.0, 0x1p-150, 0x1p250}) {
+    const HalfEdgeMesh mesh(scaled(sphere(3), scale));
+    std::size_t certain = 0, all = 0;
+    for (std::uint32_t e = 0; e < mesh.edge_id_count(); ++e) {
+      Star star;
+      gather_star(mesh, EdgeId{e}, star);
+      Fan fan;
+      fan.set(mesh, star.link, 1.02 * (mesh.position(star.o) * 0.5 + mesh.position(star.d) * 0.5));
+      EXPECT_TRUE(fan.is_certainly_embedded()) << e;
+      for (std::uint32_t f = 0; f < mesh.face_id_count(); ++f) {
+        const Corners corners = mesh.corners(FaceId{f});
+        if (std::ranges::any_of(corners, [&](VertexId v) { return v == star.o || v == star.d; })) continue;
+        certain += fan.perhaps_met(triangle(mesh, corners), corners) == 0;
+        ++all;
+      }
+    }
+    EXPECT_EQ(certain, all) << "scale " << scale;
+  }
+}
+
+TEST(Fan, IsNotEmbeddedIfTheLinkTurnsTwice) {
+  std::vector<Vec3> positions;
+  std::vector<VertexId> link;
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const double angle = std::numbers::pi / 2 * i + 0.1;
+    positions.push_back({std::cos(angle), std::sin(angle), 0.05 * i});
+    link.push_back(VertexId{i});
+  }
+  const HalfEdgeMesh mesh(PerVertex<Vec3>(positions), {});
+  Fan fan;
+  fan.set(mesh, link, {0, 0, -1});
+  EXPECT_FALSE(fan.is_certainly_embedded());
+  fan.set(mesh, {link[0], link[1], link[2], link[3]}, {0, 0, -1});
+  EXPECT_TRUE(fan.is_certainly_embedded());
+}
+
+}  // namespace
+}  // namespace prohull
