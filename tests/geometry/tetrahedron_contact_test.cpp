@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "effort.h"
@@ -20,21 +21,18 @@ Exact::Point_3 exact(const Vec3& v) { return {v.x, v.y, v.z}; }
 /// centre, a point of the relative inside, lies strictly inside of all planes.
 bool truly_meets_interior(const Triangle& t, const Tetrahedron& v) {
   std::vector<Exact::Point_3> polygon{exact(t.a), exact(t.b), exact(t.c)};
-  const Exact::Plane_3 planes[] = {{exact(v.a), exact(v.b), exact(v.c)},
-                                   {exact(v.a), exact(v.c), exact(v.d)},
-                                   {exact(v.a), exact(v.d), exact(v.b)},
-                                   {exact(v.b), exact(v.d), exact(v.c)}};
-  for (const auto& plane : planes) {
+  const Exact::Point_3 a = exact(v.a), b = exact(v.b), c = exact(v.c), d = exact(v.d);
+  const std::pair<Exact::Point_3, Exact::Vector_3> planes[] = {{a, CGAL::cross_product(b - a, c - a)},
+                                                               {a, CGAL::cross_product(c - a, d - a)},
+                                                               {a, CGAL::cross_product(d - a, b - a)},
+                                                               {b, CGAL::cross_product(d - b, c - b)}};
+  for (const auto& [point, n] : planes) {
     std::vector<Exact::Point_3> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const auto &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-      const auto sp = plane.oriented_side(p), sq = plane.oriented_side(q);
-      if (sp != CGAL::ON_POSITIVE_SIDE) kept.push_back(p);
-      if (int(sp) * int(sq) < 0) {
-        const Exact::Vector_3 n = plane.orthogonal_vector();
-        const Exact::FT s = (n * (plane.point() - p)) / (n * (q - p));
-        kept.push_back(p + s * (q - p));
-      }
+      const Exact::FT sp = n * (p - point), sq = n * (q - point);
+      if (sp <= 0) kept.push_back(p);
+      if (sp * sq < 0) kept.push_back(p + sp / (sp - sq) * (q - p));
     }
     polygon = std::move(kept);
     if (polygon.empty()) return false;
@@ -42,8 +40,8 @@ bool truly_meets_interior(const Triangle& t, const Tetrahedron& v) {
   Exact::Vector_3 sum(0, 0, 0);
   for (const auto& p : polygon) sum = sum + (p - CGAL::ORIGIN);
   const Exact::Point_3 center = CGAL::ORIGIN + sum / Exact::FT(static_cast<int>(polygon.size()));
-  for (const auto& plane : planes)
-    if (plane.oriented_side(center) != CGAL::ON_NEGATIVE_SIDE) return false;
+  for (const auto& [point, n] : planes)
+    if (n * (center - point) >= 0) return false;
   return true;
 }
 
