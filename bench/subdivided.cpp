@@ -16,7 +16,7 @@ TriangleMesh subdivided(const TriangleMesh& mesh) {
   std::unordered_map<std::uint64_t, VertexId> middles;
   middles.reserve(3 * mesh.face_count() / 2);
   const auto middle = [&](VertexId v, VertexId w) {
-    const auto [less, greater] = std::minmax(index(v), index(w));
+    const auto [less, greater] = std::minmax({index(v), index(w)});
     const auto [entry, is_new] = middles.try_emplace(std::uint64_t{less} << 32 | greater);
     if (is_new) {
       const Vec3 &p = mesh.positions[v], &q = mesh.positions[w];

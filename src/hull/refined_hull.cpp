@@ -104,6 +104,8 @@ std::size_t RefinableHull::memory_bytes() const {
 
 RefinedHull::RefinedHull(std::shared_ptr<const RefinableHull> hull)
     : hull_(std::move(hull)), is_split_(hull_->hull().splits().size(), false) {
+  splits_.reserve(is_split_.size());
+  pending_.reserve(is_split_.size());
   const std::vector<VertexId>& corners = hull_->hull().base_corners();
   faces_.resize(corners.size() / 3 * 4);
   for (std::uint32_t c = 0; c < corners.size(); ++c) put(corners[c], widened(c));

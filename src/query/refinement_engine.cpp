@@ -102,7 +102,8 @@ class Candidates {
       : shared_(shared),
         hull_(hull),
         base_size_(static_cast<std::uint32_t>(shared.base_faces.size())),
-        marks_(1 + base_size_) {
+        marks_(1 + base_size_),
+        queue_(2 * (base_size_ + 2 * shared.hull->hull().splits().size())) {
     for (std::uint32_t i = 0; i < base_size_; ++i) hull_.tag(shared.base_faces[i]) = tag(1 + i);
   }
 
@@ -161,12 +162,12 @@ class Candidates {
   std::size_t memory_bytes() const { return marks_.capacity() + queue_.capacity() * sizeof(FaceId); }
 
  private:
+  // No face waits twice, so what waits and what comes fit into twice the number of faces.
   void make_room(std::size_t count) {
     if (added_ + count <= queue_.size()) return;
     std::copy(queue_.begin() + static_cast<std::ptrdiff_t>(taken_),
               queue_.begin() + static_cast<std::ptrdiff_t>(added_), queue_.begin());
     added_ -= std::exchange(taken_, 0);
-    if (2 * (added_ + count) > queue_.size()) queue_.resize(2 * (added_ + count));
   }
 
   // Tags: the place of a face among those of the base mesh, counted from 1, and 0 for others; whether it is in queue_.
