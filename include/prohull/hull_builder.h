@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <string_view>
@@ -62,8 +63,12 @@ struct HullOptions {
   bool allow_self_intersections = true;  ///< faster; inner hulls never do, they would stick out of the mesh
   bool float32_coordinates = false;      ///< new vertices have coordinates that a float32 file keeps
   QueueKind queue = QueueKind::Bucket;
+  std::uint64_t seed =
+      0;  ///< others than 0 change the order of the collapses a little, and so the hull; Strategy::Lazy only
+  unsigned best_of = 1;  ///< builds with the seeds from `seed` on, and keeps the hull of least void; at least 1
+  unsigned threads = 0;  ///< at most, and no more than cores; 0: one for each core; the hull is the same for any number
   std::function<bool(const HullProgress&)> progress =
-      {};  ///< called now and then; false stops with the hull made so far
+      {};  ///< called now and then, on the caller's thread; false stops with the hull made so far
 };
 
 enum class Stopped { TargetReached, NoLegalCollapse, Cancelled };

@@ -2,318 +2,299 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_for_each.h>
 
-#include "build/edge_queue.h"
-#include "build/placement.h"
-#include "build/self_intersection_guard.h"
-#include "build/shape_guards.h"
-#include "build/spatial_order.h"
-#include "build/star.h"
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <thread>
+
+#include "build/best_of.h"
+#include "build/cells.h"
+#include "build/collapse_loop.h"
+#include "build/threads.h"
 #include "build/turned.h"
-#include "geometry/float32.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
 
 namespace prohull {
 namespace {
 
-// What is known of an edge between its visits. Times count the collapses, from 1.
-struct EdgeFacts {
-  double key = 0;
-  std::uint32_t evaluated = 0;  ///< when the key was that of the star
-  Refusal last_refusal = Refusal::LinkCondition;
-};
-
-struct VertexFacts {
-  std::uint32_t changed = 1;  ///< when a face around it last did
-  bool has_refused = false;   ///< an edge that ends here may be out of the queue
-};
-
 double largest_coordinate(const Box& box) {
   return std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x),
                    std::abs(box.max.y), std::abs(box.max.z)});
 }
 
-template <class Queue>
+/// Adds up what all threads do, and tells the caller's function, on the caller's thread.
+class SharedProgress {
+ public:
+  SharedProgress(const HullOptions& options, std::size_t faces) : options_(options), original_(faces), faces_(faces) {}
+
+  bool cancelled(std::size_t removed_faces) {
+    faces_ -= removed_faces;
+    if (options_.progress && std::this_thread::get_id() == caller_ &&
+        !options_.progress({faces_, original_, options_.target_faces}))
+      cancelled_ = true;
+    return cancelled_;
+  }
+  bool cancelled() const { return cancelled_; }
+  void set_faces(std::size_t faces) { faces_ = faces; }
+
+ private:
+  const HullOptions& options_;
+  const std::thread::id caller_ = std::this_thread::get_id();
+  const std::size_t original_;
+  std::atomic<std::size_t> faces_;
+  std::atomic<bool> cancelled_ = false;
+};
+
+/// Other seeds for each cell of each round.
+std::uint64_t seed_of(const HullOptions& options, std::uint32_t time, FaceId first_face) {
+  return options.seed == 0 ? 0 : options.seed * 0x9e3779b97f4a7c15 + (std::uint64_t{time} << 32 | index(first_face));
+}
+
+/// The new numbers of what a patch has, one for each thread; all kNoVertex between patches.
+using LocalNumbers = oneapi::tbb::enumerable_thread_specific<PerVertex<VertexId>>;
+
+/// A hull under construction. First in rounds: space is split into cells, each is simplified by itself, up to a key
+/// that is the same for all; the next round has other cells. All cells of a round are independent of each other, so
+/// that their threads never meet, and each fits into the cache. The last few thousand faces are simplified as a whole.
 class HullBuilder {
  public:
   HullBuilder(const TriangleMesh& mesh, const HullOptions& options)
       : options_(options),
         original_vertices_(mesh.vertex_count()),
-        order_(mesh),
-        mesh_(order_.reordered(mesh)),
-        queue_(mesh_.edge_id_count()),
-        edges_(mesh_.edge_id_count()),
-        vertices_(mesh.vertex_count()),
-        rounding_(largest_coordinate(bounding_box(mesh)) * (options.float32_coordinates ? 0x1p-23 : 0x1p-52)) {
-    if (!options.allow_self_intersections || options.side == HullSide::Inner) guard_.emplace(mesh_);
+        positions_(mesh.positions),
+        changed_(mesh.vertex_count(), 1),
+        progress_(options, mesh.face_count()),
+        rules_{options_, UnitCube(bounding_box(mesh)),
+               largest_coordinate(bounding_box(mesh)) * (options.float32_coordinates ? 0x1p-23 : 0x1p-52),
+               [this](std::size_t removed_faces) { return progress_.cancelled(removed_faces); }} {
+    corners_.reserve(3 * mesh.face_count());
+    for (const auto& triangle : mesh.triangles) corners_.insert(corners_.end(), triangle.begin(), triangle.end());
+    faces_.reserve(mesh.face_count());
+    for (const FaceId f : mesh.triangles.ids()) faces_.push_back(f);
+    std::vector<BoxedFace> faces = boxed();
+    sort_along_curve(faces);
+    std::ranges::transform(faces, faces_.begin(), &BoxedFace::face);
+    edges_.resize(corners_.size());
   }
 
   HullResult run() {
-    queue_all();
-    while (mesh_.face_count() > options_.target_faces && !queue_.empty() && !cancelled()) {
-      const EdgeId edge = queue_.pop();
-      prefetch_upcoming();
-      gather_star(mesh_, edge, star_);
-      if (const auto why = refusal_of_topology()) {  // 3.1.4: link condition, valence
-        refuse(edge, *why);
-        continue;
-      }
-      measure_star(mesh_, star_);
-      const auto placement = place();  // 3.1.2, linear program
-      if (!placement) {
-        refuse(edge, Refusal::NoRoomOutside);
-        continue;
-      }
-      if (comes_too_early(edge, *placement)) continue;
-      Vec3 apex;
-      if (const auto why = refusal_of_apex(*placement, apex)) {  // exact certificate; 3.1.4: shape
-        refuse(edge, *why);
-        continue;
-      }
-      const VertexId s = collapse(apex);
-      if (options_.strategy == Strategy::Lazy)
-        mark_changed_around(s);
-      else
-        reevaluate_around(s);  // Figure 3
-    }
-    return result();
+    arena_of(options_.threads).execute([&] {
+      std::size_t round = 0;
+      while (options_.strategy == Strategy::Lazy && is_worth_a_round() && run_round(round++)) continue;
+    });
+    Work whole = cut({everywhere(), faces_}, options_.target_faces, std::numeric_limits<double>::infinity());
+    estimate_keys(whole.patch, rules_);
+    run_collapse_loop(whole.patch, rules_);
+    const RefusalCounts blocked = refusals_of_what_is_left(whole.patch);
+    std::vector<Work> all;
+    all.push_back(std::move(whole));
+    put_back(all);
+    const Stopped stopped = faces_.size() <= options_.target_faces ? Stopped::TargetReached
+                            : progress_.cancelled()                ? Stopped::Cancelled
+                                                                   : Stopped::NoLegalCollapse;
+    return {{options_.side, original_vertices_, std::move(positions_), std::move(corners_), std::move(record_)},
+            stopped,
+            refused_,
+            blocked,
+            linear_programs_};
   }
 
  private:
-  void queue_all() {
-    for (std::uint32_t i = 0; i < mesh_.edge_id_count() && !cancelled(); ++i)
-      options_.strategy == Strategy::Lazy ? estimate_and_queue(EdgeId{i}) : evaluate_and_queue(EdgeId{i});
-  }
+  /// A patch, and what its elements are in the whole.
+  struct Work {
+    Patch patch;
+    std::vector<FaceId> faces;
+    std::vector<VertexId> vertices;  ///< those of the cut first, then those that are made
 
-  // Lazy only: instead of a linear program for every edge of the input.
-  void estimate_and_queue(EdgeId edge) {
-    gather_star(mesh_, edge, star_);
-    edges_[edge].key = estimated_volume(mesh_, star_);
-    queue_.insert(edge, edges_[edge].key);
-  }
-
-  // Edges that follow each other in the queue lie anywhere in the mesh: what is known of them comes into the cache in
-  // steps, as each is needed to find the next.
-  void prefetch_upcoming() {
-    if constexpr (ForeseesEdges<Queue>) {
-      if (queue_.empty()) return;
-      const auto half_edge = [&](std::size_t skipped) { return mesh_.half_edge(queue_.upcoming(skipped)); };
-      const EdgeId far = queue_.upcoming(20);
-      queue_.prefetch(far);
-      mesh_.prefetch(far);
-      __builtin_prefetch(&edges_[far]);
-      if (const HalfEdgeId h = half_edge(16); h != kNoHalfEdge) mesh_.prefetch(h);
-      if (const HalfEdgeId h = half_edge(12); h != kNoHalfEdge) prefetch_end(h), mesh_.prefetch(mesh_.twin(h));
-      if (const HalfEdgeId h = half_edge(8); h != kNoHalfEdge) prefetch_end(mesh_.twin(h)), prefetch_faces<0>(h);
-      if (const HalfEdgeId h = half_edge(5); h != kNoHalfEdge) prefetch_faces<1>(h);
-      if (const HalfEdgeId h = half_edge(2); h != kNoHalfEdge) prefetch_faces<2>(h);
+    VertexId whole(VertexId v) const { return vertices[index(v)]; }
+    std::uint32_t whole_corner(std::uint32_t corner) const { return 3 * index(faces[corner / 3]) + corner % 3; }
+    /// Where the facts of an edge are kept.
+    std::uint32_t place(HalfEdgeId h) const {
+      return std::min(whole_corner(index(h)), whole_corner(index(patch.mesh.twin(h))));
     }
+  };
+
+  // Below, a cell would have too much border.
+  static constexpr std::size_t kLeastCells = 8, kLeastCellFaces = 1536, kMostCellFaces = 4096;
+
+  bool is_worth_a_round() const {
+    return faces_.size() >= kLeastCells * kLeastCellFaces && 4 * faces_.size() > 5 * options_.target_faces &&
+           !progress_.cancelled();
   }
 
-  void prefetch_end(HalfEdgeId h) {
-    mesh_.prefetch(mesh_.tail(h));
-    __builtin_prefetch(&vertices_[mesh_.tail(h)]);
+  /// The part of the faces that a round may at most remove.
+  double most_removed() const {
+    return std::min(0.5, 1 - static_cast<double>(options_.target_faces) / static_cast<double>(faces_.size()));
   }
 
-  // The faces `distance` away from the edge's own, around either end, on either side; and the last corners on the way.
-  template <int distance>
-  void prefetch_faces(HalfEdgeId h) {
-    for (const HalfEdgeId side : {h, mesh_.twin(h)}) {
-      HalfEdgeId around_tail = side, around_tip = mesh_.next(side);  // towards and away from the link
-      for (int i = 0; i < distance; ++i) {
-        around_tail = mesh_.rotated(around_tail);
-        around_tip = mesh_.next(mesh_.twin(around_tip));
+  /// False if it did not help.
+  bool run_round(std::size_t round) {
+    constexpr double kGoldenRatio = 0.6180339887498949;
+    const std::size_t before = faces_.size();
+    const std::size_t cell_faces = std::clamp(before / (2 * kLeastCells), kLeastCellFaces, kMostCellFaces);
+    std::vector<Cell> cells =
+        split_into_cells(boxed(), cell_faces, std::fmod(static_cast<double>(round) * kGoldenRatio, 1));
+    const double max_key = key_for_a_round(cells);
+    std::vector<std::optional<Work>> works(cells.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
+      if (progress_.cancelled()) return;
+      const double size = static_cast<double>(cells[i].faces.size());
+      works[i].emplace(cut(std::move(cells[i]), static_cast<std::size_t>(size * (1 - most_removed())), max_key));
+      estimate_keys(works[i]->patch, rules_);
+      run_collapse_loop(works[i]->patch, rules_);
+    });
+    std::vector<Work> done;
+    for (auto& work : works)
+      if (work) done.push_back(std::move(*work));
+    put_back(done);
+    return faces_.size() < before - before / 16;
+  }
+
+  /// The key up to which edges are collapsed: that of a quarter of them.
+  double key_for_a_round(const std::vector<Cell>& cells) {
+    std::vector<double> keys;
+    const auto add = [&](const EdgeFacts& edge) {
+      if (edge.key != EdgeFacts::kUnknown && !edge.is_refused) keys.push_back(edge.key);
+    };
+    for (const FaceId f : faces_)
+      for (std::uint32_t c = 0; c < 3; ++c) add(edges_[3 * index(f) + c]);
+    if (keys.empty()) {  // The first round has no keys yet; those of some cells tell enough.
+      constexpr std::size_t kStep = 8;
+      std::vector<std::optional<Work>> some((cells.size() + kStep - 1) / kStep);
+      oneapi::tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
+        some[i].emplace(cut(cells[kStep * i], 0, 0));
+        estimate_keys(some[i]->patch, rules_);
+      });
+      for (const auto& work : some) std::ranges::for_each(work->patch.edges, add);
+    }
+    if (keys.empty()) return std::numeric_limits<double>::infinity();
+    const auto place = keys.begin() + static_cast<std::ptrdiff_t>(kRoundFraction * double(keys.size() - 1));
+    std::ranges::nth_element(keys, place);
+    return *place;
+  }
+
+  std::vector<BoxedFace> boxed() const {
+    std::vector<BoxedFace> boxes;
+    boxes.reserve(faces_.size());
+    for (const FaceId f : faces_) {
+      const VertexId* corners = &corners_[3 * index(f)];
+      boxes.push_back(
+          {f, rules_.unit_cube.at(Triangle{positions_[corners[0]], positions_[corners[1]], positions_[corners[2]]})});
+    }
+    return boxes;
+  }
+
+  Work cut(Cell cell, std::size_t target_faces, double max_key) {
+    PerVertex<VertexId>& local = local_numbers_.local();
+    local.resize(positions_.size(), kNoVertex);
+    std::vector<VertexId> vertices, corners;
+    PerVertex<Vec3> positions;
+    PerVertex<VertexFacts> facts;
+    corners.reserve(3 * cell.faces.size());
+    for (const FaceId f : cell.faces)
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        const VertexId v = corners_[3 * index(f) + c];
+        if (local[v] == kNoVertex) {
+          local[v] = positions.push_back(positions_[v]);
+          vertices.push_back(v);
+          facts.push_back({.changed = changed_[v], .is_free = cell.box.has_inside(rules_.unit_cube.at(positions_[v]))});
+        }
+        corners.push_back(local[v]);
       }
-      mesh_.prefetch(mesh_.tip(around_tail)), mesh_.prefetch(mesh_.tip(around_tip));
-      mesh_.prefetch(mesh_.rotated(around_tail)), mesh_.prefetch(mesh_.twin(around_tip));
+    for (const VertexId v : vertices) local[v] = kNoVertex;
+    Work work{{.mesh = HalfEdgeMesh(std::move(positions), corners),
+               .edges = {},
+               .vertices = std::move(facts),
+               .inside = cell.box,
+               .target_faces = target_faces,
+               .max_key = max_key,
+               .time = time_,
+               .seed = seed_of(options_, time_, cell.faces.front())},
+              std::move(cell.faces),
+              std::move(vertices)};
+    work.patch.edges.resize(work.patch.mesh.edge_id_count());
+    for (const EdgeId e : work.patch.edges.ids())
+      work.patch.edges[e] = edges_[work.place(work.patch.mesh.half_edge(e))];
+    return work;
+  }
+
+  /// Collapses of different patches are ordered by their keys, as if there had been one queue.
+  void put_back(std::vector<Work>& works) {
+    struct Collapse {
+      double key;
+      std::uint32_t work, i;
+    };
+    std::vector<Collapse> order;
+    for (std::uint32_t w = 0; w < works.size(); ++w)
+      for (std::uint32_t i = 0; i < works[w].patch.keys.size(); ++i) order.push_back({works[w].patch.keys[i], w, i});
+    std::ranges::stable_sort(order, {}, &Collapse::key);
+    for (Work& work : works) {
+      work.vertices.resize(work.patch.mesh.positions().size());
+      refused_ += work.patch.refused;
+      linear_programs_ += work.patch.linear_programs;
+      time_ = std::max(time_, work.patch.time);
+    }
+    for (const auto& [key, w, i] : order) {
+      Work& work = works[w];
+      const VertexId made{static_cast<std::uint32_t>(work.vertices.size() - work.patch.record.size()) + i};
+      work.vertices[index(made)] = positions_.push_back(work.patch.mesh.position(made));
+      const auto& [o, d, l, r, od, do_] = work.patch.record[i];
+      record_.push_back(
+          {work.whole(o), work.whole(d), work.whole(l), work.whole(r), work.whole_corner(od), work.whole_corner(do_)});
+    }
+    changed_.resize(positions_.size());
+    oneapi::tbb::parallel_for_each(works, [&](const Work& work) { put_back(work); });
+    std::erase_if(faces_, [&](FaceId f) { return corners_[3 * index(f)] == kNoVertex; });
+    progress_.set_faces(faces_.size());
+  }
+
+  /// Writes only what no other patch does.
+  void put_back(const Work& work) {
+    const Patch& patch = work.patch;
+    for (const VertexId v : patch.vertices.ids())
+      if (patch.mesh.has(v) && patch.vertices[v].is_free) changed_[work.whole(v)] = patch.vertices[v].changed;
+    for (std::uint32_t c = 0; c < 3 * work.faces.size(); ++c) {
+      const VertexId v = patch.mesh.tail(HalfEdgeId{c});
+      const VertexId is = v == kNoVertex ? v : work.whole(v);
+      if (VertexId& was = corners_[work.whole_corner(c)]; was != is) was = is;
+    }
+    for (const EdgeId e : patch.edges.ids()) {
+      if (!patch.mesh.has(e)) continue;
+      const HalfEdgeId h = patch.mesh.half_edge(e);
+      if (patch.vertices[patch.mesh.tail(h)].is_free && patch.vertices[patch.mesh.tip(h)].is_free)
+        edges_[work.place(h)] = patch.edges[e];
     }
   }
 
-  std::optional<Refusal> refusal_of_topology() const {
-    if (!satisfies_link_condition(star_)) return Refusal::LinkCondition;
-    if (star_.valence() > options_.max_valence) return Refusal::Valence;
-    return std::nullopt;
-  }
-
-  std::optional<Placement> place() {
-    ++linear_programs_;
-    return place_outside(star_, placement_margin(star_, rounding_));
-  }
-
-  Vec3 as_stored(const Vec3& p) const { return options_.float32_coordinates ? nearest_float32(p) : p; }
-
-  std::uint32_t now() const { return static_cast<std::uint32_t>(record_.size() + 1); }
-
-  bool is_fresh(EdgeId edge) const {
-    return edges_[edge].evaluated >= std::max(vertices_[star_.o].changed, vertices_[star_.d].changed);
-  }
-
-  void set_key(EdgeId edge, double key) {
-    edges_[edge].key = key;
-    edges_[edge].evaluated = now();
-  }
-
-  // Lazy only: the key of an edge whose star has changed is found now, and may send it back into the queue.
-  bool comes_too_early(EdgeId edge, const Placement& placement) {
-    if (is_fresh(edge)) return false;
-    set_key(edge, placement.added_volume);
-    if (queue_.precedes_all(placement.added_volume)) return false;
-    queue_.insert(edge, placement.added_volume);
-    return true;
-  }
-
-  // Where it would go, or why it may not. An end of the edge that adds nothing at all is preferred (not in the paper);
-  // where the guards refuse it for now, so is the edge: any other apex would move flat parts by the margin.
-  std::optional<Refusal> refusal_of_apex(const Placement& placement, Vec3& apex) {
-    constexpr double kFlat = 1e-7;  // of the star's cube; only saves exact tests where they cannot succeed
-    if (options_.strategy == Strategy::Lazy &&
-        placement.added_volume <= kFlat * star_.scale * star_.scale * star_.scale) {
-      std::optional<Refusal> why;
-      for (const VertexId end : {star_.o, star_.d}) {
-        apex = mesh_.position(end);
-        if (!lies_on_all_planes(mesh_, star_, apex)) continue;
-        why = refused_shape(star_, end == star_.o ? star_.local_o : star_.local_d, options_);
-        if (!why && as_stored(apex) == apex && !(guard_ && guard_->would_add_intersections(mesh_, star_, apex)))
-          return std::nullopt;
-      }
-      if (why) return why;
-    }
-    if (const auto why = refused_shape(star_, placement.local, options_)) return why;
-    apex = as_stored(star_.to_input(placement.local));
-    if (!is_finite(apex) || !is_outside(mesh_, star_, apex)) return Refusal::Certificate;
-    if (guard_ && guard_->would_add_intersections(mesh_, star_, apex)) return Refusal::SelfIntersection;
-    return std::nullopt;
-  }
-
-  void refuse(EdgeId edge, Refusal why) {
-    refused_.count(why);
-    edges_[edge].last_refusal = why;
-    vertices_[star_.o].has_refused = vertices_[star_.d].has_refused = true;
-  }
-
-  VertexId collapse(const Vec3& apex) {
-    // The edges d-l and o-r merge into o-l and d-r.
-    unqueue(mesh_.edge(mesh_.next(star_.edge)));
-    unqueue(mesh_.edge(mesh_.next(mesh_.twin(star_.edge))));
-    const VertexId s = mesh_.positions().next_id();
-    record_.push_back(mesh_.collapse(star_.edge, apex));
-    vertices_.push_back({now(), vertices_[star_.o].has_refused || vertices_[star_.d].has_refused});
-    if (guard_) guard_->changed(mesh_, s);
-    return s;
-  }
-
-  // The edges whose star has changed are those with an end on s or its link. Lazy: they are evaluated when their turn
-  // comes; those that were refused get another.
-  void mark_changed_around(VertexId s) {
-    mark_changed(s);
-    const HalfEdgeId first = mesh_.out(s);
-    HalfEdgeId h = first;
-    do {
-      mark_changed(mesh_.tip(h));
-      h = mesh_.rotated(h);
-    } while (h != first);
-  }
-
-  void mark_changed(VertexId v) {
-    vertices_[v].changed = now();
-    if (!vertices_[v].has_refused) return;
-    vertices_[v].has_refused = false;
-    const HalfEdgeId first = mesh_.out(v);
-    HalfEdgeId h = first;
-    do {
-      const EdgeId edge = mesh_.edge(h);
-      if (!queue_.contains(edge)) queue_.insert(edge, edges_[edge].key);
-      h = mesh_.rotated(h);
-    } while (h != first);
-  }
-
-  // P&T Figure 3.
-  void reevaluate_around(VertexId s) {
-    const HalfEdgeId first = mesh_.out(s);
-    HalfEdgeId h = first;
-    do {
-      const HalfEdgeId around = mesh_.twin(h);
-      reevaluate(mesh_.edge(h));
-      // Edges between two link vertices are met from both: the one beside s is left to its own tail.
-      HalfEdgeId g = mesh_.rotated(around);
-      reevaluate(mesh_.edge(g));
-      for (g = mesh_.rotated(g); mesh_.rotated(g) != around; g = mesh_.rotated(g)) reevaluate(mesh_.edge(g));
-      h = mesh_.rotated(h);
-    } while (h != first);
-  }
-
-  void unqueue(EdgeId edge) {
-    if (queue_.contains(edge)) queue_.erase(edge);
-  }
-
-  void reevaluate(EdgeId edge) {
-    unqueue(edge);
-    evaluate_and_queue(edge);
-  }
-
-  void evaluate_and_queue(EdgeId edge) {
-    gather_star(mesh_, edge, star_);
-    if (const auto why = refusal_of_topology()) return refuse(edge, *why);
-    measure_star(mesh_, star_);
-    if (options_.strategy == Strategy::Paper2) {
-      set_key(edge, link_center_volume(star_));
-    } else {
-      const auto placement = place();
-      if (!placement) return refuse(edge, Refusal::NoRoomOutside);
-      set_key(edge, placement->added_volume);
-    }
-    queue_.insert(edge, edges_[edge].key);
-  }
-
-  bool cancelled() {
-    constexpr std::size_t kInterval = 1024;
-    if (!cancelled_ && options_.progress && ++steps_ % kInterval == 0)
-      cancelled_ = !options_.progress({mesh_.face_count(), mesh_.face_id_count(), options_.target_faces});
-    return cancelled_;
-  }
-
-  Stopped stopped() const {
-    if (mesh_.face_count() <= options_.target_faces) return Stopped::TargetReached;
-    return cancelled_ ? Stopped::Cancelled : Stopped::NoLegalCollapse;
-  }
-
-  HullResult result() {
+  static RefusalCounts refusals_of_what_is_left(const Patch& patch) {
     RefusalCounts blocked;
-    for (std::uint32_t i = 0; i < mesh_.edge_id_count(); ++i)
-      if (const EdgeId e{i}; mesh_.has(e) && !queue_.contains(e)) blocked.count(edges_[e].last_refusal);
-    return {hull_as_numbered_in_the_input(), stopped(), refused_, blocked, linear_programs_};
+    for (const EdgeId e : patch.edges.ids())
+      if (patch.mesh.has(e) && patch.edges[e].is_refused) blocked.count(patch.edges[e].last_refusal);
+    return blocked;
   }
 
-  ProgressiveHull hull_as_numbered_in_the_input() {
-    std::vector<VertexId> corners(3 * mesh_.face_id_count());
-    for (std::uint32_t c = 0; c < corners.size(); ++c)
-      corners[order_.given_corner(c)] = order_.given(mesh_.tail(HalfEdgeId{c}));
-    PerVertex<Vec3> positions(mesh_.positions().size());
-    for (const VertexId v : positions.ids()) positions[order_.given(v)] = mesh_.position(v);
-    for (auto& [o, d, l, r, od, do_] : record_) {
-      o = order_.given(o), d = order_.given(d), l = order_.given(l), r = order_.given(r);
-      od = order_.given_corner(od), do_ = order_.given_corner(do_);
-    }
-    return {options_.side, original_vertices_, std::move(positions), std::move(corners), std::move(record_)};
-  }
+  static constexpr double kRoundFraction = 0.25;
 
   const HullOptions options_;
   const std::size_t original_vertices_;
-  const SpatialOrder order_;
-  HalfEdgeMesh mesh_;
-  Queue queue_;
-  PerEdge<EdgeFacts> edges_;
-  PerVertex<VertexFacts> vertices_;
-  std::optional<SelfIntersectionGuard> guard_;
-  const double rounding_;  ///< the most by which storing moves a coordinate, with some room
-  Star star_;
+  PerVertex<Vec3> positions_;      ///< of all vertices ever made
+  std::vector<VertexId> corners_;  ///< of the faces of the input; kNoVertex where a face has gone
+  std::vector<FaceId> faces_;      ///< those that are left, along a curve
+  std::vector<EdgeFacts> edges_;   ///< by one of an edge's two corners
+  PerVertex<std::uint32_t> changed_;
   std::vector<VertexSplit> record_;
+  std::uint32_t time_ = 1;
   RefusalCounts refused_;
-  std::size_t linear_programs_ = 0, steps_ = 0;
-  bool cancelled_ = false;
+  std::size_t linear_programs_ = 0;
+  SharedProgress progress_;
+  const CollapseRules rules_;
+  LocalNumbers local_numbers_;
 };
 
 void check(const HullOptions& options) {
@@ -324,21 +305,11 @@ void check(const HullOptions& options) {
   require(options.max_valence >= 3, "max_valence must be at least 3");
   require(options.min_compactness_ratio >= 0 && options.min_compactness_ratio <= 1,
           "min_compactness_ratio must be in [0, 1]");
+  require(options.best_of >= 1, "best_of must be at least 1");
   require(options.sufficient_compactness >= 0 && options.sufficient_compactness <= 1,
           "sufficient_compactness must be in [0, 1]");
   require(options.max_normal_deviation >= 0 && options.max_normal_deviation <= std::numbers::pi / 2,
           "max_normal_deviation must be in [0, pi/2] radians");
-}
-
-HullResult run_builder(const TriangleMesh& mesh, const HullOptions& options) {
-  switch (options.queue) {
-    case QueueKind::Bucket:
-      return HullBuilder<EdgeBuckets>(mesh, options).run();
-    case QueueKind::Heap:
-      return HullBuilder<EdgeHeap>(mesh, options).run();
-    default:
-      return HullBuilder<EdgeTree>(mesh, options).run();
-  }
 }
 
 // Every face with its corners 1 and 2 exchanged: o and d exchange their roles, l and r their sides.
@@ -369,14 +340,18 @@ std::string_view name(Refusal refusal) {
 
 HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
   check(options);
+  if (options.best_of > 1)
+    return best_of(
+        options, [&](const HullOptions& one) { return build_hull(mesh, one); },
+        [](const HullResult& result) { return result.hull.base(); });
   const MeshReport report = inspect(mesh);
   if (report.faces == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces");
   if (!report.is_closed_manifold()) throw InputError(report.worst_defect, report.first_defect);
   if (!(report.volume > 0))
     throw InputError(Defect::NoVolume, "the mesh is inside out or encloses nothing; closed_mesh turns what it can");
-  if (options.side == HullSide::Outer) return run_builder(mesh, options);
+  if (options.side == HullSide::Outer) return HullBuilder(mesh, options).run();
   // An inner hull is the outer hull of the mesh turned inside out: what was inside of a face is then outside.
-  return turned(run_builder(turned(mesh), options));
+  return turned(HullBuilder(turned(mesh), options).run());
 }
 
 }  // namespace prohull

@@ -90,7 +90,7 @@ double estimated_volume(const HalfEdgeMesh& mesh, const Star& star) {
     to_d += std::abs(dot(n, d - a));
     return true;
   });
-  return finite(std::min({0.4 * to_center, to_o, to_d}) / 6);
+  return finite(5.0 / 3 * std::min({0.4 * to_center, to_o, to_d}) / 6);
 }
 
 bool is_outside(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex) {

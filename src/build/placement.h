@@ -26,9 +26,9 @@ bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& 
 /// P&T 3.1.3, second strategy: the unsigned volume between the star and the centre of its link, in the input's unit.
 double link_center_volume(const Star& star);
 
-/// About the volume that place_outside would add, without a linear program: 0.4 times that of the link's centre, or the
-/// unsigned volume between the star and an end of the edge, where that is less, as along creases. Requires gather_star
-/// only; never NaN or infinite.
+/// What place_outside is likely to add, and hardly more, without a linear program: a multiple of the unsigned volume
+/// between the star and the centre of its link, or an end of the edge, where that is less, as along creases. Requires
+/// gather_star only; never NaN or infinite.
 double estimated_volume(const HalfEdgeMesh& mesh, const Star& star);
 
 /// Exact: the apex, as stored, is outside of or on the supporting plane of every face of the star.

