@@ -23,7 +23,7 @@ with open(source, newline="") as file:
 
 plt.rcParams["svg.hashsalt"] = "peers"
 figure, panels = plt.subplots(
-    2, len(models), figsize=(1.5 + 4 * len(models), 6.5), sharex="col", squeeze=False, height_ratios=[3, 2]
+    2, len(models), figsize=(max(7, 1 + 4 * len(models)), 6.5), sharex="col", squeeze=False, height_ratios=[3, 2]
 )
 legend = {}
 for (name, rows), (voids, outside) in zip(models.items(), panels.T):
@@ -52,14 +52,16 @@ for (name, rows), (voids, outside) in zip(models.items(), panels.T):
     voids.set_yscale("log")
     voids.yaxis.set_major_formatter(ScalarFormatter())
     outside.set_xscale("log")
-    outside.xaxis.set_major_formatter(ScalarFormatter())
+    asked = sorted({int(row["asked_faces"]) for row in rows if row["asked_faces"]})
+    outside.set_xticks(asked, [f"{faces:,}" for faces in asked])
+    outside.minorticks_off()
     outside.set_xlabel("faces")
     outside.set_ylim(0, 100)
     for axes in (voids, outside):
         axes.grid(alpha=0.3)
 panels[0][0].set_ylabel("void of those that enclose, %")
 panels[1][0].set_ylabel("do not enclose:\noriginal vertices outside, %")
-figure.legend(legend.values(), legend.keys(), loc="lower center", ncols=min(4, len(legend)), fontsize=9)
+figure.legend(legend.values(), legend.keys(), loc="lower center", ncols=4, fontsize=9 if len(models) > 1 else 7.5)
 figure.tight_layout(rect=(0, 0.09, 1, 1))
 figure.savefig(svg, metadata={"Date": None})
 figure.savefig(png, dpi=120, metadata={"Software": None})
