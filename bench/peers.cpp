@@ -158,7 +158,7 @@ class Bench {
       row.peak_bytes = static_cast<double>(made.peak_bytes - nothing_);
       judge_apart(original, hull.get(), row);
     }
-    fmt::print(stderr, "\n  {} {}: {}", row.method, faces > 0 ? fmt::to_string(faces) : "", progress(row));
+    fmt::print(stderr, "\n  {}{}: {}", row.method, faces > 0 ? fmt::format(" {}", faces) : "", progress(row));
     return row;
   }
 
