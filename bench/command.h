@@ -14,6 +14,7 @@ constexpr int kBadInput = 3;
 using Run = std::function<int()>;
 void add_construction(CLI::App& app, Run& run);
 void add_memory(CLI::App& app, Run& run);
+void add_peers(CLI::App& app, Run& run);
 void add_queries(CLI::App& app, Run& run);
 void add_queues(CLI::App& app, Run& run);
 void add_scale(CLI::App& app, Run& run);

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   add_queues(app, run);
   add_queries(app, run);
   add_memory(app, run);
+  add_peers(app, run);
   add_scale(app, run);
   try {
     app.parse(argc, argv);

@@ -1,13 +1,9 @@
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstdio>
-#include <functional>
 #include <memory>
 #include <stdexcept>
 
+#include "apart.h"
 #include "command.h"
 #include "machine.h"
 #include "models.h"
@@ -30,79 +26,6 @@ struct Options {
   std::filesystem::path out;
 };
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-File temporary_file() {
-  File file(std::tmpfile());
-  if (!file) throw std::runtime_error("no temporary file can be made");
-  return file;
-}
-
-template <class T>
-void put(std::FILE* file, const T* values, std::size_t count) {
-  if (std::fwrite(values, sizeof(T), count, file) != count) throw std::runtime_error("the temporary file is full");
-}
-
-template <class T>
-void get(std::FILE* file, T* values, std::size_t count) {
-  if (std::fread(values, sizeof(T), count, file) != count) throw std::runtime_error("the temporary file is incomplete");
-}
-
-void put_mesh(std::FILE* file, const TriangleMesh& mesh) {
-  const std::size_t counts[2] = {mesh.vertex_count(), mesh.face_count()};
-  put(file, counts, 2);
-  put(file, mesh.positions.data(), counts[0]);
-  put(file, mesh.triangles.data(), counts[1]);
-  std::fflush(file);
-}
-
-std::size_t face_count(std::FILE* file) {
-  std::size_t counts[2];
-  std::rewind(file);
-  get(file, counts, 2);
-  return counts[1];
-}
-
-TriangleMesh get_mesh(std::FILE* file) {
-  std::size_t counts[2];
-  std::rewind(file);
-  get(file, counts, 2);
-  TriangleMesh mesh;
-  mesh.positions.resize(counts[0]);
-  mesh.triangles.resize(counts[1]);
-  get(file, mesh.positions.data(), counts[0]);
-  get(file, mesh.triangles.data(), counts[1]);
-  return mesh;
-}
-
-struct Ended {
-  int exit_code;
-  std::size_t peak_bytes;
-};
-
-// Runs `work` in a process of its own.
-Ended run_apart(const std::function<void()>& work) {
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no process can be started");
-  if (child == 0) {
-    int exit_code = kDone;
-    try {
-      work();
-    } catch (const std::exception& error) {
-      fmt::print(stderr, ": {}", error.what());
-      exit_code = kBadInput;
-    }
-    _exit(exit_code);
-  }
-  int status = 0;
-  rusage usage{};
-  if (wait4(child, &status, 0, &usage) != child) throw std::runtime_error("a process was lost");
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : kBadInput, std::size_t(usage.ru_maxrss) * 1024};
-}
-
 int run_memory(const Options& options) {
   Table table({"model", "faces", "mesh", "peak", "bytes per face"});
   Table csv({"mesh", "faces", "hull_faces", "mesh_bytes", "peak_bytes", "bytes_per_face"});
@@ -113,14 +36,14 @@ int run_memory(const Options& options) {
     fmt::print(stderr, "{}", source.name);
     const File file = temporary_file();
     const Ended loaded = run_apart([&] { put_mesh(file.get(), load(source)); });
-    if (loaded.exit_code == kDone) {
-      const std::size_t faces = face_count(file.get());
+    if (loaded.failure.empty()) {
+      const std::size_t faces = get_mesh_size(file.get()).faces;
       const Ended held = run_apart([&] { get_mesh(file.get()); });
       const Ended built = run_apart([&] {
         const TriangleMesh mesh = get_mesh(file.get());
         build_hull(mesh, hull_options(Strategy::Lazy, options.hull_faces));
       });
-      if (built.exit_code != kDone) throw std::runtime_error("no hull of " + source.name);
+      if (!built.failure.empty()) throw std::runtime_error("no hull of " + source.name + ": " + built.failure);
       const std::size_t mesh_bytes = held.peak_bytes - nothing, peak_bytes = built.peak_bytes - nothing;
       const double per_face = static_cast<double>(peak_bytes) / static_cast<double>(faces);
       constexpr double kMegabyte = 1e6;
@@ -129,6 +52,8 @@ int run_memory(const Options& options) {
            fmt::format("{:.1f} MB", static_cast<double>(peak_bytes) / kMegabyte), fmt::format("{:.0f}", per_face)});
       csv.add({source.name, fmt::to_string(faces), fmt::to_string(options.hull_faces), fmt::to_string(mesh_bytes),
                fmt::to_string(peak_bytes), fmt::format("{:.1f}", per_face)});
+    } else {
+      fmt::print(stderr, ": {}", loaded.failure);
     }
     fmt::print(stderr, "\n");
   }

@@ -1,12 +1,10 @@
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
 
+#include "figure.h"
 #include "machine.h"
 #include "prohull/file.h"
 #include "query_section.h"
@@ -161,18 +159,6 @@ std::string figure8_csv(const std::vector<ModelFacts>& models) {
   return table.csv();
 }
 
-/// Whether the script, which needs matplotlib, has drawn the figure.
-bool draw_figure8(const std::filesystem::path& csv, const std::filesystem::path& svg,
-                  const std::filesystem::path& png) {
-  std::array<std::string, 5> words{PROHULL_PYTHON, PROHULL_FIGURE8_SCRIPT, csv.string(), svg.string(), png.string()};
-  std::array<char*, 6> arguments{};
-  std::ranges::transform(words, arguments.begin(), [](std::string& word) { return word.data(); });
-  pid_t child = 0;
-  int status = 1;
-  return posix_spawn(&child, words[0].c_str(), nullptr, nullptr, arguments.data(), environ) == 0 &&
-         waitpid(child, &status, 0) == child && status == 0;
-}
-
 class BasesSection final : public QuerySection {
  public:
   void measure(const QueryModel& model, const QueryOptions& options) override {
@@ -190,8 +176,7 @@ class BasesSection final : public QuerySection {
   void write(const std::filesystem::path& folder) const override {
     write_file(folder / "table3.csv", csv(models_));
     write_file(folder / "figure8.csv", figure8_csv(models_));
-    if (!draw_figure8(folder / "figure8.csv", folder / "figure8.svg", folder / "figure8.png"))
-      fmt::print(stderr, "prohull-bench: Figure 8 is not drawn, which takes {} with matplotlib\n", PROHULL_PYTHON);
+    draw_figure(folder / "figure8.csv");
   }
 
  private:

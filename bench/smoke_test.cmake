@@ -34,6 +34,16 @@ expect("${printed}" "| mesh | faces | per collapse | guarded | guarded / unguard
 file(READ ${OUT}/scale.csv csv)
 expect("${csv}" "mesh,faces,guarded,seconds,collapses,linear_programs,us_per_collapse")
 
+run(peers --samples asteroid --sample-faces 1000 --faces 400,4 --out ${OUT})
+foreach(text "| method | asked | faces | void | time | memory |" "## asteroid: " "| prohull tight | 400 |"
+        "| prohull progressive | 4 |" "| CGAL alpha wrap | 400 |" "| CGAL convex hull |  |" "| OpenMesh quadrics | 400 |")
+  expect("${printed}" "${text}")
+endforeach()
+file(READ ${OUT}/peers.md markdown)
+expect("${printed}" "${markdown}")
+file(READ ${OUT}/peers.csv csv)
+expect("${csv}" "mesh,mesh_faces,mesh_vertices,mesh_self_intersections,method,asked_faces,hull_faces,void_percent,")
+
 run(queries --samples asteroid --sample-faces 2000 --segments 100 --check 300 --repeat 1 --out ${OUT})
 foreach(column "| model | strategy | base | time | brute force / time |" "| model | segments that meet | paper's | 6-DOPs |"
         "| model | engine | first | any | all |" "| model | batch | between queries | time |"
