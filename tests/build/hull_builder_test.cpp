@@ -230,7 +230,7 @@ TEST(BuildHullOptions, OutOfTheirRangesAreRefused) {
         HullOptions{.min_compactness_ratio = nan}, HullOptions{.sufficient_compactness = -1},
         HullOptions{.sufficient_compactness = 2}, HullOptions{.sufficient_compactness = nan},
         HullOptions{.max_normal_deviation = -0.1}, HullOptions{.max_normal_deviation = 1.6},
-        HullOptions{.max_normal_deviation = nan}}) {
+        HullOptions{.max_normal_deviation = nan}, HullOptions{.best_of = 0}}) {
     try {
       build_hull(mesh, wrong);
       ADD_FAILURE();
@@ -294,6 +294,85 @@ TEST(BuildHullProgress, CancelsBeforeTheFirstCollapse) {
       build_hull(mesh, {.target_faces = 40, .progress = [](const HullProgress&) { return false; }});
   EXPECT_EQ(result.stopped, Stopped::Cancelled);
   EXPECT_EQ(result.hull.base(), mesh);
+}
+
+#ifndef PROHULL_TESTS_ARE_SLOW
+constexpr std::size_t kFacesForRounds = 20000;  // so many that space is split into cells
+
+TEST(BuildHullInRounds, KeepsItsPromisesAndIsTheSameForAnyNumberOfThreads) {
+  for (const char* sample : {"pony", "bracket"}) {
+    const TriangleMesh mesh = make_sample(sample, kFacesForRounds);
+    for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+      HullOptions options{.target_faces = 800, .side = side, .allow_self_intersections = false, .threads = 1};
+      const HullResult one = build_hull(mesh, options);
+      check(mesh, options, one);
+      for (const unsigned threads : {2u, 0u}) {
+        options.threads = threads;
+        const HullResult many = build_hull(mesh, options);
+        EXPECT_EQ(many.hull, one.hull) << threads << " threads";
+        EXPECT_EQ(many.linear_programs, one.linear_programs);
+        EXPECT_EQ(total(many.refused), total(one.refused));
+      }
+    }
+  }
+}
+
+// A round may remove half of the faces, and must not go beyond the target.
+TEST(BuildHullInRounds, StopsAtAnyTarget) {
+  const TriangleMesh mesh = make_sample("pony", kFacesForRounds);
+  for (const std::size_t part : {95, 80, 75, 60, 50, 40}) {
+    const std::size_t target = mesh.face_count() * part / 100;
+    const HullResult result = build_hull(mesh, {.target_faces = target});
+    EXPECT_EQ(result.stopped, Stopped::TargetReached);
+    EXPECT_LE(result.hull.base_face_count(), target);
+    EXPECT_GE(result.hull.base_face_count() + 1, target);
+  }
+}
+
+TEST(BuildHullInRounds, CancelsWithASoundHullAtAnyTime) {
+  const TriangleMesh mesh = make_sample("pony", kFacesForRounds);
+  for (const int calls : {1, 3, 10, 25}) {
+    int left = calls;
+    const HullResult result =
+        build_hull(mesh, {.target_faces = 100, .progress = [&](const HullProgress&) { return --left > 0; }});
+    EXPECT_EQ(result.stopped, Stopped::Cancelled);
+    EXPECT_TRUE(verify_replay(result.hull, mesh).holds);
+    EXPECT_EQ(result.hull.original(), mesh);
+  }
+}
+
+TEST(BuildHullInRounds, LevelsOfTheSameSizeAreAsTightAsIfBuiltForIt) {
+  const TriangleMesh mesh = make_sample("pony", kFacesForRounds);
+  const double volume = inspect(mesh).volume;
+  const ProgressiveHull all = build_hull(mesh, {.target_faces = 1000}).hull;
+  for (const std::size_t faces : {15000, 9000, 5000, 2000}) {
+    const double of_level = inspect(all.level(faces)).volume / volume - 1;
+    const double of_hull = inspect(build_hull(mesh, {.target_faces = faces}).hull.base()).volume / volume - 1;
+    EXPECT_LT(of_level, 1.1 * of_hull) << faces << " faces";
+  }
+}
+#endif
+
+TEST(BuildHullSeeds, ChangeTheHullAndTheBestOfThemIsKept) {
+  const TriangleMesh mesh = make_sample("asteroid", kFaces);
+  const auto volume = [&](const HullOptions& options) { return inspect(build_hull(mesh, options).hull.base()).volume; };
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    std::vector<double> volumes;
+    for (std::uint64_t seed = 5; seed < 9; ++seed)
+      volumes.push_back(volume({.target_faces = 100, .side = side, .seed = seed}));
+    EXPECT_NE(volumes[0], volumes[1]);
+    const double best = side == HullSide::Outer ? std::ranges::min(volumes) : std::ranges::max(volumes);
+    for (const unsigned threads : {1u, 0u})
+      EXPECT_EQ(volume({.target_faces = 100, .side = side, .seed = 5, .best_of = 4, .threads = threads}), best);
+  }
+}
+
+TEST(BuildHullSeeds, CanBeCancelled) {
+  const TriangleMesh mesh = make_sample("asteroid", 4000);
+  const HullResult result =
+      build_hull(mesh, {.target_faces = 40, .best_of = 5, .progress = [](const HullProgress&) { return false; }});
+  EXPECT_EQ(result.stopped, Stopped::Cancelled);
+  EXPECT_TRUE(verify_replay(result.hull, mesh).holds);
 }
 
 TEST(BuildHullLimits, ValenceIsKeptAndNothingIsDoneForATargetThatIsReached) {
