@@ -23,7 +23,7 @@ enum class Strategy {
 enum class QueueKind { Bucket, Heap, RedBlackTree };
 
 /// Why an edge was not collapsed.
-enum class Refusal {
+enum class Refusal : std::uint8_t {
   LinkCondition,     ///< the surface would be pinched
   Valence,           ///< the new vertex would have more than max_valence faces
   NoRoomOutside,     ///< no point is outside of every face of the star (P&T formula 2)

@@ -47,7 +47,7 @@ struct Patch {
 /// What all patches of a construction share.
 struct CollapseRules {
   const HullOptions& options;
-  UnitCube unit_cube;
+  const UnitCube& unit_cube;
   double rounding;  ///< the most by which storing moves a coordinate, with some room
   std::function<bool(std::size_t removed_faces)> cancelled;  ///< asked now and then, from any thread
 };

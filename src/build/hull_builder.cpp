@@ -4,7 +4,6 @@
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_for_each.h>
 
 #include <algorithm>
 #include <atomic>
@@ -62,25 +61,23 @@ using LocalNumbers = oneapi::tbb::enumerable_thread_specific<PerVertex<VertexId>
 /// A hull under construction. First in rounds: space is split into cells, each is simplified by itself, up to a key
 /// that is the same for all; the next round has other cells. All cells of a round are independent of each other, so
 /// that their threads never meet, and each fits into the cache. The last few thousand faces are simplified as a whole.
+///
+/// Faces and vertices are numbered along a curve. The vertex that a collapse makes takes the place of one that it
+/// removes, so that what lies together in space does so in memory; `names_` tells which vertex is at a place now.
 class HullBuilder {
  public:
   HullBuilder(const TriangleMesh& mesh, const HullOptions& options)
       : options_(options),
-        original_vertices_(mesh.vertex_count()),
-        positions_(mesh.positions),
-        changed_(mesh.vertex_count(), 1),
+        unit_cube_(bounding_box(mesh)),
         progress_(options, mesh.face_count()),
-        rules_{options_, UnitCube(bounding_box(mesh)),
+        rules_{options_, unit_cube_,
                largest_coordinate(bounding_box(mesh)) * (options.float32_coordinates ? 0x1p-23 : 0x1p-52),
-               [this](std::size_t removed_faces) { return progress_.cancelled(removed_faces); }} {
-    corners_.reserve(3 * mesh.face_count());
-    for (const auto& triangle : mesh.triangles) corners_.insert(corners_.end(), triangle.begin(), triangle.end());
-    faces_.reserve(mesh.face_count());
-    for (const FaceId f : mesh.triangles.ids()) faces_.push_back(f);
-    std::vector<BoxedFace> faces = boxed();
-    sort_along_curve(faces);
-    std::ranges::transform(faces, faces_.begin(), &BoxedFace::face);
+               [this](std::size_t removed_faces) { return progress_.cancelled(removed_faces); }},
+        made_(mesh.positions) {
+    number_along_curve(mesh);
+    changed_.assign(positions_.size(), 1);
     edges_.resize(corners_.size());
+    made_.reserve(mesh.vertex_count() + (mesh.face_count() - std::min(mesh.face_count(), options.target_faces)) / 2);
   }
 
   HullResult run() {
@@ -89,16 +86,17 @@ class HullBuilder {
       while (options_.strategy == Strategy::Lazy && is_worth_a_round() && run_round(round++)) continue;
     });
     Work whole = cut({everywhere(), faces_}, options_.target_faces, std::numeric_limits<double>::infinity());
-    estimate_keys(whole.patch, rules_);
-    run_collapse_loop(whole.patch, rules_);
+    simplify(whole);
     const RefusalCounts blocked = refusals_of_what_is_left(whole.patch);
-    std::vector<Work> all;
-    all.push_back(std::move(whole));
-    put_back(all);
+    add({put_back(std::move(whole))});
     const Stopped stopped = faces_.size() <= options_.target_faces ? Stopped::TargetReached
                             : progress_.cancelled()                ? Stopped::Cancelled
                                                                    : Stopped::NoLegalCollapse;
-    return {{options_.side, original_vertices_, std::move(positions_), std::move(corners_), std::move(record_)},
+    std::vector<VertexId> corners(corners_.size(), kNoVertex);
+    for (const FaceId f : faces_)
+      for (std::uint32_t c = 0; c < 3; ++c)
+        corners[given_corner(3 * index(f) + c)] = names_[corners_[3 * index(f) + c]];
+    return {{options_.side, positions_.size(), std::move(made_), std::move(corners), std::move(record_)},
             stopped,
             refused_,
             blocked,
@@ -110,15 +108,56 @@ class HullBuilder {
   struct Work {
     Patch patch;
     std::vector<FaceId> faces;
-    std::vector<VertexId> vertices;  ///< those of the cut first, then those that are made
+    std::vector<VertexId> vertices;
 
-    VertexId whole(VertexId v) const { return vertices[index(v)]; }
     std::uint32_t whole_corner(std::uint32_t corner) const { return 3 * index(faces[corner / 3]) + corner % 3; }
     /// Where the facts of an edge are kept.
     std::uint32_t place(HalfEdgeId h) const {
       return std::min(whole_corner(index(h)), whole_corner(index(patch.mesh.twin(h))));
     }
+    bool is_free(HalfEdgeId h) const {
+      return patch.vertices[patch.mesh.tail(h)].is_free && patch.vertices[patch.mesh.tip(h)].is_free;
+    }
   };
+
+  /// The collapses of a patch. Vertices that it made are numbered from names.size() on.
+  struct Collapses {
+    std::vector<VertexId> names;  ///< of the vertices that it began with
+    std::vector<VertexId> places;
+    std::vector<VertexSplit> record;
+    std::vector<double> keys;
+    std::vector<Vec3> apexes;
+    RefusalCounts refused;
+    std::size_t linear_programs;
+    std::uint32_t time;
+  };
+
+  void number_along_curve(const TriangleMesh& mesh) {
+    std::vector<BoxedFace> faces;
+    faces.reserve(mesh.face_count());
+    for (const FaceId f : mesh.triangles.ids()) {
+      const auto& [a, b, c] = mesh.triangles[f];
+      faces.push_back({f, unit_cube_.at(Triangle{mesh.positions[a], mesh.positions[b], mesh.positions[c]})});
+    }
+    sort_along_curve(faces);
+    PerVertex<VertexId> place(mesh.vertex_count(), kNoVertex);
+    positions_.reserve(mesh.vertex_count()), names_.reserve(mesh.vertex_count());
+    corners_.reserve(3 * mesh.face_count()), faces_.reserve(mesh.face_count()), given_.reserve(mesh.face_count());
+    const auto number = [&](VertexId v) {
+      if (place[v] == kNoVertex) {
+        place[v] = positions_.push_back(mesh.positions[v]);
+        names_.push_back(v);
+      }
+      return place[v];
+    };
+    for (const BoxedFace& face : faces) {
+      faces_.push_back(given_.push_back(face.face));
+      for (const VertexId v : mesh.triangles[face.face]) corners_.push_back(number(v));
+    }
+    for (const VertexId v : mesh.positions.ids()) number(v);
+  }
+
+  std::uint32_t given_corner(std::uint32_t corner) const { return 3 * index(given_[FaceId{corner / 3}]) + corner % 3; }
 
   // Below, a cell would have too much border.
   static constexpr std::size_t kLeastCells = 8, kLeastCellFaces = 1536, kMostCellFaces = 4096;
@@ -141,40 +180,43 @@ class HullBuilder {
     std::vector<Cell> cells =
         split_into_cells(boxed(), cell_faces, std::fmod(static_cast<double>(round) * kGoldenRatio, 1));
     const double max_key = key_for_a_round(cells);
-    std::vector<std::optional<Work>> works(cells.size());
+    std::vector<std::optional<Collapses>> results(cells.size());
     oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
       if (progress_.cancelled()) return;
       const double size = static_cast<double>(cells[i].faces.size());
-      works[i].emplace(cut(std::move(cells[i]), static_cast<std::size_t>(size * (1 - most_removed())), max_key));
-      estimate_keys(works[i]->patch, rules_);
-      run_collapse_loop(works[i]->patch, rules_);
+      Work work = cut(std::move(cells[i]), static_cast<std::size_t>(size * (1 - most_removed())), max_key);
+      simplify(work);
+      results[i] = put_back(std::move(work));
     });
-    std::vector<Work> done;
-    for (auto& work : works)
-      if (work) done.push_back(std::move(*work));
-    put_back(done);
+    std::vector<Collapses> all;
+    for (auto& result : results)
+      if (result) all.push_back(std::move(*result));
+    add(all);
     return faces_.size() < before - before / 16;
   }
 
-  /// The key up to which edges are collapsed: that of a quarter of them.
+  void simplify(Work& work) {
+    estimate_keys(work.patch, rules_);
+    run_collapse_loop(work.patch, rules_);
+  }
+
+  /// The key up to which edges are collapsed.
   double key_for_a_round(const std::vector<Cell>& cells) {
+    constexpr double kPartOfEdges = 0.25;
     std::vector<double> keys;
-    const auto add = [&](const EdgeFacts& edge) {
+    const auto add_key = [&](const EdgeFacts& edge) {
       if (edge.key != EdgeFacts::kUnknown && !edge.is_refused) keys.push_back(edge.key);
     };
-    for (const FaceId f : faces_)
-      for (std::uint32_t c = 0; c < 3; ++c) add(edges_[3 * index(f) + c]);
-    if (keys.empty()) {  // The first round has no keys yet; those of some cells tell enough.
-      constexpr std::size_t kStep = 8;
-      std::vector<std::optional<Work>> some((cells.size() + kStep - 1) / kStep);
-      oneapi::tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
-        some[i].emplace(cut(cells[kStep * i], 0, 0));
-        estimate_keys(some[i]->patch, rules_);
-      });
-      for (const auto& work : some) std::ranges::for_each(work->patch.edges, add);
-    }
+    for (std::size_t i = 0; i < faces_.size(); i += kSample)
+      for (std::uint32_t c = 0; c < 3; ++c) add_key(edges_[3 * index(faces_[i]) + c]);
+    if (keys.empty())  // The first round has no keys yet.
+      for (std::size_t i = 0; i < cells.size(); i += kSample) {
+        Work work = cut(cells[i], 0, 0);
+        estimate_keys(work.patch, rules_);
+        std::ranges::for_each(work.patch.edges, add_key);
+      }
     if (keys.empty()) return std::numeric_limits<double>::infinity();
-    const auto place = keys.begin() + static_cast<std::ptrdiff_t>(kRoundFraction * double(keys.size() - 1));
+    const auto place = keys.begin() + static_cast<std::ptrdiff_t>(kPartOfEdges * static_cast<double>(keys.size() - 1));
     std::ranges::nth_element(keys, place);
     return *place;
   }
@@ -185,11 +227,12 @@ class HullBuilder {
     for (const FaceId f : faces_) {
       const VertexId* corners = &corners_[3 * index(f)];
       boxes.push_back(
-          {f, rules_.unit_cube.at(Triangle{positions_[corners[0]], positions_[corners[1]], positions_[corners[2]]})});
+          {f, unit_cube_.at(Triangle{positions_[corners[0]], positions_[corners[1]], positions_[corners[2]]})});
     }
     return boxes;
   }
 
+  /// Reads only what no other patch of the round writes.
   Work cut(Cell cell, std::size_t target_faces, double max_key) {
     PerVertex<VertexId>& local = local_numbers_.local();
     local.resize(positions_.size(), kNoVertex);
@@ -201,9 +244,10 @@ class HullBuilder {
       for (std::uint32_t c = 0; c < 3; ++c) {
         const VertexId v = corners_[3 * index(f) + c];
         if (local[v] == kNoVertex) {
+          const bool is_free = cell.box.has_inside(unit_cube_.at(positions_[v]));
           local[v] = positions.push_back(positions_[v]);
           vertices.push_back(v);
-          facts.push_back({.changed = changed_[v], .is_free = cell.box.has_inside(rules_.unit_cube.at(positions_[v]))});
+          facts.push_back({.changed = is_free ? changed_[v] : 0, .is_free = is_free});
         }
         corners.push_back(local[v]);
       }
@@ -220,56 +264,74 @@ class HullBuilder {
               std::move(vertices)};
     work.patch.edges.resize(work.patch.mesh.edge_id_count());
     for (const EdgeId e : work.patch.edges.ids())
-      work.patch.edges[e] = edges_[work.place(work.patch.mesh.half_edge(e))];
+      if (const HalfEdgeId h = work.patch.mesh.half_edge(e); work.is_free(h))
+        work.patch.edges[e] = edges_[work.place(h)];
     return work;
   }
 
-  /// Collapses of different patches are ordered by their keys, as if there had been one queue.
-  void put_back(std::vector<Work>& works) {
-    struct Collapse {
-      double key;
-      std::uint32_t work, i;
-    };
-    std::vector<Collapse> order;
-    for (std::uint32_t w = 0; w < works.size(); ++w)
-      for (std::uint32_t i = 0; i < works[w].patch.keys.size(); ++i) order.push_back({works[w].patch.keys[i], w, i});
-    std::ranges::stable_sort(order, {}, &Collapse::key);
-    for (Work& work : works) {
-      work.vertices.resize(work.patch.mesh.positions().size());
-      refused_ += work.patch.refused;
-      linear_programs_ += work.patch.linear_programs;
-      time_ = std::max(time_, work.patch.time);
-    }
-    for (const auto& [key, w, i] : order) {
-      Work& work = works[w];
-      const VertexId made{static_cast<std::uint32_t>(work.vertices.size() - work.patch.record.size()) + i};
-      work.vertices[index(made)] = positions_.push_back(work.patch.mesh.position(made));
-      const auto& [o, d, l, r, od, do_] = work.patch.record[i];
-      record_.push_back(
-          {work.whole(o), work.whole(d), work.whole(l), work.whole(r), work.whole_corner(od), work.whole_corner(do_)});
-    }
-    changed_.resize(positions_.size());
-    oneapi::tbb::parallel_for_each(works, [&](const Work& work) { put_back(work); });
-    std::erase_if(faces_, [&](FaceId f) { return corners_[3 * index(f)] == kNoVertex; });
-    progress_.set_faces(faces_.size());
-  }
-
-  /// Writes only what no other patch does.
-  void put_back(const Work& work) {
+  /// Writes only what no other patch of the round reads or writes.
+  Collapses put_back(Work work) {
     const Patch& patch = work.patch;
-    for (const VertexId v : patch.vertices.ids())
-      if (patch.mesh.has(v) && patch.vertices[v].is_free) changed_[work.whole(v)] = patch.vertices[v].changed;
+    Collapses result{.names = {},
+                     .places = {},
+                     .record = std::move(work.patch.record),
+                     .keys = std::move(work.patch.keys),
+                     .apexes = {},
+                     .refused = patch.refused,
+                     .linear_programs = patch.linear_programs,
+                     .time = patch.time};
+    result.names.reserve(work.vertices.size());
+    for (const VertexId v : work.vertices) result.names.push_back(names_[v]);
+    for (VertexSplit& split : result.record) {
+      split.od = given_corner(work.whole_corner(split.od)), split.do_ = given_corner(work.whole_corner(split.do_));
+      result.apexes.push_back(patch.mesh.position(VertexId{static_cast<std::uint32_t>(work.vertices.size())}));
+      result.places.push_back(work.vertices[index(split.o)]);
+      work.vertices.push_back(work.vertices[index(split.o)]);
+    }
+    for (const VertexId v : patch.vertices.ids()) {
+      if (!patch.mesh.has(v) || !patch.vertices[v].is_free) continue;
+      positions_[work.vertices[index(v)]] = patch.mesh.position(v);
+      changed_[work.vertices[index(v)]] = patch.vertices[v].changed;
+    }
     for (std::uint32_t c = 0; c < 3 * work.faces.size(); ++c) {
       const VertexId v = patch.mesh.tail(HalfEdgeId{c});
-      const VertexId is = v == kNoVertex ? v : work.whole(v);
+      const VertexId is = v == kNoVertex ? v : work.vertices[index(v)];
       if (VertexId& was = corners_[work.whole_corner(c)]; was != is) was = is;
     }
-    for (const EdgeId e : patch.edges.ids()) {
-      if (!patch.mesh.has(e)) continue;
-      const HalfEdgeId h = patch.mesh.half_edge(e);
-      if (patch.vertices[patch.mesh.tail(h)].is_free && patch.vertices[patch.mesh.tip(h)].is_free)
-        edges_[work.place(h)] = patch.edges[e];
+    for (const EdgeId e : patch.edges.ids())
+      if (patch.mesh.has(e))
+        if (const HalfEdgeId h = patch.mesh.half_edge(e); work.is_free(h)) edges_[work.place(h)] = patch.edges[e];
+    return result;
+  }
+
+  /// Those of different patches are ordered by their keys, as if there had been one queue.
+  void add(const std::vector<Collapses>& patches) {
+    struct Collapse {
+      double key;
+      std::uint32_t patch, i;
+    };
+    std::vector<Collapse> order;
+    std::vector<std::vector<VertexId>> made(patches.size());
+    for (std::uint32_t p = 0; p < patches.size(); ++p) {
+      for (std::uint32_t i = 0; i < patches[p].keys.size(); ++i) order.push_back({patches[p].keys[i], p, i});
+      made[p].resize(patches[p].keys.size());
+      refused_ += patches[p].refused;
+      linear_programs_ += patches[p].linear_programs;
+      time_ = std::max(time_, patches[p].time);
     }
+    std::ranges::stable_sort(order, {}, &Collapse::key);
+    for (const auto& [key, p, i] : order) {
+      const Collapses& patch = patches[p];
+      const auto name = [&](VertexId v) {
+        const std::size_t n = patch.names.size();
+        return index(v) < n ? patch.names[index(v)] : made[p][index(v) - n];
+      };
+      made[p][i] = names_[patch.places[i]] = made_.push_back(patch.apexes[i]);
+      const auto& [o, d, l, r, od, do_] = patch.record[i];
+      record_.push_back({name(o), name(d), name(l), name(r), od, do_});
+    }
+    std::erase_if(faces_, [&](FaceId f) { return corners_[3 * index(f)] == kNoVertex; });
+    progress_.set_faces(faces_.size());
   }
 
   static RefusalCounts refusals_of_what_is_left(const Patch& patch) {
@@ -279,21 +341,26 @@ class HullBuilder {
     return blocked;
   }
 
-  static constexpr double kRoundFraction = 0.25;
+  static constexpr std::size_t kSample = 8;  // of so many, one tells enough
 
   const HullOptions options_;
-  const std::size_t original_vertices_;
-  PerVertex<Vec3> positions_;      ///< of all vertices ever made
-  std::vector<VertexId> corners_;  ///< of the faces of the input; kNoVertex where a face has gone
-  std::vector<FaceId> faces_;      ///< those that are left, along a curve
-  std::vector<EdgeFacts> edges_;   ///< by one of an edge's two corners
-  PerVertex<std::uint32_t> changed_;
-  std::vector<VertexSplit> record_;
-  std::uint32_t time_ = 1;
-  RefusalCounts refused_;
-  std::size_t linear_programs_ = 0;
+  const UnitCube unit_cube_;
   SharedProgress progress_;
   const CollapseRules rules_;
+
+  PerFace<FaceId> given_;          ///< the number of a face in the input
+  std::vector<VertexId> corners_;  ///< kNoVertex where a face has gone
+  std::vector<FaceId> faces_;      ///< those that are left
+  std::vector<EdgeFacts> edges_;   ///< by one of an edge's two corners
+  PerVertex<Vec3> positions_;
+  PerVertex<std::uint32_t> changed_;
+  PerVertex<VertexId> names_;  ///< as in the result
+  std::uint32_t time_ = 1;
+
+  PerVertex<Vec3> made_;  ///< by name: the vertices of the input, then one for each collapse
+  std::vector<VertexSplit> record_;
+  RefusalCounts refused_;
+  std::size_t linear_programs_ = 0;
   LocalNumbers local_numbers_;
 };
 

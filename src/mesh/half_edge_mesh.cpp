@@ -34,7 +34,8 @@ void HalfEdgeMesh::allocate(std::size_t vertices, std::size_t faces) {
   half_edge_.reserve(3 * faces / 2);
 }
 
-// Half-edges sorted by tail in linear time, then by tip within each tail, so that a twin is found by bisection.
+// Half-edges sorted by tail, in linear time. The twin is looked for around the end of the edge with fewer faces, so
+// that vertices with very many do not cost more.
 void HalfEdgeMesh::link_twins() {
   std::vector<std::uint32_t> first(out_.size() + 1, 0);
   for (const HalfEdgeId h : half_edges_.ids())
@@ -48,9 +49,6 @@ void HalfEdgeMesh::link_twins() {
   for (const HalfEdgeId h : half_edges_.ids())
     if (tail(h) != kNoVertex) by_tail[cursor[index(tail(h))]++] = h;
 
-  for (std::size_t v = 0; v < out_.size(); ++v)
-    std::sort(by_tail.begin() + first[v], by_tail.begin() + first[v + 1],
-              [&](HalfEdgeId a, HalfEdgeId b) { return tip(a) < tip(b); });
   for (const HalfEdgeId h : half_edges_.ids()) {
     const VertexId v = tail(h);
     if (v == kNoVertex) continue;
@@ -58,13 +56,16 @@ void HalfEdgeMesh::link_twins() {
     if (index(h) % 3 == 0) ++face_count_;
     if (twin(h) != kNoHalfEdge) continue;
     const VertexId w = tip(h);
-    const auto end = by_tail.begin() + first[index(w) + 1];
-    const auto found = std::lower_bound(by_tail.begin() + first[index(w)], end, v,
-                                        [&](HalfEdgeId g, VertexId x) { return tip(g) < x; });
-    if (found == end || tip(*found) != v) continue;
-    assert(twin(*found) == kNoHalfEdge);
+    const bool at_tip = valence_[w] <= valence_[v];
+    HalfEdgeId found = kNoHalfEdge;
+    for (std::size_t i = first[index(at_tip ? w : v)]; i < first[index(at_tip ? w : v) + 1]; ++i)
+      if (const HalfEdgeId g = at_tip ? by_tail[i] : previous(by_tail[i]); tail(g) == w && tip(g) == v) {
+        found = g;
+        break;
+      }
+    if (found == kNoHalfEdge) continue;
     half_edge_.push_back(h);
-    pair(h, *found, EdgeId(static_cast<std::uint32_t>(half_edge_.size() - 1)));
+    pair(h, found, EdgeId(static_cast<std::uint32_t>(half_edge_.size() - 1)));
   }
 }
 
