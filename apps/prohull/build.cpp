@@ -22,7 +22,7 @@ struct Options {
   HullOptions hull;
   double normal_deviation_degrees = 45;
   double max_distance = 0;  ///< 0: any
-  bool strict = false, no_self_intersections = false, tight = false;
+  bool strict = false, tight = false, allow_self_intersections = false, no_self_intersections = false;
 };
 
 const Names<Strategy>& strategy_names() {
@@ -211,7 +211,7 @@ nlohmann::json options_report(const Options& options) {
           {"min_compactness_ratio", hull.min_compactness_ratio},
           {"sufficient_compactness", hull.sufficient_compactness},
           {"max_normal_deviation_degrees", options.normal_deviation_degrees},
-          {"allow_self_intersections", hull.allow_self_intersections},
+          {"allow_self_intersections", !options.tight && !hull.refuses_self_intersections()},
           {"float32_coordinates", hull.float32_coordinates}};
 }
 
@@ -245,7 +245,8 @@ int run_build(Options options) {
   check_outputs(options);
   options.hull.float32_coordinates = stores_float32(mesh_format(options.out));
   options.hull.max_normal_deviation = options.normal_deviation_degrees * std::numbers::pi / 180;
-  options.hull.allow_self_intersections = !options.no_self_intersections;
+  if (options.allow_self_intersections) options.hull.self_intersections = SelfIntersections::Allowed;
+  if (options.no_self_intersections) options.hull.self_intersections = SelfIntersections::Refused;
 
   const Input input = read_closed_mesh(options.in);
   print_input(options, input.closed);
@@ -288,8 +289,14 @@ void add_build(CLI::App& app, Run& run) {
   command.add_option("--hierarchy", options->hierarchy, "Also write all levels, for lod and verify")
       ->excludes(tight)
       ->type_name("H.phull");
-  command.add_flag("--no-self-intersections", options->no_self_intersections,
-                   "Refuse collapses that would make the hull intersect itself (inner hulls always do)");
+  CLI::Option* allow = command.add_flag("--allow-self-intersections", options->allow_self_intersections,
+                                        "Do not refuse collapses that make an outer hull intersect itself: faster; the "
+                                        "default of paper1 and paper2");
+  command
+      .add_flag("--no-self-intersections", options->no_self_intersections,
+                "Refuse them; the default of lazy, of --tight and of inner hulls")
+      ->excludes(allow);
+  allow->excludes(tight);
   command.add_flag("--strict", options->strict, "Exit with 1 if the face count is not reached");
   add_report_option(command, options->report);
   constexpr const char* kGuards = "Guards";

@@ -19,7 +19,7 @@ struct TightHull {
 /// self-intersection allow. It takes some ten times as long, and leaves no nested levels.
 /// Guaranteed: a closed 2-manifold that encloses `mesh` (HullSide::Inner: is enclosed by it) in the sense of winding
 /// numbers; every collapse and every move is decided by exact predicates on stored coordinates. Pairs of faces that
-/// intersect are never more than those of `mesh`. Throws as build_hull does.
+/// intersect are never more than those of `mesh`, whatever options.self_intersections says. Throws as build_hull does.
 ///
 ///   const TightHull hull = build_tight_hull(closed_mesh(read_mesh("arm.stl")).mesh, {.target_faces = 500});
 TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options = {});
