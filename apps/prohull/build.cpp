@@ -54,9 +54,14 @@ struct Outcome {
   std::size_t rounded_vertices = 0;
   bool certified = false;
   DistanceBounds distance = {};  ///< from the hull as written to the original
+  MeshQuality quality = {};
+  std::size_t input_self_intersections = 0, self_intersections = 0;
   double build_seconds = 0, write_seconds = 0, verify_seconds = 0;
 
   bool reached() const { return stopped == Stopped::TargetReached; }
+  std::size_t added_self_intersections() const {
+    return self_intersections - std::min(self_intersections, input_self_intersections);
+  }
 };
 
 std::size_t coarsest_within(const ProgressiveHull& hull, double distance) {
@@ -151,6 +156,9 @@ Outcome build_for_file(const ClosedMesh& input, const Options& options) {
   }
   outcome.build_seconds = building.seconds();
   outcome.distance = distance_bounds(outcome.hull, input.mesh, {.progress = [](double) { return !interrupted(); }});
+  outcome.quality = mesh_quality(outcome.hull);
+  outcome.input_self_intersections = count_self_intersections(input.mesh);
+  outcome.self_intersections = count_self_intersections(outcome.hull);
   return outcome;
 }
 
@@ -178,12 +186,23 @@ void print_input(const Options& options, const ClosedMesh& input) {
   for (const std::string& repair : describe(input.repairs)) fmt::print("  {}\n", repair);
 }
 
+std::string described_self_intersections(const Outcome& outcome) {
+  if (outcome.self_intersections == 0)
+    return outcome.input_self_intersections == 0
+               ? "none"
+               : fmt::format("none (the mesh: {} pairs of faces)", grouped(outcome.input_self_intersections));
+  return fmt::format("{} pairs of faces (the mesh: {}; added: {})", grouped(outcome.self_intersections),
+                     grouped(outcome.input_self_intersections), grouped(outcome.added_self_intersections()));
+}
+
 void print_summary(const Options& options, const Input& input, const Outcome& outcome) {
   const bool outer = options.hull.side == HullSide::Outer;
   const std::size_t faces = outcome.hull.face_count();
   fmt::print("{}: {} hull of {} faces, void {:.3f} %, at most {:.4g} from the mesh\n", options.out.string(),
              outer ? "outer" : "inner", grouped(faces), 100 * void_ratio(outcome, input.closed),
              outcome.distance.upper);
+  fmt::print("  self-intersections: {}\n", described_self_intersections(outcome));
+  fmt::print("  triangles: {}\n", described(outcome.quality));
   if (outcome.rounded_vertices > 0)
     fmt::print("  moved {} vertices to coordinates that the file keeps\n", grouped(outcome.rounded_vertices));
   if (!outcome.reached())
@@ -219,6 +238,7 @@ nlohmann::json report_of(const Options& options, const Input& input, const Outco
   nlohmann::json in = facts(input.closed.report);
   in["path"] = options.in.string();
   in["repairs"] = describe(input.closed.repairs);
+  in["self_intersections"] = outcome.input_self_intersections;
   return {{"input", in},
           {"hull",
            {{"path", options.out.string()},
@@ -227,6 +247,9 @@ nlohmann::json report_of(const Options& options, const Input& input, const Outco
             {"volume", signed_volume(outcome.hull)},
             {"void_ratio", void_ratio(outcome, input.closed)},
             {"distance_bound", outcome.distance.upper},
+            {"self_intersections", outcome.self_intersections},
+            {"added_self_intersections", outcome.added_self_intersections()},
+            {"quality", facts(outcome.quality)},
             {"rounded_vertices", outcome.rounded_vertices}}},
           {"certified", outcome.certified},
           {"stopped", outcome.reached() ? "target_reached" : "no_legal_collapse"},
@@ -244,7 +267,7 @@ nlohmann::json report_of(const Options& options, const Input& input, const Outco
 int run_build(Options options) {
   check_outputs(options);
   options.hull.float32_coordinates = stores_float32(mesh_format(options.out));
-  options.hull.max_normal_deviation = options.normal_deviation_degrees * std::numbers::pi / 180;
+  options.hull.max_normal_deviation = options.normal_deviation_degrees * kDegree;
   if (options.allow_self_intersections) options.hull.self_intersections = SelfIntersections::Allowed;
   if (options.no_self_intersections) options.hull.self_intersections = SelfIntersections::Refused;
 
