@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "command.h"
 #include "prohull/distance.h"
@@ -73,16 +74,29 @@ std::size_t coarsest_within(const ProgressiveHull& hull, double distance) {
   }
 }
 
+double fraction_done(const HullProgress& p) {
+  const double all = static_cast<double>(p.original_faces - std::min(p.target_faces, p.original_faces - 1));
+  return static_cast<double>(p.original_faces - p.faces) / all;
+}
+
+TightHull build_tight(const TriangleMesh& mesh, HullOptions hull_options, double max_distance) {
+  if (max_distance == 0) return build_tight_hull(mesh, hull_options);
+  ProgressLine line("search");
+  std::size_t builds = 0, last_target = 0;
+  hull_options.progress = [&](const HullProgress& p) {
+    builds += std::exchange(last_target, p.target_faces) != p.target_faces;
+    return line((static_cast<double>(builds) - 1 + fraction_done(p)) / (kMaxTightBuilds + 1));
+  };
+  return build_tight_hull_within(mesh, max_distance, hull_options);
+}
+
 Outcome build(const ClosedMesh& input, const Options& options) {
   ProgressLine line("build");
   HullOptions hull_options = options.hull;
-  hull_options.progress = [&](const HullProgress& p) {
-    const double all = static_cast<double>(p.original_faces - std::min(p.target_faces, p.original_faces - 1));
-    return line(static_cast<double>(p.original_faces - p.faces) / all);
-  };
+  hull_options.progress = [&](const HullProgress& p) { return line(fraction_done(p)); };
   Outcome outcome;
   if (options.tight) {
-    TightHull tight = build_tight_hull(input.mesh, hull_options);
+    TightHull tight = build_tight(input.mesh, hull_options, options.max_distance);
     outcome = {std::move(tight.mesh), std::nullopt, tight.stopped, tight.refused, tight.blocked};
   } else {
     HullResult result = build_hull(input.mesh, hull_options);
@@ -268,6 +282,9 @@ int run_build(Options options) {
   check_outputs(options);
   options.hull.float32_coordinates = stores_float32(mesh_format(options.out));
   options.hull.max_normal_deviation = options.normal_deviation_degrees * kDegree;
+  if (options.allow_self_intersections && options.hull.side == HullSide::Inner)
+    throw InputError(Defect::InvalidOption,
+                     "--allow-self-intersections: not of an inner hull, it could stick out of the mesh");
   if (options.allow_self_intersections) options.hull.self_intersections = SelfIntersections::Allowed;
   if (options.no_self_intersections) options.hull.self_intersections = SelfIntersections::Refused;
 
@@ -295,18 +312,16 @@ void add_build(CLI::App& app, Run& run) {
   command.add_option("--faces", hull.target_faces, "Stop at this many faces, at least 4")
       ->capture_default_str()
       ->check(CLI::Range(4.0, 1e9));
-  CLI::Option* max_distance =
-      command
-          .add_option(
-              "--max-distance", options->max_distance,
-              "The coarsest level, of at least --faces, with no point farther from the mesh, in its unit; proven")
-          ->check(CLI::PositiveNumber)
-          ->type_name("D");
+  command
+      .add_option("--max-distance", options->max_distance,
+                  "The coarsest level, of at least --faces, with no point farther from the mesh, in its unit; proven. "
+                  "With --tight: the coarsest of some ten hulls built to find it")
+      ->check(CLI::PositiveNumber)
+      ->type_name("D");
   add_choice(command, "--side", hull.side, side_names(), "outer: encloses the mesh; inner: is enclosed by it");
   CLI::Option* tight = command.add_flag("--tight", options->tight,
                                         "Move vertices towards the mesh between collapses: the least void, never "
                                         "self-intersecting, some ten times slower");
-  tight->excludes(max_distance);
   add_choice(command, "--strategy", hull.strategy, strategy_names(),
              "lazy: tight and fast; paper1, paper2: the two of Platis and Theoharis (2003)");
   command.add_option("--hierarchy", options->hierarchy, "Also write all levels, for lod and verify")
@@ -348,6 +363,7 @@ void add_build(CLI::App& app, Run& run) {
   add_examples(command, {"prohull build horse.ply --faces 2000 -o hull.ply",
                          "prohull build arm.stl --faces 500 -o arm_collision.stl --report arm.json",
                          "prohull build arm.stl --faces 200 --tight -o arm_collision.stl",
+                         "prohull build arm.stl --faces 50 --tight --max-distance 2 -o arm_collision.stl",
                          "prohull build rock.obj --side inner --faces 300 -o occluder.obj",
                          "prohull build horse.ply --faces 200 -o hull.ply --hierarchy horse.phull"});
   command.callback([options, &run] { run = [options] { return run_build(*options); }; });

@@ -188,35 +188,16 @@ TEST(BuildHullOfAGyroid, OfHighGenus) {
 }
 #endif
 
-TEST(BuildHullOfFlatParts, ABoxIsReducedToItsCornersExactly) {
-  const TriangleMesh cube = box({0, 0, 0}, {1, 2, 3});
-  const TriangleMesh fine = subdivided(subdivided(subdivided(cube)));
-  for (const HullSide side : {HullSide::Outer, HullSide::Inner})
-    for (const auto intersections : {SelfIntersections::Allowed, SelfIntersections::Refused}) {
-      const HullResult result =
-          build_hull(fine, {.target_faces = 12, .side = side, .self_intersections = intersections});
-      EXPECT_EQ(result.stopped, Stopped::TargetReached);
-      const TriangleMesh base = result.hull.base();
-      EXPECT_EQ(base.face_count(), 12u);
-      EXPECT_TRUE(verify_enclosure(base, fine).encloses && verify_enclosure(fine, base).encloses) << "no void at all";
-      for (const Vec3& p : base.positions)
-        EXPECT_EQ(std::ranges::count(cube.positions, p), 1) << "not a corner of the box";
-    }
-}
-
-TEST(BuildHullOfFlatParts, ABoxWithAHoleKeepsItsPlanes) {
-  const TriangleMesh mesh = make_sample("box", 3000);
-  const double volume = signed_volume(mesh);
-  std::size_t last = 3000;
-  for (const std::size_t target : {500u, 100u, 32u}) {
-    const HullResult result = build_hull(mesh, {.target_faces = target});
-    const TriangleMesh base = result.hull.base();
-    EXPECT_LT(base.face_count(), last);
-    last = base.face_count();
-    EXPECT_EQ(result.stopped, Stopped::TargetReached) << target;
-    EXPECT_TRUE(verify_enclosure(base, mesh).encloses)
-        << "void with " << base.face_count() << " faces: " << signed_volume(base) / volume - 1;
+TEST(BuildHullOptions, SelfIntersectionsAreRefusedByStrategyUnlessTold) {
+  constexpr auto kAllowed = SelfIntersections::Allowed, kRefused = SelfIntersections::Refused;
+  EXPECT_TRUE(HullOptions{}.refuses_self_intersections());
+  for (const Strategy papers : {Strategy::Paper1, Strategy::Paper2}) {
+    EXPECT_FALSE(HullOptions{.strategy = papers}.refuses_self_intersections());
+    EXPECT_TRUE((HullOptions{.strategy = papers, .self_intersections = kRefused}.refuses_self_intersections()));
+    EXPECT_TRUE((HullOptions{.side = HullSide::Inner, .strategy = papers}.refuses_self_intersections()));
   }
+  EXPECT_FALSE((HullOptions{.self_intersections = kAllowed}.refuses_self_intersections()));
+  EXPECT_TRUE((HullOptions{.side = HullSide::Inner, .self_intersections = kAllowed}.refuses_self_intersections()));
 }
 
 TEST(BuildHullOptions, OutOfTheirRangesAreRefused) {
