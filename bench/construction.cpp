@@ -24,6 +24,24 @@ namespace {
 
 // P&T Tables 1 and 2 with the paper's parameters, our own strategy beside the paper's two, and a peer beside ours.
 
+struct Variant {
+  Strategy strategy;
+  SelfIntersections intersections;
+  std::string_view name;
+};
+// The paper does not look for self-intersections; our default refuses them.
+constexpr std::array kVariants{Variant{Strategy::Paper1, SelfIntersections::Allowed, "paper1"},
+                               Variant{Strategy::Paper2, SelfIntersections::Allowed, "paper2"},
+                               Variant{Strategy::Lazy, SelfIntersections::Refused, "lazy"},
+                               Variant{Strategy::Lazy, SelfIntersections::Allowed, "lazy unguarded"}};
+constexpr std::size_t kPaper1 = 0, kPaper2 = 1, kLazy = 2, kUnguarded = 3;
+
+HullOptions hull_options(const Variant& variant, std::size_t faces) {
+  HullOptions options = bench::hull_options(variant.strategy, faces);
+  options.self_intersections = variant.intersections;
+  return options;
+}
+
 struct Options {
   ModelOptions models;
   std::vector<std::size_t> hull_faces{2000, 200};  ///< descending; the first is the one that is timed
@@ -31,7 +49,7 @@ struct Options {
   std::filesystem::path out;
 };
 
-struct StrategyFacts {
+struct VariantFacts {
   double seconds = std::numeric_limits<double>::infinity();  ///< to the first of hull_faces, best of the rounds
   std::size_t collapses = 0, linear_programs = 0;            ///< in that time
   std::vector<double> void_percent;                          ///< at hull_faces; kUnknown where not reached
@@ -47,20 +65,17 @@ struct ModelFacts {
   std::string name;
   std::size_t faces = 0;
   const PaperModel* paper = nullptr;
-  std::array<StrategyFacts, kStrategies.size()> of;  ///< by the order of kStrategies
-  std::optional<PeerRun> peer;                       ///< best of the rounds
+  std::array<VariantFacts, kVariants.size()> of;  ///< by the order of kVariants
+  std::optional<PeerRun> peer;                    ///< best of the rounds
 };
 
 struct Refused {
   std::string name, reason;
 };
 
-constexpr std::size_t kPaper1 = 0, kPaper2 = 1, kLazy = 2;
-
-void time_strategy(const TriangleMesh& mesh, Strategy strategy, std::size_t faces, StrategyFacts& facts) {
+void time_variant(const TriangleMesh& mesh, const Variant& variant, std::size_t faces, VariantFacts& facts) {
   std::optional<HullResult> result;
-  facts.seconds =
-      std::min(facts.seconds, seconds_of([&] { result = build_hull(mesh, hull_options(strategy, faces)); }));
+  facts.seconds = std::min(facts.seconds, seconds_of([&] { result = build_hull(mesh, hull_options(variant, faces)); }));
   facts.collapses = result->hull.splits().size();
   facts.linear_programs = result->linear_programs;
 }
@@ -72,8 +87,8 @@ void time_peer(const TriangleMesh& mesh, std::size_t faces, std::optional<PeerRu
 
 // One hull down to the last of hull_faces holds all others; it is the whole of the proof but for the first, which is
 // also compared with the original by the exact verifier, which knows nothing of hulls.
-void judge_fit(const TriangleMesh& mesh, Strategy strategy, const Options& options, StrategyFacts& facts) {
-  const ProgressiveHull hull = build_hull(mesh, hull_options(strategy, options.hull_faces.back())).hull;
+void judge_fit(const TriangleMesh& mesh, const Variant& variant, const Options& options, VariantFacts& facts) {
+  const ProgressiveHull hull = build_hull(mesh, hull_options(variant, options.hull_faces.back())).hull;
   const double volume = signed_volume(mesh);
   facts.fewest_faces = hull.base_face_count();
   for (const std::size_t faces : options.hull_faces) {
@@ -94,21 +109,20 @@ ModelFacts measure(const ModelSource& source, const Options& options) {
                    .peer = {}};
   const std::size_t faces = options.hull_faces.front();
   for (std::size_t round = 0; round < options.rounds; ++round) {
-    for (std::size_t i = 0; i < kStrategies.size(); ++i)
-      time_strategy(mesh, kStrategies[i].strategy, faces, facts.of[i]);
+    for (std::size_t i = 0; i < kVariants.size(); ++i) time_variant(mesh, kVariants[i], faces, facts.of[i]);
     time_peer(mesh, faces, facts.peer);
     fmt::print(stderr, ", round {}", round + 1);
   }
-  for (std::size_t i = 0; i < kStrategies.size(); ++i) {
-    judge_fit(mesh, kStrategies[i].strategy, options, facts.of[i]);
-    fmt::print(stderr, ", {} {}", kStrategies[i].name, facts.of[i].certified ? "certified" : "NOT CERTIFIED");
+  for (std::size_t i = 0; i < kVariants.size(); ++i) {
+    judge_fit(mesh, kVariants[i], options, facts.of[i]);
+    fmt::print(stderr, ", {} {}", kVariants[i].name, facts.of[i].certified ? "certified" : "NOT CERTIFIED");
   }
   fmt::print(stderr, "\n");
   return facts;
 }
 
 // A hull that ends before the size asked for says so beside its time.
-std::string time_taken(const StrategyFacts& s) {
+std::string time_taken(const VariantFacts& s) {
   const bool reached = !std::isnan(s.void_percent.front());
   return number(s.seconds, 3, " s") + (reached ? "" : fmt::format(" (ends at {})", s.fewest_faces));
 }
@@ -123,27 +137,29 @@ double papers_seconds(const ModelFacts& m, Strategy strategy, std::size_t hull_f
 
 std::string construction_times(const std::vector<ModelFacts>& models, std::size_t faces) {
   Table table({"model", "faces", "paper1", "paper2", "paper1 / paper2", "paper's 1st", "paper's 2nd",
-               "paper's 1st / 2nd", "lazy"});
+               "paper's 1st / 2nd", "lazy", "lazy unguarded"});
   for (const ModelFacts& m : models) {
     const double first = papers_seconds(m, Strategy::Paper1, faces),
                  second = papers_seconds(m, Strategy::Paper2, faces);
     table.add({m.name, fmt::to_string(m.faces), time_taken(m.of[kPaper1]), time_taken(m.of[kPaper2]),
                number(m.of[kPaper1].seconds / m.of[kPaper2].seconds, 2), number(first, 0, " s"),
-               number(second, 0, " s"), number(first / second, 2), time_taken(m.of[kLazy])});
+               number(second, 0, " s"), number(first / second, 2), time_taken(m.of[kLazy]),
+               time_taken(m.of[kUnguarded])});
   }
   return fmt::format("## Table 1: time to a hull of {} faces\n\n{}\n", faces, table.markdown());
 }
 
 std::string voids(const std::vector<ModelFacts>& models, const std::vector<std::size_t>& hull_faces) {
-  Table table({"model", "hull", "paper1", "paper's 1st", "difference", "paper2", "paper's 2nd", "difference", "lazy"});
+  Table table({"model", "hull", "paper1", "paper's 1st", "difference", "paper2", "paper's 2nd", "difference", "lazy",
+               "lazy unguarded"});
   for (const ModelFacts& m : models)
     for (std::size_t k = 0; k < hull_faces.size(); ++k) {
       std::vector<std::string> row{m.name, fmt::to_string(hull_faces[k])};
-      for (std::size_t i = 0; i < kStrategies.size(); ++i) {
+      for (std::size_t i = 0; i < kVariants.size(); ++i) {
         const double ours = m.of[i].void_percent[k];
         row.push_back(std::isnan(ours) ? fmt::format("(ends at {})", m.of[i].fewest_faces) : number(ours, 3, " %"));
-        if (i == kLazy) continue;
-        const double theirs = papers_void(m, kStrategies[i].strategy, hull_faces[k]);
+        if (kVariants[i].strategy == Strategy::Lazy) continue;
+        const double theirs = papers_void(m, kVariants[i].strategy, hull_faces[k]);
         row.push_back(number(theirs, 2, " %"));
         row.push_back(difference(ours, theirs));
       }
@@ -153,24 +169,29 @@ std::string voids(const std::vector<ModelFacts>& models, const std::vector<std::
 }
 
 std::string peers(const std::vector<ModelFacts>& models, std::size_t faces) {
-  Table table({"model", "faces", "lazy", "CGAL Garland-Heckbert", "lazy / Garland-Heckbert", "lazy per collapse"});
+  Table table({"model", "faces", "lazy", "CGAL Garland-Heckbert", "lazy / Garland-Heckbert", "lazy per collapse",
+               "unguarded / Garland-Heckbert", "unguarded per collapse", "lazy / unguarded"});
   for (const ModelFacts& m : models) {
-    const StrategyFacts& lazy = m.of[kLazy];
-    table.add({m.name, fmt::to_string(m.faces), time_taken(lazy),
-               m.peer ? number(m.peer->seconds, 3, " s") : "not built",
-               m.peer ? number(lazy.seconds / m.peer->seconds, 2) : "",
-               number(1e6 * lazy.seconds / static_cast<double>(lazy.collapses), 2, " us")});
+    const VariantFacts &lazy = m.of[kLazy], &unguarded = m.of[kUnguarded];
+    const double peer = m.peer ? m.peer->seconds : kUnknown;
+    const auto per_collapse = [](const VariantFacts& v) {
+      return number(1e6 * v.seconds / static_cast<double>(v.collapses), 2, " us");
+    };
+    table.add({m.name, fmt::to_string(m.faces), time_taken(lazy), m.peer ? number(peer, 3, " s") : "not built",
+               number(lazy.seconds / peer, 2), per_collapse(lazy), number(unguarded.seconds / peer, 2),
+               per_collapse(unguarded), number(lazy.seconds / unguarded.seconds, 2)});
   }
   return fmt::format("## Peer: time to {} faces, in the same run (Garland-Heckbert does not enclose)\n\n{}\n", faces,
                      table.markdown());
 }
 
 std::string work(const std::vector<ModelFacts>& models) {
-  Table table({"model", "collapses", "paper1: programs per collapse", "paper2", "lazy", "certified hulls"});
+  Table table(
+      {"model", "collapses", "paper1: programs per collapse", "paper2", "lazy", "lazy unguarded", "certified hulls"});
   for (const ModelFacts& m : models) {
     std::vector<std::string> row{m.name, fmt::to_string(m.of[kLazy].collapses)};
-    for (const StrategyFacts& s : m.of) row.push_back(number(s.linear_programs_per_collapse(), 1));
-    row.push_back(fmt::format("{} of {}", std::ranges::count(m.of, true, &StrategyFacts::certified), m.of.size()));
+    for (const VariantFacts& s : m.of) row.push_back(number(s.linear_programs_per_collapse(), 1));
+    row.push_back(fmt::format("{} of {}", std::ranges::count(m.of, true, &VariantFacts::certified), m.of.size()));
     table.add(std::move(row));
   }
   return fmt::format("## Linear programs, and proof\n\n{}\n", table.markdown());
@@ -187,14 +208,14 @@ std::string csv(const std::vector<ModelFacts>& models, const std::vector<std::si
   Table table({"mesh", "faces", "strategy", "hull_faces", "void_percent", "paper_void_percent", "seconds",
                "paper_seconds", "collapses", "linear_programs", "peer_seconds", "certified"});
   for (const ModelFacts& m : models)
-    for (std::size_t i = 0; i < kStrategies.size(); ++i)
+    for (std::size_t i = 0; i < kVariants.size(); ++i)
       for (std::size_t k = 0; k < hull_faces.size(); ++k) {
-        const auto [strategy, strategy_name] = kStrategies[i];
-        const StrategyFacts& s = m.of[i];
+        const Variant& variant = kVariants[i];
+        const VariantFacts& s = m.of[i];
         const bool timed = k == 0;
-        table.add({m.name, fmt::to_string(m.faces), std::string(strategy_name), fmt::to_string(hull_faces[k]),
-                   number(s.void_percent[k], 4), number(papers_void(m, strategy, hull_faces[k]), 2),
-                   timed ? number(s.seconds, 4) : "", number(papers_seconds(m, strategy, hull_faces[k]), 0),
+        table.add({m.name, fmt::to_string(m.faces), std::string(variant.name), fmt::to_string(hull_faces[k]),
+                   number(s.void_percent[k], 4), number(papers_void(m, variant.strategy, hull_faces[k]), 2),
+                   timed ? number(s.seconds, 4) : "", number(papers_seconds(m, variant.strategy, hull_faces[k]), 0),
                    timed ? fmt::to_string(s.collapses) : "", timed ? fmt::to_string(s.linear_programs) : "",
                    timed && m.peer ? number(m.peer->seconds, 4) : "", s.certified ? "yes" : "no"});
       }
@@ -213,10 +234,12 @@ int run_construction(Options options) {
       fmt::print(stderr, "{}: refused, {}\n", source.name, error.what());
     }
   const std::size_t faces = options.hull_faces.front();
-  const std::string text =
-      fmt::format("# Construction\n\n{}; processor time, best of {}\n\n", machine(), options.rounds) +
-      construction_times(models, faces) + voids(models, options.hull_faces) + peers(models, faces) + work(models) +
-      listed(refused);
+  const std::string text = fmt::format(
+                               "# Construction\n\n{}; processor time, best of {}; lazy refuses self-intersections, the "
+                               "others allow them\n\n",
+                               machine(), options.rounds) +
+                           construction_times(models, faces) + voids(models, options.hull_faces) +
+                           peers(models, faces) + work(models) + listed(refused);
   fmt::print("{}", text);
   if (!options.out.empty()) {
     std::filesystem::create_directories(options.out);
@@ -224,7 +247,7 @@ int run_construction(Options options) {
     write_file(options.out / "construction.csv", csv(models, options.hull_faces));
   }
   const bool all_certified = std::ranges::all_of(
-      models, [](const ModelFacts& m) { return std::ranges::all_of(m.of, &StrategyFacts::certified); });
+      models, [](const ModelFacts& m) { return std::ranges::all_of(m.of, &VariantFacts::certified); });
   return all_certified ? kDone : kAnswerIsNo;
 }
 

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   add_construction(app, run);
   add_queues(app, run);
   add_queries(app, run);
+  add_intersections(app, run);
   add_memory(app, run);
   add_peers(app, run);
   add_scale(app, run);

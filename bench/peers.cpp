@@ -36,7 +36,7 @@ struct Options {
 
 HullOptions guarded(std::size_t faces) {
   HullOptions options = hull_options(Strategy::Lazy, faces);
-  options.allow_self_intersections = false;
+  options.self_intersections = SelfIntersections::Refused;
   return options;
 }
 

@@ -52,7 +52,7 @@ int run_scale(const Options& options) {
       for (std::size_t round = 0; round < options.rounds; ++round)
         for (const bool guarded : {false, true}) {
           HullOptions hull = hull_options(Strategy::Lazy, options.hull_faces);
-          hull.allow_self_intersections = !guarded;
+          hull.self_intersections = guarded ? SelfIntersections::Refused : SelfIntersections::Allowed;
           measure(mesh, hull, costs[guarded]);
         }
       const double plain = costs[0].microseconds_per_collapse(), guarded = costs[1].microseconds_per_collapse();

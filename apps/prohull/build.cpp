@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "command.h"
 #include "prohull/distance.h"
@@ -22,7 +23,7 @@ struct Options {
   HullOptions hull;
   double normal_deviation_degrees = 45;
   double max_distance = 0;  ///< 0: any
-  bool strict = false, no_self_intersections = false, tight = false;
+  bool strict = false, tight = false, allow_self_intersections = false, no_self_intersections = false;
 };
 
 const Names<Strategy>& strategy_names() {
@@ -54,9 +55,14 @@ struct Outcome {
   std::size_t rounded_vertices = 0;
   bool certified = false;
   DistanceBounds distance = {};  ///< from the hull as written to the original
+  MeshQuality quality = {};
+  std::size_t input_self_intersections = 0, self_intersections = 0;
   double build_seconds = 0, write_seconds = 0, verify_seconds = 0;
 
   bool reached() const { return stopped == Stopped::TargetReached; }
+  std::size_t added_self_intersections() const {
+    return self_intersections - std::min(self_intersections, input_self_intersections);
+  }
 };
 
 std::size_t coarsest_within(const ProgressiveHull& hull, double distance) {
@@ -68,16 +74,29 @@ std::size_t coarsest_within(const ProgressiveHull& hull, double distance) {
   }
 }
 
+double fraction_done(const HullProgress& p) {
+  const double all = static_cast<double>(p.original_faces - std::min(p.target_faces, p.original_faces - 1));
+  return static_cast<double>(p.original_faces - p.faces) / all;
+}
+
+TightHull build_tight(const TriangleMesh& mesh, HullOptions hull_options, double max_distance) {
+  if (max_distance == 0) return build_tight_hull(mesh, hull_options);
+  ProgressLine line("search");
+  std::size_t builds = 0, last_target = 0;
+  hull_options.progress = [&](const HullProgress& p) {
+    builds += std::exchange(last_target, p.target_faces) != p.target_faces;
+    return line((static_cast<double>(builds) - 1 + fraction_done(p)) / (kMaxTightBuilds + 1));
+  };
+  return build_tight_hull_within(mesh, max_distance, hull_options);
+}
+
 Outcome build(const ClosedMesh& input, const Options& options) {
   ProgressLine line("build");
   HullOptions hull_options = options.hull;
-  hull_options.progress = [&](const HullProgress& p) {
-    const double all = static_cast<double>(p.original_faces - std::min(p.target_faces, p.original_faces - 1));
-    return line(static_cast<double>(p.original_faces - p.faces) / all);
-  };
+  hull_options.progress = [&](const HullProgress& p) { return line(fraction_done(p)); };
   Outcome outcome;
   if (options.tight) {
-    TightHull tight = build_tight_hull(input.mesh, hull_options);
+    TightHull tight = build_tight(input.mesh, hull_options, options.max_distance);
     outcome = {std::move(tight.mesh), std::nullopt, tight.stopped, tight.refused, tight.blocked};
   } else {
     HullResult result = build_hull(input.mesh, hull_options);
@@ -151,6 +170,9 @@ Outcome build_for_file(const ClosedMesh& input, const Options& options) {
   }
   outcome.build_seconds = building.seconds();
   outcome.distance = distance_bounds(outcome.hull, input.mesh, {.progress = [](double) { return !interrupted(); }});
+  outcome.quality = mesh_quality(outcome.hull);
+  outcome.input_self_intersections = count_self_intersections(input.mesh);
+  outcome.self_intersections = count_self_intersections(outcome.hull);
   return outcome;
 }
 
@@ -178,12 +200,23 @@ void print_input(const Options& options, const ClosedMesh& input) {
   for (const std::string& repair : describe(input.repairs)) fmt::print("  {}\n", repair);
 }
 
+std::string described_self_intersections(const Outcome& outcome) {
+  if (outcome.self_intersections == 0)
+    return outcome.input_self_intersections == 0
+               ? "none"
+               : fmt::format("none (the mesh: {} pairs of faces)", grouped(outcome.input_self_intersections));
+  return fmt::format("{} pairs of faces (the mesh: {}; added: {})", grouped(outcome.self_intersections),
+                     grouped(outcome.input_self_intersections), grouped(outcome.added_self_intersections()));
+}
+
 void print_summary(const Options& options, const Input& input, const Outcome& outcome) {
   const bool outer = options.hull.side == HullSide::Outer;
   const std::size_t faces = outcome.hull.face_count();
   fmt::print("{}: {} hull of {} faces, void {:.3f} %, at most {:.4g} from the mesh\n", options.out.string(),
              outer ? "outer" : "inner", grouped(faces), 100 * void_ratio(outcome, input.closed),
              outcome.distance.upper);
+  fmt::print("  self-intersections: {}\n", described_self_intersections(outcome));
+  fmt::print("  triangles: {}\n", described(outcome.quality));
   if (outcome.rounded_vertices > 0)
     fmt::print("  moved {} vertices to coordinates that the file keeps\n", grouped(outcome.rounded_vertices));
   if (!outcome.reached())
@@ -211,7 +244,7 @@ nlohmann::json options_report(const Options& options) {
           {"min_compactness_ratio", hull.min_compactness_ratio},
           {"sufficient_compactness", hull.sufficient_compactness},
           {"max_normal_deviation_degrees", options.normal_deviation_degrees},
-          {"allow_self_intersections", hull.allow_self_intersections},
+          {"allow_self_intersections", !options.tight && !hull.refuses_self_intersections()},
           {"float32_coordinates", hull.float32_coordinates}};
 }
 
@@ -219,6 +252,7 @@ nlohmann::json report_of(const Options& options, const Input& input, const Outco
   nlohmann::json in = facts(input.closed.report);
   in["path"] = options.in.string();
   in["repairs"] = describe(input.closed.repairs);
+  in["self_intersections"] = outcome.input_self_intersections;
   return {{"input", in},
           {"hull",
            {{"path", options.out.string()},
@@ -227,6 +261,9 @@ nlohmann::json report_of(const Options& options, const Input& input, const Outco
             {"volume", signed_volume(outcome.hull)},
             {"void_ratio", void_ratio(outcome, input.closed)},
             {"distance_bound", outcome.distance.upper},
+            {"self_intersections", outcome.self_intersections},
+            {"added_self_intersections", outcome.added_self_intersections()},
+            {"quality", facts(outcome.quality)},
             {"rounded_vertices", outcome.rounded_vertices}}},
           {"certified", outcome.certified},
           {"stopped", outcome.reached() ? "target_reached" : "no_legal_collapse"},
@@ -244,8 +281,12 @@ nlohmann::json report_of(const Options& options, const Input& input, const Outco
 int run_build(Options options) {
   check_outputs(options);
   options.hull.float32_coordinates = stores_float32(mesh_format(options.out));
-  options.hull.max_normal_deviation = options.normal_deviation_degrees * std::numbers::pi / 180;
-  options.hull.allow_self_intersections = !options.no_self_intersections;
+  options.hull.max_normal_deviation = options.normal_deviation_degrees * kDegree;
+  if (options.allow_self_intersections && options.hull.side == HullSide::Inner)
+    throw InputError(Defect::InvalidOption,
+                     "--allow-self-intersections: not of an inner hull, it could stick out of the mesh");
+  if (options.allow_self_intersections) options.hull.self_intersections = SelfIntersections::Allowed;
+  if (options.no_self_intersections) options.hull.self_intersections = SelfIntersections::Refused;
 
   const Input input = read_closed_mesh(options.in);
   print_input(options, input.closed);
@@ -271,25 +312,29 @@ void add_build(CLI::App& app, Run& run) {
   command.add_option("--faces", hull.target_faces, "Stop at this many faces, at least 4")
       ->capture_default_str()
       ->check(CLI::Range(4.0, 1e9));
-  CLI::Option* max_distance =
-      command
-          .add_option(
-              "--max-distance", options->max_distance,
-              "The coarsest level, of at least --faces, with no point farther from the mesh, in its unit; proven")
-          ->check(CLI::PositiveNumber)
-          ->type_name("D");
+  command
+      .add_option("--max-distance", options->max_distance,
+                  "The coarsest level, of at least --faces, with no point farther from the mesh, in its unit; proven. "
+                  "With --tight: the coarsest of some ten hulls built to find it")
+      ->check(CLI::PositiveNumber)
+      ->type_name("D");
   add_choice(command, "--side", hull.side, side_names(), "outer: encloses the mesh; inner: is enclosed by it");
   CLI::Option* tight = command.add_flag("--tight", options->tight,
                                         "Move vertices towards the mesh between collapses: the least void, never "
                                         "self-intersecting, some ten times slower");
-  tight->excludes(max_distance);
   add_choice(command, "--strategy", hull.strategy, strategy_names(),
              "lazy: tight and fast; paper1, paper2: the two of Platis and Theoharis (2003)");
   command.add_option("--hierarchy", options->hierarchy, "Also write all levels, for lod and verify")
       ->excludes(tight)
       ->type_name("H.phull");
-  command.add_flag("--no-self-intersections", options->no_self_intersections,
-                   "Refuse collapses that would make the hull intersect itself (inner hulls always do)");
+  CLI::Option* allow = command.add_flag("--allow-self-intersections", options->allow_self_intersections,
+                                        "Do not refuse collapses that make an outer hull intersect itself: faster; the "
+                                        "default of paper1 and paper2");
+  command
+      .add_flag("--no-self-intersections", options->no_self_intersections,
+                "Refuse them; the default of lazy, of --tight and of inner hulls")
+      ->excludes(allow);
+  allow->excludes(tight);
   command.add_flag("--strict", options->strict, "Exit with 1 if the face count is not reached");
   add_report_option(command, options->report);
   constexpr const char* kGuards = "Guards";
@@ -318,6 +363,7 @@ void add_build(CLI::App& app, Run& run) {
   add_examples(command, {"prohull build horse.ply --faces 2000 -o hull.ply",
                          "prohull build arm.stl --faces 500 -o arm_collision.stl --report arm.json",
                          "prohull build arm.stl --faces 200 --tight -o arm_collision.stl",
+                         "prohull build arm.stl --faces 50 --tight --max-distance 2 -o arm_collision.stl",
                          "prohull build rock.obj --side inner --faces 300 -o occluder.obj",
                          "prohull build horse.ply --faces 200 -o hull.ply --hierarchy horse.phull"});
   command.callback([options, &run] { run = [options] { return run_build(*options); }; });

@@ -81,6 +81,24 @@ nlohmann::json facts(const MeshReport& report) {
           {"volume", report.volume},         {"defects", defects}};
 }
 
+nlohmann::json facts(const MeshQuality& quality) {
+  const auto percentiles = [](const Percentiles& p, double unit) -> nlohmann::json {
+    return {{"worst", p.worst / unit}, {"p1", p.p1 / unit}, {"p10", p.p10 / unit}, {"median", p.median / unit}};
+  };
+  return {{"compactness", percentiles(quality.compactness, 1)},
+          {"dihedral_degrees", percentiles(quality.dihedral_angle, kDegree)},
+          {"edges", quality.edges},
+          {"sharp_edges", quality.sharp_edges},
+          {"sharp_below_degrees", kSharpDihedralAngle / kDegree}};
+}
+
+std::string described(const MeshQuality& quality) {
+  return fmt::format(
+      "median compactness {:.2f}, worst {:.2g}; {} of {} edges sharp, worst dihedral angle {:.3g} degrees",
+      quality.compactness.median, quality.compactness.worst, grouped(quality.sharp_edges), grouped(quality.edges),
+      quality.dihedral_angle.worst / kDegree);
+}
+
 void require_writable(const std::filesystem::path& path) {
   if (path.empty()) return;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";

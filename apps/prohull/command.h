@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "prohull/hull_builder.h"
+#include "prohull/mesh_quality.h"
 #include "prohull/mesh_report.h"
 #include "prohull/repair.h"
 #include "prohull/text.h"
@@ -25,6 +27,8 @@ constexpr int kAnswerIsNo = 1;  // verify failed, or a budget was not reached an
 constexpr int kWrongUsage = 2;
 constexpr int kBadInput = 3;
 constexpr int kInterrupted = 130;
+
+constexpr double kDegree = std::numbers::pi / 180;
 
 /// Thrown where Ctrl-C is noticed; main turns it into kInterrupted.
 struct Interrupted {};
@@ -66,6 +70,10 @@ Input read_closed_mesh(const std::filesystem::path& path);
 std::variant<TriangleMesh, ProgressiveHull> read_mesh_or_hull(const std::filesystem::path& path);
 
 nlohmann::json facts(const MeshReport& report);
+nlohmann::json facts(const MeshQuality& quality);
+
+/// In a line: "compactness median 0.72, worst 0.08; ..."
+std::string described(const MeshQuality& quality);
 
 /// Throws InputError(CannotWrite) if the folder of `path` does not take files: before the work, not after it.
 void require_writable(const std::filesystem::path& path);

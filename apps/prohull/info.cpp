@@ -21,6 +21,17 @@ void print_defects(const MeshReport& report) {
   if (!report.first_defect.empty()) fmt::print("  {:<14} {}\n", "first", report.first_defect);
 }
 
+void print_quality(const MeshQuality& quality) {
+  const auto print = [](const char* name, const Percentiles& p, double unit, const char* unit_name) {
+    fmt::print("  {:<14} median {:.3g}, 10 % below {:.3g}, 1 % below {:.3g}, worst {:.3g}{}\n", name, p.median / unit,
+               p.p10 / unit, p.p1 / unit, p.worst / unit, unit_name);
+  };
+  print("compactness", quality.compactness, 1, "");
+  print("dihedral angle", quality.dihedral_angle, kDegree, " degrees");
+  fmt::print("  {:<14} {} of {} edges, below {:.0f} degrees\n", "sharp", grouped(quality.sharp_edges),
+             grouped(quality.edges), kSharpDihedralAngle / kDegree);
+}
+
 int describe_mesh(const Options& options, const TriangleMesh& mesh) {
   const MeshReport report = inspect(mesh);
   nlohmann::json json = facts(report);
@@ -40,6 +51,11 @@ int describe_mesh(const Options& options, const TriangleMesh& mesh) {
     fmt::print("  {:<14} {:.9g}{}\n", "volume", report.volume, report.volume < 0 ? " (inside out)" : "");
   } else {
     fmt::print("  {:<14} {}\n", "surface", report.faces == 0 ? "no faces" : "not a closed 2-manifold");
+  }
+  if (report.faces > 0 && report.non_finite_vertices == 0) {
+    const MeshQuality quality = mesh_quality(mesh);
+    json["quality"] = facts(quality);
+    print_quality(quality);
   }
   print_defects(report);
   try {

@@ -55,7 +55,8 @@ EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& 
 /// finite.
 TriangleMesh turned_outwards(TriangleMesh mesh);
 
-/// Pairs of faces that meet beyond shared corners and edges, found by position. Exact. Throws as verify_enclosure does.
+/// Pairs of faces of any triangles that meet beyond shared corners and edges, which are matched by position; faces
+/// without area do not count. Exact. Throws InputError if the mesh is empty or not finite.
 std::size_t count_self_intersections(const TriangleMesh& mesh);
 
 }  // namespace prohull

@@ -22,6 +22,13 @@ enum class Strategy {
 /// The priority queue (P&T 3.1.4). Heap and RedBlackTree give the same hulls; Bucket sorts to an eighth of an octave.
 enum class QueueKind { Bucket, Heap, RedBlackTree };
 
+/// Whether collapses are refused that would add pairs of faces that meet without sharing anything there.
+enum class SelfIntersections {
+  ByStrategy,  ///< Refused by Strategy::Lazy, Allowed by the paper's two, which do not look
+  Refused,     ///< exact; a hull has no more such pairs than the mesh itself
+  Allowed,     ///< faster
+};
+
 /// Why an edge was not collapsed.
 enum class Refusal : std::uint8_t {
   LinkCondition,     ///< the surface would be pinched
@@ -60,8 +67,8 @@ struct HullOptions {
   double min_compactness_ratio = 0.8;                  ///< worst face of the star, after / before; in [0, 1]
   double sufficient_compactness = 0.15;                ///< good enough whatever it was before; Strategy::Lazy only
   double max_normal_deviation = std::numbers::pi / 4;  ///< of a face that a collapse moves; radians, in [0, pi/2]
-  bool allow_self_intersections = true;  ///< faster; inner hulls never do, they would stick out of the mesh
-  bool float32_coordinates = false;      ///< new vertices have coordinates that a float32 file keeps
+  SelfIntersections self_intersections = SelfIntersections::ByStrategy;  ///< see refuses_self_intersections
+  bool float32_coordinates = false;  ///< new vertices have coordinates that a float32 file keeps
   QueueKind queue = QueueKind::Bucket;
   std::uint64_t seed =
       0;  ///< others than 0 change the order of the collapses a little, and so the hull; Strategy::Lazy only
@@ -69,6 +76,13 @@ struct HullOptions {
   unsigned threads = 0;  ///< at most, and no more than cores; 0: one for each core; the hull is the same for any number
   std::function<bool(const HullProgress&)> progress =
       {};  ///< called now and then, on the caller's thread; false stops with the hull made so far
+
+  /// Inner hulls always do: one that intersects itself may stick out of the mesh.
+  bool refuses_self_intersections() const {
+    if (side == HullSide::Inner) return true;
+    if (self_intersections == SelfIntersections::ByStrategy) return strategy == Strategy::Lazy;
+    return self_intersections == SelfIntersections::Refused;
+  }
 };
 
 enum class Stopped { TargetReached, NoLegalCollapse, Cancelled };

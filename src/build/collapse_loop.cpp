@@ -44,7 +44,7 @@ class CollapseLoop {
         vertices_(patch.vertices),
         queue_(mesh_.edge_id_count()),
         noise_(patch.seed) {
-    if (!options_.allow_self_intersections || options_.side == HullSide::Inner) guard_.emplace(mesh_);
+    if (options_.refuses_self_intersections()) guard_.emplace(mesh_);
   }
 
   void run() {

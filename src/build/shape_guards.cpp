@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/compactness.h"
+
 namespace prohull {
 namespace {
 
@@ -22,10 +24,6 @@ double least_compactness_before(const Star& star) {
 }
 
 }  // namespace
-
-double compactness(double double_area, double squared_edges) {
-  return squared_edges > 0 ? 2 * std::sqrt(3.0) * double_area / squared_edges : 0;
-}
 
 std::optional<Refusal> refused_shape(const Star& star, const Vec3& apex, const HullOptions& options) {
   const double least_cosine = std::cos(options.max_normal_deviation);

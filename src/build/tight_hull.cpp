@@ -26,7 +26,7 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options)
   const Original original(inner ? turned(mesh) : mesh, options.side);
   TightHull tight{mesh, Stopped::TargetReached, {}, {}, 0};
   HullOptions step = options;
-  step.allow_self_intersections = false;
+  step.self_intersections = SelfIntersections::Refused;
   if (options.progress)
     step.progress = [&](const HullProgress& p) {
       return options.progress({p.faces, mesh.face_count(), options.target_faces});

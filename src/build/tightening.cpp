@@ -9,6 +9,7 @@
 
 #include "build/self_intersection_guard.h"
 #include "build/shape_guards.h"
+#include "geometry/compactness.h"
 #include "geometry/float32.h"
 #include "geometry/linear_program.h"
 #include "geometry/predicates.h"

@@ -252,8 +252,4 @@ EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& 
   return verify::Verifier(inner, outer, options).report();
 }
 
-std::size_t count_self_intersections(const TriangleMesh& mesh) {
-  return verify::self_intersections(verify::Surface(mesh, "")).size();
-}
-
 }  // namespace prohull

@@ -1,22 +1,189 @@
 #include "verify/self_intersection.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
 
+#include "geometry/morton_code.h"
+#include "geometry/simd.h"
 #include "geometry/triangle_intersection.h"
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
 
 namespace prohull::verify {
+namespace {
+
+// Box-box tests are most of the work: boxes of float32, four at a time. Mapping coordinates to float32 is monotone, so
+// that boxes that overlap still do.
+
+struct FourBoxes {
+  Float4 min[3], max[3];
+
+  static FourBoxes none() {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const Float4 infinity{kInfinity, kInfinity, kInfinity, kInfinity};
+    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  }
+
+  void set(std::uint32_t lane, const std::array<float, 3>& low, const std::array<float, 3>& high) {
+    for (int i = 0; i < 3; ++i) min[i][lane] = low[i], max[i][lane] = high[i];
+  }
+
+  /// The box in one lane, in all of them.
+  FourBoxes repeated(std::uint32_t lane) const {
+    FourBoxes same;
+    for (int i = 0; i < 3; ++i) {
+      const float low = min[i][lane], high = max[i][lane];
+      same.min[i] = Float4{low, low, low, low}, same.max[i] = Float4{high, high, high, high};
+    }
+    return same;
+  }
+
+  std::array<float, 3> low() const {
+    std::array<float, 3> all;
+    for (int i = 0; i < 3; ++i)
+      all[i] = std::min({float{min[i][0]}, float{min[i][1]}, float{min[i][2]}, float{min[i][3]}});
+    return all;
+  }
+  std::array<float, 3> high() const {
+    std::array<float, 3> all;
+    for (int i = 0; i < 3; ++i)
+      all[i] = std::max({float{max[i][0]}, float{max[i][1]}, float{max[i][2]}, float{max[i][3]}});
+    return all;
+  }
+
+  /// Lane by lane.
+  unsigned overlapping(const FourBoxes& other) const {
+    return mask((min[0] <= other.max[0]) & (max[0] >= other.min[0]) & (min[1] <= other.max[1]) &
+                (max[1] >= other.min[1]) & (min[2] <= other.max[2]) & (max[2] >= other.min[2]));
+  }
+};
+
+/// All pairs of some triangles of which the boxes overlap. The triangles lie along a Morton curve, and by fours in a
+/// tree of boxes.
+template <class TriangleOf>
+class PairSearch {
+ public:
+  PairSearch(std::uint32_t count, const TriangleOf& triangle_of) : triangle_of_(triangle_of) {
+    Box box;
+    for (std::uint32_t f = 0; f < count; ++f)
+      for (const Triangle t = triangle_of(f); const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
+    center_ = box.center();
+    const Vec3 half = box.max * 0.5 - box.min * 0.5;
+    inverse_unit_ = 1 / std::max({half.x, half.y, half.z, std::numeric_limits<double>::min()});
+    sort_faces(count);
+    pack();
+  }
+
+  /// visit(f, g) once for each pair that meets, in any order.
+  template <class Visit>
+  void visit_meeting(Visit visit) {
+    for (std::uint32_t leaf = 0; leaf < levels_[0].size(); ++leaf) {
+      find_leaves_from(leaf);
+      for (std::uint32_t lane = 0; lane < kWidth && kWidth * leaf + lane < face_at_.size(); ++lane) {
+        const std::uint32_t f = face_at_[kWidth * leaf + lane];
+        const Triangle t = triangle_of_(f);
+        const FourBoxes box = levels_[0][leaf].repeated(lane);
+        for (const std::uint32_t other : nodes_) {
+          unsigned met = levels_[0][other].overlapping(box);
+          if (other == leaf) met &= ~1u << lane;
+          for (; met != 0; met &= met - 1) {
+            const std::uint32_t g = face_at_[kWidth * other + static_cast<std::uint32_t>(std::countr_zero(met))];
+            if (triangles_intersect(t, triangle_of_(g))) visit(std::min(f, g), std::max(f, g));
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kWidth = 4;
+
+  std::array<float, 3> mapped(const Vec3& p) const {
+    return {static_cast<float>((p.x - center_.x) * inverse_unit_),
+            static_cast<float>((p.y - center_.y) * inverse_unit_),
+            static_cast<float>((p.z - center_.z) * inverse_unit_)};
+  }
+
+  void sort_faces(std::uint32_t count) {
+    std::vector<std::uint64_t> by_code(count);
+    for (std::uint32_t f = 0; f < count; ++f) {
+      const auto [x, y, z] = mapped(box_of(triangle_of_(f)).center());
+      by_code[f] = std::uint64_t{morton_code(x, y, z)} << 32 | f;
+    }
+    std::sort(by_code.begin(), by_code.end());
+    face_at_.reserve(count);
+    for (const std::uint64_t code : by_code) face_at_.push_back(static_cast<std::uint32_t>(code));
+  }
+
+  void pack() {
+    std::size_t children = face_at_.size();
+    do {
+      children = (children + kWidth - 1) / kWidth;
+      levels_.emplace_back(children, FourBoxes::none());
+    } while (children > 1);
+    for (std::uint32_t slot = 0; slot < face_at_.size(); ++slot) {
+      const Box box = box_of(triangle_of_(face_at_[slot]));
+      levels_[0][slot / kWidth].set(slot % kWidth, mapped(box.min), mapped(box.max));
+    }
+    for (std::size_t level = 1; level < levels_.size(); ++level)
+      for (std::uint32_t i = 0; i < levels_[level - 1].size(); ++i) {
+        const FourBoxes& child = levels_[level - 1][i];
+        levels_[level][i / kWidth].set(i % kWidth, child.low(), child.high());
+      }
+  }
+
+  /// Sets nodes_ to the leaves, from this one on, with a box that overlaps the one around all of its own.
+  void find_leaves_from(std::uint32_t leaf) {
+    FourBoxes around = FourBoxes::none();
+    around.set(0, levels_[0][leaf].low(), levels_[0][leaf].high());
+    around = around.repeated(0);
+    nodes_.assign(1, 0);
+    for (std::size_t level = levels_.size() - 1; level > 0; --level) {
+      const std::uint32_t first = leaf >> (2 * (level - 1));  // the child on the way to the leaf
+      children_.clear();
+      for (const std::uint32_t i : nodes_)
+        for (unsigned met = levels_[level][i].overlapping(around); met != 0; met &= met - 1)
+          if (const auto child = kWidth * i + static_cast<std::uint32_t>(std::countr_zero(met)); child >= first)
+            children_.push_back(child);
+      std::swap(nodes_, children_);
+    }
+  }
+
+  const TriangleOf& triangle_of_;
+  Vec3 center_;
+  double inverse_unit_;
+  std::vector<std::uint32_t> face_at_;
+  std::vector<std::vector<FourBoxes>>
+      levels_;  ///< children of node i are faces, or nodes of the level before, from 4i on
+  std::vector<std::uint32_t> nodes_, children_;
+};
+
+}  // namespace
 
 std::vector<std::pair<FaceIndex, FaceIndex>> self_intersections(const Surface& surface) {
   std::vector<std::pair<FaceIndex, FaceIndex>> pairs;
-  for (FaceIndex f = 0; f < surface.faces.size(); ++f) {
-    const Box box = box_of(surface.faces[f]);
-    surface.bvh.visit([&](const Box& other) { return box.overlaps(other); },
-                      [&](FaceIndex g) {
-                        if (f < g && triangles_intersect(surface.faces[f], surface.faces[g])) pairs.emplace_back(f, g);
-                      });
-  }
+  const auto triangle_of = [&](FaceIndex f) -> const Triangle& { return surface.faces[f]; };
+  if (surface.faces.empty()) return pairs;
+  PairSearch(static_cast<FaceIndex>(surface.faces.size()), triangle_of).visit_meeting([&](FaceIndex f, FaceIndex g) {
+    pairs.emplace_back(f, g);
+  });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 
 }  // namespace prohull::verify
+
+namespace prohull {
+
+std::size_t count_self_intersections(const TriangleMesh& mesh) {
+  verify::require_usable(mesh, "given");
+  std::size_t pairs = 0;
+  const auto triangle_of = [&](std::uint32_t f) { return mesh.triangle(FaceId{f}); };
+  verify::PairSearch(static_cast<std::uint32_t>(mesh.face_count()), triangle_of)
+      .visit_meeting([&](std::uint32_t, std::uint32_t) { ++pairs; });
+  return pairs;
+}
+
+}  // namespace prohull

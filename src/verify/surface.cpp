@@ -15,19 +15,6 @@ namespace {
 
 std::string text(const Vec3& p) { return fmt::format("({} {} {})", p.x, p.y, p.z); }
 
-void require_usable(const TriangleMesh& mesh, std::string_view name) {
-  if (mesh.triangles.empty()) throw InputError(Defect::EmptyMesh, fmt::format("the {} mesh has no triangle", name));
-  for (const FaceId f : mesh.triangles.ids())
-    for (const VertexId v : mesh.triangles[f]) {
-      if (index(v) >= mesh.vertex_count())
-        throw InputError(Defect::Malformed, fmt::format("the {} mesh: face {} refers to vertex {}, of {}", name,
-                                                        index(f), index(v), mesh.vertex_count()));
-      if (!is_finite(mesh.positions[v]))
-        throw InputError(Defect::NonFiniteCoordinate, fmt::format("the {} mesh: vertex {} of face {} is at {}", name,
-                                                                  index(v), index(f), text(mesh.positions[v])));
-    }
-}
-
 /// For each vertex the first one, in lexicographic order, at its position; 0.0 and -0.0 are the same position.
 std::vector<std::uint32_t> numbered_by_position(const PerVertex<Vec3>& positions) {
   std::vector<std::uint32_t> order(positions.size()), number(positions.size());
@@ -77,6 +64,19 @@ void require_closed(const TriangleMesh& mesh, const std::vector<std::uint32_t>& 
 }
 
 }  // namespace
+
+void require_usable(const TriangleMesh& mesh, std::string_view name) {
+  if (mesh.triangles.empty()) throw InputError(Defect::EmptyMesh, fmt::format("the {} mesh has no triangle", name));
+  for (const FaceId f : mesh.triangles.ids())
+    for (const VertexId v : mesh.triangles[f]) {
+      if (index(v) >= mesh.vertex_count())
+        throw InputError(Defect::Malformed, fmt::format("the {} mesh: face {} refers to vertex {}, of {}", name,
+                                                        index(f), index(v), mesh.vertex_count()));
+      if (!is_finite(mesh.positions[v]))
+        throw InputError(Defect::NonFiniteCoordinate, fmt::format("the {} mesh: vertex {} of face {} is at {}", name,
+                                                                  index(v), index(f), text(mesh.positions[v])));
+    }
+}
 
 Surface::Surface(const TriangleMesh& mesh, std::string_view name) {
   require_usable(mesh, name);

@@ -26,6 +26,10 @@ struct Surface {
   Surface(const TriangleMesh& mesh, std::string_view name);
 };
 
+/// Throws InputError, with `name` in the message, if the mesh is empty, refers to vertices that it has not, or is not
+/// finite.
+void require_usable(const TriangleMesh& mesh, std::string_view name);
+
 /// The connected components of some faces.
 class Clusters {
  public:

@@ -86,7 +86,7 @@ void check(const TriangleMesh& original, const HullOptions& options, const HullR
       ADD_FAILURE() << "nobody asked to";
       break;
   }
-  if (!options.allow_self_intersections || options.side == HullSide::Inner) {
+  if (options.refuses_self_intersections()) {
     EXPECT_LE(verify_enclosure(base, base).self_intersections, verify_enclosure(original, original).self_intersections);
   }
 }
@@ -112,11 +112,8 @@ TEST_P(BuildHull, KeepsItsPromisesForEveryStrategySideAndKindOfCoordinates) {
       for (const bool float32 : {false, true}) {
         SCOPED_TRACE(testing::Message() << "strategy " << int(strategy) << ", side " << int(side) << ", float32 "
                                         << float32);
-        const HullOptions options{.target_faces = kFaces / 8,
-                                  .side = side,
-                                  .strategy = strategy,
-                                  .allow_self_intersections = strategy != Strategy::Lazy,
-                                  .float32_coordinates = float32};
+        const HullOptions options{
+            .target_faces = kFaces / 8, .side = side, .strategy = strategy, .float32_coordinates = float32};
         check(mesh, options, build_hull(mesh, options));
       }
 }
@@ -155,7 +152,7 @@ bool have_equal_structure(const ProgressiveHull& a, const ProgressiveHull& b) {
 
 TEST_P(BuildHull, DoesNotDependOnTheUnit) {
   const TriangleMesh& mesh = GetParam().mesh;
-  const HullOptions options{.target_faces = kFaces / 8, .allow_self_intersections = false};
+  const HullOptions options{.target_faces = kFaces / 8};
   const ProgressiveHull hull = build_hull(mesh, options).hull;
   // Powers of eight keep volumes, that is keys, in the same eighths of octaves; scaling loses no bit.
   for (const double scale : {0x1p20, 0x1p-20, 0x1p200, 0x1p-200}) {
@@ -191,34 +188,16 @@ TEST(BuildHullOfAGyroid, OfHighGenus) {
 }
 #endif
 
-TEST(BuildHullOfFlatParts, ABoxIsReducedToItsCornersExactly) {
-  const TriangleMesh cube = box({0, 0, 0}, {1, 2, 3});
-  const TriangleMesh fine = subdivided(subdivided(subdivided(cube)));
-  for (const HullSide side : {HullSide::Outer, HullSide::Inner})
-    for (const bool allow : {true, false}) {
-      const HullResult result = build_hull(fine, {.target_faces = 12, .side = side, .allow_self_intersections = allow});
-      EXPECT_EQ(result.stopped, Stopped::TargetReached);
-      const TriangleMesh base = result.hull.base();
-      EXPECT_EQ(base.face_count(), 12u);
-      EXPECT_TRUE(verify_enclosure(base, fine).encloses && verify_enclosure(fine, base).encloses) << "no void at all";
-      for (const Vec3& p : base.positions)
-        EXPECT_EQ(std::ranges::count(cube.positions, p), 1) << "not a corner of the box";
-    }
-}
-
-TEST(BuildHullOfFlatParts, ABoxWithAHoleKeepsItsPlanes) {
-  const TriangleMesh mesh = make_sample("box", 3000);
-  const double volume = signed_volume(mesh);
-  std::size_t last = 3000;
-  for (const std::size_t target : {500u, 100u, 32u}) {
-    const HullResult result = build_hull(mesh, {.target_faces = target});
-    const TriangleMesh base = result.hull.base();
-    EXPECT_LT(base.face_count(), last);
-    last = base.face_count();
-    EXPECT_EQ(result.stopped, Stopped::TargetReached) << target;
-    EXPECT_TRUE(verify_enclosure(base, mesh).encloses)
-        << "void with " << base.face_count() << " faces: " << signed_volume(base) / volume - 1;
+TEST(BuildHullOptions, SelfIntersectionsAreRefusedByStrategyUnlessTold) {
+  constexpr auto kAllowed = SelfIntersections::Allowed, kRefused = SelfIntersections::Refused;
+  EXPECT_TRUE(HullOptions{}.refuses_self_intersections());
+  for (const Strategy papers : {Strategy::Paper1, Strategy::Paper2}) {
+    EXPECT_FALSE(HullOptions{.strategy = papers}.refuses_self_intersections());
+    EXPECT_TRUE((HullOptions{.strategy = papers, .self_intersections = kRefused}.refuses_self_intersections()));
+    EXPECT_TRUE((HullOptions{.side = HullSide::Inner, .strategy = papers}.refuses_self_intersections()));
   }
+  EXPECT_FALSE((HullOptions{.self_intersections = kAllowed}.refuses_self_intersections()));
+  EXPECT_TRUE((HullOptions{.side = HullSide::Inner, .self_intersections = kAllowed}.refuses_self_intersections()));
 }
 
 TEST(BuildHullOptions, OutOfTheirRangesAreRefused) {
@@ -264,8 +243,8 @@ TEST(BuildHullInput, UnusedVerticesAndFacesWithoutAreaAreKept) {
   mesh.triangles.push_back({a, b, middle});
   ASSERT_TRUE(inspect(mesh).is_closed_manifold());
   ASSERT_GT(inspect(mesh).zero_area_faces, 0u);
-  for (const bool allow : {true, false}) {
-    const HullOptions options{.target_faces = 40, .allow_self_intersections = allow};
+  for (const auto intersections : {SelfIntersections::Allowed, SelfIntersections::Refused}) {
+    const HullOptions options{.target_faces = 40, .self_intersections = intersections};
     check(mesh, options, build_hull(mesh, options));
   }
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "build/placement.h"
+#include "geometry/compactness.h"
 #include "meshes.h"
 
 namespace prohull {

@@ -4,7 +4,9 @@
 
 #include "geometry/float32.h"
 #include "meshes.h"
+#include "prohull/distance.h"
 #include "prohull/enclosure.h"
+#include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/mesh_report.h"
 #include "prohull/sample.h"
@@ -37,12 +39,6 @@ TEST_P(TightHulls, EncloseWithLessVoidAndDoNotIntersectThemselves) {
 INSTANTIATE_TEST_SUITE_P(Samples, TightHulls, testing::Values("asteroid", "knot", "pony"),
                          [](const auto& sample) { return std::string(sample.param); });
 
-TEST(TightHull, KeepsABoxThatIsAHullOfItself) {
-  const TightHull tight = build_tight_hull(subdivided(subdivided(box({0, 0, 0}, {1, 2, 3}))), {.target_faces = 12});
-  EXPECT_EQ(tight.mesh.face_count(), 12u);
-  EXPECT_DOUBLE_EQ(signed_volume(tight.mesh), 6);
-}
-
 TEST(TightHull, OfSeveralComponentsAndHandlesEncloses) {
   const TriangleMesh mesh =
       together(together(sphere(4), moved(sphere(4), {2.1, 0, 0})), moved(torus(40, 20), {0, 4, 0}));
@@ -73,6 +69,47 @@ TEST(TightHull, CanBeCancelledAndStillEncloses) {
   EXPECT_EQ(tight.stopped, Stopped::Cancelled);
   EXPECT_GT(tight.mesh.face_count(), 100u);
   EXPECT_TRUE(verify_enclosure(mesh, tight.mesh).encloses);
+}
+
+TEST(TightHullWithin, KeepsTheDistanceWithFewerFacesThanLevelsHave) {
+  const TriangleMesh mesh = make_sample("knot", 800);
+  std::size_t faces = 0, faces_of_levels = 0;
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    const bool float32 = side == HullSide::Outer;
+    const HullOptions options{.target_faces = 50, .side = side, .float32_coordinates = float32};
+    const double distance = 0.02 * bounding_box(mesh).diagonal();
+    const TightHull hull = build_tight_hull_within(mesh, distance, options);
+    const TriangleMesh stored = float32 ? with_float32_coordinates(hull.mesh, side).mesh : hull.mesh;
+    EXPECT_LE(distance_bounds(stored, mesh).upper, distance);
+    EXPECT_TRUE((side == HullSide::Outer ? verify_enclosure(mesh, stored) : verify_enclosure(stored, mesh)).encloses);
+    EXPECT_GT(hull.mesh.face_count(), 50u);
+    faces += hull.mesh.face_count();
+    faces_of_levels += faces_within(build_hull(mesh, options).hull, distance);
+  }
+  EXPECT_LT(faces, faces_of_levels);
+}
+
+TEST(TightHullWithin, StopsAtTheTargetOrAtTheMeshItself) {
+  const TriangleMesh mesh = make_sample("asteroid", 500);
+  const double diagonal = bounding_box(mesh).diagonal();
+  const TightHull far = build_tight_hull_within(mesh, diagonal, {.target_faces = 100});
+  EXPECT_EQ(far.mesh, build_tight_hull(mesh, {.target_faces = 100}).mesh);
+  const TightHull near = build_tight_hull_within(mesh, 1e-9 * diagonal, {.target_faces = 100});
+  EXPECT_EQ(near.mesh, mesh);
+  EXPECT_THROW(build_tight_hull_within(mesh, 0), InputError);
+}
+
+TEST(TightHullWithin, CanBeCancelledAndStillEncloses) {
+  const TriangleMesh mesh = make_sample("asteroid", 1000);
+  for (const int most : {0, 10, 40}) {
+    int calls = 0;
+    HullOptions options{.target_faces = 50};
+    options.progress = [&](const HullProgress&) { return ++calls <= most; };
+    const TightHull hull = build_tight_hull_within(mesh, 0.01 * bounding_box(mesh).diagonal(), options);
+    EXPECT_EQ(hull.stopped, Stopped::Cancelled) << most;
+    EXPECT_LE(calls, most + 10) << "it goes on";
+    EXPECT_TRUE(verify_enclosure(mesh, hull.mesh).encloses) << most;
+  }
 }
 
 }  // namespace

@@ -76,6 +76,36 @@ for strategy in paper1 paper2; do
   says out "$strategy certified" "certified: yes"
 done
 
+# --- self-intersections and tight hulls ---
+$prohull sample knot -o knot.ply --faces 3000 >/dev/null
+expect 0 "guarded" $prohull build knot.ply --faces 100 -o guarded.ply --report guarded.json
+says out "guarded" "self-intersections: none"
+says out "quality" "triangles: median compactness 0."
+says guarded.json "report: self-intersections" '"self_intersections": 0'
+says guarded.json "report: guarded by default" '"allow_self_intersections": false'
+says guarded.json "report: quality" '"dihedral_degrees": {'
+expect 0 "unguarded" $prohull build knot.ply --faces 100 -o loose.ply --allow-self-intersections --report loose.json
+says out "unguarded" "pairs of faces (the mesh: 0; added: "
+says loose.json "report: unguarded" '"allow_self_intersections": true'
+expect 0 "of a self-intersecting mesh" $prohull build loose.ply --faces 80 -o looser.ply
+says out "of a self-intersecting mesh" "added: 0)"
+expect 0 "paper1" $prohull build knot.ply --faces 100 --strategy paper1 -o hull.off
+says out "paper1 is unguarded" "added: "
+expect 0 "paper1, guarded" $prohull build knot.ply --faces 100 --strategy paper1 --no-self-intersections -o hull.off
+says out "paper1, guarded" "self-intersections: none"
+expect 2 "guarded or not" $prohull build knot.ply -o x.ply --allow-self-intersections --no-self-intersections
+expect 2 "tight is guarded" $prohull build knot.ply -o x.ply --allow-self-intersections --tight
+expect 2 "inner is guarded" $prohull build knot.ply -o x.ply --allow-self-intersections --side inner
+says err "inner is guarded" "--allow-self-intersections"
+expect 0 "tight within a distance" $prohull build knot.ply --faces 50 --tight --max-distance 0.05 -o x.stl --report x.json
+says out "tight within a distance" "self-intersections: none"
+checks=$((checks + 1))
+awk '/"distance_bound"/ { near = $2 + 0 > 0 && $2 + 0 <= 0.05 } END { exit !near }' x.json || fail "farther than asked for"
+rm x.stl
+expect 0 "info of triangles" $prohull info knot.ply --report info.json
+says out "info of triangles" "sharp          0 of 4,500 edges, below 135 degrees"
+says info.json "report: triangles" '"compactness": {'
+
 expect 0 "formats" $prohull build hull.stl --faces 100 -o out.obj
 gzip -kf rock.ply
 expect 0 "gzip" $prohull build rock.ply.gz --faces 500 -o from_gzip.stl

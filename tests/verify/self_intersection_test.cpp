@@ -3,10 +3,12 @@
 #include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "meshes.h"
 #include "prohull/enclosure.h"
+#include "prohull/error.h"
 
 namespace prohull {
 namespace {
@@ -31,9 +33,29 @@ TEST(SelfIntersections, AreCountedAsByCgal) {
     std::uniform_real_distribution<double> jitter(-noise, noise);
     for (TriangleMesh mesh : {meshes::torus(30, 12), meshes::sphere(3), meshes::subdivided(meshes::octahedron())}) {
       for (Vec3& p : mesh.positions) p += {jitter(random), jitter(random), jitter(random)};
-      EXPECT_EQ(verify_enclosure(mesh, mesh).self_intersections, counted_by_cgal(mesh)) << "noise " << noise;
+      const std::size_t expected = counted_by_cgal(mesh);
+      EXPECT_EQ(verify_enclosure(mesh, mesh).self_intersections, expected) << "noise " << noise;
+      for (const double scale : {1.0, 0x1p-300, 0x1p300, 0x1p1022})
+        EXPECT_EQ(count_self_intersections(meshes::scaled(mesh, scale)), expected) << "noise " << noise;
     }
   }
+}
+
+TEST(SelfIntersections, AreCountedInOpenMeshesAndSoups) {
+  TriangleMesh two =
+      meshes::make({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {3, 3, 0}}, {{0, 1, 2}, {3, 4, 5}});
+  EXPECT_EQ(count_self_intersections(two), 1u);
+  EXPECT_EQ(count_self_intersections(meshes::soup(meshes::together(two, two))), 6u) << "each of them with each";
+  two.triangles.pop_back();
+  EXPECT_EQ(count_self_intersections(two), 0u) << "a single face";
+  EXPECT_EQ(count_self_intersections(meshes::soup(meshes::sphere(2))), 0u) << "corners are shared by position";
+}
+
+TEST(SelfIntersections, OfNothingAndOfWhatIsNotFiniteAreRefused) {
+  EXPECT_THROW(count_self_intersections({}), InputError);
+  TriangleMesh mesh = meshes::octahedron();
+  mesh.positions[VertexId{0}].x = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(count_self_intersections(mesh), InputError);
 }
 
 }  // namespace
