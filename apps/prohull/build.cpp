@@ -245,6 +245,8 @@ nlohmann::json options_report(const Options& options) {
           {"sufficient_compactness", hull.sufficient_compactness},
           {"max_normal_deviation_degrees", options.normal_deviation_degrees},
           {"allow_self_intersections", !options.tight && !hull.refuses_self_intersections()},
+          {"seed", hull.seed},
+          {"best_of", hull.best_of},
           {"float32_coordinates", hull.float32_coordinates}};
 }
 
@@ -335,6 +337,21 @@ void add_build(CLI::App& app, Run& run) {
                 "Refuse them; the default of lazy, of --tight and of inner hulls")
       ->excludes(allow);
   allow->excludes(tight);
+  command
+      .add_option("--best-of", hull.best_of,
+                  "Build with so many seeds, on all threads, and keep the hull of least void; lazy and --tight only")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 1e6))
+      ->type_name("N");
+  command
+      .add_option("--seed", hull.seed,
+                  "The first of the seeds; others give slightly different hulls, of lazy and --tight")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--threads", hull.threads,
+          "At most so many, and no more than there are cores; 0: all of them. The hull is the same for any number")
+      ->capture_default_str();
   command.add_flag("--strict", options->strict, "Exit with 1 if the face count is not reached");
   add_report_option(command, options->report);
   constexpr const char* kGuards = "Guards";
@@ -363,6 +380,7 @@ void add_build(CLI::App& app, Run& run) {
   add_examples(command, {"prohull build horse.ply --faces 2000 -o hull.ply",
                          "prohull build arm.stl --faces 500 -o arm_collision.stl --report arm.json",
                          "prohull build arm.stl --faces 200 --tight -o arm_collision.stl",
+                         "prohull build arm.stl --faces 200 --tight --best-of 9 -o arm_collision.stl",
                          "prohull build arm.stl --faces 50 --tight --max-distance 2 -o arm_collision.stl",
                          "prohull build rock.obj --side inner --faces 300 -o occluder.obj",
                          "prohull build horse.ply --faces 200 -o hull.ply --hierarchy horse.phull"});

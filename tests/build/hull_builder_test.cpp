@@ -282,7 +282,7 @@ TEST(BuildHullInRounds, KeepsItsPromisesAndIsTheSameForAnyNumberOfThreads) {
   for (const char* sample : {"pony", "bracket"}) {
     const TriangleMesh mesh = make_sample(sample, kFacesForRounds);
     for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
-      HullOptions options{.target_faces = 800, .side = side, .allow_self_intersections = false, .threads = 1};
+      HullOptions options{.target_faces = 800, .side = side, .threads = 1};
       const HullResult one = build_hull(mesh, options);
       check(mesh, options, one);
       for (const unsigned threads : {2u, 0u}) {
