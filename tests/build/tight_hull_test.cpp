@@ -72,12 +72,12 @@ TEST(TightHull, CanBeCancelledAndStillEncloses) {
 }
 
 TEST(TightHullWithin, KeepsTheDistanceWithFewerFacesThanLevelsHave) {
-  const TriangleMesh mesh = make_sample("knot", 800);
+  const TriangleMesh mesh = make_sample("asteroid", 1000);
   std::size_t faces = 0, faces_of_levels = 0;
   for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
     const bool float32 = side == HullSide::Outer;
     const HullOptions options{.target_faces = 50, .side = side, .float32_coordinates = float32};
-    const double distance = 0.02 * bounding_box(mesh).diagonal();
+    const double distance = 0.04 * bounding_box(mesh).diagonal();
     const TightHull hull = build_tight_hull_within(mesh, distance, options);
     const TriangleMesh stored = float32 ? with_float32_coordinates(hull.mesh, side).mesh : hull.mesh;
     EXPECT_LE(distance_bounds(stored, mesh).upper, distance);
