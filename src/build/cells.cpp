@@ -1,6 +1,7 @@
 #include "build/cells.h"
 
 #include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -80,18 +81,16 @@ std::vector<Cell> split_into_cells(std::vector<BoxedFace> faces, std::size_t mos
   return split(std::move(faces), everywhere(), most_faces, shift);
 }
 
-void sort_along_curve(std::vector<BoxedFace>& faces) {
+std::vector<FaceId> along_curve(const std::vector<BoxedFace>& faces) {
   std::vector<std::uint64_t> by_code;
   by_code.reserve(faces.size());
-  for (std::uint32_t i = 0; i < faces.size(); ++i) {
-    const FloatBox& box = faces[i].box;
-    by_code.push_back(std::uint64_t{morton_code(center(box, 0), center(box, 1), center(box, 2))} << 32 | i);
-  }
-  std::sort(by_code.begin(), by_code.end());
-  std::vector<BoxedFace> sorted;
+  for (const auto& [face, box] : faces)
+    by_code.push_back(std::uint64_t{morton_code(center(box, 0), center(box, 1), center(box, 2))} << 32 | index(face));
+  oneapi::tbb::parallel_sort(by_code);
+  std::vector<FaceId> sorted;
   sorted.reserve(faces.size());
-  for (const std::uint64_t code : by_code) sorted.push_back(faces[static_cast<std::uint32_t>(code)]);
-  faces = std::move(sorted);
+  for (const std::uint64_t code : by_code) sorted.push_back(FaceId{static_cast<std::uint32_t>(code)});
+  return sorted;
 }
 
 }  // namespace prohull

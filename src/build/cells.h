@@ -24,7 +24,7 @@ FloatBox everywhere();
 /// two cells is in the boxes of both, but inside of none: other values of `shift`, in [0, 1), have other borders.
 std::vector<Cell> split_into_cells(std::vector<BoxedFace> faces, std::size_t most_faces, double shift);
 
-/// Sorted along a curve through [-1, 1]^3: what lies near each other in space does so in the list, mostly.
-void sort_along_curve(std::vector<BoxedFace>& faces);
+/// Along a curve through [-1, 1]^3: what lies near each other in space does so in the list, mostly.
+std::vector<FaceId> along_curve(const std::vector<BoxedFace>& faces);
 
 }  // namespace prohull

@@ -32,6 +32,13 @@ double lazy_key(double added_volume, const Star& star) {
   return added_volume / std::sqrt(static_cast<double>(star.valence()));
 }
 
+std::vector<FaceId> all_faces(const HalfEdgeMesh& mesh) {
+  std::vector<FaceId> faces;
+  faces.reserve(mesh.face_id_count());
+  for (std::uint32_t i = 0; i < mesh.face_id_count(); ++i) faces.push_back(FaceId{i});
+  return faces;
+}
+
 template <class Queue>
 class CollapseLoop {
  public:
@@ -44,7 +51,7 @@ class CollapseLoop {
         vertices_(patch.vertices),
         queue_(mesh_.edge_id_count()),
         noise_(patch.seed) {
-    if (options_.refuses_self_intersections()) guard_.emplace(mesh_);
+    if (options_.refuses_self_intersections()) guard_.emplace(mesh_, all_faces(mesh_));
   }
 
   void run() {

@@ -28,7 +28,7 @@ struct VertexFacts {
 /// A part of a surface, or all of it, to be simplified on its own: only stars that lie strictly inside of a box, before
 /// and after. The faces that reach into the box from outside belong to the mesh too, but stay as they are.
 struct Patch {
-  HalfEdgeMesh mesh;
+  HalfEdgeMesh mesh;  ///< faces that lie together in space should have numbers near each other
   PerEdge<EdgeFacts> edges;
   PerVertex<VertexFacts> vertices;
   FloatBox inside;  ///< in the coordinates of CollapseRules::unit_cube

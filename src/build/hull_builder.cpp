@@ -81,10 +81,8 @@ class HullBuilder {
   }
 
   HullResult run() {
-    arena_of(options_.threads).execute([&] {
-      std::size_t round = 0;
-      while (options_.strategy == Strategy::Lazy && is_worth_a_round() && run_round(round++)) continue;
-    });
+    std::size_t round = 0;
+    while (options_.strategy == Strategy::Lazy && is_worth_a_round() && run_round(round++)) continue;
     Work whole = cut({everywhere(), faces_}, options_.target_faces, std::numeric_limits<double>::infinity());
     simplify(whole);
     const RefusalCounts blocked = refusals_of_what_is_left(whole.patch);
@@ -139,7 +137,6 @@ class HullBuilder {
       const auto& [a, b, c] = mesh.triangles[f];
       faces.push_back({f, unit_cube_.at(Triangle{mesh.positions[a], mesh.positions[b], mesh.positions[c]})});
     }
-    sort_along_curve(faces);
     PerVertex<VertexId> place(mesh.vertex_count(), kNoVertex);
     positions_.reserve(mesh.vertex_count()), names_.reserve(mesh.vertex_count());
     corners_.reserve(3 * mesh.face_count()), faces_.reserve(mesh.face_count()), given_.reserve(mesh.face_count());
@@ -150,9 +147,9 @@ class HullBuilder {
       }
       return place[v];
     };
-    for (const BoxedFace& face : faces) {
-      faces_.push_back(given_.push_back(face.face));
-      for (const VertexId v : mesh.triangles[face.face]) corners_.push_back(number(v));
+    for (const FaceId face : along_curve(faces)) {
+      faces_.push_back(given_.push_back(face));
+      for (const VertexId v : mesh.triangles[face]) corners_.push_back(number(v));
     }
     for (const VertexId v : mesh.positions.ids()) number(v);
   }
@@ -160,7 +157,7 @@ class HullBuilder {
   std::uint32_t given_corner(std::uint32_t corner) const { return 3 * index(given_[FaceId{corner / 3}]) + corner % 3; }
 
   // Below, a cell would have too much border.
-  static constexpr std::size_t kLeastCells = 8, kLeastCellFaces = 1536, kMostCellFaces = 4096;
+  static constexpr std::size_t kLeastCells = 8, kLeastCellFaces = 1024, kMostCellFaces = 4096;
 
   bool is_worth_a_round() const {
     return faces_.size() >= kLeastCells * kLeastCellFaces && 4 * faces_.size() > 5 * options_.target_faces &&
@@ -202,7 +199,7 @@ class HullBuilder {
 
   /// The key up to which edges are collapsed.
   double key_for_a_round(const std::vector<Cell>& cells) {
-    constexpr double kPartOfEdges = 0.25;
+    constexpr double kPartOfEdges = 0.5;
     std::vector<double> keys;
     const auto add_key = [&](const EdgeFacts& edge) {
       if (edge.key != EdgeFacts::kUnknown && !edge.is_refused) keys.push_back(edge.key);
@@ -222,13 +219,12 @@ class HullBuilder {
   }
 
   std::vector<BoxedFace> boxed() const {
-    std::vector<BoxedFace> boxes;
-    boxes.reserve(faces_.size());
-    for (const FaceId f : faces_) {
-      const VertexId* corners = &corners_[3 * index(f)];
-      boxes.push_back(
-          {f, unit_cube_.at(Triangle{positions_[corners[0]], positions_[corners[1]], positions_[corners[2]]})});
-    }
+    std::vector<BoxedFace> boxes(faces_.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t i) {
+      const VertexId* corners = &corners_[3 * index(faces_[i])];
+      boxes[i] = {faces_[i],
+                  unit_cube_.at(Triangle{positions_[corners[0]], positions_[corners[1]], positions_[corners[2]]})};
+    });
     return boxes;
   }
 
@@ -416,9 +412,11 @@ HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
   if (!report.is_closed_manifold()) throw InputError(report.worst_defect, report.first_defect);
   if (!(report.volume > 0))
     throw InputError(Defect::NoVolume, "the mesh is inside out or encloses nothing; closed_mesh turns what it can");
-  if (options.side == HullSide::Outer) return HullBuilder(mesh, options).run();
-  // An inner hull is the outer hull of the mesh turned inside out: what was inside of a face is then outside.
-  return turned(HullBuilder(turned(mesh), options).run());
+  return arena_of(options.threads).execute([&] {
+    if (options.side == HullSide::Outer) return HullBuilder(mesh, options).run();
+    // An inner hull is the outer hull of the mesh turned inside out: what was inside of a face is then outside.
+    return turned(HullBuilder(turned(mesh), options).run());
+  });
 }
 
 }  // namespace prohull

@@ -4,7 +4,7 @@
 #include <bit>
 #include <limits>
 
-#include "geometry/morton_code.h"
+#include "build/cells.h"
 #include "geometry/triangle_intersection.h"
 
 namespace prohull {
@@ -56,27 +56,12 @@ inline unsigned SelfIntersectionGuard::Node::overlapping(const Node& other) cons
               (max[1] >= other.min[1]) & (min[2] <= other.max[2]) & (max[2] >= other.min[2]));
 }
 
-SelfIntersectionGuard::SelfIntersectionGuard(const HalfEdgeMesh& mesh)
-    : unit_cube_(bounding_box_of(mesh)), slot_of_(mesh.face_id_count()) {
-  sort_faces(mesh);
+SelfIntersectionGuard::SelfIntersectionGuard(const HalfEdgeMesh& mesh, std::vector<FaceId> faces)
+    : unit_cube_(bounding_box_of(mesh)), face_at_(std::move(faces)), slot_of_(mesh.face_id_count()) {
   pack(mesh);
 }
 
-void SelfIntersectionGuard::sort_faces(const HalfEdgeMesh& mesh) {
-  std::vector<std::uint64_t> by_code;
-  by_code.reserve(mesh.face_count());
-  for (std::uint32_t i = 0; i < mesh.face_id_count(); ++i) {
-    if (!mesh.has(FaceId{i})) continue;
-    const auto [min, max] = unit_cube_.at(triangle(mesh, FaceId{i}));
-    const std::uint32_t code = morton_code((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2);
-    by_code.push_back(std::uint64_t{code} << 32 | i);
-  }
-  std::sort(by_code.begin(), by_code.end());
-  face_at_.reserve(by_code.size());
-  for (const std::uint64_t code : by_code) face_at_.push_back(FaceId{static_cast<std::uint32_t>(code)});
-}
-
-// The order of the faces along the curve is kept: they move little.
+// The order of the faces is kept: they move little.
 void SelfIntersectionGuard::pack(const HalfEdgeMesh& mesh) {
   std::erase_if(face_at_, [&](FaceId f) { return !mesh.has(f); });
   faces_when_packed_ = face_at_.size();
@@ -235,6 +220,14 @@ bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, Ve
                                                     const std::vector<VertexId>& link, const Vec3& to) {
   return adds_pairs(mesh, v, v, link, to,
                     [&] { set_faces(mesh, link, [&](std::size_t) { return mesh.position(v); }); });
+}
+
+std::vector<FaceId> faces_along_curve(const HalfEdgeMesh& mesh) {
+  const UnitCube unit_cube(bounding_box_of(mesh));
+  std::vector<BoxedFace> faces;
+  for (std::uint32_t i = 0; i < mesh.face_id_count(); ++i)
+    if (const FaceId f{i}; mesh.has(f)) faces.push_back({f, unit_cube.at(triangle(mesh, f))});
+  return along_curve(faces);
 }
 
 }  // namespace prohull

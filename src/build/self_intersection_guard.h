@@ -15,7 +15,9 @@ namespace prohull {
 /// mesh lie in a tree of boxes, which follow the collapses and are packed anew whenever half of the faces are gone.
 class SelfIntersectionGuard {
  public:
-  explicit SelfIntersectionGuard(const HalfEdgeMesh& mesh);
+  /// Fast if `faces`, all of the mesh, are in an order in which what lies together in space does so in the list,
+  /// mostly.
+  SelfIntersectionGuard(const HalfEdgeMesh& mesh, std::vector<FaceId> faces);
 
   /// Whether the new star would take part in more pairs of intersecting faces than the star that it replaces: an input
   /// that intersects itself can still be simplified, but its pairs are never multiplied.
@@ -39,7 +41,6 @@ class SelfIntersectionGuard {
   static constexpr std::uint32_t kWidth = 4;
   static const Node kEmptyNode;
 
-  void sort_faces(const HalfEdgeMesh& mesh);
   void pack(const HalfEdgeMesh& mesh);
   void place(std::uint32_t slot, const FloatBox& box);
   void find_others(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const FloatBox& box);
@@ -63,5 +64,8 @@ class SelfIntersectionGuard {
   std::vector<std::uint32_t> nodes_, children_;
   std::vector<std::array<VertexId, 3>> others_;
 };
+
+/// In such an order.
+std::vector<FaceId> faces_along_curve(const HalfEdgeMesh& mesh);
 
 }  // namespace prohull

@@ -89,7 +89,7 @@ class Tightener {
         options_(options),
         // The most by which storing moves a coordinate, with some room.
         rounding_(original.largest_coordinate() * (options.float32_coordinates ? 0x1p-23 : 0x1p-52)),
-        guard_(mesh) {}
+        guard_(mesh, faces_along_curve(mesh)) {}
 
   std::size_t run();
 

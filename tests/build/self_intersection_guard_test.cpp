@@ -114,7 +114,7 @@ TEST(SelfIntersectionGuard, AgreesWithExactTestsOfAllPairs) {
   int added = 0, kept = 0;
   for (const TriangleMesh& original : meshes_to_change()) {
     HalfEdgeMesh mesh(original);
-    SelfIntersectionGuard guard(mesh);
+    SelfIntersectionGuard guard(mesh, faces_along_curve(mesh));
     const auto count = [&](bool adds) {
       ++(adds ? added : kept);
       return adds;
