@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <ctime>
 #include <string>
 #include <utility>
@@ -21,6 +22,14 @@ double seconds_of(Work&& work) {
   const double start = now();
   std::forward<Work>(work)();
   return now() - start;
+}
+
+/// Elapsed time: of work that several threads do.
+template <class Work>
+double elapsed_seconds_of(Work&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  std::forward<Work>(work)();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace prohull::bench

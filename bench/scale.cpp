@@ -18,7 +18,7 @@
 namespace prohull::bench {
 namespace {
 
-// What a collapse costs as meshes grow, and what the guard of self-intersections adds.
+// What a collapse costs as meshes grow, what the guard of self-intersections adds, and what threads save.
 
 struct Options {
   ModelOptions models{.folder = {}, .samples = {"pony"}, .sample_faces = 97000};
@@ -33,44 +33,54 @@ struct Cost {
   double microseconds_per_collapse() const { return 1e6 * seconds / static_cast<double>(collapses); }
 };
 
+struct Variant {
+  const char* name;
+  SelfIntersections self_intersections;
+  unsigned threads;
+};
+constexpr std::array<Variant, 3> kVariants{{{"unguarded", SelfIntersections::Allowed, 1},
+                                            {"guarded", SelfIntersections::Refused, 1},
+                                            {"all cores", SelfIntersections::Refused, 0}}};
+
 void measure(const TriangleMesh& mesh, const HullOptions& options, Cost& cost) {
   std::optional<HullResult> result;
-  cost.seconds = std::min(cost.seconds, seconds_of([&] { result = build_hull(mesh, options); }));
+  cost.seconds = std::min(cost.seconds, elapsed_seconds_of([&] { result = build_hull(mesh, options); }));
   cost.collapses = result->hull.splits().size();
   cost.linear_programs = result->linear_programs;
 }
 
 int run_scale(const Options& options) {
-  Table table({"mesh", "faces", "per collapse", "guarded", "guarded / unguarded", "programs per collapse"});
-  Table csv({"mesh", "faces", "guarded", "seconds", "collapses", "linear_programs", "us_per_collapse"});
+  Table table({"mesh", "faces", "unguarded", "guarded", "guarded / unguarded", "on all cores", "one thread / all cores",
+               "programs per collapse"});
+  Table csv({"mesh", "faces", "variant", "seconds", "collapses", "linear_programs", "us_per_collapse"});
   for (const ModelSource& source : model_sources(options.models)) {
     TriangleMesh mesh = load(source);
     for (std::size_t level = 0; level <= options.subdivisions; ++level) {
       if (level > 0) mesh = subdivided(mesh);
       fmt::print(stderr, "{}: {} faces\n", source.name, mesh.face_count());
-      std::array<Cost, 2> costs;
+      std::array<Cost, kVariants.size()> costs;
       for (std::size_t round = 0; round < options.rounds; ++round)
-        for (const bool guarded : {false, true}) {
+        for (std::size_t i = 0; i < kVariants.size(); ++i) {
           HullOptions hull = hull_options(Strategy::Lazy, options.hull_faces);
-          hull.self_intersections = guarded ? SelfIntersections::Refused : SelfIntersections::Allowed;
-          measure(mesh, hull, costs[guarded]);
+          hull.self_intersections = kVariants[i].self_intersections;
+          hull.threads = kVariants[i].threads;
+          measure(mesh, hull, costs[i]);
         }
-      const double plain = costs[0].microseconds_per_collapse(), guarded = costs[1].microseconds_per_collapse();
-      table.add({source.name, fmt::to_string(mesh.face_count()), fmt::format("{:.2f} us", plain),
-                 fmt::format("{:.2f} us", guarded), fmt::format("{:.2f}", guarded / plain),
+      const auto us = [&](std::size_t i) { return costs[i].microseconds_per_collapse(); };
+      table.add({source.name, fmt::to_string(mesh.face_count()), fmt::format("{:.2f} us", us(0)),
+                 fmt::format("{:.2f} us", us(1)), fmt::format("{:.2f}", us(1) / us(0)), fmt::format("{:.2f} us", us(2)),
+                 fmt::format("{:.2f}", us(1) / us(2)),
                  fmt::format("{:.1f}",
                              static_cast<double>(costs[0].linear_programs) / static_cast<double>(costs[0].collapses))});
-      for (const bool is_guarded : {false, true}) {
-        const Cost& cost = costs[is_guarded];
-        csv.add({source.name, fmt::to_string(mesh.face_count()), is_guarded ? "yes" : "no",
-                 fmt::format("{:.4f}", cost.seconds), fmt::to_string(cost.collapses),
-                 fmt::to_string(cost.linear_programs), fmt::format("{:.3f}", cost.microseconds_per_collapse())});
-      }
+      for (std::size_t i = 0; i < kVariants.size(); ++i)
+        csv.add({source.name, fmt::to_string(mesh.face_count()), kVariants[i].name,
+                 fmt::format("{:.4f}", costs[i].seconds), fmt::to_string(costs[i].collapses),
+                 fmt::to_string(costs[i].linear_programs), fmt::format("{:.3f}", us(i))});
     }
   }
   const std::string text = fmt::format(
       "# Scale: hulls of {} faces by lazy; each mesh has every triangle of the one before in four, roughened\n\n"
-      "{}; processor time, best of {}\n\n{}",
+      "{}; time per collapse, one thread unless said; best of {}\n\n{}",
       options.hull_faces, machine(), options.rounds, table.markdown());
   fmt::print("{}", text);
   if (!options.out.empty()) {

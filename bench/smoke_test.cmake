@@ -35,9 +35,9 @@ expect("${printed}" "| model | faces | its own pairs | hull | lazy: added | tigh
 file(READ ${OUT}/intersections.csv csv)
 expect("${csv}" "mesh,faces,mesh_pairs,hull,asked_faces,hull_faces,hull_pairs,added_pairs\nasteroid,")
 run(scale --samples asteroid --sample-faces 1000 --subdivisions 1 --faces 400 --repeat 1 --out ${OUT})
-expect("${printed}" "| mesh | faces | per collapse | guarded | guarded / unguarded | programs per collapse |")
+expect("${printed}" "| mesh | faces | unguarded | guarded | guarded / unguarded | on all cores |")
 file(READ ${OUT}/scale.csv csv)
-expect("${csv}" "mesh,faces,guarded,seconds,collapses,linear_programs,us_per_collapse")
+expect("${csv}" "mesh,faces,variant,seconds,collapses,linear_programs,us_per_collapse")
 
 run(peers --samples asteroid --sample-faces 1000 --faces 400,4 --out ${OUT})
 foreach(text "| method | asked | faces | void | time | memory |" "## asteroid: " "| prohull tight | 400 |"

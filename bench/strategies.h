@@ -15,11 +15,13 @@ inline constexpr std::array kStrategies{NamedStrategy{Strategy::Paper1, "paper1"
                                         NamedStrategy{Strategy::Paper2, "paper2"},
                                         NamedStrategy{Strategy::Lazy, "lazy"}};
 
+/// On one thread, as the peers.
 inline HullOptions hull_options(Strategy strategy, std::size_t faces, QueueKind queue = QueueKind::Bucket) {
   HullOptions options;
   options.target_faces = faces;
   options.strategy = strategy;
   options.queue = queue;
+  options.threads = 1;
   return options;
 }
 

@@ -164,9 +164,12 @@ class HullBuilder {
            !progress_.cancelled();
   }
 
-  /// The part of the faces that a round may at most remove.
-  double most_removed() const {
-    return std::min(0.5, 1 - static_cast<double>(options_.target_faces) / static_cast<double>(faces_.size()));
+  /// The part of its faces that each cell may at most remove, so that the target is not missed.
+  double most_removed(const std::vector<Cell>& cells) const {
+    std::size_t with_shared = 0;
+    for (const Cell& cell : cells) with_shared += cell.faces.size();
+    const double too_many = static_cast<double>(faces_.size() - std::min(faces_.size(), options_.target_faces));
+    return std::min(0.5, too_many / static_cast<double>(with_shared));
   }
 
   /// False if it did not help.
@@ -176,12 +179,13 @@ class HullBuilder {
     const std::size_t cell_faces = std::clamp(before / (2 * kLeastCells), kLeastCellFaces, kMostCellFaces);
     std::vector<Cell> cells =
         split_into_cells(boxed(), cell_faces, std::fmod(static_cast<double>(round) * kGoldenRatio, 1));
-    const double max_key = key_for_a_round(cells);
+    const double max_key = key_for_a_round(cells), most = most_removed(cells);
     std::vector<std::optional<Collapses>> results(cells.size());
     oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
       if (progress_.cancelled()) return;
-      const double size = static_cast<double>(cells[i].faces.size());
-      Work work = cut(std::move(cells[i]), static_cast<std::size_t>(size * (1 - most_removed())), max_key);
+      const std::size_t size = cells[i].faces.size();
+      const auto collapses = static_cast<std::size_t>(most * static_cast<double>(size) / 2);
+      Work work = cut(std::move(cells[i]), size - 2 * collapses, max_key);
       simplify(work);
       results[i] = put_back(std::move(work));
     });
