@@ -169,7 +169,7 @@ class HullBuilder {
     std::size_t with_shared = 0;
     for (const Cell& cell : cells) with_shared += cell.faces.size();
     const double too_many = static_cast<double>(faces_.size() - std::min(faces_.size(), options_.target_faces));
-    return std::min(0.5, too_many / static_cast<double>(with_shared));
+    return std::min(0.45, too_many / static_cast<double>(with_shared));
   }
 
   /// False if it did not help.
