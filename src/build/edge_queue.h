@@ -1,9 +1,10 @@
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
@@ -14,12 +15,6 @@ namespace prohull {
 
 // Three priority queues of edges with one interface. Keys are >= 0; the least comes first; equal keys are ordered by
 // edge (Heap, RedBlackTree) or by age (Bucket).
-
-/// A queue that knows what comes next before it is popped.
-template <class Queue>
-concept ForeseesEdges = requires(Queue queue) {
-  queue.upcoming(std::size_t{});
-};
 
 /// A binary heap that knows where each edge is.
 class EdgeHeap {
@@ -112,10 +107,11 @@ class EdgeTree {
 };
 
 /// Eight buckets to an octave, first in first out within each: all operations take constant time. A bucket is an array
-/// in which erased edges leave their entries behind, so that what comes next is known and can be fetched early.
+/// in which erased edges leave their entries behind. Keys mostly span few of the many octaves: buckets are made in
+/// pages.
 class EdgeBuckets {
  public:
-  explicit EdgeBuckets(std::size_t edges) : places_(edges), buckets_(kBuckets) {}
+  explicit EdgeBuckets(std::size_t edges) : places_(edges) {}
 
   bool empty() const { return size_ == 0; }
   bool contains(EdgeId e) const { return places_[e].bucket != kNotQueued; }
@@ -124,8 +120,11 @@ class EdgeBuckets {
   void insert(EdgeId e, double key) {
     assert(!contains(e));
     const std::uint16_t b = bucket_of(key);
-    places_[e] = {static_cast<std::uint32_t>(buckets_[b].entries.size()), b};
-    buckets_[b].entries.push_back(e);
+    auto& page = pages_[b / kPage];
+    if (!page) page = std::make_unique<Page>();
+    std::vector<EdgeId>& entries = bucket(b).entries;
+    places_[e] = {static_cast<std::uint32_t>(entries.size()), b};
+    entries.push_back(e);
     if (b < least_) least_ = b;
     ++size_;
   }
@@ -135,22 +134,15 @@ class EdgeBuckets {
     if (++left_behind_ > kRoom + size_) remove_left_behind();
   }
   EdgeId pop() {
-    Bucket& bucket = buckets_[least()];
-    const EdgeId e = bucket.entries[bucket.first++];
+    Bucket& first = bucket(least());
+    const EdgeId e = first.entries[first.first++];
     places_[e].bucket = kNotQueued;
     --size_;
     return e;
   }
 
-  /// The edge that is pop()ped after `skipped` others, if nothing changes until then; only a guess. Requires an edge.
-  EdgeId upcoming(std::size_t skipped) {
-    const Bucket& bucket = buckets_[least()];
-    return bucket.entries[std::min(bucket.first + skipped, bucket.entries.size() - 1)];
-  }
-  void prefetch(EdgeId e) const { __builtin_prefetch(&places_[e]); }
-
  private:
-  static constexpr std::size_t kBuckets = 1 << 14, kRoom = 1 << 16;
+  static constexpr std::size_t kBuckets = 1 << 14, kPage = 1 << 7, kRoom = 1 << 16;
   static constexpr std::uint16_t kNotQueued = 0xffff;
 
   struct Place {
@@ -161,6 +153,9 @@ class EdgeBuckets {
     std::vector<EdgeId> entries;
     std::size_t first = 0;  ///< those before are gone
   };
+  using Page = std::array<Bucket, kPage>;
+
+  Bucket& bucket(std::uint16_t b) { return (*pages_[b / kPage])[b % kPage]; }
 
   // The exponent of a non-negative double and the first three bits of its mantissa, which are in the order of the
   // values.
@@ -168,38 +163,43 @@ class EdgeBuckets {
     assert(key >= 0);
     return static_cast<std::uint16_t>(std::bit_cast<std::uint64_t>(key + 0.0) >> 49);
   }
-  bool is_queued(std::uint16_t b, std::size_t entry) const {
-    const Place& place = places_[buckets_[b].entries[entry]];
+  bool is_queued(std::uint16_t b, std::size_t entry) {
+    const Place& place = places_[bucket(b).entries[entry]];
     return place.bucket == b && place.entry == entry;
   }
   // The first bucket with an edge, its first entry that of an edge.
   std::uint16_t least() {
     while (true) {
-      Bucket& bucket = buckets_[least_];
-      for (; bucket.first < bucket.entries.size(); ++bucket.first, --left_behind_)
-        if (is_queued(least_, bucket.first)) return least_;
-      bucket = {};
+      if (!pages_[least_ / kPage]) {
+        least_ = static_cast<std::uint16_t>((least_ / kPage + 1) * kPage);
+        continue;
+      }
+      Bucket& at = bucket(least_);
+      for (; at.first < at.entries.size(); ++at.first, --left_behind_)
+        if (is_queued(least_, at.first)) return least_;
+      at = {};
       ++least_;
     }
   }
   void remove_left_behind() {
     for (std::uint16_t b = least_; b < kBuckets; ++b) {
-      Bucket& bucket = buckets_[b];
+      if (!pages_[b / kPage]) continue;
+      Bucket& at = bucket(b);
       std::uint32_t kept = 0;
-      for (std::size_t i = bucket.first; i < bucket.entries.size(); ++i) {
+      for (std::size_t i = at.first; i < at.entries.size(); ++i) {
         if (!is_queued(b, i)) continue;
-        const EdgeId e = bucket.entries[i];
-        bucket.entries[kept] = e;
+        const EdgeId e = at.entries[i];
+        at.entries[kept] = e;
         places_[e].entry = kept++;
       }
-      bucket.entries.resize(kept);
-      bucket.first = 0;
+      at.entries.resize(kept);
+      at.first = 0;
     }
     left_behind_ = 0;
   }
 
   PerEdge<Place> places_;
-  std::vector<Bucket> buckets_;
+  std::array<std::unique_ptr<Page>, kBuckets / kPage> pages_;
   std::uint16_t least_ = kBuckets - 1;  ///< no bucket before it holds an edge
   std::size_t size_ = 0, left_behind_ = 0;
 };

@@ -47,7 +47,6 @@ class HalfEdgeMesh {
   HalfEdgeId rotated(HalfEdgeId h) const { return twin(previous(h)); }
 
   /// Hints that what is known of an element will be read soon.
-  void prefetch(EdgeId e) const { __builtin_prefetch(&half_edge_[e]); }
   void prefetch(HalfEdgeId h) const { __builtin_prefetch(&half_edges_[h]); }
   void prefetch(FaceId f) const { prefetch(HalfEdgeId(3 * index(f))), prefetch(HalfEdgeId(3 * index(f) + 2)); }
   void prefetch(VertexId v) const { __builtin_prefetch(&positions_[v].x), __builtin_prefetch(&positions_[v].z); }
