@@ -27,7 +27,7 @@ class Noise {
 };
 
 /// Not in the paper: of two collapses that add the same volume, that with more faces to spread it over goes first.
-/// Against the volume alone: 1 % less void at 2,000 faces, 6 % less at 200 (docs/performance.md).
+/// 1 % less void than by the volume alone (docs/performance.md).
 double lazy_key(double added_volume, const Star& star) {
   return added_volume / std::sqrt(static_cast<double>(star.valence()));
 }

@@ -157,7 +157,7 @@ class HullBuilder {
   std::uint32_t given_corner(std::uint32_t corner) const { return 3 * index(given_[FaceId{corner / 3}]) + corner % 3; }
 
   // Below, a cell would have too much border.
-  static constexpr std::size_t kLeastCells = 8, kLeastCellFaces = 1024, kMostCellFaces = 4096;
+  static constexpr std::size_t kLeastCells = 8, kLeastCellFaces = 2048, kMostCellFaces = 4096;
 
   bool is_worth_a_round() const {
     return faces_.size() >= kLeastCells * kLeastCellFaces && 4 * faces_.size() > 5 * options_.target_faces &&

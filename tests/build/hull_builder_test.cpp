@@ -276,7 +276,7 @@ TEST(BuildHullProgress, CancelsBeforeTheFirstCollapse) {
 }
 
 #ifndef PROHULL_TESTS_ARE_SLOW
-constexpr std::size_t kFacesForRounds = 20000;  // so many that space is split into cells
+constexpr std::size_t kFacesForRounds = 24000;  // so many that space is split into cells
 
 TEST(BuildHullInRounds, KeepsItsPromisesAndIsTheSameForAnyNumberOfThreads) {
   for (const char* sample : {"pony", "bracket"}) {
