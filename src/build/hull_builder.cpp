@@ -290,7 +290,8 @@ class HullBuilder {
     }
     for (const VertexId v : patch.vertices.ids()) {
       if (!patch.mesh.has(v) || !patch.vertices[v].is_free) continue;
-      positions_[work.vertices[index(v)]] = patch.mesh.position(v);
+      const bool is_new = index(v) >= result.names.size();
+      if (is_new) positions_[work.vertices[index(v)]] = patch.mesh.position(v);
       changed_[work.vertices[index(v)]] = patch.vertices[v].changed;
     }
     for (std::uint32_t c = 0; c < 3 * work.faces.size(); ++c) {
