@@ -91,6 +91,20 @@ inline TriangleMesh torus(std::uint32_t rings, std::uint32_t sides) {
   return make(positions, triangles);
 }
 
+/// Two tips, each with as many faces as the rim has vertices.
+inline TriangleMesh bipyramid(std::uint32_t rim) {
+  std::vector<Vec3> positions{{0, 0, -0.5}, {0, 0, 0.5}};
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::uint32_t i = 0; i < rim; ++i) {
+    const double angle = 2 * std::numbers::pi * i / rim;
+    positions.push_back({std::cos(angle), std::sin(angle), 0});
+    const std::uint32_t a = 2 + i, b = 2 + (i + 1) % rim;
+    triangles.push_back({0, b, a});
+    triangles.push_back({1, a, b});
+  }
+  return make(std::move(positions), triangles);
+}
+
 inline TriangleMesh inside_out(TriangleMesh mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;

@@ -72,10 +72,12 @@ struct HullOptions {
   QueueKind queue = QueueKind::Bucket;
   std::uint64_t seed =
       0;  ///< others than 0 change the order of the collapses a little, and so the hull; Strategy::Lazy only
-  unsigned best_of = 1;  ///< builds with the seeds from `seed` on, and keeps the hull of least void; at least 1
-  unsigned threads = 0;  ///< at most, and no more than cores; 0: one for each core; the hull is the same for any number
+  unsigned best_of =
+      1;  ///< builds with so many seeds from `seed` on; keeps what is nearest to the target, of that the least void
+  unsigned threads = 0;  ///< at most, and no more than cores; 0: one for each core; the hull is the same for any
   std::function<bool(const HullProgress&)> progress =
-      {};  ///< called now and then, on the caller's thread; false stops with the hull made so far
+      {};  ///< called now and then, on the caller's thread; false stops with the hull made so far;
+           ///< with best_of it starts anew for each build
 
   /// Inner hulls always do: one that intersects itself may stick out of the mesh.
   bool refuses_self_intersections() const {

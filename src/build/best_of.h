@@ -31,7 +31,8 @@ auto best_of(const HullOptions& options, Build build, MeshOf mesh_of) {
   std::atomic<bool> cancelled = false;
   const auto caller = std::this_thread::get_id();
   const auto progress = [&](const HullProgress& p) {
-    if (options.progress && std::this_thread::get_id() == caller && !options.progress(p)) cancelled = true;
+    if (!cancelled && options.progress && std::this_thread::get_id() == caller && !options.progress(p))
+      cancelled = true;
     return !cancelled;
   };
   oneapi::tbb::task_arena arena = arena_of(options.threads);

@@ -41,7 +41,7 @@ Split choose_split(const std::vector<BoxedFace>& faces, double fraction) {
 }
 
 std::vector<Cell> split(std::vector<BoxedFace> faces, const FloatBox& box, std::size_t most_faces, double shift) {
-  constexpr double kGoldenRatio = 0.6180339887498949, kMostShared = 0.2;
+  constexpr double kGoldenRatio = 0.6180339887498949, kMostShared = 0.2, kLargestPart = 0.9;
   if (faces.size() > most_faces) {
     const auto [axis, at] = choose_split(faces, 0.35 + 0.3 * shift);
     std::vector<BoxedFace> below, above;
@@ -50,7 +50,10 @@ std::vector<Cell> split(std::vector<BoxedFace> faces, const FloatBox& box, std::
       if (face.box.max[axis] >= at) above.push_back(face);
     }
     const std::size_t shared = below.size() + above.size() - faces.size();
-    if (static_cast<double>(shared) <= kMostShared * static_cast<double>(faces.size())) {
+    const auto is_at_most = [&](std::size_t count, double part) {
+      return static_cast<double>(count) <= part * static_cast<double>(faces.size());
+    };
+    if (is_at_most(shared, kMostShared) && is_at_most(std::max(below.size(), above.size()), kLargestPart)) {
       faces = {};
       FloatBox lower = box, upper = box;
       lower.max[axis] = upper.min[axis] = at;

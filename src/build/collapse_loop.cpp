@@ -32,6 +32,12 @@ double lazy_key(double added_volume, const Star& star) {
   return added_volume / std::sqrt(static_cast<double>(star.valence()));
 }
 
+/// None of its edges can be collapsed before it has lost faces, and there are too many to look at them before.
+bool is_hub(const HalfEdgeMesh& mesh, VertexId v, const HullOptions& options) {
+  constexpr unsigned kMany = 64;
+  return mesh.valence(v) > std::max(kMany, options.max_valence) + 1;
+}
+
 std::vector<FaceId> all_faces(const HalfEdgeMesh& mesh) {
   std::vector<FaceId> faces;
   faces.reserve(mesh.face_id_count());
@@ -58,10 +64,14 @@ class CollapseLoop {
     queue_all();
     while (mesh_.face_count() > patch_.target_faces && !queue_.empty() && !cancelled()) {
       const EdgeId edge = queue_.pop();
+      if (has_too_many_faces(edge)) {  // 3.1.4: valence
+        refuse(edge, Refusal::Valence);
+        continue;
+      }
       gather_star(mesh_, edge, star_);
       if (!is_free_to_change(star_.link)) continue;
-      if (const auto why = refusal_of_topology()) {  // 3.1.4: link condition, valence
-        refuse(edge, *why);
+      if (!satisfies_link_condition(star_)) {  // 3.1.4
+        refuse(edge, Refusal::LinkCondition);
         continue;
       }
       measure_star(mesh_, star_);
@@ -110,10 +120,11 @@ class CollapseLoop {
     return std::ranges::all_of(link, [&](VertexId v) { return vertices_[v].is_free; });
   }
 
-  std::optional<Refusal> refusal_of_topology() const {
-    if (!satisfies_link_condition(star_)) return Refusal::LinkCondition;
-    if (star_.valence() > options_.max_valence) return Refusal::Valence;
-    return std::nullopt;
+  // Known before the star is looked at, which may have a million faces.
+  bool has_too_many_faces(EdgeId edge) {
+    const HalfEdgeId h = mesh_.half_edge(edge);
+    star_.o = mesh_.tail(h), star_.d = mesh_.tip(h);
+    return mesh_.valence(star_.o) + mesh_.valence(star_.d) > options_.max_valence + 4;
   }
 
   std::optional<Placement> place() {
@@ -142,7 +153,7 @@ class CollapseLoop {
   }
 
   // Where it would go, or why it may not. An end of the edge that adds nothing at all is preferred (not in the paper);
-  // where the guards refuse it for now, so is the edge: any other apex would move flat parts by the margin.
+  // where the shape guards refuse it for now, so is the edge: any other apex would move flat parts by the margin.
   std::optional<Refusal> refusal_of_apex(const Placement& placement, Vec3& apex) {
     constexpr double kFlat = 1e-7;  // of the star's cube; only saves exact tests where they cannot succeed
     if (options_.strategy == Strategy::Lazy &&
@@ -201,7 +212,7 @@ class CollapseLoop {
 
   void mark_changed(VertexId v) {
     vertices_[v].changed = patch_.time;
-    if (!vertices_[v].has_refused) return;
+    if (!vertices_[v].has_refused || is_hub(mesh_, v, options_)) return;
     vertices_[v].has_refused = false;
     const HalfEdgeId first = mesh_.out(v);
     HalfEdgeId h = first;
@@ -240,8 +251,9 @@ class CollapseLoop {
   }
 
   void evaluate_and_queue(EdgeId edge) {
+    if (has_too_many_faces(edge)) return refuse(edge, Refusal::Valence);
     gather_star(mesh_, edge, star_);
-    if (const auto why = refusal_of_topology()) return refuse(edge, *why);
+    if (!satisfies_link_condition(star_)) return refuse(edge, Refusal::LinkCondition);
     measure_star(mesh_, star_);
     if (options_.strategy == Strategy::Paper2) {
       set_key(edge, link_center_volume(star_));
@@ -280,11 +292,17 @@ class CollapseLoop {
 void estimate_keys(Patch& patch, const CollapseRules& rules) {
   if (rules.options.strategy != Strategy::Lazy) return;
   Star star;
-  Noise noise(patch.seed);
+  Noise noise(patch.seed == 0 ? 0 : patch.seed + 1);
   for (const EdgeId edge : patch.edges.ids()) {
-    const HalfEdgeId h = patch.mesh.half_edge(edge);
+    if (index(edge) % 1024 == 0 && rules.cancelled(0)) return;
     if (patch.edges[edge].key != EdgeFacts::kUnknown) continue;
-    if (!patch.vertices[patch.mesh.tail(h)].is_free || !patch.vertices[patch.mesh.tip(h)].is_free) continue;
+    const HalfEdgeId h = patch.mesh.half_edge(edge);
+    const VertexId v = patch.mesh.tail(h), w = patch.mesh.tip(h);
+    if (!patch.vertices[v].is_free || !patch.vertices[w].is_free) continue;
+    if (is_hub(patch.mesh, v, rules.options) || is_hub(patch.mesh, w, rules.options)) {
+      patch.edges[edge].key = 0;  // refused at once
+      continue;
+    }
     gather_star(patch.mesh, edge, star);
     patch.edges[edge].key = noise(lazy_key(estimated_volume(patch.mesh, star), star));
   }

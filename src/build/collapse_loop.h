@@ -9,7 +9,7 @@
 
 namespace prohull {
 
-/// What is known of an edge between its visits. Times count collapses, from 1.
+/// What is known of an edge between its visits. Times order changes, from 1 on.
 struct EdgeFacts {
   double key = kUnknown;
   std::uint32_t evaluated = 0;  ///< when the key was that of the star, or the edge was refused
@@ -52,10 +52,11 @@ struct CollapseRules {
   std::function<bool(std::size_t removed_faces)> cancelled;  ///< asked now and then, from any thread
 };
 
-/// Estimates the keys that are not yet known.
+/// Estimates the keys that are not yet known; not all of them if cancelled.
 void estimate_keys(Patch& patch, const CollapseRules& rules);
 
-/// Collapses edges, the least key first, until the target is reached or no edge is left that may be collapsed.
+/// Collapses edges, the least key first, until the target is reached or no edge up to max_key is left that may be
+/// collapsed. Requires that keys are known.
 void run_collapse_loop(Patch& patch, const CollapseRules& rules);
 
 }  // namespace prohull

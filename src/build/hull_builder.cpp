@@ -34,7 +34,7 @@ class SharedProgress {
 
   bool cancelled(std::size_t removed_faces) {
     faces_ -= removed_faces;
-    if (options_.progress && std::this_thread::get_id() == caller_ &&
+    if (!cancelled_ && options_.progress && std::this_thread::get_id() == caller_ &&
         !options_.progress({faces_, original_, options_.target_faces}))
       cancelled_ = true;
     return cancelled_;
@@ -60,7 +60,8 @@ using LocalNumbers = oneapi::tbb::enumerable_thread_specific<PerVertex<VertexId>
 
 /// A hull under construction. First in rounds: space is split into cells, each is simplified by itself, up to a key
 /// that is the same for all; the next round has other cells. All cells of a round are independent of each other, so
-/// that their threads never meet, and each fits into the cache. The last few thousand faces are simplified as a whole.
+/// that their threads never meet, and each fits into the cache. What is left, mostly the last sixteen thousand faces,
+/// is simplified as a whole.
 ///
 /// Faces and vertices are numbered along a curve. The vertex that a collapse makes takes the place of one that it
 /// removes, so that what lies together in space does so in memory; `names_` tells which vertex is at a place now.
@@ -160,7 +161,7 @@ class HullBuilder {
   static constexpr std::size_t kLeastCells = 8, kLeastCellFaces = 2048, kMostCellFaces = 4096;
 
   bool is_worth_a_round() const {
-    return faces_.size() >= kLeastCells * kLeastCellFaces && 4 * faces_.size() > 5 * options_.target_faces &&
+    return faces_.size() >= kLeastCells * kLeastCellFaces && faces_.size() / 5 > options_.target_faces / 4 &&
            !progress_.cancelled();
   }
 
@@ -179,6 +180,7 @@ class HullBuilder {
     const std::size_t cell_faces = std::clamp(before / (2 * kLeastCells), kLeastCellFaces, kMostCellFaces);
     std::vector<Cell> cells =
         split_into_cells(boxed(), cell_faces, std::fmod(static_cast<double>(round) * kGoldenRatio, 1));
+    if (cells.size() < kLeastCells / 2) return false;  // they would gain nothing
     const double max_key = key_for_a_round(cells), most = most_removed(cells);
     std::vector<std::optional<Collapses>> results(cells.size());
     oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
@@ -197,7 +199,9 @@ class HullBuilder {
   }
 
   void simplify(Work& work) {
+    if (progress_.cancelled()) return;
     estimate_keys(work.patch, rules_);
+    if (progress_.cancelled()) return;
     run_collapse_loop(work.patch, rules_);
   }
 
@@ -210,12 +214,15 @@ class HullBuilder {
     };
     for (std::size_t i = 0; i < faces_.size(); i += kSample)
       for (std::uint32_t c = 0; c < 3; ++c) add_key(edges_[3 * index(faces_[i]) + c]);
-    if (keys.empty())  // The first round has no keys yet.
-      for (std::size_t i = 0; i < cells.size(); i += kSample) {
-        Work work = cut(cells[i], 0, 0);
+    if (keys.empty()) {  // The first round has no keys yet.
+      std::vector<PerEdge<EdgeFacts>> samples((cells.size() + kSample - 1) / kSample);
+      oneapi::tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+        Work work = cut(cells[kSample * i], 0, 0);
         estimate_keys(work.patch, rules_);
-        std::ranges::for_each(work.patch.edges, add_key);
-      }
+        samples[i] = std::move(work.patch.edges);
+      });
+      for (const PerEdge<EdgeFacts>& edges : samples) std::ranges::for_each(edges, add_key);
+    }
     if (keys.empty()) return std::numeric_limits<double>::infinity();
     const auto place = keys.begin() + static_cast<std::ptrdiff_t>(kPartOfEdges * static_cast<double>(keys.size() - 1));
     std::ranges::nth_element(keys, place);

@@ -74,7 +74,7 @@ double link_center_volume(const Star& star) {
   double sum = 0;
   for (std::size_t i = 0; i < star.planes.size(); ++i)
     sum += star.double_areas[i] * std::abs(dot(star.planes[i].normal, center) - star.planes[i].offset);
-  return sum / 6 * cubed(star.scale);
+  return finite(sum / 6 * cubed(star.scale));
 }
 
 double estimated_volume(const HalfEdgeMesh& mesh, const Star& star) {

@@ -1,5 +1,6 @@
 #include "prohull/tight_hull.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -27,12 +28,15 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options)
   TightHull tight{mesh, Stopped::TargetReached, {}, {}, 0};
   HullOptions step = options;
   step.self_intersections = SelfIntersections::Refused;
+  bool cancelled = false;
   if (options.progress)
     step.progress = [&](const HullProgress& p) {
-      return options.progress({p.faces, mesh.face_count(), options.target_faces});
+      cancelled = cancelled || !options.progress({p.faces, mesh.face_count(), options.target_faces});
+      return !cancelled;
     };
   for (const double level : kLevels) {
-    const auto faces = static_cast<std::size_t>(std::llround(level * static_cast<double>(options.target_faces)));
+    const auto target = static_cast<double>(std::min(options.target_faces, mesh.face_count()));
+    const auto faces = static_cast<std::size_t>(std::llround(level * target));
     if (faces >= mesh.face_count() && level > 1) continue;
     step.target_faces = faces;
     HullResult result = build_hull(tight.mesh, step);
@@ -43,7 +47,10 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options)
     HalfEdgeMesh moving(inner ? turned(base) : base);
     tight.moved_vertices += tighten(moving, original, step);
     tight.mesh = inner ? turned(moving.triangle_mesh()) : moving.triangle_mesh();
-    if (tight.stopped == Stopped::Cancelled) break;
+    if (cancelled) {
+      tight.stopped = Stopped::Cancelled;
+      break;
+    }
   }
   return tight;
 }

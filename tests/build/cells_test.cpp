@@ -70,6 +70,14 @@ TEST(Cells, AreNotSplitWhereThatDoesNotSeparateFaces) {
   EXPECT_EQ(cells.front().faces.size(), faces.size());
 }
 
+// Every sixth reaches far to the right, and the sample that chooses where to split may have these only.
+TEST(Cells, AreNotSplitForEverWhereTheSampleIsUnlikeTheRest) {
+  std::vector<BoxedFace> faces;
+  for (std::uint32_t i = 0; i < 6000; ++i)
+    faces.push_back({FaceId{i}, {{-1, 0, 0}, {i % 6 == 0 || i % 24 == 1 ? 1.0f : -0.5f, 0, 0}}});
+  EXPECT_GE(split_into_cells(faces, 100, 0.3).size(), 1u);
+}
+
 TEST(SpatialOrder, BringsNeighborsTogether) {
   const TriangleMesh mesh = meshes::sphere(5);  // by subdivision: neighbours are far apart
   const auto faces = boxed_faces(mesh, UnitCube(box_of(mesh)));

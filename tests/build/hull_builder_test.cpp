@@ -275,6 +275,14 @@ TEST(BuildHullProgress, CancelsBeforeTheFirstCollapse) {
   EXPECT_EQ(result.hull.base(), mesh);
 }
 
+// Each collapse changes the stars of all edges at the tips.
+TEST(BuildHullOfABipyramid, TakesNotTheSquareOfTheFacesOfItsTips) {
+  const TriangleMesh mesh = bipyramid(kFaces * 20);
+  const HullResult result = build_hull(mesh, {.target_faces = 100, .self_intersections = SelfIntersections::Allowed});
+  EXPECT_EQ(result.stopped, Stopped::TargetReached);
+  EXPECT_EQ(first_defect(result.hull), std::nullopt);
+}
+
 #ifndef PROHULL_TESTS_ARE_SLOW
 constexpr std::size_t kFacesForRounds = 24000;  // so many that space is split into cells
 
