@@ -64,14 +64,14 @@ class CollapseLoop {
     queue_all();
     while (mesh_.face_count() > patch_.target_faces && !queue_.empty() && !cancelled()) {
       const EdgeId edge = queue_.pop();
-      if (has_too_many_faces(edge)) {  // 3.1.4: valence
+      if (is_at_hub(edge)) {
         refuse(edge, Refusal::Valence);
         continue;
       }
       gather_star(mesh_, edge, star_);
       if (!is_free_to_change(star_.link)) continue;
-      if (!satisfies_link_condition(star_)) {  // 3.1.4
-        refuse(edge, Refusal::LinkCondition);
+      if (const auto why = refusal_of_topology()) {  // 3.1.4: link condition, valence
+        refuse(edge, *why);
         continue;
       }
       measure_star(mesh_, star_);
@@ -121,10 +121,16 @@ class CollapseLoop {
   }
 
   // Known before the star is looked at, which may have a million faces.
-  bool has_too_many_faces(EdgeId edge) {
+  bool is_at_hub(EdgeId edge) {
     const HalfEdgeId h = mesh_.half_edge(edge);
     star_.o = mesh_.tail(h), star_.d = mesh_.tip(h);
-    return mesh_.valence(star_.o) + mesh_.valence(star_.d) > options_.max_valence + 4;
+    return is_hub(mesh_, star_.o, options_) || is_hub(mesh_, star_.d, options_);
+  }
+
+  std::optional<Refusal> refusal_of_topology() const {
+    if (!satisfies_link_condition(star_)) return Refusal::LinkCondition;
+    if (star_.valence() > options_.max_valence) return Refusal::Valence;
+    return std::nullopt;
   }
 
   std::optional<Placement> place() {
@@ -251,9 +257,9 @@ class CollapseLoop {
   }
 
   void evaluate_and_queue(EdgeId edge) {
-    if (has_too_many_faces(edge)) return refuse(edge, Refusal::Valence);
+    if (is_at_hub(edge)) return refuse(edge, Refusal::Valence);
     gather_star(mesh_, edge, star_);
-    if (!satisfies_link_condition(star_)) return refuse(edge, Refusal::LinkCondition);
+    if (const auto why = refusal_of_topology()) return refuse(edge, *why);
     measure_star(mesh_, star_);
     if (options_.strategy == Strategy::Paper2) {
       set_key(edge, link_center_volume(star_));
