@@ -52,7 +52,8 @@ TEST(TrianglesTouch, AgreesWithCgalOnSmallGridsWithAndWithoutArea) {
     };
     const Triangle s = triangle(), t = triangle();
     const bool truth = touch_by_cgal(s, t);
-    ++(truth ? touching : apart)[shape_of(s).index()][shape_of(t).index()];
+    const Shape a = shape_of(s), b = shape_of(t);
+    ++(truth ? touching : apart)[a.index()][b.index()];
     ASSERT_EQ(triangles_touch(s, t), truth) << print(s) << " and " << print(t);
     ASSERT_EQ(triangles_touch(t, s), truth) << print(s) << " and " << print(t);
     ASSERT_EQ(triangles_touch({s.c, s.b, s.a}, {t.b, t.c, t.a}), truth);
