@@ -330,11 +330,12 @@ class HullBuilder {
     std::ranges::stable_sort(order, {}, &Collapse::key);
     for (const auto& [key, p, i] : order) {
       const Collapses& patch = patches[p];
+      std::vector<VertexId>& made_here = made[p];
       const auto name = [&](VertexId v) {
         const std::size_t n = patch.names.size();
-        return index(v) < n ? patch.names[index(v)] : made[p][index(v) - n];
+        return index(v) < n ? patch.names[index(v)] : made_here[index(v) - n];
       };
-      made[p][i] = names_[patch.places[i]] = made_.push_back(patch.apexes[i]);
+      made_here[i] = names_[patch.places[i]] = made_.push_back(patch.apexes[i]);
       const auto& [o, d, l, r, od, do_] = patch.record[i];
       record_.push_back({name(o), name(d), name(l), name(r), od, do_});
     }
