@@ -49,6 +49,30 @@ struct EnclosureOptions {
 EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& outer,
                                  const EnclosureOptions& options = {});
 
+/// Whether a mesh is closed as verify_enclosure requires it: along every edge, matched by position, faces run as often
+/// one way as the other. Throws InputError if the mesh is empty or not finite.
+bool is_closed(const TriangleMesh& mesh);
+
+/// Decides whether `outer` covers every one of the triangles: whether each of their points lies in the solid that
+/// `outer` bounds, the closure of what it winds around at least once off its surface. Guaranteed: the answer is exact
+/// for all finite coordinates, without any tolerance; no triangle is left out. It shares nothing with the construction
+/// of hulls but geometry/. The time is nearly linear in the faces of `outer` plus the triangles: a few triangles are
+/// quickly compared with a big hull.
+///
+/// Required: `outer` closed, as for verify_enclosure, and turned like there. The triangles may be any: open,
+/// non-manifold, not oriented, repeated, intersecting each other, in several parts; those without area count as the
+/// segments and points that they are. What they bound together is nothing to this function: a closed mesh is covered,
+/// but not enclosed, by a thick shell around it; verify_enclosure tells.
+///
+/// In the report `faces_outside` and `worst` are about the triangles; cavities, inner_volume and void_ratio are 0.
+/// Throws InputError if there is no triangle or a coordinate is not finite (drop such triangles first, and say so), or
+/// if `outer` is empty or not closed; Cancelled if `progress` says so.
+///
+///     const bool proven = is_closed(original) ? verify_enclosure(original, hull).encloses
+///                                             : verify_cover(original, hull).encloses;
+EnclosureReport verify_cover(const TriangleMesh& triangles, const TriangleMesh& outer,
+                             const EnclosureOptions& options = {});
+
 /// The mesh turned as a whole if its volume is negative, then each component, connected by edges, whose volume is
 /// negative although it lies outside of the others, where it cannot be a cavity. What is verified against an original
 /// mesh is verified against this, as hulls are built from it. Exact. Throws InputError if the mesh is empty or not

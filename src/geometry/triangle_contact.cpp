@@ -72,12 +72,6 @@ bool an_edge_meets(const Triangle& s, const Triangle& t, int axis) {
 
 bool before(const Vec3& p, const Vec3& q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
 
-/// The segment, or point, that a triangle without area is; `a` is not after `b` by coordinates.
-Segment segment_of(const Triangle& t) {
-  const auto [least, greatest] = std::minmax({t.a, t.b, t.c}, before);
-  return {least, greatest};
-}
-
 bool segments_touch(const Segment& s, const Segment& t) {
   if (side(s.a, s.b, t.a, t.b) != Side::On) return false;
   // Seen along an axis in which the plane of all four points keeps its area.
@@ -90,6 +84,11 @@ bool segments_touch(const Segment& s, const Segment& t) {
 }
 
 }  // namespace
+
+Segment segment_of(const Triangle& t) {
+  const auto [least, greatest] = std::minmax({t.a, t.b, t.c}, before);
+  return {least, greatest};
+}
 
 bool certainly_apart(const Triangle& s, const Triangle& t) { return SeparatingAxis(s, t).is_found(); }
 

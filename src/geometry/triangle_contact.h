@@ -12,4 +12,7 @@ bool triangles_touch(const Triangle& s, const Triangle& t);
 /// other may not count as apart.
 bool certainly_apart(const Triangle& s, const Triangle& t);
 
+/// The segment, or point, that a triangle without area is; `a` is not after `b` by coordinates.
+Segment segment_of(const Triangle& t);
+
 }  // namespace prohull

@@ -21,6 +21,13 @@ inline int turn_at_edge(int axis, const Vec3& a, const Vec3& b, const Vec3& p) {
   return p == a || p == b ? 0 : turn(axis, a, b, p);
 }
 
+/// The turn from a to b to a point of their line, seen along z, that was moved by (eps, eps^2), eps infinitely small: 0
+/// only if a and b are one point seen like that.
+inline int turn_of_moved(const Vec3& a, const Vec3& b) {
+  if (a.y != b.y) return a.y < b.y ? -1 : 1;
+  return a.x < b.x ? 1 : a.x > b.x ? -1 : 0;
+}
+
 /// An axis along which t projects to a triangle with an area, usually the one closest to its normal;
 /// none if t has no area. Exact.
 inline std::optional<int> projection_axis(const Triangle& t) {

@@ -2,16 +2,15 @@
 
 #include <utility>
 
-#include "geometry/predicates.h"
+#include "geometry/triangle_predicates.h"
 
 namespace prohull {
 namespace {
 
-// The ray goes towards +z. Seen along it, p is moved by (eps, eps^2): never onto the line of a and b.
+/// The ray goes towards +z.
 int turn_of_moved(const Vec3& a, const Vec3& b, const Vec3& p) {
-  if (const int exact = turn(2, a, b, p)) return exact;
-  if (a.y != b.y) return a.y < b.y ? -1 : 1;
-  return a.x < b.x ? 1 : a.x > b.x ? -1 : 0;
+  const int exact = turn(2, a, b, p);
+  return exact != 0 ? exact : turn_of_moved(a, b);
 }
 
 bool contains(const Box& box, const Vec3& p) {

@@ -1,15 +1,13 @@
 #include "prohull/enclosure.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <optional>
 #include <random>
-#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "prohull/error.h"
 #include "verify/contact.h"
-#include "verify/distance.h"
+#include "verify/offenders.h"
 #include "verify/self_intersection.h"
 #include "verify/subdivision.h"
 #include "verify/surface.h"
@@ -50,7 +48,7 @@ class Verifier {
     check_inner_faces();
     check_outer_faces();
     report_.faces_outside = offenders_.size();
-    report_.worst = worst_offenders();
+    report_.worst = worst_of(std::move(offenders_), options_.max_offenders);
     report_.encloses = report_.faces_outside == 0 && report_.cavities == 0;
     report_.inner_volume = inner_.volume;
     report_.outer_volume = outer_.volume;
@@ -121,7 +119,7 @@ class Verifier {
     }
     std::optional<Offender> farthest;
     for (Sample& s : suspects) {
-      const WindingBeside w = winding(inner_, inner_, f, *s.cell, s.point);
+      const WindingBeside w = winding_beside(inner_, s.point, *s.cell, random_);
       if ((s.uncovered.outside && w.outside >= 1) || (s.uncovered.inside && w.inside >= 1)) {
         const Offender offender = farthest_of(f, s);
         if (!farthest || offender.distance > farthest->distance) farthest = offender;
@@ -141,7 +139,7 @@ class Verifier {
 
   Sample uncovered_sample(const Surface& surface, FaceIndex f, const Cell& cell) {
     Sample s{&cell, SurfacePoint(surface.faces[f], surface.axis[f], cell, random_), {}};
-    const WindingBeside w = winding(outer_, surface, f, cell, s.point);
+    const WindingBeside w = winding_beside(outer_, s.point, cell, random_);
     s.uncovered = {w.outside < 1, w.inside < 1};
     return s;
   }
@@ -168,9 +166,9 @@ class Verifier {
 
   bool bounds_a_hole(FaceIndex f, const Cell& cell) {
     SurfacePoint p(outer_.faces[f], outer_.axis[f], cell, random_);
-    const WindingBeside inner = winding(inner_, outer_, f, cell, p);
+    const WindingBeside inner = winding_beside(inner_, p, cell, random_);
     if (inner.covered || inner.inside < 1) return false;
-    const WindingBeside outer = winding(outer_, outer_, f, cell, p);
+    const WindingBeside outer = winding_beside(outer_, p, cell, random_);
     return outer.inside < 1 || outer.outside < 1;
   }
 
@@ -183,17 +181,6 @@ class Verifier {
                    if (g != itself) result.add(on.faces[f], on.axis[f], of.faces[g]);
                  });
     return result;
-  }
-
-  /// The winding of `of` beside a piece of face f of `on`, at p or, if the ray from there meets an edge, at another
-  /// point.
-  WindingBeside winding(const Surface& of, const Surface& on, FaceIndex f, const Cell& cell, SurfacePoint& p) {
-    constexpr int kTries = 1000;  // a random ray meets an edge almost never, so that two tries are rare
-    for (int i = 0; i < kTries; ++i) {
-      if (const auto w = winding_beside(of, p)) return *w;
-      p = SurfacePoint(on.faces[f], on.axis[f], cell, random_);
-    }
-    throw std::logic_error("verify_enclosure: no ray misses the edges");
   }
 
   template <class Joins>
@@ -215,22 +202,7 @@ class Verifier {
   Offender farthest_of(FaceIndex f, const Sample& s) const {
     std::vector<Vec3> points{s.point.rounded()};
     for (const PlanePoint& corner : *s.cell) points.push_back(rounded(lifted(inner_.faces[f], inner_.axis[f], corner)));
-    Offender farthest{inner_.source[f], points[0], -1};
-    for (const Vec3& p : points) {
-      const double d = outer_.bvh.least([&](const Box& box) { return distance(p, box); },
-                                        [&](FaceIndex h) { return distance(p, outer_.faces[h]); });
-      if (d > farthest.distance) farthest.point = p, farthest.distance = d;
-    }
-    return farthest;
-  }
-
-  std::vector<Offender> worst_offenders() {
-    const std::size_t count = std::min(options_.max_offenders, offenders_.size());
-    std::partial_sort(offenders_.begin(), offenders_.begin() + std::ptrdiff_t(count), offenders_.end(),
-                      [](const Offender& a, const Offender& b) {
-                        return a.distance != b.distance ? a.distance > b.distance : a.face < b.face;
-                      });
-    return {offenders_.begin(), offenders_.begin() + std::ptrdiff_t(count)};
+    return farthest(inner_.source[f], points, outer_);
   }
 
   void progress(double fraction) const {

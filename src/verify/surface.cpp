@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
@@ -15,27 +16,17 @@ namespace {
 
 std::string text(const Vec3& p) { return fmt::format("({} {} {})", p.x, p.y, p.z); }
 
-/// For each vertex the first one, in lexicographic order, at its position; 0.0 and -0.0 are the same position.
-std::vector<std::uint32_t> numbered_by_position(const PerVertex<Vec3>& positions) {
-  std::vector<std::uint32_t> order(positions.size()), number(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto at = [&](std::uint32_t v) -> const Vec3& { return positions[VertexId(v)]; };
-  std::erase_if(order, [&](std::uint32_t v) { return !is_finite(at(v)); });  // not used by any face
-  std::sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) {
-    const Vec3 &p = at(v), &q = at(w);
-    return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z != q.z ? p.z < q.z : v < w;
-  });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    number[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? number[order[i - 1]] : order[i];
-  return number;
-}
-
 std::uint64_t edge_key(std::uint32_t v, std::uint32_t w) {
   return std::uint64_t(std::min(v, w)) << 32 | std::max(v, w);
 }
 
-/// Along every edge the faces must run as often one way as the other.
-void require_closed(const TriangleMesh& mesh, const std::vector<std::uint32_t>& number, std::string_view name) {
+/// An edge along which faces run more often one way than the other.
+struct OpenEdge {
+  std::uint32_t v, w;  ///< by number
+  std::size_t faces;
+};
+
+std::optional<OpenEdge> find_open_edge(const TriangleMesh& mesh, const std::vector<std::uint32_t>& number) {
   struct Use {
     std::uint64_t key;
     int direction;
@@ -51,19 +42,39 @@ void require_closed(const TriangleMesh& mesh, const std::vector<std::uint32_t>& 
   for (std::size_t i = 0, end; i < uses.size(); i = end) {
     int sum = 0;
     for (end = i; end < uses.size() && uses[end].key == uses[i].key; ++end) sum += uses[end].direction;
-    if (sum == 0) continue;
-    const Defect defect = end - i == 1   ? Defect::OpenEdge
-                          : end - i == 2 ? Defect::InconsistentOrientation
-                                         : Defect::NonManifoldEdge;
-    throw InputError(
-        defect, fmt::format("the {} mesh is not closed: edge {} - {} has {} face{}, not as many on one side as "
-                            "on the other; only closed meshes can be verified",
-                            name, text(mesh.positions[VertexId(uint32_t(uses[i].key >> 32))]),
-                            text(mesh.positions[VertexId(uint32_t(uses[i].key))]), end - i, end - i == 1 ? "" : "s"));
+    if (sum != 0) return OpenEdge{std::uint32_t(uses[i].key >> 32), std::uint32_t(uses[i].key), end - i};
   }
+  return std::nullopt;
+}
+
+void require_closed(const TriangleMesh& mesh, const std::vector<std::uint32_t>& number, std::string_view name) {
+  const auto open = find_open_edge(mesh, number);
+  if (!open) return;
+  const Defect defect = open->faces == 1   ? Defect::OpenEdge
+                        : open->faces == 2 ? Defect::InconsistentOrientation
+                                           : Defect::NonManifoldEdge;
+  throw InputError(defect,
+                   fmt::format("the {} mesh is not closed: edge {} - {} has {} face{}, not as many on one side as "
+                               "on the other; only closed meshes can be verified",
+                               name, text(mesh.positions[VertexId(open->v)]), text(mesh.positions[VertexId(open->w)]),
+                               open->faces, open->faces == 1 ? "" : "s"));
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> numbered_by_position(const PerVertex<Vec3>& positions) {
+  std::vector<std::uint32_t> order(positions.size()), number(positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto at = [&](std::uint32_t v) -> const Vec3& { return positions[VertexId(v)]; };
+  std::erase_if(order, [&](std::uint32_t v) { return !is_finite(at(v)); });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) {
+    const Vec3 &p = at(v), &q = at(w);
+    return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z != q.z ? p.z < q.z : v < w;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    number[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? number[order[i - 1]] : order[i];
+  return number;
+}
 
 void require_usable(const TriangleMesh& mesh, std::string_view name) {
   if (mesh.triangles.empty()) throw InputError(Defect::EmptyMesh, fmt::format("the {} mesh has no triangle", name));
@@ -103,16 +114,16 @@ Surface::Surface(const TriangleMesh& mesh, std::string_view name) {
   }
 }
 
-Clusters::Clusters(std::size_t face_count) : parent_(face_count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+Clusters::Clusters(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
-FaceIndex Clusters::representative(FaceIndex f) {
-  while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
-  return f;
+std::uint32_t Clusters::representative(std::uint32_t i) {
+  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+  return i;
 }
 
-void Clusters::join(FaceIndex f, FaceIndex g) {
-  f = representative(f), g = representative(g);
-  parent_[std::max(f, g)] = std::min(f, g);
+void Clusters::join(std::uint32_t i, std::uint32_t j) {
+  i = representative(i), j = representative(j);
+  parent_[std::max(i, j)] = std::min(i, j);
 }
 
 std::vector<FaceEdge> edges(const Surface& surface) {
@@ -155,6 +166,11 @@ std::pair<std::vector<std::uint32_t>, std::uint32_t> components(const TriangleMe
 }  // namespace prohull::verify
 
 namespace prohull {
+
+bool is_closed(const TriangleMesh& mesh) {
+  verify::require_usable(mesh, "given");
+  return !verify::find_open_edge(mesh, verify::numbered_by_position(mesh.positions));
+}
 
 TriangleMesh turned_outwards(TriangleMesh mesh) {
   verify::require_usable(mesh, "original");

@@ -30,15 +30,19 @@ struct Surface {
 /// finite.
 void require_usable(const TriangleMesh& mesh, std::string_view name);
 
-/// The connected components of some faces.
+/// For each vertex the first one, in lexicographic order, at its position; 0.0 and -0.0 are the same position.
+/// Positions that are not finite belong to no face, and have no number.
+std::vector<std::uint32_t> numbered_by_position(const PerVertex<Vec3>& positions);
+
+/// The connected components of some faces or vertices.
 class Clusters {
  public:
-  explicit Clusters(std::size_t face_count);
-  FaceIndex representative(FaceIndex f);
-  void join(FaceIndex f, FaceIndex g);
+  explicit Clusters(std::size_t count);
+  std::uint32_t representative(std::uint32_t i);  ///< the least of the component
+  void join(std::uint32_t i, std::uint32_t j);
 
  private:
-  std::vector<FaceIndex> parent_;
+  std::vector<std::uint32_t> parent_;
 };
 
 /// Side e of a face, from its corner e to the next.

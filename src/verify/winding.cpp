@@ -1,6 +1,8 @@
 #include "verify/winding.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
 
 #include "geometry/triangle_predicates.h"
 
@@ -28,10 +30,7 @@ Field side_determinant(const Triangle& h, const std::array<Field, 3>& p) {
   return (by * cz - bz * cy) * (p[0] - x) + (bz * cx - bx * cz) * (p[1] - y) + (bx * cy - by * cx) * (p[2] - z);
 }
 
-}  // namespace
-
-SurfacePoint::SurfacePoint(const Triangle& t, int axis, const Cell& cell, std::mt19937& random)
-    : support_(t), axis_(axis) {
+std::array<Number, 3> random_point(const Triangle& t, int axis, const Cell& cell, std::mt19937& random) {
   std::uniform_int_distribution<int> weights(1 << 8, 1 << 16);
   Number total(0);
   PlanePoint sum{0, 0};
@@ -41,12 +40,19 @@ SurfacePoint::SurfacePoint(const Triangle& t, int axis, const Cell& cell, std::m
     sum.v += weight * corner.v;
     total += weight;
   }
-  exact_ = lifted(t, axis, {sum.u / total, sum.v / total});
+  return lifted(t, axis, {sum.u / total, sum.v / total});
+}
+
+}  // namespace
+
+ExactPoint::ExactPoint(std::array<Number, 3> coordinates) : exact_(std::move(coordinates)) {
   for (int i = 0; i < 3; ++i) approximate_[i] = exact_[i].approx();
 }
 
-int SurfacePoint::turn(const Vec3& a, const Vec3& b) const {
-  const int u = (axis_ + 1) % 3, v = (axis_ + 2) % 3;
+ExactPoint::ExactPoint(const Vec3& p) : ExactPoint({Number(p.x), Number(p.y), Number(p.z)}) {}
+
+int ExactPoint::turn(int axis, const Vec3& a, const Vec3& b) const {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   {
     const CGAL::Protect_FPU_rounding<true> upwards;
     if (const auto sign =
@@ -56,14 +62,39 @@ int SurfacePoint::turn(const Vec3& a, const Vec3& b) const {
   return int(CGAL::sign(turn_determinant<Number>(a[u], a[v], b[u], b[v], exact_[u], exact_[v])));
 }
 
-Side SurfacePoint::side(const Triangle& h) const {
-  if (coplanar(support_, h)) return Side::On;
+Side ExactPoint::side(const Triangle& h) const {
   {
     const CGAL::Protect_FPU_rounding<true> upwards;
     if (const auto sign = certain_sign(side_determinant(h, approximate_))) return Side(*sign);
   }
   return Side(int(CGAL::sign(side_determinant(h, exact_))));
 }
+
+int winding_at(const Surface& surface, const ExactPoint& p) {
+  // A ray from p, moved by (eps, eps^2), towards +z.
+  const auto on_the_way = [&](const Box& box) {  // true for unbounded approximations
+    return !(box.min.x > p.upper(0) || box.max.x < p.lower(0) || box.min.y > p.upper(1) || box.max.y < p.lower(1) ||
+             box.max.z < p.lower(2));
+  };
+  const auto turn = [&](const Vec3& a, const Vec3& b) {
+    const int exact = p.turn(2, a, b);
+    return exact != 0 ? exact : turn_of_moved(a, b);
+  };
+  int winding = 0;
+  surface.bvh.visit(on_the_way, [&](FaceIndex f) {
+    const Triangle& h = surface.faces[f];
+    const int first = turn(h.a, h.b);
+    if (first == 0 || turn(h.b, h.c) != first || turn(h.c, h.a) != first) return;
+    const bool is_beyond = std::min({h.a.z, h.b.z, h.c.z}) > p.upper(2) || (p.side(h) == Side::Inside) == (first > 0);
+    if (is_beyond) winding += first;
+  });
+  return winding;
+}
+
+SurfacePoint::SurfacePoint(const Triangle& t, int axis, const Cell& cell, std::mt19937& random)
+    : support_(t), axis_(axis), point_(random_point(t, axis, cell, random)) {}
+
+Side SurfacePoint::side(const Triangle& h) const { return coplanar(support_, h) ? Side::On : point_.side(h); }
 
 std::optional<WindingBeside> winding_beside(const Surface& surface, const SurfacePoint& p) {
   const int axis = p.axis(), u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -100,6 +131,15 @@ std::optional<WindingBeside> winding_beside(const Surface& surface, const Surfac
   const bool faces_along = turn(axis, p.support().a, p.support().b, p.support().c) > 0;
   const int above = beyond, below = beyond + at;
   return WindingBeside{faces_along ? above : below, faces_along ? below : above, covered};
+}
+
+WindingBeside winding_beside(const Surface& surface, SurfacePoint& p, const Cell& cell, std::mt19937& random) {
+  constexpr int kTries = 1000;  // a random ray meets an edge almost never, so that two tries are rare
+  for (int i = 0; i < kTries; ++i) {
+    if (const auto w = winding_beside(surface, p)) return *w;
+    p = SurfacePoint(p.support(), p.axis(), cell, random);
+  }
+  throw std::logic_error("winding_beside: no ray misses the edges");
 }
 
 }  // namespace prohull::verify

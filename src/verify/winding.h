@@ -10,7 +10,31 @@
 
 namespace prohull::verify {
 
-/// A point inside a triangle, exactly on its plane; its coordinates are rational.
+/// A point with rational coordinates.
+class ExactPoint {
+ public:
+  explicit ExactPoint(std::array<Number, 3> coordinates);
+  explicit ExactPoint(const Vec3& p);
+
+  const Number& operator[](int coordinate) const { return exact_[coordinate]; }
+  double lower(int coordinate) const { return approximate_[coordinate].inf(); }
+  double upper(int coordinate) const { return approximate_[coordinate].sup(); }
+  Vec3 rounded() const { return verify::rounded(exact_); }
+
+  /// turn(axis, a, b, this), exact.
+  int turn(int axis, const Vec3& a, const Vec3& b) const;
+  /// The side of the plane of h, exact.
+  Side side(const Triangle& h) const;
+
+ private:
+  std::array<Number, 3> exact_;
+  std::array<Interval, 3> approximate_;
+};
+
+/// The winding number of a surface around a point that is not on it.
+int winding_at(const Surface& surface, const ExactPoint& p);
+
+/// A point inside a triangle, exactly on its plane.
 class SurfacePoint {
  public:
   /// A random point inside `cell`, a piece of t.
@@ -18,30 +42,32 @@ class SurfacePoint {
 
   const Triangle& support() const { return support_; }
   int axis() const { return axis_; }
-  double lower(int coordinate) const { return approximate_[coordinate].inf(); }
-  double upper(int coordinate) const { return approximate_[coordinate].sup(); }
-  Vec3 rounded() const { return verify::rounded(exact_); }
+  double lower(int coordinate) const { return point_.lower(coordinate); }
+  double upper(int coordinate) const { return point_.upper(coordinate); }
+  Vec3 rounded() const { return point_.rounded(); }
 
-  /// turn(axis, a, b, this), exact.
-  int turn(const Vec3& a, const Vec3& b) const;
+  int turn(const Vec3& a, const Vec3& b) const { return point_.turn(axis_, a, b); }
   /// The side of the plane of h, exact.
   Side side(const Triangle& h) const;
 
  private:
   Triangle support_;
   int axis_;
-  std::array<Number, 3> exact_;
-  std::array<Interval, 3> approximate_;
+  ExactPoint point_;
 };
 
 /// The winding numbers of a surface beside a point of a triangle of it or of another.
 struct WindingBeside {
   int outside = 0, inside = 0;  ///< just outside and just inside of the triangle
   bool covered = false;         ///< faces of the surface, coplanar with the triangle, hold the point
+  bool is_cover() const { return outside >= 1 || inside >= 1; }
 };
 
 /// Counts the faces that the ray from p along p.axis() crosses. None if the ray meets an edge, or if p lies on a
 /// face that is not coplanar with its triangle: take another point.
 std::optional<WindingBeside> winding_beside(const Surface& surface, const SurfacePoint& p);
+
+/// The same at p, a point of `cell`, or at another one, which p then is.
+WindingBeside winding_beside(const Surface& surface, SurfacePoint& p, const Cell& cell, std::mt19937& random);
 
 }  // namespace prohull::verify

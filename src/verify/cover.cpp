@@ -1,0 +1,342 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geometry/triangle_contact.h"
+#include "geometry/triangle_predicates.h"
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
+#include "verify/contact.h"
+#include "verify/offenders.h"
+#include "verify/self_intersection.h"
+#include "verify/subdivision.h"
+#include "verify/surface.h"
+#include "verify/winding.h"
+
+// Why the decision is complete. Let H be the outer surface, w its winding number and C the closure of the points off H
+// where w >= 1. C is closed, so that a triangle lies in C if and only if a dense part of it does, and single points of
+// it need no answer. H is made of finitely many flat pieces: near any point p it is a cone with the tip p. Therefore:
+//
+//   (1) Off H, p lies in C if and only if w(p) >= 1, and w is the same on everything connected that is off H.
+//   (2) On H, p lies in C if and only if w >= 1 beside some piece of a face of H, as H cuts itself, that has p in its
+//       closure: a region of space that has p in its closure does not fill the surroundings of p, through which a face
+//       passes; what bounds it there are such pieces.
+//
+// A triangle with an area is cut along the faces of H that meet its inside in a segment or an area. What is left of H
+// inside of a cell is all of it, where faces hold the cell, or single points: w is constant on each side of the cell,
+// and one point of it decides, by (1) or (2). Where no face cuts the triangle and none holds it, all of it is one cell
+// ("free"); where H does not touch it at all, all that is free and shares a corner with it lies in the same region of
+// H, and one corner decides. A triangle without area is a segment or a point. It is cut at the ends of what faces of H
+// hold of it, and the middle of each piece decides: by (1), or by (2) with all pieces of the faces that hold it. A face
+// of H beside which w >= 1 everywhere lies in C, and so does all that it holds; usually that is every face.
+
+namespace prohull {
+namespace verify {
+namespace {
+
+bool cuts(const TriangleContact& c) { return c.interior == Contact::Crossing || c.interior == Contact::Covering; }
+
+/// Which parts of the faces of a surface lie in C.
+class CoveredFaces {
+ public:
+  explicit CoveredFaces(const Surface& surface)
+      : surface_(surface), meets_(surface.faces.size()), all_(surface.faces.size(), Answer::NotAsked) {
+    const auto pairs = verify::self_intersections(surface);
+    for (const auto& [f, g] : pairs) meets_[f].push_back(g), meets_[g].push_back(f);
+    self_intersections_ = pairs.size();
+  }
+
+  std::size_t self_intersections() const { return self_intersections_; }
+
+  /// All of the face.
+  bool contain(FaceIndex f) {
+    if (all_[f] == Answer::NotAsked) {
+      const std::vector<Cell> pieces = pieces_of(f);
+      const bool all = std::all_of(pieces.begin(), pieces.end(), [&](const Cell& piece) { return borders(f, piece); });
+      all_[f] = all ? Answer::Yes : Answer::No;
+    }
+    return all_[f] == Answer::Yes;
+  }
+
+  /// A point of the face, by the pieces of it that have the point in their closures.
+  bool contain(FaceIndex f, const ExactPoint& p) {
+    if (contain(f)) return true;
+    const std::vector<Cell> pieces = pieces_of(f);
+    const int axis = surface_.axis[f];
+    return std::any_of(pieces.begin(), pieces.end(),
+                       [&](const Cell& piece) { return closure_holds(piece, axis, p) && borders(f, piece); });
+  }
+
+ private:
+  enum class Answer : std::uint8_t { NotAsked, Yes, No };
+
+  std::vector<Cell> pieces_of(FaceIndex f) const {
+    std::vector<Triangle> cutters;
+    for (const FaceIndex g : meets_[f])
+      if (cuts(contact(surface_.faces[f], surface_.axis[f], surface_.faces[g]))) cutters.push_back(surface_.faces[g]);
+    return subdivide(surface_.faces[f], surface_.axis[f], cutters);
+  }
+
+  bool borders(FaceIndex f, const Cell& piece) {
+    SurfacePoint p(surface_.faces[f], surface_.axis[f], piece, random_);
+    return winding_beside(surface_, p, piece, random_).is_cover();
+  }
+
+  static bool closure_holds(const Cell& piece, int axis, const ExactPoint& p) {
+    const Number &u = p[(axis + 1) % 3], &v = p[(axis + 2) % 3];
+    bool left = false, right = false;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const PlanePoint &a = piece[i], &b = piece[(i + 1) % piece.size()];
+      const CGAL::Sign turn = CGAL::sign((b.u - a.u) * (v - a.v) - (b.v - a.v) * (u - a.u));
+      left |= turn == CGAL::POSITIVE;
+      right |= turn == CGAL::NEGATIVE;
+    }
+    return !(left && right);
+  }
+
+  const Surface& surface_;
+  std::vector<std::vector<FaceIndex>> meets_;
+  std::vector<Answer> all_;
+  std::size_t self_intersections_ = 0;
+  std::mt19937 random_;  // no answer depends on it
+};
+
+Number difference(double a, double b) { return Number(a) - Number(b); }
+
+/// The determinant of turn(axis, a, b, p).
+Number doubled_area(int axis, const Vec3& a, const Vec3& b, const Vec3& p) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  return difference(b[u], a[u]) * difference(p[v], a[v]) - difference(b[v], a[v]) * difference(p[u], a[u]);
+}
+
+/// Positive outside of the plane of h.
+Number height(const Triangle& h, const Vec3& p) {
+  Number sum(0);
+  for (int axis = 0; axis < 3; ++axis) sum += doubled_area(axis, h.a, h.b, h.c) * difference(p[axis], h.a[axis]);
+  return sum;
+}
+
+/// The part of a segment that a face holds, by fractions of the way from a to b.
+struct HeldPart {
+  FaceIndex face;
+  Number begin, end;
+};
+
+/// For a face that the segment touches.
+HeldPart held_part(const Segment& s, const Surface& surface, FaceIndex f) {
+  const Triangle& h = surface.faces[f];
+  const Number from = height(h, s.a), to = height(h, s.b);
+  if (from != to) {
+    const Number at = from / (from - to);
+    return {f, at, at};
+  }
+  const int axis = surface.axis[f], orientation = turn(axis, h.a, h.b, h.c);
+  HeldPart part{f, 0, 1};
+  for (const auto& [p, q] : {std::pair{h.a, h.b}, {h.b, h.c}, {h.c, h.a}}) {
+    const Number a = orientation * doubled_area(axis, p, q, s.a), b = orientation * doubled_area(axis, p, q, s.b);
+    if (a < 0) part.begin = std::max(part.begin, Number(a / (a - b)));
+    if (b < 0) part.end = std::min(part.end, Number(a / (a - b)));
+  }
+  return part;
+}
+
+ExactPoint between(const Segment& s, const Number& fraction) {
+  std::array<Number, 3> p;
+  for (int i = 0; i < 3; ++i) p[i] = s.a[i] + fraction * difference(s.b[i], s.a[i]);
+  return ExactPoint(std::move(p));
+}
+
+class CoverVerifier {
+ public:
+  CoverVerifier(const TriangleMesh& mesh, const TriangleMesh& outer, const EnclosureOptions& options)
+      : mesh_(mesh),
+        outer_(outer, "outer"),
+        covered_(outer_),
+        options_(options),
+        number_(numbered_by_position(mesh.positions)),
+        groups_(mesh.vertex_count()),
+        is_clear_(mesh.vertex_count()) {}
+
+  EnclosureReport report() {
+    for (const FaceId f : mesh_.triangles.ids()) {
+      if (index(f) % 1024 == 0) progress(0.9 * double(index(f)) / double(mesh_.face_count()));
+      check(f);
+    }
+    check_free();
+    EnclosureReport report;
+    report.self_intersections = covered_.self_intersections();
+    report.outer_volume = outer_.volume;
+    report.faces_outside = offenders_.size();
+    report.encloses = offenders_.empty();
+    report.worst = worst_of(std::move(offenders_), options_.max_offenders);
+    progress(1);
+    return report;
+  }
+
+ private:
+  void check(FaceId f) {
+    const Triangle t = mesh_.triangle(f);
+    const Box box = box_of(t);
+    near_.clear();
+    outer_.bvh.visit([&](const Box& other) { return box.overlaps(other); },
+                     [&](FaceIndex h) {
+                       if (!certainly_apart(t, outer_.faces[h])) near_.push_back(h);
+                     });
+    if (near_.empty())
+      add_clear(f);
+    else if (const auto axis = projection_axis(t))
+      check_triangle(f, t, *axis);
+    else
+      check_segment(f, t);
+  }
+
+  void check_triangle(FaceId f, const Triangle& t, int axis) {
+    bool is_met = false;
+    cutters_.clear();
+    for (const FaceIndex h : near_) {
+      const TriangleContact c = contact(t, axis, outer_.faces[h]);
+      if (c.interior == Contact::None) continue;
+      is_met = true;
+      if (cuts(c)) cutters_.push_back(outer_.faces[h]);
+      const bool is_held =
+          c.interior == Contact::Same || (c.interior == Contact::Covering && holds(outer_.faces[h], axis, t));
+      if (is_held && covered_.contain(h)) return;
+    }
+    if (!is_met)
+      free_.push_back(f);
+    else
+      check_cells(f, t, axis);
+  }
+
+  /// Whether h, in the plane of t, holds all of t.
+  static bool holds(const Triangle& h, int axis, const Triangle& t) {
+    const int outside = -turn(axis, h.a, h.b, h.c);
+    for (const auto& [p, q] : {std::pair{h.a, h.b}, {h.b, h.c}, {h.c, h.a}})
+      for (const Vec3& corner : {t.a, t.b, t.c})
+        if (turn_at_edge(axis, p, q, corner) == outside) return false;
+    return true;
+  }
+
+  void check_cells(FaceId f, const Triangle& t, int axis) {
+    std::vector<Vec3> uncovered;
+    for (const Cell& cell : subdivide(t, axis, cutters_)) {
+      SurfacePoint p(t, axis, cell, random_);
+      if (winding_beside(outer_, p, cell, random_).is_cover()) continue;
+      uncovered.push_back(p.rounded());
+      for (const PlanePoint& corner : cell) uncovered.push_back(rounded(lifted(t, axis, corner)));
+    }
+    if (!uncovered.empty()) offenders_.push_back(farthest(f, uncovered, outer_));
+  }
+
+  void check_segment(FaceId f, const Triangle& t) {
+    std::erase_if(near_, [&](FaceIndex h) { return !triangles_touch(t, outer_.faces[h]); });
+    if (near_.empty()) return add_clear(f);
+    const Segment s = segment_of(t);
+    std::vector<HeldPart> parts;
+    std::vector<Number> ends{0, 1};
+    for (const FaceIndex h : near_) {
+      const HeldPart& part = parts.emplace_back(held_part(s, outer_, h));
+      ends.push_back(part.begin);
+      ends.push_back(part.end);
+    }
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    std::vector<Vec3> uncovered;
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      const Number middle = (ends[i - 1] + ends[i]) / 2;
+      if (contains(between(s, middle), middle, parts)) continue;
+      for (const Number& fraction : {ends[i - 1], middle, ends[i]}) uncovered.push_back(between(s, fraction).rounded());
+    }
+    if (!uncovered.empty()) offenders_.push_back(farthest(f, uncovered, outer_));
+  }
+
+  /// Whether C contains the point of a segment at `fraction`.
+  bool contains(const ExactPoint& p, const Number& fraction, std::span<const HeldPart> parts) {
+    bool is_on = false;
+    for (const HeldPart& part : parts) {
+      if (fraction < part.begin || part.end < fraction) continue;
+      if (covered_.contain(part.face, p)) return true;
+      is_on = true;
+    }
+    return !is_on && winding_at(outer_, p) >= 1;
+  }
+
+  /// A triangle that H does not touch.
+  void add_clear(FaceId f) {
+    free_.push_back(f);
+    for (const VertexId v : mesh_.triangles[f]) is_clear_[number_[index(v)]] = true;
+  }
+
+  void check_free() {
+    for (const FaceId f : free_) {
+      const auto first = clear_corner(f);
+      if (!first) continue;
+      for (const VertexId v : mesh_.triangles[f])
+        if (const std::uint32_t i = number_[index(v)]; is_clear_[i]) groups_.join(*first, i);
+    }
+    std::vector<std::optional<bool>> is_covered(mesh_.vertex_count());  // by representative
+    for (const FaceId f : free_) {
+      const auto corner = clear_corner(f);
+      if (!corner) {
+        check_alone(f);
+        continue;
+      }
+      auto& answer = is_covered[groups_.representative(*corner)];
+      if (!answer) answer = winding_at(outer_, ExactPoint(mesh_.positions[VertexId(*corner)])) >= 1;
+      if (!*answer) add_outside(f);
+    }
+  }
+
+  /// A free triangle that touches H with all corners that do not belong to others.
+  void check_alone(FaceId f) {
+    const Triangle t = mesh_.triangle(f);
+    const int axis = *projection_axis(t);
+    const Cell cell = whole_cell(t, axis);
+    SurfacePoint p(t, axis, cell, random_);
+    if (!winding_beside(outer_, p, cell, random_).is_cover()) add_outside(f);
+  }
+
+  std::optional<std::uint32_t> clear_corner(FaceId f) const {
+    for (const VertexId v : mesh_.triangles[f])
+      if (const std::uint32_t i = number_[index(v)]; is_clear_[i]) return i;
+    return std::nullopt;
+  }
+
+  /// A triangle of which all but single points is outside.
+  void add_outside(FaceId f) {
+    const Triangle t = mesh_.triangle(f);
+    offenders_.push_back(farthest(f, std::array{t.a, t.b, t.c, t.a / 3 + t.b / 3 + t.c / 3}, outer_));
+  }
+
+  void progress(double fraction) const {
+    if (options_.progress && !options_.progress(fraction)) throw Cancelled();
+  }
+
+  const TriangleMesh& mesh_;
+  const Surface outer_;
+  CoveredFaces covered_;
+  const EnclosureOptions& options_;
+  const std::vector<std::uint32_t> number_;  // of the vertices, by position
+  Clusters groups_;                          // of clear vertices, which are in one region of H
+  std::vector<bool> is_clear_;               // by number: H does not touch a triangle that has the vertex
+  std::vector<FaceId> free_;                 // the triangles that no face of H cuts or holds
+  std::vector<FaceIndex> near_;              // of the triangle at hand
+  std::vector<Triangle> cutters_;            // of the triangle at hand
+  std::mt19937 random_;                      // the verdict does not depend on it
+  std::vector<Offender> offenders_;
+};
+
+}  // namespace
+}  // namespace verify
+
+EnclosureReport verify_cover(const TriangleMesh& triangles, const TriangleMesh& outer,
+                             const EnclosureOptions& options) {
+  verify::require_usable(triangles, "original");
+  return verify::CoverVerifier(triangles, outer, options).report();
+}
+
+}  // namespace prohull

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "prohull/enclosure.h"
+#include "verify/surface.h"
+
+namespace prohull::verify {
+
+/// The one of the points, all of `face`, that is farthest from the surface.
+Offender farthest(FaceId face, std::span<const Vec3> points, const Surface& surface);
+
+/// At most `count`, farthest first; of equal distances the first face first.
+std::vector<Offender> worst_of(std::vector<Offender> offenders, std::size_t count);
+
+}  // namespace prohull::verify
