@@ -10,9 +10,11 @@ set(may_build build hull mesh geometry)
 set(may_query query hull mesh geometry)
 set(may_verify verify geometry)  # never build, and mesh neither: it shares nothing but the predicates
 set(may_sample sample geometry)
+set(may_enclose enclose geometry)
+set(may_wrap wrap)
 set(may_apps "")
 set(may_examples "")
-set(folders geometry mesh hull io repair build query verify sample)
+set(folders geometry mesh hull io repair build query verify sample enclose wrap)
 
 set(failures "")
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 
-#include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
@@ -30,9 +30,19 @@ struct DistanceOptions {
 ///     const double reach = distance_bounds(hull, original).upper;
 DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to, const DistanceOptions& options = {});
 
-/// The faces of the coarsest level of a hull that is within `distance` of the original mesh, provenly: found by
-/// bisection, as if finer levels were never farther. The original itself if no other is. Throws as distance_bounds
-/// does.
-std::size_t faces_within(const ProgressiveHull& hull, double distance, const DistanceOptions& options = {});
+/// How far a hull may be from what it encloses, or is enclosed by.
+struct HullBounds {
+  double max_distance = std::numeric_limits<double>::infinity();      ///< of any point of the hull; in the input's unit
+  double max_void = std::numeric_limits<double>::infinity();          ///< of |volume(hull) / volume - 1|
+  double max_added_volume = std::numeric_limits<double>::infinity();  ///< of |volume(hull) - volume|; cubic units
+
+  bool any() const { return *this != HullBounds{}; }
+  bool operator==(const HullBounds&) const = default;
+
+  /// Whether they hold: the distance provenly (distance_bounds, to `original`), volumes in double precision, against
+  /// `volume`. Throws as distance_bounds does.
+  bool hold(const TriangleMesh& hull, const TriangleMesh& original, double volume,
+            const DistanceOptions& options = {}) const;
+};
 
 }  // namespace prohull

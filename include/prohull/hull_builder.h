@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <numbers>
+#include <string>
 #include <string_view>
 
 #include "prohull/progressive_hull.h"
@@ -54,6 +55,9 @@ class RefusalCounts {
  private:
   std::array<std::size_t, kRefusalKinds> counts_{};
 };
+
+/// "link_condition 12, valence 3": those that there are.
+std::string listed(const RefusalCounts& counts);
 
 struct HullProgress {
   std::size_t faces, original_faces, target_faces;

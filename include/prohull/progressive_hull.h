@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,6 +68,10 @@ class ProgressiveHull {
   std::vector<VertexId> base_corners_;
   std::vector<VertexSplit> splits_;
 };
+
+/// The faces of the coarsest level that `is_within` accepts, found by bisection, as if it accepted all finer ones;
+/// those of the original if it accepts no other.
+std::size_t faces_within(const ProgressiveHull& hull, const std::function<bool(const TriangleMesh&)>& is_within);
 
 /// "split 12 does not fit the mesh it refines", or nothing if the record is sound: a closed 2-manifold whose splits can
 /// all be made, down to the original. Says nothing of enclosure (see enclosure.h).

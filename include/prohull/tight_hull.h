@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 #include "prohull/hull_builder.h"
 #include "prohull/triangle_mesh.h"
@@ -21,21 +22,33 @@ struct TightHull {
 /// numbers; every collapse and every move is decided by exact predicates on stored coordinates. Pairs of faces that
 /// intersect are never more than those of `mesh`, whatever options.self_intersections says. Throws as build_hull does.
 ///
-///   const TightHull hull = build_tight_hull(closed_mesh(read_mesh("arm.stl")).mesh, {.target_faces = 500});
-TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options = {});
-
-/// The most tight hulls that build_tight_hull_within builds, but for one more where none of them is near enough.
-constexpr int kMaxTightBuilds = 9;
-
-/// The coarsest tight hull found, of at least options.target_faces, no point of which is farther than `distance` from
-/// `mesh`, provenly (see distance_bounds); with options.float32_coordinates also after with_float32_coordinates.
-/// Found by bisection of the logarithm of the number of faces, from target_faces to the coarsest level of build_hull
-/// that is near enough, to 3 %, as if finer hulls were never farther; a coarser one may exist. That level is the answer
-/// where no tight hull is both coarser and near enough. `progress` sees one build after another, each with its
-/// target_faces; if it cancels, the answer is the best so far, at worst `mesh` itself. Throws as build_hull does, and
-/// for a distance that is not above 0.
+/// With `wrapped`, `mesh` is a wrap of these triangles (wrap.h): it covers them without touching. Then vertices move
+/// towards the triangles, but for a millionth of their diagonal, and the hull covers and does not touch them; it need
+/// not enclose the wrap. HullSide::Outer only.
 ///
-///   const TightHull hull = build_tight_hull_within(arm, 0.5, {.target_faces = 100});  // 0.5 mm, if its unit is that
-TightHull build_tight_hull_within(const TriangleMesh& mesh, double distance, const HullOptions& options = {});
+///   const TightHull hull = build_tight_hull(closed_mesh(read_mesh("arm.stl")).mesh, {.target_faces = 500});
+TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options = {},
+                           const TriangleMesh* wrapped = nullptr);
+
+/// A hull that covers the triangles without touching them, its vertices moved towards them as build_tight_hull does at
+/// the end: a fraction of its time, and of hulls of wraps nearly all of what there is to gain. The guarantees are the
+/// same. options gives the shape guards, float32_coordinates and progress, which may leave the rest as it is.
+TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const HullOptions& options = {});
+
+/// The most hulls that build_tight_hull_within builds, with the progressive one that it begins with.
+constexpr int kMaxTightBuilds = 11;
+
+/// The coarsest tight hull found, of at least options.target_faces, that `is_within` accepts: such as those that are
+/// near enough to the mesh (see HullBounds). Found by bisection of the logarithm of the number of faces, from
+/// target_faces to the coarsest level of build_hull that is accepted, to 3 %, as if finer hulls always were; a coarser
+/// one may exist. That level is the answer where no tight hull is both coarser and accepted. `progress` sees one build
+/// after another, each with its target_faces; if it cancels, the answer is the best so far, at worst `mesh` itself.
+/// Throws as build_hull does.
+///
+///   const HullBounds bounds{.max_distance = 0.5};  // mm, if the mesh has that unit
+///   const auto is_near = [&](const TriangleMesh& hull) { return bounds.hold(hull, arm, signed_volume(arm)); };
+///   const TightHull hull = build_tight_hull_within(arm, is_near, {.target_faces = 100});
+TightHull build_tight_hull_within(const TriangleMesh& mesh, const std::function<bool(const TriangleMesh&)>& is_within,
+                                  const HullOptions& options = {}, const TriangleMesh* wrapped = nullptr);
 
 }  // namespace prohull

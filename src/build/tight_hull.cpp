@@ -8,6 +8,7 @@
 #include "build/tightening.h"
 #include "build/turned.h"
 #include "mesh/half_edge_mesh.h"
+#include "prohull/error.h"
 
 namespace prohull {
 namespace {
@@ -16,15 +17,8 @@ namespace {
 /// at 2,000 faces 2.14 % by {2, 1}, 2.10 % by {4, 2, 1}, 2.04 % by {4, 2.8, 2, 1.4, 1}.
 constexpr std::array kLevels{8.0, 4.0, 2.5, 1.75, 1.35, 1.15, 1.0};
 
-}  // namespace
-
-TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options) {
-  if (options.best_of > 1)
-    return best_of(
-        options, [&](const HullOptions& one) { return build_tight_hull(mesh, one); },
-        [](const TightHull& result) -> const TriangleMesh& { return result.mesh; });
+TightHull build_towards(const Original& original, const TriangleMesh& mesh, const HullOptions& options) {
   const bool inner = options.side == HullSide::Inner;
-  const Original original(inner ? turned(mesh) : mesh, options.side);
   TightHull tight{mesh, Stopped::TargetReached, {}, {}, 0};
   HullOptions step = options;
   step.self_intersections = SelfIntersections::Refused;
@@ -53,6 +47,30 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options)
     }
   }
   return tight;
+}
+
+Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, HullSide side) {
+  if (!wrapped) return Original::closed(side == HullSide::Inner ? turned(mesh) : mesh, side);
+  if (side == HullSide::Inner)
+    throw InputError(Defect::InvalidOption, "nothing is inside of triangles that are not closed: no inner hull");
+  constexpr double kClearance = 1e-6;  // of the diagonal: more than a hull moves when it is rounded to float32
+  return Original::triangles(*wrapped, kClearance * bounding_box(*wrapped).diagonal());
+}
+
+}  // namespace
+
+TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped) {
+  const Original original = original_of(mesh, wrapped, options.side);
+  if (options.best_of <= 1) return build_towards(original, mesh, options);
+  return best_of(
+      options, [&](const HullOptions& one) { return build_towards(original, mesh, one); },
+      [](const TightHull& result) -> const TriangleMesh& { return result.mesh; });
+}
+
+TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const HullOptions& options) {
+  HalfEdgeMesh moving(hull);
+  tighten(moving, original_of(hull, &triangles, options.side), options);
+  return moving.triangle_mesh();
 }
 
 }  // namespace prohull

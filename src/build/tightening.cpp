@@ -13,7 +13,6 @@
 #include "geometry/float32.h"
 #include "geometry/linear_program.h"
 #include "geometry/predicates.h"
-#include "geometry/tetrahedron_contact.h"
 
 namespace prohull {
 namespace {
@@ -65,16 +64,16 @@ double depth(const HalfSpace& plane, const Vec3& p) { return dot(plane.normal, p
 
 constexpr double kTouching = 1e-10;  ///< local; the exact test decides
 
-bool is_beyond(const std::array<HalfSpace, 3>& planes, const Vec3& p) {
-  return std::ranges::all_of(planes, [&](const HalfSpace& plane) { return depth(plane, p) > kTouching; });
+bool is_beyond(const std::array<HalfSpace, 3>& planes, const Vec3& p, double least_depth) {
+  return std::ranges::all_of(planes, [&](const HalfSpace& plane) { return depth(plane, p) > least_depth; });
 }
 
-/// Keeps what is deeper than kTouching.
-void clip(std::vector<Vec3>& polygon, const HalfSpace& plane, std::vector<Vec3>& result) {
+/// Keeps what is deeper than that.
+void clip(std::vector<Vec3>& polygon, const HalfSpace& plane, double least_depth, std::vector<Vec3>& result) {
   result.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3 &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
-    const double dp = depth(plane, p) - kTouching, dq = depth(plane, q) - kTouching;
+    const double dp = depth(plane, p) - least_depth, dq = depth(plane, q) - least_depth;
     if (dp >= 0) result.push_back(p);
     if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) result.push_back(p + (q - p) * (dp / (dp - dq)));
   }
@@ -102,6 +101,8 @@ class Tightener {
   bool has_good_shape(const Vec3& apex) const;
   bool keeps_enclosing(const Vec3& from, const Vec3& to) const;
   bool is_cancelled(std::size_t steps) const;
+  /// Local: up to which a point of the original in a removed tetrahedron counts as outside of it.
+  double allowed_depth() const { return original_.clearance() > 0 ? -original_.clearance() / scale_ : kTouching; }
   std::size_t after(std::size_t i) const { return i + 1 == link_.size() ? 0 : i + 1; }
 
   HalfEdgeMesh& mesh_;
@@ -153,7 +154,8 @@ bool Tightener::improve(VertexId v) {
   if (!(norm(objective_) > 0)) return false;
   const Vec3 from = mesh_.position(v);
   // The second margin is for what rounding and the tolerances of the proposal have got wrong.
-  for (const double margin : {1e-10 + 2 * rounding_ / scale_, 1e-7 + 8 * rounding_ / scale_}) {
+  const double clearance = original_.clearance() / scale_;
+  for (const double margin : {clearance + 1e-10 + 2 * rounding_ / scale_, clearance + 1e-7 + 8 * rounding_ / scale_}) {
     const auto apex = propose(margin);
     if (!apex) return false;
     for (const double step : {1.0, 0.5, 0.25}) {
@@ -246,24 +248,25 @@ bool Tightener::add_cuts(const Vec3& apex, double margin) {
 // where there is none a point of an edge or face.
 std::optional<Vec3> Tightener::deepest_point(const Vec3& apex, const Vec3& a, const Vec3& b) {
   const Removed removed(apex, a, b);
-  double deepest = kTouching;
+  const double allowed = allowed_depth();
+  double deepest = allowed;
   std::optional<Vec3> point;
   near_.clear();
   for (const Triangle& t : candidates_) {
     bool is_near = false;
     for (const Vec3& p : {t.a, t.b, t.c}) {
       const double d = depth(removed.new_face, p);
-      if (d <= kTouching) continue;
+      if (d <= allowed) continue;
       is_near = true;
-      if (d > deepest && is_beyond(removed.others, p)) deepest = d, point = p;
+      if (d > deepest && is_beyond(removed.others, p, allowed)) deepest = d, point = p;
     }
     if (is_near && !point && removed.box.overlaps(box_of(t))) near_.push_back(t);
   }
   if (point) return point;
   for (const Triangle& t : near_) {
     polygon_ = {t.a, t.b, t.c};
-    clip(polygon_, removed.new_face, clipped_);
-    for (const HalfSpace& plane : removed.others) clip(polygon_, plane, clipped_);
+    clip(polygon_, removed.new_face, allowed, clipped_);
+    for (const HalfSpace& plane : removed.others) clip(polygon_, plane, allowed, clipped_);
     for (const Vec3& p : polygon_)
       if (const double d = depth(removed.new_face, p); polygon_.size() >= 3 && d > deepest) deepest = d, point = p;
   }
@@ -288,29 +291,49 @@ bool Tightener::keeps_enclosing(const Vec3& from, const Vec3& to) const {
   for (std::size_t i = 0; i < link_.size(); ++i) {
     const Vec3 a = mesh_.position(link_[i]), b = mesh_.position(link_[after(i)]);
     if (side(from, a, b, to) != Side::Inside) continue;  // adds, or is flat
-    const Tetrahedron removed{from, a, b, to};
-    Box box;
-    for (const Vec3& p : {from, to, a, b}) box.extend(p);
-    bool met = false;
-    original_.tree().visit([&](const Box& other) { return !met && other.overlaps(box); },
-                           [&](std::uint32_t f) { met = met || meets_interior(original_.triangle(f), removed); });
-    if (met) return false;
-    const Vec3 center = from * 0.25 + a * 0.25 + b * 0.25 + to * 0.25;
-    const bool is_inside = side(from, a, b, center) == Side::Inside && side(to, b, a, center) == Side::Inside &&
-                           side(from, to, a, center) == Side::Inside && side(from, b, to, center) == Side::Inside;
-    if (!is_inside || original_.may_need_cover(center)) return false;
+    if (!original_.lies_outside_of({from, a, b, to})) return false;
   }
   return true;
 }
 
+/// A point in the inside of the tetrahedron, if rounding leaves one there.
+std::optional<Vec3> point_inside(const Tetrahedron& t) {
+  const Vec3 center = t.a * 0.25 + t.b * 0.25 + t.c * 0.25 + t.d * 0.25;
+  const bool is_inside = side(t.a, t.b, t.c, center) == Side::Inside && side(t.d, t.c, t.b, center) == Side::Inside &&
+                         side(t.a, t.d, t.b, center) == Side::Inside && side(t.a, t.c, t.d, center) == Side::Inside;
+  if (!is_inside) return std::nullopt;
+  return center;
+}
+
 }  // namespace
 
-Original::Original(TriangleMesh mesh, HullSide side)
+Original::Original(TriangleMesh mesh, double clearance)
     : mesh_(std::move(mesh)),
       tree_(tree_of(mesh_)),
-      winding_(triangles_of(mesh_)),
-      least_covered_(side == HullSide::Outer ? 1 : 0),
-      largest_coordinate_(largest_coordinate_of(mesh_)) {}
+      largest_coordinate_(largest_coordinate_of(mesh_)),
+      clearance_(clearance) {}
+
+Original Original::closed(TriangleMesh mesh, HullSide side) {
+  Original original(std::move(mesh), 0);
+  original.winding_.emplace(triangles_of(original.mesh_));
+  original.least_covered_ = side == HullSide::Outer ? 1 : 0;
+  return original;
+}
+
+Original Original::triangles(TriangleMesh mesh, double clearance) { return {std::move(mesh), clearance}; }
+
+bool Original::lies_outside_of(const Tetrahedron& removed) const {
+  Box box;
+  for (const Vec3& p : {removed.a, removed.b, removed.c, removed.d}) box.extend(p);
+  bool met = false;
+  tree_.visit([&](const Box& other) { return !met && other.overlaps(box); },
+              [&](std::uint32_t f) {
+                met = met || (winding_ ? meets_interior(triangle(f), removed) : may_touch(triangle(f), removed));
+              });
+  if (met || !winding_) return !met;
+  const auto inside = point_inside(removed);
+  return inside && winding_->at(*inside).value_or(least_covered_) < least_covered_;
+}
 
 std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const HullOptions& options) {
   return Tightener(hull, original, options).run();

@@ -115,4 +115,17 @@ std::optional<std::string> first_defect(const ProgressiveHull& hull) {
   return std::nullopt;
 }
 
+std::size_t faces_within(const ProgressiveHull& hull, const std::function<bool(const TriangleMesh&)>& is_within) {
+  // In splits made from the base mesh: fewer than `from` are too few, `near` are enough.
+  std::size_t from = 0, near = hull.splits().size();
+  while (from < near) {
+    const std::size_t middle = from + (near - from) / 2;
+    if (is_within(hull.level(hull.base_face_count() + 2 * middle)))
+      near = middle;
+    else
+      from = middle + 1;
+  }
+  return hull.base_face_count() + 2 * near;
+}
+
 }  // namespace prohull

@@ -49,7 +49,12 @@ void MeshBuilder::add_triangle(VertexId a, VertexId b, VertexId c, Place place) 
 }
 
 void MeshBuilder::add_polygon(std::span<const std::int64_t> corners, Place place) {
-  if (corners.size() < 3) fail(file_, place, fmt::format("a face with {} corners; expected 3 or more", corners.size()));
+  if (corners.empty()) return;
+  if (corners.size() < 3) {  // a point or an edge: no surface, but a hull covers it
+    const VertexId first = checked(corners.front(), place), last = checked(corners.back(), place);
+    add_triangle(first, last, last, place);
+    return;
+  }
   if (corners.size() > 3)
     polygons_.push_back(
         {static_cast<std::uint32_t>(mesh_.face_count()), static_cast<std::uint32_t>(corners.size()), place});

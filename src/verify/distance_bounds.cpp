@@ -143,19 +143,11 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
   return Search(from, to, options).run();
 }
 
-std::size_t faces_within(const ProgressiveHull& hull, double distance, const DistanceOptions& options) {
-  const TriangleMesh original = hull.original();
-  // In splits made from the base mesh: fewer than `from` are too few, `near` are enough.
-  std::size_t from = 0, near = hull.splits().size();
-  while (from < near) {
-    const std::size_t middle = from + (near - from) / 2;
-    const TriangleMesh level = hull.level(hull.base_face_count() + 2 * middle);
-    if (distance_bounds(level, original, options).upper <= distance)
-      near = middle;
-    else
-      from = middle + 1;
-  }
-  return hull.base_face_count() + 2 * near;
+bool HullBounds::hold(const TriangleMesh& hull, const TriangleMesh& original, double volume,
+                      const DistanceOptions& options) const {
+  const double added = std::abs(signed_volume(hull) - volume);
+  if (added > max_added_volume || (std::isfinite(max_void) && !(added <= max_void * volume))) return false;
+  return !std::isfinite(max_distance) || distance_bounds(hull, original, options).upper <= max_distance;
 }
 
 }  // namespace prohull

@@ -17,9 +17,13 @@ using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 
 Exact::Point_3 exact(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-/// The definition, by construction: the triangle is clipped by the four planes; what is left meets the inside if its
-/// centre, a point of the relative inside, lies strictly inside of all planes.
-bool truly_meets_interior(const Triangle& t, const Tetrahedron& v) {
+struct Meeting {
+  bool touches, meets_interior;
+};
+
+/// The definition, by construction: the triangle is clipped by the four planes; what is left touches, and meets the
+/// inside if its centre, a point of the relative inside, lies strictly inside of all planes.
+Meeting true_meeting(const Triangle& t, const Tetrahedron& v) {
   std::vector<Exact::Point_3> polygon{exact(t.a), exact(t.b), exact(t.c)};
   const Exact::Point_3 a = exact(v.a), b = exact(v.b), c = exact(v.c), d = exact(v.d);
   const std::pair<Exact::Point_3, Exact::Vector_3> planes[] = {{a, CGAL::cross_product(b - a, c - a)},
@@ -35,36 +39,44 @@ bool truly_meets_interior(const Triangle& t, const Tetrahedron& v) {
       if (sp * sq < 0) kept.push_back(p + sp / (sp - sq) * (q - p));
     }
     polygon = std::move(kept);
-    if (polygon.empty()) return false;
+    if (polygon.empty()) return {false, false};
   }
   Exact::Vector_3 sum(0, 0, 0);
   for (const auto& p : polygon) sum = sum + (p - CGAL::ORIGIN);
   const Exact::Point_3 center = CGAL::ORIGIN + sum / Exact::FT(static_cast<int>(polygon.size()));
   for (const auto& [point, n] : planes)
-    if (n * (center - point) >= 0) return false;
-  return true;
+    if (n * (center - point) >= 0) return {true, false};
+  return {true, true};
 }
 
-TEST(MeetsInterior, AgreesWithTheClippedTriangleOnASmallGrid) {
+TEST(TetrahedronContact, AgreesWithTheClippedTriangleOnASmallGrid) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   std::uniform_int_distribution<int> grid(0, 3);
   const auto corner = [&] { return Vec3{0.1 * grid(random), 0.1 * grid(random), 0.1 * grid(random)}; };
-  int met = 0, touched = 0;
+  int met = 0, touched = 0, apart = 0, found_apart = 0;
   for (int i = 0; i < rounds(20000); ++i) {
     Tetrahedron v{corner(), corner(), corner(), corner()};
     const Side s = side(v.a, v.b, v.c, v.d);
     if (s == Side::On) continue;
     if (s == Side::Outside) std::swap(v.b, v.c);
     const Triangle t{corner(), corner(), corner()};  // often without area
-    const bool truth = truly_meets_interior(t, v);
-    (truth ? met : touched) += 1;
-    ASSERT_EQ(meets_interior(t, v), truth);
-    ASSERT_EQ(meets_interior({t.c, t.a, t.b}, {v.b, v.c, v.a, v.d}), truth);
+    const Meeting truth = true_meeting(t, v);
+    (truth.meets_interior ? met : truth.touches ? touched : apart) += 1;
+    ASSERT_EQ(meets_interior(t, v), truth.meets_interior);
+    ASSERT_EQ(meets_interior({t.c, t.a, t.b}, {v.b, v.c, v.a, v.d}), truth.meets_interior);
+    if (truth.touches) {
+      ASSERT_TRUE(may_touch(t, v));
+      ASSERT_TRUE(may_touch({t.c, t.a, t.b}, {v.b, v.c, v.a, v.d}));
+    } else {
+      found_apart += !may_touch(t, v);
+    }
   }
   EXPECT_GT(met, rounds(20000) / 10);
   EXPECT_GT(touched, rounds(20000) / 10);
+  EXPECT_GT(apart, rounds(20000) / 10);
+  EXPECT_GT(found_apart, 0.98 * apart) << "parallel edges only are left";
 }
 
 TEST(MeetsInterior, IsFalseForTheFacesOfTheTetrahedron) {

@@ -92,15 +92,33 @@ TEST(FacesWithin, IsACoarserLevelForAGreaterDistance) {
   const TriangleMesh mesh = make_sample("asteroid", 3000);
   const ProgressiveHull hull = build_hull(mesh, {.target_faces = 50}).hull;
   const double reach = bounding_box(mesh).diagonal();
+  const auto is_within = [&](double distance) {
+    return [&mesh, distance](const TriangleMesh& level) { return distance_bounds(level, mesh).upper <= distance; };
+  };
   std::size_t finer = mesh.face_count() + 1;
   for (const double distance : {0.001, 0.01, 0.03}) {
-    const std::size_t faces = faces_within(hull, distance * reach);
+    const std::size_t faces = faces_within(hull, is_within(distance * reach));
     EXPECT_LT(faces, finer);
     EXPECT_LE(distance_bounds(hull.level(faces), mesh).upper, distance * reach);
     finer = faces;
   }
-  EXPECT_EQ(faces_within(hull, 100 * reach), hull.base_face_count());
-  EXPECT_EQ(faces_within(hull, 0), mesh.face_count());
+  EXPECT_EQ(faces_within(hull, is_within(100 * reach)), hull.base_face_count());
+  EXPECT_EQ(faces_within(hull, is_within(0)), mesh.face_count());
+}
+
+TEST(HullBounds, HoldEachByItself) {
+  const TriangleMesh inner = box({0, 0, 0}, {4, 4, 4}), outer = box({-1, 0, 0}, {5, 4, 4});  // 64 and 96
+  const auto hold = [&](const HullBounds& bounds) { return bounds.hold(outer, inner, 64); };
+  EXPECT_TRUE(hold({}));
+  EXPECT_FALSE(HullBounds{}.any());
+  EXPECT_TRUE(hold({.max_distance = 1.02}));
+  EXPECT_FALSE(hold({.max_distance = 0.99}));
+  EXPECT_TRUE(hold({.max_void = 0.5}));
+  EXPECT_FALSE(hold({.max_void = 0.49}));
+  EXPECT_TRUE(hold({.max_added_volume = 32}));
+  EXPECT_FALSE(hold({.max_added_volume = 31}));
+  EXPECT_FALSE(hold({.max_distance = 1.02, .max_void = 0.1}));
+  EXPECT_TRUE((HullBounds{.max_added_volume = 32}.hold(inner, outer, 96))) << "an inner hull";
 }
 
 }  // namespace

@@ -1,0 +1,187 @@
+#include "build_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prohull::cli {
+namespace {
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
+}
+
+bool was_wrapped(const BuildOutcome& outcome, const EnclosingHull& hull) { return outcome.solid(hull).alpha > 0; }
+
+// A wrap has a volume of its own, but that of the triangles in it is not known.
+double void_ratio(const BuildOutcome& outcome, const EnclosingHull& hull) {
+  return signed_volume(hull.mesh) / outcome.solid(hull).volume - 1;
+}
+
+std::size_t added_self_intersections(const BuildOutcome& outcome, const EnclosingHull& hull) {
+  return hull.self_intersections - std::min(hull.self_intersections, outcome.input_self_intersections);
+}
+
+std::string described_self_intersections(const BuildOutcome& outcome, const EnclosingHull& hull) {
+  const std::size_t input = outcome.input_self_intersections;
+  if (hull.self_intersections == 0)
+    return input == 0 ? "none" : fmt::format("none (the mesh: {} pairs of faces)", grouped(input));
+  return fmt::format("{} pairs of faces (the mesh: {}; added: {})", grouped(hull.self_intersections), grouped(input),
+                     grouped(added_self_intersections(outcome, hull)));
+}
+
+void print_input(const BuildOptions& options, const BuildOutcome& outcome) {
+  fmt::print("{}: {}, {}\n", options.in.string(), counted(outcome.input.faces, "face", "faces"),
+             counted(outcome.input.components, "component", "components"));
+  for (const std::string& repair : describe(outcome.made.input.repairs)) fmt::print("  {}\n", repair);
+  if (!outcome.made.input.closed) fmt::print("  not closed: {}\n", outcome.made.input.obstacle);
+  for (const std::string& note : outcome.made.notes) fmt::print("  {}\n", note);
+  for (const Solid& solid : outcome.made.solids)
+    if (solid.alpha > 0)
+      fmt::print("  wrap with alpha {:.4g}: {}\n", solid.alpha, counted(solid.mesh.face_count(), "face", "faces"));
+}
+
+void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
+  const EnclosingHull& hull = written.hull;
+  const std::size_t faces = hull.mesh.face_count();
+  fmt::print(
+      "{}: {} hull of {}{}, {}, at most {:.4g} from the mesh\n", written.path.string(),
+      options.is_outer() ? "outer" : "inner", counted(faces, "face", "faces"),
+      was_wrapped(outcome, hull) ? fmt::format(", of the wrap with alpha {:.4g}", outcome.solid(hull).alpha) : "",
+      was_wrapped(outcome, hull) ? fmt::format("volume {:.4g}", signed_volume(hull.mesh))
+                                 : fmt::format("void {:.3f} %", 100 * void_ratio(outcome, hull)),
+      written.distance.upper);
+  fmt::print("  self-intersections: {}\n", described_self_intersections(outcome, hull));
+  fmt::print("  triangles: {}\n", described(written.quality));
+  if (hull.rounded_vertices > 0)
+    fmt::print("  moved {} to coordinates that the file keeps\n", counted(hull.rounded_vertices, "vertex", "vertices"));
+  if (!hull.reached)
+    fmt::print("  no legal collapse is left above the {} faces asked for; what refused the {} edges left: {}\n",
+               grouped(hull.target_faces), grouped(3 * faces / 2), listed(hull.blocked));
+  if (!hull.bounded) fmt::print("  NOT within the bounds asked for: no hull was\n");
+  if (written.certified && !options.hierarchy.empty())
+    fmt::print("{}: all levels from {} to {} faces\n", options.hierarchy.string(), grouped(faces),
+               grouped(outcome.solid(hull).mesh.face_count()));
+  fmt::print("  certified: {}\n",
+             !written.certified ? "NO: nothing was written; please report this mesh"
+             : options.is_outer()
+                 ? (was_wrapped(outcome, hull) ? "yes, the file as written covers every triangle of the original"
+                                               : "yes, the file as written encloses the original")
+                 : "yes, the file as written is enclosed by the original");
+}
+
+nlohmann::json finite_or_null(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
+
+nlohmann::json facts_of(const RefusalCounts& counts) {
+  nlohmann::json json;
+  for (std::size_t i = 0; i < kRefusalKinds; ++i) json[std::string(name(Refusal(i)))] = counts[Refusal(i)];
+  return json;
+}
+
+nlohmann::json options_report(const BuildOptions& options) {
+  const HullOptions& hull = options.enclosing.hull;
+  const HullBounds& bounds = options.enclosing.bounds;
+  return {{"faces", options.faces},
+          {"side", name_of(side_names(), hull.side)},
+          {"max_distance", finite_or_null(bounds.max_distance)},
+          {"max_void", finite_or_null(bounds.max_void)},
+          {"max_added_volume", finite_or_null(bounds.max_added_volume)},
+          {"repair", name_of(repair_names(), options.enclosing.repair)},
+          {"keep_cavities", options.enclosing.keep_cavities},
+          {"seal_holes", options.enclosing.seal_holes},
+          {"tight", options.enclosing.tight},
+          {"strategy", name_of(strategy_names(), hull.strategy)},
+          {"max_valence", hull.max_valence},
+          {"min_compactness_ratio", hull.min_compactness_ratio},
+          {"sufficient_compactness", hull.sufficient_compactness},
+          {"max_normal_deviation_degrees", options.normal_deviation_degrees},
+          {"allow_self_intersections", !options.enclosing.tight && !hull.refuses_self_intersections()},
+          {"seed", hull.seed},
+          {"best_of", hull.best_of},
+          {"float32_coordinates", hull.float32_coordinates}};
+}
+
+nlohmann::json hull_report(const BuildOutcome& outcome, const Written& written) {
+  const EnclosingHull& hull = written.hull;
+  const bool wrapped = was_wrapped(outcome, hull);
+  return {{"path", written.path.string()},
+          {"target_faces", hull.target_faces},
+          {"faces", hull.mesh.face_count()},
+          {"vertices", hull.mesh.vertex_count()},
+          {"volume", signed_volume(hull.mesh)},
+          {"void_ratio", wrapped ? nlohmann::json() : finite_or_null(void_ratio(outcome, hull))},
+          {"wrap_alpha", wrapped ? nlohmann::json(outcome.solid(hull).alpha) : nlohmann::json()},
+          {"distance_bound", written.distance.upper},
+          {"self_intersections", hull.self_intersections},
+          {"added_self_intersections", added_self_intersections(outcome, hull)},
+          {"quality", facts(written.quality)},
+          {"rounded_vertices", hull.rounded_vertices},
+          {"certified", written.certified},
+          {"proof", std::string(hull.proof)},
+          {"stopped", hull.reached ? "target_reached" : "no_legal_collapse"},
+          {"within_bounds", hull.bounded},
+          {"refusals", facts_of(hull.refused)},
+          {"blocked", facts_of(hull.blocked)}};
+}
+
+std::string repair_of(const BuildOutcome& outcome) {
+  const bool wrapped =
+      std::ranges::any_of(outcome.written, [&](const Written& written) { return was_wrapped(outcome, written.hull); });
+  return wrapped ? "wrap" : outcome.made.input.repairs.any() ? "repaired" : "none";
+}
+
+template <class Value>
+double total(const std::vector<Written>& written, Value value) {
+  double sum = 0;
+  for (const Written& w : written) sum += value(w);
+  return sum;
+}
+
+double build_seconds(const BuildOutcome& outcome) {
+  return total(outcome.written, [](const Written& w) { return w.hull.build_seconds; });
+}
+double verify_seconds(const BuildOutcome& outcome) {
+  return total(outcome.written, [](const Written& w) { return w.hull.verify_seconds; });
+}
+double write_seconds(const BuildOutcome& outcome) {
+  return total(outcome.written, [](const Written& w) { return w.write_seconds; });
+}
+
+}  // namespace
+
+void print_summary(const BuildOptions& options, const BuildOutcome& outcome) {
+  print_input(options, outcome);
+  for (const Written& written : outcome.written) print_hull(options, outcome, written);
+  fmt::print("  read {:.2f} s, {}build {:.2f} s, write {:.2f} s, verify {:.2f} s\n", outcome.read_seconds,
+             outcome.made.repair_seconds >= 0.005 ? fmt::format("repair {:.2f} s, ", outcome.made.repair_seconds) : "",
+             build_seconds(outcome), write_seconds(outcome), verify_seconds(outcome));
+}
+
+nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcome) {
+  nlohmann::json in = facts(outcome.input);
+  in["path"] = options.in.string();
+  in["repair"] = repair_of(outcome);
+  in["repairs"] = describe(outcome.made.input.repairs);
+  in["obstacle"] = outcome.made.input.obstacle;
+  in["notes"] = outcome.made.notes;
+  in["self_intersections"] = outcome.input_self_intersections;
+  nlohmann::json hulls = nlohmann::json::array();
+  for (const Written& written : outcome.written) hulls.push_back(hull_report(outcome, written));
+  return {{"input", in},
+          {"hull", hulls.back()},
+          {"hulls", hulls},
+          {"certified", std::ranges::all_of(outcome.written, &Written::certified)},
+          {"stopped", hulls.back()["stopped"]},
+          {"refusals", hulls.back()["refusals"]},
+          {"blocked", hulls.back()["blocked"]},
+          {"seconds",
+           {{"read", outcome.read_seconds},
+            {"repair", outcome.made.repair_seconds},
+            {"build", build_seconds(outcome)},
+            {"write", write_seconds(outcome)},
+            {"verify", verify_seconds(outcome)}}},
+          {"options", options_report(options)}};
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "command.h"
+#include "prohull/enclosing_hull.h"
+
+namespace prohull::cli {
+
+struct BuildOptions {
+  std::filesystem::path in, out, hierarchy, report;
+  std::vector<std::size_t> faces{2000};
+  EnclosingOptions enclosing;
+  double normal_deviation_degrees = 45;
+  double max_void_percent = 0;  ///< 0: any
+  bool strict = false, allow_self_intersections = false, no_self_intersections = false;
+
+  bool is_outer() const { return enclosing.hull.side == HullSide::Outer; }
+};
+
+/// A hull and its file.
+struct Written {
+  EnclosingHull hull;
+  std::filesystem::path path;
+  bool certified = false;        ///< the hull, and the file holds its very bits
+  DistanceBounds distance = {};  ///< to the original
+  MeshQuality quality = {};
+  double write_seconds = 0;
+
+  bool is_as_asked() const { return certified && hull.reached && hull.bounded; }
+};
+
+struct BuildOutcome {
+  MeshReport input;  ///< of the file as read
+  EnclosingHulls made;
+  std::size_t input_self_intersections = 0;
+  std::vector<Written> written;
+  double read_seconds = 0;
+
+  const Solid& solid(const EnclosingHull& hull) const { return made.solids[hull.solid]; }
+};
+
+const Names<Strategy>& strategy_names();
+const Names<Repair>& repair_names();
+
+void print_summary(const BuildOptions& options, const BuildOutcome& outcome);
+nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcome);
+
+}  // namespace prohull::cli

@@ -1,0 +1,384 @@
+#include "prohull/enclosing_hull.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "geometry/float32.h"
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
+#include "prohull/float32_hull.h"
+#include "prohull/replay.h"
+#include "prohull/text.h"
+#include "prohull/tight_hull.h"
+
+namespace prohull {
+namespace {
+
+// A throwaway prototype reached a hull without self-intersection for 67 of 67 robot links with a twentieth; a fiftieth
+// is closer to the triangles, but has handles where holes are.
+constexpr double kWrapAlphas[]{1.0 / 50, 1.0 / 20, 1.0 / 10};  // of the diagonal
+constexpr double kWrapOffset = 1.0 / 600;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double fraction_done(const HullProgress& p) {
+  const double all = static_cast<double>(p.original_faces - std::min(p.target_faces, p.original_faces - 1));
+  return static_cast<double>(p.original_faces - p.faces) / all;
+}
+
+/// The corners of a face, those of the longest edge first.
+std::array<VertexId, 3> longest_edge_first(const TriangleMesh& mesh, FaceId f) {
+  auto corners = mesh.triangles[f];
+  const auto length = [&](std::size_t i) {
+    return squared_norm(mesh.positions[corners[(i + 1) % 3]] - mesh.positions[corners[i]]);
+  };
+  const std::size_t longest = std::ranges::max(std::array<std::size_t, 3>{0, 1, 2}, {}, length);
+  std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(longest));
+  return corners;
+}
+
+/// As long as v, which is not zero, or nearly.
+Vec3 perpendicular(const Vec3& v) {
+  const Vec3 axis = std::abs(v.x) < 0.6 * norm(v) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 across = cross(v, axis);
+  return across * (norm(v) / norm(across));
+}
+
+class Ladder {
+ public:
+  Ladder(TriangleMesh triangles, std::span<const std::size_t> target_faces, const EnclosingOptions& options)
+      : options_(options), target_faces_(target_faces), fewest_faces_(std::ranges::min(target_faces)) {
+    Timer timer(made_.repair_seconds);
+    made_.input = repaired(std::move(triangles));
+  }
+
+  EnclosingHulls climb() {
+    for (const std::size_t faces : target_faces_) made_.hulls.push_back(hull_of(faces));
+    return std::move(made_);
+  }
+
+ private:
+  /// Adds the time until it ends.
+  class Timer {
+   public:
+    explicit Timer(double& seconds) : seconds_(seconds) {}
+    Timer(const Timer&) = delete;
+    Timer& operator=(const Timer&) = delete;
+    ~Timer() { seconds_ += now() - start_; }
+
+   private:
+    double& seconds_;
+    double start_ = now();
+  };
+
+  bool progress(std::string_view stage, double fraction) const {
+    return !options_.progress || options_.progress(stage, fraction);
+  }
+  void go_on(std::string_view stage, double fraction) const {
+    if (!progress(stage, fraction)) throw Cancelled();
+  }
+
+  bool is_outer() const { return options_.hull.side == HullSide::Outer; }
+  bool may_wrap() const { return is_outer() && options_.repair != Repair::None && options_.wrap; }
+
+  RepairedMesh repaired(TriangleMesh triangles) const;
+  EnclosingHull hull_of(std::size_t target_faces);
+  void make_solid(std::size_t rung);
+  TriangleMesh to_be_wrapped(double offset) const;
+  void add_wrap(double alpha);
+  void note_open_shell(const Solid& wrap);
+  void note_why_not(const EnclosingHull& hull);
+  void note(std::string text);
+  std::string described(const Solid& solid) const;
+  EnclosingHull build(std::size_t solid, std::size_t target_faces);
+  EnclosingHull build_levels(std::size_t solid, std::size_t target_faces);
+  TriangleMesh placed(const TriangleMesh& level, std::size_t solid) const;
+  EnclosingHull build_tight(std::size_t solid, std::size_t target_faces);
+  void certify(EnclosingHull& hull) const;
+  bool covers(const TriangleMesh& hull, const TriangleMesh& triangles) const;
+  std::optional<Float32Hull> stored(const TriangleMesh& hull, std::size_t solid);
+  bool is_within(const TriangleMesh& hull, std::size_t solid) const;
+  bool is_stored_within(const TriangleMesh& hull, std::size_t solid);
+  bool is_as_asked(const EnclosingHull& hull) const;
+  HullOptions hull_options(std::size_t target_faces, std::string_view stage) const;
+
+  const EnclosingOptions& options_;
+  const std::span<const std::size_t> target_faces_;
+  const std::size_t fewest_faces_;
+  EnclosingHulls made_;
+  std::vector<std::optional<HullResult>> levels_;  ///< of each solid, down to fewest_faces_
+  std::size_t next_rung_ = 0;
+};
+
+RepairedMesh Ladder::repaired(TriangleMesh triangles) const {
+  go_on("repair", 0);
+  if (options_.repair == Repair::None) {
+    ClosedMesh closed = closed_mesh(std::move(triangles));
+    RepairedMesh result{closed.mesh, std::nullopt, {}, closed.repairs, {}};
+    result.closed = std::move(closed);
+    return result;
+  }
+  RepairedMesh result = repaired_mesh(std::move(triangles), options_.keep_cavities || !is_outer());
+  if (result.closed && options_.repair != Repair::Wrap) return result;
+  if (!is_outer())
+    throw InputError(Defect::OpenEdge,
+                     fmt::format("{}; there is no inner hull of what is not closed", result.obstacle));
+  if (!options_.wrap)
+    throw InputError(Defect::OpenEdge,
+                     fmt::format("{}; this build cannot wrap what is not closed: build prohull where CGAL's alpha wrap "
+                                 "is installed (libcgal-dev), with PROHULL_WRAP=ON",
+                                 result.obstacle));
+  return result;
+}
+
+// Rung 0 is the repaired input, the others are wraps; some give nothing.
+void Ladder::make_solid(std::size_t rung) {
+  if (rung == 0) {
+    if (!made_.input.closed || options_.repair == Repair::Wrap) return;
+    const ClosedMesh& closed = *made_.input.closed;
+    made_.solids.push_back({closed.mesh, 0, closed.report.volume, count_self_intersections(closed.mesh)});
+    return;
+  }
+  const double diagonal = bounding_box(made_.input.original).diagonal();
+  const double alpha = std::max(kWrapAlphas[rung - 1] * diagonal, options_.seal_holes / 2);
+  if (made_.solids.empty() || made_.solids.back().alpha < alpha) add_wrap(alpha);
+}
+
+// What is wrapped: as wrappers may look at faces with an area only, the others get a little of it.
+TriangleMesh Ladder::to_be_wrapped(double offset) const {
+  TriangleMesh triangles = made_.input.original;
+  const double little = 1e-3 * offset;
+  for (const FaceId f : triangles.triangles.ids()) {
+    const auto [a, b, c] = longest_edge_first(triangles, f);
+    const Vec3 along = triangles.positions[b] - triangles.positions[a];
+    const Vec3 up = cross(along, triangles.positions[c] - triangles.positions[a]);
+    if (norm(up) > little * norm(along)) continue;
+    // Beside the longest edge, or the point.
+    const Vec3 beside = norm(along) > 0 ? little / norm(along) * perpendicular(along) : Vec3{little, 0, 0};
+    const VertexId d = triangles.positions.push_back(triangles.positions[a] + beside);
+    const VertexId e = norm(along) > 0 ? b : triangles.positions.push_back(triangles.positions[a] + Vec3{0, little, 0});
+    triangles.triangles.push_back({a, e, d});
+  }
+  return triangles;
+}
+
+void Ladder::add_wrap(double alpha) {
+  Timer timer(made_.repair_seconds);
+  go_on("wrap", 0);
+  const bool is_first = made_.solids.empty() || made_.solids.back().alpha == 0;
+  const double offset = kWrapOffset * bounding_box(made_.input.original).diagonal();
+  TriangleMesh wrap = options_.wrap(to_be_wrapped(offset), alpha, offset, [this] { return progress("wrap", 0); });
+  if (options_.hull.float32_coordinates)  // the offset is far greater than what that moves them
+    for (Vec3& p : wrap.positions) p = nearest_float32(p);
+  try {
+    const ClosedMesh closed = closed_mesh(std::move(wrap));
+    made_.solids.push_back({closed.mesh, alpha, closed.report.volume, count_self_intersections(closed.mesh)});
+    if (is_first) note_open_shell(made_.solids.back());
+  } catch (const InputError& error) {
+    note(fmt::format("the wrap with alpha {:.4g} is no closed 2-manifold: {}", alpha, error.what()));
+  }
+}
+
+EnclosingHull Ladder::hull_of(std::size_t target_faces) {
+  std::optional<EnclosingHull> best;
+  const auto rank = [this](const EnclosingHull& hull) {
+    return std::tuple(!hull.certified, hull.self_intersections > 0, !hull.bounded, hull.mesh.face_count(), hull.solid);
+  };
+  const std::size_t rungs = may_wrap() ? 1 + std::size(kWrapAlphas) : 1;
+  for (std::size_t solid = 0;; ++solid) {
+    while (solid == made_.solids.size() && next_rung_ < rungs) make_solid(next_rung_++);
+    if (solid == made_.solids.size()) break;
+    EnclosingHull hull = build(solid, target_faces);
+    const bool done = is_as_asked(hull);
+    if (!done && hull.stored) note_why_not(hull);
+    if (!best || done || rank(hull) < rank(*best)) best = std::move(hull);
+    if (done) break;
+  }
+  if (!best)
+    throw InputError(
+        made_.input.closed ? Defect::NoVolume : Defect::OpenEdge,
+        fmt::format("nothing could be wrapped: {}", made_.notes.empty() ? made_.input.obstacle : made_.notes.back()));
+  return std::move(*best);
+}
+
+bool Ladder::is_as_asked(const EnclosingHull& hull) const {
+  const bool clean = hull.self_intersections == 0 || !options_.hull.refuses_self_intersections();
+  return hull.certified && hull.reached && hull.bounded && clean;
+}
+
+HullOptions Ladder::hull_options(std::size_t target_faces, std::string_view stage) const {
+  HullOptions options = options_.hull;
+  options.target_faces = target_faces;
+  options.progress = [this, stage](const HullProgress& p) { return progress(stage, fraction_done(p)); };
+  return options;
+}
+
+// The hull with the coordinates that a file keeps, if it has such.
+std::optional<Float32Hull> Ladder::stored(const TriangleMesh& hull, std::size_t solid) {
+  if (!options_.hull.float32_coordinates) return Float32Hull{hull, 0};
+  try {
+    return with_float32_coordinates(hull, options_.hull.side);
+  } catch (const InputError& error) {
+    note(fmt::format("a hull of {} has no float32 coordinates: {}", described(made_.solids[solid]), error.what()));
+    return std::nullopt;
+  }
+}
+
+bool Ladder::is_within(const TriangleMesh& hull, std::size_t solid) const {
+  if (!options_.bounds.any()) return true;
+  const DistanceOptions distance{.progress = [this](double) { return progress("measure", 0); }};
+  return options_.bounds.hold(hull, made_.solids[solid].alpha > 0 ? made_.input.original : made_.input.closed->mesh,
+                              made_.solids.front().volume, distance);
+}
+
+bool Ladder::is_stored_within(const TriangleMesh& hull, std::size_t solid) {
+  const auto file = stored(hull, solid);
+  return file && is_within(file->mesh, solid);
+}
+
+EnclosingHull Ladder::build(std::size_t solid, std::size_t target_faces) {
+  const double start = now();
+  EnclosingHull hull = options_.tight ? build_tight(solid, target_faces) : build_levels(solid, target_faces);
+  hull.target_faces = target_faces;
+  hull.solid = solid;
+  auto file = stored(hull.mesh, solid);
+  hull.stored = file.has_value();
+  if (file) hull.mesh = std::move(file->mesh), hull.rounded_vertices = file->moved_vertices;
+  hull.self_intersections = count_self_intersections(hull.mesh);
+  hull.bounded = !file || is_within(hull.mesh, solid);
+  const double built = now();
+  if (file) certify(hull);
+  hull.build_seconds = built - start, hull.verify_seconds = now() - built;
+  return hull;
+}
+
+EnclosingHull Ladder::build_levels(std::size_t solid, std::size_t target_faces) {
+  levels_.resize(made_.solids.size());
+  std::optional<HullResult>& result = levels_[solid];
+  if (!result) {
+    result = build_hull(made_.solids[solid].mesh, hull_options(fewest_faces_, "build"));
+    if (result->stopped == Stopped::Cancelled) throw Cancelled();
+  }
+  EnclosingHull hull;
+  std::size_t faces = target_faces;
+  if (options_.bounds.any())
+    faces = std::max(faces, faces_within(result->hull, [&](const TriangleMesh& level) {
+                       return is_stored_within(placed(level, solid), solid);
+                     }));
+  const TriangleMesh level = result->hull.level(faces);
+  hull.reached = faces > target_faces || level.face_count() <= target_faces;
+  hull.mesh = placed(level, solid);
+  if (hull.mesh == level)
+    hull.levels = faces > result->hull.base_face_count() ? result->hull.with_base(faces) : result->hull;
+  hull.refused = result->refused, hull.blocked = result->blocked;
+  return hull;
+}
+
+// A level of a wrap moves towards the triangles, if it need not be one of a hierarchy.
+TriangleMesh Ladder::placed(const TriangleMesh& level, std::size_t solid) const {
+  if (made_.solids[solid].alpha == 0 || options_.levels) return level;
+  return moved_towards(level, made_.input.original, hull_options(level.face_count(), "tighten"));
+}
+
+EnclosingHull Ladder::build_tight(std::size_t solid, std::size_t target_faces) {
+  const TriangleMesh& mesh = made_.solids[solid].mesh;
+  const TriangleMesh* wrapped = made_.solids[solid].alpha > 0 ? &made_.input.original : nullptr;
+  TightHull tight = options_.bounds.any()
+                        ? build_tight_hull_within(
+                              mesh, [&](const TriangleMesh& hull) { return is_stored_within(hull, solid); },
+                              hull_options(target_faces, "search"), wrapped)
+                        : build_tight_hull(mesh, hull_options(target_faces, "build"), wrapped);
+  if (tight.stopped == Stopped::Cancelled) throw Cancelled();
+  EnclosingHull hull;
+  hull.mesh = std::move(tight.mesh);
+  hull.reached = tight.stopped == Stopped::TargetReached;
+  hull.refused = tight.refused, hull.blocked = tight.blocked;
+  return hull;
+}
+
+bool Ladder::covers(const TriangleMesh& hull, const TriangleMesh& triangles) const {
+  if (triangles.face_count() == 0) return true;
+  EnclosureOptions options{.max_offenders = 0};
+  options.progress = [this](double fraction) { return progress("verify", fraction); };
+  return verify_cover(triangles, hull, options).encloses;
+}
+
+// The splits of a progressive hull, replayed, lead from its base mesh to the solid; where the hull is another mesh, for
+// it is tight or rounded to float32, it is compared with the solid. What repair has dropped, and faces of a solid that
+// intersects itself, which may be inside out somewhere, have to be covered one by one; so has all that was wrapped.
+void Ladder::certify(EnclosingHull& hull) const {
+  const Solid& solid = made_.solids[hull.solid];
+  const auto on_the_way = [this](double fraction) { return progress("verify", fraction); };
+  if (solid.alpha > 0) {
+    hull.certified = covers(hull.mesh, made_.input.original) &&
+                     (!hull.levels || verify_replay(*hull.levels, solid.mesh, on_the_way).holds);
+    if (hull.certified) hull.proof = "coverage";
+    return;
+  }
+  hull.proof = "replay";
+  hull.certified = !hull.levels || verify_replay(*hull.levels, solid.mesh, on_the_way).holds;
+  go_on("verify", 1);
+  if (hull.certified && (!hull.levels || hull.mesh != hull.levels->base())) {
+    const EnclosureOptions options{.max_offenders = 0, .progress = on_the_way};
+    hull.proof = "enclosure";
+    hull.certified = is_outer() ? verify_enclosure(solid.mesh, hull.mesh, options).encloses
+                                : verify_enclosure(hull.mesh, solid.mesh, options).encloses;
+  }
+  if (hull.certified && is_outer() && options_.repair != Repair::None)
+    hull.certified = covers(hull.mesh, solid.self_intersections > 0 ? made_.input.original : made_.input.dropped);
+  if (!hull.certified) hull.proof = {};
+}
+
+// Of both sides of a sheet a wrap keeps the offset; a solid is thicker.
+void Ladder::note_open_shell(const Solid& wrap) {
+  double doubled_area = 0;
+  for (const FaceId f : wrap.mesh.triangles.ids()) {
+    const Triangle t = wrap.mesh.triangle(f);
+    doubled_area += norm(cross(t.b - t.a, t.c - t.a));
+  }
+  const double thickness = 4 * wrap.volume / doubled_area;
+  const double offset = kWrapOffset * bounding_box(made_.input.original).diagonal();
+  constexpr double kSheet = 3;  // offsets
+  if (thickness < kSheet * offset)
+    note(
+        fmt::format("the wrap is a sheet, {:.4g} thick on average: it went in through openings; --seal-holes D closes "
+                    "those up to D across",
+                    thickness));
+}
+
+void Ladder::note(std::string text) {
+  if (std::ranges::find(made_.notes, text) == made_.notes.end()) made_.notes.push_back(std::move(text));
+}
+
+std::string Ladder::described(const Solid& solid) const {
+  return solid.alpha > 0 ? fmt::format("the wrap with alpha {:.4g}", solid.alpha) : std::string("the mesh itself");
+}
+
+void Ladder::note_why_not(const EnclosingHull& hull) {
+  const std::string source = described(made_.solids[hull.solid]);
+  if (!hull.certified)
+    note(fmt::format("a hull of {} does not cover every triangle", source));
+  else if (hull.self_intersections > 0 && options_.hull.refuses_self_intersections())
+    note(fmt::format("a hull of {} intersects itself in {} pairs of faces", source, grouped(hull.self_intersections)));
+  else if (!hull.bounded)
+    note(fmt::format("no hull of {} is within the bounds", source));
+  else
+    note(fmt::format("no legal collapse of {} is left at {} faces: {}", source, grouped(hull.mesh.face_count()),
+                     listed(hull.blocked)));
+}
+
+}  // namespace
+
+EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size_t> target_faces,
+                               const EnclosingOptions& options) {
+  if (target_faces.empty()) throw InputError(Defect::InvalidOption, "no number of faces was asked for");
+  return Ladder(std::move(triangles), target_faces, options).climb();
+}
+
+}  // namespace prohull

@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "prohull/error.h"
+#include "prohull/repair.h"
+#include "prohull/text.h"
+#include "repair/steps.h"
+
+namespace prohull {
+namespace {
+
+std::string why_not_closed(const MeshReport& report) {
+  std::string counts;
+  for (const DefectCount& defect : defect_counts(report))
+    if (defect.count > 0 && !defect.allowed)
+      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", grouped(defect.count), defect.description);
+  return fmt::format("{} (in all: {})", report.first_defect, counts);
+}
+
+void require_usable_size(const Box& box) {
+  constexpr double kLargest = 1e100, kSmallest = 1e-100;
+  const double reach = std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x),
+                                 std::abs(box.max.y), std::abs(box.max.z)});
+  if (reach > kLargest)
+    throw InputError(
+        Defect::NonFiniteCoordinate,
+        fmt::format("coordinates reach {:g}; beyond {:g} volumes overflow: scale the mesh", reach, kLargest));
+  if (box.diagonal() < kSmallest)
+    throw InputError(Defect::NoVolume,
+                     fmt::format("the mesh is only {:g} across; below {:g} volumes vanish: scale the mesh",
+                                 box.diagonal(), kSmallest));
+}
+
+void require_faces(const TriangleMesh& mesh) {
+  if (mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces: nothing to enclose");
+  constexpr std::size_t kMostFaces = 0xffffffff / 3;
+  if (mesh.face_count() >= kMostFaces)
+    throw InputError(Defect::InvalidOption, fmt::format("{} faces; at most {} are supported",
+                                                        grouped(mesh.face_count()), grouped(kMostFaces)));
+}
+
+void face_outwards(ClosedMesh& closed) {
+  turn_outwards(closed.mesh, closed.report.components, closed.repairs);
+  closed.report.volume = signed_volume(closed.mesh);
+  if (!(closed.report.volume > 0)) throw InputError(Defect::NoVolume, "the mesh is closed but encloses no volume");
+}
+
+// One step after another, until the mesh is closed.
+void close(ClosedMesh& closed) {
+  closed.report = inspect(closed.mesh);
+  if (closed.report.is_closed_manifold()) return;
+  weld(closed.mesh, closed.repairs);
+  closed.report = inspect(closed.mesh);
+  if (closed.report.is_closed_manifold()) return;
+  drop_duplicate_faces(closed.mesh, closed.repairs);
+  turn_single_faces(closed.mesh, closed.repairs);
+  split_vertices(closed.mesh, closed.repairs);
+  closed.report = inspect(closed.mesh);
+  if (!closed.report.is_closed_manifold()) throw InputError(closed.report.worst_defect, why_not_closed(closed.report));
+}
+
+void drop_nested(ClosedMesh& closed) {
+  drop_nested_components(closed.mesh, closed.report.components, closed.repairs);
+  if (closed.repairs.dropped_components > 0) closed.report = inspect(closed.mesh);
+}
+
+// The triangles of `mesh` that `other` has not, in either orientation.
+TriangleMesh without(const TriangleMesh& mesh, const TriangleMesh& other) {
+  if (mesh == other) return {};
+  using Corner = std::array<double, 3>;
+  const auto corners = [](const TriangleMesh& m, FaceId f) {
+    const Triangle t = m.triangle(f);
+    std::array sorted{Corner{t.a.x, t.a.y, t.a.z}, Corner{t.b.x, t.b.y, t.b.z}, Corner{t.c.x, t.c.y, t.c.z}};
+    std::ranges::sort(sorted);
+    return sorted;
+  };
+  std::vector<std::array<Corner, 3>> kept;
+  kept.reserve(other.face_count());
+  for (const FaceId f : other.triangles.ids()) kept.push_back(corners(other, f));
+  std::ranges::sort(kept);
+  TriangleMesh rest{mesh.positions, {}};
+  for (const FaceId f : mesh.triangles.ids())
+    if (!std::ranges::binary_search(kept, corners(mesh, f))) rest.triangles.push_back(mesh.triangles[f]);
+  return rest;
+}
+
+}  // namespace
+
+std::vector<std::string> describe(const Repairs& repairs) {
+  std::vector<std::string> phrases;
+  const auto say = [&](std::size_t count, const char* before, const char* one, const char* many) {
+    if (count > 0) phrases.push_back(fmt::format("{} {} {}", before, grouped(count), count == 1 ? one : many));
+  };
+  say(repairs.dropped_non_finite_faces, "dropped", "face with a corner that is not finite",
+      "faces with a corner that is not finite");
+  say(repairs.welded_vertices, "welded", "vertex at the position of another", "vertices at equal positions");
+  say(repairs.dropped_faces, "dropped", "face that had the same vertex twice", "faces that had the same vertex twice");
+  say(repairs.dropped_duplicate_faces, "dropped", "face that was there already", "faces that were there already");
+  say(repairs.turned_single_faces, "turned", "face that disagreed with its neighbours",
+      "faces that disagreed with their neighbours");
+  say(repairs.split_vertices, "split", "vertex in which two parts met", "vertices in which parts met");
+  if (repairs.turned_components > 0)
+    phrases.push_back(fmt::format("turned {} component{} that {} inside out ({} faces)",
+                                  grouped(repairs.turned_components), repairs.turned_components == 1 ? "" : "s",
+                                  repairs.turned_components == 1 ? "was" : "were", grouped(repairs.turned_faces)));
+  if (repairs.dropped_components > 0)
+    phrases.push_back(fmt::format("dropped {} component{} inside of others ({} faces)",
+                                  grouped(repairs.dropped_components), repairs.dropped_components == 1 ? "" : "s",
+                                  grouped(repairs.dropped_component_faces)));
+  return phrases;
+}
+
+ClosedMesh closed_mesh(TriangleMesh mesh) {
+  require_faces(mesh);
+  ClosedMesh closed{std::move(mesh), {}, {}};
+  closed.report = inspect(closed.mesh);
+  if (!closed.report.is_closed_manifold() && closed.report.non_finite_vertices == 0) {
+    weld(closed.mesh, closed.repairs);
+    closed.report = inspect(closed.mesh);
+  }
+  if (closed.report.faces == 0)
+    throw InputError(Defect::EmptyMesh, "no face has three different corners: nothing to enclose");
+  if (!closed.report.is_closed_manifold())
+    throw InputError(closed.report.worst_defect,
+                     why_not_closed(closed.report) +
+                         "; a hull needs a closed 2-manifold: close holes and separate parts "
+                         "that meet in an edge or vertex first");
+  require_usable_size(closed.report.box);
+  face_outwards(closed);
+  return closed;
+}
+
+RepairedMesh repaired_mesh(TriangleMesh mesh, bool keep_cavities) {
+  require_faces(mesh);
+  RepairedMesh result;
+  drop_non_finite_faces(mesh, result.repairs);
+  if (mesh.face_count() == 0)
+    throw InputError(Defect::NonFiniteCoordinate, "no face has finite corners: nothing to enclose");
+  require_usable_size(bounding_box(mesh));
+  result.original = std::move(mesh);
+  ClosedMesh closed{result.original, result.repairs, {}};
+  try {
+    close(closed);
+    face_outwards(closed);
+    if (!keep_cavities) drop_nested(closed);
+    result.dropped = without(result.original, closed.mesh);
+    result.repairs = closed.repairs;
+    result.closed = std::move(closed);
+  } catch (const InputError& error) {
+    result.repairs = closed.repairs;
+    result.obstacle = error.what();
+  }
+  return result;
+}
+
+}  // namespace prohull

@@ -1,0 +1,280 @@
+#include "repair/steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+#include "geometry/bvh.h"
+#include "geometry/orientation.h"
+#include "geometry/triangle_intersection.h"
+#include "geometry/winding_number.h"
+#include "prohull/error.h"
+
+namespace prohull {
+namespace {
+
+using Corners = std::array<VertexId, 3>;
+
+template <class Stays>
+std::size_t keep_faces(TriangleMesh& mesh, Stays stays) {
+  PerFace<Corners> kept;
+  kept.reserve(mesh.face_count());
+  for (const FaceId f : mesh.triangles.ids())
+    if (stays(f)) kept.push_back(mesh.triangles[f]);
+  const std::size_t dropped = mesh.face_count() - kept.size();
+  mesh.triangles = std::move(kept);
+  return dropped;
+}
+
+// The connected component of every face, numbered from 0.
+std::vector<std::uint32_t> component_of_faces(const TriangleMesh& mesh) {
+  PerVertex<VertexId> parent;
+  for (const VertexId v : mesh.positions.ids()) parent.push_back(v);
+  const auto find = [&](VertexId v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& t : mesh.triangles)
+    for (const VertexId v : {t[1], t[2]}) {
+      const VertexId a = find(t[0]), b = find(v);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  constexpr std::uint32_t kNone = 0xffffffff;
+  PerVertex<std::uint32_t> number(mesh.vertex_count(), kNone);
+  std::uint32_t count = 0;
+  std::vector<std::uint32_t> component;
+  for (const auto& t : mesh.triangles) {
+    std::uint32_t& known = number[find(t[0])];
+    if (known == kNone) known = count++;
+    component.push_back(known);
+  }
+  return component;
+}
+
+/// Two faces along an edge that no third one has: of each, the corner (3 face + corner) where the edge begins.
+struct Neighbours {
+  std::uint32_t a, b;
+  bool agree;  ///< about the outside: they run along it in opposite directions
+};
+
+std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh) {
+  struct Use {
+    VertexId low, high;
+    std::uint32_t corner;
+    bool upwards;
+  };
+  std::vector<Use> uses;
+  uses.reserve(3 * mesh.face_count());
+  for (const FaceId f : mesh.triangles.ids())
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const VertexId a = mesh.triangles[f][c], b = mesh.triangles[f][(c + 1) % 3];
+      uses.push_back({std::min(a, b), std::max(a, b), 3 * index(f) + c, a < b});
+    }
+  const auto key = [](const Use& use) { return std::tuple(use.low, use.high, use.corner); };
+  std::ranges::sort(uses, {}, key);
+  std::vector<Neighbours> result;
+  for (auto i = uses.begin(), j = i; i != uses.end(); i = j) {
+    while (j != uses.end() && j->low == i->low && j->high == i->high) ++j;
+    if (j - i == 2) result.push_back({i->corner, (i + 1)->corner, i->upwards != (i + 1)->upwards});
+  }
+  return result;
+}
+
+/// What decides whether others lie inside of it.
+struct Component {
+  std::vector<Triangle> faces;
+  Box box;
+  bool outwards = false;
+  std::optional<WindingNumber> winding;  ///< made when asked for, as `tree`
+  std::optional<Bvh> tree;
+
+  void add(const Triangle& t) {
+    faces.push_back(t);
+    box.extend(box_of(t));
+  }
+  void prepare() {
+    if (winding) return;
+    winding.emplace(faces);
+    std::vector<Box> boxes;
+    for (const Triangle& t : faces) boxes.push_back(box_of(t));
+    tree.emplace(boxes);
+  }
+};
+
+bool is_within(const Box& inner, const Box& outer) {
+  return outer.min.x < inner.min.x && outer.min.y < inner.min.y && outer.min.z < inner.min.z &&
+         inner.max.x < outer.max.x && inner.max.y < outer.max.y && inner.max.z < outer.max.z;
+}
+
+bool lies_inside(const Component& inner, Component& outer) {
+  if (!is_within(inner.box, outer.box)) return false;
+  outer.prepare();
+  // No face meets: then all of it is where one of its corners is. Corners that touch have no winding number.
+  for (const Triangle& t : inner.faces) {
+    for (const Vec3& p : {t.a, t.b, t.c})
+      if (outer.winding->at(p).value_or(0) < 1) return false;
+    bool meets = false;
+    outer.tree->visit([&](const Box& box) { return !meets && box.overlaps(box_of(t)); },
+                      [&](std::uint32_t f) { meets = meets || triangles_intersect(t, outer.faces[f]); });
+    if (meets) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs) {
+  repairs.dropped_non_finite_faces += keep_faces(mesh, [&](FaceId f) {
+    return std::ranges::all_of(mesh.triangles[f], [&](VertexId v) { return is_finite(mesh.positions[v]); });
+  });
+}
+
+void weld(TriangleMesh& mesh, Repairs& repairs) {
+  std::vector<VertexId> order;
+  order.reserve(mesh.vertex_count());
+  for (const VertexId v : mesh.positions.ids()) order.push_back(v);
+  const auto key = [&](VertexId v) {
+    const Vec3& p = mesh.positions[v];
+    return std::array{p.x, p.y, p.z};
+  };
+  std::sort(order.begin(), order.end(),
+            [&](VertexId a, VertexId b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  PerVertex<VertexId> representative(mesh.vertex_count());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
+    representative[order[i]] = same ? representative[order[i - 1]] : order[i];
+    repairs.welded_vertices += same;
+  }
+  for (auto& t : mesh.triangles)
+    for (VertexId& v : t) v = representative[v];
+  repairs.dropped_faces += keep_faces(mesh, [&](FaceId f) {
+    const auto& [a, b, c] = mesh.triangles[f];
+    return a != b && b != c && c != a;
+  });
+}
+
+void drop_duplicate_faces(TriangleMesh& mesh, Repairs& repairs) {
+  const auto key = [&](FaceId f) {
+    Corners t = mesh.triangles[f];
+    std::ranges::rotate(t, std::ranges::min_element(t));
+    return t;
+  };
+  std::vector<FaceId> order;
+  for (const FaceId f : mesh.triangles.ids()) order.push_back(f);
+  std::ranges::sort(order, {}, [&](FaceId f) { return std::tuple(key(f), f); });
+  PerFace<char> is_first(mesh.face_count(), 1);
+  for (std::size_t i = 1; i < order.size(); ++i) is_first[order[i]] = key(order[i]) != key(order[i - 1]);
+  repairs.dropped_duplicate_faces += keep_faces(mesh, [&](FaceId f) { return is_first[f] != 0; });
+}
+
+void turn_single_faces(TriangleMesh& mesh, Repairs& repairs) {
+  struct Neighbour {
+    std::uint32_t face;
+    bool agrees;
+  };
+  std::vector<std::vector<Neighbour>> near(mesh.face_count());
+  for (const Neighbours& n : neighbours_of(mesh)) {
+    near[n.a / 3].push_back({n.b / 3, n.agree});
+    near[n.b / 3].push_back({n.a / 3, n.agree});
+  }
+  enum State : char { kUnseen, kKept, kTurned };
+  std::vector<State> state(mesh.face_count(), kUnseen);
+  for (std::uint32_t seed = 0; seed < mesh.face_count(); ++seed) {
+    if (state[seed] != kUnseen) continue;
+    std::vector<std::uint32_t> part{seed};
+    state[seed] = kKept;
+    bool is_orientable = true;
+    for (std::size_t i = 0; i < part.size(); ++i)
+      for (const Neighbour& n : near[part[i]]) {
+        const State wanted = (state[part[i]] == kKept) == n.agrees ? kKept : kTurned;
+        if (state[n.face] == kUnseen) {
+          state[n.face] = wanted;
+          part.push_back(n.face);
+        }
+        is_orientable &= state[n.face] == wanted;
+      }
+    if (!is_orientable) continue;
+    const auto turned =
+        static_cast<std::size_t>(std::ranges::count_if(part, [&](std::uint32_t f) { return state[f] == kTurned; }));
+    const State fewer = 2 * turned <= part.size() ? kTurned : kKept;
+    for (const std::uint32_t f : part)
+      if (state[f] == fewer) {
+        std::swap(mesh.triangles[FaceId(f)][1], mesh.triangles[FaceId(f)][2]);
+        ++repairs.turned_single_faces;
+      }
+  }
+}
+
+void split_vertices(TriangleMesh& mesh, Repairs& repairs) {
+  std::vector<std::uint32_t> fan(3 * mesh.face_count());
+  std::iota(fan.begin(), fan.end(), 0u);
+  const auto find = [&](std::uint32_t c) {
+    while (fan[c] != c) c = fan[c] = fan[fan[c]];
+    return c;
+  };
+  const auto vertex = [&](std::uint32_t c) { return mesh.triangles[FaceId(c / 3)][c % 3]; };
+  const auto next = [](std::uint32_t c) { return c % 3 == 2 ? c - 2 : c + 1; };
+  const auto join = [&](std::uint32_t c, std::uint32_t d) {
+    c = find(c), d = find(d);
+    fan[std::max(c, d)] = std::min(c, d);
+  };
+  for (const Neighbours& n : neighbours_of(mesh))
+    for (const std::uint32_t c : {n.a, next(n.a)}) join(c, vertex(c) == vertex(n.b) ? n.b : next(n.b));
+  constexpr std::uint32_t kNone = 0xffffffff;
+  PerVertex<std::uint32_t> first(mesh.vertex_count(), kNone);  // the fan that keeps the vertex
+  std::vector<VertexId> name(fan.size());
+  for (std::uint32_t c = 0; c < fan.size(); ++c) {
+    if (find(c) != c) continue;  // the least corner of a fan comes first
+    const VertexId v = vertex(c);
+    name[c] = v;
+    if (first[v] == kNone) {
+      first[v] = c;
+      continue;
+    }
+    name[c] = VertexId(static_cast<std::uint32_t>(mesh.positions.size()));
+    const Vec3 p = mesh.positions[v];
+    mesh.positions.push_back(p);
+    ++repairs.split_vertices;
+  }
+  for (std::uint32_t c = 0; c < fan.size(); ++c) mesh.triangles[FaceId(c / 3)][c % 3] = name[find(c)];
+}
+
+void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs) {
+  std::vector<Triangle> triangles;
+  for (const FaceId f : mesh.triangles.ids()) triangles.push_back(mesh.triangle(f));
+  const std::vector<std::uint32_t> component = component_of_faces(mesh);
+  const Orientation facing = orientation(std::move(triangles), component, components);
+  for (const FaceId f : mesh.triangles.ids()) {
+    const Facing own = facing.components[component[index(f)]];
+    if (own == Facing::Unclear)
+      throw InputError(
+          Defect::InconsistentOrientation,
+          fmt::format("the component of face {} is inside out, and lies partly inside and partly outside of "
+                      "others: turn it, or make it a cavity of one of them",
+                      index(f)));
+    if (facing.turn_all == (own == Facing::InsideOut)) continue;
+    std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+    ++repairs.turned_faces;
+  }
+  for (const Facing own : facing.components) repairs.turned_components += facing.turn_all != (own == Facing::InsideOut);
+}
+
+void drop_nested_components(TriangleMesh& mesh, std::size_t components, Repairs& repairs) {
+  if (components < 2) return;
+  const std::vector<std::uint32_t> component = component_of_faces(mesh);
+  std::vector<Component> parts(components);
+  for (const FaceId f : mesh.triangles.ids()) parts[component[index(f)]].add(mesh.triangle(f));
+  for (Component& part : parts) part.outwards = volume_sign(part.faces) > 0;
+  std::vector<char> nested(components, 0);
+  for (std::size_t inner = 0; inner < components; ++inner)
+    for (std::size_t outer = 0; outer < components && !nested[inner]; ++outer)
+      nested[inner] = outer != inner && parts[outer].outwards && lies_inside(parts[inner], parts[outer]);
+  repairs.dropped_components += static_cast<std::size_t>(std::ranges::count(nested, 1));
+  repairs.dropped_component_faces += keep_faces(mesh, [&](FaceId f) { return !nested[component[index(f)]]; });
+}
+
+}  // namespace prohull

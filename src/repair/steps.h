@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "prohull/repair.h"
+#include "prohull/triangle_mesh.h"
+
+namespace prohull {
+
+// What a repair is made of. Each step counts what it did.
+
+/// Faces with a corner that is not finite go.
+void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs);
+
+/// Vertices at equal positions become one, the first; -0 equals 0. Faces that then have a vertex twice go.
+void weld(TriangleMesh& mesh, Repairs& repairs);
+
+/// Of faces with the same three vertices in the same cyclic order, the first stays.
+void drop_duplicate_faces(TriangleMesh& mesh, Repairs& repairs);
+
+/// Turns faces until neighbours along edges of two faces agree about the outside, the fewer faces of each part; parts
+/// where that is not possible stay as they are.
+void turn_single_faces(TriangleMesh& mesh, Repairs& repairs);
+
+/// Every vertex becomes as many as there are fans of faces around it; fans are connected along edges of two faces.
+void split_vertices(TriangleMesh& mesh, Repairs& repairs);
+
+/// Turns a closed mesh of negative volume, and then each component of negative volume outside of the others. Throws
+/// InputError for one that is partly inside of them.
+void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs);
+
+/// Drops the components of a closed mesh of oriented components that lie inside of one that faces outwards, without
+/// touching it.
+void drop_nested_components(TriangleMesh& mesh, std::size_t components, Repairs& repairs);
+
+}  // namespace prohull

@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "meshes.h"
+#include "prohull/error.h"
+#include "prohull/repair.h"
+#include "prohull/sample.h"
+
+namespace prohull {
+namespace {
+
+using namespace meshes;
+
+const TriangleMesh kBox = box({0, 0, 0}, {4, 4, 4});
+const TriangleMesh kSmallBox = box({1, 1, 1}, {2, 2, 2});
+
+TEST(RepairedMesh, LeavesASoundMeshAlone) {
+  for (const TriangleMesh& mesh : {kBox, torus(9, 5), together(kBox, moved(kBox, {9, 0, 0}))}) {
+    const RepairedMesh repaired = repaired_mesh(mesh);
+    ASSERT_TRUE(repaired.closed);
+    EXPECT_EQ(repaired.closed->mesh, mesh);
+    EXPECT_EQ(repaired.original, mesh);
+    EXPECT_EQ(repaired.dropped.face_count(), 0u);
+    EXPECT_FALSE(repaired.repairs.any());
+    EXPECT_TRUE(repaired.obstacle.empty());
+  }
+}
+
+TEST(RepairedMesh, DropsFacesThatAreNotFinite) {
+  TriangleMesh mesh = kBox;
+  const VertexId nowhere = mesh.positions.push_back({0, std::numeric_limits<double>::infinity(), 0});
+  mesh.triangles.push_back({VertexId(0), VertexId(1), nowhere});
+  const RepairedMesh repaired = repaired_mesh(mesh);
+  ASSERT_TRUE(repaired.closed);
+  EXPECT_EQ(repaired.repairs.dropped_non_finite_faces, 1u);
+  EXPECT_EQ(repaired.original.face_count(), 12u);
+  EXPECT_EQ(describe(repaired.repairs), std::vector<std::string>{"dropped 1 face with a corner that is not finite"});
+  for (Vec3& p : mesh.positions) p.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(repaired_mesh(mesh), InputError);
+  EXPECT_THROW(repaired_mesh({}), InputError);
+}
+
+TEST(RepairedMesh, DropsDuplicates) {
+  TriangleMesh mesh = kBox;
+  const auto [a, b, c] = mesh.triangles[FaceId(4)];
+  mesh.triangles.push_back({b, c, a});
+  const RepairedMesh repaired = repaired_mesh(mesh);
+  ASSERT_TRUE(repaired.closed);
+  EXPECT_EQ(repaired.closed->mesh, kBox);
+  EXPECT_EQ(repaired.repairs.dropped_duplicate_faces, 1u);
+  EXPECT_EQ(repaired.dropped.face_count(), 0u) << "its twin is there";
+}
+
+TEST(RepairedMesh, TurnsSingleFaces) {
+  TriangleMesh mesh = make_sample("knot", 600);
+  for (std::uint32_t f = 0; f < mesh.face_count(); f += 3)
+    std::swap(mesh.triangles[FaceId(f)][1], mesh.triangles[FaceId(f)][2]);
+  const RepairedMesh repaired = repaired_mesh(soup(mesh));
+  ASSERT_TRUE(repaired.closed) << repaired.obstacle;
+  EXPECT_EQ(repaired.repairs.turned_single_faces, (mesh.face_count() + 2) / 3);
+  EXPECT_DOUBLE_EQ(repaired.closed->report.volume, signed_volume(make_sample("knot", 600)));
+  EXPECT_EQ(repaired.dropped.face_count(), 0u);
+}
+
+TEST(RepairedMesh, SplitsVerticesWherePartsMeet) {
+  const TriangleMesh touching = soup(together(kSmallBox, box({2, 2, 2}, {3, 3, 3})));
+  const RepairedMesh repaired = repaired_mesh(touching);
+  ASSERT_TRUE(repaired.closed) << repaired.obstacle;
+  EXPECT_EQ(repaired.repairs.split_vertices, 1u);
+  EXPECT_EQ(repaired.closed->report.components, 2u);
+  EXPECT_DOUBLE_EQ(repaired.closed->report.volume, 2);
+}
+
+TEST(RepairedMesh, DropsWhatLiesInsideOfOthers) {
+  const TriangleMesh cavity = inside_out(box({0.5, 0.5, 0.5}, {3.5, 3.5, 3.5}));
+  const TriangleMesh matryoshka = together(together(kBox, cavity), kSmallBox);
+  const RepairedMesh repaired = repaired_mesh(matryoshka);
+  ASSERT_TRUE(repaired.closed);
+  EXPECT_EQ(repaired.repairs.dropped_components, 2u);
+  EXPECT_EQ(repaired.repairs.dropped_component_faces, 24u);
+  EXPECT_EQ(repaired.dropped.face_count(), 24u);
+  EXPECT_DOUBLE_EQ(repaired.closed->report.volume, 64);
+  EXPECT_EQ(repaired.original, matryoshka);
+  EXPECT_EQ(repaired_mesh(matryoshka, true).closed->mesh, matryoshka);
+}
+
+TEST(RepairedMesh, KeepsWhatOnlyTouchesOrSticksOut) {
+  for (const TriangleMesh& other : {box({0, 0, 0}, {1, 1, 1}), box({1, 1, 1}, {4, 2, 2}), box({3, 1, 1}, {5, 2, 2}),
+                                    moved(kBox, {5, 0, 0}), kBox}) {
+    const RepairedMesh repaired = repaired_mesh(together(kBox, other));
+    ASSERT_TRUE(repaired.closed) << repaired.obstacle;
+    EXPECT_EQ(repaired.repairs.dropped_components, 0u);
+  }
+}
+
+TEST(RepairedMesh, TellsWhatIsLeftToDo) {
+  TriangleMesh open = kBox;
+  open.triangles.pop_back();
+  const RepairedMesh repaired = repaired_mesh(open);
+  EXPECT_FALSE(repaired.closed);
+  EXPECT_EQ(repaired.original, open);
+  EXPECT_EQ(repaired.obstacle, "edge 1-5 has 1 face, expected 2 (in all: 3 open edges)");
+  EXPECT_FALSE(repaired_mesh(make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}})).closed)
+      << "closed, but without volume";
+  EXPECT_FALSE(repaired_mesh(make({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}}, {{0, 1, 2}})).closed);
+}
+
+}  // namespace
+}  // namespace prohull
