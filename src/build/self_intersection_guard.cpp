@@ -154,11 +154,9 @@ void SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, VertexId o, Ve
 std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d) {
   std::size_t pairs = fan_.is_certainly_embedded() ? 0 : count_pairs_among_faces();
   find_others(mesh, o, d, unit_cube_.at(fan_.box()));
-  for (const auto& corners : others_) {
-    const Triangle other = triangle(mesh, corners);
-    for (std::uint64_t met = fan_.perhaps_met(other, corners); met != 0; met &= met - 1)
-      pairs += triangles_intersect(faces_[static_cast<std::size_t>(std::countr_zero(met))], other);
-  }
+  for (const auto& corners : others_)
+    for (std::uint64_t met = fan_.perhaps_met(mesh, corners); met != 0; met &= met - 1)
+      pairs += triangles_intersect(faces_[static_cast<std::size_t>(std::countr_zero(met))], triangle(mesh, corners));
   return pairs;
 }
 

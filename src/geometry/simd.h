@@ -4,7 +4,10 @@
 #include <emmintrin.h>
 #endif
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "prohull/geometry.h"
 
@@ -26,7 +29,9 @@ inline Double2 sqrt(Double2 x) {
 #endif
 }
 
-inline Double2 abs(Double2 x) { return x < 0 ? -x : x; }
+inline Double2 abs(Double2 x) {
+  return std::bit_cast<Double2>(std::bit_cast<Truth2>(x) & std::numeric_limits<std::int64_t>::max());
+}
 
 /// Bit i is set where lane i is true.
 inline unsigned mask(Truth2 lanes) {
