@@ -109,8 +109,8 @@ void SelfIntersectionGuard::place(std::uint32_t slot, const FloatBox& box) {
   }
 }
 
-// Sets others_ to the faces near `box` without a corner at o or d. In steps, each of which asks the cache for all that
-// the next reads; and with few branches, which nothing could predict.
+// Sets others_ to the faces near `box` without a corner at o or d. Level by level, and with few branches, which nothing
+// could predict.
 void SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const FloatBox& box) {
   const Node boxes = Node::four(box);
   nodes_.assign(1, 0);
@@ -126,12 +126,6 @@ void SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, VertexId o, Ve
     }
     children_.resize(count);
     std::swap(nodes_, children_);
-    if (level == 0) break;
-    for (const std::uint32_t i : nodes_) {
-      const Node& node = levels_[level - 1][i];
-      __builtin_prefetch(&node.min), __builtin_prefetch(&node.max[2]);
-      if (level == 1) __builtin_prefetch(&face_at_[kWidth * i]);
-    }
   }
   for (const std::uint32_t slot : nodes_) mesh.prefetch(face_at_[slot]);
   others_.resize(nodes_.size());
@@ -146,17 +140,22 @@ void SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, VertexId o, Ve
     count += is_other;
   }
   others_.resize(count);
-  for (const auto& corners : others_)
-    for (const VertexId v : corners) mesh.prefetch(v);
 }
 
-// Of `faces_`, the faces of `fan_`, that take the place of the stars of o and d, among themselves and with the rest.
-std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d) {
-  std::size_t pairs = fan_.is_certainly_embedded() ? 0 : count_pairs_among_faces();
+// Of the faces of `fan_`, that take the place of the stars of o and d, among themselves and with the rest.
+std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d,
+                                                      const std::vector<VertexId>& link, const Vec3& apex) {
+  std::size_t pairs = 0;
+  if (!fan_.is_certainly_embedded()) {
+    set_faces(mesh, link, [&](std::size_t) { return apex; });
+    pairs = count_pairs_among_faces();
+  }
   find_others(mesh, o, d, unit_cube_.at(fan_.box()));
   for (const auto& corners : others_)
-    for (std::uint64_t met = fan_.perhaps_met(mesh, corners); met != 0; met &= met - 1)
-      pairs += triangles_intersect(faces_[static_cast<std::size_t>(std::countr_zero(met))], triangle(mesh, corners));
+    for (std::uint64_t met = fan_.perhaps_met(mesh, corners); met != 0; met &= met - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(met)), j = i + 1 == link.size() ? 0 : i + 1;
+      pairs += triangles_intersect({apex, mesh.position(link[i]), mesh.position(link[j])}, triangle(mesh, corners));
+    }
   return pairs;
 }
 
@@ -192,12 +191,12 @@ void SelfIntersectionGuard::set_faces(const HalfEdgeMesh& mesh, const std::vecto
 
 bool SelfIntersectionGuard::adds_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d,
                                        const std::vector<VertexId>& link, const Vec3& apex, auto&& set_faces_before) {
-  set_faces(mesh, link, [&](std::size_t) { return apex; });
   std::size_t after;
   if (link.size() <= Fan::kMostFaces) {
     fan_.set(mesh, link, apex);
-    after = count_pairs_of_fan(mesh, o, d);
+    after = count_pairs_of_fan(mesh, o, d, link, apex);
   } else {
+    set_faces(mesh, link, [&](std::size_t) { return apex; });
     after = count_pairs(mesh, o, d);
   }
   if (after == 0) return false;
