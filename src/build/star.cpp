@@ -35,7 +35,7 @@ namespace {
 void set_planes(Star& star, std::size_t i, std::size_t j, const Vec3Pair& a, const Vec3Pair& b, const Vec3Pair& c) {
   const Vec3Pair n = cross(b - a, c - a);
   const Double2 length = sqrt(dot(n, n));
-  const Vec3Pair unit = n / length;
+  const Vec3Pair unit = n * (1 / length);
   const Double2 offset = dot(unit, a);
   const auto set = [&](std::size_t face, int lane) {
     star.double_areas[face] = length[lane];

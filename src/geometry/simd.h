@@ -61,7 +61,7 @@ inline Vec3Pair both(const Vec3& a, const Vec3& b) { return {Double2{a.x, b.x}, 
 inline Vec3Pair both(const Vec3& a) { return both(a, a); }
 
 inline Vec3Pair operator-(const Vec3Pair& a, const Vec3Pair& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3Pair operator/(const Vec3Pair& a, Double2 s) { return {a.x / s, a.y / s, a.z / s}; }
+inline Vec3Pair operator*(const Vec3Pair& a, Double2 s) { return {a.x * s, a.y * s, a.z * s}; }
 inline Double2 dot(const Vec3Pair& a, const Vec3Pair& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec3Pair cross(const Vec3Pair& a, const Vec3Pair& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
