@@ -17,7 +17,7 @@ class Original {
 
   const Bvh& tree() const { return tree_; }  ///< over the boxes of faces
   Triangle triangle(std::uint32_t face) const { return mesh_.triangle(FaceId(face)); }
-  double largest_coordinate() const { return largest_coordinate_; }
+  const Box& bounds() const { return bounds_; }
   /// Whether the hull must enclose the point, or may have to: true where that is not certain. Exact otherwise.
   bool may_need_cover(const Vec3& p) const { return winding_.at(p).value_or(least_covered_) >= least_covered_; }
 
@@ -26,7 +26,7 @@ class Original {
   Bvh tree_;
   WindingNumber winding_;
   int least_covered_;
-  double largest_coordinate_;
+  Box bounds_;
 };
 
 /// Moves the vertices of a hull towards the original mesh, one at a time, in rounds until hardly anything is gained.
