@@ -48,12 +48,12 @@ void Fan::set(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link, const
   }
   const Vec3 size = magnitudes(normal);
   const int axis = size.z >= size.x && size.z >= size.y ? 2 : size.y >= size.x ? 1 : 0;
-  walls_.clear();
   is_embedded_ = is_moderate_ && see_along(axis);
+  if (is_embedded_) set_walls(mesh, link);
 }
 
 // If, seen along the axis, all faces turn the same way around the apex, and the link once, the fan is the graph of a
-// function over the plane across. Sets the walls if so.
+// function over the plane across.
 bool Fan::see_along(int axis) {
   const auto turn = [&](const TwoFaces& two, Double2 sign) { return sign * along(two.normal, axis); };
   const auto all_turn = [&](double sign) {
@@ -69,47 +69,51 @@ bool Fan::see_along(int axis) {
   const std::size_t n = count_;
   const auto vertex = [&](std::size_t i) { return vertices_[i / 2][static_cast<int>(i % 2)]; };
   int rises = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 from = vertex(i), to = vertex(i + 1 == n ? 0 : i + 1);
-    rises += from[v_] < apex_[v_] && to[v_] >= apex_[v_];
-    walls_.push_back({from[u_], from[v_], to[u_] - from[u_], to[v_] - from[v_], 0});
-  }
-  if (rises != 1) return false;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint64_t ends = std::uint64_t{1} << i | next(std::uint64_t{1} << i);
-    const std::uint64_t vertices = within(walls_[i]) | ends;
-    walls_[i].faces_within = vertices & previous(vertices);  // the apex is, of any wall
-  }
-  return true;
+  for (std::size_t i = 0; i < n; ++i)
+    rises += vertex(i)[v_] < apex_[v_] && vertex(i + 1 == n ? 0 : i + 1)[v_] >= apex_[v_];
+  return rises == 1;
 }
 
-/// Where a point lies across from the wall, positive inside, and the most by which rounding moves that.
-template <class Number>
-Number Fan::depth(const Wall& wall, Number u, Number v, Number& bound) const {
-  const Number left = wall.du * (v - wall.v), right = wall.dv * (u - wall.u);
-  using prohull::abs, std::abs;
-  bound = kBound * (abs(left) + abs(right)) + kTiny;
-  return left - right;
-}
-
-/// The link vertices strictly inside of the wall.
-std::uint64_t Fan::within(const Wall& wall) const {
-  std::uint64_t inside = 0;
-  for (std::size_t i = 0; 2 * i < count_; ++i) {
-    Double2 bound;
-    const Double2 deep = depth(wall, along(vertices_[i], u_), along(vertices_[i], v_), bound);
-    inside |= std::uint64_t{mask(deep > bound)} << 2 * i;
+void Fan::set_walls(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link) {
+  ++time_;
+  known_.resize(mesh.positions().size());
+  const auto vertex = [&](std::size_t i) -> const Vec3& { return mesh.position(link[i < count_ ? i : i - count_]); };
+  walls_.clear(), within_.clear();
+  for (std::size_t i = 0; i < count_; i += 2) {
+    const std::size_t j = i + 1 < count_ ? i + 1 : i;
+    const Double2 u{vertex(i)[u_], vertex(j)[u_]}, v{vertex(i)[v_], vertex(j)[v_]};
+    walls_.push_back(
+        {u, v, Double2{vertex(i + 1)[u_], vertex(j + 1)[u_]} - u, Double2{vertex(i + 1)[v_], vertex(j + 1)[v_]} - v});
   }
-  return inside & all_faces();
+  for (std::size_t i = 0; i < count_; ++i) {
+    const auto [inside, outside] = sides(vertex(i));
+    const std::uint64_t end_of = std::uint64_t{1} << i | previous(std::uint64_t{1} << i);
+    within_.push_back(inside | end_of);
+    known_[link[i]] = {outside | end_of, time_};
+  }
+  // The apex is within any wall.
+  const std::uint64_t first = within_.front();
+  all_within_ = all_faces();
+  for (std::size_t i = 0; i < count_; ++i) all_within_ &= within_[i] &= i + 1 < count_ ? within_[i + 1] : first;
 }
 
-/// Whether all corners of t but some are strictly outside of the wall; bit k tells of corner k.
-bool Fan::is_outside(const Triangle& t, const Wall& wall, unsigned but) const {
-  const auto outside = [&](const Vec3& p) {
-    double bound;
-    return unsigned(depth(wall, p[u_], p[v_], bound) < -bound);
-  };
-  return (but | outside(t.a) | outside(t.b) << 1 | outside(t.c) << 2) == 7;
+Fan::Sides Fan::sides(const Vec3& p) const {
+  Sides sides;
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    const auto& [u, v, du, dv] = walls_[i];
+    const Double2 left = du * (p[v_] - v), right = dv * (p[u_] - u);
+    const Double2 depth = left - right, bound = kBound * (abs(left) + abs(right)) + kTiny;
+    sides.inside |= std::uint64_t{mask(depth > bound)} << 2 * i;
+    sides.outside |= std::uint64_t{mask(depth < -bound)} << 2 * i;
+  }
+  return {sides.inside & all_faces(), sides.outside & all_faces()};
+}
+
+/// The walls of which a vertex is strictly outside, or an end.
+std::uint64_t Fan::outside(const HalfEdgeMesh& mesh, VertexId v) {
+  Known& known = known_[v];
+  if (known.time != time_) known = {sides(mesh.position(v)).outside, time_};
+  return known.outside;
 }
 
 /// The places of a vertex in the link: one or none.
@@ -121,23 +125,21 @@ std::uint64_t Fan::places(VertexId v) const {
   return places;
 }
 
-std::uint64_t Fan::perhaps_met(const Triangle& t, const std::array<VertexId, 3>& corners) const {
-  const std::array<std::uint64_t, 3> at_corner{places(corners[0]), places(corners[1]), places(corners[2])};
-  const std::uint64_t shared = at_corner[0] | at_corner[1] | at_corner[2];
-
+std::uint64_t Fan::perhaps_met(const HalfEdgeMesh& mesh, const std::array<VertexId, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  std::uint64_t met = all_faces();
+  if (is_embedded_) {
+    const std::uint64_t walls = outside(mesh, a) & outside(mesh, b) & outside(mesh, c);
+    if ((walls & all_within_) != 0) return 0;
+    for (std::size_t i = 0; walls != 0 && i < count_; ++i)
+      if ((walls & within_[i]) != 0) met &= ~(std::uint64_t{1} << i);
+    if (met == 0) return 0;
+  }
+  const Triangle t{mesh.position(a), mesh.position(b), mesh.position(c)};
   const Vec3 extent = magnitudes(t.b - t.a) + magnitudes(t.c - t.a) + magnitudes(box_.max - t.a);
   if (!is_moderate_ || !(sum(extent) < kReach)) return all_faces();
-  std::uint64_t met = all_faces();
-  if (is_embedded_)
-    for (std::uint64_t walls = shared | previous(shared); walls != 0; walls &= walls - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(walls));
-      const std::uint64_t ends = std::uint64_t{1} << i | next(std::uint64_t{1} << i);
-      unsigned at_ends = 0;
-      for (unsigned k = 0; k < 3; ++k) at_ends |= unsigned((at_corner[k] & ends) != 0) << k;
-      if (is_outside(t, walls_[i], at_ends)) met &= ~walls_[i].faces_within;
-      if (met == 0) return 0;
-    }
-  if (is_beside(t, shared)) return 0;
+  const std::array<std::uint64_t, 3> at_corner{places(a), places(b), places(c)};
+  if (is_beside(t, at_corner[0] | at_corner[1] | at_corner[2])) return 0;
   return met & ~faces_beside(t, at_corner);
 }
 

@@ -14,6 +14,7 @@
 #include "build/best_of.h"
 #include "build/cells.h"
 #include "build/collapse_loop.h"
+#include "build/placement.h"
 #include "build/threads.h"
 #include "build/turned.h"
 #include "prohull/error.h"
@@ -21,11 +22,6 @@
 
 namespace prohull {
 namespace {
-
-double largest_coordinate(const Box& box) {
-  return std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x),
-                   std::abs(box.max.y), std::abs(box.max.z)});
-}
 
 /// Adds up what all threads do, and tells the caller's function, on the caller's thread.
 class SharedProgress {
@@ -67,19 +63,7 @@ using LocalNumbers = oneapi::tbb::enumerable_thread_specific<PerVertex<VertexId>
 /// removes, so that what lies together in space does so in memory; `names_` tells which vertex is at a place now.
 class HullBuilder {
  public:
-  HullBuilder(const TriangleMesh& mesh, const HullOptions& options)
-      : options_(options),
-        unit_cube_(bounding_box(mesh)),
-        progress_(options, mesh.face_count()),
-        rules_{options_, unit_cube_,
-               largest_coordinate(bounding_box(mesh)) * (options.float32_coordinates ? 0x1p-23 : 0x1p-52),
-               [this](std::size_t removed_faces) { return progress_.cancelled(removed_faces); }},
-        made_(mesh.positions) {
-    number_along_curve(mesh);
-    changed_.assign(positions_.size(), 1);
-    edges_.resize(corners_.size());
-    made_.reserve(mesh.vertex_count() + (mesh.face_count() - std::min(mesh.face_count(), options.target_faces)) / 2);
-  }
+  HullBuilder(const TriangleMesh& mesh, const HullOptions& options) : HullBuilder(mesh, options, bounding_box(mesh)) {}
 
   HullResult run() {
     std::size_t round = 0;
@@ -130,6 +114,19 @@ class HullBuilder {
     std::size_t linear_programs;
     std::uint32_t time;
   };
+
+  HullBuilder(const TriangleMesh& mesh, const HullOptions& options, const Box& bounds)
+      : options_(options),
+        unit_cube_(bounds),
+        progress_(options, mesh.face_count()),
+        rules_{options_, unit_cube_, storage_rounding(bounds, options.float32_coordinates),
+               [this](std::size_t removed_faces) { return progress_.cancelled(removed_faces); }} {
+    number_along_curve(mesh);
+    changed_.assign(positions_.size(), 1);
+    edges_.resize(corners_.size());
+    made_.reserve(mesh.vertex_count() + (mesh.face_count() - std::min(mesh.face_count(), options.target_faces)) / 2);
+    for (const Vec3& p : mesh.positions) made_.push_back(p);
+  }
 
   void number_along_curve(const TriangleMesh& mesh) {
     std::vector<BoxedFace> faces;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/predicates.h"
+#include "geometry/simd.h"
 
 namespace prohull {
 namespace {
@@ -82,15 +83,25 @@ double estimated_volume(const HalfEdgeMesh& mesh, const Star& star) {
   Vec3 center;
   for (const VertexId v : star.link) center += mesh.position(v) - o;
   center = o + center / static_cast<double>(star.link.size());
-  double to_center = 0, to_o = 0, to_d = 0;
-  all_faces(mesh, star, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 n = cross(b - a, c - a);
-    to_center += std::abs(dot(n, center - a));
-    to_o += std::abs(dot(n, o - a));
-    to_d += std::abs(dot(n, d - a));
-    return true;
-  });
-  return finite(5.0 / 3 * std::min({0.4 * to_center, to_o, to_d}) / 6);
+  const Vec3Pair at_center = both(center), at_o = both(o), at_d = both(d);
+  Double2 to_center{}, to_o{}, to_d{};
+  // Two faces (a, b, c), one in each lane.
+  const auto add = [&](const Vec3Pair& a, const Vec3Pair& b, const Vec3Pair& c) {
+    const Vec3Pair n = cross(b - a, c - a);
+    to_center += abs(dot(n, at_center - a));
+    to_o += abs(dot(n, at_o - a));
+    to_d += abs(dot(n, at_d - a));
+  };
+  const auto link = [&](std::size_t i) -> const Vec3& { return mesh.position(star.link[i]); };
+  const auto apex = [&](std::size_t i) -> const Vec3& { return i < star.o_faces ? o : d; };
+  add(both(o, d), both(d, o), both(link(0), link(star.o_faces)));
+  const std::size_t n = star.link.size();
+  for (std::size_t i = 0; i + 1 < n; i += 2)
+    add(both(apex(i), apex(i + 1)), both(link(i), link(i + 1)), both(link(i + 1), link(star.after(i + 1))));
+  // The last of an odd number: the other lane has no area.
+  if (n % 2 == 1) add(both(apex(n - 1), o), both(link(n - 1), o), both(link(0), o));
+  const auto sum = [](Double2 x) { return x[0] + x[1]; };
+  return finite(5.0 / 3 * std::min({0.4 * sum(to_center), sum(to_o), sum(to_d)}) / 6);
 }
 
 bool is_outside(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex) {

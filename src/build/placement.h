@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "build/star.h"
@@ -16,6 +18,13 @@ struct Placement {
 /// has no single answer (flat stars), the one nearest to the edge's midpoint. It keeps a `margin` (local units) away
 /// from the planes, so that it still is outside when rounded.
 std::optional<Placement> place_outside(const Star& star, double margin);
+
+/// The most by which storing a vertex moves a coordinate, with some room, where all are in `bounds`.
+inline double storage_rounding(const Box& bounds, bool float32_coordinates) {
+  const double largest = std::max({std::abs(bounds.min.x), std::abs(bounds.min.y), std::abs(bounds.min.z),
+                                   std::abs(bounds.max.x), std::abs(bounds.max.y), std::abs(bounds.max.z)});
+  return largest * (float32_coordinates ? 0x1p-23 : 0x1p-52);
+}
 
 /// What place_outside needs where storing the vertex moves its coordinates by up to `rounding` (input unit).
 inline double placement_margin(const Star& star, double rounding) { return 1e-10 + 2 * rounding / star.scale; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <span>
 
 #include "build/cells.h"
 #include "geometry/triangle_intersection.h"
@@ -109,56 +110,59 @@ void SelfIntersectionGuard::place(std::uint32_t slot, const FloatBox& box) {
   }
 }
 
-// Sets others_ to the faces near `box` without a corner at o or d. In steps, each of which asks the cache for all that
-// the next reads; and with few branches, which nothing could predict.
-void SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const FloatBox& box) {
+// Puts the faces near `box` without a corner at o or d first in others_, and counts them. Level by level, and with few
+// branches, which nothing could predict.
+std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const FloatBox& box) {
+  const auto make_room = [](auto& list, std::size_t size) {
+    if (list.size() < size) list.resize(2 * size);
+  };
   const Node boxes = Node::four(box);
-  nodes_.assign(1, 0);
+  make_room(nodes_, 1);
+  nodes_[0] = 0;
+  std::size_t count = 1;
   for (std::size_t level = levels_.size(); level-- > 0;) {
-    children_.resize(kWidth * nodes_.size());
-    std::size_t count = 0;
-    for (const std::uint32_t i : nodes_) {
+    make_room(children_, kWidth * count);
+    std::size_t children = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t i = nodes_[k];
       const unsigned met = levels_[level][i].overlapping(boxes);
       for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
-        children_[count] = kWidth * i + lane;
-        count += met >> lane & 1;
+        children_[children] = kWidth * i + lane;
+        children += met >> lane & 1;
       }
     }
-    children_.resize(count);
     std::swap(nodes_, children_);
-    if (level == 0) break;
-    for (const std::uint32_t i : nodes_) {
-      const Node& node = levels_[level - 1][i];
-      __builtin_prefetch(&node.min), __builtin_prefetch(&node.max[2]);
-      if (level == 1) __builtin_prefetch(&face_at_[kWidth * i]);
-    }
+    count = children;
   }
-  for (const std::uint32_t slot : nodes_) mesh.prefetch(face_at_[slot]);
-  others_.resize(nodes_.size());
-  std::size_t count = 0;
-  for (const std::uint32_t slot : nodes_) {
+  make_room(others_, count);
+  std::size_t others = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t slot = nodes_[k];
     const auto corners = mesh.corners(face_at_[slot]);
     const bool has_gone = corners[0] == kNoVertex;
     if (has_gone) levels_[0][slot / kWidth].set(slot % kWidth, kEmptyNode.box());
     bool is_other = !has_gone;
     for (const VertexId v : corners) is_other &= v != o && v != d;
-    others_[count] = corners;
-    count += is_other;
+    others_[others] = corners;
+    others += is_other;
   }
-  others_.resize(count);
-  for (const auto& corners : others_)
-    for (const VertexId v : corners) mesh.prefetch(v);
+  return others;
 }
 
-// Of `faces_`, the faces of `fan_`, that take the place of the stars of o and d, among themselves and with the rest.
-std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d) {
-  std::size_t pairs = fan_.is_certainly_embedded() ? 0 : count_pairs_among_faces();
-  find_others(mesh, o, d, unit_cube_.at(fan_.box()));
-  for (const auto& corners : others_) {
-    const Triangle other = triangle(mesh, corners);
-    for (std::uint64_t met = fan_.perhaps_met(other, corners); met != 0; met &= met - 1)
-      pairs += triangles_intersect(faces_[static_cast<std::size_t>(std::countr_zero(met))], other);
+// Of the faces of `fan_`, that take the place of the stars of o and d, among themselves and with the rest.
+std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d,
+                                                      const std::vector<VertexId>& link, const Vec3& apex) {
+  std::size_t pairs = 0;
+  if (!fan_.is_certainly_embedded()) {
+    set_faces(mesh, link, [&](std::size_t) { return apex; });
+    pairs = count_pairs_among_faces();
   }
+  const std::size_t others = find_others(mesh, o, d, unit_cube_.at(fan_.box()));
+  for (const auto& corners : std::span(others_).first(others))
+    for (std::uint64_t met = fan_.perhaps_met(mesh, corners); met != 0; met &= met - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(met)), j = i + 1 == link.size() ? 0 : i + 1;
+      pairs += triangles_intersect({apex, mesh.position(link[i]), mesh.position(link[j])}, triangle(mesh, corners));
+    }
   return pairs;
 }
 
@@ -169,8 +173,8 @@ std::size_t SelfIntersectionGuard::count_pairs(const HalfEdgeMesh& mesh, VertexI
   FloatBox whole = face_boxes_.front();
   for (const FloatBox& box : face_boxes_) whole.extend(box);
   std::size_t pairs = count_pairs_among_faces();
-  find_others(mesh, o, d, whole);
-  for (const auto& corners : others_) {
+  const std::size_t others = find_others(mesh, o, d, whole);
+  for (const auto& corners : std::span(others_).first(others)) {
     const Triangle other = triangle(mesh, corners);
     const FloatBox box = unit_cube_.at(other);
     for (std::size_t i = 0; i < faces_.size(); ++i)
@@ -194,12 +198,12 @@ void SelfIntersectionGuard::set_faces(const HalfEdgeMesh& mesh, const std::vecto
 
 bool SelfIntersectionGuard::adds_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d,
                                        const std::vector<VertexId>& link, const Vec3& apex, auto&& set_faces_before) {
-  set_faces(mesh, link, [&](std::size_t) { return apex; });
   std::size_t after;
   if (link.size() <= Fan::kMostFaces) {
     fan_.set(mesh, link, apex);
-    after = count_pairs_of_fan(mesh, o, d);
+    after = count_pairs_of_fan(mesh, o, d, link, apex);
   } else {
+    set_faces(mesh, link, [&](std::size_t) { return apex; });
     after = count_pairs(mesh, o, d);
   }
   if (after == 0) return false;

@@ -43,8 +43,9 @@ class SelfIntersectionGuard {
 
   void pack(const HalfEdgeMesh& mesh);
   void place(std::uint32_t slot, const FloatBox& box);
-  void find_others(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const FloatBox& box);
-  std::size_t count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d);
+  std::size_t find_others(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const FloatBox& box);
+  std::size_t count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const std::vector<VertexId>& link,
+                                 const Vec3& apex);
   std::size_t count_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d);
   std::size_t count_pairs_among_faces() const;
   void set_faces(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link, auto&& apex);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/simd.h"
 
@@ -34,7 +35,7 @@ namespace {
 void set_planes(Star& star, std::size_t i, std::size_t j, const Vec3Pair& a, const Vec3Pair& b, const Vec3Pair& c) {
   const Vec3Pair n = cross(b - a, c - a);
   const Double2 length = sqrt(dot(n, n));
-  const Vec3Pair unit = n / length;
+  const Vec3Pair unit = n * (1 / length);
   const Double2 offset = dot(unit, a);
   const auto set = [&](std::size_t face, int lane) {
     star.double_areas[face] = length[lane];
@@ -48,17 +49,15 @@ void set_planes(Star& star, std::size_t i, std::size_t j, const Vec3Pair& a, con
 void measure_star(const HalfEdgeMesh& mesh, Star& star) {
   const Vec3 o = mesh.position(star.o), d = mesh.position(star.d);
   star.origin = o * 0.5 + d * 0.5;
-  star.local.clear();
+  star.local.resize(star.link.size());
   double extent = 0;
   const auto reach = [&](const Vec3& p) { extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)}); };
   reach(o - star.origin);
-  for (const VertexId v : star.link) {
-    star.local.push_back(mesh.position(v) - star.origin);
-    reach(star.local.back());
-  }
-  star.scale = extent > 0 ? extent : 1;
-  for (Vec3& p : star.local) p = p / star.scale;
-  star.local_o = (o - star.origin) / star.scale, star.local_d = (d - star.origin) / star.scale;
+  for (std::size_t i = 0; i < star.link.size(); ++i) reach(star.local[i] = mesh.position(star.link[i]) - star.origin);
+  star.scale = extent > 0 ? std::max(extent, std::numeric_limits<double>::min()) : 1;
+  const double inverse_scale = 1 / star.scale;
+  for (Vec3& p : star.local) p = p * inverse_scale;
+  star.local_o = (o - star.origin) * inverse_scale, star.local_d = (d - star.origin) * inverse_scale;
 
   const std::size_t n = star.link.size();
   star.planes.resize(n + 2), star.double_areas.resize(n + 2);

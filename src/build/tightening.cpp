@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "build/placement.h"
 #include "build/self_intersection_guard.h"
 #include "build/shape_guards.h"
 #include "geometry/compactness.h"
@@ -31,12 +32,6 @@ Bvh tree_of(const TriangleMesh& mesh) {
   boxes.reserve(mesh.face_count());
   for (const FaceId f : mesh.triangles.ids()) boxes.push_back(box_of(mesh.triangle(f)));
   return Bvh(boxes);
-}
-
-double largest_coordinate_of(const TriangleMesh& mesh) {
-  double largest = 0;
-  for (const Vec3& p : mesh.positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  return largest;
 }
 
 double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
@@ -86,8 +81,7 @@ class Tightener {
       : mesh_(mesh),
         original_(original),
         options_(options),
-        // The most by which storing moves a coordinate, with some room.
-        rounding_(original.largest_coordinate() * (options.float32_coordinates ? 0x1p-23 : 0x1p-52)),
+        rounding_(storage_rounding(original.bounds(), options.float32_coordinates)),
         guard_(mesh, faces_along_curve(mesh)) {}
 
   std::size_t run();
@@ -310,7 +304,7 @@ std::optional<Vec3> point_inside(const Tetrahedron& t) {
 Original::Original(TriangleMesh mesh, double clearance)
     : mesh_(std::move(mesh)),
       tree_(tree_of(mesh_)),
-      largest_coordinate_(largest_coordinate_of(mesh_)),
+      bounds_(bounding_box(mesh_)),
       clearance_(clearance) {}
 
 Original Original::closed(TriangleMesh mesh, HullSide side) {

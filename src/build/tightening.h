@@ -21,7 +21,7 @@ class Original {
 
   const Bvh& tree() const { return tree_; }  ///< over the boxes of faces
   Triangle triangle(std::uint32_t face) const { return mesh_.triangle(FaceId(face)); }
-  double largest_coordinate() const { return largest_coordinate_; }
+  const Box& bounds() const { return bounds_; }
   double clearance() const { return clearance_; }  ///< 0: faces may touch
 
   /// Whether the hull may give up the tetrahedron. Exact; false where that is not certain.
@@ -32,7 +32,7 @@ class Original {
 
   TriangleMesh mesh_;
   Bvh tree_;
-  double largest_coordinate_;
+  Box bounds_;
   double clearance_;
   std::optional<WindingNumber> winding_;  ///< of a closed mesh
   int least_covered_ = 1;

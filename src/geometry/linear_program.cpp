@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "geometry/simd.h"
 
@@ -16,49 +17,69 @@ constexpr double kFeasible = 1e-12;
 
 constexpr std::ptrdiff_t kBox = -1;
 
-// Three tight constraints with independent normals. columns[i] . normal_j = (i == j), so that a step along columns[i]
+// Three tight constraints with independent normals. column(i) . normal_j = (i == j), so that a step along column(i)
 // leaves the other two tight.
 struct Basis {
-  std::array<Vec3, 3> columns;
+  std::array<Vec3Pair, 2> columns_and_x;  ///< lane by lane: three columns, then x
+  std::array<Double2, 2> multipliers;     ///< objective = sum of multiplier_i normal_i, all >= 0: dual feasible
   std::array<std::ptrdiff_t, 3> constraint;
-  std::array<double, 3> multiplier;  ///< objective = sum of multiplier_i normal_i, all >= 0: dual feasible
-  Vec3 x;
+
+  void set(int i, const Vec3& column, double multiplier) {
+    set(i, column);
+    multipliers[i / 2][i % 2] = multiplier;
+  }
+  void set(int i, const Vec3& point) {
+    Vec3Pair& two = columns_and_x[i / 2];
+    two.x[i % 2] = point.x, two.y[i % 2] = point.y, two.z[i % 2] = point.z;
+  }
+  void set_x(const Vec3& x) { set(3, x); }
+  Vec3 x() const { return columns_and_x[1][1]; }
 };
 
 Basis box_corner(const Vec3& objective) {
-  Basis basis;
+  Basis basis{};
+  Vec3 x;
   for (int i = 0; i < 3; ++i) {
     const double sign = objective[i] < 0 ? -1 : 1;
-    basis.columns[i] = {};
-    basis.columns[i][i] = sign;
+    Vec3 column;
+    column[i] = sign;
+    basis.set(i, column, std::abs(objective[i]));
     basis.constraint[i] = kBox;
-    basis.multiplier[i] = std::abs(objective[i]);
-    basis.x[i] = -sign * kFarAway;
+    x[i] = -sign * kFarAway;
   }
+  basis.set_x(x);
   return basis;
 }
 
-Double2 slacks(const Vec3Pair& x, const HalfSpace& a, const HalfSpace& b) {
-  return dot(both(a.normal, b.normal), x) - Double2{a.offset, b.offset};
+// Constraints two by two; the last comes twice if they are odd.
+struct TwoConstraints {
+  Vec3Pair normal;
+  Double2 offset;
+};
+
+void pair_up(const std::vector<HalfSpace>& constraints, std::vector<TwoConstraints>& pairs) {
+  pairs.clear();
+  for (std::size_t i = 0; i < constraints.size(); i += 2) {
+    const HalfSpace &a = constraints[i], &b = constraints[i + 1 < constraints.size() ? i + 1 : i];
+    pairs.push_back({both(a.normal, b.normal), Double2{a.offset, b.offset}});
+  }
 }
 
 // The first of those violated most, or -1. Without branches, which nothing could predict.
-std::ptrdiff_t most_violated(const Vec3& x, const std::vector<HalfSpace>& constraints) {
+std::ptrdiff_t most_violated(const Vec3& x, const std::vector<TwoConstraints>& constraints) {
   using Index2 = std::int64_t __attribute__((vector_size(16)));
   const Vec3Pair at = both(x);
   Double2 least = both(-kFeasible);
   Index2 worst = {-1, -1}, i = {0, 1};
-  const auto take = [&](const HalfSpace& a, const HalfSpace& b) {
-    const Double2 slack = slacks(at, a, b);
+  for (const auto& [normal, offset] : constraints) {
+    const Double2 slack = dot(normal, at) - offset;
     const auto is_less = slack < least;
     least = is_less ? slack : least;
     worst = is_less ? i : worst;
     i += 2;
-  };
-  const std::size_t even = constraints.size() / 2 * 2;
-  for (std::size_t k = 0; k < even; k += 2) take(constraints[k], constraints[k + 1]);
-  if (even < constraints.size()) take(constraints[even], constraints[even]);  // lane 1 only ties with lane 0
-  const bool is_second = least[1] < least[0] || (least[1] == least[0] && worst[1] < worst[0]);
+  }
+  // Of the last, if it came twice, lane 1 only ties with lane 0.
+  const bool is_second = int(least[1] < least[0]) | (int(least[1] == least[0]) & int(worst[1] < worst[0]));
   return static_cast<std::ptrdiff_t>(is_second ? worst[1] : worst[0]);
 }
 
@@ -66,39 +87,48 @@ std::ptrdiff_t most_violated(const Vec3& x, const std::vector<HalfSpace>& constr
 // is, if the basis and the entering constraint exclude each other.
 bool pivot(Basis& basis, std::ptrdiff_t entering, const HalfSpace& constraint) {
   constexpr double kPivot = 1e-13;
-  int leaving = -1;
-  double least_ratio = 0;
-  std::array<double, 3> alpha;
-  for (int i = 0; i < 3; ++i) {
-    alpha[i] = dot(constraint.normal, basis.columns[i]);
-    if (alpha[i] <= kPivot) continue;
-    const double ratio = basis.multiplier[i] / alpha[i];
-    if (leaving < 0 || ratio < least_ratio) least_ratio = ratio, leaving = i;
+  const Vec3Pair normal = both(constraint.normal);
+  // Of the columns, and how far x is beyond the constraint.
+  const std::array<Double2, 2> alpha{dot(normal, basis.columns_and_x[0]),
+                                     dot(normal, basis.columns_and_x[1]) - Double2{0, constraint.offset}};
+  const auto ratios = [&](int k) {
+    return alpha[k] > kPivot ? basis.multipliers[k] / alpha[k] : both(std::numeric_limits<double>::infinity());
+  };
+  const Double2 first_ratios = ratios(0);
+  const double third_ratio = ratios(1)[0];
+  int leaving = first_ratios[1] < first_ratios[0];
+  double least_ratio = leaving ? first_ratios[1] : first_ratios[0];
+  if (third_ratio < least_ratio) least_ratio = third_ratio, leaving = 2;
+  if (least_ratio == std::numeric_limits<double>::infinity()) return false;
+
+  const Vec3 column = basis.columns_and_x[leaving / 2][leaving % 2] / alpha[leaving / 2][leaving % 2];
+  const Vec3Pair step = both(column);
+  static constexpr Truth2 kLeaving[3][2] = {{{-1, 0}, {0, 0}}, {{0, -1}, {0, 0}}, {{0, 0}, {-1, 0}}};
+  for (int k = 0; k < 2; ++k) {
+    const Truth2 leaves = kLeaving[leaving][k];
+    Vec3Pair& to = basis.columns_and_x[k];
+    to.x = leaves ? step.x : to.x + step.x * -alpha[k];
+    to.y = leaves ? step.y : to.y + step.y * -alpha[k];
+    to.z = leaves ? step.z : to.z + step.z * -alpha[k];
+    const Double2 multiplier = basis.multipliers[k] - least_ratio * alpha[k];
+    basis.multipliers[k] = leaves ? both(least_ratio) : multiplier > 0 ? multiplier : both(0);
   }
-  if (leaving < 0) return false;
-  const Vec3 column = basis.columns[leaving] / alpha[leaving];
-  basis.x += column * (constraint.offset - dot(constraint.normal, basis.x));
-  for (int i = 0; i < 3; ++i) {
-    basis.columns[i] = basis.columns[i] + column * -alpha[i];
-    basis.multiplier[i] = std::max(0.0, basis.multiplier[i] - least_ratio * alpha[i]);
-  }
-  basis.columns[leaving] = column;
-  basis.multiplier[leaving] = least_ratio;
   basis.constraint[leaving] = entering;
   return true;
 }
 
 // Its sides that have left the basis bound x no longer.
 bool is_in_box(const Basis& basis) {
-  return std::ranges::count(basis.constraint, kBox) == 0 && std::abs(basis.x.x) <= kFarAway &&
-         std::abs(basis.x.y) <= kFarAway && std::abs(basis.x.z) <= kFarAway;
+  const Vec3 x = basis.x();
+  return std::ranges::count(basis.constraint, kBox) == 0 && std::abs(x.x) <= kFarAway && std::abs(x.y) <= kFarAway &&
+         std::abs(x.z) <= kFarAway;
 }
 
 // Whether x, moved from vertex to vertex, still is where the three constraints of the basis are tight.
 bool has_drifted(const Basis& basis, const std::vector<HalfSpace>& constraints) {
   return std::ranges::any_of(basis.constraint, [&](std::ptrdiff_t i) {
     const auto& [normal, offset] = constraints[static_cast<std::size_t>(i)];
-    return std::abs(dot(normal, basis.x) - offset) > kFeasible;
+    return std::abs(dot(normal, basis.x()) - offset) > kFeasible;
   });
 }
 
@@ -109,33 +139,36 @@ void refresh(Basis& basis, const Vec3& objective, const std::vector<HalfSpace>& 
   };
   const double determinant = dot(at(0).normal, cross(at(1).normal, at(2).normal));
   if (determinant == 0) return;
-  basis.x = {};
+  Vec3 x;
   for (int i = 0; i < 3; ++i) {
-    basis.columns[i] = cross(at(i + 1).normal, at(i + 2).normal) / determinant;
-    basis.multiplier[i] = std::max(0.0, dot(objective, basis.columns[i]));
-    basis.x += basis.columns[i] * at(i).offset;
+    const Vec3 column = cross(at(i + 1).normal, at(i + 2).normal) / determinant;
+    basis.set(i, column, std::max(0.0, dot(objective, column)));
+    x += column * at(i).offset;
   }
+  basis.set_x(x);
 }
 
 }  // namespace
 
 LinearProgramResult solve_linear_program(const Vec3& objective, const std::vector<HalfSpace>& constraints) {
+  static thread_local std::vector<TwoConstraints> pairs;
+  pair_up(constraints, pairs);
   Basis basis = box_corner(objective);
   bool is_fresh = false;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const std::ptrdiff_t entering = most_violated(basis.x, constraints);
+    const std::ptrdiff_t entering = most_violated(basis.x(), pairs);
     if (entering < 0) {
-      if (!is_in_box(basis)) return {LinearProgramStatus::Ambiguous, basis.x};
-      if (is_fresh || !has_drifted(basis, constraints)) return {LinearProgramStatus::Optimal, basis.x};
+      if (!is_in_box(basis)) return {LinearProgramStatus::Ambiguous, basis.x()};
+      if (is_fresh || !has_drifted(basis, constraints)) return {LinearProgramStatus::Optimal, basis.x()};
       refresh(basis, objective, constraints);
       is_fresh = true;
       continue;
     }
     is_fresh = false;
     if (!pivot(basis, entering, constraints[static_cast<std::size_t>(entering)]))
-      return {LinearProgramStatus::Infeasible, basis.x};
+      return {LinearProgramStatus::Infeasible, basis.x()};
   }
-  return {LinearProgramStatus::Ambiguous, basis.x};
+  return {LinearProgramStatus::Ambiguous, basis.x()};
 }
 
 namespace {
@@ -186,10 +219,12 @@ void drop(ActiveSet& active, int i) {
 
 std::optional<Vec3> nearest_feasible_point(const Vec3& target, const std::vector<HalfSpace>& constraints) {
   constexpr double kDependent = 1e-9;  // of the squared length of a normal that leaves the span of the active ones
+  static thread_local std::vector<TwoConstraints> pairs;
+  pair_up(constraints, pairs);
   Vec3 x = target;
   ActiveSet active;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const std::ptrdiff_t entering = most_violated(x, constraints);
+    const std::ptrdiff_t entering = most_violated(x, pairs);
     if (entering < 0) return x;
     const HalfSpace& constraint = constraints[static_cast<std::size_t>(entering)];
     double multiplier = 0;

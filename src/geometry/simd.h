@@ -4,7 +4,10 @@
 #include <emmintrin.h>
 #endif
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "prohull/geometry.h"
 
@@ -26,7 +29,9 @@ inline Double2 sqrt(Double2 x) {
 #endif
 }
 
-inline Double2 abs(Double2 x) { return x < 0 ? -x : x; }
+inline Double2 abs(Double2 x) {
+  return std::bit_cast<Double2>(std::bit_cast<Truth2>(x) & std::numeric_limits<std::int64_t>::max());
+}
 
 /// Bit i is set where lane i is true.
 inline unsigned mask(Truth2 lanes) {
@@ -56,7 +61,7 @@ inline Vec3Pair both(const Vec3& a, const Vec3& b) { return {Double2{a.x, b.x}, 
 inline Vec3Pair both(const Vec3& a) { return both(a, a); }
 
 inline Vec3Pair operator-(const Vec3Pair& a, const Vec3Pair& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3Pair operator/(const Vec3Pair& a, Double2 s) { return {a.x / s, a.y / s, a.z / s}; }
+inline Vec3Pair operator*(const Vec3Pair& a, Double2 s) { return {a.x * s, a.y * s, a.z * s}; }
 inline Double2 dot(const Vec3Pair& a, const Vec3Pair& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec3Pair cross(const Vec3Pair& a, const Vec3Pair& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
