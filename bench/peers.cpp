@@ -33,21 +33,15 @@ struct Options {
   std::filesystem::path out;
 };
 
-HullOptions guarded(std::size_t faces) {
-  HullOptions options = hull_options(Strategy::Lazy, faces);
-  options.self_intersections = SelfIntersections::Refused;
-  return options;
-}
-
 std::optional<PeerRun> run_tight(const TriangleMesh& mesh, std::size_t faces) {
   PeerRun run{};
-  run.seconds = seconds_of([&] { run.mesh = build_tight_hull(mesh, guarded(faces)).mesh; });
+  run.seconds = seconds_of([&] { run.mesh = build_tight_hull(mesh, hull_options(Strategy::Lazy, faces)).mesh; });
   return run;
 }
 
 std::optional<PeerRun> run_progressive(const TriangleMesh& mesh, std::size_t faces) {
   PeerRun run{};
-  run.seconds = seconds_of([&] { run.mesh = build_hull(mesh, guarded(faces)).hull.base(); });
+  run.seconds = seconds_of([&] { run.mesh = build_hull(mesh, hull_options(Strategy::Lazy, faces)).hull.base(); });
   return run;
 }
 
