@@ -6,13 +6,14 @@ set(may_mesh mesh geometry)
 set(may_hull hull mesh geometry)
 set(may_io io hull mesh geometry)
 set(may_repair repair mesh geometry)
-set(may_build build hull mesh geometry)
-set(may_query query hull mesh geometry)
+set(may_parallel parallel)
+set(may_build build hull mesh geometry parallel)
+set(may_query query hull mesh geometry parallel)
 set(may_verify verify geometry)  # never build, and mesh neither: it shares nothing but the predicates
 set(may_sample sample geometry)
 set(may_apps "")
 set(may_examples "")
-set(folders geometry mesh hull io repair build query verify sample)
+set(folders geometry parallel mesh hull io repair build query verify sample)
 
 set(failures "")
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp

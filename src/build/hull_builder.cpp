@@ -14,8 +14,8 @@
 #include "build/best_of.h"
 #include "build/cells.h"
 #include "build/collapse_loop.h"
-#include "build/threads.h"
 #include "build/turned.h"
+#include "parallel/arena.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
 
