@@ -1,14 +1,12 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/intersection.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 
 #include <algorithm>
-#include <iterator>
-#include <utility>
 #include <vector>
 
+#include "cgal_self_intersections.h"
 #include "peers.h"
 #include "surface_mesh.h"
 
@@ -35,9 +33,8 @@ std::optional<ExactFacts> exact_facts(const TriangleMesh& original, const Triang
   const CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel> side(outer);
   const auto outside =
       std::ranges::count_if(inner.vertices(), [&](auto v) { return side(inner.point(v)) == CGAL::ON_UNBOUNDED_SIDE; });
-  std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> pairs;
-  processing::self_intersections(outer, std::back_inserter(pairs));
-  return ExactFacts{static_cast<std::size_t>(outside), pairs.size(), processing::do_intersect(outer, inner)};
+  return ExactFacts{static_cast<std::size_t>(outside), cgal_self_intersections(hull).value(),
+                    processing::do_intersect(outer, inner)};
 }
 
 }  // namespace prohull::bench

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
+#include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace prohull::bench {
 
@@ -19,5 +23,18 @@ void add_peers(CLI::App& app, Run& run);
 void add_queries(CLI::App& app, Run& run);
 void add_queues(CLI::App& app, Run& run);
 void add_scale(CLI::App& app, Run& run);
+
+// Options that several commands have.
+void add_faces_option(CLI::App& command, std::size_t& faces);
+void add_faces_option(CLI::App& command, std::vector<std::size_t>& faces,
+                      const std::string& description = "Sizes of hulls");
+void add_rounds_option(CLI::App& command, std::size_t& rounds);
+void add_out_option(CLI::App& command, std::filesystem::path& out, const std::string& files);
+
+/// Prints `text`; with a folder `out`, which is made if it is not there, also writes it there as NAME.md.
+void publish(const std::filesystem::path& out, const std::string& name, const std::string& text);
+/// Also writes NAME.csv there.
+void publish(const std::filesystem::path& out, const std::string& name, const std::string& text,
+             const std::string& csv);
 
 }  // namespace prohull::bench

@@ -12,8 +12,6 @@
 #include "paper_tables.h"
 #include "peers.h"
 #include "prohull/enclosure.h"
-#include "prohull/error.h"
-#include "prohull/file.h"
 #include "prohull/hull_builder.h"
 #include "prohull/replay.h"
 #include "strategies.h"
@@ -67,10 +65,6 @@ struct ModelFacts {
   const PaperModel* paper = nullptr;
   std::array<VariantFacts, kVariants.size()> of;  ///< by the order of kVariants
   std::optional<PeerRun> peer;                    ///< best of the rounds
-};
-
-struct Refused {
-  std::string name, reason;
 };
 
 void time_variant(const TriangleMesh& mesh, const Variant& variant, std::size_t faces, VariantFacts& facts) {
@@ -197,13 +191,6 @@ std::string work(const std::vector<ModelFacts>& models) {
   return fmt::format("## Linear programs, and proof\n\n{}\n", table.markdown());
 }
 
-std::string listed(const std::vector<Refused>& refused) {
-  if (refused.empty()) return "";
-  std::string text = "## No closed mesh can be made of\n\n";
-  for (const Refused& r : refused) text += fmt::format("- {}: {}\n", r.name, r.reason);
-  return text;
-}
-
 std::string csv(const std::vector<ModelFacts>& models, const std::vector<std::size_t>& hull_faces) {
   Table table({"mesh", "faces", "strategy", "hull_faces", "void_percent", "paper_void_percent", "seconds",
                "paper_seconds", "collapses", "linear_programs", "peer_seconds", "certified"});
@@ -225,14 +212,8 @@ std::string csv(const std::vector<ModelFacts>& models, const std::vector<std::si
 int run_construction(Options options) {
   std::ranges::sort(options.hull_faces, std::greater());
   std::vector<ModelFacts> models;
-  std::vector<Refused> refused;
-  for (const ModelSource& source : model_sources(options.models)) try {
-      models.push_back(measure(source, options));
-    } catch (const InputError& error) {
-      if (options.models.folder.empty()) throw;
-      refused.push_back({source.name, error.what()});
-      fmt::print(stderr, "{}: refused, {}\n", source.name, error.what());
-    }
+  const std::vector<Refused> refused =
+      measure_each(options.models, [&](const ModelSource& source) { models.push_back(measure(source, options)); });
   const std::size_t faces = options.hull_faces.front();
   const std::string text = fmt::format(
                                "# Construction\n\n{}; processor time, best of {}; lazy refuses self-intersections, the "
@@ -240,12 +221,7 @@ int run_construction(Options options) {
                                machine(), options.rounds) +
                            construction_times(models, faces) + voids(models, options.hull_faces) +
                            peers(models, faces) + work(models) + listed(refused);
-  fmt::print("{}", text);
-  if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
-    write_file(options.out / "construction.md", text);
-    write_file(options.out / "construction.csv", csv(models, options.hull_faces));
-  }
+  publish(options.out, "construction", text, csv(models, options.hull_faces));
   const bool all_certified = std::ranges::all_of(
       models, [](const ModelFacts& m) { return std::ranges::all_of(m.of, &VariantFacts::certified); });
   return all_certified ? kDone : kAnswerIsNo;
@@ -257,14 +233,9 @@ void add_construction(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("construction", "The paper's Tables 1 and 2: time and void of hulls");
   add_model_options(command, options->models);
-  command.add_option("--faces", options->hull_faces, "Sizes of hulls; the time is that to the largest")
-      ->delimiter(',')
-      ->check(CLI::Range(4, 1000000000))
-      ->capture_default_str();
-  command.add_option("--repeat", options->rounds, "Rounds, of which the best time counts")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command.add_option("--out", options->out, "Also write construction.md and construction.csv here")->type_name("DIR");
+  add_faces_option(command, options->hull_faces, "Sizes of hulls; the time is that to the largest");
+  add_rounds_option(command, options->rounds);
+  add_out_option(command, options->out, "construction.md and construction.csv");
   command.callback([options, &run] { run = [options] { return run_construction(*options); }; });
 }
 

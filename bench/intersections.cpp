@@ -10,8 +10,6 @@
 #include "machine.h"
 #include "models.h"
 #include "prohull/enclosure.h"
-#include "prohull/error.h"
-#include "prohull/file.h"
 #include "prohull/tight_hull.h"
 #include "strategies.h"
 #include "table.h"
@@ -103,39 +101,29 @@ int run_intersections(const Options& options) {
   for (const Kind& kind : kKinds) columns.push_back(fmt::format("{}: added", kind.name));
   Table table(columns);
   Table csv({"mesh", "faces", "mesh_pairs", "hull", "asked_faces", "hull_faces", "hull_pairs", "added_pairs"});
-  std::string refused;
   bool all_hold = true;
-  for (const ModelSource& source : model_sources(options.models)) try {
-      const Row row = measure(source, options);
-      all_hold = all_hold && none_added(row);
-      for (std::size_t size = 0; size < row.of.size(); ++size) {
-        const std::size_t asked = options.hull_faces[size];
-        std::vector<std::string> cells{row.name, fmt::to_string(row.faces), fmt::to_string(row.pairs),
-                                       fmt::to_string(asked)};
-        for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
-          const Count& count = row.of[size][kind];
-          cells.push_back(cell(count, row.added(size, kind), asked));
-          csv.add({row.name, fmt::to_string(row.faces), fmt::to_string(row.pairs), std::string(kKinds[kind].name),
-                   fmt::to_string(asked), fmt::to_string(count.hull_faces), fmt::to_string(count.pairs),
-                   fmt::to_string(row.added(size, kind))});
-        }
-        table.add(std::move(cells));
+  const std::vector<Refused> refused = measure_each(options.models, [&](const ModelSource& source) {
+    const Row row = measure(source, options);
+    all_hold = all_hold && none_added(row);
+    for (std::size_t size = 0; size < row.of.size(); ++size) {
+      const std::size_t asked = options.hull_faces[size];
+      std::vector<std::string> cells{row.name, fmt::to_string(row.faces), fmt::to_string(row.pairs),
+                                     fmt::to_string(asked)};
+      for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+        const Count& count = row.of[size][kind];
+        cells.push_back(cell(count, row.added(size, kind), asked));
+        csv.add({row.name, fmt::to_string(row.faces), fmt::to_string(row.pairs), std::string(kKinds[kind].name),
+                 fmt::to_string(asked), fmt::to_string(count.hull_faces), fmt::to_string(count.pairs),
+                 fmt::to_string(row.added(size, kind))});
       }
-    } catch (const InputError& error) {
-      if (options.models.folder.empty()) throw;
-      refused += fmt::format("- {}: {}\n", source.name, error.what());
-      fmt::print(stderr, "{}: refused, {}\n", source.name, error.what());
+      table.add(std::move(cells));
     }
+  });
   const std::string text =
-      fmt::format("# Pairs of intersecting faces\n\nCounted by {}. Added: more than the mesh itself has. {}.\n\n{}{}",
+      fmt::format("# Pairs of intersecting faces\n\nCounted by {}. Added: more than the mesh itself has. {}.\n\n{}\n{}",
                   counted_by(), all_hold ? "No guarded hull has added any" : "GUARDED HULLS HAVE ADDED SOME",
-                  table.markdown(), refused.empty() ? "" : "\nNo closed mesh can be made of\n\n" + refused);
-  fmt::print("{}", text);
-  if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
-    write_file(options.out / "intersections.md", text);
-    write_file(options.out / "intersections.csv", csv.csv());
-  }
+                  table.markdown(), listed(refused));
+  publish(options.out, "intersections", text, csv.csv());
   return all_hold ? kDone : kAnswerIsNo;
 }
 
@@ -146,11 +134,8 @@ void add_intersections(CLI::App& app, Run& run) {
   CLI::App& command =
       *app.add_subcommand("intersections", "Pairs of intersecting faces that hulls add; exits with 1 if there are any");
   add_model_options(command, options->models);
-  command.add_option("--faces", options->hull_faces, "Sizes of hulls")
-      ->delimiter(',')
-      ->check(CLI::Range(4, 1000000000))
-      ->capture_default_str();
-  command.add_option("--out", options->out, "Also write intersections.md and intersections.csv here")->type_name("DIR");
+  add_faces_option(command, options->hull_faces);
+  add_out_option(command, options->out, "intersections.md and intersections.csv");
   command.callback([options, &run] { run = [options] { return run_intersections(*options); }; });
 }
 

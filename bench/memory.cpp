@@ -8,7 +8,6 @@
 #include "machine.h"
 #include "models.h"
 #include "prohull/error.h"
-#include "prohull/file.h"
 #include "prohull/hull_builder.h"
 #include "strategies.h"
 #include "table.h"
@@ -60,12 +59,7 @@ int run_memory(const Options& options) {
   const std::string text = fmt::format(
       "# Memory: the peak while a hull of {} faces is built by lazy, the mesh and the result included\n\n{}\n\n{}",
       options.hull_faces, machine(), table.markdown());
-  fmt::print("{}", text);
-  if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
-    write_file(options.out / "memory.md", text);
-    write_file(options.out / "memory.csv", csv.csv());
-  }
+  publish(options.out, "memory", text, csv.csv());
   return kDone;
 }
 
@@ -75,10 +69,8 @@ void add_memory(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("memory", "Peak memory per input face, also of a sample of 1,000,000 faces");
   add_model_options(command, options->models);
-  command.add_option("--faces", options->hull_faces, "Size of the hulls")
-      ->check(CLI::Range(4, 1000000000))
-      ->capture_default_str();
-  command.add_option("--out", options->out, "Also write memory.md and memory.csv here")->type_name("DIR");
+  add_faces_option(command, options->hull_faces);
+  add_out_option(command, options->out, "memory.md and memory.csv");
   command.callback([options, &run] { run = [options] { return run_memory(*options); }; });
 }
 

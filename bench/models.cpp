@@ -1,5 +1,7 @@
 #include "models.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -54,6 +56,25 @@ std::vector<ModelSource> model_sources(const ModelOptions& options) {
 TriangleMesh load(const ModelSource& source) {
   if (source.path.empty()) return make_sample(source.name, source.sample_faces);
   return closed_mesh(read_mesh(source.path)).mesh;
+}
+
+std::vector<Refused> measure_each(const ModelOptions& options, const std::function<void(const ModelSource&)>& measure) {
+  std::vector<Refused> refused;
+  for (const ModelSource& source : model_sources(options)) try {
+      measure(source);
+    } catch (const InputError& error) {
+      if (options.folder.empty()) throw;
+      refused.push_back({source.name, error.what()});
+      fmt::print(stderr, "{}: refused, {}\n", source.name, error.what());
+    }
+  return refused;
+}
+
+std::string listed(const std::vector<Refused>& refused) {
+  if (refused.empty()) return "";
+  std::string text = "## No closed mesh can be made of\n\n";
+  for (const Refused& r : refused) text += fmt::format("- {}: {}\n", r.name, r.reason);
+  return text;
 }
 
 }  // namespace prohull::bench

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,5 +32,16 @@ std::vector<ModelSource> model_sources(const ModelOptions& options);
 
 /// Closed and oriented outwards; throws InputError where that cannot be.
 TriangleMesh load(const ModelSource& source);
+
+struct Refused {
+  std::string name, reason;
+};
+
+/// Calls `measure` with each model in turn. An InputError of a mesh of the folder is told on stderr and kept; one of a
+/// sample is thrown on.
+std::vector<Refused> measure_each(const ModelOptions& options, const std::function<void(const ModelSource&)>& measure);
+
+/// A section of markdown; empty if nothing was refused.
+std::string listed(const std::vector<Refused>& refused);
 
 }  // namespace prohull::bench

@@ -16,7 +16,6 @@
 #include "models.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
-#include "prohull/file.h"
 #include "prohull/tight_hull.h"
 #include "strategies.h"
 #include "table.h"
@@ -34,21 +33,15 @@ struct Options {
   std::filesystem::path out;
 };
 
-HullOptions guarded(std::size_t faces) {
-  HullOptions options = hull_options(Strategy::Lazy, faces);
-  options.self_intersections = SelfIntersections::Refused;
-  return options;
-}
-
 std::optional<PeerRun> run_tight(const TriangleMesh& mesh, std::size_t faces) {
   PeerRun run{};
-  run.seconds = seconds_of([&] { run.mesh = build_tight_hull(mesh, guarded(faces)).mesh; });
+  run.seconds = seconds_of([&] { run.mesh = build_tight_hull(mesh, hull_options(Strategy::Lazy, faces)).mesh; });
   return run;
 }
 
 std::optional<PeerRun> run_progressive(const TriangleMesh& mesh, std::size_t faces) {
   PeerRun run{};
-  run.seconds = seconds_of([&] { run.mesh = build_hull(mesh, guarded(faces)).hull.base(); });
+  run.seconds = seconds_of([&] { run.mesh = build_hull(mesh, hull_options(Strategy::Lazy, faces)).hull.base(); });
   return run;
 }
 
@@ -96,10 +89,6 @@ struct ModelFacts {
   std::string name;
   std::size_t vertices = 0, faces = 0, self_intersections = 0;
   std::vector<Row> rows;
-};
-
-struct Refused {
-  std::string name, reason;
 };
 
 class Bench {
@@ -242,13 +231,6 @@ std::string csv(const std::vector<ModelFacts>& models) {
   return table.csv();
 }
 
-std::string listed(const std::vector<Refused>& refused) {
-  if (refused.empty()) return "";
-  std::string text = "## No closed mesh can be made of\n\n";
-  for (const Refused& r : refused) text += fmt::format("- {}: {}\n", r.name, r.reason);
-  return text;
-}
-
 /// Enclosing, with no more self-intersections than the original.
 bool keeps_its_word(const Row& row, const ModelFacts& m) {
   if (!row.judgement || !row.judgement->encloses) return false;
@@ -269,13 +251,8 @@ int run_peers(Options options) {
   std::string text = fmt::format("# Peers\n\n{}\n\n", machine());
   for (const ModelFacts& m : models) text += section(m);
   text += listed(refused);
-  fmt::print("{}", text);
-  if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
-    write_file(options.out / "peers.md", text);
-    write_file(options.out / "peers.csv", csv(models));
-    draw_figure(options.out / "peers.csv");
-  }
+  publish(options.out, "peers", text, csv(models));
+  if (!options.out.empty()) draw_figure(options.out / "peers.csv");
   const bool all_kept = std::ranges::all_of(models, [](const ModelFacts& m) {
     return std::ranges::all_of(m.rows, [&](const Row& row) { return !row.ours || keeps_its_word(row, m); });
   });
@@ -289,16 +266,12 @@ void add_peers(CLI::App& app, Run& run) {
   CLI::App& command =
       *app.add_subcommand("peers", "Hulls and simplifications of others beside ours: void, time, memory, enclosure");
   add_model_options(command, options->models);
-  command.add_option("--faces", options->hull_faces, "Sizes of hulls")
-      ->delimiter(',')
-      ->check(CLI::Range(4, 1000000000))
-      ->capture_default_str();
+  add_faces_option(command, options->hull_faces);
   command.add_option("--time-limit", options->limit_seconds, "Processor time for one row, and for judging it")
       ->check(CLI::Range(1, 1000000))
       ->type_name("SECONDS")
       ->capture_default_str();
-  command.add_option("--out", options->out, "Also write peers.md, peers.csv and a figure of void by faces here")
-      ->type_name("DIR");
+  add_out_option(command, options->out, "peers.md, peers.csv and a figure of void by faces");
   command.callback([options, &run] { run = [options] { return run_peers(*options); }; });
 }
 

@@ -33,7 +33,7 @@ std::optional<PeerRun> run_convex_hull(const TriangleMesh& mesh);
 /// What CGAL's packages of exact predicates say about a hull; they share no code with ours.
 struct ExactFacts {
   std::size_t vertices_outside;    ///< of the original, by the parity of crossings
-  std::size_t self_intersections;  ///< pairs of faces of the hull that meet beyond shared corners and edges
+  std::size_t self_intersections;  ///< of the hull; see cgal_self_intersections
   bool surfaces_meet;              ///< whether a face of the hull has a point in common with one of the original
 };
 

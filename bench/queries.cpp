@@ -6,8 +6,6 @@
 
 #include "command.h"
 #include "machine.h"
-#include "prohull/error.h"
-#include "prohull/file.h"
 #include "prohull/random_segments.h"
 #include "query_section.h"
 #include "strategies.h"
@@ -51,26 +49,19 @@ int run_queries(QueryOptions options) {
   sections.push_back(make_updates_section());
   sections.push_back(make_memory_section());
   sections.push_back(make_correctness_section());
-  for (const ModelSource& source : model_sources(options.models)) try {
-      fmt::print(stderr, "{}", source.name);
-      const QueryModel model = load_model(source, options);
-      fmt::print(stderr, ": {} faces", model.mesh.face_count());
-      for (const auto& section : sections) section->measure(model, options);
-      fmt::print(stderr, "\n");
-    } catch (const InputError& error) {
-      if (options.models.folder.empty()) throw;
-      fmt::print(stderr, ": refused, {}\n", error.what());
-    }
+  measure_each(options.models, [&](const ModelSource& source) {
+    const QueryModel model = load_model(source, options);
+    fmt::print(stderr, "{}: {} faces", source.name, model.mesh.face_count());
+    for (const auto& section : sections) section->measure(model, options);
+    fmt::print(stderr, "\n");
+  });
   std::string text = fmt::format(
       "# Queries\n\n{}; {} random segments per model (P&T 4.2), seed {}; processor time of one thread, best of {}\n",
       machine(), options.segments, options.seed, options.rounds);
   for (const auto& section : sections) text += '\n' + section->text();
-  fmt::print("{}", text);
-  if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
-    write_file(options.out / "queries.md", text);
+  publish(options.out, "queries", text);
+  if (!options.out.empty())
     for (const auto& section : sections) section->write(options.out);
-  }
   const bool all_hold = std::ranges::all_of(sections, [](const auto& section) { return section->holds(); });
   return all_hold ? kDone : kAnswerIsNo;
 }
@@ -86,12 +77,9 @@ void add_queries(CLI::App& app, Run& run) {
   command.add_option("--check", options->checked, "How many segments are compared with exact brute force")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("--repeat", options->rounds, "Rounds, of which the best time counts")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  add_rounds_option(command, options->rounds);
   command.add_option("--seed", options->seed, "Of the random segments")->capture_default_str();
-  command.add_option("--out", options->out, "Also write queries.md, one CSV per table and Figure 8 here")
-      ->type_name("DIR");
+  add_out_option(command, options->out, "queries.md, one CSV per table and Figure 8");
   command.callback([options, &run] { run = [options] { return run_queries(*options); }; });
 }
 

@@ -8,8 +8,6 @@
 #include "command.h"
 #include "machine.h"
 #include "models.h"
-#include "prohull/error.h"
-#include "prohull/file.h"
 #include "prohull/hull_builder.h"
 #include "strategies.h"
 #include "table.h"
@@ -56,35 +54,27 @@ int run_queues(const Options& options) {
   Table table({"model", "strategy", "heap", "red-black tree", "buckets", "red-black tree / heap", "buckets / heap",
                "void: heap", "void: red-black tree", "void: buckets"});
   Table csv({"mesh", "faces", "strategy", "queue", "hull_faces", "seconds", "void_percent"});
-  for (const ModelSource& source : model_sources(options.models)) try {
-      const TriangleMesh mesh = load(source);
-      for (const auto& [strategy, strategy_name] : kStrategies) {
-        fmt::print(stderr, "{}: {} faces, {}\n", source.name, mesh.face_count(), strategy_name);
-        const AllQueues all = measure(mesh, strategy, options);
-        std::vector<std::string> row{source.name, std::string(strategy_name)};
-        for (const QueueFacts& q : all) row.push_back(fmt::format("{:.3f} s", q.seconds));
-        for (std::size_t q = 1; q < all.size(); ++q)
-          row.push_back(fmt::format("{:.2f}", all[q].seconds / all[0].seconds));
-        for (const QueueFacts& q : all) row.push_back(fmt::format("{:.3f} %", q.void_percent));
-        table.add(std::move(row));
-        for (std::size_t q = 0; q < all.size(); ++q)
-          csv.add({source.name, fmt::to_string(mesh.face_count()), std::string(strategy_name),
-                   std::string(kQueues[q].name), fmt::to_string(options.hull_faces),
-                   fmt::format("{:.4f}", all[q].seconds), fmt::format("{:.4f}", all[q].void_percent)});
-      }
-    } catch (const InputError& error) {
-      if (options.models.folder.empty()) throw;
-      fmt::print(stderr, "{}: refused, {}\n", source.name, error.what());
+  measure_each(options.models, [&](const ModelSource& source) {
+    const TriangleMesh mesh = load(source);
+    for (const auto& [strategy, strategy_name] : kStrategies) {
+      fmt::print(stderr, "{}: {} faces, {}\n", source.name, mesh.face_count(), strategy_name);
+      const AllQueues all = measure(mesh, strategy, options);
+      std::vector<std::string> row{source.name, std::string(strategy_name)};
+      for (const QueueFacts& q : all) row.push_back(fmt::format("{:.3f} s", q.seconds));
+      for (std::size_t q = 1; q < all.size(); ++q)
+        row.push_back(fmt::format("{:.2f}", all[q].seconds / all[0].seconds));
+      for (const QueueFacts& q : all) row.push_back(fmt::format("{:.3f} %", q.void_percent));
+      table.add(std::move(row));
+      for (std::size_t q = 0; q < all.size(); ++q)
+        csv.add({source.name, fmt::to_string(mesh.face_count()), std::string(strategy_name),
+                 std::string(kQueues[q].name), fmt::to_string(options.hull_faces),
+                 fmt::format("{:.4f}", all[q].seconds), fmt::format("{:.4f}", all[q].void_percent)});
     }
+  });
   const std::string text =
       fmt::format("# Priority queues: time and void of hulls of {} faces\n\n{}; processor time, best of {}\n\n{}",
                   options.hull_faces, machine(), options.rounds, table.markdown());
-  fmt::print("{}", text);
-  if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
-    write_file(options.out / "queues.md", text);
-    write_file(options.out / "queues.csv", csv.csv());
-  }
+  publish(options.out, "queues", text, csv.csv());
   return kDone;
 }
 
@@ -94,13 +84,9 @@ void add_queues(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("queues", "Heap, red-black tree and bucket queue against each other");
   add_model_options(command, options->models);
-  command.add_option("--faces", options->hull_faces, "Size of the hulls")
-      ->check(CLI::Range(4, 1000000000))
-      ->capture_default_str();
-  command.add_option("--repeat", options->rounds, "Rounds, of which the best time counts")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command.add_option("--out", options->out, "Also write queues.md and queues.csv here")->type_name("DIR");
+  add_faces_option(command, options->hull_faces);
+  add_rounds_option(command, options->rounds);
+  add_out_option(command, options->out, "queues.md and queues.csv");
   command.callback([options, &run] { run = [options] { return run_queues(*options); }; });
 }
 

@@ -9,7 +9,6 @@
 #include "command.h"
 #include "machine.h"
 #include "models.h"
-#include "prohull/file.h"
 #include "prohull/hull_builder.h"
 #include "strategies.h"
 #include "subdivided.h"
@@ -82,12 +81,7 @@ int run_scale(const Options& options) {
       "# Scale: hulls of {} faces by lazy; each mesh has every triangle of the one before in four, roughened\n\n"
       "{}; time per collapse, one thread unless said; best of {}\n\n{}",
       options.hull_faces, machine(), options.rounds, table.markdown());
-  fmt::print("{}", text);
-  if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
-    write_file(options.out / "scale.md", text);
-    write_file(options.out / "scale.csv", csv.csv());
-  }
+  publish(options.out, "scale", text, csv.csv());
   return kDone;
 }
 
@@ -97,17 +91,13 @@ void add_scale(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("scale", "Cost of a collapse from 100 thousand to millions of faces");
   add_model_options(command, options->models);
-  command.add_option("--faces", options->hull_faces, "Size of the hulls")
-      ->check(CLI::Range(4, 1000000000))
-      ->capture_default_str();
+  add_faces_option(command, options->hull_faces);
   command
       .add_option("--subdivisions", options->subdivisions, "How often to subdivide, each time to four times the faces")
       ->check(CLI::Range(0, 8))
       ->capture_default_str();
-  command.add_option("--repeat", options->rounds, "Rounds, of which the best time counts")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command.add_option("--out", options->out, "Also write scale.md and scale.csv here")->type_name("DIR");
+  add_rounds_option(command, options->rounds);
+  add_out_option(command, options->out, "scale.md and scale.csv");
   command.callback([options, &run] { run = [options] { return run_scale(*options); }; });
 }
 

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "build/threads.h"
+#include "parallel/arena.h"
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_report.h"
 
@@ -35,8 +35,7 @@ auto best_of(const HullOptions& options, Build build, MeshOf mesh_of) {
       cancelled = true;
     return !cancelled;
   };
-  oneapi::tbb::task_arena arena = arena_of(options.threads);
-  arena.execute([&] {
+  arena_of(options.threads).execute([&] {
     oneapi::tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
       if (cancelled && i > 0) return;
       HullOptions one = options;

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <array>
 #include <atomic>
 #include <mutex>
 
+#include "parallel/arena.h"
 #include "prohull/error.h"
 #include "query/engine.h"
 #include "query/refinement_engine.h"
@@ -203,10 +203,7 @@ Batch<Answer> ask_all(const QueryIndex& index, std::span<const Primitive> primit
   std::vector<Batch<Answer>> chunks((primitives.size() + kChunk - 1) / kChunk);
   SharedProgress progress(options, primitives.size());
   oneapi::tbb::enumerable_thread_specific<MeshQuery> queries([&] { return MeshQuery(index); });
-  const int cores = oneapi::tbb::this_task_arena::max_concurrency();
-  oneapi::tbb::task_arena arena(
-      options.threads == 0 ? cores : static_cast<int>(std::min(options.threads, static_cast<unsigned>(cores))));
-  arena.execute([&] {
+  arena_of(options.threads).execute([&] {
     oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
       if (progress.cancelled()) return;
       MeshQuery& query = queries.local();

@@ -1,21 +1,20 @@
 #include "verify/self_intersection.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <limits>
 
 #include "geometry/morton_code.h"
 #include "geometry/simd.h"
 #include "geometry/triangle_intersection.h"
+#include "geometry/unit_cube.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 
 namespace prohull::verify {
 namespace {
 
-// Box-box tests are most of the work: boxes of float32, four at a time. Mapping coordinates to float32 is monotone, so
-// that boxes that overlap still do.
+// Box-box tests are most of the work: boxes of float32, four at a time.
 
 struct FourBoxes {
   Float4 min[3], max[3];
@@ -26,8 +25,8 @@ struct FourBoxes {
     return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   }
 
-  void set(std::uint32_t lane, const std::array<float, 3>& low, const std::array<float, 3>& high) {
-    for (int i = 0; i < 3; ++i) min[i][lane] = low[i], max[i][lane] = high[i];
+  void set(std::uint32_t lane, const FloatBox& box) {
+    for (int i = 0; i < 3; ++i) min[i][lane] = box.min[i], max[i][lane] = box.max[i];
   }
 
   /// The box in one lane, in all of them.
@@ -40,17 +39,14 @@ struct FourBoxes {
     return same;
   }
 
-  std::array<float, 3> low() const {
-    std::array<float, 3> all;
-    for (int i = 0; i < 3; ++i)
-      all[i] = std::min({float{min[i][0]}, float{min[i][1]}, float{min[i][2]}, float{min[i][3]}});
-    return all;
-  }
-  std::array<float, 3> high() const {
-    std::array<float, 3> all;
-    for (int i = 0; i < 3; ++i)
-      all[i] = std::max({float{max[i][0]}, float{max[i][1]}, float{max[i][2]}, float{max[i][3]}});
-    return all;
+  /// Around all four.
+  FloatBox around() const {
+    FloatBox box;
+    for (int i = 0; i < 3; ++i) {
+      box.min[i] = std::min({float{min[i][0]}, float{min[i][1]}, float{min[i][2]}, float{min[i][3]}});
+      box.max[i] = std::max({float{max[i][0]}, float{max[i][1]}, float{max[i][2]}, float{max[i][3]}});
+    }
+    return box;
   }
 
   /// Lane by lane.
@@ -65,13 +61,8 @@ struct FourBoxes {
 template <class TriangleOf>
 class PairSearch {
  public:
-  PairSearch(std::uint32_t count, const TriangleOf& triangle_of) : triangle_of_(triangle_of) {
-    Box box;
-    for (std::uint32_t f = 0; f < count; ++f)
-      for (const Triangle t = triangle_of(f); const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
-    center_ = box.center();
-    const Vec3 half = box.max * 0.5 - box.min * 0.5;
-    inverse_unit_ = 1 / std::max({half.x, half.y, half.z, std::numeric_limits<double>::min()});
+  PairSearch(std::uint32_t count, const TriangleOf& triangle_of)
+      : triangle_of_(triangle_of), cube_(box_of_all(count, triangle_of)) {
     sort_faces(count);
     pack();
   }
@@ -100,16 +91,17 @@ class PairSearch {
  private:
   static constexpr std::uint32_t kWidth = 4;
 
-  std::array<float, 3> mapped(const Vec3& p) const {
-    return {static_cast<float>((p.x - center_.x) * inverse_unit_),
-            static_cast<float>((p.y - center_.y) * inverse_unit_),
-            static_cast<float>((p.z - center_.z) * inverse_unit_)};
+  static Box box_of_all(std::uint32_t count, const TriangleOf& triangle_of) {
+    Box box;
+    for (std::uint32_t f = 0; f < count; ++f)
+      for (const Triangle t = triangle_of(f); const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
+    return box;
   }
 
   void sort_faces(std::uint32_t count) {
     std::vector<std::uint64_t> by_code(count);
     for (std::uint32_t f = 0; f < count; ++f) {
-      const auto [x, y, z] = mapped(box_of(triangle_of_(f)).center());
+      const auto [x, y, z] = cube_.at(box_of(triangle_of_(f)).center());
       by_code[f] = std::uint64_t{morton_code(x, y, z)} << 32 | f;
     }
     std::sort(by_code.begin(), by_code.end());
@@ -123,21 +115,17 @@ class PairSearch {
       children = (children + kWidth - 1) / kWidth;
       levels_.emplace_back(children, FourBoxes::none());
     } while (children > 1);
-    for (std::uint32_t slot = 0; slot < face_at_.size(); ++slot) {
-      const Box box = box_of(triangle_of_(face_at_[slot]));
-      levels_[0][slot / kWidth].set(slot % kWidth, mapped(box.min), mapped(box.max));
-    }
+    for (std::uint32_t slot = 0; slot < face_at_.size(); ++slot)
+      levels_[0][slot / kWidth].set(slot % kWidth, cube_.at(triangle_of_(face_at_[slot])));
     for (std::size_t level = 1; level < levels_.size(); ++level)
-      for (std::uint32_t i = 0; i < levels_[level - 1].size(); ++i) {
-        const FourBoxes& child = levels_[level - 1][i];
-        levels_[level][i / kWidth].set(i % kWidth, child.low(), child.high());
-      }
+      for (std::uint32_t i = 0; i < levels_[level - 1].size(); ++i)
+        levels_[level][i / kWidth].set(i % kWidth, levels_[level - 1][i].around());
   }
 
   /// Sets nodes_ to the leaves, from this one on, with a box that overlaps the one around all of its own.
   void find_leaves_from(std::uint32_t leaf) {
     FourBoxes around = FourBoxes::none();
-    around.set(0, levels_[0][leaf].low(), levels_[0][leaf].high());
+    around.set(0, levels_[0][leaf].around());
     around = around.repeated(0);
     nodes_.assign(1, 0);
     for (std::size_t level = levels_.size() - 1; level > 0; --level) {
@@ -152,8 +140,7 @@ class PairSearch {
   }
 
   const TriangleOf& triangle_of_;
-  Vec3 center_;
-  double inverse_unit_;
+  UnitCube cube_;
   std::vector<std::uint32_t> face_at_;
   std::vector<std::vector<FourBoxes>>
       levels_;  ///< children of node i are faces, or nodes of the level before, from 4i on

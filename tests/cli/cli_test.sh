@@ -332,31 +332,23 @@ if [ "$(id -u)" -ne 0 ]; then
   says err "read-only folder" "read_only/hull.ply"
 fi
 $prohull sample asteroid -o big.ply --faces 400000 >/dev/null
-$prohull build big.ply --faces 500 -o interrupted.ply --hierarchy interrupted.phull >out 2>err &
-sleep 0.3
-kill -INT $! 2>/dev/null
-wait $!
-code=$?
-checks=$((checks + 1))
-# A background job of a shell ignores Ctrl-C unless the program asks for it, as prohull does.
-[ $code -eq 130 ] || fail "Ctrl-C: exit code $code, expected 130"
-absent "interrupted*" "Ctrl-C"
-$prohull query big.ply --random 100000 --engine brute -o interrupted.csv >out 2>err &
-sleep 1
-kill -INT $! 2>/dev/null
-wait $!
-code=$?
-checks=$((checks + 1))
-[ $code -eq 130 ] || fail "Ctrl-C of a query: exit code $code, expected 130"
-absent "interrupted*" "Ctrl-C of a query"
-$prohull render big.ply --size 4000x3000 --samples 256 -o interrupted.png >out 2>err &
-sleep 1
-kill -INT $! 2>/dev/null
-wait $!
-code=$?
-checks=$((checks + 1))
-[ $code -eq 130 ] || fail "Ctrl-C of a picture: exit code $code, expected 130"
-absent "interrupted*" "Ctrl-C of a picture"
+# interrupted NAME SECONDS COMMAND...: Ctrl-C after so long ends it with 130 and leaves nothing named interrupted
+interrupted() {
+  name=$1 seconds=$2
+  shift 2
+  "$@" >out 2>err &
+  sleep "$seconds"
+  # A background job of a shell ignores Ctrl-C unless the program asks for it, as prohull does.
+  kill -INT $! 2>/dev/null
+  wait $!
+  code=$?
+  checks=$((checks + 1))
+  [ $code -eq 130 ] || fail "$name: exit code $code, expected 130"
+  absent "interrupted*" "$name"
+}
+interrupted "Ctrl-C" 0.3 $prohull build big.ply --faces 500 -o interrupted.ply --hierarchy interrupted.phull
+interrupted "Ctrl-C of a query" 1 $prohull query big.ply --random 100000 --engine brute -o interrupted.csv
+interrupted "Ctrl-C of a picture" 1 $prohull render big.ply --size 4000x3000 --samples 256 -o interrupted.png
 
 echo "$((checks - failures)) passed, $failures failed"
 [ $failures -eq 0 ]
