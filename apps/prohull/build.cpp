@@ -197,6 +197,7 @@ void add_build(CLI::App& app, Run& run) {
   const auto options = std::make_shared<BuildOptions>();
   EnclosingOptions& enclosing = options->enclosing;
   HullOptions& hull = enclosing.hull;
+  hull.relax_guards = true;
   CLI::App& command = *app.add_subcommand("build", "Build a hull of any mesh, certified");
   command.add_option("in", options->in, "Mesh: PLY, OBJ, OFF or STL, also .gz or .zip")->required()->type_name("IN");
   command
@@ -271,6 +272,10 @@ void add_build(CLI::App& app, Run& run) {
   command.add_flag("--strict", options->strict, "Exit with 1 if the face count or a bound is not reached");
   add_report_option(command, options->report);
   constexpr const char* kGuards = "Guards";
+  command
+      .add_flag("!--keep-guards", hull.relax_guards,
+                "Do not relax them in the end, in three steps, where the number of faces is not reached otherwise")
+      ->group(kGuards);
   command.add_option("--max-valence", hull.max_valence, "Most faces around a new vertex")
       ->capture_default_str()
       ->check(CLI::Range(3.0, 1e6))

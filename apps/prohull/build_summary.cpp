@@ -56,6 +56,10 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
   fmt::print("  triangles: {}\n", described(written.quality));
   if (hull.rounded_vertices > 0)
     fmt::print("  moved {} to coordinates that the file keeps\n", counted(hull.rounded_vertices, "vertex", "vertices"));
+  if (hull.relaxed_guards > 0)
+    fmt::print("  shape guards relaxed to reach it: normals may turn by {:.0f} degrees, step {} of {}\n",
+               kRelaxedGuards[hull.relaxed_guards - 1].normal_deviation / kDegree, hull.relaxed_guards,
+               kRelaxedGuards.size());
   if (!hull.reached)
     fmt::print("  no legal collapse is left above the {} faces asked for; what refused the {} edges left: {}\n",
                grouped(hull.target_faces), grouped(3 * faces / 2), listed(hull.blocked));
@@ -119,6 +123,7 @@ nlohmann::json hull_report(const BuildOutcome& outcome, const Written& written) 
           {"rounded_vertices", hull.rounded_vertices},
           {"certified", written.certified},
           {"proof", std::string(hull.proof)},
+          {"relaxed_guards", hull.relaxed_guards},
           {"stopped", hull.reached ? "target_reached" : "no_legal_collapse"},
           {"within_bounds", hull.bounded},
           {"refusals", facts_of(hull.refused)},

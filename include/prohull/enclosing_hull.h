@@ -50,6 +50,7 @@ struct EnclosingHull {
   std::size_t solid = 0;
   std::optional<ProgressiveHull> levels;  ///< with this hull, but for rounding, as its base; unless vertices moved
   RefusalCounts refused, blocked;         ///< as in HullResult
+  unsigned relaxed_guards = 0;            ///< as in HullResult; not where the hull is a finer level
   std::size_t rounded_vertices = 0;       ///< moved to float32 coordinates
   std::size_t self_intersections = 0;     ///< pairs of faces
   double build_seconds = 0, verify_seconds = 0;
@@ -74,11 +75,12 @@ struct EnclosingHulls {
 /// Hulls of any triangles, one for each of `target_faces`: meshes of at most so many faces that provably enclose every
 /// finite triangle of the input, also those without area (HullSide::Inner: that a closed input encloses). The ladder:
 ///  1. repaired_mesh; if it is closed, the hull is built from it, and encloses it as build_hull promises.
-///  2. Where it is not closed, or the hull has more faces than asked for, intersects itself, or breaks the bounds: a
-///     wrap with an alpha of a fiftieth of the diagonal, of a twentieth, of a tenth, and an offset of a 600th; its
-///     vertices move back towards the triangles at the end, for bounds are those from the triangles.
+///  2. Where it is not closed, or the hull has more faces than asked for, intersects itself, breaks the bounds, or has
+///     more than one and a half times the volume (where levels need not be kept): a wrap with an alpha of a fiftieth of
+///     the diagonal, of a twentieth, of a tenth, and an offset of a 600th; its vertices move back towards the triangles
+///     at the end, for bounds are those from the triangles.
 /// The first hull that has all of it is taken, else the best of all: certified, free of self-intersection, within the
-/// bounds, of the fewest faces.
+/// bounds, of the fewest faces above those asked for, of the least volume.
 /// Guaranteed: `certified` is decided exactly, on the coordinates returned, by verify_replay, verify_enclosure or
 /// verify_cover; with options.hull.float32_coordinates these are float32 numbers.
 /// Throws InputError if there is no finite triangle, if an option is outside its range, and where the input is not

@@ -63,6 +63,16 @@ struct HullProgress {
   std::size_t faces, original_faces, target_faces;
 };
 
+/// Guards of the shape that HullOptions::relax_guards uses in turn where no legal collapse is left above the target.
+struct RelaxedGuards {
+  double normal_deviation;                           ///< at least; radians
+  double compactness_ratio, sufficient_compactness;  ///< at most
+  unsigned valence;                                  ///< at least
+};
+constexpr std::array<RelaxedGuards, 3> kRelaxedGuards{{{std::numbers::pi / 3, 0.8, 0.15, 12},
+                                                       {89 * std::numbers::pi / 180, 0.5, 0.05, 16},
+                                                       {89 * std::numbers::pi / 180, 0.1, 0.01, 32}}};
+
 struct HullOptions {
   std::size_t target_faces = 2000;  ///< at least 4
   HullSide side = HullSide::Outer;
@@ -71,6 +81,7 @@ struct HullOptions {
   double min_compactness_ratio = 0.8;                  ///< worst face of the star, after / before; in [0, 1]
   double sufficient_compactness = 0.15;                ///< good enough whatever it was before; Strategy::Lazy only
   double max_normal_deviation = std::numbers::pi / 4;  ///< of a face that a collapse moves; radians, in [0, pi/2]
+  bool relax_guards = false;                           ///< see kRelaxedGuards; never what makes the hull enclose
   SelfIntersections self_intersections = SelfIntersections::ByStrategy;  ///< see refuses_self_intersections
   bool float32_coordinates = false;  ///< new vertices have coordinates that a float32 file keeps
   QueueKind queue = QueueKind::Bucket;
@@ -99,6 +110,7 @@ struct HullResult {
   RefusalCounts refused;  ///< over the whole construction; an edge may be refused many times
   RefusalCounts blocked;  ///< of the edges that are left, why each was refused last
   std::size_t linear_programs = 0;
+  unsigned relaxed_guards = 0;  ///< so many of kRelaxedGuards were used at the end
 };
 
 /// Simplifies `mesh` by edge collapses, every new vertex on the outside of all faces that it replaces, until

@@ -13,6 +13,7 @@ struct TightHull {
   Stopped stopped;
   RefusalCounts refused, blocked;  ///< as in HullResult
   std::size_t moved_vertices = 0;  ///< how often a vertex was moved towards the original
+  unsigned relaxed_guards = 0;     ///< as in HullResult
 };
 
 /// One hull of at most options.target_faces, tighter than the base mesh of build_hull: edge collapses take turns with

@@ -68,10 +68,12 @@ class HullBuilder {
   HullResult run() {
     std::size_t round = 0;
     while (options_.strategy == Strategy::Lazy && is_worth_a_round() && run_round(round++)) continue;
-    Work whole = cut({everywhere(), faces_}, options_.target_faces, std::numeric_limits<double>::infinity());
-    simplify(whole);
-    const RefusalCounts blocked = refusals_of_what_is_left(whole.patch);
-    add({put_back(std::move(whole))});
+    RefusalCounts blocked = simplify_whole();
+    for (const RelaxedGuards& guards : kRelaxedGuards) {
+      if (!options_.relax_guards || faces_.size() <= options_.target_faces || progress_.cancelled()) break;
+      relax(guards);
+      blocked = simplify_whole();
+    }
     const Stopped stopped = faces_.size() <= options_.target_faces ? Stopped::TargetReached
                             : progress_.cancelled()                ? Stopped::Cancelled
                                                                    : Stopped::NoLegalCollapse;
@@ -83,7 +85,8 @@ class HullBuilder {
             stopped,
             refused_,
             blocked,
-            linear_programs_};
+            linear_programs_,
+            relaxed_};
   }
 
  private:
@@ -193,6 +196,25 @@ class HullBuilder {
       if (result) all.push_back(std::move(*result));
     add(all);
     return faces_.size() < before - before / 16;
+  }
+
+  /// Why the edges that are left were refused.
+  RefusalCounts simplify_whole() {
+    Work whole = cut({everywhere(), faces_}, options_.target_faces, std::numeric_limits<double>::infinity());
+    simplify(whole);
+    const RefusalCounts blocked = refusals_of_what_is_left(whole.patch);
+    add({put_back(std::move(whole))});
+    return blocked;
+  }
+
+  /// For what is still to be collapsed: edges that were refused are looked at again.
+  void relax(const RelaxedGuards& guards) {
+    options_.max_normal_deviation = std::max(options_.max_normal_deviation, guards.normal_deviation);
+    options_.min_compactness_ratio = std::min(options_.min_compactness_ratio, guards.compactness_ratio);
+    options_.sufficient_compactness = std::min(options_.sufficient_compactness, guards.sufficient_compactness);
+    options_.max_valence = std::max(options_.max_valence, guards.valence);
+    std::ranges::fill(edges_, EdgeFacts{});
+    ++relaxed_;
   }
 
   void simplify(Work& work) {
@@ -349,7 +371,7 @@ class HullBuilder {
 
   static constexpr std::size_t kSample = 8;  // of so many, one tells enough
 
-  const HullOptions options_;
+  HullOptions options_;  ///< the guards relax in the end
   const UnitCube unit_cube_;
   SharedProgress progress_;
   const CollapseRules rules_;
@@ -367,6 +389,7 @@ class HullBuilder {
   std::vector<VertexSplit> record_;
   RefusalCounts refused_;
   std::size_t linear_programs_ = 0;
+  unsigned relaxed_ = 0;
   LocalNumbers local_numbers_;
 };
 

@@ -19,7 +19,7 @@ constexpr std::array kLevels{8.0, 4.0, 2.5, 1.75, 1.35, 1.15, 1.0};
 
 TightHull build_towards(const Original& original, const TriangleMesh& mesh, const HullOptions& options) {
   const bool inner = options.side == HullSide::Inner;
-  TightHull tight{mesh, Stopped::TargetReached, {}, {}, 0};
+  TightHull tight{mesh, Stopped::TargetReached, {}, {}, 0, 0};
   HullOptions step = options;
   step.self_intersections = SelfIntersections::Refused;
   bool cancelled = false;
@@ -37,6 +37,7 @@ TightHull build_towards(const Original& original, const TriangleMesh& mesh, cons
     tight.refused += result.refused;
     tight.blocked = result.blocked;
     tight.stopped = result.stopped;
+    tight.relaxed_guards = result.relaxed_guards;
     const TriangleMesh base = result.hull.base();
     HalfEdgeMesh moving(inner ? turned(base) : base);
     tight.moved_vertices += tighten(moving, original, step);

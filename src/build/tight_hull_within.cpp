@@ -14,7 +14,7 @@ class TightSearch {
         is_within_(is_within),
         options_(options),
         wrapped_(wrapped),
-        best_{mesh, Stopped::Cancelled, {}, {}, 0} {}
+        best_{mesh, Stopped::Cancelled, {}, {}, 0, 0} {}
 
   TightHull run() try {
     const std::size_t enough = faces_of_progressive_hull();
@@ -45,7 +45,7 @@ class TightSearch {
     was_cancelled_ = result.stopped == Stopped::Cancelled;
     if (was_cancelled_) return mesh_.face_count();
     const std::size_t faces = faces_within(result.hull, is_within_);
-    best_ = {result.hull.level(faces), result.stopped, result.refused, result.blocked, 0};
+    best_ = {result.hull.level(faces), result.stopped, result.refused, result.blocked, 0, result.relaxed_guards};
     return faces;
   }
 

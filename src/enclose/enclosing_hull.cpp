@@ -106,6 +106,7 @@ class Ladder {
   bool is_within(const TriangleMesh& hull, std::size_t solid) const;
   bool is_stored_within(const TriangleMesh& hull, std::size_t solid);
   bool is_as_asked(const EnclosingHull& hull) const;
+  bool is_loose(const EnclosingHull& hull) const;
   HullOptions hull_options(std::size_t target_faces, std::string_view stage) const;
 
   const EnclosingOptions& options_;
@@ -187,24 +188,31 @@ void Ladder::add_wrap(double alpha) {
 
 EnclosingHull Ladder::hull_of(std::size_t target_faces) {
   std::optional<EnclosingHull> best;
-  const auto rank = [this](const EnclosingHull& hull) {
-    return std::tuple(!hull.certified, hull.self_intersections > 0, !hull.bounded, hull.mesh.face_count(), hull.solid);
+  const auto rank = [&](const EnclosingHull& hull) {
+    return std::tuple(!hull.certified, hull.self_intersections > 0, !hull.bounded,
+                      std::max(hull.mesh.face_count(), target_faces), signed_volume(hull.mesh));
   };
   const std::size_t rungs = may_wrap() ? 1 + std::size(kWrapAlphas) : 1;
   for (std::size_t solid = 0;; ++solid) {
     while (solid == made_.solids.size() && next_rung_ < rungs) make_solid(next_rung_++);
     if (solid == made_.solids.size()) break;
     EnclosingHull hull = build(solid, target_faces);
-    const bool done = is_as_asked(hull);
-    if (!done && hull.stored) note_why_not(hull);
-    if (!best || done || rank(hull) < rank(*best)) best = std::move(hull);
-    if (done) break;
+    const bool is_good = is_as_asked(hull) && !is_loose(hull);
+    if (!is_good && hull.stored && rungs > 1) note_why_not(hull);
+    if (!best || rank(hull) < rank(*best)) best = std::move(hull);
+    if (is_good) break;
   }
   if (!best)
     throw InputError(
         made_.input.closed ? Defect::NoVolume : Defect::OpenEdge,
         fmt::format("nothing could be wrapped: {}", made_.notes.empty() ? made_.input.obstacle : made_.notes.back()));
   return std::move(*best);
+}
+
+// Where handles and thin parts are in the way, the last levels of a hull swell, and one of a wrap may be smaller.
+bool Ladder::is_loose(const EnclosingHull& hull) const {
+  constexpr double kMuch = 1.5;
+  return is_outer() && !options_.levels && signed_volume(hull.mesh) > kMuch * made_.solids.front().volume;
 }
 
 bool Ladder::is_as_asked(const EnclosingHull& hull) const {
@@ -277,6 +285,7 @@ EnclosingHull Ladder::build_levels(std::size_t solid, std::size_t target_faces) 
   if (hull.mesh == level)
     hull.levels = faces > result->hull.base_face_count() ? result->hull.with_base(faces) : result->hull;
   hull.refused = result->refused, hull.blocked = result->blocked;
+  if (level.face_count() == result->hull.base_face_count()) hull.relaxed_guards = result->relaxed_guards;
   return hull;
 }
 
@@ -299,6 +308,7 @@ EnclosingHull Ladder::build_tight(std::size_t solid, std::size_t target_faces) {
   hull.mesh = std::move(tight.mesh);
   hull.reached = tight.stopped == Stopped::TargetReached;
   hull.refused = tight.refused, hull.blocked = tight.blocked;
+  hull.relaxed_guards = tight.relaxed_guards;
   return hull;
 }
 
@@ -368,6 +378,9 @@ void Ladder::note_why_not(const EnclosingHull& hull) {
     note(fmt::format("a hull of {} intersects itself in {} pairs of faces", source, grouped(hull.self_intersections)));
   else if (!hull.bounded)
     note(fmt::format("no hull of {} is within the bounds", source));
+  else if (hull.reached)
+    note(fmt::format("a hull of {} with {} faces has {:.1f} times the volume", source, grouped(hull.mesh.face_count()),
+                     signed_volume(hull.mesh) / made_.solids.front().volume));
   else
     note(fmt::format("no legal collapse of {} is left at {} faces: {}", source, grouped(hull.mesh.face_count()),
                      listed(hull.blocked)));

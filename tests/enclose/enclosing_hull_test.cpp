@@ -184,7 +184,8 @@ std::vector<std::pair<std::string, TriangleMesh>> defective_meshes() {
 TEST(EnclosingHull, CoversWhateverIsWrong) {
   for (const auto& [name, mesh] : defective_meshes())
     for (const bool float32 : {false, true}) {
-      const EnclosingHulls made = hull_of(mesh, 100, {.hull = {.float32_coordinates = float32}, .wrap = alpha_wrap});
+      const EnclosingHulls made =
+          hull_of(mesh, 100, {.hull = {.relax_guards = true, .float32_coordinates = float32}, .wrap = alpha_wrap});
       const EnclosingHull hull = only(made);
       EXPECT_TRUE(hull.certified) << name;
       EXPECT_TRUE(verify_cover(made.input.original, hull.mesh).encloses) << name;
