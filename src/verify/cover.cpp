@@ -52,7 +52,10 @@ bool cuts(const TriangleContact& c) { return c.interior == Contact::Crossing || 
 class CoveredFaces {
  public:
   explicit CoveredFaces(const Surface& surface)
-      : surface_(surface), meets_(surface.faces.size()), all_(surface.faces.size(), Answer::NotAsked) {
+      : surface_(surface),
+        meets_(surface.faces.size()),
+        sheets_(surface.faces.size()),
+        all_(surface.faces.size(), Answer::NotAsked) {
     const auto pairs = verify::self_intersections(surface);
     for (const auto& [f, g] : pairs) meets_[f].push_back(g), meets_[g].push_back(f);
     self_intersections_ = pairs.size();
@@ -62,6 +65,8 @@ class CoveredFaces {
 
   /// All of the face.
   bool contain(FaceIndex f) {
+    if (beyond_.empty()) follow_edges();
+    f = sheets_.representative(f);
     if (all_[f] == Answer::NotAsked) {
       const std::vector<Cell> pieces = pieces_of(f);
       const bool all = std::all_of(pieces.begin(), pieces.end(), [&](const Cell& piece) { return borders(f, piece); });
@@ -72,7 +77,7 @@ class CoveredFaces {
 
   /// All of another face that goes on in the plane of f beyond its edge e, if that edge has just these two faces.
   bool go_on(FaceIndex f, int e) {
-    if (beyond_.empty()) find_beyond();
+    if (beyond_.empty()) follow_edges();
     const FaceIndex g = beyond_[f][e];
     return g != f && contain(g);
   }
@@ -89,7 +94,9 @@ class CoveredFaces {
  private:
   enum class Answer : std::uint8_t { NotAsked, Yes, No };
 
-  void find_beyond() {
+  /// Looks beyond the edges that have just two faces. If these meet no other faces, there are but two regions around
+  /// the edge, and each face has both beside it.
+  void follow_edges() {
     for (FaceIndex f = 0; f < surface_.faces.size(); ++f) beyond_.push_back({f, f, f});
     const std::vector<FaceEdge> sides = edges(surface_);
     for (std::size_t i = 0, end; i < sides.size(); i = end) {
@@ -97,6 +104,7 @@ class CoveredFaces {
       if (end - i != 2) continue;
       const auto [key, f, e] = sides[i];
       const auto [same, g, d] = sides[i + 1];
+      if (meets_[f].empty() && meets_[g].empty()) sheets_.join(f, g);
       const auto here = corners_of(surface_.faces[f]), there = corners_of(surface_.faces[g]);
       const Vec3 &p = here[e], &q = here[(e + 1) % 3], &r = here[(e + 2) % 3], &s = there[(d + 2) % 3];
       const int axis = surface_.axis[f];
@@ -131,7 +139,8 @@ class CoveredFaces {
 
   const Surface& surface_;
   std::vector<std::vector<FaceIndex>> meets_;
-  std::vector<Answer> all_;
+  Clusters sheets_;                               // of faces that have the same regions beside them
+  std::vector<Answer> all_;                       // by representative
   std::vector<std::array<FaceIndex, 3>> beyond_;  // each edge: the face that goes on in the plane, or the face itself
   std::size_t self_intersections_ = 0;
   std::mt19937 random_;  // no answer depends on it
