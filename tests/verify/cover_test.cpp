@@ -130,6 +130,21 @@ TEST(Cover, OfHullsThatIntersectThemselves) {
   EXPECT_FALSE(covers(undone, segment({0, 0, 0.25}, {0, 0, 1})));
 }
 
+TEST(Cover, OfTrianglesAcrossFacesOfOnePlaneOfWhichSomeBoundNothing) {
+  const TriangleMesh half = together(subdivided(kUnitBox), inside_out(box({0, 0, 0}, {0.5, 1, 1})));
+  EXPECT_TRUE(covers(half, triangle({0.5, 0.1, 0}, {0.9, 0.2, 0}, {0.6, 0.7, 0})));
+  EXPECT_FALSE(covers(half, triangle({0.3, 0.2, 0}, {0.7, 0.2, 0}, {0.5, 0.3, 0})));
+  EXPECT_FALSE(covers(half, triangle({0.1, 0.2, 0}, {0.4, 0.1, 0}, {0.3, 0.8, 0})));
+}
+
+TEST(Cover, OfTrianglesAcrossTheFoldOfASlit) {
+  const TriangleMesh slit =
+      tetrahedron({1, 1, 2}, {2, 1, 2}, {2, 2, 2}, {1, 2, 2});  // flat: folded along all four sides
+  const TriangleMesh outer = together(box({0, 0, 0}, {4, 4, 4}), slit);
+  EXPECT_TRUE(covers(outer, triangle({1.2, 1.5, 2}, {3, 1.5, 2}, {1.2, 1.8, 2})));
+  EXPECT_FALSE(covers(outer, triangle({1.2, 1.5, 2}, {9, 1.5, 2}, {1.2, 1.8, 2})));
+}
+
 TEST(Cover, OfWhatAHullHasOfCavities) {
   const TriangleMesh shell = together(box({-1, -1, -1}, {2, 2, 2}), inside_out(box({0.2, 0.2, 0.2}, {0.8, 0.8, 0.8})));
   EXPECT_TRUE(covers(shell, kUnitBox)) << "all triangles, though not all of the solid";
