@@ -30,13 +30,21 @@
 // inside of a cell is all of it, where faces hold the cell, or single points: w is constant on each side of the cell,
 // and one point of it decides, by (1) or (2). Where no face cuts the triangle and none holds it, all of it is one cell
 // ("free"); where H does not touch it at all, all that is free and shares a corner with it lies in the same region of
-// H, and one corner decides. A triangle without area is a segment or a point. It is cut at the ends of what faces of H
-// hold of it, and the middle of each piece decides: by (1), or by (2) with all pieces of the faces that hold it. A face
-// of H beside which w >= 1 everywhere lies in C, and so does all that it holds; usually that is every face.
+// H, and one corner decides.
+//
+// A triangle without area is a segment or a point. It is cut at the ends of what faces of H hold of it, and the middle
+// of each piece decides: by (1), or by (2) with all pieces of the faces that hold it.
+//
+// A face of H beside which w >= 1 everywhere lies in C, and so does all that it holds; usually that is every face.
+// Likewise a triangle that several such faces hold together, as in flat parts that H and the original divide into
+// triangles differently: the faces hold a part of its inside that is closed in it, and open as well if at every edge of
+// theirs that meets it another one goes on, in the same plane and on the other side, so that it is all of the inside.
 
 namespace prohull {
 namespace verify {
 namespace {
+
+std::array<Vec3, 3> corners_of(const Triangle& t) { return {t.a, t.b, t.c}; }
 
 bool cuts(const TriangleContact& c) { return c.interior == Contact::Crossing || c.interior == Contact::Covering; }
 
@@ -44,7 +52,10 @@ bool cuts(const TriangleContact& c) { return c.interior == Contact::Crossing || 
 class CoveredFaces {
  public:
   explicit CoveredFaces(const Surface& surface)
-      : surface_(surface), meets_(surface.faces.size()), all_(surface.faces.size(), Answer::NotAsked) {
+      : surface_(surface),
+        meets_(surface.faces.size()),
+        sheets_(surface.faces.size()),
+        all_(surface.faces.size(), Answer::NotAsked) {
     const auto pairs = verify::self_intersections(surface);
     for (const auto& [f, g] : pairs) meets_[f].push_back(g), meets_[g].push_back(f);
     self_intersections_ = pairs.size();
@@ -54,12 +65,21 @@ class CoveredFaces {
 
   /// All of the face.
   bool contain(FaceIndex f) {
+    if (beyond_.empty()) follow_edges();
+    f = sheets_.representative(f);
     if (all_[f] == Answer::NotAsked) {
       const std::vector<Cell> pieces = pieces_of(f);
       const bool all = std::all_of(pieces.begin(), pieces.end(), [&](const Cell& piece) { return borders(f, piece); });
       all_[f] = all ? Answer::Yes : Answer::No;
     }
     return all_[f] == Answer::Yes;
+  }
+
+  /// All of another face that goes on in the plane of f beyond its edge e, if that edge has just these two faces.
+  bool go_on(FaceIndex f, int e) {
+    if (beyond_.empty()) follow_edges();
+    const FaceIndex g = beyond_[f][e];
+    return g != f && contain(g);
   }
 
   /// A point of the face, by the pieces of it that have the point in their closures.
@@ -73,6 +93,25 @@ class CoveredFaces {
 
  private:
   enum class Answer : std::uint8_t { NotAsked, Yes, No };
+
+  /// Looks beyond the edges that have just two faces. If these meet no other faces, there are but two regions around
+  /// the edge, and each face has both beside it.
+  void follow_edges() {
+    for (FaceIndex f = 0; f < surface_.faces.size(); ++f) beyond_.push_back({f, f, f});
+    const std::vector<FaceEdge> sides = edges(surface_);
+    for (std::size_t i = 0, end; i < sides.size(); i = end) {
+      for (end = i; end < sides.size() && sides[end].key == sides[i].key;) ++end;
+      if (end - i != 2) continue;
+      const auto [key, f, e] = sides[i];
+      const auto [same, g, d] = sides[i + 1];
+      if (meets_[f].empty() && meets_[g].empty()) sheets_.join(f, g);
+      const auto here = corners_of(surface_.faces[f]), there = corners_of(surface_.faces[g]);
+      const Vec3 &p = here[e], &q = here[(e + 1) % 3], &r = here[(e + 2) % 3], &s = there[(d + 2) % 3];
+      const int axis = surface_.axis[f];
+      if (side(surface_.faces[f], s) == Side::On && turn(axis, p, q, r) * turn(axis, p, q, s) < 0)
+        beyond_[f][e] = g, beyond_[g][d] = f;
+    }
+  }
 
   std::vector<Cell> pieces_of(FaceIndex f) const {
     std::vector<Triangle> cutters;
@@ -100,7 +139,9 @@ class CoveredFaces {
 
   const Surface& surface_;
   std::vector<std::vector<FaceIndex>> meets_;
-  std::vector<Answer> all_;
+  Clusters sheets_;                               // of faces that have the same regions beside them
+  std::vector<Answer> all_;                       // by representative
+  std::vector<std::array<FaceIndex, 3>> beyond_;  // each edge: the face that goes on in the plane, or the face itself
   std::size_t self_intersections_ = 0;
   std::mt19937 random_;  // no answer depends on it
 };
@@ -197,19 +238,41 @@ class CoverVerifier {
   void check_triangle(FaceId f, const Triangle& t, int axis) {
     bool is_met = false;
     cutters_.clear();
+    holders_.clear();
     for (const FaceIndex h : near_) {
       const TriangleContact c = contact(t, axis, outer_.faces[h]);
       if (c.interior == Contact::None) continue;
       is_met = true;
       if (cuts(c)) cutters_.push_back(outer_.faces[h]);
-      const bool is_held =
-          c.interior == Contact::Same || (c.interior == Contact::Covering && holds(outer_.faces[h], axis, t));
-      if (is_held && covered_.contain(h)) return;
+      if (c.interior == Contact::Crossing || !covered_.contain(h)) continue;
+      if (c.interior == Contact::Same || holds(outer_.faces[h], axis, t)) return;
+      holders_.push_back(h);
     }
     if (!is_met)
       free_.push_back(f);
-    else
+    else if (!are_held_together(t, axis))
       check_cells(f, t, axis);
+  }
+
+  /// Whether the holders go on beyond each of their edges that meets the inside of t.
+  bool are_held_together(const Triangle& t, int axis) {
+    for (const FaceIndex h : holders_) {
+      const auto corners = corners_of(outer_.faces[h]);
+      for (int e = 0; e < 3; ++e)
+        if (meets_inside(t, axis, corners[e], corners[(e + 1) % 3]) && !covered_.go_on(h, e)) return false;
+    }
+    return !holders_.empty();
+  }
+
+  /// For p and q in the plane of t: a segment misses the inside of a triangle if and only if the line of an edge, or of
+  /// the segment, separates them.
+  static bool meets_inside(const Triangle& t, int axis, const Vec3& p, const Vec3& q) {
+    const int inside = turn(axis, t.a, t.b, t.c);
+    for (const auto& [a, b] : {std::pair{t.a, t.b}, {t.b, t.c}, {t.c, t.a}})
+      if (turn_at_edge(axis, a, b, p) != inside && turn_at_edge(axis, a, b, q) != inside) return false;
+    const auto [least, greatest] =
+        std::minmax({turn_at_edge(axis, p, q, t.a), turn_at_edge(axis, p, q, t.b), turn_at_edge(axis, p, q, t.c)});
+    return least < 0 && greatest > 0;
   }
 
   /// Whether h, in the plane of t, holds all of t.
@@ -326,6 +389,7 @@ class CoverVerifier {
   std::vector<FaceId> free_;                 // the triangles that no face of H cuts or holds
   std::vector<FaceIndex> near_;              // of the triangle at hand
   std::vector<Triangle> cutters_;            // of the triangle at hand
+  std::vector<FaceIndex> holders_;           // faces in C that hold a part of the triangle at hand
   std::mt19937 random_;                      // the verdict does not depend on it
   std::vector<Offender> offenders_;
 };

@@ -71,6 +71,29 @@ expect 0 "inner hull verified" $prohull verify inner.obj rock.ply --side inner
 expect 0 "inner proof verified" $prohull verify inner.phull rock.ply
 expect 1 "an inner hull does not enclose" $prohull verify inner.obj rock.ply
 
+# --- originals that are no solid ---
+$prohull lod rock.phull --faces 20000000 -o finest.obj >/dev/null
+sed '$d' finest.obj >open.obj
+expect 0 "an open original" $prohull verify hull.stl open.obj --report verify.json
+says out "an open original" "covers every triangle of open.obj, exactly"
+says out "an open original" "open.obj is not closed"
+says verify.json "report: an open original" '"original_closed": false'
+expect 0 "an open original by a proof" $prohull verify rock.phull open.obj
+says out "an open original by a proof" "covers every triangle of open.obj"
+expect 0 "a closed original, every triangle" $prohull verify hull.stl rock.ply --every-triangle
+says out "a closed original, every triangle" "encloses, and covers every triangle of, rock.ply"
+expect 0 "a proof, every triangle" $prohull verify rock.phull rock.ply --every-triangle
+(cat open.obj && printf 'v 9 0 0\nf 1 2 -1\n') >stray.obj
+for hull in hull.stl rock.phull; do
+  expect 1 "a stray triangle" $prohull verify $hull stray.obj --report verify.json
+  says out "a stray triangle" "1 faces of stray.obj lie outside"
+  says verify.json "report: a stray triangle" '"faces_outside": 1'
+done
+expect 3 "an inner hull of an open original" $prohull verify inner.obj open.obj --side inner
+says err "an inner hull of an open original" "not closed"
+expect 3 "an inner proof of an open original" $prohull verify inner.phull open.obj
+expect 2 "no triangles inside" $prohull verify inner.obj rock.ply --side inner --every-triangle
+
 for strategy in paper1 paper2; do
   expect 0 "$strategy" $prohull build rock.ply --strategy $strategy --faces 500 -o hull.off
   says out "$strategy certified" "certified: yes"
@@ -322,6 +345,8 @@ printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 3 1\n3 1 3 2\n3 2 3
 expect 0 "inside out" $prohull build inside_out.off -o tetrahedron.ply
 says out "inside out" "inside out"
 expect 0 "inside out, verified" $prohull verify tetrahedron.ply inside_out.off
+expect 0 "a hull that is inside out" $prohull verify inside_out.off tetrahedron.ply
+says out "a hull that is inside out" "inside_out.off: 4 faces face inwards"
 
 # --- nothing half-written ---
 expect 3 "no such folder" $prohull build rock.ply --faces 500 -o nowhere/hull.ply
