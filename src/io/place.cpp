@@ -8,11 +8,13 @@ namespace {
 std::string text(Place place) {
   switch (place.unit) {
     case Place::Unit::Line:
-      return fmt::format("line {}", place.number);
+      return fmt::format("line {}: ", place.number);
     case Place::Unit::Byte:
-      return fmt::format("byte {}", place.number);
+      return fmt::format("byte {}: ", place.number);
     case Place::Unit::Row:
-      return fmt::format("row {} (from 0)", place.number);
+      return fmt::format("row {} (from 0): ", place.number);
+    case Place::Unit::None:
+      break;
   }
   return {};
 }
@@ -20,7 +22,7 @@ std::string text(Place place) {
 }  // namespace
 
 void fail(std::string_view file, Place place, std::string_view message, Defect defect) {
-  throw InputError(defect, fmt::format("{}: {}: {}", file, text(place), message));
+  throw InputError(defect, fmt::format("{}: {}{}", file, text(place), message));
 }
 
 std::string printable(std::string_view word) {
