@@ -17,7 +17,7 @@ struct Options {
 std::string text(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x, p.y, p.z); }
 
 int replay(const Options& options, const ProgressiveHull& hull) {
-  const TriangleMesh original = read_mesh(options.original);
+  const TriangleMesh original = read_input(options.original);
   Stopwatch verifying;
   ProgressLine line("verify");
   const ReplayReport report = verify_replay(hull, original, [&](double fraction) { return line(fraction); });
@@ -41,7 +41,7 @@ int replay(const Options& options, const ProgressiveHull& hull) {
 }
 
 int compare(const Options& options, const TriangleMesh& hull) {
-  TriangleMesh original = read_mesh(options.original);
+  TriangleMesh original = read_input(options.original);
   const bool outer = options.side == HullSide::Outer;
   Stopwatch verifying;
   EnclosureReport report;

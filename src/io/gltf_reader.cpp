@@ -480,7 +480,7 @@ class GltfReader {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))  // a pipe or a device may have no end
       throw InputError(Defect::CannotRead,
-                       fmt::format("{}: {}: there is no file {}, which holds its data; put it there, or export as GLB",
+                       fmt::format("{}: {}: there is no regular file {}, which holds its data; put it there, or export as GLB",
                                    file_, where, path.string()));
     std::string bytes = read_file(path);
     content_size_ += bytes.size();

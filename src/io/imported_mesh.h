@@ -11,7 +11,7 @@
 
 namespace prohull {
 
-/// Whether files of that name are left to prohull-import: .dae, .3mf, .fbx and others.
+/// Whether files of that name are left to prohull-import: .dae, .3mf, .fbx and others, also with .gz behind.
 bool is_imported(const std::filesystem::path& name);
 
 /// What prohull-import may use for one file.

@@ -86,7 +86,7 @@ const FormatTraits& format_of(std::string_view content, const std::filesystem::p
 
 TriangleMesh read_plain(std::string_view content, const std::filesystem::path& name,
                         const std::function<bool()>& go_on) {
-  if (is_imported(without_gz(name))) return imported_mesh(content, name.string(), import_limits(content.size()), go_on);
+  if (is_imported(name)) return imported_mesh(content, name.string(), import_limits(content.size()), go_on);
   return format_of(content, name).read(content, name.string());
 }
 
@@ -107,7 +107,7 @@ void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::f
 
 }  // namespace
 
-bool is_mesh_name(const std::filesystem::path& path) { return named_format(path) || is_imported(without_gz(path)); }
+bool is_mesh_name(const std::filesystem::path& path) { return named_format(path) || is_imported(path); }
 
 MeshFormat mesh_format(const std::filesystem::path& path) {
   if (const auto* const named = named_format(path); named && named->format) return *named->format;
@@ -120,7 +120,7 @@ bool stores_float32(MeshFormat format) { return format == MeshFormat::Stl || for
 
 TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name,
                        const std::function<bool()>& go_on) {
-  const bool is_zip_by_itself = is_imported(name);  // as 3MF is
+  const bool is_zip_by_itself = is_zip(content) && is_imported(name);  // as 3MF is
   if (!is_zip_by_itself)
     if (const auto inside = decompressed(content, name)) return read_plain(inside->bytes, inside->name, go_on);
   return read_plain(content, name, go_on);

@@ -9,6 +9,7 @@
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
+#include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cstdio>
@@ -46,7 +47,7 @@ constexpr bool kSanitized =
 void limit(int resource, rlim_t most) {
   rlimit limits{};
   getrlimit(resource, &limits);
-  limits.rlim_cur = std::min(most, limits.rlim_max);
+  limits.rlim_cur = std::min(most, limits.rlim_cur);
   setrlimit(resource, &limits);
 }
 
