@@ -76,6 +76,12 @@ std::string upper_case_format(const std::filesystem::path& file) {
                   file, upper_case_format(file), kProgram, kProgramVariable, kConvert));
 }
 
+/// ": why", if there is a reason.
+std::string reason_in(std::string_view output) {
+  constexpr std::size_t kLongest = 200;
+  return output.empty() ? "" : fmt::format(": {}", printable(output, kLongest));
+}
+
 std::string name_of_signal(int number) {
   const char* const description = strsignal(number);
   return fmt::format("signal {}, {}", number, description ? description : "unknown");
@@ -111,7 +117,7 @@ void check(const ProgramResult& result, const std::string& file, const std::file
       refuse(file, fmt::format("assimp crashed on it ({})", name_of_signal(result.number)));
     case End::Exited:
       if (result.number == 0) return;
-      if (result.number == kImportRefused) refuse(file, fmt::format("assimp refuses it: {}", printable(result.output)));
+      if (result.number == kImportRefused) refuse(file, fmt::format("assimp refuses it{}", reason_in(result.output)));
       if (result.number == kImportOutOfMemory) out_of_memory();
       refuse(file, fmt::format("{} failed on it with exit code {}", program.string(), result.number));
     case End::Unknown:

@@ -25,11 +25,10 @@ void fail(std::string_view file, Place place, std::string_view message, Defect d
   throw InputError(defect, fmt::format("{}: {}{}", file, text(place), message));
 }
 
-std::string printable(std::string_view word) {
-  constexpr std::size_t kLongest = 40;
+std::string printable(std::string_view word, std::size_t longest) {
   std::string text;
-  for (const char c : word.substr(0, kLongest)) text += c >= ' ' && c <= '~' ? c : '?';
-  return text + (word.size() > kLongest ? "..." : "");
+  for (const char c : word.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '?';
+  return text + (word.size() > longest ? "..." : "");
 }
 
 std::string quoted(std::string_view word) { return fmt::format("'{}'", printable(word)); }

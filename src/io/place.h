@@ -20,7 +20,7 @@ struct Place {
 [[noreturn]] void fail(std::string_view file, Place place, std::string_view message, Defect defect = Defect::Malformed);
 
 /// A word of a hostile file, fit for a message: shortened, without control characters.
-std::string printable(std::string_view word);
+std::string printable(std::string_view word, std::size_t longest = 40);
 /// The same in quotes.
 std::string quoted(std::string_view word);
 
