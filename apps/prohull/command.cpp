@@ -53,9 +53,13 @@ bool ProgressLine::operator()(double fraction) {
   return !interrupted();
 }
 
+TriangleMesh read_input(const std::filesystem::path& path) {
+  return read_mesh(path, [] { return !interrupted(); });
+}
+
 Input read_closed_mesh(const std::filesystem::path& path) {
   Stopwatch reading;
-  TriangleMesh mesh = read_mesh(path);
+  TriangleMesh mesh = read_input(path);
   const double read_seconds = reading.seconds();
   if (interrupted()) throw Interrupted{};
   Stopwatch repairing;
@@ -70,7 +74,7 @@ Input read_closed_mesh(const std::filesystem::path& path) {
 std::variant<TriangleMesh, ProgressiveHull> read_mesh_or_hull(const std::filesystem::path& path) {
   const std::string content = read_file(path);
   if (is_hull_content(content)) return load_hull(content, path);
-  return read_mesh(content, path);
+  return read_mesh(content, path, [] { return !interrupted(); });
 }
 
 nlohmann::json facts(const MeshReport& report) {

@@ -59,6 +59,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// read_mesh, ended by Ctrl-C also while another program reads the file.
+TriangleMesh read_input(const std::filesystem::path& path);
+
 /// A mesh file read and made closed; errors name the file.
 struct Input {
   ClosedMesh closed;

@@ -107,7 +107,8 @@ void add_info(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command =
       *app.add_subcommand("info", "Tell what a mesh or .phull file holds, and whether a hull can be built");
-  command.add_option("in", options->in, "Mesh (PLY, OBJ, OFF, STL; also .gz or .zip) or .phull file")
+  command
+      .add_option("in", options->in, "Mesh (PLY, OBJ, OFF, STL, GLB, DAE, 3MF, ...; also .gz or .zip) or .phull file")
       ->required()
       ->type_name("FILE");
   add_report_option(command, options->report);

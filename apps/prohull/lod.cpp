@@ -39,7 +39,7 @@ void add_lod(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("lod", "Extract any level of a .phull file");
   command.add_option("in", options->in, "What build --hierarchy wrote")->required()->type_name("H.phull");
-  command.add_option("-o,--out", options->out, "Where the level goes: .ply, .obj, .off or .stl")
+  command.add_option("-o,--out", options->out, "Where the level goes: .ply, .obj, .off, .stl or .glb")
       ->required()
       ->type_name("OUT");
   command.add_option("--faces", options->faces, "The finest level of at most this many faces; without, the base mesh")

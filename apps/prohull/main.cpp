@@ -32,11 +32,16 @@ int main(int argc, char** argv) {
   }
 
   catch_interrupts();
+  const auto tell_interrupted = [] {
+    fmt::print(stderr, "prohull: interrupted; nothing was written\n");
+    return kInterrupted;
+  };
   try {
     return run();
   } catch (const Interrupted&) {
-    fmt::print(stderr, "prohull: interrupted; nothing was written\n");
-    return kInterrupted;
+    return tell_interrupted();
+  } catch (const prohull::Cancelled&) {
+    return tell_interrupted();
   } catch (const prohull::InputError& error) {
     fmt::print(stderr, "prohull: {}\n", error.what());
     return error.defect() == prohull::Defect::InvalidOption ? kWrongUsage : kBadInput;

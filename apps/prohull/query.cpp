@@ -242,7 +242,8 @@ void add_query(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand(
       "query", "Find where segments, rays or triangles meet a mesh, exactly; it need not be closed");
-  command.add_option("in", options->in, "Mesh (PLY, OBJ, OFF, STL; also .gz or .zip) or .phull file")
+  command
+      .add_option("in", options->in, "Mesh (PLY, OBJ, OFF, STL, GLB, DAE, 3MF, ...; also .gz or .zip) or .phull file")
       ->required()
       ->type_name("IN");
   command.add_option("-o,--out", options->out, "Where the hits go: .npz or .csv; without, only the summary")

@@ -372,7 +372,9 @@ void add_view_options(CLI::App& command, Options& options) {
 void add_render(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("render", "Draw meshes and hulls, side by side, as a PNG picture");
-  command.add_option("in", options->in, "Meshes (PLY, OBJ, OFF, STL; also .gz or .zip) or .phull files")
+  command
+      .add_option("in", options->in,
+                  "Meshes (PLY, OBJ, OFF, STL, GLB, DAE, 3MF, ...; also .gz or .zip) or .phull files")
       ->required()
       ->type_name("IN");
   command.add_option("-o,--out", options->out, "Where the picture goes")->required()->type_name("OUT.png");

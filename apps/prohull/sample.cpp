@@ -13,9 +13,17 @@ struct Options {
   std::size_t faces = 20000;
 };
 
+/// What a file of float32 keeps; one shape is as good a sample as the other.
+void round_to_float32(TriangleMesh& mesh) {
+  for (Vec3& p : mesh.positions)
+    for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(static_cast<float>(p[axis]));
+}
+
 int make(const Options& options) {
+  const bool float32 = stores_float32(mesh_format(options.out));
   require_writable(options.out);
-  const TriangleMesh mesh = make_sample(options.name, options.faces);
+  TriangleMesh mesh = make_sample(options.name, options.faces);
+  if (float32) round_to_float32(mesh);
   if (interrupted()) throw Interrupted{};
   write_mesh(options.out, mesh);
   fmt::print("{}: {} of {} faces\n", options.out.string(), options.name, grouped(mesh.face_count()));
@@ -30,7 +38,9 @@ void add_sample(CLI::App& app, Run& run) {
   std::string names;
   for (const SampleInfo& sample : samples()) names += fmt::format("\n    {:<10} {}", sample.name, sample.description);
   command.add_option("name", options->name, "Which:" + names)->required()->type_name("NAME");
-  command.add_option("-o,--out", options->out, "PLY, OBJ, OFF or STL")->required()->type_name("FILE");
+  command.add_option("-o,--out", options->out, "PLY, OBJ, OFF, STL or GLB; these two round to float32")
+      ->required()
+      ->type_name("FILE");
   command.add_option("--faces", options->faces, "About how many, within 20 % where the shape allows")
       ->capture_default_str()
       ->check(CLI::Range(4.0, 1e9));

@@ -167,7 +167,7 @@ int compare(const Options& options, const TriangleMesh& given_hull, const Triang
 
 int run_verify(const Options& options) {
   const auto hull = read_mesh_or_hull(options.hull);
-  const TriangleMesh original = read_mesh(options.original);
+  const TriangleMesh original = read_input(options.original);
   try {
     const auto* const levels = std::get_if<ProgressiveHull>(&hull);
     return levels ? replay(options, *levels, original) : compare(options, std::get<TriangleMesh>(hull), original);

@@ -1,37 +1,51 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
 
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
 
-enum class MeshFormat { Ply, Obj, Off, Stl };
+/// Those that are written.
+enum class MeshFormat { Ply, Obj, Off, Stl, Glb };
 
-/// The format that a file name asks for (.ply, .obj, .off, .stl, in any case, optionally followed by .gz);
+/// The format that a file name asks for (.ply, .obj, .off, .stl, .glb, in any case, optionally followed by .gz);
 /// throws InputError(UnknownFormat) for any other name, listing those that are known.
 MeshFormat mesh_format(const std::filesystem::path& path);
 
-/// STL stores coordinates as float32. The others keep doubles.
+/// STL and GLB store coordinates as float32. The others keep doubles.
 bool stores_float32(MeshFormat format);
 
-/// Reads a mesh: PLY (ascii, binary little and big endian; triangle strips), OBJ, OFF, STL (ascii, binary), each also
-/// gzipped or alone in a zip archive. The name tells the format, the content if the name has none; a name that
-/// contradicts the content is an error. Coordinates keep their bits as doubles. Polygons are triangulated, also where
-/// they are not convex. STL corners at equal positions become one vertex; other formats keep their vertices as they
-/// are. Normals, colours, textures, lines and points are skipped, and so is what follows the last record that a header
+/// Reads a mesh: PLY (ascii, binary little and big endian; triangle strips), OBJ, OFF, STL (ascii, binary), glTF 2.0
+/// (.glb, .gltf), each also gzipped or alone in a zip archive. The name tells the format, the content if the name has
+/// none; a name that contradicts the content is an error. Coordinates keep their bits as doubles. Polygons are
+/// triangulated, also where they are not convex. STL corners at equal positions become one vertex; other formats keep
+/// their vertices as they are. Of a scene all meshes are read wherever they are placed, in the coordinates and the
+/// direction of up of the file (docs/formats.md), and mirrored ones are turned so that their faces stay outside.
+/// Normals, colours, textures, lines and points are skipped, and so is what follows the last record that a header
 /// counts. A file without faces gives a mesh without triangles. Throws InputError with file, line or byte offset;
-/// memory use is bounded by the size of the content, not by what headers claim, and a compressed file must not grow
-/// more than 200 times (beyond 64 MiB).
-TriangleMesh read_mesh(const std::filesystem::path& path);
+/// memory use is bounded by the size of the content, not by what headers claim, and what is compressed, or placed many
+/// times, must not grow more than 200 times (beyond 64 MiB).
+///
+/// COLLADA (.dae), 3MF, FBX, X3D and others are read by assimp in a program of its own, prohull-import, if that was
+/// built: whatever it does, crashing included, is an InputError. It may use 20 s + 2 s per MiB and 1 GiB + 200 bytes
+/// per byte of the file. It is found by the environment variable PROHULL_IMPORTER, beside the running program, or where
+/// it was installed or built.
+///
+/// `go_on` is asked while that program runs, some 20 times a second; false ends it and throws Cancelled.
+TriangleMesh read_mesh(const std::filesystem::path& path, const std::function<bool()>& go_on = {});
 
-/// The same for the content of a file; `name` gives the format and stands in error messages.
-TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name);
+/// The same for the content of a file; `name` gives the format, stands in error messages, and tells the folder of the
+/// other files that a .gltf names.
+TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name,
+                       const std::function<bool()>& go_on = {});
 
 /// Writes beside `path`, then renames: an interrupted write leaves no partial file. PLY is binary little endian, with
 /// float coordinates if that loses no bit and double otherwise; OBJ and OFF have the shortest decimals that read back
-/// as the same doubles; STL is binary and throws InputError(NonFiniteCoordinate) if a coordinate is not a float32.
+/// as the same doubles; STL is binary, GLB one mesh without normals, so that it is shaded flat. These two throw
+/// InputError(NonFiniteCoordinate) if a coordinate is not a float32, and a GLB without triangles loses its vertices.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 }  // namespace prohull

@@ -127,13 +127,13 @@ class ZipReader {
 
 /// Not the files "__MACOSX/._part.ply" with which macOS accompanies each file.
 bool is_mesh(const std::filesystem::path& member) {
-  return format_of_extension(member) && !member.filename().string().starts_with("._");
+  return is_mesh_name(member) && !member.filename().string().starts_with("._");
 }
 
 FileContent only_mesh(std::string_view bytes, const std::filesystem::path& name) {
   std::vector<std::string> meshes = zip_members(bytes, name);
   std::erase_if(meshes, [](const std::string& member) { return !is_mesh(member); });
-  if (meshes.empty()) fail_to_decompress(name, "it has no .ply, .obj, .off or .stl file");
+  if (meshes.empty()) fail_to_decompress(name, "it has no .ply, .obj, .off, .stl or .glb file, nor another mesh");
   if (meshes.size() > 1)
     fail_to_decompress(
         name, fmt::format("it has more than one mesh, {} and {}; extract the one you mean", meshes[0], meshes[1]));

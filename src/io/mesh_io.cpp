@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "io/extension.h"
 #include "io/file_content.h"
+#include "io/imported_mesh.h"
 #include "io/mesh_readers.h"
 #include "io/mesh_writers.h"
 #include "io/place.h"
@@ -18,22 +21,37 @@
 namespace prohull {
 namespace {
 
+/// What is read here; those with a writer are written too.
 struct FormatTraits {
-  MeshFormat format;
   std::string_view extension, name;
   TriangleMesh (*read)(std::string_view content, const std::string& file);
+  std::optional<MeshFormat> format;
   std::string (*content)(const TriangleMesh& mesh);
 };
 
-constexpr std::array<FormatTraits, 4> kFormats = {{
-    {MeshFormat::Ply, ".ply", "PLY", read_ply, ply_content},
-    {MeshFormat::Obj, ".obj", "OBJ", read_obj, obj_content},
-    {MeshFormat::Off, ".off", "OFF", read_off, off_content},
-    {MeshFormat::Stl, ".stl", "STL", read_stl, stl_content},
+constexpr std::array<FormatTraits, 6> kFormats = {{
+    {".ply", "PLY", read_ply, MeshFormat::Ply, ply_content},
+    {".obj", "OBJ", read_obj, MeshFormat::Obj, obj_content},
+    {".off", "OFF", read_off, MeshFormat::Off, off_content},
+    {".stl", "STL", read_stl, MeshFormat::Stl, stl_content},
+    {".glb", "GLB", read_gltf, MeshFormat::Glb, glb_content},
+    {".gltf", "glTF", read_gltf, {}, nullptr},
 }};
 
 const FormatTraits& traits(MeshFormat format) {
   return *std::find_if(kFormats.begin(), kFormats.end(), [&](const FormatTraits& t) { return t.format == format; });
+}
+
+/// "a.ply.gz" -> "a.ply"
+std::filesystem::path without_gz(const std::filesystem::path& path) {
+  return lower_case_extension(path) == ".gz" ? path.stem() : path;
+}
+
+const FormatTraits* named_format(const std::filesystem::path& path) {
+  const std::string extension = lower_case_extension(without_gz(path));
+  const auto found =
+      std::find_if(kFormats.begin(), kFormats.end(), [&](const FormatTraits& t) { return t.extension == extension; });
+  return found == kFormats.end() ? nullptr : found;
 }
 
 std::string_view first_word(std::string_view content) {
@@ -43,25 +61,33 @@ std::string_view first_word(std::string_view content) {
 }
 
 /// The format that only its own files start like.
-std::optional<MeshFormat> format_of_magic(std::string_view content) {
-  if (is_binary_stl(content) || is_ascii_stl(content)) return MeshFormat::Stl;
-  if (first_word(content) == "ply") return MeshFormat::Ply;
-  if (is_off_keyword(first_word(content))) return MeshFormat::Off;
-  return {};
+const FormatTraits* format_of_magic(std::string_view content) {
+  if (is_binary_stl(content) || is_ascii_stl(content)) return &traits(MeshFormat::Stl);
+  if (is_glb(content)) return &traits(MeshFormat::Glb);
+  if (first_word(content) == "ply") return &traits(MeshFormat::Ply);
+  if (is_off_keyword(first_word(content))) return &traits(MeshFormat::Off);
+  return nullptr;
 }
 
-MeshFormat format_of(std::string_view content, const std::filesystem::path& name) {
-  const auto named = format_of_extension(name), found = format_of_magic(content);
-  if (named && found && named != found)
-    fail(name.string(), {Place::Unit::Line, 1},
-         fmt::format("the name says {}, but the content is {}; name it {}", traits(*named).name, traits(*found).name,
-                     traits(*found).extension));
+const FormatTraits& format_of(std::string_view content, const std::filesystem::path& name) {
+  const auto *const named = named_format(name), *const found = format_of_magic(content);
+  if (named && found && named->read != found->read)
+    fail(
+        name.string(), {Place::Unit::Line, 1},
+        fmt::format("the name says {}, but the content is {}; name it {}", named->name, found->name, found->extension));
   if (named) return *named;
   if (found) return *found;
-  if (is_obj_keyword(first_word(content))) return MeshFormat::Obj;
-  throw InputError(
-      Defect::UnknownFormat,
-      fmt::format("{}: neither its name nor its content is that of a PLY, OBJ, OFF or STL file", name.string()));
+  if (is_obj_keyword(first_word(content))) return traits(MeshFormat::Obj);
+  throw InputError(Defect::UnknownFormat,
+                   fmt::format("{}: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another "
+                               "file that is read",
+                               name.string()));
+}
+
+TriangleMesh read_plain(std::string_view content, const std::filesystem::path& name,
+                        const std::function<bool()>& go_on) {
+  if (is_imported(name)) return imported_mesh(content, name.string(), import_limits(content.size()), go_on);
+  return format_of(content, name).read(content, name.string());
 }
 
 void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::filesystem::path& path) {
@@ -73,35 +99,36 @@ void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::f
     };
     if (!is_finite(p)) refuse("coordinates must be finite");
     if (stores_float32(format) && !(is_float32(p.x) && is_float32(p.y) && is_float32(p.z)))
-      refuse("STL stores float32 and would change it; round the mesh to float32 first, or write PLY, OBJ or OFF");
+      refuse(fmt::format(
+          "{} stores float32 and would change it; round the mesh to float32 first, or write PLY, OBJ or OFF",
+          traits(format).name));
   }
 }
 
 }  // namespace
 
-std::optional<MeshFormat> format_of_extension(const std::filesystem::path& path) {
-  const std::string extension = lower_case_extension(path);
-  if (extension == ".gz") return format_of_extension(path.stem());
-  const auto found =
-      std::find_if(kFormats.begin(), kFormats.end(), [&](const FormatTraits& t) { return t.extension == extension; });
-  return found == kFormats.end() ? std::nullopt : std::optional(found->format);
-}
+bool is_mesh_name(const std::filesystem::path& path) { return named_format(path) || is_imported(path); }
 
 MeshFormat mesh_format(const std::filesystem::path& path) {
-  if (const auto format = format_of_extension(path)) return *format;
+  if (const auto* const named = named_format(path); named && named->format) return *named->format;
   throw InputError(Defect::UnknownFormat,
-                   fmt::format("{}: unknown format; name it .ply, .obj, .off or .stl", path.string()));
+                   fmt::format("{}: {}; name it .ply, .obj, .off, .stl or .glb", path.string(),
+                               is_mesh_name(path) ? "that format is read, but not written" : "unknown format"));
 }
 
-bool stores_float32(MeshFormat format) { return format == MeshFormat::Stl; }
+bool stores_float32(MeshFormat format) { return format == MeshFormat::Stl || format == MeshFormat::Glb; }
 
-TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name) {
-  if (const auto inside = decompressed(content, name))
-    return traits(format_of(inside->bytes, inside->name)).read(inside->bytes, inside->name.string());
-  return traits(format_of(content, name)).read(content, name.string());
+TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name,
+                       const std::function<bool()>& go_on) {
+  const bool is_zip_by_itself = is_zip(content) && is_imported(name);  // as 3MF is
+  if (!is_zip_by_itself)
+    if (const auto inside = decompressed(content, name)) return read_plain(inside->bytes, inside->name, go_on);
+  return read_plain(content, name, go_on);
 }
 
-TriangleMesh read_mesh(const std::filesystem::path& path) { return read_mesh(read_file(path), path); }
+TriangleMesh read_mesh(const std::filesystem::path& path, const std::function<bool()>& go_on) {
+  return read_mesh(read_file(path), path, go_on);
+}
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
   const MeshFormat format = mesh_format(path);
@@ -109,6 +136,8 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
     throw InputError(Defect::UnknownFormat,
                      fmt::format("{}: meshes are read from .gz, but not written; leave it out", path.string()));
   check_coordinates(mesh, format, path);
+  if (format == MeshFormat::Glb && glb_size(mesh) > std::numeric_limits<std::uint32_t>::max())
+    throw InputError(Defect::CannotWrite, fmt::format("{}: a GLB holds at most 4 GiB; write PLY", path.string()));
   write_file(path, traits(format).content(mesh));
 }
 

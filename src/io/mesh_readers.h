@@ -1,11 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
-#include "prohull/mesh_io.h"
+#include "prohull/triangle_mesh.h"
 
 namespace prohull {
 
@@ -15,14 +14,17 @@ TriangleMesh read_ply(std::string_view content, const std::string& file);
 TriangleMesh read_obj(std::string_view content, const std::string& file);
 TriangleMesh read_off(std::string_view content, const std::string& file);
 TriangleMesh read_stl(std::string_view content, const std::string& file);
+/// glTF or GLB; `file` is also where the files are that it names.
+TriangleMesh read_gltf(std::string_view content, const std::string& file);
 
-/// The format of a file name without .gz; empty if it is none that is known.
-std::optional<MeshFormat> format_of_extension(const std::filesystem::path& path);
+/// Whether files of that name, with or without .gz, are meshes that are read.
+bool is_mesh_name(const std::filesystem::path& path);
 
 /// The sizes decide: a file of 84 + 50 n bytes with n where a binary STL has its count is one, even if it starts with
 /// "solid"; otherwise "solid" means ascii unless zero bytes follow.
 bool is_binary_stl(std::string_view content);
 bool is_ascii_stl(std::string_view content);
+bool is_glb(std::string_view content);
 /// Whether a word may stand at the start of a line of an OBJ file.
 bool is_obj_keyword(std::string_view word);
 /// OFF with its prefixes for normals, colours and texture coordinates.

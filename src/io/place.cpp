@@ -8,11 +8,13 @@ namespace {
 std::string text(Place place) {
   switch (place.unit) {
     case Place::Unit::Line:
-      return fmt::format("line {}", place.number);
+      return fmt::format("line {}: ", place.number);
     case Place::Unit::Byte:
-      return fmt::format("byte {}", place.number);
+      return fmt::format("byte {}: ", place.number);
     case Place::Unit::Row:
-      return fmt::format("row {} (from 0)", place.number);
+      return fmt::format("row {} (from 0): ", place.number);
+    case Place::Unit::None:
+      break;
   }
   return {};
 }
@@ -20,14 +22,13 @@ std::string text(Place place) {
 }  // namespace
 
 void fail(std::string_view file, Place place, std::string_view message, Defect defect) {
-  throw InputError(defect, fmt::format("{}: {}: {}", file, text(place), message));
+  throw InputError(defect, fmt::format("{}: {}{}", file, text(place), message));
 }
 
-std::string printable(std::string_view word) {
-  constexpr std::size_t kLongest = 40;
+std::string printable(std::string_view word, std::size_t longest) {
   std::string text;
-  for (const char c : word.substr(0, kLongest)) text += c >= ' ' && c <= '~' ? c : '?';
-  return text + (word.size() > kLongest ? "..." : "");
+  for (const char c : word.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '?';
+  return text + (word.size() > longest ? "..." : "");
 }
 
 std::string quoted(std::string_view word) { return fmt::format("'{}'", printable(word)); }

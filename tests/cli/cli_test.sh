@@ -134,6 +134,30 @@ gzip -kf rock.ply
 expect 0 "gzip" $prohull build rock.ply.gz --faces 500 -o from_gzip.stl
 cmp -s from_gzip.stl hull.stl || fail "the same hull from a gzipped file"
 
+# --- GLB and scenes ---
+expect 0 "build GLB" $prohull build rock.ply --faces 500 -o hull.glb --hierarchy from_glb.phull
+says out "build GLB" "certified: yes, the file as written encloses the original"
+expect 0 "verify GLB" $prohull verify hull.glb rock.ply
+expect 0 "a level as GLB" $prohull lod from_glb.phull --faces 2000 -o level.glb
+expect 0 "verify a level as GLB" $prohull verify level.glb rock.ply
+expect 0 "sample as GLB" $prohull sample torus -o torus.glb --faces 500
+expect 0 "info of GLB" $prohull info torus.glb
+expect 0 "render GLB" $prohull render torus.glb --size 16x16 -o torus.png
+expect 0 "query GLB" $prohull query torus.glb --random 10 -o torus.csv
+expect 3 "what is read only" $prohull build rock.ply -o out.dae
+says err "what is read only" "out.dae: that format is read, but not written; name it .ply, .obj, .off, .stl or .glb"
+head -c 1000 hull.glb >cut.glb
+expect 3 "a GLB cut off" $prohull info cut.glb
+says err "a GLB cut off" "the file ends within the binary chunk; it is truncated"
+# An importer that never ends: Ctrl-C does not wait for it.
+printf '#!/bin/sh\nexec sleep 100\n' >sleeper
+chmod +x sleeper
+echo x >part.dae
+checks=$((checks + 1))
+PROHULL_IMPORTER=./sleeper timeout --signal=INT 0.5 $prohull info part.dae >out 2>err
+[ $? -eq 124 ] || fail "Ctrl-C ends an import"
+says err "Ctrl-C ends an import" "interrupted"
+
 # --- pictures ---
 # is_png FILE NAME WIDTH HEIGHT, in hexadecimal: the signature, and the first chunk with the size
 is_png() {

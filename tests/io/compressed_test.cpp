@@ -49,7 +49,7 @@ TEST(Zip, IsReadIfItHasOneMesh) {
 
 TEST(Zip, WithoutOrWithSeveralMeshesIsAnError) {
   expect_refused(zipped({{"readme.txt", "hello"}}), "a.zip",
-                 "a.zip: cannot decompress: it has no .ply, .obj, .off or .stl file");
+                 "a.zip: cannot decompress: it has no .ply, .obj, .off, .stl or .glb file, nor another mesh");
   expect_refused(zipped({{"a.off", kOff}, {"b.ply", kOff}}), "a.zip",
                  "a.zip: cannot decompress: it has more than one mesh, a.off and b.ply; extract the one you mean");
 }

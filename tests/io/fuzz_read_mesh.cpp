@@ -13,7 +13,8 @@ namespace {
 
 using prohull::TriangleMesh;
 
-constexpr std::array<const char*, 6> kNames = {"fuzz.ply", "fuzz.obj", "fuzz.off", "fuzz.stl", "fuzz.zip", "fuzz"};
+constexpr std::array<const char*, 8> kNames = {"fuzz.ply", "fuzz.obj", "fuzz.off",  "fuzz.stl",
+                                               "fuzz.zip", "fuzz",     "fuzz.gltf", "fuzz.glb"};
 
 bool is_usable(const TriangleMesh& mesh) {
   for (const auto& p : mesh.positions)

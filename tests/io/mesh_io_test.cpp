@@ -25,7 +25,10 @@ TEST(MeshFormat, IsToldByTheNameInAnyCase) {
   EXPECT_EQ(mesh_format("a.off.gz"), MeshFormat::Off);
   EXPECT_EQ(mesh_format("A.STL.GZ"), MeshFormat::Stl);
   expect_input_error([] { mesh_format("a.step"); }, Defect::UnknownFormat,
-                     "a.step: unknown format; name it .ply, .obj, .off or .stl");
+                     "a.step: unknown format; name it .ply, .obj, .off, .stl or .glb");
+  expect_input_error([] { mesh_format("a.dae"); }, Defect::UnknownFormat,
+                     "a.dae: that format is read, but not written; name it .ply, .obj, .off, .stl or .glb");
+  EXPECT_EQ(mesh_format("a.Glb"), MeshFormat::Glb);
   EXPECT_THROW(mesh_format("ply"), InputError);
 }
 
@@ -34,8 +37,10 @@ TEST(MeshFormat, IsToldByTheContentIfTheNameHasNone) {
   EXPECT_EQ(read_mesh("OFF\n0 0 0\n", "part.txt"), TriangleMesh());
   EXPECT_EQ(read_mesh("ply\nformat ascii 1.0\nend_header\n", "part"), TriangleMesh());
   EXPECT_EQ(read_mesh("solid\nendsolid\n", "part"), TriangleMesh());
-  expect_refused("hello", "part", "part: neither its name nor its content is that of a PLY, OBJ, OFF or STL file",
-                 Defect::UnknownFormat);
+  expect_refused(
+      "hello", "part",
+      "part: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another file that is read",
+      Defect::UnknownFormat);
 }
 
 TEST(MeshFormat, ThatTheContentContradictsIsAnError) {
@@ -70,7 +75,7 @@ TEST(WriteMesh, KeepsEveryBitOfFloats) {
   mesh.positions = {{0.1f, -0.0, 1e-45f}, {1, 3.4028234663852886e38, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.triangles[FaceId(0)] = corners(0, 1, 2);  // STL numbers vertices as they come
   const TemporaryFolder folder;
-  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
+  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl", "a.glb"}) {
     write_mesh(folder / name, mesh);
     expect_same_bits(read_mesh(folder / name), mesh);
   }
@@ -98,7 +103,7 @@ TEST(WriteMesh, RefusesCoordinatesThatTheFormatCannotStore) {
   mesh.positions[VertexId(1)].x = 1e300;
   EXPECT_THROW(write_mesh(path, mesh), InputError);
   mesh.positions[VertexId(1)].x = std::numeric_limits<double>::quiet_NaN();
-  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"})
+  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl", "a.glb"})
     EXPECT_THROW(write_mesh(folder / name, mesh), InputError);
   EXPECT_EQ(folder.file_count(), 0u);
 }
@@ -140,6 +145,10 @@ TEST(RoundTrip, GivesTheSameMeshForRandomBits) {
       expect_same_bits(read_mesh(folder / name), mesh);
     }
     if (!floats) continue;
+    if (mesh.face_count() > 0) {
+      write_mesh(folder / "a.glb", mesh);
+      expect_same_bits(read_mesh(folder / "a.glb"), mesh);
+    }
     write_mesh(folder / "a.stl", mesh);
     const TriangleMesh soup = read_mesh(folder / "a.stl");
     ASSERT_EQ(soup.face_count(), mesh.face_count());
@@ -152,7 +161,7 @@ TEST(RoundTrip, GivesTheSameMeshForRandomBits) {
 
 TEST(Truncation, IsNoticedAtEveryByteOfBinaryFiles) {
   const TemporaryFolder folder;
-  for (const char* name : {"a.ply", "a.stl"}) {
+  for (const char* name : {"a.ply", "a.stl", "a.glb"}) {
     write_mesh(folder / name, tetrahedron());
     const std::string content = read_file(folder / name);
     for (std::size_t size = 0; size < content.size(); ++size)

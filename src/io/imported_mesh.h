@@ -1,0 +1,28 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "prohull/triangle_mesh.h"
+
+namespace prohull {
+
+/// Whether files of that name are left to prohull-import: .dae, .3mf, .fbx and others, also with .gz behind.
+bool is_imported(const std::filesystem::path& name);
+
+/// What prohull-import may use for one file.
+struct ImportLimits {
+  std::chrono::seconds time;   ///< by the clock; of the processor half of it
+  std::size_t memory, output;  ///< bytes
+};
+ImportLimits import_limits(std::size_t file_size);
+
+/// Reads the file with prohull-import. Throws InputError, whatever becomes of that program; Cancelled.
+TriangleMesh imported_mesh(std::string_view content, const std::string& file, const ImportLimits& limits,
+                           const std::function<bool()>& go_on);
+
+}  // namespace prohull

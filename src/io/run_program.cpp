@@ -1,0 +1,188 @@
+#include "io/run_program.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "prohull/error.h"
+
+extern char** environ;
+
+namespace prohull {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+class Descriptor {
+ public:
+  /// Takes over what a system call has returned.
+  Descriptor(int number, const char* call) : number_(number) {
+    if (number_ < 0) fail(call);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { close(); }
+
+  int number() const { return number_; }
+  void close() {
+    if (number_ >= 0) ::close(std::exchange(number_, -1));
+  }
+
+ private:
+  int number_;
+};
+
+/// A copy above the three standard ones, which a program that runs without them would otherwise get in the way of.
+int above_standard(int descriptor) { return fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1); }
+
+void write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) fail("write");
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+/// What posix_spawn is told, freed in any case.
+class SpawnPlan {
+ public:
+  SpawnPlan(int input, int output) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
+    posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
+    posix_spawnattr_init(&attributes_);
+    sigset_t signals;
+    sigfillset(&signals);
+    posix_spawnattr_setsigdefault(&attributes_, &signals);
+    sigemptyset(&signals);
+    posix_spawnattr_setsigmask(&attributes_, &signals);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+  }
+  SpawnPlan(const SpawnPlan&) = delete;
+  SpawnPlan& operator=(const SpawnPlan&) = delete;
+  ~SpawnPlan() {
+    posix_spawn_file_actions_destroy(&actions_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+
+  /// 0 or an errno.
+  int spawn(pid_t& pid, const std::filesystem::path& program, const std::vector<std::string>& arguments) const {
+    std::vector<std::string> words = {program.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    return posix_spawn(&pid, program.c_str(), &actions_, &attributes_, argv.data(), environ);
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+  posix_spawnattr_t attributes_;
+};
+
+/// A program that was started; killed and waited for at the latest when the object ends.
+class Child {
+ public:
+  explicit Child(pid_t pid) : pid_(pid) {}
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    if (is_over_) return;
+    kill(pid_, SIGKILL);
+    while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+
+  bool is_over() {
+    if (is_over_) return true;
+    int status = 0;
+    const pid_t waited = waitpid(pid_, &status, WNOHANG);
+    if (waited == pid_) status_ = status;
+    return is_over_ = waited == pid_ || (waited < 0 && errno != EINTR);
+  }
+
+  ProgramResult result(std::string output) const {
+    using End = ProgramResult::End;
+    if (!status_) return {End::Unknown, 0, std::move(output)};
+    if (WIFEXITED(*status_)) return {End::Exited, WEXITSTATUS(*status_), std::move(output)};
+    return {End::Signalled, WTERMSIG(*status_), std::move(output)};
+  }
+
+ private:
+  pid_t pid_;
+  bool is_over_ = false;
+  std::optional<int> status_;
+};
+
+/// Whether there is something to be read now, or nothing will ever be; waits for it a twentieth of a second.
+bool is_ready(int descriptor) {
+  constexpr int kMilliseconds = 50;
+  pollfd what{descriptor, POLLIN, 0};
+  return poll(&what, 1, kMilliseconds) > 0;
+}
+
+}  // namespace
+
+ProgramResult run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                          std::string_view input, const ProgramLimits& limits, const std::function<bool()>& go_on) {
+  using End = ProgramResult::End;
+  constexpr std::size_t kChunk = std::size_t{1} << 16;
+  const Descriptor memory(memfd_create("prohull", MFD_CLOEXEC), "memfd_create");
+  const Descriptor stdin_file(above_standard(memory.number()), "fcntl");
+  write_all(stdin_file.number(), input);
+  lseek(stdin_file.number(), 0, SEEK_SET);
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) fail("pipe2");
+  Descriptor read_end(ends[0], "pipe2"), low_write_end(ends[1], "pipe2");
+  Descriptor write_end(above_standard(low_write_end.number()), "fcntl");
+  low_write_end.close();
+
+  pid_t pid = 0;
+  if (const int error = SpawnPlan(stdin_file.number(), write_end.number()).spawn(pid, program, arguments))
+    return {End::NotStarted, error, {}};
+  Child child(pid);
+  write_end.close();
+
+  const auto deadline = Clock::now() + limits.time;
+  const auto may_go_on = [&] {
+    if (go_on && !go_on()) throw Cancelled();
+    return Clock::now() < deadline;
+  };
+  std::string output;
+  while (true) {
+    if (!may_go_on()) return {End::TimedOut, 0, {}};
+    if (!is_ready(read_end.number())) continue;
+    const std::size_t size = output.size();
+    output.resize(size + kChunk);
+    const ssize_t read = ::read(read_end.number(), output.data() + size, kChunk);
+    output.resize(size + static_cast<std::size_t>(std::max<ssize_t>(read, 0)));
+    if (output.size() > limits.output) return {End::TooMuchOutput, 0, {}};
+    if (read == 0) break;
+    if (read < 0 && errno != EINTR) fail("read");
+  }
+  for (std::chrono::milliseconds pause(1); !child.is_over();
+       pause = std::min(2 * pause, std::chrono::milliseconds(50))) {
+    if (!may_go_on()) return {End::TimedOut, 0, {}};
+    std::this_thread::sleep_for(pause);
+  }
+  ProgramResult result = child.result(std::move(output));
+  if (result.end == End::Signalled && (result.number == SIGINT || result.number == SIGTERM)) throw Cancelled();
+  return result;
+}
+
+}  // namespace prohull
