@@ -46,11 +46,6 @@ class HalfEdgeMesh {
   /// The next half-edge that starts where h does, counter-clockwise seen from outside.
   HalfEdgeId rotated(HalfEdgeId h) const { return twin(previous(h)); }
 
-  /// Hints that what is known of an element will be read soon.
-  void prefetch(HalfEdgeId h) const { __builtin_prefetch(&half_edges_[h]); }
-  void prefetch(FaceId f) const { prefetch(HalfEdgeId(3 * index(f))), prefetch(HalfEdgeId(3 * index(f) + 2)); }
-  void prefetch(VertexId v) const { __builtin_prefetch(&positions_[v].x), __builtin_prefetch(&positions_[v].z); }
-
   const Vec3& position(VertexId v) const { return positions_[v]; }
   std::uint32_t valence(VertexId v) const { return valence_[v]; }
 
