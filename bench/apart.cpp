@@ -18,13 +18,6 @@ void end_after(unsigned seconds) {
   setrlimit(RLIMIT_CORE, &no_core);
 }
 
-std::string text_of(std::FILE* file) {
-  std::rewind(file);
-  std::string text;
-  for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text += static_cast<char>(c);
-  return text;
-}
-
 std::string failure(int status, std::FILE* thrown, unsigned limit_seconds) {
   if (WIFEXITED(status))
     return WEXITSTATUS(status) == 0 ? text_of(thrown) : fmt::format("exit code {}", WEXITSTATUS(status));
@@ -38,6 +31,13 @@ File temporary_file() {
   File file(std::tmpfile());
   if (!file) throw std::runtime_error("no temporary file can be made");
   return file;
+}
+
+std::string text_of(std::FILE* file) {
+  std::rewind(file);
+  std::string text;
+  for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text += static_cast<char>(c);
+  return text;
 }
 
 void put_bytes(std::FILE* file, const void* bytes, std::size_t count) {

@@ -20,6 +20,9 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 /// Has no name, and is shared with the processes that run_apart starts.
 File temporary_file();
 
+/// All of it.
+std::string text_of(std::FILE* file);
+
 // Throw std::runtime_error if the file is full, or ends too early. A mesh begins at the file's begin.
 void put_bytes(std::FILE* file, const void* bytes, std::size_t count);
 void get_bytes(std::FILE* file, void* bytes, std::size_t count);

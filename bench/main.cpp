@@ -10,7 +10,9 @@ int main(int argc, char** argv) {
   CLI::App app("prohull-bench " PROHULL_VERSION ": measures prohull and its peers, and reproduces the paper's tables.",
                "prohull-bench");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done; 1 a hull was not certified or an answer was wrong; 2 wrong usage; 3 bad input.");
+  app.footer(
+      "Exit codes: 0 done; 1 a hull was not certified, an answer was wrong or a file failed; 2 wrong usage; 3 bad "
+      "input.");
   Run run;
   add_construction(app, run);
   add_queues(app, run);
@@ -19,6 +21,7 @@ int main(int argc, char** argv) {
   add_memory(app, run);
   add_peers(app, run);
   add_scale(app, run);
+  add_corpus(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -15,15 +15,19 @@
 namespace prohull::bench {
 namespace {
 
-bool is_named_like_a_mesh(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 5> kExtensions{".ply", ".obj", ".off", ".stl", ".zip"};
-  std::string extension = (path.extension() == ".gz" ? path.stem() : path).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::find(kExtensions, extension) != kExtensions.end();
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
 }
 
 }  // namespace
+
+bool is_named_like_a_mesh(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 9> kExtensions{".stl", ".obj",  ".ply", ".off", ".dae",
+                                                        ".glb", ".gltf", ".3mf", ".zip"};
+  const bool is_compressed = lower(path.extension()) == ".gz";
+  return std::ranges::find(kExtensions, lower((is_compressed ? path.stem() : path).extension())) != kExtensions.end();
+}
 
 void add_model_options(CLI::App& command, ModelOptions& options) {
   CLI::Option* folder = command.add_option("--models", options.folder, "Measure every mesh of this folder")

@@ -27,6 +27,9 @@ struct ModelSource {
   std::size_t sample_faces = 0;
 };
 
+/// By the extension, in any case, before .gz: of a format that prohull may read, or a .zip.
+bool is_named_like_a_mesh(const std::filesystem::path& path);
+
 /// Sorted by name. Files of the folder that are no meshes by their name are passed over.
 std::vector<ModelSource> model_sources(const ModelOptions& options);
 

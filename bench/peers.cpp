@@ -171,13 +171,6 @@ class Bench {
   std::size_t nothing_;
 };
 
-// Table cells hold no commas, quotes or bars.
-std::string as_cell(std::string text) {
-  for (char& c : text)
-    if (c == ',' || c == '"' || c == '|' || c == '\n') c = ' ';
-  return text;
-}
-
 std::string verdict(const Row& row) {
   if (!row.failure.empty()) return as_cell(row.failure);
   if (!row.judgement) return as_cell("not decided: " + row.not_judged);

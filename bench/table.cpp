@@ -12,6 +12,12 @@ std::string number(double value, int digits, std::string_view unit) {
   return std::isfinite(value) ? fmt::format("{:.{}f}{}", value, digits, unit) : "";
 }
 
+std::string as_cell(std::string text) {
+  for (char& c : text)
+    if (c == ',' || c == '"' || c == '|' || c == '\n') c = ' ';
+  return text;
+}
+
 std::string difference(double ours, double papers) {
   const double percent = 100 * (ours / papers - 1);
   return std::isfinite(percent) ? fmt::format("{:+.1f} %", std::round(10 * percent) / 10 + 0.0) : "";

@@ -11,6 +11,8 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // Cells; empty for what is not finite.
 std::string number(double value, int digits, std::string_view unit = "");
+/// Without what cells may not hold.
+std::string as_cell(std::string text);
 /// Of ours from the paper's: "+1.5 %".
 std::string difference(double ours, double papers);
 
