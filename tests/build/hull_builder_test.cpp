@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "effort.h"
 #include "geometry/float32.h"
 #include "meshes.h"
 #include "prohull/enclosure.h"
@@ -18,13 +19,8 @@ namespace {
 
 using namespace meshes;
 
-#ifdef PROHULL_TESTS_ARE_SLOW
-constexpr std::size_t kFaces = 400;
-constexpr int kLevels = 2;
-#else
-constexpr std::size_t kFaces = 1600;
-constexpr int kLevels = 3;
-#endif
+constexpr std::size_t kFaces = effort(1600, 400);
+constexpr int kLevels = effort(3, 2);
 
 TriangleMesh hollow_ball() { return together(sphere(kLevels + 1), inside_out(scaled(sphere(kLevels), 0.6))); }
 TriangleMesh two_parts() { return together(sphere(kLevels), moved(torus(20, 12), {0, 0, 1.7})); }

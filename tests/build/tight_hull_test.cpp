@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "effort.h"
 #include "geometry/float32.h"
 #include "meshes.h"
 #include "prohull/distance.h"
@@ -19,7 +20,7 @@ using namespace meshes;
 class TightHulls : public testing::TestWithParam<const char*> {};
 
 TEST_P(TightHulls, EncloseWithLessVoidAndDoNotIntersectThemselves) {
-  const TriangleMesh mesh = make_sample(GetParam(), 3000);
+  const TriangleMesh mesh = make_sample(GetParam(), effort(3000, 1000));
   const double volume = signed_volume(mesh);
   for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
     const HullOptions options{.target_faces = 300, .side = side};
@@ -40,8 +41,8 @@ INSTANTIATE_TEST_SUITE_P(Samples, TightHulls, testing::Values("asteroid", "knot"
                          [](const auto& sample) { return std::string(sample.param); });
 
 TEST(TightHull, OfSeveralComponentsAndHandlesEncloses) {
-  const TriangleMesh mesh =
-      together(together(sphere(4), moved(sphere(4), {2.1, 0, 0})), moved(torus(40, 20), {0, 4, 0}));
+  const TriangleMesh ball = sphere(effort(4, 3));
+  const TriangleMesh mesh = together(together(ball, moved(ball, {2.1, 0, 0})), moved(torus(40, 20), {0, 4, 0}));
   const TightHull tight = build_tight_hull(mesh, {.target_faces = 200});
   EXPECT_TRUE(verify_enclosure(mesh, tight.mesh).encloses);
   EXPECT_EQ(count_self_intersections(tight.mesh), 0u);
@@ -56,7 +57,7 @@ TEST(TightHull, OfFloat32CoordinatesHasThemAndEncloses) {
 }
 
 TEST(TightHull, IsTheSameEveryTime) {
-  const TriangleMesh mesh = make_sample("knot", 2000);
+  const TriangleMesh mesh = make_sample("knot", effort(2000, 800));
   EXPECT_EQ(build_tight_hull(mesh, {.target_faces = 200}).mesh, build_tight_hull(mesh, {.target_faces = 200}).mesh);
 }
 
@@ -72,7 +73,7 @@ TEST(TightHull, CanBeCancelledAndStillEncloses) {
 }
 
 TEST(TightHullWithin, KeepsTheDistanceWithFewerFacesThanLevelsHave) {
-  const TriangleMesh mesh = make_sample("asteroid", 1000);
+  const TriangleMesh mesh = make_sample("asteroid", effort(1000, 500));
   std::size_t faces = 0, faces_of_levels = 0;
   for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
     const bool float32 = side == HullSide::Outer;
@@ -92,7 +93,7 @@ TEST(TightHullWithin, KeepsTheDistanceWithFewerFacesThanLevelsHave) {
 }
 
 TEST(TightHullWithin, StopsAtTheTargetOrAtTheMeshItself) {
-  const TriangleMesh mesh = make_sample("asteroid", 500);
+  const TriangleMesh mesh = make_sample("asteroid", effort(500, 200));
   const TightHull far = build_tight_hull_within(mesh, [](const TriangleMesh&) { return true; }, {.target_faces = 100});
   EXPECT_EQ(far.mesh, build_tight_hull(mesh, {.target_faces = 100}).mesh);
   const auto is_itself = [&](const TriangleMesh& hull) { return hull == mesh; };

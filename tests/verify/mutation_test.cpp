@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "effort.h"
 #include "geometry/triangle_predicates.h"
 #include "meshes.h"
 #include "prohull/enclosure.h"
@@ -132,7 +133,7 @@ TEST(Enclosure, RejectsMutantsExactlyWhereTheyLoseAPartOfTheOriginal) {
     GrowingHull hull(original, seed);
     for (int generation = 0; generation < 5; ++generation, ++hulls) {
       ASSERT_TRUE(verify_enclosure(original, hull.mesh()).encloses) << "hull " << hulls;
-      for (int i = 0; i < 6; ++i) {
+      for (int i = 0; i < effort(6, 2); ++i) {
         const VertexId v = hull.random_vertex();
         const Vec3 p = hull.mutated(v);
         const TriangleMesh mutant = hull.with(v, p);
@@ -144,8 +145,8 @@ TEST(Enclosure, RejectsMutantsExactlyWhereTheyLoseAPartOfTheOriginal) {
     }
   }
   std::printf("%d hulls; mutants: %d enclose, %d do not\n", hulls, accepted, rejected);
-  EXPECT_GT(accepted, 50);
-  EXPECT_GT(rejected, 50);
+  EXPECT_GT(accepted, effort(50, 10));
+  EXPECT_GT(rejected, effort(50, 10));
 }
 
 TEST(Enclosure, HoldsAlongThousandsOfOutwardMoves) {
@@ -153,7 +154,7 @@ TEST(Enclosure, HoldsAlongThousandsOfOutwardMoves) {
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   for (const TriangleMesh& original : {sphere(4), with_noise(sphere(4), 0.05, seed), torus(40, 20)}) {
     GrowingHull hull(original, seed);
-    for (int level = 0; level < 5; ++level) {
+    for (int level = 0; level < effort(5, 2); ++level) {
       const TriangleMesh finer = hull.mesh();
       for (int i = 0; i < 1000; ++i) hull.grow();
       EXPECT_TRUE(verify_enclosure(original, hull.mesh()).encloses);

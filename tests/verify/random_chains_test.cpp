@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "effort.h"
 #include "prohull/enclosure.h"
 #include "verify/oracle.h"
 #include "verify/random_chains.h"
@@ -13,7 +14,7 @@ TEST(Enclosure, AgreesWithBruteForceOnRandomChains) {
   RandomChains chains(seed);
   std::mt19937 random(seed);
   int enclosed = 0, rejected = 0;
-  while (enclosed + rejected < 40 || rejected == 0) {  // nine in ten enclose
+  while (enclosed + rejected < effort(40, 12) || rejected == 0) {  // nine in ten enclose
     TriangleMesh inner, outer;
     for (int n = chains.uniform(1, 2); n > 0; --n) chains.add_tetrahedron(inner);
     if (inner.triangles.empty()) continue;
