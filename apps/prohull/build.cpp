@@ -178,7 +178,7 @@ int run_build(BuildOptions options) {
 
   BuildOutcome outcome;
   Stopwatch reading;
-  const TriangleMesh mesh = read_mesh(options.in);
+  const TriangleMesh mesh = read_input(options.in);
   outcome.read_seconds = reading.seconds();
   outcome.input = inspect(mesh);
   outcome.made = build(mesh, options);

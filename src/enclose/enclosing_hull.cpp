@@ -212,7 +212,8 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
 // Where handles and thin parts are in the way, the last levels of a hull swell, and one of a wrap may be smaller.
 bool Ladder::is_loose(const EnclosingHull& hull) const {
   constexpr double kMuch = 1.5;
-  return is_outer() && !options_.levels && signed_volume(hull.mesh) > kMuch * made_.solids.front().volume;
+  return is_outer() && !options_.levels && options_.hull.refuses_self_intersections() &&
+         signed_volume(hull.mesh) > kMuch * made_.solids.front().volume;
 }
 
 bool Ladder::is_as_asked(const EnclosingHull& hull) const {

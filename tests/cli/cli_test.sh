@@ -1,8 +1,9 @@
 #!/bin/sh
-# Drives the command line as a user would: cli_test.sh PROHULL [DIVISOR], with meshes of so many times fewer faces
+# Drives the command line as a user would: cli_test.sh PROHULL DIVISOR HAS_WRAP, with meshes of DIVISOR times fewer faces
 # Each check names what it defends; the last line counts them.
 set -u
 prohull=$1
+has_wrap=$3
 divisor=${2:-1}
 work=$(mktemp -d)
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
@@ -112,7 +113,9 @@ expect 0 "unguarded" $prohull build knot.ply --faces 100 -o loose.ply --allow-se
 says out "unguarded" "pairs of faces (the mesh: 0; added: "
 says loose.json "report: unguarded" '"allow_self_intersections": true'
 expect 0 "of a self-intersecting mesh" $prohull build loose.ply --faces 80 -o looser.ply
-says out "of a self-intersecting mesh" "added: 0)"
+says out "of a self-intersecting mesh" "self-intersections: none (the mesh: "
+expect 0 "of a self-intersecting mesh, as it is" $prohull build loose.ply --faces 80 -o looser.ply --repair none
+says out "of a self-intersecting mesh, as it is" "added: 0)"
 expect 0 "paper1" $prohull build knot.ply --faces 100 --strategy paper1 -o hull.off
 says out "paper1 is unguarded" "added: "
 expect 0 "paper1, guarded" $prohull build knot.ply --faces 100 --strategy paper1 --no-self-intersections -o hull.off
@@ -326,8 +329,10 @@ expect 0 "help" $prohull build --help
 says out "help has examples" "prohull build"
 
 # --- bad input is 3, one line, with an address ---
+# bad NAME FILE SAYS [OPTIONS]
 bad() {
-  expect 3 "$1" $prohull build "$2" -o bad_out.ply
+  # shellcheck disable=SC2086
+  expect 3 "$1" $prohull build "$2" -o bad_out.ply ${4:-}
   says err "$1" "$3"
   checks=$((checks + 1))
   [ "$(wc -l <err)" -eq 1 ] || fail "$1: not one line"
@@ -342,12 +347,13 @@ bad "NaN" nan.off "line 5"
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 9\n3 1 2 3\n3 2 0 3\n' >index.off
 bad "index out of range" index.off "line 8"
 printf 'OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n' >open.off
-bad "open mesh" open.off "has 1 face"
 printf 'OFF\n0 0 0\n' >empty.off
 bad "empty mesh" empty.off "no faces"
 printf 'OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n' >flat.off
-bad "no volume" flat.off "no volume"
 printf 'OFF\n4 4 0\n0 0 0\n1e200 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >huge.off
+bad "open mesh" open.off "has 1 face" "--repair none"
+bad "no volume" flat.off "no volume" "--repair none"
+bad "no inside" open.off "no inner hull" "--side inner"
 bad "huge coordinates" huge.off "scale the mesh"
 bad "unknown format" hull.json "hull.json"
 head -c 5000 rock.phull >truncated.phull
@@ -360,6 +366,28 @@ expect 3 "a picture of no file" $prohull render rock.ply --over nowhere.ply -o b
 says err "a picture of no file" "nowhere.ply"
 absent "bad.png" "bad input"
 expect 3 "a mesh is no .phull" $prohull lod rock.ply -o x.ply
+
+# --- what is not closed is repaired or wrapped; several budgets; bounds ---
+expect 0 "several budgets" $prohull build rock.ply --faces 400,100 -o rock_{faces}.stl --report levels.json
+for faces in 400 100; do expect 0 "level of $faces" $prohull verify rock_$faces.stl rock.ply; done
+says levels.json "report: several hulls" '"hulls": ['
+expect 2 "several hulls, one name" $prohull build rock.ply --faces 400,100 -o rock_x.stl
+says err "several hulls, one name" "{faces}"
+absent "rock_x.stl" "several hulls, one name"
+expect 0 "void" $prohull build rock.ply --faces 4 --max-void 5 -o tight_enough.ply --report void.json
+says out "void" "void 4."
+expect 2 "negative void" $prohull build rock.ply --max-void -5 -o x.ply
+if [ "$has_wrap" = ON ]; then
+  expect 0 "an open mesh" $prohull build open.off --faces 100 -o wrapped.stl --report wrapped.json
+  says out "an open mesh" "covers every triangle"
+  says wrapped.json "report: wrapped" '"repair": "wrap"'
+  expect 0 "its hull, verified" $prohull verify wrapped.stl open.off
+  says out "its hull, verified" "not closed"
+  expect 0 "a sheet, by levels" $prohull build open.off --faces 200 -o wrapped.ply --hierarchy wrapped.phull
+  expect 0 "its levels, verified" $prohull verify wrapped.phull open.off
+else
+  bad "an open mesh" open.off "PROHULL_WRAP"
+fi
 
 $prohull sample sphere -o sphere.obj --faces 5000 >/dev/null
 awk '/^v / { printf "v %.9e %.9e %.9e\n", $2 * 3.4e38, $3 * 3.4e38, $4 * 3.4e38; next } { print }' sphere.obj >edge.obj
