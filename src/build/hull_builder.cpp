@@ -101,9 +101,6 @@ class HullBuilder {
     std::uint32_t place(HalfEdgeId h) const {
       return std::min(whole_corner(index(h)), whole_corner(index(patch.mesh.twin(h))));
     }
-    std::uint32_t other_place(HalfEdgeId h) const {
-      return std::max(whole_corner(index(h)), whole_corner(index(patch.mesh.twin(h))));
-    }
     bool is_free(HalfEdgeId h) const {
       return patch.vertices[patch.mesh.tail(h)].is_free && patch.vertices[patch.mesh.tip(h)].is_free;
     }
@@ -330,10 +327,7 @@ class HullBuilder {
     }
     for (const EdgeId e : patch.edges.ids())
       if (patch.mesh.has(e))
-        if (const HalfEdgeId h = patch.mesh.half_edge(e); work.is_free(h)) {
-          edges_[work.place(h)] = patch.edges[e];
-          edges_[work.other_place(h)].key = EdgeFacts::kUnknown;  // of an edge that has gone
-        }
+        if (const HalfEdgeId h = patch.mesh.half_edge(e); work.is_free(h)) edges_[work.place(h)] = patch.edges[e];
     return result;
   }
 
