@@ -178,7 +178,7 @@ int run_build(BuildOptions options) {
 
   BuildOutcome outcome;
   Stopwatch reading;
-  const TriangleMesh mesh = read_input(options.in);
+  const TriangleMesh mesh = read_input(options.in, NonFinite::Keep);
   outcome.read_seconds = reading.seconds();
   outcome.input = inspect(mesh);
   outcome.made = build(mesh, options);
@@ -199,10 +199,14 @@ void add_build(CLI::App& app, Run& run) {
   HullOptions& hull = enclosing.hull;
   hull.relax_guards = true;
   CLI::App& command = *app.add_subcommand("build", "Build a hull of any mesh, certified");
-  command.add_option("in", options->in, "Mesh: PLY, OBJ, OFF or STL, also .gz or .zip")->required()->type_name("IN");
+  command
+      .add_option("in", options->in,
+                  "Mesh: PLY, OBJ, OFF, STL, GLB, DAE, 3MF and others (docs/formats.md), also .gz or .zip")
+      ->required()
+      ->type_name("IN");
   command
       .add_option("-o,--out", options->out,
-                  "Where the hull goes: .ply, .obj, .off or .stl; {faces} in it becomes the number asked for")
+                  "Where the hull goes: .ply, .obj, .off, .stl or .glb; {faces} in it becomes the number asked for")
       ->required()
       ->type_name("OUT");
   command

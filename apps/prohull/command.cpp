@@ -53,8 +53,8 @@ bool ProgressLine::operator()(double fraction) {
   return !interrupted();
 }
 
-TriangleMesh read_input(const std::filesystem::path& path) {
-  return read_mesh(path, [] { return !interrupted(); });
+TriangleMesh read_input(const std::filesystem::path& path, NonFinite non_finite) {
+  return read_mesh(path, {.non_finite = non_finite, .go_on = [] { return !interrupted(); }});
 }
 
 Input read_closed_mesh(const std::filesystem::path& path) {
@@ -74,7 +74,7 @@ Input read_closed_mesh(const std::filesystem::path& path) {
 std::variant<TriangleMesh, ProgressiveHull> read_mesh_or_hull(const std::filesystem::path& path) {
   const std::string content = read_file(path);
   if (is_hull_content(content)) return load_hull(content, path);
-  return read_mesh(content, path, [] { return !interrupted(); });
+  return read_mesh(content, path, {.go_on = [] { return !interrupted(); }});
 }
 
 nlohmann::json facts(const MeshReport& report) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "prohull/hull_builder.h"
+#include "prohull/mesh_io.h"
 #include "prohull/mesh_quality.h"
 #include "prohull/mesh_report.h"
 #include "prohull/repair.h"
@@ -60,7 +61,7 @@ class Stopwatch {
 };
 
 /// read_mesh, ended by Ctrl-C also while another program reads the file.
-TriangleMesh read_input(const std::filesystem::path& path);
+TriangleMesh read_input(const std::filesystem::path& path, NonFinite non_finite = NonFinite::Refuse);
 
 /// A mesh file read and made closed; errors name the file.
 struct Input {

@@ -167,7 +167,9 @@ int compare(const Options& options, const TriangleMesh& given_hull, const Triang
 
 int run_verify(const Options& options) {
   const auto hull = read_mesh_or_hull(options.hull);
-  const TriangleMesh original = read_input(options.original);
+  TriangleMesh original = read_input(options.original, NonFinite::Keep);
+  if (const std::size_t dropped = drop_non_finite_faces(original))
+    fmt::print("{} faces of {} are not finite and left out\n", grouped(dropped), options.original.string());
   try {
     const auto* const levels = std::get_if<ProgressiveHull>(&hull);
     return levels ? replay(options, *levels, original) : compare(options, std::get<TriangleMesh>(hull), original);

@@ -18,6 +18,18 @@ MeshFormat mesh_format(const std::filesystem::path& path);
 /// STL and GLB store coordinates as float32. The others keep doubles.
 bool stores_float32(MeshFormat format);
 
+/// What becomes of vertices with a coordinate that is NaN or infinite.
+enum class NonFinite {
+  Refuse,  ///< InputError(NonFiniteCoordinate), with the place in the file
+  Keep,    ///< for those who can drop their faces (see repaired_mesh); files that assimp reads are refused nevertheless
+};
+
+struct ReadOptions {
+  NonFinite non_finite = NonFinite::Refuse;
+  /// Asked some 20 times a second while another program reads the file; false ends that and throws Cancelled.
+  std::function<bool()> go_on = {};
+};
+
 /// Reads a mesh: PLY (ascii, binary little and big endian; triangle strips), OBJ, OFF, STL (ascii, binary), glTF 2.0
 /// (.glb, .gltf), each also gzipped or alone in a zip archive. The name tells the format, the content if the name has
 /// none; a name that contradicts the content is an error. Coordinates keep their bits as doubles. Polygons are
@@ -34,13 +46,11 @@ bool stores_float32(MeshFormat format);
 /// per byte of the file. It is found by the environment variable PROHULL_IMPORTER, beside the running program, or where
 /// it was installed or built.
 ///
-/// `go_on` is asked while that program runs, some 20 times a second; false ends it and throws Cancelled.
-TriangleMesh read_mesh(const std::filesystem::path& path, const std::function<bool()>& go_on = {});
+TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// The same for the content of a file; `name` gives the format, stands in error messages, and tells the folder of the
 /// other files that a .gltf names.
-TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name,
-                       const std::function<bool()>& go_on = {});
+TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name, const ReadOptions& options = {});
 
 /// Writes beside `path`, then renames: an interrupted write leaves no partial file. PLY is binary little endian, with
 /// float coordinates if that loses no bit and double otherwise; OBJ and OFF have the shortest decimals that read back

@@ -42,6 +42,9 @@ struct ClosedMesh {
 /// bounds a cavity. Throws InputError for anything else, with the first offending edge or vertex.
 ClosedMesh closed_mesh(TriangleMesh mesh);
 
+/// Drops the faces with a corner that is NaN or infinite; returns how many there were.
+std::size_t drop_non_finite_faces(TriangleMesh& mesh);
+
 /// Any triangles, and what of them is closed.
 struct RepairedMesh {
   TriangleMesh original;             ///< the triangles of the input that are finite, as they were: what a hull covers

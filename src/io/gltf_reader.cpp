@@ -91,8 +91,8 @@ struct Chunks {
 
 class GltfReader {
  public:
-  GltfReader(std::string_view content, const std::string& file)
-      : file_(file), content_size_(content.size()), builder_(file, 0) {
+  GltfReader(std::string_view content, const std::string& file, NonFinite non_finite)
+      : file_(file), content_size_(content.size()), builder_(file, 0, non_finite) {
     const Chunks chunks = content.starts_with(kMagic) ? chunks_of(content) : Chunks{content, {}};
     binary_ = chunks.binary;
     parse(chunks.json);
@@ -479,9 +479,10 @@ class GltfReader {
     const std::filesystem::path path = std::filesystem::path(file_).parent_path() / without_percents(uri);
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))  // a pipe or a device may have no end
-      throw InputError(Defect::CannotRead,
-                       fmt::format("{}: {}: there is no regular file {}, which holds its data; put it there, or export as GLB",
-                                   file_, where, path.string()));
+      throw InputError(
+          Defect::CannotRead,
+          fmt::format("{}: {}: there is no regular file {}, which holds its data; put it there, or export as GLB",
+                      file_, where, path.string()));
     std::string bytes = read_file(path);
     content_size_ += bytes.size();
     return bytes;
@@ -526,6 +527,8 @@ class GltfReader {
 
 bool is_glb(std::string_view content) { return content.starts_with(kMagic); }
 
-TriangleMesh read_gltf(std::string_view content, const std::string& file) { return GltfReader(content, file).read(); }
+TriangleMesh read_gltf(std::string_view content, const std::string& file, NonFinite non_finite) {
+  return GltfReader(content, file, non_finite).read();
+}
 
 }  // namespace prohull

@@ -129,7 +129,7 @@ void check(const ProgramResult& result, const std::string& file, const std::file
 class ImportReader {
  public:
   ImportReader(std::string_view output, const std::string& file)
-      : file_(file), cursor_(output, 0, std::endian::native), builder_(file, 0) {}
+      : file_(file), cursor_(output, 0, std::endian::native), builder_(file, 0, NonFinite::Refuse) {}
 
   TriangleMesh read() {
     expect(kImportMagic);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "io/triangulate_polygon.h"
@@ -17,12 +18,13 @@ bool is_restart(std::int64_t corner) { return corner == -1 || corner == kNoIndex
 
 void MeshBuilder::add_vertex(const Vec3& position, Place place) {
   if (!is_finite(position))
-    fail_on_coordinate(position, fmt::format("vertex {}", first_number_ + vertex_count()), place);
+    refuse_non_finite(position, fmt::format("vertex {}", first_number_ + vertex_count()), place);
   if (vertex_count() == static_cast<std::size_t>(kNoIndex)) fail(file_, place, "more than 2^32 - 1 vertices");
   mesh_.positions.push_back(position);
 }
 
-void MeshBuilder::fail_on_coordinate(const Vec3& position, std::string_view subject, Place place) const {
+void MeshBuilder::refuse_non_finite(const Vec3& position, std::string_view subject, Place place) const {
+  if (non_finite_ == NonFinite::Keep) return;
   const int axis = !std::isfinite(position.x) ? 0 : !std::isfinite(position.y) ? 1 : 2;
   fail(file_, place, fmt::format("{} has {} = {}; coordinates must be finite", subject, "xyz"[axis], position[axis]),
        Defect::NonFiniteCoordinate);
@@ -91,6 +93,8 @@ void MeshBuilder::triangulate(const Polygon& polygon) {
   const auto triangle = [&](std::uint32_t i) -> auto& { return mesh_.triangles[FaceId(polygon.first_triangle + i)]; };
   std::vector<VertexId> corners = {triangle(0)[0], triangle(0)[1]};
   for (std::uint32_t i = 0; i + 2 < polygon.corner_count; ++i) corners.push_back(triangle(i)[2]);
+  const auto is_somewhere = [&](VertexId v) { return is_finite(mesh_.positions[v]); };
+  if (!std::ranges::all_of(corners, is_somewhere)) return;  // it stays a fan
   const auto triangles = triangulate_polygon(corners, mesh_.positions);
   if (!triangles)
     fail(file_, polygon.place,

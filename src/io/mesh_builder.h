@@ -6,16 +6,18 @@
 #include <vector>
 
 #include "io/place.h"
+#include "prohull/mesh_io.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
 
-/// What all readers share: takes vertices and polygons in the order of the file, checks that coordinates are finite and
-/// that indices exist, and triangulates. Faces may come before their vertices.
+/// What all readers share: takes vertices and polygons in the order of the file, checks that coordinates are finite,
+/// unless others are kept, and that indices exist, and triangulates. Faces may come before their vertices.
 class MeshBuilder {
  public:
   /// `first_number` is the number of the first vertex in the format's own counting, for messages.
-  MeshBuilder(std::string file, std::size_t first_number) : file_(std::move(file)), first_number_(first_number) {}
+  MeshBuilder(std::string file, std::size_t first_number, NonFinite non_finite)
+      : file_(std::move(file)), first_number_(first_number), non_finite_(non_finite) {}
 
   void reserve_vertices(std::size_t count) { mesh_.positions.reserve(count); }
   void reserve_triangles(std::size_t count) { mesh_.triangles.reserve(count); }
@@ -23,8 +25,8 @@ class MeshBuilder {
   const PerVertex<Vec3>& positions() const { return mesh_.positions; }
 
   void add_vertex(const Vec3& position, Place place);
-  /// Says which coordinate of `subject` ("vertex 3") is not finite.
-  [[noreturn]] void fail_on_coordinate(const Vec3& position, std::string_view subject, Place place) const;
+  /// Unless such are kept, says which coordinate of `subject` ("vertex 3") is not finite.
+  void refuse_non_finite(const Vec3& position, std::string_view subject, Place place) const;
   /// Corners count from 0 and may be any integers: those that no vertex can have are refused here or by `finish`.
   void add_polygon(std::span<const std::int64_t> corners, Place place);
   /// Triangles (a, b, c), (c, b, d), (c, d, e), ...; -1 (also as unsigned) starts the next strip. Triangles with two
@@ -46,6 +48,7 @@ class MeshBuilder {
 
   std::string file_;
   std::size_t first_number_;
+  NonFinite non_finite_;
   TriangleMesh mesh_;
   std::vector<Polygon> polygons_;  ///< of more than three corners; each stands in the mesh as a fan until `finish`
   std::int64_t highest_corner_ = -1;

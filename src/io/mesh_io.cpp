@@ -24,7 +24,7 @@ namespace {
 /// What is read here; those with a writer are written too.
 struct FormatTraits {
   std::string_view extension, name;
-  TriangleMesh (*read)(std::string_view content, const std::string& file);
+  TriangleMesh (*read)(std::string_view content, const std::string& file, NonFinite non_finite);
   std::optional<MeshFormat> format;
   std::string (*content)(const TriangleMesh& mesh);
 };
@@ -84,10 +84,9 @@ const FormatTraits& format_of(std::string_view content, const std::filesystem::p
                                name.string()));
 }
 
-TriangleMesh read_plain(std::string_view content, const std::filesystem::path& name,
-                        const std::function<bool()>& go_on) {
-  if (is_imported(name)) return imported_mesh(content, name.string(), import_limits(content.size()), go_on);
-  return format_of(content, name).read(content, name.string());
+TriangleMesh read_plain(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {
+  if (is_imported(name)) return imported_mesh(content, name.string(), import_limits(content.size()), options.go_on);
+  return format_of(content, name).read(content, name.string(), options.non_finite);
 }
 
 void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::filesystem::path& path) {
@@ -118,16 +117,15 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
 
 bool stores_float32(MeshFormat format) { return format == MeshFormat::Stl || format == MeshFormat::Glb; }
 
-TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name,
-                       const std::function<bool()>& go_on) {
+TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {
   const bool is_zip_by_itself = is_zip(content) && is_imported(name);  // as 3MF is
   if (!is_zip_by_itself)
-    if (const auto inside = decompressed(content, name)) return read_plain(inside->bytes, inside->name, go_on);
-  return read_plain(content, name, go_on);
+    if (const auto inside = decompressed(content, name)) return read_plain(inside->bytes, inside->name, options);
+  return read_plain(content, name, options);
 }
 
-TriangleMesh read_mesh(const std::filesystem::path& path, const std::function<bool()>& go_on) {
-  return read_mesh(read_file(path), path, go_on);
+TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+  return read_mesh(read_file(path), path, options);
 }
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {

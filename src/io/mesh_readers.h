@@ -4,18 +4,19 @@
 #include <string>
 #include <string_view>
 
+#include "prohull/mesh_io.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
 
 // One reader for each format. `file` stands in messages. See mesh_io.h for what they promise.
 
-TriangleMesh read_ply(std::string_view content, const std::string& file);
-TriangleMesh read_obj(std::string_view content, const std::string& file);
-TriangleMesh read_off(std::string_view content, const std::string& file);
-TriangleMesh read_stl(std::string_view content, const std::string& file);
+TriangleMesh read_ply(std::string_view content, const std::string& file, NonFinite non_finite);
+TriangleMesh read_obj(std::string_view content, const std::string& file, NonFinite non_finite);
+TriangleMesh read_off(std::string_view content, const std::string& file, NonFinite non_finite);
+TriangleMesh read_stl(std::string_view content, const std::string& file, NonFinite non_finite);
 /// glTF or GLB; `file` is also where the files are that it names.
-TriangleMesh read_gltf(std::string_view content, const std::string& file);
+TriangleMesh read_gltf(std::string_view content, const std::string& file, NonFinite non_finite);
 
 /// Whether files of that name, with or without .gz, are meshes that are read.
 bool is_mesh_name(const std::filesystem::path& path);

@@ -12,8 +12,8 @@ namespace {
 
 class OffReader {
  public:
-  OffReader(std::string_view content, const std::string& file)
-      : size_(content.size()), scanner_(content, file, {.comments = true}), builder_(file, 0) {}
+  OffReader(std::string_view content, const std::string& file, NonFinite non_finite)
+      : size_(content.size()), scanner_(content, file, {.comments = true}), builder_(file, 0, non_finite) {}
 
   TriangleMesh read() {
     read_keyword();
@@ -79,6 +79,8 @@ bool is_off_keyword(std::string_view word) {
   return word == "OFF";
 }
 
-TriangleMesh read_off(std::string_view content, const std::string& file) { return OffReader(content, file).read(); }
+TriangleMesh read_off(std::string_view content, const std::string& file, NonFinite non_finite) {
+  return OffReader(content, file, non_finite).read();
+}
 
 }  // namespace prohull

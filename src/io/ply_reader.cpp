@@ -141,8 +141,8 @@ class BinaryBody {
 template <class Body>
 class PlyReader {
  public:
-  PlyReader(const PlyHeader& header, Body body, const std::string& file)
-      : header_(header), body_(std::move(body)), file_(file), builder_(file, 0) {}
+  PlyReader(const PlyHeader& header, Body body, const std::string& file, NonFinite non_finite)
+      : header_(header), body_(std::move(body)), file_(file), builder_(file, 0, non_finite) {}
 
   TriangleMesh read() {
     for (const PlyElement& element : header_.elements) {
@@ -225,10 +225,10 @@ class PlyReader {
 
 }  // namespace
 
-TriangleMesh read_ply(std::string_view content, const std::string& file) {
+TriangleMesh read_ply(std::string_view content, const std::string& file, NonFinite non_finite) {
   const PlyHeader header = read_ply_header(content, file);
-  if (header.encoding == PlyEncoding::Ascii) return PlyReader(header, AsciiBody(header, file), file).read();
-  return PlyReader(header, BinaryBody(content, header, file), file).read();
+  if (header.encoding == PlyEncoding::Ascii) return PlyReader(header, AsciiBody(header, file), file, non_finite).read();
+  return PlyReader(header, BinaryBody(content, header, file), file, non_finite).read();
 }
 
 }  // namespace prohull

@@ -31,7 +31,8 @@ std::size_t claimed_triangles(std::string_view content) {
 /// Makes triangles of loose corners.
 class StlSoup {
  public:
-  explicit StlSoup(const std::string& file) : builder_(file, 1), welder_(builder_.positions()) {}
+  StlSoup(const std::string& file, NonFinite non_finite)
+      : builder_(file, 1, non_finite), welder_(builder_.positions()) {}
 
   void reserve(std::size_t triangles) { builder_.reserve_triangles(triangles); }
 
@@ -39,10 +40,14 @@ class StlSoup {
     std::array<std::int64_t, 3> numbers;
     ++count_;
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!is_finite(corners[i]))
-        builder_.fail_on_coordinate(corners[i], fmt::format("corner {} of triangle {}", i + 1, count_), place);
-      numbers[i] = welder_.number_of(corners[i]);
-      if (static_cast<std::size_t>(numbers[i]) == builder_.vertex_count()) builder_.add_vertex(corners[i], place);
+      Vec3 corner = corners[i];
+      if (!is_finite(corner)) {
+        builder_.refuse_non_finite(corner, fmt::format("corner {} of triangle {}", i + 1, count_), place);
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        corner = {kInfinity, kInfinity, kInfinity};  // one vertex: NaN is not equal to itself
+      }
+      numbers[i] = welder_.number_of(corner);
+      if (static_cast<std::size_t>(numbers[i]) == builder_.vertex_count()) builder_.add_vertex(corner, place);
     }
     builder_.add_polygon(numbers, place);
   }
@@ -55,10 +60,10 @@ class StlSoup {
   std::size_t count_ = 0;
 };
 
-TriangleMesh read_binary(std::string_view content, const std::string& file) {
+TriangleMesh read_binary(std::string_view content, const std::string& file, NonFinite non_finite) {
   ByteCursor cursor(content, kHeaderSize);
   const std::size_t count = claimed_triangles(content);
-  StlSoup soup(file);
+  StlSoup soup(file, non_finite);
   soup.reserve(std::min(count, content.size() / kTriangleSize));
   for (std::size_t i = 0; i < count; ++i) {
     const Place place = cursor.place();
@@ -77,7 +82,8 @@ TriangleMesh read_binary(std::string_view content, const std::string& file) {
 
 class AsciiStlReader {
  public:
-  AsciiStlReader(std::string_view content, const std::string& file) : scanner_(content, file), soup_(file) {}
+  AsciiStlReader(std::string_view content, const std::string& file, NonFinite non_finite)
+      : scanner_(content, file), soup_(file, non_finite) {}
 
   TriangleMesh read() {
     scanner_.next_line();
@@ -144,12 +150,12 @@ bool is_ascii_stl(std::string_view content) {
          content.substr(0, kLookedAt).find('\0') == std::string_view::npos;
 }
 
-TriangleMesh read_stl(std::string_view content, const std::string& file) {
-  if (is_ascii_stl(content)) return AsciiStlReader(content, file).read();
+TriangleMesh read_stl(std::string_view content, const std::string& file, NonFinite non_finite) {
+  if (is_ascii_stl(content)) return AsciiStlReader(content, file, non_finite).read();
   if (content.size() < kHeaderSize)
     fail(file, {Place::Unit::Byte, content.size()},
          "the file ends within the header; a binary STL has 84 bytes of it, and an ascii STL starts with solid");
-  return read_binary(content, file);
+  return read_binary(content, file, non_finite);
 }
 
 }  // namespace prohull

@@ -136,7 +136,7 @@ ClosedMesh closed_mesh(TriangleMesh mesh) {
 RepairedMesh repaired_mesh(TriangleMesh mesh, bool keep_cavities) {
   require_faces(mesh);
   RepairedMesh result;
-  drop_non_finite_faces(mesh, result.repairs);
+  result.repairs.dropped_non_finite_faces = drop_non_finite_faces(mesh);
   if (mesh.face_count() == 0)
     throw InputError(Defect::NonFiniteCoordinate, "no face has finite corners: nothing to enclose");
   require_usable_size(bounding_box(mesh));

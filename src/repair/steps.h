@@ -11,9 +11,6 @@ namespace prohull {
 
 // What a repair is made of. Each step counts what it did.
 
-/// Faces with a corner that is not finite go.
-void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs);
-
 /// Vertices at equal positions become one, the first; -0 equals 0. Faces that then have a vertex twice go.
 void weld(TriangleMesh& mesh, Repairs& repairs);
 

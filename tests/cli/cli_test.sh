@@ -343,7 +343,7 @@ bad "truncated file" truncated.ply "truncated.ply: byte"
 bad "missing file" nowhere.ply "nowhere.ply"
 bad "folder as file" . "."
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 nan 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >nan.off
-bad "NaN" nan.off "line 5"
+bad "NaN" nan.off "not finite" "--repair none"
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 9\n3 1 2 3\n3 2 0 3\n' >index.off
 bad "index out of range" index.off "line 8"
 printf 'OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n' >open.off
@@ -383,6 +383,10 @@ if [ "$has_wrap" = ON ]; then
   says wrapped.json "report: wrapped" '"repair": "wrap"'
   expect 0 "its hull, verified" $prohull verify wrapped.stl open.off
   says out "its hull, verified" "not closed"
+  expect 0 "NaN" $prohull build nan.off --faces 100 -o wrapped.off
+  says out "NaN" "dropped 3 faces with a corner that is not finite"
+  expect 0 "NaN, verified" $prohull verify wrapped.off nan.off
+  says out "NaN, verified" "3 faces of nan.off are not finite"
   expect 0 "a sheet, by levels" $prohull build open.off --faces 200 -o wrapped.ply --hierarchy wrapped.phull
   expect 0 "its levels, verified" $prohull verify wrapped.phull open.off
 else

@@ -69,10 +69,22 @@ TEST(Obj, RefusesNonFiniteCoordinates) {
                  Defect::NonFiniteCoordinate);
 }
 
+TEST(Obj, KeepsNonFiniteCoordinatesIfAsked) {
+  const TriangleMesh mesh = read_mesh("v 0 nan 0\nv 1 0 0\nv 1 1 0\nv 0 1 -inf\nf 1 2 3 4\nf 2 3 2\n", "a.obj",
+                                      {.non_finite = NonFinite::Keep});
+  EXPECT_EQ(mesh.face_count(), 3u);
+  EXPECT_TRUE(std::isnan(mesh.positions[VertexId(0)].y));
+}
+
+TEST(Obj, TakesFacesOfOneOrTwoCornersForTrianglesWithoutArea) {
+  const TriangleMesh mesh = read_mesh(kThreeVertices + "f 1 2\nf 3\nf\n", "a.obj");
+  ASSERT_EQ(mesh.face_count(), 2u);
+  EXPECT_EQ(mesh.triangles[FaceId(0)], (std::array{VertexId(0), VertexId(1), VertexId(1)}));
+  EXPECT_EQ(mesh.triangles[FaceId(1)], (std::array{VertexId(2), VertexId(2), VertexId(2)}));
+}
+
 TEST(Obj, RefusesIncompleteRecords) {
   expect_refused("v 0 0\nv 1 1 1\n", "a.obj", "a.obj: line 1: the line ends where a coordinate was expected");
-  expect_refused(kThreeVertices + "f 1 2\n", "a.obj", "a.obj: line 4: a face with 2 corners; expected 3 or more");
-  expect_refused(kThreeVertices + "f\n", "a.obj", "a.obj: line 4: a face with 0 corners; expected 3 or more");
 }
 
 TEST(Obj, RefusesUnknownRecordsRatherThanLoseFaces) {

@@ -93,5 +93,15 @@ TEST(Stl, RefusesNonFiniteCoordinates) {
                  Defect::NonFiniteCoordinate);
 }
 
+TEST(Stl, KeepsNonFiniteCornersAsOneVertexIfAsked) {
+  const std::string text =
+      "solid\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 nan 0\nendloop\nendfacet\n"
+      "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex inf 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid\n";
+  const TriangleMesh mesh = read_mesh(text, "a.stl", {.non_finite = NonFinite::Keep});
+  EXPECT_EQ(mesh.face_count(), 2u);
+  EXPECT_EQ(mesh.vertex_count(), 3u);
+  EXPECT_FALSE(is_finite(mesh.positions[VertexId(2)]));
+}
+
 }  // namespace
 }  // namespace prohull
