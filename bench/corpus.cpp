@@ -139,10 +139,10 @@ void add_report(const nlohmann::json& report, Row& row) {
   row.faces_in = input.at("faces").get<std::size_t>();
   row.faces_out = report.at("hull").at("faces").get<std::size_t>();
   const std::string repair = input.value("repair", "none");
-  if (repair != "none") row.why = repair;
+  if (repair == "wrap") row.why = repair;
   for (const auto& phrase : input.at("repairs").get<std::vector<std::string>>())
     row.why += (row.why.empty() ? "" : " + ") + phrase;
-  row.verdict = row.why.empty() ? Verdict::Ok : Verdict::Repaired;
+  row.verdict = repair == "none" && row.why.empty() ? Verdict::Ok : Verdict::Repaired;
 }
 
 Row swept(const MeshFile& file, const Options& options, const std::filesystem::path& folder) {
