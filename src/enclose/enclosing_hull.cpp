@@ -209,11 +209,13 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
   return std::move(*best);
 }
 
-// Where handles and thin parts are in the way, the last levels of a hull swell, and one of a wrap may be smaller.
+// Where handles and thin parts are in the way, the last levels of a hull swell, and one of a wrap may be smaller. Of
+// wraps coarser ones are no better on the whole.
 bool Ladder::is_loose(const EnclosingHull& hull) const {
   constexpr double kMuch = 1.5;
-  return is_outer() && !options_.levels && options_.hull.refuses_self_intersections() &&
-         signed_volume(hull.mesh) > kMuch * made_.solids.front().volume;
+  const Solid& solid = made_.solids[hull.solid];
+  return is_outer() && solid.alpha == 0 && !options_.levels && options_.hull.refuses_self_intersections() &&
+         signed_volume(hull.mesh) > kMuch * solid.volume;
 }
 
 bool Ladder::is_as_asked(const EnclosingHull& hull) const {
