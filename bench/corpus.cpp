@@ -105,11 +105,11 @@ std::string replaced(std::string text, const std::string& what, std::string_view
   return text;
 }
 
-/// What the program says on stderr, without its name and that of the file.
+/// What the program says on stderr, without its name, that of the file and that of its folder.
 std::string said(const ProgramEnd& end, const MeshFile& file) {
   if (end.err.empty()) return "nothing on stderr";
-  return replaced(replaced(replaced(end.err.front(), "prohull: ", ""), file.path.string() + ": ", ""),
-                  file.path.string(), file.name);
+  const std::string named = replaced(end.err.front(), "prohull: ", "");
+  return replaced(replaced(named, file.path.string() + ": ", ""), file.path.parent_path().string() + "/", "");
 }
 
 std::string files_of(const std::filesystem::path& folder) {
