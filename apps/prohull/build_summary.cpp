@@ -42,6 +42,14 @@ void print_input(const BuildOptions& options, const BuildOutcome& outcome) {
       fmt::print("  wrap with alpha {:.4g}: {}\n", solid.alpha, counted(solid.mesh.face_count(), "face", "faces"));
 }
 
+// What no collapse changes. A closed surface with h handles has an Euler characteristic of 2 - 2 h.
+std::string described_topology(const TriangleMesh& hull) {
+  const MeshReport report = inspect(hull);
+  const auto handles = static_cast<std::size_t>(static_cast<long>(report.components) - report.euler_characteristic / 2);
+  return fmt::format("{} and {}", counted(report.components, "component", "components"),
+                     counted(handles, "handle", "handles"));
+}
+
 void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
   const EnclosingHull& hull = written.hull;
   const std::size_t faces = hull.mesh.face_count();
@@ -61,8 +69,8 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
                kRelaxedGuards[hull.relaxed_guards - 1].normal_deviation / kDegree, hull.relaxed_guards,
                kRelaxedGuards.size());
   if (!hull.reached)
-    fmt::print("  no legal collapse is left above the {} faces asked for; what refused the {} edges left: {}\n",
-               grouped(hull.target_faces), grouped(3 * faces / 2), listed(hull.blocked));
+    fmt::print("  no legal collapse is left above the {} faces asked for: {}; what refused the {} edges left: {}\n",
+               grouped(hull.target_faces), described_topology(hull.mesh), grouped(3 * faces / 2), listed(hull.blocked));
   if (!hull.bounded) fmt::print("  NOT within the bounds asked for: no hull was\n");
   if (written.certified && !options.hierarchy.empty())
     fmt::print("{}: all levels from {} to {} faces\n", options.hierarchy.string(), grouped(faces),

@@ -20,8 +20,7 @@
 namespace prohull {
 namespace {
 
-// A throwaway prototype reached a hull without self-intersection for 67 of 67 robot links with a twentieth; a fiftieth
-// is closer to the triangles, but has handles where holes are.
+// A fiftieth is close to the triangles, but may have handles where they have holes; how far each gets: docs/repair.md.
 constexpr double kWrapAlphas[]{1.0 / 50, 1.0 / 20, 1.0 / 10};  // of the diagonal
 constexpr double kWrapOffset = 1.0 / 600;
 
@@ -39,7 +38,7 @@ std::array<VertexId, 3> longest_edge_first(const TriangleMesh& mesh, FaceId f) {
     return squared_norm(mesh.positions[corners[(i + 1) % 3]] - mesh.positions[corners[i]]);
   };
   const std::size_t longest = std::ranges::max(std::array<std::size_t, 3>{0, 1, 2}, {}, length);
-  std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(longest));
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(longest), corners.end());
   return corners;
 }
 

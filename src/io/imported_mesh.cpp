@@ -17,6 +17,7 @@
 #include "io/import_protocol.h"
 #include "io/mesh_builder.h"
 #include "io/run_program.h"
+#include "io/utf8.h"
 
 namespace prohull {
 namespace {
@@ -212,7 +213,9 @@ TriangleMesh imported_mesh(std::string_view content, const std::string& file, co
   if (!program) refuse_without_importer(file);
   const std::vector<std::string> arguments = {
       without_gz(file).string(), fmt::format("{}", (limits.time.count() + 1) / 2), fmt::format("{}", limits.memory)};
-  const ProgramResult result = run_program(*program, arguments, content, {limits.time, limits.output}, go_on);
+  const std::optional<std::string> utf8 = utf8_of_utf16(content);  // assimp 5.2.5 reads XML in UTF-8 only
+  const ProgramResult result =
+      run_program(*program, arguments, utf8 ? *utf8 : content, {limits.time, limits.output}, go_on);
   check(result, file, *program, limits);
   return ImportReader(result.output, file).read();
 }

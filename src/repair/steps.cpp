@@ -160,7 +160,7 @@ void weld(TriangleMesh& mesh, Repairs& repairs) {
 void drop_duplicate_faces(TriangleMesh& mesh, Repairs& repairs) {
   const auto key = [&](FaceId f) {
     Corners t = mesh.triangles[f];
-    std::ranges::rotate(t, std::ranges::min_element(t));
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
     return t;
   };
   std::vector<FaceId> order;

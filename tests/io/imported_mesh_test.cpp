@@ -226,6 +226,19 @@ TEST_F(Assimp, Reads3mfInItsOwnUnit) {
     EXPECT_NE(std::find(two.positions.begin(), two.positions.end(), p), two.positions.end());
 }
 
+TEST_F(Assimp, ReadsColladaInUtf16) {
+  const std::string text = collada("", kInstance);
+  const TriangleMesh mesh = read_mesh(text, "a.dae");
+  EXPECT_GT(mesh.face_count(), 0u);
+  for (const bool little : {true, false}) {
+    std::string wide = little ? "\xFF\xFE" : "\xFE\xFF";
+    for (const char c : text) wide += little ? std::string{c, '\0'} : std::string{'\0', c};
+    EXPECT_EQ(read_mesh(wide, "a.dae"), mesh);
+    wide += '<';  // half of a character
+    EXPECT_THROW(read_mesh(wide, "a.dae"), InputError);
+  }
+}
+
 TEST_F(Assimp, ThatRefusesIsQuoted) {
   expect_refused("hello", "a.dae",
                  "a.dae: assimp refuses it: Unable to read file, malformed XML" + std::string(kConvert));
