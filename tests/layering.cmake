@@ -1,4 +1,4 @@
-# Reads every include in src/, apps/ and examples/ and fails if one points against the flow of the folders.
+# Reads every include in src/, apps/, examples/ and python/ and fails if one points against the flow of the folders.
 # cmake -DROOT=<repository> -P layering.cmake
 cmake_policy(VERSION 3.25)
 set(may_geometry geometry)
@@ -15,11 +15,12 @@ set(may_enclose enclose geometry)
 set(may_wrap wrap)
 set(may_apps "")
 set(may_examples "")
+set(may_python "")
 set(folders geometry parallel mesh hull io repair build query verify sample enclose wrap)
 
 set(failures "")
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp
-     ${ROOT}/examples/*.cpp)
+     ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp)
 list(LENGTH sources count)
 if(count LESS 20)
   message(FATAL_ERROR "found only ${count} sources below ${ROOT}")

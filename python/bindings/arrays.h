@@ -1,0 +1,62 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "prohull/progressive_hull.h"
+#include "prohull/triangle_mesh.h"
+
+namespace prohull::python {
+
+/// Python can change neither: it is shared with all views of it.
+using SharedMesh = std::shared_ptr<TriangleMesh>;
+using SharedLevels = std::shared_ptr<ProgressiveHull>;
+
+template <class T>
+using Array = pybind11::array_t<T, pybind11::array::c_style>;
+
+// Numpy's rows of three are the library's values.
+static_assert(sizeof(Vec3) == 3 * sizeof(double) && std::is_standard_layout_v<Vec3>);
+static_assert(sizeof(VertexId) == sizeof(std::uint32_t) && sizeof(FaceId) == sizeof(std::uint32_t));
+
+/// A read-only array of what `owner`, a std::shared_ptr, keeps; no copy.
+template <class T, class Owner>
+pybind11::array view_of(const Owner& owner, const T* data, std::vector<pybind11::ssize_t> shape) {
+  const pybind11::capsule keep(new Owner(owner), [](void* kept) { delete static_cast<Owner*>(kept); });
+  pybind11::array_t<T> view(std::move(shape), data, keep);
+  view.attr("setflags")(pybind11::arg("write") = false);
+  return view;
+}
+
+/// The values become the array; no copy.
+template <class T>
+pybind11::array array_of(std::vector<T> values, std::vector<pybind11::ssize_t> shape) {
+  auto* const kept = new std::vector<T>(std::move(values));
+  const pybind11::capsule keep(kept, [](void* vector) { delete static_cast<std::vector<T>*>(vector); });
+  return pybind11::array_t<T>(std::move(shape), kept->data(), keep);
+}
+
+inline pybind11::array vertices_of(const SharedMesh& mesh) {
+  return view_of(mesh, reinterpret_cast<const double*>(mesh->positions.data()),
+                 {static_cast<pybind11::ssize_t>(mesh->vertex_count()), 3});
+}
+
+inline pybind11::array faces_of(const SharedMesh& mesh) {
+  return view_of(mesh, reinterpret_cast<const std::uint32_t*>(mesh->triangles.data()),
+                 {static_cast<pybind11::ssize_t>(mesh->face_count()), 3});
+}
+
+/// Rows of a C-contiguous array as they lie in memory.
+template <class Row, class T>
+const Row* rows_of(const Array<T>& array) {
+  static_assert(sizeof(Row) % sizeof(T) == 0 && std::is_standard_layout_v<Row>);
+  return reinterpret_cast<const Row*>(array.data());
+}
+
+}  // namespace prohull::python

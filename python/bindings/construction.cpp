@@ -1,0 +1,154 @@
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <string>
+
+#include "arrays.h"
+#include "module.h"
+#include "prohull/enclosing_hull.h"
+#include "prohull/error.h"
+#include "watch.h"
+
+namespace py = pybind11;
+
+namespace prohull::python {
+namespace {
+
+/// The options of build(), by name.
+class Keywords {
+ public:
+  explicit Keywords(const py::dict& values) : values_(values) {}
+
+  template <class T>
+  T get(const char* name, const char* expected) const {
+    try {
+      return values_[name].cast<T>();
+    } catch (const py::cast_error&) {
+      refuse(name, expected);
+    }
+  }
+  bool flag(const char* name) const { return get<bool>(name, "True or False"); }
+  unsigned count(const char* name) const { return get<unsigned>(name, "a whole number, at least 0"); }
+  double number(const char* name) const { return get<double>(name, "a number"); }
+  double not_negative(const char* name) const {
+    const double value = number(name);
+    if (!(value >= 0)) refuse(name, "a number, at least 0");
+    return value;
+  }
+  template <class T>
+  T choice(const char* name, std::initializer_list<std::pair<const char*, T>> choices) const {
+    std::string known;
+    for (const auto& [text, value] : choices) {
+      if (py::str(values_[name]).equal(py::str(text))) return value;
+      known += (known.empty() ? "" : ", ") + std::string(text);
+    }
+    refuse(name, ("one of " + known).c_str());
+  }
+
+ private:
+  [[noreturn]] void refuse(const char* name, const char* expected) const {
+    throw InputError(Defect::InvalidOption,
+                     std::string(name) + "=" + std::string(py::repr(values_[name])) + ": expected " + expected);
+  }
+
+  const py::dict& values_;
+};
+
+EnclosingOptions options_of(const Keywords& given) {
+  EnclosingOptions options;
+  HullOptions& hull = options.hull;
+  hull.side = given.choice<HullSide>("side", {{"outer", HullSide::Outer}, {"inner", HullSide::Inner}});
+  hull.strategy = given.choice<Strategy>(
+      "strategy", {{"lazy", Strategy::Lazy}, {"paper1", Strategy::Paper1}, {"paper2", Strategy::Paper2}});
+  hull.self_intersections =
+      given.choice<SelfIntersections>("self_intersections", {{"by-strategy", SelfIntersections::ByStrategy},
+                                                             {"refused", SelfIntersections::Refused},
+                                                             {"allowed", SelfIntersections::Allowed}});
+  hull.max_valence = given.count("max_valence");
+  hull.min_compactness_ratio = given.number("min_compactness_ratio");
+  hull.sufficient_compactness = given.number("sufficient_compactness");
+  hull.max_normal_deviation = given.number("max_normal_deviation");
+  hull.relax_guards = given.flag("relax_guards");
+  hull.float32_coordinates = given.flag("float32");
+  hull.seed = given.get<std::uint64_t>("seed", "a whole number, at least 0");
+  hull.best_of = given.count("best_of");
+  hull.threads = given.count("threads");
+  options.bounds.max_distance = given.not_negative("max_distance");
+  options.bounds.max_void = given.not_negative("max_void");
+  options.bounds.max_added_volume = given.not_negative("max_added_volume");
+  options.tight = given.flag("tight");
+  options.levels = given.flag("levels");
+  options.repair =
+      given.choice<Repair>("repair", {{"auto", Repair::Auto}, {"none", Repair::None}, {"wrap", Repair::Wrap}});
+  options.keep_cavities = given.flag("keep_cavities");
+  options.seal_holes = given.not_negative("seal_holes");
+#ifdef PROHULL_HAS_WRAP
+  options.wrap = alpha_wrap;
+#endif
+  return options;
+}
+
+py::dict dict_of(const RefusalCounts& counts) {
+  py::dict result;
+  for (std::size_t kind = 0; kind < kRefusalKinds; ++kind) {
+    const auto refusal = static_cast<Refusal>(kind);
+    if (counts[refusal] > 0) result[py::cast(name(refusal))] = counts[refusal];
+  }
+  return result;
+}
+
+/// A hull and what it was built from, which hulls of one run share.
+py::dict facts_of(EnclosingHull hull, const SharedMesh& original, double alpha) {
+  py::dict facts;
+  facts["mesh"] = std::move(hull.mesh);
+  facts["original"] = original;
+  facts["levels"] = std::move(hull.levels);
+  facts["wrap_alpha"] = alpha;
+  facts["certified"] = hull.certified;
+  facts["proof"] = hull.proof;
+  facts["faces_target"] = hull.target_faces;
+  facts["reached"] = hull.reached;
+  facts["bounded"] = hull.bounded;
+  facts["refused"] = dict_of(hull.refused);
+  facts["blocked"] = dict_of(hull.blocked);
+  facts["relaxed_guards"] = hull.relaxed_guards;
+  facts["self_intersections"] = hull.self_intersections;
+  facts["build_seconds"] = hull.build_seconds;
+  facts["verify_seconds"] = hull.verify_seconds;
+  return facts;
+}
+
+py::list facts_of(EnclosingHulls made) {
+  const auto repairs = describe(made.input.repairs);
+  SharedMesh closed, triangles;  // each only once, and only if needed
+  const auto once = [](SharedMesh& mesh, TriangleMesh& from) {
+    if (!mesh) mesh = std::make_shared<TriangleMesh>(std::move(from));
+    return mesh;
+  };
+  py::list hulls;
+  for (EnclosingHull& hull : made.hulls) {
+    const double alpha = made.solids[hull.solid].alpha;
+    const SharedMesh original =
+        alpha > 0 ? once(triangles, made.input.original) : once(closed, made.input.closed->mesh);
+    py::dict facts = facts_of(std::move(hull), original, alpha);
+    facts["notes"] = made.notes;
+    facts["repairs"] = repairs;
+    hulls.append(facts);
+  }
+  return hulls;
+}
+
+py::list build(const TriangleMesh& mesh, const std::vector<std::size_t>& targets, const py::object& progress,
+               const py::dict& keywords) {
+  EnclosingOptions options = options_of(Keywords(keywords));
+  return facts_of(watched(progress, [&](Watch& watch) {
+    options.progress = [&](std::string_view stage, double fraction) { return watch.go_on(stage, fraction); };
+    return enclosing_hulls(mesh, targets, options);
+  }));
+}
+
+}  // namespace
+
+void bind_construction(py::module_& module) { module.def("build", &build); }
+
+}  // namespace prohull::python

@@ -1,0 +1,31 @@
+// prohull._prohull: what the Python package needs of the library. Arguments arrive checked and converted by the
+// package; see its _prohull.pyi for the types.
+#include "module.h"
+
+#include <oneapi/tbb/global_control.h>
+
+#include <new>
+
+#include "prohull/error.h"
+
+namespace {
+
+/// Ends the threads that oneTBB keeps for later; they start anew when needed. A process forked beside them would have
+/// their locks, but not them: one in a thousand waited for ever. Does nothing while other threads of Python use
+/// prohull.
+void end_idle_threads() {
+  oneapi::tbb::task_scheduler_handle scheduler{oneapi::tbb::attach{}};
+  static_cast<void>(oneapi::tbb::finalize(scheduler, std::nothrow));
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_prohull, module) {
+  pybind11::register_exception<prohull::InputError>(module, "InputError", PyExc_ValueError);
+  pybind11::module_::import("os").attr("register_at_fork")(pybind11::arg("before") =
+                                                               pybind11::cpp_function(&end_idle_threads));
+  prohull::python::bind_meshes(module);
+  prohull::python::bind_construction(module);
+  prohull::python::bind_verification(module);
+  prohull::python::bind_queries(module);
+}

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace prohull::python {
+
+void bind_meshes(pybind11::module_& module);
+void bind_construction(pybind11::module_& module);
+void bind_verification(pybind11::module_& module);
+void bind_queries(pybind11::module_& module);
+
+}  // namespace prohull::python

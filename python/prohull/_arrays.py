@@ -1,0 +1,59 @@
+"""What callers hand over becomes arrays that the extension module takes as they are."""
+
+import numpy as np
+
+from ._prohull import InputError
+
+
+def _numbers(name, values):
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiu" and array.size > 0:
+        raise InputError(f"{name}: an array of {array.dtype}; expected floating point numbers or integers")
+    return array
+
+
+def rows(name, values, *shapes):
+    """A C-contiguous float64 array whose first axis counts rows, each of one of `shapes`; copied only if needed."""
+    array = _numbers(name, values)
+    if array.shape[1:] not in shapes or array.ndim == 0:
+        expected = " or ".join(str(("n", *shape)).replace("'", "") for shape in shapes)
+        raise InputError(f"{name}: an array of shape {array.shape}; expected {expected}")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def indices(name, values):
+    """A C-contiguous int64 array of shape (m, 3); copied only if needed."""
+    array = _numbers(name, values)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InputError(f"{name}: an array of shape {array.shape}; expected (m, 3)")
+    if array.dtype.kind == "f" and not np.array_equal(array, np.trunc(array)):
+        raise InputError(f"{name}: an array of {array.dtype} with fractions or numbers that are not finite")
+    return np.ascontiguousarray(array, dtype=np.int64)
+
+
+def rays(origins, directions):
+    """Rows of an origin and a direction, shape (n, 6); a single one, of shape (3,), is repeated for all of the others."""
+    origins, directions = _numbers("origins", origins), _numbers("directions", directions)
+    for name, array in (("origins", origins), ("directions", directions)):
+        if array.shape[-1:] != (3,) or array.ndim > 2:
+            raise InputError(f"{name}: an array of shape {array.shape}; expected (n, 3) or (3,)")
+    counts = {array.shape[0] for array in (origins, directions) if array.ndim == 2} or {1}
+    if len(counts) > 1:
+        raise InputError(f"origins of shape {origins.shape} and directions of shape {directions.shape}: "
+                         "expected as many of the ones as of the others")
+    both = np.empty((counts.pop(), 6))
+    both[:, :3], both[:, 3:] = origins, directions
+    return both
+
+
+def arrays_of_mesh(mesh):
+    """Vertices and faces of whatever looks like a mesh of trimesh, Open3D or another library; None of anything else."""
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):  # trimesh.Trimesh and many others
+        return mesh.vertices, mesh.faces
+    if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):  # open3d.geometry.TriangleMesh
+        return np.asarray(mesh.vertices), np.asarray(mesh.triangles)
+    if hasattr(mesh, "vertex") and hasattr(mesh, "triangle"):  # open3d.t.geometry.TriangleMesh
+        return mesh.vertex["positions"].cpu().numpy(), mesh.triangle["indices"].cpu().numpy()
+    if isinstance(mesh, tuple) and len(mesh) == 2:
+        return mesh
+    return None

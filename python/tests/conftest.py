@@ -1,0 +1,22 @@
+import numpy as np
+import prohull
+import pytest
+
+
+@pytest.fixture(scope="session")
+def pony():
+    return prohull.sample("pony", 2000)
+
+
+@pytest.fixture(scope="session")
+def hull(pony):
+    return prohull.build(pony, faces_target=300, levels=True)
+
+
+@pytest.fixture
+def cube():
+    """Of side 2 around the origin."""
+    vertices = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    faces = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+                      [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+    return vertices, faces

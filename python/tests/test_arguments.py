@@ -1,0 +1,80 @@
+import numpy as np
+import prohull
+import pytest
+
+
+@pytest.mark.parametrize("dtype", ["f8", ">f8", "f4", "f2", "i1", "i4", ">i2", "i8"])
+@pytest.mark.parametrize("order", ["C", "F", "strided"])
+def test_vertices_of_any_dtype_and_order(cube, dtype, order):
+    vertices, faces = cube
+    given = np.repeat(vertices, 2, axis=0)[::2] if order == "strided" else np.asarray(vertices, order=order)
+    assert np.array_equal(prohull.Mesh(given.astype(dtype, order="K"), faces).vertices, vertices)
+
+
+@pytest.mark.parametrize("dtype", ["i1", "u1", "i4", "u4", ">u4", "i8", "u8", "f4", "f8"])
+def test_faces_of_any_dtype_and_order(cube, dtype):
+    vertices, faces = cube
+    mesh = prohull.Mesh(vertices.tolist(), np.asfortranarray(faces.astype(dtype)))
+    assert mesh.faces.dtype == np.uint32 and np.array_equal(mesh.faces, faces)
+    assert mesh.vertices.dtype == np.float64
+
+
+def test_what_is_given_may_change_afterwards(cube):
+    vertices, faces = cube[0].astype(float), cube[1]
+    mesh = prohull.Mesh(vertices, faces)
+    vertices[:] = 7
+    assert mesh.vertices.max() == 1
+
+
+@pytest.mark.parametrize("vertices, message", [
+    (np.zeros((8, 2)), r"vertices: an array of shape \(8, 2\); expected \(n, 3\)"),
+    (np.zeros(24), r"vertices: an array of shape \(24,\)"),
+    (np.zeros((2, 4, 3)), r"vertices: an array of shape \(2, 4, 3\)"),
+    (1.0, r"vertices: an array of shape \(\)"),
+    (np.zeros((8, 3), complex), "vertices: an array of complex128"),
+    (np.zeros((8, 3), bool), "vertices: an array of bool"),
+    ([["a", "b", "c"]] * 8, "vertices: an array of <U1"),
+])
+def test_wrong_vertices_are_named(cube, vertices, message):
+    with pytest.raises(ValueError, match=message):
+        prohull.build(vertices, cube[1])
+
+
+@pytest.mark.parametrize("faces, message", [
+    (np.zeros((6, 4), int), r"faces: an array of shape \(6, 4\); expected \(m, 3\)"),
+    (np.zeros(12, int), r"faces: an array of shape \(12,\)"),
+    (np.full((1, 3), 0.5), "faces: an array of float64 with fractions"),
+    (np.full((1, 3), np.nan), "faces: an array of float64 with fractions"),
+    ([[0, 1, 2], [0, 1, 8]], r"faces\[1\] names vertex 8, but there are 8 vertices"),
+    ([[0, 1, -1]], r"faces\[0\] names vertex -1"),
+    (np.full((1, 3), 2**64 - 1, np.uint64), r"faces\[0\] names vertex"),
+    (np.full((1, 3), np.inf), r"faces\[0\] names vertex"),
+])
+@pytest.mark.filterwarnings("ignore:invalid value encountered in cast")
+def test_wrong_faces_are_named(cube, faces, message):
+    with pytest.raises(ValueError, match=message):
+        prohull.build(cube[0], faces)
+
+
+def test_empty_and_infinite_meshes_are_refused(cube):
+    with pytest.raises(prohull.InputError):
+        prohull.build(np.zeros((0, 3)), np.zeros((0, 3), int))
+    with pytest.raises(prohull.InputError):
+        prohull.build(np.full((8, 3), np.nan), cube[1])
+
+
+@pytest.mark.parametrize("arguments, message", [
+    (dict(origins=np.zeros((4, 2)), directions=np.zeros((4, 3))), r"origins: an array of shape \(4, 2\)"),
+    (dict(origins=np.zeros((4, 3)), directions=np.zeros((5, 3))), r"\(4, 3\) and directions of shape \(5, 3\)"),
+    (dict(origins=np.zeros((4, 3)), directions=np.zeros((1, 4, 3))), r"directions: an array of shape \(1, 4, 3\)"),
+    (dict(segments=np.zeros((4, 3))), r"segments: an array of shape \(4, 3\); expected \(n, 2, 3\) or \(n, 6\)"),
+    (dict(segments=np.zeros((2, 3, 2))), r"segments: an array of shape \(2, 3, 2\)"),
+    (dict(origins=np.zeros(3)), "either origins and directions, or segments"),
+    (dict(segments=np.zeros((4, 6)), origins=np.zeros(3)), "either origins and directions, or segments"),
+    (dict(origins=[[0, 0, np.nan]], directions=[[0, 0, 1]]), "0"),
+    (dict(segments=np.zeros((1, 6)), engine="magic"), "engine='magic': expected one of auto, bvh"),
+])
+def test_wrong_queries_are_named(cube, arguments, message):
+    for ask in (prohull.Mesh(*cube).first_hit, prohull.Mesh(*cube).any_hit, prohull.Mesh(*cube).all_hits):
+        with pytest.raises(ValueError, match=message):
+            ask(**arguments)

@@ -1,0 +1,185 @@
+import inspect
+import math
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import prohull
+import pytest
+
+
+def test_a_hull_is_certified_and_says_how_it_came_about(pony):
+    hull = prohull.build(pony.vertices, pony.faces, faces_target=500)
+    assert hull.certified and hull.reached and hull.bounded
+    assert len(hull.faces) == 500
+    assert hull.side == "outer" and hull.proof == "replay" and hull.faces_target == 500
+    assert 0 < hull.void_ratio == hull.volume / pony.volume - 1
+    assert sum(hull.refused.values()) > 0 and set(hull.refused) <= {
+        "link_condition", "valence", "no_room_outside", "certificate", "compactness", "normal_deviation",
+        "self_intersection"}
+    assert hull.self_intersections == 0
+    assert prohull.verify(hull, pony)
+
+
+def test_several_budgets_give_a_list(pony):
+    fine, coarse = prohull.build(pony, faces_target=[800, 400])
+    assert (len(fine.faces), len(coarse.faces)) == (800, 400)
+    assert fine.original.vertices.ctypes.data == coarse.original.vertices.ctypes.data, "one original for both"
+    assert isinstance(prohull.build(pony, faces_target=(800,)), list)
+    assert isinstance(prohull.build(pony, faces_target=np.int32(800)), prohull.Hull)
+
+
+def test_distance_bound_holds_and_bounds_are_kept(pony):
+    hull = prohull.build(pony, faces_target=500)
+    lower, upper = prohull.distance_bounds(hull, pony)
+    assert 0 < lower <= upper == hull.distance_bound <= 1.01 * lower
+    near = prohull.build(pony, faces_target=500, max_distance=upper / 4)
+    assert near.bounded and near.distance_bound <= upper / 4 and len(near.faces) > 500
+
+
+def test_inner_hulls_are_enclosed(pony):
+    inner = prohull.build(pony, faces_target=500, side="inner")
+    assert inner.certified and inner.side == "inner" and inner.void_ratio < 0
+    assert prohull.verify(inner, pony)
+    assert prohull.verify(inner.level(1000), pony, side="inner")
+    assert not prohull.verify(inner, pony, side="outer")
+
+
+def test_tight_hulls_have_less_void_and_no_levels(pony):
+    tight = prohull.build(pony, faces_target=500, tight=True)
+    assert tight.certified and tight.void_ratio < prohull.build(pony, faces_target=500).void_ratio
+    assert len(tight.levels) == 0
+    with pytest.raises(prohull.InputError, match="no levels"):
+        tight.level(600)
+
+
+def test_levels_are_nested_views(hull, pony):
+    assert hull.levels == range(300, len(pony.faces) + 1, 2)
+    level = hull.level(1000)
+    assert len(level.faces) == 1000
+    assert prohull.verify(hull, level) and prohull.verify(level, pony)
+    for array in (level.vertices, level.faces):
+        assert not array.flags.writeable and not array.flags.owndata and array.flags.c_contiguous
+    assert level.vertices.ctypes.data == level.vertices.ctypes.data, "no copy on each access"
+    vertices = hull.level(1000).vertices
+    assert np.array_equal(vertices, level.vertices), "a view keeps alive what it shows"
+    finest = hull.level(len(pony.faces))
+    assert np.array_equal(finest.vertices[finest.faces], pony.vertices[pony.faces])
+
+
+def test_what_is_not_closed_is_wrapped_or_refused(cube):
+    vertices, faces = cube
+    lidless = faces[2:]
+    with pytest.raises(prohull.InputError, match="edge"):
+        prohull.build(vertices, lidless, repair="none")
+    try:
+        hull = prohull.build(vertices, lidless, faces_target=200, seal_holes=1)
+    except prohull.InputError as error:
+        assert "cannot wrap" in str(error)
+        return
+    assert hull.certified and hull.proof == "coverage" and hull.wrap_alpha > 0
+    assert math.isnan(hull.void_ratio) and hull.distance_bound > 0 and len(hull.levels) == 0
+    assert len(hull.original.faces) == len(lidless)
+    assert prohull.verify(hull, (vertices, lidless))
+
+
+def test_repairs_are_told(cube):
+    vertices, faces = cube
+    hull = prohull.build(vertices[faces].reshape(-1, 3), np.arange(36).reshape(12, 3), faces_target=12)
+    assert hull.certified and hull.repairs == ["welded 28 vertices at equal positions"]
+
+
+def test_triangles_that_are_not_finite_are_dropped(tmp_path, cube):
+    vertices, faces = np.vstack([cube[0], [[np.nan, 0, 0]]]), np.vstack([cube[1], [[0, 1, 8]]])
+    (tmp_path / "cube.off").write_text("OFF\n9 13 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in vertices) +
+                                       "".join(f"3 {a} {b} {c}\n" for a, b, c in faces))
+    for given in (tmp_path / "cube.off", (vertices, faces)):
+        hull = prohull.build(given, faces_target=12)
+        assert hull.certified and len(hull.original.faces) == 12 and "dropped 1 face" in hull.repairs[0]
+    with pytest.raises(prohull.InputError, match="cube.off"):
+        prohull.read(tmp_path / "cube.off")
+
+
+def test_files(tmp_path, pony, hull):
+    hull.save(tmp_path / "pony.phull")
+    loaded = prohull.load(str(tmp_path / "pony.phull"))
+    assert loaded.certified and loaded.levels == hull.levels and loaded.self_intersections == 0
+    assert np.array_equal(loaded.vertices, hull.vertices) and np.array_equal(loaded.faces, hull.faces)
+    assert loaded.void_ratio == hull.void_ratio
+    assert prohull.verify(tmp_path / "pony.phull", pony)
+
+    pony.save(tmp_path / "pony.ply")
+    assert np.array_equal(prohull.read(tmp_path / "pony.ply").vertices, pony.vertices)
+    with pytest.raises(prohull.InputError, match="float32"):
+        hull.save(tmp_path / "hull.stl")
+    prohull.build(str(tmp_path / "pony.ply"), faces_target=500, float32=True).save(tmp_path / "hull.stl")
+    assert prohull.verify(tmp_path / "hull.stl", tmp_path / "pony.ply")
+
+
+def test_verify_names_offenders(pony):
+    smaller = prohull.Mesh(0.9 * pony.vertices, pony.faces)
+    report = prohull.verify(smaller, pony)
+    assert not report and not report.encloses and report.faces_outside > 0
+    face, point, distance = report.worst[0]
+    assert distance > 0 and point.shape == (3,) and face < len(pony.faces)
+
+
+def test_pickled_hulls_are_the_same(hull, pony):
+    copy = pickle.loads(pickle.dumps(hull, protocol=5))
+    assert repr(copy) == repr(hull) and copy.certified and copy.levels == hull.levels
+    assert np.array_equal(copy.vertices, hull.vertices) and np.array_equal(copy.level(900).faces, hull.level(900).faces)
+    assert copy.original.first_hit([0, 0, 9], [0, 0, -1], engine="refinement").hit[0] == \
+        hull.original.first_hit([0, 0, 9], [0, 0, -1]).hit[0]
+    tight = prohull.build(pony, faces_target=1000, tight=True)
+    assert np.array_equal(pickle.loads(pickle.dumps(tight)).vertices, tight.vertices)
+    with pytest.raises(prohull.InputError, match="hello"):
+        raise pickle.loads(pickle.dumps(prohull.InputError("hello")))
+
+
+def test_threads_do_not_change_hulls(pony):
+    one, two = (prohull.build(pony, faces_target=400, threads=threads) for threads in (1, 2))
+    assert np.array_equal(one.vertices, two.vertices) and np.array_equal(one.faces, two.faces)
+
+
+def test_defaults_are_those_of_the_library(pony):
+    """Giving none of the options is giving their documented defaults."""
+    defaults = {name: p.default for name, p in inspect.signature(prohull.build).parameters.items()
+                if p.kind is p.KEYWORD_ONLY}
+    assert defaults.pop("faces_target") == 2000
+    assert np.array_equal(prohull.build(pony, faces_target=500, **defaults).vertices,
+                          prohull.build(pony, faces_target=500).vertices)
+
+
+@pytest.mark.parametrize("options, message", [
+    ({"side": "outter"}, "side='outter': expected one of outer, inner"),
+    ({"repair": "magic"}, "repair='magic': expected one of auto, none, wrap"),
+    ({"strategy": None}, "strategy=None: expected one of lazy"),
+    ({"faces_target": 3}, "faces_target=3"),
+    ({"faces_target": []}, "faces_target=\\[\\]"),
+    ({"faces_target": 2.5}, "faces_target=2.5"),
+    ({"threads": -1}, "threads=-1: expected a whole number"),
+    ({"best_of": "many"}, "best_of='many': expected a whole number"),
+    ({"max_distance": -1.0}, "max_distance=-1.0: expected a number, at least 0"),
+    ({"max_void": "small"}, "max_void='small': expected a number"),
+    ({"min_compactness_ratio": 2.0}, "compactness"),
+])
+def test_bad_options_are_named(cube, options, message):
+    with pytest.raises(ValueError, match=message):
+        prohull.build(*cube, **options)
+
+
+def test_unknown_samples_and_files_are_refused(tmp_path):
+    with pytest.raises(prohull.InputError, match="unicorn"):
+        prohull.sample("unicorn", 100)
+    with pytest.raises(prohull.InputError, match="none.stl"):
+        prohull.build(tmp_path / "none.stl")
+    (tmp_path / "open.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    with pytest.raises(prohull.InputError, match="open.off: "):
+        prohull.build(tmp_path / "open.off", repair="none")
+
+
+def test_the_package_needs_nothing_but_numpy():
+    code = ("import sys, prohull; "
+            "print([m for m in ('trimesh', 'open3d', 'matplotlib', 'pytest') if m in sys.modules], prohull.__all__)")
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.startswith("[]")

@@ -1,0 +1,59 @@
+"""What readers can copy runs."""
+
+import doctest
+import pathlib
+import re
+import subprocess
+import sys
+
+import prohull
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "python" / "examples"
+
+
+def run(name, *arguments):
+    return subprocess.run([sys.executable, str(EXAMPLES / name), *map(str, arguments)], text=True, check=True,
+                          stdout=subprocess.PIPE).stdout
+
+
+def test_snippets(tmp_path, monkeypatch, capsys):
+    """One after the other, as one program."""
+    snippets = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / "python.md").read_text(), re.MULTILINE | re.DOTALL)
+    assert len(snippets) >= 7
+    monkeypatch.chdir(tmp_path)
+    exec("\n".join(snippets), {})
+    printed = capsys.readouterr().out
+    assert "<prohull.Hull: outer, 200 faces, certified>" in printed
+    assert "vertices: an array of shape (8, 2); expected (n, 3)" in printed
+
+
+def test_docstring():
+    assert doctest.testmod(prohull).failed == 0 < doctest.testmod(prohull).attempted
+
+
+def test_collision_mesh(tmp_path):
+    prohull.sample("bracket", 2000).save(tmp_path / "part.ply")
+    assert "200 faces, void" in run("collision_mesh.py", tmp_path / "part.ply", tmp_path / "hull.stl")
+    assert prohull.verify(tmp_path / "hull.stl", tmp_path / "part.ply")
+
+
+def test_batch(tmp_path):
+    for name in ("torus", "sphere"):
+        prohull.sample(name, 1000).save(tmp_path / f"{name}.off")
+    (tmp_path / "bad.stl").write_text("nothing")
+    printed = run("batch.py", tmp_path, tmp_path / "out", 300)
+    assert [line.split()[0] for line in printed.splitlines()] == ["REFUSED", "ok", "ok"]
+    assert prohull.verify(tmp_path / "out" / "torus.off.stl", tmp_path / "torus.off")
+
+
+def test_levels_and_rays():
+    assert run("levels_and_rays.py").count("hit") == 4
+
+
+def test_void_plot(tmp_path):
+    pytest.importorskip("matplotlib")
+    prohull.sample("torus", 800).save(tmp_path / "torus.ply")
+    run("void_plot.py", tmp_path / "void.png", tmp_path / "torus.ply")
+    assert (tmp_path / "void.png").read_bytes().startswith(b"\x89PNG")

@@ -1,0 +1,88 @@
+import numpy as np
+import prohull
+import pytest
+
+
+@pytest.fixture(scope="module")
+def rays():
+    """Of which some miss; towards points around the origin."""
+    random = np.random.default_rng(1)
+    origins = random.normal(size=(400, 3)) * 3
+    return origins, 0.4 * random.normal(size=(400, 3)) - origins
+
+
+def test_first_hits_of_a_cube(cube):
+    mesh = prohull.Mesh(*cube)
+    hits = mesh.first_hit([[0.2, 0.1, 5], [0.2, 0.1, 0], [5, 5, 5]], [0, 0, -2])
+    assert hits.hit.tolist() == [True, True, False]
+    assert hits.t[:2].tolist() == [2, 0.5] and np.isnan(hits.t[2])
+    assert hits.position[:2].tolist() == [[0.2, 0.1, 1], [0.2, 0.1, -1]] and np.isnan(hits.position[2]).all()
+    assert hits.entering.tolist() == [True, False, False]
+    assert hits.face[0] in (10, 11) and hits.face[1] in (8, 9) and hits.face[2] == -1
+    assert [a.dtype for a in hits] == [np.int64, np.float64, np.float64, np.bool_]
+
+
+def test_segments_end(cube):
+    mesh = prohull.Mesh(*cube)
+    segments = np.array([[[0.2, 0.1, 5], [0.2, 0.1, 3]], [[0.2, 0.1, 5], [0.2, 0.1, -3]]], dtype=np.float32)
+    for given in (segments, segments.reshape(-1, 6), np.asfortranarray(segments), segments.tolist()):
+        hits = mesh.first_hit(segments=given)
+        assert hits.hit.tolist() == [False, True] and hits.t[1] == 0.5
+        assert mesh.any_hit(segments=given).tolist() == [False, True]
+    hits = mesh.all_hits(segments=segments)
+    assert hits.offsets.tolist() == [0, 0, 2] and hits.entering.tolist() == [True, False]
+    assert hits.query.tolist() == [1, 1] and hits.t.tolist() == [0.5, 0.75]
+
+
+def test_no_queries_give_no_hits(cube):
+    mesh = prohull.Mesh(*cube)
+    assert mesh.first_hit(np.zeros((0, 3)), np.zeros((0, 3))).position.shape == (0, 3)
+    assert mesh.any_hit(segments=np.zeros((0, 6))).shape == (0,)
+    assert mesh.all_hits(np.zeros((0, 3)), [0, 0, 1]).offsets.tolist() == [0]
+    assert mesh.contains(np.zeros((0, 3))).shape == (0,)
+
+
+@pytest.mark.parametrize("engine", [e for e in prohull.ENGINES if e != "paper-refinement"])
+def test_every_engine_gives_the_same_answers(hull, rays, engine):
+    mesh = hull.original
+    hits, expected = mesh.all_hits(*rays, engine=engine), mesh.all_hits(*rays)
+    for ours, theirs in zip(hits, expected):
+        assert np.array_equal(ours, theirs)
+    assert 0 < len(expected.face) and np.array_equal(mesh.any_hit(*rays, engine=engine), np.diff(hits.offsets) > 0)
+    first = mesh.first_hit(*rays, engine=engine, threads=1)
+    assert np.array_equal(first.t[first.hit], hits.t[hits.offsets[:-1][first.hit]])
+
+
+def test_refinement_options(hull, rays):
+    expected = hull.original.first_hit(*rays)
+    for engine in (prohull.Refinement(coarsen=True), prohull.Refinement(queries_per_roll_back=50),
+                   prohull.Refinement(paper=True), "paper-refinement"):
+        assert np.array_equal(hull.original.first_hit(*rays, engine=engine).face, expected.face)
+    with pytest.raises(prohull.InputError):
+        hull.original.first_hit(*rays, engine=prohull.Refinement(queries_per_roll_back=0))
+    with pytest.raises(prohull.InputError, match="original"):
+        hull.first_hit(*rays, engine="refinement")
+
+
+def test_what_a_hull_misses_the_mesh_misses(hull, pony, rays):
+    assert not (pony.any_hit(*rays) & ~hull.any_hit(*rays)).any()
+    assert hull.any_hit(*rays).sum() > pony.any_hit(*rays).sum() > 0
+
+
+def test_contains(cube, hull, pony):
+    mesh = prohull.Mesh(*cube)
+    assert mesh.contains([[0, 0, 0], [0.99, 0.99, -0.99], [1.01, 0, 0], [-7, 0, 0]]).tolist() == [True, True, False, False]
+    assert not prohull.Mesh(cube[0], cube[1][:, ::-1]).contains([[0, 0, 0]]).any(), "inside out"
+    points = np.random.default_rng(2).uniform(pony.vertices.min(0), pony.vertices.max(0), (3000, 3))
+    inside, inside_hull = pony.contains(points), hull.contains(points)
+    assert not (inside & ~inside_hull).any() and 0 < inside.sum() < inside_hull.sum() < len(points)
+    with pytest.raises(prohull.InputError, match="not closed"):
+        prohull.Mesh(cube[0], cube[1][1:]).contains([[0, 0, 0]])
+    with pytest.raises(prohull.InputError, match=r"points: an array of shape \(3,\)"):
+        mesh.contains([0, 0, 0])
+
+
+def test_faces_met(cube):
+    mesh = prohull.Mesh(*cube)
+    met = mesh.faces_met([[[0, 0.5, 0], [0, 0.6, 5], [0.1, 0.5, 5]], [[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]]])
+    assert met.offsets.tolist() == [0, 1, 1] and met.face[0] in (10, 11)
