@@ -1,5 +1,4 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/alpha_wrap_3.h>
 #include <CGAL/convex_hull_3.h>
 
 #include <cmath>
@@ -7,6 +6,7 @@
 
 #include "machine.h"
 #include "peers.h"
+#include "prohull/wrap.h"
 #include "surface_mesh.h"
 
 namespace prohull::bench {
@@ -22,35 +22,23 @@ std::vector<Point> points_of(const TriangleMesh& mesh) {
   return points;
 }
 
-class Wrapping {
- public:
-  explicit Wrapping(const TriangleMesh& mesh) : points_(points_of(mesh)) {
-    for (const auto& t : mesh.triangles) faces_.push_back({index(t[0]), index(t[1]), index(t[2])});
-  }
-
-  PeerRun wrap(double alpha) const {
-    SurfaceMesh surface;
-    const double seconds = seconds_of([&] { CGAL::alpha_wrap_3(points_, faces_, alpha, alpha / 30, surface); });
-    return {seconds, triangle_mesh(surface)};
-  }
-
- private:
-  std::vector<Point> points_;
-  std::vector<std::array<std::size_t, 3>> faces_;
-};
+PeerRun wrapped(const TriangleMesh& mesh, double alpha) {
+  PeerRun run{};
+  run.seconds = seconds_of([&] { run.mesh = alpha_wrap(mesh, alpha, alpha / 30); });
+  return run;
+}
 
 }  // namespace
 
 std::optional<PeerRun> run_alpha_wrap(const TriangleMesh& mesh, std::size_t faces) {
   constexpr int kMaxWraps = 16;
-  const Wrapping wrapping(mesh);
   const Box box = bounding_box(mesh);
   double coarse = box.diagonal(), fine = 0;  // an alpha that keeps to the faces, and one that does not
-  PeerRun best = wrapping.wrap(coarse);
+  PeerRun best = wrapped(mesh, coarse);
   const auto is_full = [&] { return 100 * best.mesh.face_count() >= 98 * faces; };
   for (int wraps = 1; wraps < kMaxWraps && !is_full(); ++wraps) {
     const double alpha = fine > 0 ? std::sqrt(fine * coarse) : coarse / 2;
-    PeerRun run = wrapping.wrap(alpha);
+    PeerRun run = wrapped(mesh, alpha);
     if (run.mesh.face_count() > faces) {
       fine = alpha;
       continue;
