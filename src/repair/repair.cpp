@@ -67,9 +67,9 @@ void drop_nested(ClosedMesh& closed) {
   if (closed.repairs.dropped_components > 0) closed.report = inspect(closed.mesh);
 }
 
-// The triangles of `mesh` that `other` has not, in either orientation.
+// The triangles of `mesh` that `other`, which has no others, has not, in either orientation.
 TriangleMesh without(const TriangleMesh& mesh, const TriangleMesh& other) {
-  if (mesh == other) return {};
+  if (mesh.face_count() == other.face_count()) return {};
   using Corner = std::array<double, 3>;
   const auto corners = [](const TriangleMesh& m, FaceId f) {
     const Triangle t = m.triangle(f);
