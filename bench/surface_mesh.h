@@ -1,8 +1,9 @@
 #pragma once
 
-#include <CGAL/Surface_mesh.h>
+#include <utility>
 
 #include "prohull/triangle_mesh.h"
+#include "wrap/surface_mesh.h"
 
 namespace prohull::bench {
 
@@ -21,18 +22,7 @@ CGAL::Surface_mesh<Point> surface_mesh(const TriangleMesh& mesh) {
 template <class Point>
 TriangleMesh triangle_mesh(CGAL::Surface_mesh<Point>& surface) {
   surface.collect_garbage();
-  TriangleMesh mesh;
-  for (const auto v : surface.vertices()) {
-    const Point& p = surface.point(v);
-    mesh.positions.push_back({p.x(), p.y(), p.z()});
-  }
-  for (const auto f : surface.faces()) {
-    std::array<VertexId, 3> corners;
-    std::size_t i = 0;
-    for (const auto v : surface.vertices_around_face(surface.halfedge(f))) corners.at(i++) = VertexId(v.idx());
-    mesh.triangles.push_back(corners);
-  }
-  return mesh;
+  return prohull::triangle_mesh(std::as_const(surface));
 }
 
 }  // namespace prohull::bench

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "build_summary.h"
@@ -154,12 +153,9 @@ void measure(BuildOutcome& outcome) {
 }
 
 void check_sides(const BuildOptions& options) {
-  if (options.is_outer()) return;
-  if (options.allow_self_intersections)
+  if (options.allow_self_intersections && !options.is_outer())
     throw InputError(Defect::InvalidOption,
                      "--allow-self-intersections: not of an inner hull, it could stick out of the mesh");
-  if (options.enclosing.repair == Repair::Wrap || options.enclosing.seal_holes > 0)
-    throw InputError(Defect::InvalidOption, "--side inner: nothing is known to be inside of a wrap; leave it out");
 }
 
 int run_build(BuildOptions options) {
@@ -180,7 +176,6 @@ int run_build(BuildOptions options) {
   Stopwatch reading;
   const TriangleMesh mesh = read_input(options.in, NonFinite::Keep);
   outcome.read_seconds = reading.seconds();
-  outcome.input = inspect(mesh);
   outcome.made = build(mesh, options);
   for (EnclosingHull& made : outcome.made.hulls) outcome.written.push_back(write_certified(std::move(made), options));
   measure(outcome);

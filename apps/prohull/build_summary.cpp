@@ -8,10 +8,6 @@
 namespace prohull::cli {
 namespace {
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
-}
-
 bool was_wrapped(const BuildOutcome& outcome, const EnclosingHull& hull) { return outcome.solid(hull).alpha > 0; }
 
 // A wrap has a volume of its own, but that of the triangles in it is not known.
@@ -32,8 +28,8 @@ std::string described_self_intersections(const BuildOutcome& outcome, const Encl
 }
 
 void print_input(const BuildOptions& options, const BuildOutcome& outcome) {
-  fmt::print("{}: {}, {}\n", options.in.string(), counted(outcome.input.faces, "face", "faces"),
-             counted(outcome.input.components, "component", "components"));
+  fmt::print("{}: {}, {}\n", options.in.string(), counted(outcome.made.input.found.faces, "face", "faces"),
+             counted(outcome.made.input.found.components, "component", "components"));
   for (const std::string& repair : describe(outcome.made.input.repairs)) fmt::print("  {}\n", repair);
   if (!outcome.made.input.closed) fmt::print("  not closed: {}\n", outcome.made.input.obstacle);
   for (const std::string& note : outcome.made.notes) fmt::print("  {}\n", note);
@@ -172,7 +168,7 @@ void print_summary(const BuildOptions& options, const BuildOutcome& outcome) {
 }
 
 nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcome) {
-  nlohmann::json in = facts(outcome.input);
+  nlohmann::json in = facts(outcome.made.input.found);
   in["path"] = options.in.string();
   in["repair"] = repair_of(outcome);
   in["repairs"] = describe(outcome.made.input.repairs);

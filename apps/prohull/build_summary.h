@@ -32,7 +32,6 @@ struct Written {
 };
 
 struct BuildOutcome {
-  MeshReport input;  ///< of the file as read
   EnclosingHulls made;
   std::size_t input_self_intersections = 0;
   std::vector<Written> written;

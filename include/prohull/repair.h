@@ -33,7 +33,8 @@ std::vector<std::string> describe(const Repairs& repairs);
 struct ClosedMesh {
   TriangleMesh mesh;
   Repairs repairs;
-  MeshReport report;  ///< of `mesh`
+  MeshReport report;      ///< of `mesh`
+  MeshReport found = {};  ///< of the mesh as it came to closed_mesh
 };
 
 /// The mesh that hulls are built from: a closed 2-manifold of any number of components and any genus, outwards
@@ -53,6 +54,7 @@ struct RepairedMesh {
   TriangleMesh dropped;
   Repairs repairs;       ///< all of them; up to where it failed if `closed` is empty
   std::string obstacle;  ///< the first defect that was left if `closed` is empty
+  MeshReport found;      ///< of the input as it came
 };
 
 /// Makes of any triangles a mesh as of closed_mesh, if that takes no new faces. Beyond what closed_mesh does, it drops

@@ -16,4 +16,9 @@ inline std::string grouped(std::size_t number) {
   return text;
 }
 
+/// "1 face", "2,100 faces"
+inline std::string counted(std::size_t number, const char* one, const char* many) {
+  return grouped(number) + ' ' + (number == 1 ? one : many);
+}
+
 }  // namespace prohull

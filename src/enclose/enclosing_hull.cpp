@@ -55,6 +55,7 @@ class Ladder {
       : options_(options), target_faces_(target_faces), fewest_faces_(std::ranges::min(target_faces)) {
     Timer timer(made_.repair_seconds);
     made_.input = repaired(std::move(triangles));
+    diagonal_ = bounding_box(made_.input.original).diagonal();
   }
 
   EnclosingHulls climb() {
@@ -112,6 +113,7 @@ class Ladder {
   const std::span<const std::size_t> target_faces_;
   const std::size_t fewest_faces_;
   EnclosingHulls made_;
+  double diagonal_;                                ///< of the input
   std::vector<std::optional<HullResult>> levels_;  ///< of each solid, down to fewest_faces_
   std::size_t next_rung_ = 0;
 };
@@ -120,20 +122,19 @@ RepairedMesh Ladder::repaired(TriangleMesh triangles) const {
   go_on("repair", 0);
   if (options_.repair == Repair::None) {
     ClosedMesh closed = closed_mesh(std::move(triangles));
-    RepairedMesh result{closed.mesh, std::nullopt, {}, closed.repairs, {}};
+    RepairedMesh result{closed.mesh, std::nullopt, {}, closed.repairs, {}, closed.found};
     result.closed = std::move(closed);
     return result;
   }
   RepairedMesh result = repaired_mesh(std::move(triangles), options_.keep_cavities || !is_outer());
   if (result.closed && options_.repair != Repair::Wrap) return result;
-  if (!is_outer())
-    throw InputError(Defect::OpenEdge,
-                     fmt::format("{}; there is no inner hull of what is not closed", result.obstacle));
+  const std::string why = result.closed ? "" : result.obstacle + "; ";
+  if (!is_outer()) throw InputError(Defect::OpenEdge, why + "there is no inner hull of what is not closed");
   if (!options_.wrap)
     throw InputError(Defect::OpenEdge,
-                     fmt::format("{}; this build cannot wrap what is not closed: build prohull where CGAL's alpha wrap "
-                                 "is installed (libcgal-dev), with PROHULL_WRAP=ON",
-                                 result.obstacle));
+                     why +
+                         "this build cannot wrap what is not closed: build prohull where CGAL's alpha wrap is "
+                         "installed (libcgal-dev), with PROHULL_WRAP=ON");
   return result;
 }
 
@@ -145,8 +146,7 @@ void Ladder::make_solid(std::size_t rung) {
     made_.solids.push_back({closed.mesh, 0, closed.report.volume, count_self_intersections(closed.mesh)});
     return;
   }
-  const double diagonal = bounding_box(made_.input.original).diagonal();
-  const double alpha = std::max(kWrapAlphas[rung - 1] * diagonal, options_.seal_holes / 2);
+  const double alpha = std::max(kWrapAlphas[rung - 1] * diagonal_, options_.seal_holes / 2);
   if (made_.solids.empty() || made_.solids.back().alpha < alpha) add_wrap(alpha);
 }
 
@@ -172,7 +172,7 @@ void Ladder::add_wrap(double alpha) {
   Timer timer(made_.repair_seconds);
   go_on("wrap", 0);
   const bool is_first = made_.solids.empty() || made_.solids.back().alpha == 0;
-  const double offset = kWrapOffset * bounding_box(made_.input.original).diagonal();
+  const double offset = kWrapOffset * diagonal_;
   TriangleMesh wrap = options_.wrap(to_be_wrapped(offset), alpha, offset, [this] { return progress("wrap", 0); });
   if (options_.hull.float32_coordinates)  // the offset is far greater than what that moves them
     for (Vec3& p : wrap.positions) p = nearest_float32(p);
@@ -355,9 +355,8 @@ void Ladder::note_open_shell(const Solid& wrap) {
     doubled_area += norm(cross(t.b - t.a, t.c - t.a));
   }
   const double thickness = 4 * wrap.volume / doubled_area;
-  const double offset = kWrapOffset * bounding_box(made_.input.original).diagonal();
   constexpr double kSheet = 3;  // offsets
-  if (thickness < kSheet * offset)
+  if (thickness < kSheet * kWrapOffset * diagonal_)
     note(
         fmt::format("the wrap is a sheet, {:.4g} thick on average: it went in through openings; --seal-holes D closes "
                     "those up to D across",
@@ -393,6 +392,8 @@ void Ladder::note_why_not(const EnclosingHull& hull) {
 EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size_t> target_faces,
                                const EnclosingOptions& options) {
   if (target_faces.empty()) throw InputError(Defect::InvalidOption, "no number of faces was asked for");
+  if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
+    throw InputError(Defect::InvalidOption, "nothing is known to be inside of a wrap: inner hulls do without");
   return Ladder(std::move(triangles), target_faces, options).climb();
 }
 

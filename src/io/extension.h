@@ -13,4 +13,9 @@ inline std::string lower_case_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+/// "dir/arm.dae.gz" -> "dir/arm.dae"
+inline std::filesystem::path without_gz(std::filesystem::path path) {
+  return lower_case_extension(path) == ".gz" ? path.replace_extension() : path;
+}
+
 }  // namespace prohull

@@ -52,11 +52,6 @@ std::optional<std::filesystem::path> importer() {
   return {};
 }
 
-/// "arm.dae.gz" -> "arm.dae"
-std::filesystem::path without_gz(std::filesystem::path file) {
-  return lower_case_extension(file) == ".gz" ? file.replace_extension() : file;
-}
-
 /// "arm.dae" -> "DAE"
 std::string upper_case_format(const std::filesystem::path& file) {
   std::string name = lower_case_extension(without_gz(file)).substr(1);

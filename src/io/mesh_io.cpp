@@ -42,11 +42,6 @@ const FormatTraits& traits(MeshFormat format) {
   return *std::find_if(kFormats.begin(), kFormats.end(), [&](const FormatTraits& t) { return t.format == format; });
 }
 
-/// "a.ply.gz" -> "a.ply"
-std::filesystem::path without_gz(const std::filesystem::path& path) {
-  return lower_case_extension(path) == ".gz" ? path.stem() : path;
-}
-
 const FormatTraits* named_format(const std::filesystem::path& path) {
   const std::string extension = lower_case_extension(without_gz(path));
   const auto found =

@@ -50,7 +50,6 @@ void face_outwards(ClosedMesh& closed) {
 
 // One step after another, until the mesh is closed.
 void close(ClosedMesh& closed) {
-  closed.report = inspect(closed.mesh);
   if (closed.report.is_closed_manifold()) return;
   weld(closed.mesh, closed.repairs);
   closed.report = inspect(closed.mesh);
@@ -92,7 +91,7 @@ TriangleMesh without(const TriangleMesh& mesh, const TriangleMesh& other) {
 std::vector<std::string> describe(const Repairs& repairs) {
   std::vector<std::string> phrases;
   const auto say = [&](std::size_t count, const char* before, const char* one, const char* many) {
-    if (count > 0) phrases.push_back(fmt::format("{} {} {}", before, grouped(count), count == 1 ? one : many));
+    if (count > 0) phrases.push_back(fmt::format("{} {}", before, counted(count, one, many)));
   };
   say(repairs.dropped_non_finite_faces, "dropped", "face with a corner that is not finite",
       "faces with a corner that is not finite");
@@ -103,12 +102,12 @@ std::vector<std::string> describe(const Repairs& repairs) {
       "faces that disagreed with their neighbours");
   say(repairs.split_vertices, "split", "vertex in which two parts met", "vertices in which parts met");
   if (repairs.turned_components > 0)
-    phrases.push_back(fmt::format("turned {} component{} that {} inside out ({} faces)",
-                                  grouped(repairs.turned_components), repairs.turned_components == 1 ? "" : "s",
-                                  repairs.turned_components == 1 ? "was" : "were", grouped(repairs.turned_faces)));
+    phrases.push_back(fmt::format("turned {} inside out ({} faces)",
+                                  counted(repairs.turned_components, "component that was", "components that were"),
+                                  grouped(repairs.turned_faces)));
   if (repairs.dropped_components > 0)
-    phrases.push_back(fmt::format("dropped {} component{} inside of others ({} faces)",
-                                  grouped(repairs.dropped_components), repairs.dropped_components == 1 ? "" : "s",
+    phrases.push_back(fmt::format("dropped {} inside of others ({} faces)",
+                                  counted(repairs.dropped_components, "component", "components"),
                                   grouped(repairs.dropped_component_faces)));
   return phrases;
 }
@@ -116,7 +115,7 @@ std::vector<std::string> describe(const Repairs& repairs) {
 ClosedMesh closed_mesh(TriangleMesh mesh) {
   require_faces(mesh);
   ClosedMesh closed{std::move(mesh), {}, {}};
-  closed.report = inspect(closed.mesh);
+  closed.report = closed.found = inspect(closed.mesh);
   if (!closed.report.is_closed_manifold() && closed.report.non_finite_vertices == 0) {
     weld(closed.mesh, closed.repairs);
     closed.report = inspect(closed.mesh);
@@ -136,12 +135,16 @@ ClosedMesh closed_mesh(TriangleMesh mesh) {
 RepairedMesh repaired_mesh(TriangleMesh mesh, bool keep_cavities) {
   require_faces(mesh);
   RepairedMesh result;
-  result.repairs.dropped_non_finite_faces = drop_non_finite_faces(mesh);
-  if (mesh.face_count() == 0)
-    throw InputError(Defect::NonFiniteCoordinate, "no face has finite corners: nothing to enclose");
-  require_usable_size(bounding_box(mesh));
+  MeshReport report = result.found = inspect(mesh);
+  if (report.non_finite_vertices > 0) {
+    result.repairs.dropped_non_finite_faces = drop_non_finite_faces(mesh);
+    if (mesh.face_count() == 0)
+      throw InputError(Defect::NonFiniteCoordinate, "no face has finite corners: nothing to enclose");
+    report = inspect(mesh);
+  }
+  require_usable_size(report.box);
   result.original = std::move(mesh);
-  ClosedMesh closed{result.original, result.repairs, {}};
+  ClosedMesh closed{result.original, result.repairs, std::move(report)};
   try {
     close(closed);
     face_outwards(closed);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -12,6 +11,7 @@
 #include "geometry/orientation.h"
 #include "geometry/triangle_intersection.h"
 #include "geometry/winding_number.h"
+#include "mesh/disjoint_sets.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -32,23 +32,15 @@ std::size_t keep_faces(TriangleMesh& mesh, Stays stays) {
 
 // The connected component of every face, numbered from 0.
 std::vector<std::uint32_t> component_of_faces(const TriangleMesh& mesh) {
-  PerVertex<VertexId> parent;
-  for (const VertexId v : mesh.positions.ids()) parent.push_back(v);
-  const auto find = [&](VertexId v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets connected(mesh.vertex_count());
   for (const auto& t : mesh.triangles)
-    for (const VertexId v : {t[1], t[2]}) {
-      const VertexId a = find(t[0]), b = find(v);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (const VertexId v : {t[1], t[2]}) connected.join(index(t[0]), index(v));
   constexpr std::uint32_t kNone = 0xffffffff;
-  PerVertex<std::uint32_t> number(mesh.vertex_count(), kNone);
+  std::vector<std::uint32_t> number(mesh.vertex_count(), kNone);
   std::uint32_t count = 0;
   std::vector<std::uint32_t> component;
   for (const auto& t : mesh.triangles) {
-    std::uint32_t& known = number[find(t[0])];
+    std::uint32_t& known = number[connected.find(index(t[0]))];
     if (known == kNone) known = count++;
     component.push_back(known);
   }
@@ -210,25 +202,17 @@ void turn_single_faces(TriangleMesh& mesh, Repairs& repairs) {
 }
 
 void split_vertices(TriangleMesh& mesh, Repairs& repairs) {
-  std::vector<std::uint32_t> fan(3 * mesh.face_count());
-  std::iota(fan.begin(), fan.end(), 0u);
-  const auto find = [&](std::uint32_t c) {
-    while (fan[c] != c) c = fan[c] = fan[fan[c]];
-    return c;
-  };
+  const auto corners = static_cast<std::uint32_t>(3 * mesh.face_count());
+  DisjointSets fans(corners);
   const auto vertex = [&](std::uint32_t c) { return mesh.triangles[FaceId(c / 3)][c % 3]; };
   const auto next = [](std::uint32_t c) { return c % 3 == 2 ? c - 2 : c + 1; };
-  const auto join = [&](std::uint32_t c, std::uint32_t d) {
-    c = find(c), d = find(d);
-    fan[std::max(c, d)] = std::min(c, d);
-  };
   for (const Neighbours& n : neighbours_of(mesh))
-    for (const std::uint32_t c : {n.a, next(n.a)}) join(c, vertex(c) == vertex(n.b) ? n.b : next(n.b));
+    for (const std::uint32_t c : {n.a, next(n.a)}) fans.join(c, vertex(c) == vertex(n.b) ? n.b : next(n.b));
   constexpr std::uint32_t kNone = 0xffffffff;
   PerVertex<std::uint32_t> first(mesh.vertex_count(), kNone);  // the fan that keeps the vertex
-  std::vector<VertexId> name(fan.size());
-  for (std::uint32_t c = 0; c < fan.size(); ++c) {
-    if (find(c) != c) continue;  // the least corner of a fan comes first
+  std::vector<VertexId> name(corners);
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    if (fans.find(c) != c) continue;  // the least corner of a fan comes first
     const VertexId v = vertex(c);
     name[c] = v;
     if (first[v] == kNone) {
@@ -240,7 +224,7 @@ void split_vertices(TriangleMesh& mesh, Repairs& repairs) {
     mesh.positions.push_back(p);
     ++repairs.split_vertices;
   }
-  for (std::uint32_t c = 0; c < fan.size(); ++c) mesh.triangles[FaceId(c / 3)][c % 3] = name[find(c)];
+  for (std::uint32_t c = 0; c < corners; ++c) mesh.triangles[FaceId(c / 3)][c % 3] = name[fans.find(c)];
 }
 
 void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs) {

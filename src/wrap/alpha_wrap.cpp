@@ -1,5 +1,4 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 
 #include <array>
@@ -8,6 +7,7 @@
 
 #include "prohull/error.h"
 #include "prohull/wrap.h"
+#include "wrap/surface_mesh.h"
 
 namespace prohull {
 namespace {
@@ -31,22 +31,6 @@ class CancellingVisitor : public CGAL::Alpha_wraps_3::internal::Wrapping_default
   const std::function<bool()>* progress_;
   std::size_t facets_ = 0;
 };
-
-TriangleMesh triangle_mesh(const SurfaceMesh& surface) {
-  TriangleMesh mesh;
-  for (const auto v : surface.vertices()) {
-    const Point& p = surface.point(v);
-    mesh.positions.push_back({p.x(), p.y(), p.z()});
-  }
-  for (const auto f : surface.faces()) {
-    std::array<VertexId, 3> corners;
-    std::size_t i = 0;
-    for (const auto v : surface.vertices_around_face(surface.halfedge(f)))
-      corners[i++] = VertexId(static_cast<std::uint32_t>(std::size_t(v)));
-    mesh.triangles.push_back(corners);
-  }
-  return mesh;
-}
 
 }  // namespace
 
