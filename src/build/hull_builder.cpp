@@ -51,8 +51,16 @@ std::uint64_t seed_of(const HullOptions& options, std::uint32_t time, FaceId fir
   return options.seed == 0 ? 0 : options.seed * 0x9e3779b97f4a7c15 + (std::uint64_t{time} << 32 | index(first_face));
 }
 
-/// The new numbers of what a patch has, one for each thread; all kNoVertex between patches.
-using LocalNumbers = oneapi::tbb::enumerable_thread_specific<PerVertex<VertexId>>;
+/// The numbers in a patch of what it has, one for each thread; none between patches.
+struct LocalNumbers {
+  PerVertex<VertexId> vertices;
+  PerFace<std::uint32_t> faces;
+  static constexpr std::uint32_t kNoFace = 0xffffffff;
+};
+
+void require_closed_manifold(const MeshReport& report) {
+  if (!report.is_closed_manifold()) throw InputError(report.worst_defect, report.first_defect);
+}
 
 /// A hull under construction. First in rounds: space is split into cells, each is simplified by itself, up to a key
 /// that is the same for all; the next round has other cells. All cells of a round are independent of each other, so
@@ -125,6 +133,7 @@ class HullBuilder {
         rules_{options_, unit_cube_, storage_rounding(bounds, options.float32_coordinates),
                [this](std::size_t removed_faces) { return progress_.cancelled(removed_faces); }} {
     number_along_curve(mesh);
+    find_twins(mesh);
     changed_.assign(positions_.size(), 1);
     edges_.resize(corners_.size());
     made_.reserve(mesh.vertex_count() + (mesh.face_count() - std::min(mesh.face_count(), options.target_faces)) / 2);
@@ -153,6 +162,14 @@ class HullBuilder {
       for (const VertexId v : mesh.triangles[face]) corners_.push_back(number(v));
     }
     for (const VertexId v : mesh.positions.ids()) number(v);
+  }
+
+  /// Throws unless the mesh is a closed 2-manifold.
+  void find_twins(const TriangleMesh& mesh) {
+    const HalfEdgeMesh whole(positions_, corners_);
+    if (first_defect(whole)) require_closed_manifold(inspect(mesh));  // says which, in the mesh's own numbers
+    twins_.reserve(corners_.size());
+    for (std::uint32_t c = 0; c < corners_.size(); ++c) twins_.push_back(whole.twin(HalfEdgeId{c}));
   }
 
   std::uint32_t given_corner(std::uint32_t corner) const { return 3 * index(given_[FaceId{corner / 3}]) + corner % 3; }
@@ -260,25 +277,31 @@ class HullBuilder {
 
   /// Reads only what no other patch of the round writes.
   Work cut(Cell cell, std::size_t target_faces, double max_key) {
-    PerVertex<VertexId>& local = local_numbers_.local();
-    local.resize(positions_.size(), kNoVertex);
+    LocalNumbers& local = local_numbers_.local();
+    local.vertices.resize(positions_.size(), kNoVertex);
+    local.faces.resize(given_.size(), LocalNumbers::kNoFace);
+    for (std::uint32_t i = 0; i < cell.faces.size(); ++i) local.faces[cell.faces[i]] = i;
     std::vector<VertexId> vertices, corners;
+    std::vector<HalfEdgeId> twins;
     PerVertex<Vec3> positions;
     PerVertex<VertexFacts> facts;
-    corners.reserve(3 * cell.faces.size());
+    corners.reserve(3 * cell.faces.size()), twins.reserve(3 * cell.faces.size());
     for (const FaceId f : cell.faces)
-      for (std::uint32_t c = 0; c < 3; ++c) {
-        const VertexId v = corners_[3 * index(f) + c];
-        if (local[v] == kNoVertex) {
+      for (std::uint32_t corner = 3 * index(f); corner < 3 * index(f) + 3; ++corner) {
+        const VertexId v = corners_[corner];
+        if (local.vertices[v] == kNoVertex) {
           const bool is_free = cell.box.has_inside(unit_cube_.at(positions_[v]));
-          local[v] = positions.push_back(positions_[v]);
+          local.vertices[v] = positions.push_back(positions_[v]);
           vertices.push_back(v);
           facts.push_back({.changed = is_free ? changed_[v] : 0, .is_free = is_free});
         }
-        corners.push_back(local[v]);
+        corners.push_back(local.vertices[v]);
+        const std::uint32_t twin = index(twins_[corner]), face = local.faces[FaceId{twin / 3}];
+        twins.push_back(face == LocalNumbers::kNoFace ? kNoHalfEdge : HalfEdgeId{3 * face + twin % 3});
       }
-    for (const VertexId v : vertices) local[v] = kNoVertex;
-    Work work{{.mesh = HalfEdgeMesh(std::move(positions), corners),
+    for (const VertexId v : vertices) local.vertices[v] = kNoVertex;
+    for (const FaceId f : cell.faces) local.faces[f] = LocalNumbers::kNoFace;
+    Work work{{.mesh = HalfEdgeMesh(std::move(positions), corners, twins),
                .edges = {},
                .vertices = std::move(facts),
                .inside = cell.box,
@@ -324,6 +347,10 @@ class HullBuilder {
       const VertexId v = patch.mesh.tail(HalfEdgeId{c});
       const VertexId is = v == kNoVertex ? v : work.vertices[index(v)];
       if (VertexId& was = corners_[work.whole_corner(c)]; was != is) was = is;
+      const HalfEdgeId g = patch.mesh.twin(HalfEdgeId{c});
+      if (v == kNoVertex || g == kNoHalfEdge) continue;
+      const HalfEdgeId twin{work.whole_corner(index(g))};
+      if (HalfEdgeId& was = twins_[work.whole_corner(c)]; was != twin) was = twin;
     }
     for (const EdgeId e : patch.edges.ids())
       if (patch.mesh.has(e))
@@ -378,6 +405,7 @@ class HullBuilder {
 
   PerFace<FaceId> given_;          ///< the number of a face in the input
   std::vector<VertexId> corners_;  ///< kNoVertex where a face has gone
+  std::vector<HalfEdgeId> twins_;  ///< of the half-edge that starts at a corner
   std::vector<FaceId> faces_;      ///< those that are left
   std::vector<EdgeFacts> edges_;   ///< by one of an edge's two corners
   PerVertex<Vec3> positions_;
@@ -390,7 +418,7 @@ class HullBuilder {
   RefusalCounts refused_;
   std::size_t linear_programs_ = 0;
   unsigned relaxed_ = 0;
-  LocalNumbers local_numbers_;
+  oneapi::tbb::enumerable_thread_specific<LocalNumbers> local_numbers_;
 };
 
 void check(const HullOptions& options) {
@@ -440,15 +468,17 @@ HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
     return best_of(
         options, [&](const HullOptions& one) { return build_hull(mesh, one); },
         [](const HullResult& result) { return result.hull.base(); });
-  const MeshReport report = inspect(mesh);
-  if (report.faces == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces");
-  if (!report.is_closed_manifold()) throw InputError(report.worst_defect, report.first_defect);
-  if (!(report.volume > 0))
-    throw InputError(Defect::NoVolume, "the mesh is inside out or encloses nothing; closed_mesh turns what it can");
+  if (mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces");
+  if (!std::ranges::all_of(mesh.positions, is_finite)) require_closed_manifold(inspect(mesh));
   return arena_of(options.threads).execute([&] {
-    if (options.side == HullSide::Outer) return HullBuilder(mesh, options).run();
+    const auto build = [&](const TriangleMesh& outer) {
+      HullBuilder builder(outer, options);
+      if (!(signed_volume(mesh) > 0))
+        throw InputError(Defect::NoVolume, "the mesh is inside out or encloses nothing; closed_mesh turns what it can");
+      return builder.run();
+    };
     // An inner hull is the outer hull of the mesh turned inside out: what was inside of a face is then outside.
-    return turned(HullBuilder(turned(mesh), options).run());
+    return options.side == HullSide::Outer ? build(mesh) : turned(build(turned(mesh)));
   });
 }
 

@@ -37,7 +37,8 @@ struct Basis {
 };
 
 Basis box_corner(const Vec3& objective) {
-  Basis basis{};
+  Basis basis;
+  basis.multipliers[1] = both(0);  // there is no fourth
   Vec3 x;
   for (int i = 0; i < 3; ++i) {
     const double sign = objective[i] < 0 ? -1 : 1;

@@ -26,6 +26,22 @@ HalfEdgeMesh::HalfEdgeMesh(PerVertex<Vec3> positions, const std::vector<VertexId
   link_twins();
 }
 
+HalfEdgeMesh::HalfEdgeMesh(PerVertex<Vec3> positions, const std::vector<VertexId>& corners,
+                           const std::vector<HalfEdgeId>& twins)
+    : positions_(std::move(positions)) {
+  allocate(positions_.size(), corners.size() / 3);
+  for (const HalfEdgeId h : half_edges_.ids()) {
+    const VertexId v = corners[index(h)];
+    half_edges_[h].tail = v;
+    if (v == kNoVertex) continue;
+    out_[v] = h;
+    ++valence_[v];
+    if (index(h) % 3 == 0) ++face_count_;
+    const HalfEdgeId g = twins[index(h)];
+    if (g != kNoHalfEdge && h < g) pair(h, g, half_edge_.push_back(h));
+  }
+}
+
 void HalfEdgeMesh::allocate(std::size_t vertices, std::size_t faces) {
   out_.assign(vertices, kNoHalfEdge);
   valence_.assign(vertices, 0);
@@ -156,6 +172,7 @@ std::optional<std::string> first_defect(const HalfEdgeMesh& mesh) {
     if (mesh.tail(h) == kNoVertex) continue;
     faces += i % 3 == 0;
     const HalfEdgeId t = mesh.twin(h);
+    if (t == kNoHalfEdge) return fmt::format("half-edge {}: has no twin", i);
     if (t == h || mesh.twin(t) != h) return fmt::format("half-edge {}: twin of twin is {}", i, index(mesh.twin(t)));
     if (mesh.tail(mesh.next(h)) != mesh.tail(t))
       return fmt::format("half-edge {}: ends at {}, its twin starts at {}", i, index(mesh.tail(mesh.next(h))),

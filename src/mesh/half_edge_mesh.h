@@ -34,6 +34,10 @@ class HalfEdgeMesh {
   /// be missing; what is asked of elements with a border must not need them.
   HalfEdgeMesh(PerVertex<Vec3> positions, const std::vector<VertexId>& corners);
 
+  /// The same of which the twins are known: twins[3 f + c] of the half-edge that starts at that corner, kNoHalfEdge if
+  /// its face is missing.
+  HalfEdgeMesh(PerVertex<Vec3> positions, const std::vector<VertexId>& corners, const std::vector<HalfEdgeId>& twins);
+
   HalfEdgeId next(HalfEdgeId h) const { return HalfEdgeId(index(h) % 3 == 2 ? index(h) - 2 : index(h) + 1); }
   HalfEdgeId previous(HalfEdgeId h) const { return HalfEdgeId(index(h) % 3 == 0 ? index(h) + 2 : index(h) - 1); }
   HalfEdgeId twin(HalfEdgeId h) const { return half_edges_[h].twin; }
