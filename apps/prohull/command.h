@@ -29,6 +29,8 @@ constexpr int kWrongUsage = 2;
 constexpr int kBadInput = 3;
 constexpr int kInterrupted = 130;
 
+constexpr const char* kWhatItIs = "progressive hulls of triangle meshes";
+
 constexpr double kDegree = std::numbers::pi / 180;
 
 /// Thrown where Ctrl-C is noticed; main turns it into kInterrupted.
@@ -124,8 +126,10 @@ const Names<HullSide>& side_names();
 // Each adds its subcommand to the program and leaves in `run` what to do when it is chosen; run returns the exit code.
 using Run = std::function<int()>;
 void add_build(CLI::App& app, Run& run);
+void add_completion(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_lod(CLI::App& app, Run& run);
+void add_manual(CLI::App& app, Run& run);
 void add_query(CLI::App& app, Run& run);
 void add_render(CLI::App& app, Run& run);
 void add_sample(CLI::App& app, Run& run);

@@ -110,7 +110,7 @@ void add_info(CLI::App& app, Run& run) {
   command
       .add_option("in", options->in, "Mesh (PLY, OBJ, OFF, STL, GLB, DAE, 3MF, ...; also .gz or .zip) or .phull file")
       ->required()
-      ->type_name("FILE");
+      ->type_name("IN");
   add_report_option(command, options->report);
   add_examples(command, {"prohull info horse.ply", "prohull info horse.phull --report info.json"});
   command.callback([options, &run] { run = [options] { return run_info(*options); }; });

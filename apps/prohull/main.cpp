@@ -7,10 +7,9 @@
 
 int main(int argc, char** argv) {
   using namespace prohull::cli;
-  CLI::App app(
-      "prohull " PROHULL_VERSION
-      ": progressive hulls of triangle meshes. Ever coarser meshes, each of which provably encloses the finer one.",
-      "prohull");
+  CLI::App app(fmt::format("prohull {}: {}. Ever coarser meshes, each of which provably encloses the finer one.",
+                           PROHULL_VERSION, kWhatItIs),
+               "prohull");
   app.set_version_flag("--version", "prohull " PROHULL_VERSION);
   app.require_subcommand(1);
   app.fallthrough(false);
@@ -25,6 +24,8 @@ int main(int argc, char** argv) {
   add_query(app, run);
   add_render(app, run);
   add_sample(app, run);
+  add_completion(app, run);
+  add_manual(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

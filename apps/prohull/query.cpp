@@ -208,13 +208,6 @@ int run_query(const Options& options) {
   return kDone;
 }
 
-std::string describe_engines() {
-  std::string text = "auto: the fastest that is exact; others, see docs/queries.md:";
-  for (const auto& [name, engine] : engines())
-    if (engine != Engine::Auto) text += " " + name;
-  return text;
-}
-
 void add_queries(CLI::App& command, Options& options) {
   CLI::App& queries = *command.add_option_group("Queries", "One of these; files are .npy, .npz or .csv");
   queries.add_option("--segments", options.segments, "Each row x0,y0,z0,x1,y1,z1")->type_name("FILE");
@@ -249,7 +242,8 @@ void add_query(CLI::App& app, Run& run) {
   command.add_option("-o,--out", options->out, "Where the hits go: .npz or .csv; without, only the summary")
       ->type_name("HITS");
   add_queries(command, *options);
-  add_choice(command, "--engine", options->engine, engines(), describe_engines())->type_name("NAME");
+  add_choice(command, "--engine", options->engine, engines(),
+             "auto: the fastest that is exact; others, see docs/queries.md");
   command
       .add_option("--threads", options->threads, "At most so many, and no more than there are cores; 0: all of them")
       ->capture_default_str();

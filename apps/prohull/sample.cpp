@@ -36,11 +36,15 @@ void add_sample(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("sample", "Make one of the bundled meshes");
   std::string names;
-  for (const SampleInfo& sample : samples()) names += fmt::format("\n    {:<10} {}", sample.name, sample.description);
-  command.add_option("name", options->name, "Which:" + names)->required()->type_name("NAME");
+  std::vector<std::string_view> words;
+  for (const SampleInfo& sample : samples()) {
+    names += fmt::format("\n    {:<10} {}", sample.name, sample.description);
+    words.push_back(sample.name);
+  }
+  command.add_option("name", options->name, "Which:" + names)->required()->type_name(CLI::detail::join(words, "|"));
   command.add_option("-o,--out", options->out, "PLY, OBJ, OFF, STL or GLB; these two round to float32")
       ->required()
-      ->type_name("FILE");
+      ->type_name("OUT");
   command.add_option("--faces", options->faces, "About how many, within 20 % where the shape allows")
       ->capture_default_str()
       ->check(CLI::Range(4.0, 1e9));

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "prohull/triangle_mesh.h"
 
@@ -14,6 +16,13 @@ enum class MeshFormat { Ply, Obj, Off, Stl, Glb };
 /// The format that a file name asks for (.ply, .obj, .off, .stl, .glb, in any case, optionally followed by .gz);
 /// throws InputError(UnknownFormat) for any other name, listing those that are known.
 MeshFormat mesh_format(const std::filesystem::path& path);
+
+/// What the names of files end in that write_mesh takes: ".ply" and so on.
+std::vector<std::string> written_mesh_extensions();
+
+/// Of those that read_mesh takes, without ".gz", which may follow, and ".zip". The ones that prohull-import reads come
+/// last, whether or not it is there.
+std::vector<std::string> read_mesh_extensions();
 
 /// STL and GLB store coordinates as float32. The others keep doubles.
 bool stores_float32(MeshFormat format);
@@ -44,7 +53,7 @@ struct ReadOptions {
 /// COLLADA (.dae), 3MF, FBX, X3D and others are read by assimp in a program of its own, prohull-import, if that was
 /// built: whatever it does, crashing included, is an InputError. It may use 20 s + 2 s per MiB and 1 GiB + 200 bytes
 /// per byte of the file. It is found by the environment variable PROHULL_IMPORTER, beside the running program, or where
-/// it was installed or built.
+/// it was installed (docs/formats.md).
 ///
 TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 

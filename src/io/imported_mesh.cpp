@@ -10,6 +10,7 @@
 #include <cstring>
 #include <optional>
 #include <system_error>
+#include <vector>
 
 #include "io/byte_cursor.h"
 #include "io/extension.h"
@@ -39,13 +40,16 @@ std::filesystem::path folder_of_this_program() {
 }
 
 /// Where prohull-import is: the one that the environment names, or the first of those beside the running program, in
-/// the libexec folder of its installation, of that of the library, and of its build.
+/// the libexec folder of its installation, of that of the library, and, within another project, of its build.
 std::optional<std::filesystem::path> importer() {
   if (const char* const named = std::getenv(kProgramVariable); named && *named) return named;
   const std::filesystem::path here = folder_of_this_program();
   const std::filesystem::path libexec = std::filesystem::path(PROHULL_LIBEXEC_FOLDER);
-  for (const std::filesystem::path& folder :
-       {here, here.parent_path() / libexec.filename(), libexec, std::filesystem::path(PROHULL_BUILD_FOLDER)}) {
+  std::vector<std::filesystem::path> folders{here, here.parent_path() / libexec.filename(), libexec};
+#ifdef PROHULL_BUILD_FOLDER
+  folders.emplace_back(PROHULL_BUILD_FOLDER);
+#endif
+  for (const std::filesystem::path& folder : folders) {
     std::error_code error;
     if (std::filesystem::is_regular_file(folder / kProgram, error)) return folder / kProgram;
   }
@@ -189,6 +193,8 @@ class ImportReader {
 };
 
 }  // namespace
+
+std::span<const std::string_view> imported_extensions() { return kExtensions; }
 
 bool is_imported(const std::filesystem::path& name) {
   return std::find(kExtensions.begin(), kExtensions.end(), lower_case_extension(without_gz(name))) != kExtensions.end();

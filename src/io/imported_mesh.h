@@ -4,12 +4,16 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
+
+/// ".3ds", ".3mf" and so on.
+std::span<const std::string_view> imported_extensions();
 
 /// Whether files of that name are left to prohull-import: .dae, .3mf, .fbx and others, also with .gz behind.
 bool is_imported(const std::filesystem::path& name);

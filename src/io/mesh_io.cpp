@@ -103,6 +103,20 @@ void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::f
 
 bool is_mesh_name(const std::filesystem::path& path) { return named_format(path) || is_imported(path); }
 
+std::vector<std::string> written_mesh_extensions() {
+  std::vector<std::string> extensions;
+  for (const FormatTraits& format : kFormats)
+    if (format.content) extensions.emplace_back(format.extension);
+  return extensions;
+}
+
+std::vector<std::string> read_mesh_extensions() {
+  std::vector<std::string> extensions;
+  for (const FormatTraits& format : kFormats) extensions.emplace_back(format.extension);
+  extensions.insert(extensions.end(), imported_extensions().begin(), imported_extensions().end());
+  return extensions;
+}
+
 MeshFormat mesh_format(const std::filesystem::path& path) {
   if (const auto* const named = named_format(path); named && named->format) return *named->format;
   throw InputError(Defect::UnknownFormat,

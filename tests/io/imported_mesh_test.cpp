@@ -125,6 +125,7 @@ class Assimp : public testing::Test {
  protected:
   void SetUp() override {
     if (!PROHULL_HAS_IMPORTER) GTEST_SKIP() << "built without assimp (libassimp-dev)";
+    setenv("PROHULL_IMPORTER", PROHULL_BUILT_IMPORTER, 1);
   }
 };
 
