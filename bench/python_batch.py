@@ -37,9 +37,9 @@ def count_hits(query, answer):
 
 
 def compare(ask, index, query, segments, threads, rounds):
-    """Milliseconds in C++ and in Python, their ratio, and the hits; the first of several rounds warms up only."""
+    """Milliseconds in C++ and in Python, their ratio, and the hits; a first round, not counted, warms both up."""
     cpp, python = [], []
-    for _ in range(rounds):
+    for _ in range(rounds + 1):
         start = time.perf_counter()
         answer = ask(segments=segments, threads=threads)
         python.append(time.perf_counter() - start)
@@ -48,31 +48,31 @@ def compare(ask, index, query, segments, threads, rounds):
         if count_hits(query, answer) != hits:
             sys.exit(f"{query}: {count_hits(query, answer)} hits in Python, {hits} in C++")
         del answer
-    cpp, python = cpp[1:] or cpp, python[1:] or python
+    cpp, python = cpp[1:], python[1:]
     ratio = statistics.median(b / a for a, b in zip(cpp, python))
     return 1e3 * statistics.median(cpp), 1e3 * statistics.median(python), ratio, hits
 
 
 def subjects(options, folder):
-    """Name, mesh, the file that C++ reads of it, engine, numbers of threads, rounds."""
+    """Name, mesh, the file that C++ reads of it, engine, how many segments."""
     hull = prohull.build(options.mesh or prohull.sample("pony", 100000), faces_target=options.faces)
     hull.save(folder / "hull.phull")
     hull.save(folder / "hull.ply")
-    yield "hull", hull, folder / "hull.ply", "bvh", (1, 0), options.repeat + 1
-    yield "original", hull.original, folder / "hull.phull", "bvh", (1, 0), options.repeat + 1
+    yield "hull", hull, folder / "hull.ply", "bvh", options.segments
+    yield "original", hull.original, folder / "hull.phull", "bvh", options.segments
     for engine in ("refinement", "paper-refinement"):  # a hundred times slower
-        yield "original", hull.original, folder / "hull.phull", engine, (0,), 1
+        yield "original", hull.original, folder / "hull.phull", engine, options.segments // 100
 
 
 def measure(options, folder):
-    for name, mesh, path, engine, numbers_of_threads, rounds in subjects(options, folder):
+    for name, mesh, path, engine, count in subjects(options, folder):
         index = prohull_cpp_batch.Index(path, engine)
-        segments = random_segments(mesh, options.segments, options.seed)
+        segments = random_segments(mesh, count, options.seed)
         for query in ("first_hit", "any_hit", "all_hits"):
             ask = functools.partial(getattr(mesh, query), engine=engine)
-            for threads in numbers_of_threads:
-                cpp, python, ratio, hits = compare(ask, index, query, segments, threads, rounds)
-                yield dict(zip(COLUMNS, (name, len(mesh.faces), engine, query, threads or "all", options.segments, hits,
+            for threads in (1, 0):
+                cpp, python, ratio, hits = compare(ask, index, query, segments, threads, options.repeat)
+                yield dict(zip(COLUMNS, (name, len(mesh.faces), engine, query, threads or "all", count, hits,
                                          f"{cpp:.1f}", f"{python:.1f}", f"{ratio:.3f}")))
 
 
@@ -80,8 +80,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--mesh", help="path; without, the sample pony of 100,000 faces")
     parser.add_argument("--faces", type=int, default=2000, help="of the hull [%(default)s]")
-    parser.add_argument("--segments", type=int, default=1_000_000, help="[%(default)s]")
-    parser.add_argument("--repeat", type=int, default=9, help="rounds; one of the refinement engines [%(default)s]")
+    parser.add_argument("--segments", type=int, default=1_000_000,
+                        help="a hundredth of them for the refinement engines [%(default)s]")
+    parser.add_argument("--repeat", type=int, default=9, help="rounds [%(default)s]")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--limit", type=float, default=float("inf"), help="of the ratios")
     parser.add_argument("--out", type=pathlib.Path, help="folder for python.csv")

@@ -77,7 +77,7 @@ def test_python_asks_as_cpp_does(tmp_path):
     subprocess.run([sys.executable, ROOT / "bench" / "python_batch.py", "--mesh", tmp_path / "torus.ply", "--faces", "500",
                     "--segments", "2000", "--repeat", "1", "--out", tmp_path], check=True, stdout=subprocess.DEVNULL)
     lines = (tmp_path / "python.csv").read_text().splitlines()
-    assert lines[0].endswith("cpp_ms,python_ms,ratio") and len(lines) == 1 + 2 * 6 + 2 * 3
+    assert lines[0].endswith("cpp_ms,python_ms,ratio") and len(lines) == 1 + 4 * 3 * 2
 
 
 def test_void_plot(tmp_path):
