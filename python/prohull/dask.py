@@ -100,7 +100,7 @@ def build_folder(client: "distributed.Client", meshes: Union[Path, Sequence[Mesh
         row = job if isinstance(job, Row) else _finished(job)
         if row:
             rows[i] = row if row is job else row._replace(status="kept")
-    told.add(len(rows), sum(row.status == "refused" for row in rows.values()))
+    told.add(len(rows), sum(row.status != "kept" for row in rows.values()))
     for alone in (False, True):  # what was lost with its worker again: something beside it may have killed that
         todo = {i: job for i, job in enumerate(jobs) if i not in rows}
         limit = (lambda: 1) if alone else functools.partial(_limit, client)
@@ -220,9 +220,15 @@ def _jobs(named: dict[str, Any], out: pathlib.Path, suffix: str, options: dict[s
             made_from = {"options": json.loads(json.dumps(options, default=repr)),
                          "mesh": {"path": mesh, **_state(mesh)} if is_path else {"digest": _digest(mesh)}}
             jobs.append(_Job(name, mesh, str(out / (name + suffix)), options, made_from))
-        except (InputError, OSError) as error:
-            jobs.append(Row(name, "refused", message=str(error)))
+        except Exception as error:
+            jobs.append(_row_of_error(name, error))
     return jobs
+
+
+def _row_of_error(name: str, error: Exception) -> Row:
+    if isinstance(error, InputError):
+        return Row(name, "refused", message=str(error))
+    return Row(name, "failed", message=f"{type(error).__name__}: {error}")
 
 
 def _state(path: str) -> dict[str, int]:
@@ -245,10 +251,8 @@ def _digest(mesh: Mesh) -> str:
 def _build(job: _Job) -> Row:
     try:
         return _finished(job) or _built(job)
-    except InputError as error:
-        return Row(job.name, "refused", message=str(error))
     except Exception as error:  # whatever it is, the other meshes are to be built
-        return Row(job.name, "failed", message=f"{type(error).__name__}: {error}")
+        return _row_of_error(job.name, error)
 
 
 def _finished(job: _Job) -> Optional[Row]:
@@ -339,8 +343,7 @@ def _row(name: str, future: "distributed.Future") -> Row:
         return Row(name, "failed",
                    message="KilledWorker: every worker that built it died, as by a crash or for want of memory")
     if future.status == "error":
-        error = future.exception()
-        return Row(name, "failed", message=f"{type(error).__name__}: {error}")
+        return _row_of_error(name, future.exception())
     return future.result()
 
 

@@ -48,12 +48,12 @@ class KilledByOneMesh:
 
 @pytest.fixture(scope="module")
 def client():
-    """A task that two workers died of is given up."""
-    with dask.config.set({"distributed.scheduler.allowed-failures": 1}):
-        cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
-                                           host="127.0.0.1", silence_logs="CRITICAL")
-    with cluster, distributed.Client(cluster) as client:
-        yield client
+    """A task that two workers died of is given up, and a dead worker is not called for half a minute."""
+    with dask.config.set({"distributed.scheduler.allowed-failures": 1, "distributed.comm.timeouts.connect": "10s"}):
+        with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
+                                      host="127.0.0.1", silence_logs="CRITICAL") as cluster:
+            with distributed.Client(cluster) as client:
+                yield client
 
 
 @pytest.fixture(scope="module")
@@ -169,12 +169,14 @@ def test_meshes_may_be_objects(client, cube, tmp_path):
     assert statuses(rows) == {"000000": "built", "000001": "built", "000002": "refused"}
     assert "expected (m, 3)" in rows[2].message and rows[0].void_ratio == 0
     assert prohull.verify(tmp_path / "000001.ply", cube)
-    named = {"sub/cube": cube, "gone": tmp_path / "gone.stl", "0": (2 * cube[0], cube[1])}
+    named = {"sub/cube": cube, "gone": tmp_path / "gone.stl", "0": (2 * cube[0], cube[1]), "none": None,
+             "empty": (np.zeros((0, 3)), np.zeros((0, 3), int)), "ragged": ([[0, 1], [0]], cube[1])}
+    others = {"gone": "failed", "none": "refused", "empty": "refused", "ragged": "failed"}
     rows = prohull.dask.build_folder(client, named, tmp_path, suffix=".ply", faces_target=12, progress=None)
-    assert statuses(rows) == {"sub/cube": "built", "gone": "refused", "0": "built"} and "gone.stl" in rows[1].message
+    assert statuses(rows) == {"sub/cube": "built", "0": "built", **others} and "gone.stl" in rows[1].message
     named["0"] = (3 * cube[0], cube[1])
     rows = prohull.dask.build_folder(client, named, tmp_path, suffix=".ply", faces_target=12, progress=None)
-    assert statuses(rows) == {"sub/cube": "kept", "gone": "refused", "0": "built"}
+    assert statuses(rows) == {"sub/cube": "kept", "0": "built", **others}
 
 
 @needs_dask
