@@ -173,4 +173,15 @@ HitBatch hits(const QueryIndex& index, std::span<const Segment> segments, HitMod
 HitBatch hits(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const BatchOptions& options = {});
 FaceBatch faces_met(const QueryIndex& index, std::span<const Triangle> triangles, const BatchOptions& options = {});
 
+/// Is given the hits of queries `first`, `first + 1`, ...; without counts.
+using TakeHits = std::function<void(std::size_t first, HitBatch piece)>;
+
+/// The same hits in pieces of some hundred queries, so that memory does not grow with their number: each goes to
+/// `take`, by several threads at a time and in any order. Returns the counts of all. What `take` throws goes on to the
+/// caller.
+QueryCounts hits_in_pieces(const QueryIndex& index, std::span<const Segment> segments, HitMode mode,
+                           const TakeHits& take, const BatchOptions& options = {});
+QueryCounts hits_in_pieces(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const TakeHits& take,
+                           const BatchOptions& options = {});
+
 }  // namespace prohull

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <span>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "arrays.h"
@@ -40,71 +43,116 @@ BatchOptions batch_options(Watch& watch, unsigned threads) {
   return {threads, [&watch](double fraction) { return watch.go_on("query", fraction); }};
 }
 
-/// `rows` of shape (n, 6).
+/// Hands the hits of `rows`, of shape (n, 6), to `take` in pieces.
 template <class Query>
-HitBatch hits_of(const QueryIndex& index, const Array<double>& rows, HitMode mode, unsigned threads) {
-  return watched(py::none(), [&](Watch& watch) {
-    return hits(index, queries_of<Query>(rows), mode, batch_options(watch, threads));
+void take_hits(const QueryIndex& index, const Array<double>& rows, HitMode mode, unsigned threads,
+               const TakeHits& take) {
+  watched(py::none(), [&](Watch& watch) {
+    return hits_in_pieces(index, queries_of<Query>(rows), mode, take, batch_options(watch, threads));
   });
 }
 
-HitBatch hits_of(const QueryIndex& index, const Array<double>& rows, bool are_rays, HitMode mode, unsigned threads) {
-  return are_rays ? hits_of<Ray>(index, rows, mode, threads) : hits_of<Segment>(index, rows, mode, threads);
+void take_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, HitMode mode, unsigned threads,
+               const TakeHits& take) {
+  are_rays ? take_hits<Ray>(index, rows, mode, threads, take) : take_hits<Segment>(index, rows, mode, threads, take);
 }
 
-/// The columns of hits.
-struct Columns {
-  explicit Columns(std::size_t n, std::int64_t no_face, double no_number)
-      : face(n, no_face), t(n, no_number), position(3 * n, no_number), entering(n, 0) {}
+/// The columns of n hits, which belong to numpy: not touched before rows are set, which needs no GIL.
+class Columns {
+ public:
+  explicit Columns(std::size_t n)
+      : columns_(py::array_t<std::int64_t>(length(n)), py::array_t<double>(length(n)),
+                 py::array_t<double>({length(n), py::ssize_t{3}}), py::array_t<bool>(length(n))),
+        face_(std::get<0>(columns_).mutable_data()),
+        t_(std::get<1>(columns_).mutable_data()),
+        position_(std::get<2>(columns_).mutable_data()),
+        entering_(std::get<3>(columns_).mutable_data()) {}
 
-  void set(std::size_t i, const Hit& hit) {
-    face[i] = index(hit.face), t[i] = hit.t, entering[i] = hit.entering;
-    for (int axis = 0; axis < 3; ++axis) position[3 * i + static_cast<std::size_t>(axis)] = hit.position[axis];
+  void set(std::size_t row, const Hit& hit) { set(row, index(hit.face), hit.t, hit.position, hit.entering); }
+  void set_none(std::size_t row) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    set(row, -1, kNone, {kNone, kNone, kNone}, false);
   }
-  void append_to(py::list& result) && {
-    const auto n = static_cast<py::ssize_t>(face.size());
-    result.append(array_of(std::move(face), {n}));
-    result.append(array_of(std::move(t), {n}));
-    result.append(array_of(std::move(position), {n, 3}));
-    result.append(array_of(std::move(entering), {n}).attr("view")("bool"));
+  void append_to(py::list& result) const {
+    std::apply([&](const auto&... column) { (result.append(column), ...); }, columns_);
   }
 
-  std::vector<std::int64_t> face;
-  std::vector<double> t, position;
-  std::vector<std::uint8_t> entering;
+ private:
+  static py::ssize_t length(std::size_t n) { return static_cast<py::ssize_t>(n); }
+
+  void set(std::size_t row, std::int64_t face, double t, const Vec3& position, bool entering) {
+    face_[row] = face, t_[row] = t, entering_[row] = entering;
+    for (int axis = 0; axis < 3; ++axis) position_[3 * row + static_cast<std::size_t>(axis)] = position[axis];
+  }
+
+  std::tuple<py::array_t<std::int64_t>, py::array_t<double>, py::array_t<double>, py::array_t<bool>> columns_;
+  std::int64_t* face_;
+  double *t_, *position_;
+  bool* entering_;
 };
 
+bool is_answered(const HitBatch& batch, std::size_t i) { return batch.offsets[i] < batch.offsets[i + 1]; }
+
 py::list first_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
-  const HitBatch batch = hits_of(index, rows, are_rays, HitMode::First, threads);
-  const std::size_t n = batch.offsets.size() - 1;
-  Columns columns(n, -1, std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t i = 0; i < n; ++i)
-    if (batch.offsets[i] < batch.offsets[i + 1]) columns.set(i, batch.hits[batch.offsets[i]]);
+  Columns columns(static_cast<std::size_t>(rows.shape(0)));
+  take_hits(index, rows, are_rays, HitMode::First, threads, [&](std::size_t first, const HitBatch& piece) {
+    for (std::size_t i = 0; i + 1 < piece.offsets.size(); ++i)
+      is_answered(piece, i) ? columns.set(first + i, piece.hits[piece.offsets[i]]) : columns.set_none(first + i);
+  });
   py::list result;
-  std::move(columns).append_to(result);
+  columns.append_to(result);
   return result;
 }
 
 py::array any_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
-  const HitBatch batch = hits_of(index, rows, are_rays, HitMode::Any, threads);
-  std::vector<std::uint8_t> is_hit(batch.offsets.size() - 1);
-  for (std::size_t i = 0; i < is_hit.size(); ++i) is_hit[i] = batch.offsets[i] < batch.offsets[i + 1];
-  return array_of(std::move(is_hit), {rows.shape(0)}).attr("view")("bool");
+  py::array_t<bool> result(rows.shape(0));
+  bool* const is_hit = result.mutable_data();
+  take_hits(index, rows, are_rays, HitMode::Any, threads, [&](std::size_t first, const HitBatch& piece) {
+    for (std::size_t i = 0; i + 1 < piece.offsets.size(); ++i) is_hit[first + i] = is_answered(piece, i);
+  });
+  return result;
+}
+
+struct Piece {
+  std::size_t first;
+  HitBatch batch;
+};
+
+/// By the numbers of their queries.
+std::vector<Piece> all_pieces(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
+  std::vector<Piece> pieces;
+  std::mutex mutex;
+  take_hits(index, rows, are_rays, HitMode::All, threads, [&](std::size_t first, HitBatch batch) {
+    const std::scoped_lock lock(mutex);
+    pieces.push_back({first, std::move(batch)});
+  });
+  std::ranges::sort(pieces, {}, &Piece::first);
+  return pieces;
+}
+
+py::list all_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
+  const std::vector<Piece> pieces = all_pieces(index, rows, are_rays, threads);
+  std::size_t count = 0;
+  for (const Piece& piece : pieces) count += piece.batch.hits.size();
+  Columns columns(count);
+  py::array_t<std::int64_t> offsets(rows.shape(0) + 1);
+  std::int64_t* offset = offsets.mutable_data();
+  *offset = 0;
+  std::size_t row = 0;
+  for (const auto& [first, batch] : pieces) {
+    for (std::size_t i = 1; i < batch.offsets.size(); ++i)
+      offset[first + i] = static_cast<std::int64_t>(row + batch.offsets[i]);
+    for (const Hit& hit : batch.hits) columns.set(row++, hit);
+  }
+  py::list result;
+  result.append(offsets);
+  columns.append_to(result);
+  return result;
 }
 
 py::array offsets_of(const std::vector<std::size_t>& offsets) {
   return array_of(std::vector<std::int64_t>(offsets.begin(), offsets.end()),
                   {static_cast<py::ssize_t>(offsets.size())});
-}
-
-py::list all_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
-  const HitBatch batch = hits_of(index, rows, are_rays, HitMode::All, threads);
-  Columns columns(batch.hits.size(), -1, 0);
-  for (std::size_t i = 0; i < batch.hits.size(); ++i) columns.set(i, batch.hits[i]);
-  py::list result;
-  result.append(offsets_of(batch.offsets));
-  std::move(columns).append_to(result);
-  return result;
 }
 
 /// `rows` of shape (n, 9).

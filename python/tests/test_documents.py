@@ -18,15 +18,33 @@ def run(name, *arguments):
                           stdout=subprocess.PIPE).stdout
 
 
-def test_snippets(tmp_path, monkeypatch, capsys):
-    """One after the other, as one program."""
-    snippets = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / "python.md").read_text(), re.MULTILINE | re.DOTALL)
-    assert len(snippets) >= 7
-    monkeypatch.chdir(tmp_path)
+def run_snippets(document):
+    """One after the other, as one program; how many there are."""
+    snippets = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / document).read_text(), re.MULTILINE | re.DOTALL)
     exec("\n".join(snippets), {})
+    return len(snippets)
+
+
+def test_snippets(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert run_snippets("python.md") >= 7
     printed = capsys.readouterr().out
     assert "<prohull.Hull: outer, 200 faces, certified>" in printed
     assert "vertices: an array of shape (8, 2); expected (n, 3)" in printed
+
+
+@pytest.mark.filterwarnings("ignore:make_current is deprecated")
+def test_guide_of_dask(tmp_path, monkeypatch, capsys):
+    pytest.importorskip("distributed", reason="the guide of prohull.dask: python3-distributed is not installed")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "meshes").mkdir()
+    for name in ("torus", "sphere"):
+        prohull.sample(name, 1000).save(tmp_path / "meshes" / f"{name}.off")
+    (tmp_path / "meshes" / "bad.stl").write_text("nothing")
+    assert run_snippets("guides/dask.md") >= 4
+    shown = capsys.readouterr()
+    assert "bad.stl refused" in shown.out and "3 of 3 done, 1 failed" in shown.err
+    assert prohull.verify(tmp_path / "hulls" / "torus.off.stl", tmp_path / "meshes" / "torus.off")
 
 
 def test_docstring():
@@ -50,6 +68,16 @@ def test_batch(tmp_path):
 
 def test_levels_and_rays():
     assert run("levels_and_rays.py").count("hit") == 4
+
+
+def test_python_asks_as_cpp_does(tmp_path):
+    """The answers of both are compared; of times nothing is expected here."""
+    pytest.importorskip("prohull_cpp_batch", reason="the benchmark of batches was not built")
+    prohull.sample("torus", 2000).save(tmp_path / "torus.ply")
+    subprocess.run([sys.executable, ROOT / "bench" / "python_batch.py", "--mesh", tmp_path / "torus.ply", "--faces", "500",
+                    "--segments", "2000", "--repeat", "1", "--out", tmp_path], check=True, stdout=subprocess.DEVNULL)
+    lines = (tmp_path / "python.csv").read_text().splitlines()
+    assert lines[0].endswith("cpp_ms,python_ms,ratio") and len(lines) == 1 + 4 * 3 * 2
 
 
 def test_void_plot(tmp_path):

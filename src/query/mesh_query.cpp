@@ -191,64 +191,98 @@ struct Batch {
   QueryCounts counts;
 };
 
-/// ask(query, primitive) -> std::vector<Answer>, or something else with begin and end.
-template <class Answer, class Primitive, class Ask>
-Batch<Answer> ask_all(const QueryIndex& index, std::span<const Primitive> primitives, const BatchOptions& options,
-                      Ask ask) {
+constexpr std::size_t kChunk = 512;
+
+/// ask(query, primitive) -> std::vector<Answer>, or something else with begin and end; take(first, Batch<Answer>) is
+/// given the answers of each chunk.
+template <class Answer, class Primitive, class Ask, class Take>
+QueryCounts ask_in_chunks(const QueryIndex& index, std::span<const Primitive> primitives, const BatchOptions& options,
+                          Ask ask, Take take) {
   for (std::size_t i = 0; i < primitives.size(); ++i)
     if (!is_finite(primitives[i]))
       throw InputError(Defect::NonFiniteCoordinate,
                        fmt::format("query {} has a coordinate that is not finite; remove it", i));
-  constexpr std::size_t kChunk = 512;
-  std::vector<Batch<Answer>> chunks((primitives.size() + kChunk - 1) / kChunk);
+  const std::size_t chunks = (primitives.size() + kChunk - 1) / kChunk;
   SharedProgress progress(options, primitives.size());
   oneapi::tbb::enumerable_thread_specific<MeshQuery> queries([&] { return MeshQuery(index); });
   arena_of(options.threads).execute([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    oneapi::tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
       if (progress.cancelled()) return;
       MeshQuery& query = queries.local();
       QueryBatch::start(query);
       const auto chunk = primitives.subspan(c * kChunk, std::min(kChunk, primitives.size() - c * kChunk));
+      Batch<Answer> batch;
       for (const Primitive& primitive : chunk) {
         const auto answers = ask(query, primitive);
-        chunks[c].answers.insert(chunks[c].answers.end(), answers.begin(), answers.end());
-        chunks[c].offsets.push_back(chunks[c].answers.size());
+        batch.answers.insert(batch.answers.end(), answers.begin(), answers.end());
+        batch.offsets.push_back(batch.answers.size());
       }
+      take(c * kChunk, std::move(batch));
       progress.add(chunk.size());
     });
   });
   if (progress.cancelled()) throw Cancelled();
+  QueryCounts counts;
+  for (const MeshQuery& query : queries) counts += query.counts();
+  return counts;
+}
 
+template <class Answer, class Primitive, class Ask>
+Batch<Answer> ask_all(const QueryIndex& index, std::span<const Primitive> primitives, const BatchOptions& options,
+                      Ask ask) {
+  std::vector<Batch<Answer>> chunks((primitives.size() + kChunk - 1) / kChunk);
   Batch<Answer> all;
+  all.counts = ask_in_chunks<Answer>(index, primitives, options, ask, [&](std::size_t first, Batch<Answer> chunk) {
+    chunks[first / kChunk] = std::move(chunk);
+  });
   all.offsets.reserve(primitives.size() + 1);
   for (const Batch<Answer>& chunk : chunks) {
     const std::size_t before = all.answers.size();
     for (std::size_t i = 1; i < chunk.offsets.size(); ++i) all.offsets.push_back(before + chunk.offsets[i]);
     all.answers.insert(all.answers.end(), chunk.answers.begin(), chunk.answers.end());
   }
-  for (const MeshQuery& query : queries) all.counts += query.counts();
   return all;
 }
 
-template <class Primitive>
-HitBatch all_hits_of(const QueryIndex& index, std::span<const Primitive> primitives, HitMode mode,
-                     const BatchOptions& options) {
-  auto batch = ask_all<Hit>(index, primitives, options, [mode](MeshQuery& query, const Primitive& primitive) {
+/// What a batch asks of each segment or ray.
+struct AskHits {
+  HitMode mode;
+
+  template <class Primitive>
+  std::vector<Hit> operator()(MeshQuery& query, const Primitive& primitive) const {
     if (mode == HitMode::All) return query.all_hits(primitive);
     const auto hit = mode == HitMode::First ? query.first_hit(primitive) : query.any_hit(primitive);
     return hit ? std::vector{*hit} : std::vector<Hit>{};
-  });
-  return {std::move(batch.offsets), std::move(batch.answers), batch.counts};
+  }
+};
+
+HitBatch hit_batch(Batch<Hit> batch) { return {std::move(batch.offsets), std::move(batch.answers), batch.counts}; }
+
+template <class Primitive>
+QueryCounts take_hits_of(const QueryIndex& index, std::span<const Primitive> primitives, HitMode mode,
+                         const TakeHits& take, const BatchOptions& options) {
+  return ask_in_chunks<Hit>(index, primitives, options, AskHits{mode},
+                            [&](std::size_t first, Batch<Hit> chunk) { take(first, hit_batch(std::move(chunk))); });
 }
 
 }  // namespace
 
 HitBatch hits(const QueryIndex& index, std::span<const Segment> segments, HitMode mode, const BatchOptions& options) {
-  return all_hits_of(index, segments, mode, options);
+  return hit_batch(ask_all<Hit>(index, segments, options, AskHits{mode}));
 }
 
 HitBatch hits(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const BatchOptions& options) {
-  return all_hits_of(index, rays, mode, options);
+  return hit_batch(ask_all<Hit>(index, rays, options, AskHits{mode}));
+}
+
+QueryCounts hits_in_pieces(const QueryIndex& index, std::span<const Segment> segments, HitMode mode,
+                           const TakeHits& take, const BatchOptions& options) {
+  return take_hits_of(index, segments, mode, take, options);
+}
+
+QueryCounts hits_in_pieces(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const TakeHits& take,
+                           const BatchOptions& options) {
+  return take_hits_of(index, rays, mode, take, options);
 }
 
 FaceBatch faces_met(const QueryIndex& index, std::span<const Triangle> triangles, const BatchOptions& options) {

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <random>
+#include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "effort.h"
@@ -128,6 +132,32 @@ TEST(Hits, AreTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(many.offsets, one.offsets);
     EXPECT_EQ(many.hits, one.hits);
   }
+}
+
+TEST(Hits, InPiecesAreTheSame) {
+  const QueryIndex index(make_sample("asteroid", 2000));
+  const auto segments = awkward_segments(make_sample("asteroid", 2000), 3000, 6);
+  for (const HitMode mode : {HitMode::First, HitMode::Any, HitMode::All}) {
+    const HitBatch whole = hits(index, segments, mode);
+    std::mutex mutex;
+    std::size_t queries = 0;
+    hits_in_pieces(index, segments, mode, [&](std::size_t first, const HitBatch& piece) {
+      const std::scoped_lock lock(mutex);
+      const auto begin = whole.hits.begin() + static_cast<std::ptrdiff_t>(whole.offsets[first]);
+      EXPECT_TRUE(std::ranges::equal(piece.hits, std::span(begin, piece.hits.size())));
+      for (std::size_t i = 0; i < piece.offsets.size(); ++i)
+        EXPECT_EQ(piece.offsets[i], whole.offsets[first + i] - whole.offsets[first]);
+      queries += piece.offsets.size() - 1;
+    });
+    EXPECT_EQ(queries, segments.size());
+  }
+}
+
+TEST(Hits, EndWithWhatTakingThemThrows) {
+  const std::vector<Segment> segments(5000, {{-1, 0.1, 0.2}, {1, 0.1, 0.2}});
+  EXPECT_THROW(hits_in_pieces(QueryIndex(octahedron()), segments, HitMode::First,
+                              [](std::size_t, const HitBatch&) { throw std::length_error("full"); }),
+               std::length_error);
 }
 
 TEST(Hits, NameTheFirstQueryThatIsNotFinite) {

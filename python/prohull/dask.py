@@ -1,0 +1,395 @@
+"""Many meshes, or many segments, by the workers of a dask cluster; a guide is docs/guides/dask.md.
+
+    client = distributed.Client("scheduler:8786")
+    rows = prohull.dask.build_folder(client, "meshes", "hulls", faces_target=500)
+    hits = prohull.dask.query(client, hull.original, segments)
+
+The workers need prohull, and read and write the same files by the same paths as the caller. Whatever they had under way
+when they died is done again by others. Importing raises ImportError where dask and its distributed scheduler are not
+installed; `import prohull` needs neither.
+"""
+
+import contextlib
+import csv
+import functools
+import hashlib
+import inspect
+import io
+import json
+import os
+import pathlib
+import sys
+import time
+import uuid
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, Literal, NamedTuple, Optional, Union, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+try:
+    import distributed
+except ImportError as error:
+    raise ImportError("prohull.dask needs dask and its distributed scheduler; install python3-dask and "
+                      "python3-distributed, or by pip \"dask[distributed]\"") from error
+
+import prohull
+
+from . import AllHits, FirstHits, InputError, Mesh, MeshLike, _arrays
+from ._meshes import Path
+
+__all__ = ["Row", "build_folder", "query", "show"]
+
+#: Files that build_folder() takes from a folder, also with .gz after it.
+FORMATS = frozenset({".ply", ".obj", ".off", ".stl", ".glb", ".gltf", ".dae", ".3mf"})
+
+#: Called with how many are done, of how many, and how many of them failed; may return False to stop.
+Progress = Callable[[int, int, int], Optional[bool]]
+
+
+class Row(NamedTuple):
+    """What became of one mesh; a row of report.csv."""
+
+    name: str  #: of the mesh: its path within the folder, its file's name, the key or the number that it was given by
+    status: str  #: "built", "kept" from an earlier run, "refused" for an InputError, "failed" for anything else
+    file: str = ""  #: of the hull; empty without
+    faces: int = 0  #: of the hull
+    void_ratio: Optional[float] = None  #: Hull.void_ratio; None without a hull or if the mesh is not closed
+    seconds: float = 0.0  #: that building took, with reading and writing
+    message: str = ""  #: why there is no hull, or notes and repairs
+
+
+def show(done: int, total: int, failed: int) -> None:
+    """Progress on stderr: one line that changes where that is a terminal, else one at the end."""
+    terminal = sys.stderr.isatty()
+    if terminal or done == total:
+        begin, end = "\r" if terminal else "", "" if terminal and done < total else "\n"
+        print(f"{begin}prohull: {done} of {total} done, {failed} failed", end=end, file=sys.stderr, flush=True)
+
+
+def build_folder(client: "distributed.Client", meshes: Union[Path, Sequence[MeshLike], Mapping[str, MeshLike]],
+                 out: Path, *, suffix: str = ".stl", progress: Optional[Progress] = show,
+                 **options: Any) -> list[Row]:
+    """Builds a certified hull of each mesh into the folder `out`, and says there in report.csv what became of it.
+
+    Guaranteed: a row for each mesh, in the order given, whatever happens to meshes and workers; a hull's file is whole
+    and certified, or not there. A mesh with which its worker dies every time, also alone, is a row that failed.
+    Called again, it keeps hulls that are there with mesh file (by size and time of change; arrays by content) and
+    options unchanged, and builds the others, also after it was interrupted.
+
+    client: of a cluster whose workers see `meshes` and `out` by the same paths.
+    meshes: a folder, which is searched for meshes at any depth; or a sequence of paths or meshes; or those by name.
+        Paths are read by the workers, other meshes travel as arrays. Names of files must be distinct in a sequence.
+    out: made if it is not there. The hull of NAME is NAME + suffix; beside it, NAME + suffix + ".json" says what it was
+        made from.
+    suffix: ".ply", ".obj", ".off", ".stl", ".glb", or ".phull" for all levels. The hulls for .stl and .glb are built
+        with float32=True.
+    progress: see Progress; None for none. If it returns False, KeyboardInterrupt is raised.
+    options: of prohull.build(), one number as faces_target. Without `threads` each build has one: give a worker as many
+        threads as it has cores.
+
+    Raises InputError if `meshes` is no folder or is `out`, and if names are not distinct or lead out of `out`;
+    TypeError for options that build() does not have; OSError if `out` cannot be written.
+    """
+    out = pathlib.Path(out).absolute()
+    jobs = _jobs(_named(meshes, out), out, suffix, _checked(options, suffix))
+    rows: dict[int, Row] = {}
+    told = _Told(progress, len(jobs))
+    for i, job in enumerate(jobs):
+        row = job if isinstance(job, Row) else _finished(job)
+        if row:
+            rows[i] = row if row is job else row._replace(status="kept")
+    told.add(len(rows), sum(row.status != "kept" for row in rows.values()))
+    for alone in (False, True):  # what was lost with its worker again: something beside it may have killed that
+        todo = {i: job for i, job in enumerate(jobs) if i not in rows}
+        limit = (lambda: 1) if alone else functools.partial(_limit, client)
+        with contextlib.closing(_completed(client, _build, todo, limit)) as completed:
+            for i, future in completed:
+                if alone or not _is_killed(future):
+                    rows[i] = _row(jobs[i].name, future)
+                    told.add(1, rows[i].status != "built")
+    in_order = [rows[i] for i in range(len(jobs))]
+    _write(out / "report.csv", _csv(in_order))
+    return in_order
+
+
+@overload
+def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kind: Literal["first_hit"] = ..., *,
+          chunk: int = ..., engine: Any = ..., threads: int = ..., progress: Optional[Progress] = ...) -> FirstHits: ...
+@overload
+def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kind: Literal["any_hit"], *,
+          chunk: int = ..., engine: Any = ..., threads: int = ...,
+          progress: Optional[Progress] = ...) -> NDArray[np.bool_]: ...
+@overload
+def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kind: Literal["all_hits"], *,
+          chunk: int = ..., engine: Any = ..., threads: int = ..., progress: Optional[Progress] = ...) -> AllHits: ...
+def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kind: str = "first_hit", *,
+          chunk: int = 1 << 17, engine: Any = "auto", threads: int = 1,
+          progress: Optional[Progress] = None) -> Union[FirstHits, NDArray[np.bool_], AllHits]:
+    """The answers of mesh.first_hit(), any_hit() or all_hits() for `segments`: the same bits, in the same order.
+
+    The mesh, with its levels where `engine` needs them, travels to each worker once, which builds its index once.
+
+    mesh: a Mesh, a Hull or its `original`, or what else prohull.build() takes; a path is read by the caller.
+    segments: (n, 2, 3) or (n, 6), both ends.
+    kind: "first_hit", "any_hit" or "all_hits".
+    chunk: segments of one task, at least 1; rounded up to a multiple of 512.
+    engine, threads: as of the queries of Mesh; without `threads` each task has one.
+    progress: see Progress, counting segments.
+
+    Raises InputError as the local call does, and distributed.KilledWorker if all workers died that a chunk was given
+    to.
+    """
+    if kind not in ("first_hit", "any_hit", "all_hits"):
+        raise InputError(f"kind={kind!r}: expected one of first_hit, any_hit, all_hits")
+    rows = _finite(_arrays.rows("segments", segments, (2, 3), (6,)).reshape(-1, 6))
+    given = prohull._mesh(mesh)
+    bare = Mesh._of(given._core, given._query_levels)  # of a Hull no more than is asked
+    # Multiples of what a batch answers at a time, which paper-refinement can tell.
+    size = -(-max(1, chunk) // 512) * 512
+    chunks = {start: rows[start:start + size] for start in range(0, max(1, len(rows)), size)}
+    with _large_arguments():
+        held = client.submit(_held, bare, pure=False)
+    told = _Told(progress, len(rows))
+    answers: dict[int, Any] = {}
+    limit = functools.partial(_limit, client)
+    with contextlib.closing(_completed(client, _ask, chunks, limit, held, kind, engine, threads)) as completed:
+        for start, future in completed:
+            answers[start] = future.result()
+            told.add(len(chunks[start]))
+    return _together(kind, [answers[start] for start in chunks])
+
+
+class _Job(NamedTuple):
+    name: str
+    mesh: Union[str, Mesh]
+    target: str
+    options: dict[str, Any]
+    made_from: dict[str, Any]
+
+
+def _checked(options: dict[str, Any], suffix: str) -> dict[str, Any]:
+    known = inspect.signature(prohull.build).parameters
+    if unknown := {name for name in options if name not in known or known[name].kind is not known[name].KEYWORD_ONLY}:
+        raise TypeError(f"build_folder() got options that build() does not have: {', '.join(sorted(unknown))}")
+    if np.ndim(options.get("faces_target", 4)) > 0:
+        raise InputError(f"faces_target={options['faces_target']!r}: expected one number")
+    return {"float32": suffix in (".stl", ".glb"), "threads": 1, **options}
+
+
+def _named(meshes: Any, out: pathlib.Path) -> dict[str, Any]:
+    if isinstance(meshes, Mapping):
+        return dict(meshes)
+    if isinstance(meshes, (str, os.PathLike)):
+        return _meshes_in(pathlib.Path(meshes).absolute(), out)
+    named: dict[str, Any] = {}
+    for i, mesh in enumerate(meshes):
+        name = pathlib.Path(mesh).name if isinstance(mesh, (str, os.PathLike)) else f"{i:06d}"
+        if name in named:
+            raise InputError(f"{os.fspath(mesh)}: another mesh is called {name} as well; give them by distinct names")
+        named[name] = mesh
+    return named
+
+
+def _meshes_in(folder: pathlib.Path, out: pathlib.Path) -> dict[str, pathlib.Path]:
+    if not folder.is_dir():
+        raise InputError(f"{folder}: no folder")
+    if folder == out:
+        raise InputError(f"{folder}: its hulls would be meshes of the next run; give another folder as out")
+    return {path.relative_to(folder).as_posix(): path for path in sorted(folder.rglob("*"))
+            if _is_mesh(path) and out not in path.parents}
+
+
+def _is_mesh(path: pathlib.Path) -> bool:
+    packed = path.suffix.lower() == ".gz"
+    return (path.with_suffix("") if packed else path).suffix.lower() in FORMATS and path.is_file()
+
+
+def _jobs(named: dict[str, Any], out: pathlib.Path, suffix: str, options: dict[str, Any]) -> list[Union[_Job, Row]]:
+    """A row instead for what is no mesh or not there."""
+    for name in named:
+        if os.path.isabs(name) or ".." in pathlib.PurePath(name).parts or not name:
+            raise InputError(f"{name!r}: a name of a mesh is a path within {out}")
+    out.mkdir(parents=True, exist_ok=True)
+    jobs: list[Union[_Job, Row]] = []
+    for name, mesh in named.items():
+        try:
+            is_path = isinstance(mesh, (str, os.PathLike))
+            mesh = os.path.abspath(mesh) if is_path else prohull._mesh(mesh, keep_non_finite=True)
+            made_from = {"options": json.loads(json.dumps(options, default=repr)),
+                         "mesh": {"path": mesh, **_state(mesh)} if is_path else {"digest": _digest(mesh)}}
+            jobs.append(_Job(name, mesh, str(out / (name + suffix)), options, made_from))
+        except Exception as error:
+            jobs.append(_row_of_error(name, error))
+    return jobs
+
+
+def _row_of_error(name: str, error: Exception) -> Row:
+    if isinstance(error, InputError):
+        return Row(name, "refused", message=str(error))
+    return Row(name, "failed", message=f"{type(error).__name__}: {error}")
+
+
+def _state(path: str) -> dict[str, int]:
+    """Changes whenever the file does."""
+    stat = os.stat(path)
+    return {"bytes": stat.st_size, "mtime_ns": stat.st_mtime_ns}
+
+
+def _digest(mesh: Mesh) -> str:
+    content = hashlib.blake2b(digest_size=16)
+    content.update(f"{len(mesh.vertices)} {len(mesh.faces)}".encode())
+    content.update(mesh.vertices)
+    content.update(mesh.faces)
+    return content.hexdigest()
+
+
+# On the worker.
+
+
+def _build(job: _Job) -> Row:
+    try:
+        return _finished(job) or _built(job)
+    except Exception as error:  # whatever it is, the other meshes are to be built
+        return _row_of_error(job.name, error)
+
+
+def _finished(job: _Job) -> Optional[Row]:
+    """That of the hull if it is there, and made of this mesh with these options."""
+    try:
+        with open(job.target + ".json") as file:
+            record = json.load(file)
+        if record["made_from"] == job.made_from and record["hull"] == _state(job.target):
+            return Row(**record["row"])._replace(name=job.name, file=job.target)
+    except (OSError, ValueError, KeyError, TypeError):
+        pass
+    return None
+
+
+def _built(job: _Job) -> Row:
+    start = time.perf_counter()
+    hull = prohull.build(job.mesh, **job.options)
+    notes = "; ".join([*hull.repairs, *hull.notes])
+    if not hull.certified:
+        return Row(job.name, "failed", message=f"not certified: {notes}")
+    os.makedirs(os.path.dirname(job.target), exist_ok=True)
+    hull.save(job.target)
+    void = float(hull.void_ratio)
+    row = Row(job.name, "built", job.target, len(hull.faces), None if np.isnan(void) else void,
+              round(time.perf_counter() - start, 3), notes)
+    record = {"made_from": job.made_from, "hull": _state(job.target), "row": row._asdict()}
+    _write(pathlib.Path(job.target + ".json"), json.dumps(record, indent=1) + "\n")  # only now it counts
+    return row
+
+
+def _held(mesh: Mesh) -> Mesh:
+    """A result that workers hand on to each other and keep, and that is there anew if all that had it died."""
+    return mesh
+
+
+def _ask(rows: NDArray[np.float64], mesh: Mesh, kind: str, engine: Any, threads: int) -> Any:
+    return getattr(mesh, kind)(segments=rows, engine=engine, threads=threads)
+
+
+# On the caller's side.
+
+
+def _limit(client: "distributed.Client") -> int:
+    return 2 * max(1, sum(client.nthreads().values()))
+
+
+def _completed(client: "distributed.Client", function: Callable[..., Any], jobs: Mapping[int, Any],
+               limit: Callable[[], int], *arguments: Any) -> Iterator[tuple[int, "distributed.Future"]]:
+    """The futures of function(job, *arguments), as they come, under the keys of jobs. No more than limit() are
+    under way at once, for the sake of the scheduler's memory, and none is when this is closed."""
+    waiting = iter(jobs.items())
+    under_way: dict["distributed.Future", int] = {}
+    pool = distributed.as_completed(loop=client.loop)
+
+    def submit() -> None:
+        free = limit() - len(under_way)
+        for _, (key, job) in zip(range(free), waiting):
+            with _large_arguments():
+                future = client.submit(function, job, *arguments, pure=False)
+            under_way[future] = key
+            pool.add(future)
+
+    try:
+        submit()
+        for future in pool:
+            yield under_way.pop(future), future
+            submit()
+    finally:
+        if under_way:
+            client.cancel(list(under_way))
+
+
+@contextlib.contextmanager
+def _large_arguments() -> Iterator[None]:
+    """Meshes and segments go with their tasks, so that any worker can begin them anew; dask would rather scatter them,
+    which is lost with a worker."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="(?s)(Large object|Sending large graph) of size")
+        yield
+
+
+def _is_killed(future: "distributed.Future") -> bool:
+    return future.status == "error" and isinstance(future.exception(), distributed.KilledWorker)
+
+
+def _row(name: str, future: "distributed.Future") -> Row:
+    if _is_killed(future):
+        return Row(name, "failed",
+                   message="KilledWorker: every worker that built it died, as by a crash or for want of memory")
+    if future.status == "error":
+        return _row_of_error(name, future.exception())
+    return future.result()
+
+
+class _Told:
+    """How far it is, told to `progress`."""
+
+    def __init__(self, progress: Optional[Progress], total: int) -> None:
+        self._progress, self._total = progress, total
+        self._done = self._failed = 0
+
+    def add(self, done: int, failed: int = 0) -> None:
+        self._done, self._failed = self._done + done, self._failed + failed
+        if self._progress and self._progress(self._done, self._total, self._failed) is False:
+            raise KeyboardInterrupt("progress returned False")
+
+
+def _finite(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    finite = np.isfinite(rows).all(axis=1)
+    if not finite.all():
+        raise InputError(f"query {np.argmin(finite)} has a coordinate that is not finite; remove it")
+    return rows
+
+
+def _together(kind: str, answers: list[Any]) -> Any:
+    if kind == "any_hit":
+        return np.concatenate(answers)
+    if kind == "first_hit":
+        return FirstHits(*map(np.concatenate, zip(*answers)))
+    begins = np.cumsum([0] + [len(answer.face) for answer in answers])
+    offsets = [answer.offsets[:-1] + begin for answer, begin in zip(answers, begins)]
+    return AllHits(np.concatenate([*offsets, begins[-1:]]), *map(np.concatenate, list(zip(*answers))[1:]))
+
+
+def _csv(rows: list[Row]) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(Row._fields)
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def _write(path: pathlib.Path, text: str) -> None:
+    """Whole or not at all."""
+    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}")
+    try:
+        beside.write_text(text)
+        os.replace(beside, path)
+    finally:
+        beside.unlink(missing_ok=True)

@@ -1,0 +1,253 @@
+"""A real cluster of two processes, of which some are killed. Skipped without dask, but for what is told then."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import prohull
+import pytest
+
+try:
+    import dask
+    import distributed
+    import prohull.dask
+except ImportError as missing:
+    distributed = None
+    needs_dask = pytest.mark.skip(reason=f"clusters are not tested: {missing}")
+else:
+    needs_dask = pytest.mark.filterwarnings("ignore:make_current is deprecated")
+
+KILLER = "killer.off"
+TAKES_A_WHILE = dict(faces_target=100, tight=True, best_of=2)
+
+
+def test_without_dask_it_is_told_what_to_install():
+    code = "import sys; sys.modules['distributed'] = None; import prohull; import prohull.dask"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert run.returncode == 1 and "ImportError: prohull.dask needs dask" in run.stderr
+    assert "python3-dask" in run.stderr and "python3-distributed" in run.stderr
+
+
+class KilledByOneMesh:
+    """Makes a worker die of the mesh KILLER, as if native code had crashed."""
+
+    def setup(self, worker):
+        build = prohull.build
+
+        def deadly(mesh, *arguments, **options):
+            if isinstance(mesh, str) and mesh.endswith(KILLER):
+                os.kill(os.getpid(), signal.SIGKILL)
+            return build(mesh, *arguments, **options)
+
+        prohull.build = deadly
+
+
+@pytest.fixture(scope="module")
+def client():
+    """A task that two workers died of is given up, and a dead worker is not called for half a minute."""
+    with dask.config.set({"distributed.scheduler.allowed-failures": 1, "distributed.comm.timeouts.connect": "10s"}):
+        with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
+                                      host="127.0.0.1", silence_logs="CRITICAL") as cluster:
+            with distributed.Client(cluster) as client:
+                yield client
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Six meshes, one of them below another folder, and one file that is none."""
+    folder = tmp_path_factory.mktemp("meshes")
+    (folder / "more").mkdir()
+    for i in range(5):
+        prohull.sample("asteroid", 3000 + 100 * i).save(folder / f"mesh{i}.off")
+    prohull.sample("torus", 500).save(folder / "more" / "torus.PLY")
+    (folder / "bad.stl").write_text("nothing")
+    (folder / "notes.txt").write_text("no mesh")
+    return folder
+
+
+def statuses(rows):
+    return {row.name: row.status for row in rows}
+
+
+def of_report(out):
+    with open(out / "report.csv", newline="") as file:
+        return {row["name"]: row for row in csv.DictReader(file)}
+
+
+def times_of_change(out):
+    return {path: path.stat().st_mtime_ns for path in out.rglob("*.stl")}
+
+
+class KillOneAtWork:
+    """Progress that kills a worker while it has tasks, once the first hull is there."""
+
+    def __init__(self, client):
+        self.client = client
+        self.pids = client.run(os.getpid)
+        self.killed = None
+        self.told = []
+
+    def __call__(self, done, total, failed):
+        self.told.append((done, total, failed))
+        if done >= 1 and not self.killed:
+            self.killed = next(address for address, tasks in self.client.processing().items() if tasks)
+            os.kill(self.pids[self.killed], signal.SIGKILL)
+
+
+@needs_dask
+def test_a_killed_worker_costs_nothing_but_time(client, folder, tmp_path):
+    progress = KillOneAtWork(client)
+    rows = prohull.dask.build_folder(client, folder, tmp_path, progress=progress, **TAKES_A_WHILE)
+    meshes = [f"mesh{i}.off" for i in range(5)]
+    assert progress.killed and progress.pids[progress.killed] not in client.run(os.getpid).values()
+    assert statuses(rows) == {"bad.stl": "refused", **dict.fromkeys([*meshes, "more/torus.PLY"], "built")}
+    assert [row.name for row in rows] == ["bad.stl", *meshes, "more/torus.PLY"]
+    assert "bad.stl: " in rows[0].message and not (tmp_path / "bad.stl.stl").exists()
+    for row in rows[1:]:
+        assert row.file == str(tmp_path / f"{row.name}.stl") and row.faces == 100 and row.seconds > 0
+        assert prohull.verify(row.file, folder / row.name)
+    assert progress.told[-1] == (7, 7, 1) and [done for done, _, _ in progress.told] == sorted(
+        done for done, _, _ in progress.told)
+    report = of_report(tmp_path)
+    assert list(report) == [row.name for row in rows] and float(report["mesh3.off"]["void_ratio"]) == rows[4].void_ratio
+    assert not list(tmp_path.rglob(".*")), "nothing half-written is left"
+
+
+@needs_dask
+def test_what_is_finished_is_kept(client, folder, tmp_path):
+    options = dict(faces_target=300, progress=None)
+    few = [folder / f"mesh{i}.off" for i in range(3)]
+    first = prohull.dask.build_folder(client, few, tmp_path, **options)
+    times = times_of_change(tmp_path)
+    assert len(times) == 3
+
+    again = prohull.dask.build_folder(client, few, tmp_path, **options)
+    assert times_of_change(tmp_path) == times and set(statuses(again).values()) == {"kept"}
+    assert [row._replace(status="built") for row in again] == first
+
+    os.utime(few[0])  # a mesh that changed
+    (tmp_path / "mesh1.off.stl").write_text("cut off")  # a hull that did
+    os.remove(tmp_path / "mesh2.off.stl.json")  # a run that ended before this one counted
+    assert set(statuses(prohull.dask.build_folder(client, few, tmp_path, **options)).values()) == {"built"}
+    options["faces_target"] = 200
+    assert set(statuses(prohull.dask.build_folder(client, few, tmp_path, **options)).values()) == {"built"}
+
+
+@needs_dask
+def test_an_interrupted_run_goes_on(client, folder, tmp_path):
+    meshes = [folder / f"mesh{i}.off" for i in range(5)]
+    with pytest.raises(KeyboardInterrupt):
+        prohull.dask.build_folder(client, meshes, tmp_path, progress=lambda done, total, failed: done < 2)
+    assert not (tmp_path / "report.csv").exists()
+    rows = prohull.dask.build_folder(client, meshes, tmp_path, progress=None)
+    assert {row.status for row in rows} <= {"built", "kept"} and sum(row.status == "kept" for row in rows) >= 2
+
+
+@needs_dask
+def test_a_mesh_that_kills_is_a_row(client, folder, tmp_path):
+    meshes = {name: folder / "mesh0.off" for name in ("a", "b", "c", "d")}
+    meshes["killer"] = tmp_path / KILLER
+    prohull.sample("torus", 200).save(tmp_path / KILLER)
+    client.register_worker_plugin(KilledByOneMesh(), name="killed")
+    try:
+        rows = prohull.dask.build_folder(client, meshes, tmp_path / "out", faces_target=300, progress=None)
+    finally:
+        client.unregister_worker_plugin("killed")
+    assert statuses(rows) == {"a": "built", "b": "built", "c": "built", "d": "built", "killer": "failed"}
+    assert "KilledWorker" in rows[-1].message and of_report(tmp_path / "out")["killer"]["status"] == "failed"
+
+
+@needs_dask
+def test_meshes_may_be_objects(client, cube, tmp_path):
+    solid = prohull.Mesh(*cube)
+    rows = prohull.dask.build_folder(client, [cube, solid, (cube[0], cube[1][:3, :2])], tmp_path, suffix=".ply",
+                                     faces_target=12, progress=None)
+    assert statuses(rows) == {"000000": "built", "000001": "built", "000002": "refused"}
+    assert "expected (m, 3)" in rows[2].message and rows[0].void_ratio == 0
+    assert prohull.verify(tmp_path / "000001.ply", cube)
+    named = {"sub/cube": cube, "gone": tmp_path / "gone.stl", "0": (2 * cube[0], cube[1]), "none": None,
+             "empty": (np.zeros((0, 3)), np.zeros((0, 3), int)), "ragged": ([[0, 1], [0]], cube[1])}
+    others = {"gone": "failed", "none": "refused", "empty": "refused", "ragged": "failed"}
+    rows = prohull.dask.build_folder(client, named, tmp_path, suffix=".ply", faces_target=12, progress=None)
+    assert statuses(rows) == {"sub/cube": "built", "0": "built", **others} and "gone.stl" in rows[1].message
+    named["0"] = (3 * cube[0], cube[1])
+    rows = prohull.dask.build_folder(client, named, tmp_path, suffix=".ply", faces_target=12, progress=None)
+    assert statuses(rows) == {"sub/cube": "kept", "0": "built", **others}
+
+
+@needs_dask
+@pytest.mark.parametrize("meshes, options, error, message", [
+    ("nowhere", {}, prohull.InputError, "nowhere: no folder"),
+    (["a/x.stl", "b/x.stl"], {}, prohull.InputError, "b/x.stl: another mesh is called x.stl"),
+    (".", {}, prohull.InputError, "would be meshes of the next run"),
+    ({"../x": "x.stl"}, {}, prohull.InputError, "'../x': a name of a mesh is a path within"),
+    ({}, {"faces": [4]}, TypeError, "faces"),
+    ({}, {"facets": 4}, TypeError, "facets"),
+    ({}, {"faces_target": [100, 200]}, prohull.InputError, "expected one number"),
+])
+def test_wrong_arguments_are_named(tmp_path, meshes, options, error, message):
+    with pytest.raises(error, match=message):
+        prohull.dask.build_folder(None, meshes, "." if meshes == "." else tmp_path / "out", **options)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.fixture(scope="module")
+def segments():
+    return np.random.default_rng(1).uniform(-1.5, 1.5, size=(5000, 6))
+
+
+@needs_dask
+@pytest.mark.parametrize("kind", ["first_hit", "any_hit", "all_hits"])
+@pytest.mark.parametrize("engine", ["auto", "paper-refinement",
+                                    prohull.Refinement(paper=True, queries_per_roll_back=50)])
+def test_answers_are_the_local_ones(client, hull, segments, kind, engine):
+    local = getattr(hull.original, kind)(segments=segments, engine=engine)
+    told = []
+    remote = prohull.dask.query(client, hull.original, segments.reshape(-1, 2, 3), kind, chunk=1000, engine=engine,
+                                progress=lambda *state: told.append(state))
+    assert type(remote) is type(local) and told[-1] == (5000, 5000, 0) and len(told) == 5
+    for ours, theirs in zip([remote] if kind == "any_hit" else remote, [local] if kind == "any_hit" else local):
+        assert ours.dtype == theirs.dtype and ours.shape == theirs.shape and ours.tobytes() == theirs.tobytes()
+    assert (local.sum() if kind == "any_hit" else (local.face >= 0).sum()) > 500
+
+
+@needs_dask
+def test_answers_survive_a_killed_worker(client, hull, segments):
+    many = np.tile(segments, (4, 1))
+    kill = KillOneAtWork(client)
+    remote = prohull.dask.query(client, hull.original, many, "all_hits", chunk=512, engine="refinement", progress=kill)
+    assert kill.killed
+    for ours, theirs in zip(remote, hull.original.all_hits(segments=many)):
+        assert np.array_equal(ours, theirs)
+
+
+@needs_dask
+def test_no_segments_and_wrong_ones(client, pony, segments):
+    for kind in ("first_hit", "all_hits"):
+        for ours, theirs in zip(prohull.dask.query(client, pony, np.zeros((0, 6)), kind),
+                                getattr(pony, kind)(segments=np.zeros((0, 6)))):
+            assert ours.shape == theirs.shape and ours.dtype == theirs.dtype
+    wrong = segments.copy()
+    wrong[1234, 5] = np.nan
+    for ask in (pony.first_hit, lambda segments: prohull.dask.query(client, pony, segments)):
+        with pytest.raises(prohull.InputError, match="query 1234 has a coordinate"):
+            ask(segments=wrong)
+    with pytest.raises(prohull.InputError, match="engine='magic'"):
+        prohull.dask.query(client, pony, segments, engine="magic")
+    with pytest.raises(prohull.InputError, match="kind='hits'"):
+        prohull.dask.query(client, pony, segments, "hits")
+
+
+@needs_dask
+def test_progress_is_shown(capsys, monkeypatch):
+    for done in (1, 2):
+        prohull.dask.show(done, 2, 1)
+    assert capsys.readouterr().err == "prohull: 2 of 2 done, 1 failed\n"
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    for done in (1, 2):
+        prohull.dask.show(done, 2, 1)
+    assert capsys.readouterr().err == "\rprohull: 1 of 2 done, 1 failed\rprohull: 2 of 2 done, 1 failed\n"
