@@ -1,8 +1,7 @@
-"""What readers can copy runs."""
+"""The docstring and the examples run; the snippets of the pages are run by tests/docs/snippets.py."""
 
 import doctest
 import pathlib
-import re
 import subprocess
 import sys
 
@@ -16,17 +15,6 @@ EXAMPLES = ROOT / "python" / "examples"
 def run(name, *arguments):
     return subprocess.run([sys.executable, str(EXAMPLES / name), *map(str, arguments)], text=True, check=True,
                           stdout=subprocess.PIPE).stdout
-
-
-def test_snippets(tmp_path, monkeypatch, capsys):
-    """One after the other, as one program."""
-    snippets = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / "python.md").read_text(), re.MULTILINE | re.DOTALL)
-    assert len(snippets) >= 7
-    monkeypatch.chdir(tmp_path)
-    exec("\n".join(snippets), {})
-    printed = capsys.readouterr().out
-    assert "<prohull.Hull: outer, 200 faces, certified>" in printed
-    assert "vertices: an array of shape (8, 2); expected (n, 3)" in printed
 
 
 def test_docstring():
