@@ -9,7 +9,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(((?:\.\./)+[^)#\s]+)\)")
 PAGE = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{name}</title>
-<style>:root {{ color-scheme: light dark }} body {{ margin: 2em; font-family: sans-serif }} pre {{ overflow-x: auto }}</style></head>
+<style>
+:root {{ color-scheme: light dark }}
+body {{ margin: 2em; font-family: sans-serif }}
+pre {{ overflow-x: auto }}
+</style></head>
 <body><h1>{name}</h1>{body}</body></html>
 """
 

@@ -29,7 +29,7 @@ def outside(points, p):
 
 
 def least_added(points):
-    """The point outside of all edges of a chain that adds the least area: an optimum is where two of their lines meet."""
+    """The point outside of all edges of a chain that adds the least area; it is where two of their lines meet."""
     best, best_area = None, np.inf
     edges = [(np.asarray(a), np.asarray(b) - a) for a, b in zip(points[:-1], np.asarray(points[1:]))]
     for i, (a, u) in enumerate(edges):
@@ -82,7 +82,8 @@ def placement(out):
     apex = least_added(star)
     x, y = (-0.2, 4.8), (-0.5, 2.5)
     figure, panels = plt.subplots(1, 3, figsize=(11, 2.7), layout="constrained")
-    titles = ("outside of every plane: P may be here", "of these points, P adds the least", "what is added: a triangle for each $T_j$")
+    titles = ("outside of every plane: P may be here", "of these points, P adds the least",
+              "what is added: a triangle for each $T_j$")
     for axes, title in zip(panels, titles):
         panel(axes, title, x, y)
         axes.fill(*np.array([*star, (4.6, -0.5), (0, -0.5)]).T, color=FINE, alpha=0.18, linewidth=0)

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Fails unless what README.md, CHANGELOG.md and the pages below docs/ link to or show is there: links.py ROOT
 
-Files, pictures and headings, by relative links; and each page is in the nav of mkdocs.yml and each picture on some page.
+Files, pictures and headings, by relative links; also unless each page is in the nav of mkdocs.yml, and each picture on
+some page, as one of its kinds.
 """
 
 import pathlib
@@ -44,7 +45,7 @@ def main(root):
             if what:
                 wrong.append(f"{page.relative_to(root)}: {link} {what}")
     for picture in sorted(root.glob("docs/figures/*.*")):
-        if picture.suffix in PICTURES and not {picture, picture.with_suffix(".png")} & shown and picture.with_suffix(".svg") not in shown:
+        if picture.suffix in PICTURES and not {picture.with_suffix(kind) for kind in PICTURES} & shown:
             wrong.append(f"{picture.relative_to(root)}: on no page")
     print("\n".join(wrong))
     return not wrong
