@@ -13,7 +13,7 @@ int main() {
   const auto input = folder / "prohull_example_rock.ply", output = folder / "prohull_example_hull.ply";
   prohull::write_mesh(input, prohull::make_sample("asteroid", 20000));
 
-  // README: build
+  // docs: build
   const prohull::TriangleMesh rock = prohull::closed_mesh(prohull::read_mesh(input)).mesh;
   const prohull::HullResult result = prohull::build_hull(rock, {.target_faces = 500});
   prohull::write_mesh(output, result.hull.base());
@@ -21,7 +21,7 @@ int main() {
   const prohull::EnclosureReport report = prohull::verify_enclosure(rock, prohull::read_mesh(output));
   std::printf("%zu faces, void %.2f %%, %s\n", result.hull.base_face_count(), 100 * report.void_ratio,
               report.encloses ? "encloses" : "DOES NOT ENCLOSE");
-  // README: end
+  // docs: end
 
   std::filesystem::remove(input);
   std::filesystem::remove(output);

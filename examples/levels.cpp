@@ -12,14 +12,14 @@ int main() {
   const auto file = std::filesystem::temp_directory_path() / "prohull_example_knot.phull";
   const prohull::TriangleMesh knot = prohull::make_sample("knot", 10000);
 
-  // README: levels
+  // docs: levels
   prohull::save_hull(file, prohull::build_hull(knot, {.target_faces = 400}).hull);
 
   const prohull::ProgressiveHull hull = prohull::load_hull(file);
   for (const std::size_t faces : {400, 1000, 4000})
     std::printf("%5zu faces: volume %.4f\n", faces, prohull::signed_volume(hull.level(faces)));
   const bool proven = prohull::verify_replay(hull, knot).holds;
-  // README: end
+  // docs: end
 
   std::filesystem::remove(file);
   const bool nested = prohull::verify_enclosure(hull.level(4000), hull.level(400)).encloses;

@@ -1,4 +1,4 @@
-"""What readers can copy runs."""
+"""The docstring and the examples run; the snippets of other pages than the guide of prohull.dask are run by tests/docs/snippets.py."""
 
 import doctest
 import pathlib
@@ -23,14 +23,6 @@ def run_snippets(document):
     snippets = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / document).read_text(), re.MULTILINE | re.DOTALL)
     exec("\n".join(snippets), {})
     return len(snippets)
-
-
-def test_snippets(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    assert run_snippets("python.md") >= 7
-    printed = capsys.readouterr().out
-    assert "<prohull.Hull: outer, 200 faces, certified>" in printed
-    assert "vertices: an array of shape (8, 2); expected (n, 3)" in printed
 
 
 @pytest.mark.filterwarnings("ignore:make_current is deprecated")
