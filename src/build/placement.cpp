@@ -15,14 +15,6 @@ double cubed(double x) { return x * x * x; }
 // A volume may be beyond all numbers, or nothing at all if a part of it is.
 double finite(double volume) { return std::isfinite(volume) ? volume : std::numeric_limits<double>::max(); }
 
-// Six times P&T formula 3 in local units, not counting the margin.
-double sixfold_added_volume(const Star& star, const Vec3& p) {
-  double sum = 0;
-  for (std::size_t i = 0; i < star.planes.size(); ++i)
-    sum += star.double_areas[i] * (dot(star.planes[i].normal, p) - star.planes[i].offset);
-  return sum;
-}
-
 bool is_usable(const Vec3& p) {
   // The star has size 1 around the origin: nothing beyond is a shape that the guards would let pass.
   constexpr double kReach = 8;
@@ -43,6 +35,13 @@ bool all_faces(const HalfEdgeMesh& mesh, const Star& star, Use&& use) {
 
 }  // namespace
 
+double added_volume(const Star& star, const Vec3& p) {
+  double sixfold = 0;
+  for (std::size_t i = 0; i < star.planes.size(); ++i)
+    sixfold += star.double_areas[i] * (dot(star.planes[i].normal, p) - star.planes[i].offset);
+  return finite(sixfold / 6 * cubed(star.scale));
+}
+
 std::optional<Placement> place_outside(const Star& star, double margin) {
   static thread_local std::vector<HalfSpace> constraints;
   constraints.clear();
@@ -59,8 +58,7 @@ std::optional<Placement> place_outside(const Star& star, double margin) {
     if (!nearest || !is_usable(*nearest)) return std::nullopt;
     best.x = *nearest;
   }
-  const double volume = std::max(0.0, sixfold_added_volume(star, best.x) / 6) * cubed(star.scale);
-  return Placement{best.x, finite(volume)};
+  return Placement{best.x, std::max(0.0, added_volume(star, best.x))};
 }
 
 bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p) {

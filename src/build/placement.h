@@ -26,6 +26,9 @@ inline double storage_rounding(const Box& bounds, bool float32_coordinates) {
   return largest * (float32_coordinates ? 0x1p-23 : 0x1p-52);
 }
 
+/// P&T formula 3: what a collapse to the local point adds, in the input's unit; less than 0 where it removes more.
+double added_volume(const Star& star, const Vec3& p);
+
 /// What place_outside needs where storing the vertex moves its coordinates by up to `rounding` (input unit).
 inline double placement_margin(const Star& star, double rounding) { return 1e-10 + 2 * rounding / star.scale; }
 

@@ -110,9 +110,9 @@ void SelfIntersectionGuard::place(std::uint32_t slot, const FloatBox& box) {
   }
 }
 
-// Puts the faces near `box` without a corner at o or d first in others_, and counts them. Level by level, and with few
-// branches, which nothing could predict.
-std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const FloatBox& box) {
+// Puts the corners of those faces near `box` that are others first in others_, and counts them. Level by level, and with
+// few branches, which nothing could predict.
+std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const FloatBox& box, auto&& is_other) {
   const auto make_room = [](auto& list, std::size_t size) {
     if (list.size() < size) list.resize(2 * size);
   };
@@ -141,13 +141,23 @@ std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, VertexI
     const auto corners = mesh.corners(face_at_[slot]);
     const bool has_gone = corners[0] == kNoVertex;
     if (has_gone) levels_[0][slot / kWidth].set(slot % kWidth, kEmptyNode.box());
-    bool is_other = !has_gone;
-    for (const VertexId v : corners) is_other &= v != o && v != d;
     others_[others] = corners;
-    others += is_other;
+    others += std::size_t{!has_gone} & std::size_t{is_other(face_at_[slot], corners)};
   }
   return others;
 }
+
+namespace {
+
+auto has_no_corner_at(VertexId o, VertexId d) {
+  return [o, d](FaceId, const std::array<VertexId, 3>& corners) {
+    bool is_other = true;
+    for (const VertexId v : corners) is_other &= v != o && v != d;
+    return is_other;
+  };
+}
+
+}  // namespace
 
 // Of the faces of `fan_`, that take the place of the stars of o and d, among themselves and with the rest.
 std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d,
@@ -157,7 +167,7 @@ std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, 
     set_faces(mesh, link, [&](std::size_t) { return apex; });
     pairs = count_pairs_among_faces();
   }
-  const std::size_t others = find_others(mesh, o, d, unit_cube_.at(fan_.box()));
+  const std::size_t others = find_others(mesh, unit_cube_.at(fan_.box()), has_no_corner_at(o, d));
   for (const auto& corners : std::span(others_).first(others))
     for (std::uint64_t met = fan_.perhaps_met(mesh, corners); met != 0; met &= met - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(met)), j = i + 1 == link.size() ? 0 : i + 1;
@@ -166,14 +176,14 @@ std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, 
   return pairs;
 }
 
-// The same of any `faces_`.
-std::size_t SelfIntersectionGuard::count_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d) {
+// The same of any `faces_`, with those of the rest that are others.
+std::size_t SelfIntersectionGuard::count_pairs(const HalfEdgeMesh& mesh, auto&& is_other) {
   face_boxes_.clear();
   for (const Triangle& t : faces_) face_boxes_.push_back(unit_cube_.at(t));
   FloatBox whole = face_boxes_.front();
   for (const FloatBox& box : face_boxes_) whole.extend(box);
   std::size_t pairs = count_pairs_among_faces();
-  const std::size_t others = find_others(mesh, o, d, whole);
+  const std::size_t others = find_others(mesh, whole, is_other);
   for (const auto& corners : std::span(others_).first(others)) {
     const Triangle other = triangle(mesh, corners);
     const FloatBox box = unit_cube_.at(other);
@@ -204,11 +214,11 @@ bool SelfIntersectionGuard::adds_pairs(const HalfEdgeMesh& mesh, VertexId o, Ver
     after = count_pairs_of_fan(mesh, o, d, link, apex);
   } else {
     set_faces(mesh, link, [&](std::size_t) { return apex; });
-    after = count_pairs(mesh, o, d);
+    after = count_pairs(mesh, has_no_corner_at(o, d));
   }
   if (after == 0) return false;
   set_faces_before();
-  return after > count_pairs(mesh, o, d);
+  return after > count_pairs(mesh, has_no_corner_at(o, d));
 }
 
 bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex) {
@@ -224,6 +234,19 @@ bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, Ve
                                                     const std::vector<VertexId>& link, const Vec3& to) {
   return adds_pairs(mesh, v, v, link, to,
                     [&] { set_faces(mesh, link, [&](std::size_t) { return mesh.position(v); }); });
+}
+
+bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, HalfEdgeId flipped) {
+  const HalfEdgeId g = mesh.twin(flipped);
+  const FaceId left{index(flipped) / 3}, right{index(g) / 3};
+  const auto is_other = [&](FaceId f, const auto&) { return f != left && f != right; };
+  const Vec3 &o = mesh.position(mesh.tail(flipped)), &d = mesh.position(mesh.tip(flipped));
+  const Vec3 &l = mesh.position(mesh.tail(mesh.previous(flipped))), &r = mesh.position(mesh.tail(mesh.previous(g)));
+  faces_ = {{r, l, o}, {l, r, d}};
+  const std::size_t after = count_pairs(mesh, is_other);
+  if (after == 0) return false;
+  faces_ = {{o, d, l}, {d, o, r}};
+  return after > count_pairs(mesh, is_other);
 }
 
 std::vector<FaceId> faces_along_curve(const HalfEdgeMesh& mesh) {

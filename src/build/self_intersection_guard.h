@@ -26,7 +26,10 @@ class SelfIntersectionGuard {
   /// The same for a vertex that would move; its link in order around it.
   bool would_add_intersections(const HalfEdgeMesh& mesh, VertexId v, const std::vector<VertexId>& link, const Vec3& to);
 
-  /// To be told of every collapse, and of every vertex moved.
+  /// The same for an edge that would be flipped (HalfEdgeMesh::flip).
+  bool would_add_intersections(const HalfEdgeMesh& mesh, HalfEdgeId flipped);
+
+  /// To be told of every collapse, of every vertex moved, and of one end of every edge flipped, as it is then.
   void changed(const HalfEdgeMesh& mesh, VertexId s);
 
  private:
@@ -43,10 +46,10 @@ class SelfIntersectionGuard {
 
   void pack(const HalfEdgeMesh& mesh);
   void place(std::uint32_t slot, const FloatBox& box);
-  std::size_t find_others(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const FloatBox& box);
+  std::size_t find_others(const HalfEdgeMesh& mesh, const FloatBox& box, auto&& is_other);
   std::size_t count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const std::vector<VertexId>& link,
                                  const Vec3& apex);
-  std::size_t count_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d);
+  std::size_t count_pairs(const HalfEdgeMesh& mesh, auto&& is_other);
   std::size_t count_pairs_among_faces() const;
   void set_faces(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link, auto&& apex);
   bool adds_pairs(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const std::vector<VertexId>& link, const Vec3& apex,

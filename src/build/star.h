@@ -31,6 +31,7 @@ struct Star {
   const Vec3& local_apex(std::size_t i) const { return i < o_faces ? local_o : local_d; }
   std::size_t after(std::size_t i) const { return i + 1 == link.size() ? 0 : i + 1; }
   Vec3 to_input(const Vec3& p) const { return origin + p * scale; }
+  Vec3 to_local(const Vec3& p) const { return (p - origin) * (1 / scale); }
 };
 
 /// Vertices only; the rest is as it was.

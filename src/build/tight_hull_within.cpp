@@ -10,11 +10,9 @@ class TightSearch {
  public:
   TightSearch(const TriangleMesh& mesh, const std::function<bool(const TriangleMesh&)>& is_within,
               const HullOptions& options, const TriangleMesh* wrapped)
-      : mesh_(mesh),
-        is_within_(is_within),
-        options_(options),
-        wrapped_(wrapped),
-        best_{mesh, Stopped::Cancelled, {}, {}, 0, 0} {}
+      : mesh_(mesh), is_within_(is_within), options_(options), wrapped_(wrapped), best_{mesh, Stopped::Cancelled,
+                                                                                        {},   {},
+                                                                                        0,    0} {}
 
   TightHull run() try {
     const std::size_t enough = faces_of_progressive_hull();

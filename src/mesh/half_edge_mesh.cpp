@@ -151,6 +151,34 @@ void HalfEdgeMesh::split(VertexId s, const VertexSplit& record) {
   face_count_ += 2;
 }
 
+bool HalfEdgeMesh::can_flip(HalfEdgeId h) const {
+  const VertexId l = tail(previous(h)), r = tail(previous(twin(h)));
+  if (l == r || valence_[tail(h)] <= 3 || valence_[tip(h)] <= 3) return false;
+  const HalfEdgeId first = out(l);
+  HalfEdgeId a = first;
+  do {
+    if (tip(a) == r) return false;
+    a = rotated(a);
+  } while (a != first);
+  return true;
+}
+
+void HalfEdgeMesh::flip(HalfEdgeId h) {
+  const HalfEdgeId g = twin(h);
+  const HalfEdgeId dl = next(h), lo = previous(h), or_ = next(g), rd = previous(g);
+  const HalfEdgeId ld = twin(dl), ol = twin(lo), ro = twin(or_), dr = twin(rd);
+  const VertexId o = tail(h), d = tail(g), l = tail(lo), r = tail(rd);
+  const EdgeId dl_edge = edge(dl), lo_edge = edge(lo), or_edge = edge(or_), rd_edge = edge(rd);
+
+  // The faces are (r, l, o) and (l, r, d) now.
+  half_edges_[h].tail = r, half_edges_[dl].tail = l, half_edges_[lo].tail = o;
+  half_edges_[g].tail = l, half_edges_[or_].tail = r, half_edges_[rd].tail = d;
+  pair(dl, ol, lo_edge), pair(lo, ro, or_edge);
+  pair(or_, dr, rd_edge), pair(rd, ld, dl_edge);
+  out_[o] = lo, out_[d] = rd, out_[l] = dl, out_[r] = or_;
+  --valence_[o], --valence_[d], ++valence_[l], ++valence_[r];
+}
+
 TriangleMesh HalfEdgeMesh::triangle_mesh() const {
   TriangleMesh mesh;
   PerVertex<VertexId> renumbered(positions_.size(), kNoVertex);

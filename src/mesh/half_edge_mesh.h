@@ -77,6 +77,13 @@ class HalfEdgeMesh {
   /// Undoes the collapse that made `s`; requires its link to be in place.
   void split(VertexId s, const VertexSplit& record);
 
+  /// Whether the edge of h may be flipped: its ends keep three faces at least, and no edge joins the other two corners.
+  bool can_flip(HalfEdgeId h) const;
+
+  /// Puts the other diagonal of its two faces in the place of the edge of h, which becomes r-l (above). Not known to
+  /// splits: only before collapses, or without any.
+  void flip(HalfEdgeId h);
+
   void move(VertexId v, const Vec3& position) { positions_[v] = position; }
 
   /// Of the faces that are there, in the order of their ids; vertices likewise, renumbered without gaps.

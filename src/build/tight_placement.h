@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "build/original.h"
+#include "geometry/linear_program.h"
+#include "geometry/simd.h"
+#include "mesh/half_edge_mesh.h"
+#include "prohull/hull_builder.h"
+
+namespace prohull {
+
+/// Where a vertex of a hull may move so that the hull loses volume and still encloses the original: a linear program
+/// with cutting planes proposes, exact predicates decide.
+///
+/// Moving a vertex from P to Q replaces its star. Along each edge (a, b) of its link lies a tetrahedron (P, Q, a, b);
+/// as chains, the new star is the old one plus those that are added outside minus those that are removed. So the hull
+/// still encloses a closed mesh if no removed tetrahedron holds a point of the solid in its inside: no original
+/// triangle meets the inside, and some point of it is outside of the original. It still covers triangles of any kind if
+/// none touches a removed tetrahedron: one between two of them would meet the inside of neither. All this is decided
+/// exactly, on stored coordinates.
+class TightPlacement {
+ public:
+  TightPlacement(const Original& original, const HullOptions& options);
+
+  /// The vertex, which need not be in the mesh, and its link in order around it.
+  void set(const Vec3& from, const HalfEdgeMesh& mesh, const std::vector<VertexId>& link);
+
+  /// The first of its proposals that is_accepted(to) accepts, as stored. Asks for keeps_enclosing too, or encloses not.
+  template <class IsAccepted>
+  std::optional<Vec3> first(IsAccepted&& is_accepted);
+
+  /// Exact: the hull still encloses if the vertex moves there.
+  bool keeps_enclosing(const Vec3& to) const;
+
+  const Vec3& from() const { return from_; }
+  /// A frame with the origin at the vertex and the farthest link vertex at distance 1.
+  const std::vector<Vec3>& local_link() const { return local_; }
+  Vec3 to_local(const Vec3& p) const { return (p - from_) / scale_; }
+  std::size_t after(std::size_t i) const { return i + 1 == local_.size() ? 0 : i + 1; }
+
+  Vec3 as_stored(const Vec3& p) const;
+  double rounding() const { return rounding_; }
+
+ private:
+  void gather_original(const Box& box);
+  std::optional<Vec3> propose(double margin);
+  bool add_cuts(const Vec3& apex, double margin);
+  std::optional<Vec3> deepest_point(const Vec3& apex, const Vec3& a, const Vec3& b);
+  double allowed_depth() const;
+
+  static constexpr std::uint32_t kNotNearby = 0xffffffff;
+
+  const Original& original_;
+  const bool float32_coordinates_;
+  const double rounding_;  ///< the most by which storing moves a coordinate, with some room
+
+  Vec3 from_;
+  double scale_ = 1;
+  std::vector<Vec3> link_, local_;
+  // Of the original, what is nearby, local: points two by two, the last twice if they are odd, and triangles of them.
+  std::vector<VertexId> nearby_;
+  PerVertex<std::uint32_t> place_;  ///< in nearby_, or kNotNearby
+  std::vector<Vec3Pair> points_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  Vec3 objective_;
+  std::vector<HalfSpace> constraints_;
+
+  std::vector<double> depths_;  ///< scratch, as the two below
+  std::vector<Vec3> polygon_, clipped_;
+};
+
+template <class IsAccepted>
+std::optional<Vec3> TightPlacement::first(IsAccepted&& is_accepted) {
+  const double clearance = original_.clearance() / scale_, rounding = rounding_ / scale_;
+  // The second margin is for what rounding and the tolerances of the proposal have got wrong.
+  for (const double margin : {clearance + 1e-10 + 2 * rounding, clearance + 1e-7 + 8 * rounding}) {
+    const auto apex = propose(margin);
+    if (!apex) return std::nullopt;
+    for (const double step : {1.0, 0.5, 0.25})
+      if (const Vec3 to = as_stored(from_ + *apex * (step * scale_)); is_accepted(to)) return to;
+  }
+  return std::nullopt;
+}
+
+}  // namespace prohull
