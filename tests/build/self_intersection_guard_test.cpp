@@ -11,6 +11,7 @@
 #include "effort.h"
 #include "geometry/triangle_intersection.h"
 #include "meshes.h"
+#include "prohull/enclosure.h"
 #include "prohull/sample.h"
 
 namespace prohull {
@@ -151,6 +152,33 @@ TEST(SelfIntersectionGuard, AgreesWithExactTestsOfAllPairs) {
 }
 
 // Most faces around a star of a smooth mesh are told apart from it without an exact test: that is what the fan is for.
+TEST(SelfIntersectionGuard, AgreesWithCountsOfWholeMeshesOnFlips) {
+  Random random;
+  const std::uint32_t seed = random.engine();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  random.engine.seed(seed);
+  std::size_t added = 0, not_added = 0;
+  for (const TriangleMesh& original : {sphere(2), make_sample("bracket", 300), make_sample("knot", 300),
+                                       together(sphere(1), moved(sphere(1), {1.7, 0, 0}))}) {
+    HalfEdgeMesh mesh(original);
+    SelfIntersectionGuard guard(mesh, faces_along_curve(mesh));
+    for (int i = 0; i < rounds(150); ++i) {
+      const HalfEdgeId h = mesh.half_edge(EdgeId{static_cast<std::uint32_t>(random.below(mesh.edge_id_count()))});
+      if (!mesh.can_flip(h)) continue;
+      const std::size_t before = count_self_intersections(mesh.triangle_mesh());
+      const bool adds = guard.would_add_intersections(mesh, h);
+      mesh.flip(h);
+      ASSERT_EQ(adds, count_self_intersections(mesh.triangle_mesh()) > before);
+      ++(adds ? added : not_added);
+      if (adds && random.below(4) != 0)
+        for (int k = 0; k < 3; ++k) mesh.flip(h);
+      guard.changed(mesh, mesh.tail(h)), guard.changed(mesh, mesh.tip(h));
+    }
+  }
+  EXPECT_GT(added, 0u);
+  EXPECT_GT(not_added, 0u);
+}
+
 TEST(Fan, IsCertainWhereverThereIsNoDoubt) {
   for (const double scale : {1.0, 0x1p-150, 0x1p250}) {
     const HalfEdgeMesh mesh(scaled(sphere(3), scale));

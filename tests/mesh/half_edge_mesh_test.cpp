@@ -156,6 +156,40 @@ TEST(HalfEdgeMesh, ACollapseNamesWhatItReplaces) {
   EXPECT_FALSE(mesh.has(VertexId(0)) || mesh.has(VertexId(2)));
 }
 
+TEST(HalfEdgeMesh, AFlipPutsTheOtherDiagonal) {
+  HalfEdgeMesh mesh(octahedron());
+  const HalfEdgeId h = mesh.half_edge(edge_between(mesh, VertexId(0), VertexId(2)));
+  const VertexId o = mesh.tail(h), d = mesh.tip(h);
+  const VertexId l = mesh.tail(mesh.previous(h)), r = mesh.tail(mesh.previous(mesh.twin(h)));
+  ASSERT_TRUE(mesh.can_flip(h));
+  mesh.flip(h);
+  EXPECT_EQ(first_defect(mesh), std::nullopt);
+  EXPECT_EQ((std::pair{mesh.tail(h), mesh.tip(h)}), (std::pair{r, l}));
+  EXPECT_EQ((std::pair{mesh.valence(o), mesh.valence(d)}), (std::pair{3u, 3u}));
+  EXPECT_EQ((std::pair{mesh.valence(l), mesh.valence(r)}), (std::pair{5u, 5u}));
+  EXPECT_FALSE(mesh.can_flip(mesh.half_edge(edge_between(mesh, o, l)))) << "o would have two faces";
+}
+
+TEST(HalfEdgeMesh, FourFlipsOfAnEdgeUndoEachOtherAndAnyKeepItSound) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  HalfEdgeMesh mesh(make_sample("bracket", 400));
+  std::size_t flips = 0;
+  for (int i = 0; i < rounds(500); ++i) {
+    const HalfEdgeId h = mesh.half_edge(EdgeId{static_cast<std::uint32_t>(random() % mesh.edge_id_count())});
+    if (!mesh.can_flip(h)) continue;
+    const Snapshot before = snapshot(mesh, mesh.positions().size());
+    for (int k = 0; k < 4; ++k) mesh.flip(h);
+    ASSERT_EQ(snapshot(mesh, mesh.positions().size()), before);
+    mesh.flip(h);
+    ASSERT_EQ(first_defect(mesh), std::nullopt);
+    ASSERT_TRUE(inspect(mesh.triangle_mesh()).is_closed_manifold());
+    ++flips;
+  }
+  EXPECT_GT(flips, 0u);
+}
+
 TEST(HalfEdgeMesh, ItsFirstDefectIsFound) {
   HalfEdgeMesh mesh(octahedron());
   EXPECT_EQ(first_defect(mesh), std::nullopt);
