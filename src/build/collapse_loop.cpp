@@ -161,9 +161,7 @@ class CollapseLoop {
   // Where it would go, or why it may not. An end of the edge that adds nothing at all is preferred (not in the paper);
   // where the shape guards refuse it for now, so is the edge: any other apex would move flat parts by the margin.
   std::optional<Refusal> refusal_of_apex(const Placement& placement, Vec3& apex) {
-    constexpr double kFlat = 1e-7;  // of the star's cube; only saves exact tests where they cannot succeed
-    if (options_.strategy == Strategy::Lazy &&
-        placement.added_volume <= kFlat * star_.scale * star_.scale * star_.scale) {
+    if (options_.strategy == Strategy::Lazy && may_be_flat(placement, star_)) {
       std::optional<Refusal> why;
       for (const VertexId end : {star_.o, star_.d}) {
         apex = mesh_.position(end);

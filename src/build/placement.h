@@ -35,6 +35,12 @@ inline double placement_margin(const Star& star, double rounding) { return 1e-10
 /// Exact. Where an end of the edge does, as in flat parts and along straight creases, a collapse to it adds nothing.
 bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p);
 
+/// Whether the collapse adds so little that an end of the edge may lie on all planes; saves exact tests where none can.
+inline bool may_be_flat(const Placement& placement, const Star& star) {
+  constexpr double kFlat = 1e-7;  // of the star's cube
+  return placement.added_volume <= kFlat * star.scale * star.scale * star.scale;
+}
+
 /// P&T 3.1.3, second strategy: the unsigned volume between the star and the centre of its link, in the input's unit.
 double link_center_volume(const Star& star);
 

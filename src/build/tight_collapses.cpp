@@ -71,6 +71,17 @@ class TightCollapses {
   std::optional<Vec3> place(EdgeId e) {
     const auto outside = place_outside_of_star(e);
     if (!outside) return std::nullopt;
+    if (may_be_flat(*outside, star_)) {
+      bool has_flat_end = false;
+      for (const VertexId end : {star_.o, star_.d}) {
+        const Vec3 to = mesh_.position(end);
+        if (!lies_on_all_planes(mesh_, star_, to)) continue;
+        has_flat_end = true;
+        if (!refused_shape(star_, star_.to_local(to), options_) && !guard_.would_add_intersections(mesh_, star_, to))
+          return to;
+      }
+      if (has_flat_end) return std::nullopt;  // any other apex would move flat parts by the margin
+    }
     const Vec3 from = placement_.as_stored(star_.to_input(outside->local));
     if (!is_finite(from) || !is_outside(mesh_, star_, from)) return std::nullopt;
     placement_.set(from, mesh_, star_.link);
