@@ -124,7 +124,7 @@ expect 2 "guarded or not" $prohull build knot.ply -o x.ply --allow-self-intersec
 expect 2 "tight is guarded" $prohull build knot.ply -o x.ply --allow-self-intersections --tight
 expect 2 "inner is guarded" $prohull build knot.ply -o x.ply --allow-self-intersections --side inner
 says err "inner is guarded" "--allow-self-intersections"
-$prohull sample knot -o thread.ply --faces $((3000 / divisor)) >/dev/null
+$prohull sample knot -o thread.ply --faces $((1500 / divisor)) >/dev/null
 expect 0 "tight within a distance" $prohull build thread.ply --faces 50 --tight --max-distance 0.05 -o x.stl --report x.json
 says out "tight within a distance" "self-intersections: none"
 checks=$((checks + 1))
