@@ -1,10 +1,8 @@
 #!/bin/sh
-# Drives the command line as a user would: cli_test.sh PROHULL DIVISOR HAS_WRAP, with meshes of DIVISOR times fewer faces
+# Drives the command line as a user would: cli_test.sh PROHULL DIVISOR HAS_WRAP, with meshes of DIVISOR times fewer faces.
 # Each check names what it defends; the last line counts them.
 set -u
-prohull=$1
-has_wrap=$3
-divisor=${2:-1}
+prohull=$1 divisor=$2 has_wrap=$3
 work=$(mktemp -d)
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -113,7 +111,7 @@ expect 0 "unguarded" $prohull build knot.ply --faces 100 -o loose.ply --allow-se
 says out "unguarded" "pairs of faces (the mesh: 0; added: "
 says loose.json "report: unguarded" '"allow_self_intersections": true'
 expect 0 "of a self-intersecting mesh" $prohull build loose.ply --faces 80 -o looser.ply
-if [ "$has_wrap" = ON ]; then
+if [ "$has_wrap" = 1 ]; then
   says out "of a self-intersecting mesh" "self-intersections: none (the mesh: "
 fi
 expect 0 "of a self-intersecting mesh, as it is" $prohull build loose.ply --faces 80 -o looser.ply --repair none
@@ -126,7 +124,7 @@ expect 2 "guarded or not" $prohull build knot.ply -o x.ply --allow-self-intersec
 expect 2 "tight is guarded" $prohull build knot.ply -o x.ply --allow-self-intersections --tight
 expect 2 "inner is guarded" $prohull build knot.ply -o x.ply --allow-self-intersections --side inner
 says err "inner is guarded" "--allow-self-intersections"
-$prohull sample knot -o thread.ply --faces $((3000 / divisor)) >/dev/null
+$prohull sample knot -o thread.ply --faces $((1500 / divisor)) >/dev/null
 expect 0 "tight within a distance" $prohull build thread.ply --faces 50 --tight --max-distance 0.05 -o x.stl --report x.json
 says out "tight within a distance" "self-intersections: none"
 checks=$((checks + 1))
@@ -379,7 +377,7 @@ absent "rock_x.stl" "several hulls, one name"
 expect 0 "void" $prohull build rock.ply --faces 4 --max-void 5 -o tight_enough.ply --report void.json
 says out "void" "void 4."
 expect 2 "negative void" $prohull build rock.ply --max-void -5 -o x.ply
-if [ "$has_wrap" = ON ]; then
+if [ "$has_wrap" = 1 ]; then
   expect 0 "an open mesh" $prohull build open.off --faces 100 -o wrapped.stl --report wrapped.json
   says out "an open mesh" "covers every triangle"
   says wrapped.json "report: wrapped" '"repair": "wrap"'

@@ -2,7 +2,7 @@
 # CMake and by pkg-config, and within its own tree, where the library is not built again: what the project would link is
 # linked with the one that was built.
 #   cmake -DROOT=<source tree of prohull> -DBUILD=<its build tree> -DLIBRARY=<the library in it> -DHAS_WRAP=<bool>
-#         -DWORK=<folder of the test> -DCOMPILER=<c++> -DFLAGS=<of the compiler> -P run.cmake
+#         -DWORK=<folder of the test> -DCOMPILER=<c++> -P run.cmake
 cmake_policy(VERSION 3.25)
 
 function(run)
@@ -27,7 +27,7 @@ function(configure name snippet)
   endif()
   execute_process(
     COMMAND ${CMAKE_COMMAND} -S ${WORK}/${name} -B ${WORK}/${name}/build -G Ninja -DSNIPPET=${WORK}/${name}/snippet.cmake
-            -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}" ${ARGN}
+            -DCMAKE_CXX_COMPILER=${COMPILER} ${ARGN}
     RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
   set(failed ${failed} PARENT_SCOPE)
   set(output "${output}" PARENT_SCOPE)
@@ -110,7 +110,7 @@ endif()
 file(GLOB_RECURSE pc ${WORK}/moved/prohull.pc)
 cmake_path(GET pc PARENT_PATH pc)
 cmake_path(GET pc PARENT_PATH libraries)
-string(REPLACE "c++ " "${COMPILER} ${FLAGS} " compile "${shell_blocks}")
+string(REPLACE "c++ " "${COMPILER} " compile "${shell_blocks}")
 file(COPY ${ROOT}/tests/consumer/mine.cpp DESTINATION ${WORK}/pkg-config)
 execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pc} sh -e -c "${compile}"
                 WORKING_DIRECTORY ${WORK}/pkg-config COMMAND_ERROR_IS_FATAL ANY)

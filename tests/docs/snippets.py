@@ -30,8 +30,6 @@ import xml.etree.ElementTree
 FENCED = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PART_OF_EXAMPLE = re.compile(r"// docs: [a-z_]+\n(.*?)\n *// docs: end", re.DOTALL)
 
-TESTED_ELSEWHERE = {"dask.md": "python"}  # which needs a cluster: python/tests/test_documents.py
-
 
 class Wrong(Exception):
     pass
@@ -71,8 +69,7 @@ class Page:
         for block in blocks:
             if block[1] not in kinds:
                 raise Wrong(f"has a block of {block[1] or 'nothing'}, expected one of {', '.join(kinds)}")
-            if TESTED_ELSEWHERE.get(self.path.name) != block[1]:
-                kinds[block[1]](block[2], block.start(2))
+            kinds[block[1]](block[2], block.start(2))
 
     def console(self, code, at):
         self.printed, unseen, command = [], [], ""

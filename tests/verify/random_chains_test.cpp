@@ -14,7 +14,7 @@ TEST(Enclosure, AgreesWithBruteForceOnRandomChains) {
   RandomChains chains(seed);
   std::mt19937 random(seed);
   int enclosed = 0, rejected = 0;
-  while (enclosed + rejected < effort(40, 12) || rejected == 0) {  // nine in ten enclose
+  while (enclosed + rejected < effort(16, 6) || rejected == 0) {  // nine in ten enclose
     TriangleMesh inner, outer;
     for (int n = chains.uniform(1, 2); n > 0; --n) chains.add_tetrahedron(inner);
     if (inner.triangles.empty()) continue;

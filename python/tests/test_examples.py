@@ -1,8 +1,7 @@
-"""The docstring and the examples run; the snippets of other pages than the guide of prohull.dask are run by tests/docs/snippets.py."""
+"""The docstring, the examples and the benchmark run; tests/docs/snippets.py runs what the pages show."""
 
 import doctest
 import pathlib
-import re
 import subprocess
 import sys
 
@@ -16,27 +15,6 @@ EXAMPLES = ROOT / "python" / "examples"
 def run(name, *arguments):
     return subprocess.run([sys.executable, str(EXAMPLES / name), *map(str, arguments)], text=True, check=True,
                           stdout=subprocess.PIPE).stdout
-
-
-def run_snippets(document):
-    """One after the other, as one program; how many there are."""
-    snippets = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / document).read_text(), re.MULTILINE | re.DOTALL)
-    exec("\n".join(snippets), {})
-    return len(snippets)
-
-
-@pytest.mark.filterwarnings("ignore:make_current is deprecated")
-def test_guide_of_dask(tmp_path, monkeypatch, capsys):
-    pytest.importorskip("distributed", reason="the guide of prohull.dask: python3-distributed is not installed")
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "meshes").mkdir()
-    for name in ("torus", "sphere"):
-        prohull.sample(name, 1000).save(tmp_path / "meshes" / f"{name}.off")
-    (tmp_path / "meshes" / "bad.stl").write_text("nothing")
-    assert run_snippets("guides/dask.md") >= 4
-    shown = capsys.readouterr()
-    assert "bad.stl refused" in shown.out and "3 of 3 done, 1 failed" in shown.err
-    assert prohull.verify(tmp_path / "hulls" / "torus.off.stl", tmp_path / "meshes" / "torus.off")
 
 
 def test_docstring():
