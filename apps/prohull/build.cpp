@@ -229,7 +229,7 @@ void add_build(CLI::App& app, Run& run) {
   add_choice(command, "--side", hull.side, side_names(), "outer: encloses the mesh; inner: is enclosed by it");
   CLI::Option* tight = command.add_flag("--tight", enclosing.tight,
                                         "Move vertices towards the mesh between collapses: the least void, never "
-                                        "self-intersecting, some ten times slower");
+                                        "self-intersecting, some twenty to seventy times slower");
   add_choice(
       command, "--repair", enclosing.repair, repair_names(),
       "auto: repairs what is not closed, and wraps where that is not enough; none: refuses; wrap: wraps at once");

@@ -11,14 +11,14 @@ namespace prohull {
 struct TightHull {
   TriangleMesh mesh;
   Stopped stopped;
-  RefusalCounts refused, blocked;  ///< as in HullResult
+  RefusalCounts refused, blocked;  ///< as in HullResult, but for the collapses towards the mesh at the end
   std::size_t moved_vertices = 0;  ///< how often a vertex was moved towards the original
   unsigned relaxed_guards = 0;     ///< as in HullResult
 };
 
 /// One hull of at most options.target_faces, tighter than the base mesh of build_hull: edge collapses take turns with
 /// rounds in which each vertex moves towards the original mesh, as far as enclosure, shape and freedom from
-/// self-intersection allow. It takes some ten times as long, and leaves no nested levels.
+/// self-intersection allow. It takes some twenty to seventy times as long, and leaves no nested levels.
 /// Guaranteed: a closed 2-manifold that encloses `mesh` (HullSide::Inner: is enclosed by it) in the sense of winding
 /// numbers; every collapse and every move is decided by exact predicates on stored coordinates. Pairs of faces that
 /// intersect are never more than those of `mesh`, whatever options.self_intersections says. Throws as build_hull does.

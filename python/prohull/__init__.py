@@ -76,7 +76,7 @@ def build(mesh: MeshLike, faces: Optional[ArrayLike] = None, *,
     faces_target: at most so many faces, at least 4; several give a list of hulls in this order. A hull may keep more,
         see `reached`, `notes` and `blocked`.
     side: "outer" or "inner", which needs a closed mesh.
-    tight: far less void, some ten times slower, and no levels.
+    tight: far less void, some twenty to seventy times slower, and no levels.
     levels: keep levels also where the mesh has to be wrapped; its vertices then do not move back towards the triangles.
     max_distance, max_void, max_added_volume: stop at the coarsest hull, of at least faces_target, with no point farther
         from the mesh, in its unit, proven; with at most so much more volume, as a ratio, or in cubic units.

@@ -42,6 +42,7 @@ from ._meshes import Path
 __all__ = ["Row", "build_folder", "query", "show"]
 
 #: Files that build_folder() takes from a folder, also with .gz after it.
+SUFFIXES = (".ply", ".obj", ".off", ".stl", ".glb", ".phull")  # of results
 FORMATS = frozenset({".ply", ".obj", ".off", ".stl", ".glb", ".gltf", ".dae", ".3mf"})
 
 #: Called with how many are done, of how many, and how many of them failed; may return False to stop.
@@ -89,10 +90,11 @@ def build_folder(client: "distributed.Client", meshes: Union[Path, Sequence[Mesh
     options: of prohull.build(), one number as faces_target. Without `threads` each build has one: give a worker as many
         threads as it has cores.
 
-    Raises InputError if `meshes` is no folder or is `out`, and if names are not distinct or lead out of `out`;
+    Raises InputError if `meshes` is no folder or is `out`, if names are not distinct or lead out of `out`, and for
+        another suffix;
     TypeError for options that build() does not have; OSError if `out` cannot be written.
     """
-    out = pathlib.Path(out).absolute()
+    out = pathlib.Path(out).resolve()
     jobs = _jobs(_named(meshes, out), out, suffix, _checked(options, suffix))
     rows: dict[int, Row] = {}
     told = _Told(progress, len(jobs))
@@ -175,14 +177,18 @@ def _checked(options: dict[str, Any], suffix: str) -> dict[str, Any]:
         raise TypeError(f"build_folder() got options that build() does not have: {', '.join(sorted(unknown))}")
     if np.ndim(options.get("faces_target", 4)) > 0:
         raise InputError(f"faces_target={options['faces_target']!r}: expected one number")
-    return {"float32": suffix in (".stl", ".glb"), "threads": 1, **options}
+    if suffix.lower() not in SUFFIXES:
+        raise InputError(f"suffix={suffix!r}: expected one of {', '.join(SUFFIXES)}")
+    if suffix.lower() == ".phull" and options.get("tight"):
+        raise InputError("suffix='.phull': a tight hull has no levels; give another suffix or leave out tight")
+    return {"float32": suffix.lower() in (".stl", ".glb"), "threads": 1, **options}
 
 
 def _named(meshes: Any, out: pathlib.Path) -> dict[str, Any]:
     if isinstance(meshes, Mapping):
         return dict(meshes)
     if isinstance(meshes, (str, os.PathLike)):
-        return _meshes_in(pathlib.Path(meshes).absolute(), out)
+        return _meshes_in(pathlib.Path(meshes).resolve(), out)
     named: dict[str, Any] = {}
     for i, mesh in enumerate(meshes):
         name = pathlib.Path(mesh).name if isinstance(mesh, (str, os.PathLike)) else f"{i:06d}"
@@ -208,7 +214,11 @@ def _is_mesh(path: pathlib.Path) -> bool:
 
 def _jobs(named: dict[str, Any], out: pathlib.Path, suffix: str, options: dict[str, Any]) -> list[Union[_Job, Row]]:
     """A row instead for what is no mesh or not there."""
+    normal: dict[str, str] = {}
     for name in named:
+        other = normal.setdefault(os.path.normpath(name), name)
+        if other != name:
+            raise InputError(f"{name!r} and {other!r} are one name; give distinct ones")
         if os.path.isabs(name) or ".." in pathlib.PurePath(name).parts or not name:
             raise InputError(f"{name!r}: a name of a mesh is a path within {out}")
     out.mkdir(parents=True, exist_ok=True)
@@ -302,7 +312,7 @@ def _limit(client: "distributed.Client") -> int:
 def _completed(client: "distributed.Client", function: Callable[..., Any], jobs: Mapping[int, Any],
                limit: Callable[[], int], *arguments: Any) -> Iterator[tuple[int, "distributed.Future"]]:
     """The futures of function(job, *arguments), as they come, under the keys of jobs. No more than limit() are
-    under way at once, for the sake of the scheduler's memory, and none is when this is closed."""
+    under way at once, for the sake of the scheduler's memory; when this is closed, none begins any more."""
     waiting = iter(jobs.items())
     under_way: dict["distributed.Future", int] = {}
     pool = distributed.as_completed(loop=client.loop)
@@ -389,7 +399,7 @@ def _write(path: pathlib.Path, text: str) -> None:
     """Whole or not at all."""
     beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}")
     try:
-        beside.write_text(text)
+        beside.write_text(text, encoding="utf-8", errors="surrogateescape")  # names of files may be no UTF-8
         os.replace(beside, path)
     finally:
         beside.unlink(missing_ok=True)

@@ -25,6 +25,7 @@ class TightCollapses {
         changed_(mesh.positions().size(), 1) {}
 
   void run() {
+    if (mesh_.face_count() <= options_.target_faces) return;
     queue_all();
     while (mesh_.face_count() > options_.target_faces && !queue_.empty() && !is_cancelled()) {
       const EdgeId e = queue_.pop();
@@ -51,7 +52,7 @@ class TightCollapses {
   // placements.
   void queue_all() {
     constexpr double kLikelyPart = 0.4;
-    for (std::uint32_t i = 0; i < mesh_.edge_id_count(); ++i) {
+    for (std::uint32_t i = 0; i < mesh_.edge_id_count() && !is_cancelled(); ++i) {
       const EdgeId e{i};
       if (!mesh_.has(e)) continue;
       const auto outside = place_outside_of_star(e);
@@ -75,7 +76,7 @@ class TightCollapses {
       bool has_flat_end = false;
       for (const VertexId end : {star_.o, star_.d}) {
         const Vec3 to = mesh_.position(end);
-        if (!lies_on_all_planes(mesh_, star_, to)) continue;
+        if (placement_.as_stored(to) != to || !lies_on_all_planes(mesh_, star_, to)) continue;
         has_flat_end = true;
         if (!refused_shape(star_, star_.to_local(to), options_) && !guard_.would_add_intersections(mesh_, star_, to))
           return to;
@@ -117,8 +118,9 @@ class TightCollapses {
 
   bool is_cancelled() {
     constexpr std::size_t kInterval = 64;
-    return options_.progress && ++steps_ % kInterval == 0 &&
-           !options_.progress({mesh_.face_count(), mesh_.face_id_count(), options_.target_faces});
+    if (!cancelled_ && options_.progress && ++steps_ % kInterval == 0)
+      cancelled_ = !options_.progress({mesh_.face_count(), mesh_.face_id_count(), options_.target_faces});
+    return cancelled_;
   }
 
   HalfEdgeMesh& mesh_;
@@ -131,6 +133,7 @@ class TightCollapses {
   PerVertex<std::uint32_t> changed_;  ///< when a face around it last did
   std::uint32_t time_ = 1;
   std::size_t steps_ = 0;
+  bool cancelled_ = false;
 };
 
 }  // namespace

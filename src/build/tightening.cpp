@@ -29,7 +29,7 @@ class Tightener {
 
  private:
   bool move_vertices();  ///< false if cancelled
-  void flip_edges();
+  bool flip_edges();     ///< the same
   bool move(VertexId v);
   bool flip(HalfEdgeId h);
   void has_changed(VertexId v) { waiting_[v] = changed_[v] = 1; }
@@ -53,9 +53,7 @@ std::size_t Tightener::run() {
   constexpr int kRounds = 12;
   for (int round = 0; round < kRounds; ++round) {
     const std::size_t before = changes_;
-    if (!move_vertices()) break;
-    flip_edges();
-    if (changes_ == before) break;
+    if (!move_vertices() || !flip_edges() || changes_ == before) break;
   }
   return moves_;
 }
@@ -73,16 +71,18 @@ bool Tightener::move_vertices() {
   return true;
 }
 
-void Tightener::flip_edges() {
+bool Tightener::flip_edges() {
   const PerVertex<char> before = std::exchange(changed_, PerVertex<char>(changed_.size(), 0));
   for (std::uint32_t e = 0; e < mesh_.edge_id_count(); ++e) {
     if (!mesh_.has(EdgeId{e})) continue;
+    if (is_cancelled()) return false;
     const HalfEdgeId h = mesh_.half_edge(EdgeId{e});
     const std::array corners = corners_beside(h);
     if (std::ranges::none_of(corners, [&](VertexId v) { return before[v] || changed_[v]; }) || !flip(h)) continue;
     ++changes_;
     for (const VertexId v : corners) has_changed(v);
   }
+  return true;
 }
 
 bool Tightener::is_cancelled() {

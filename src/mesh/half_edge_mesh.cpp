@@ -212,12 +212,17 @@ std::optional<std::string> first_defect(const HalfEdgeMesh& mesh) {
       return fmt::format("half-edge {}: starts at removed vertex {}", i, index(mesh.tail(h)));
   }
   if (faces != mesh.face_count()) return fmt::format("{} faces, but face_count() is {}", faces, mesh.face_count());
+  PerVertex<VertexId> met_from(mesh.positions().size(), kNoVertex);
   for (const VertexId v : mesh.positions().ids()) {
     if (!mesh.has(v)) continue;
     std::size_t valence = 0;
     HalfEdgeId h = mesh.out(v);
     do {
       if (mesh.tail(h) != v) return fmt::format("vertex {}: half-edge {} does not start there", index(v), index(h));
+      const VertexId tip = mesh.tip(h);
+      if (tip == v || met_from[tip] == v)
+        return fmt::format("vertex {}: more than one edge to {}, or one to itself", index(v), index(tip));
+      met_from[tip] = v;
       h = mesh.rotated(h);
     } while (++valence <= 3 * faces && h != mesh.out(v));
     if (valence != mesh.valence(v))

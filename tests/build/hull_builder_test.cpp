@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <random>
 #include <string>
 
+#include "build/star.h"
 #include "effort.h"
 #include "geometry/float32.h"
 #include "meshes.h"
@@ -225,6 +228,31 @@ TEST(BuildHullInput, OtherThanAClosedManifoldIsRefused) {
   for (const TriangleMesh& mesh : {open, bad, fin, TriangleMesh{}, soup(octahedron())})
     EXPECT_THROW(build_hull(mesh), InputError);
   EXPECT_THROW(build_hull(inside_out(octahedron())), InputError) << "an outer hull of it would be an inner one";
+}
+
+// Two sheets meet along an edge, which has four faces; half-edges can be paired across them so that all fits.
+TEST(BuildHullInput, AnEdgeOfFourFacesIsRefusedInAnyOrderOfThem) {
+  HalfEdgeMesh ring(torus(6, 3));
+  Star star;
+  std::uint32_t e = 0;
+  do {
+    gather_star(ring, EdgeId{e++}, star);
+  } while (satisfies_link_condition(star));
+  ring.collapse(star.edge, ring.position(star.o) * 0.5 + ring.position(star.d) * 0.5);
+  TriangleMesh mesh = ring.triangle_mesh();
+  ASSERT_GT(inspect(mesh).non_manifold_edges, 0u);
+  std::mt19937 random(1);
+  for (int i = 0; i < 50; ++i) {
+    std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
+    EXPECT_THROW(build_hull(mesh, {.target_faces = 20}), InputError);
+  }
+}
+
+TEST(BuildHullInput, AFaceWithTheSameVertexTwiceIsRefused) {
+  TriangleMesh mesh = octahedron();
+  mesh.triangles.push_back({VertexId{0}, VertexId{0}, VertexId{1}});
+  mesh.triangles.push_back({VertexId{0}, VertexId{0}, VertexId{2}});
+  EXPECT_THROW(build_hull(mesh), InputError);
 }
 
 TEST(BuildHullInput, UnusedVerticesAndFacesWithoutAreaAreKept) {
