@@ -188,6 +188,9 @@ def test_meshes_may_be_objects(client, cube, tmp_path):
     ({}, {"faces": [4]}, TypeError, "faces"),
     ({}, {"facets": 4}, TypeError, "facets"),
     ({}, {"faces_target": [100, 200]}, prohull.InputError, "expected one number"),
+    ({"a/b": "x.stl", "./a/b": "x.stl"}, {}, prohull.InputError, "'./a/b' and 'a/b' are one name"),
+    ({}, {"suffix": ".xyz"}, prohull.InputError, "suffix='.xyz': expected one of .ply"),
+    ({}, {"suffix": ".phull", "tight": True}, prohull.InputError, "a tight hull has no levels"),
 ])
 def test_wrong_arguments_are_named(tmp_path, meshes, options, error, message):
     with pytest.raises(error, match=message):
