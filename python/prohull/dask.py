@@ -41,8 +41,9 @@ from ._meshes import Path
 
 __all__ = ["Row", "build_folder", "query", "show"]
 
+#: What Hull.save() writes.
+SUFFIXES = (".ply", ".obj", ".off", ".stl", ".glb", ".phull")
 #: Files that build_folder() takes from a folder, also with .gz after it.
-SUFFIXES = (".ply", ".obj", ".off", ".stl", ".glb", ".phull")  # of results
 FORMATS = frozenset({".ply", ".obj", ".off", ".stl", ".glb", ".gltf", ".dae", ".3mf"})
 
 #: Called with how many are done, of how many, and how many of them failed; may return False to stop.
@@ -91,8 +92,7 @@ def build_folder(client: "distributed.Client", meshes: Union[Path, Sequence[Mesh
         threads as it has cores.
 
     Raises InputError if `meshes` is no folder or is `out`, if names are not distinct or lead out of `out`, and for
-        another suffix;
-    TypeError for options that build() does not have; OSError if `out` cannot be written.
+    another suffix; TypeError for options that build() does not have; OSError if `out` cannot be written.
     """
     out = pathlib.Path(out).resolve()
     jobs = _jobs(_named(meshes, out), out, suffix, _checked(options, suffix))

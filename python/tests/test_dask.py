@@ -14,11 +14,11 @@ import pytest
 try:
     import dask
     import distributed
-    import prohull.dask
 except ImportError as missing:
-    distributed = None
     needs_dask = pytest.mark.skip(reason=f"clusters are not tested: {missing}")
 else:
+    import prohull.dask  # outside: what is wrong with ours is no reason to skip
+
     needs_dask = pytest.mark.filterwarnings("ignore:make_current is deprecated")
 
 KILLER = "killer.off"

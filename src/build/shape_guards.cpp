@@ -8,10 +8,6 @@
 namespace prohull {
 namespace {
 
-double squared_edges(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return squared_norm(b - a) + squared_norm(c - b) + squared_norm(a - c);
-}
-
 double least_compactness_before(const Star& star) {
   const std::size_t n = star.link.size();
   double least = std::min(

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "build/edge_queue.h"
 #include "build/placement.h"
 #include "build/self_intersection_guard.h"
 #include "build/shape_guards.h"
 #include "build/star.h"
+#include "build/steps.h"
 #include "build/tight_placement.h"
 
 namespace prohull {
@@ -22,12 +24,13 @@ class TightCollapses {
         placement_(original, options),
         queue_(mesh.edge_id_count()),
         edges_(mesh.edge_id_count()),
-        changed_(mesh.positions().size(), 1) {}
+        changed_(mesh.positions().size(), 1),
+        steps_(mesh, options) {}
 
   void run() {
     if (mesh_.face_count() <= options_.target_faces) return;
     queue_all();
-    while (mesh_.face_count() > options_.target_faces && !queue_.empty() && !is_cancelled()) {
+    while (mesh_.face_count() > options_.target_faces && !queue_.empty() && !steps_.cancelled()) {
       const EdgeId e = queue_.pop();
       const HalfEdgeId h = mesh_.half_edge(e);
       const bool is_fresh = edges_[e].evaluated >= std::max(changed_[mesh_.tail(h)], changed_[mesh_.tip(h)]);
@@ -52,7 +55,7 @@ class TightCollapses {
   // placements.
   void queue_all() {
     constexpr double kLikelyPart = 0.4;
-    for (std::uint32_t i = 0; i < mesh_.edge_id_count() && !is_cancelled(); ++i) {
+    for (std::uint32_t i = 0; i < mesh_.edge_id_count() && !steps_.cancelled(); ++i) {
       const EdgeId e{i};
       if (!mesh_.has(e)) continue;
       const auto outside = place_outside_of_star(e);
@@ -116,13 +119,6 @@ class TightCollapses {
     } while (h != mesh_.out(v));
   }
 
-  bool is_cancelled() {
-    constexpr std::size_t kInterval = 64;
-    if (!cancelled_ && options_.progress && ++steps_ % kInterval == 0)
-      cancelled_ = !options_.progress({mesh_.face_count(), mesh_.face_id_count(), options_.target_faces});
-    return cancelled_;
-  }
-
   HalfEdgeMesh& mesh_;
   const HullOptions& options_;
   SelfIntersectionGuard guard_;
@@ -132,8 +128,7 @@ class TightCollapses {
   PerEdge<EdgeState> edges_;
   PerVertex<std::uint32_t> changed_;  ///< when a face around it last did
   std::uint32_t time_ = 1;
-  std::size_t steps_ = 0;
-  bool cancelled_ = false;
+  Steps steps_;
 };
 
 }  // namespace

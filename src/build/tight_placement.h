@@ -35,7 +35,6 @@ class TightPlacement {
   /// Exact: the hull still encloses if the vertex moves there.
   bool keeps_enclosing(const Vec3& to) const;
 
-  const Vec3& from() const { return from_; }
   /// A frame with the origin at the vertex and the farthest link vertex at distance 1.
   const std::vector<Vec3>& local_link() const { return local_; }
   Vec3 to_local(const Vec3& p) const { return (p - from_) / scale_; }

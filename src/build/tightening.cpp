@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "build/self_intersection_guard.h"
+#include "build/steps.h"
 #include "build/tight_placement.h"
 #include "geometry/compactness.h"
 #include "geometry/predicates.h"
@@ -23,7 +24,8 @@ class Tightener {
         guard_(mesh, faces_along_curve(mesh)),
         placement_(original, options),
         waiting_(mesh.positions().size(), 1),
-        changed_(waiting_) {}
+        changed_(waiting_),
+        steps_(mesh, options) {}
 
   std::size_t run();
 
@@ -36,7 +38,6 @@ class Tightener {
   std::array<VertexId, 4> corners_beside(HalfEdgeId h) const;
   bool has_good_shape(const Vec3& to) const;
   bool has_good_shape_without(const Tetrahedron& removed) const;
-  bool is_cancelled();
 
   HalfEdgeMesh& mesh_;
   const Original& original_;
@@ -46,7 +47,8 @@ class Tightener {
   std::vector<VertexId> link_;  ///< of the vertex in hand
   PerVertex<char> waiting_;     ///< to be moved
   PerVertex<char> changed_;     ///< since edges were flipped last, or a neighbour has
-  std::size_t changes_ = 0, moves_ = 0, steps_ = 0;
+  Steps steps_;
+  std::size_t changes_ = 0, moves_ = 0;
 };
 
 std::size_t Tightener::run() {
@@ -61,7 +63,7 @@ std::size_t Tightener::run() {
 bool Tightener::move_vertices() {
   for (const VertexId v : mesh_.positions().ids()) {
     if (!mesh_.has(v) || !waiting_[v]) continue;
-    if (is_cancelled()) return false;
+    if (steps_.cancelled()) return false;
     waiting_[v] = 0;
     if (!move(v)) continue;
     ++changes_, ++moves_;
@@ -75,7 +77,7 @@ bool Tightener::flip_edges() {
   const PerVertex<char> before = std::exchange(changed_, PerVertex<char>(changed_.size(), 0));
   for (std::uint32_t e = 0; e < mesh_.edge_id_count(); ++e) {
     if (!mesh_.has(EdgeId{e})) continue;
-    if (is_cancelled()) return false;
+    if (steps_.cancelled()) return false;
     const HalfEdgeId h = mesh_.half_edge(EdgeId{e});
     const std::array corners = corners_beside(h);
     if (std::ranges::none_of(corners, [&](VertexId v) { return before[v] || changed_[v]; }) || !flip(h)) continue;
@@ -83,12 +85,6 @@ bool Tightener::flip_edges() {
     for (const VertexId v : corners) has_changed(v);
   }
   return true;
-}
-
-bool Tightener::is_cancelled() {
-  constexpr std::size_t kInterval = 64;
-  return options_.progress && ++steps_ % kInterval == 0 &&
-         !options_.progress({mesh_.face_count(), mesh_.face_id_count(), options_.target_faces});
 }
 
 bool Tightener::move(VertexId v) {
@@ -149,7 +145,7 @@ bool Tightener::has_good_shape_without(const Tetrahedron& removed) const {
                 r = (removed.d - removed.a) / scale;
   const auto normal = [](const Vec3& a, const Vec3& b, const Vec3& c) { return cross(b - a, c - a); };
   const auto compactness_of = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-    return compactness(norm(normal(a, b, c)), squared_norm(b - a) + squared_norm(c - b) + squared_norm(a - c));
+    return compactness(norm(normal(a, b, c)), squared_edges(a, b, c));
   };
   const double least_cosine = std::cos(options_.max_normal_deviation);
   const Vec3 before = normal(o, d, l) + normal(d, o, r);
