@@ -1,4 +1,4 @@
-# Reads every include in src/, apps/, examples/ and python/ and fails if one points against the flow of the folders.
+# Reads every include in src/, render/, apps/, examples/ and python/ and fails if one points against the flow of the folders.
 # cmake -DROOT=<repository> -P layering.cmake
 cmake_policy(VERSION 3.25)
 set(may_geometry geometry)
@@ -13,13 +13,14 @@ set(may_verify verify geometry)  # never build, and mesh neither: it shares noth
 set(may_sample sample geometry)
 set(may_enclose enclose geometry)
 set(may_wrap wrap)
-set(may_apps "")
+set(may_render render)
+set(may_apps render)
 set(may_examples "")
 set(may_python "")
-set(folders geometry parallel mesh hull io repair build query verify sample enclose wrap)
+set(folders geometry parallel mesh hull io repair build query verify sample enclose wrap render)
 
 set(failures "")
-file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp
+file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/render/*.h ${ROOT}/render/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp
      ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp)
 list(LENGTH sources count)
 if(count LESS 20)
