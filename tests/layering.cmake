@@ -7,9 +7,9 @@ set(may_hull hull mesh geometry)
 set(may_io io hull mesh geometry)
 set(may_repair repair mesh geometry)
 set(may_parallel parallel)
-set(may_build build hull mesh geometry parallel)
+set(may_construct construct hull mesh geometry parallel)
 set(may_query query hull mesh geometry parallel)
-set(may_verify verify geometry)  # never build, and mesh neither: it shares nothing but the predicates
+set(may_verify verify geometry)  # never construct, and mesh neither: it shares nothing but the predicates
 set(may_sample sample geometry)
 set(may_enclose enclose geometry)
 set(may_wrap wrap)
@@ -17,7 +17,7 @@ set(may_render render)
 set(may_apps render)
 set(may_examples "")
 set(may_python "")
-set(folders geometry parallel mesh hull io repair build query verify sample enclose wrap render)
+set(folders geometry parallel mesh hull io repair construct query verify sample enclose wrap render)
 
 set(failures "")
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/render/*.h ${ROOT}/render/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp

@@ -46,10 +46,10 @@ std::span<const std::pair<std::string_view, Engine>> engine_names();
 
 /// Which hull faces or vertices a query refines (P&T 3.2.1).
 enum class Refine {
-  WhereFacesMeet,  ///< as published: the corners of hull faces that the query meets. Of a segment or ray that starts
-                   ///< outside of an outer base hull the first crossing into the solid is found always; crossings
-                   ///< further in may be missed where it passes below the hull (P&T Figure 5), and so may sheets
-                   ///< without thickness. Hulls kept from query to query are finer and may miss less
+  WhereFacesMeet,   ///< as published: the corners of hull faces that the query meets. Of a segment or ray that starts
+                    ///< outside of an outer base hull the first crossing into the solid is found always; crossings
+                    ///< further in may be missed where it passes below the hull (P&T Figure 5), and so may sheets
+                    ///< without thickness. Hulls kept from query to query are finer and may miss less
   WhereBoundsMeet,  ///< every vertex with something below it that the query may meet: finds all crossings
 };
 

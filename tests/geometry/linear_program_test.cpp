@@ -10,8 +10,8 @@
 #include <optional>
 #include <random>
 
-#include "build/shape_guards.h"
-#include "build/star.h"
+#include "construct/shape_guards.h"
+#include "construct/star.h"
 #include "effort.h"
 #include "prohull/sample.h"
 

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "build/star.h"
+#include "construct/star.h"
 #include "effort.h"
 #include "meshes.h"
 #include "prohull/mesh_report.h"

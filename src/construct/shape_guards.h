@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "build/star.h"
+#include "construct/star.h"
 #include "prohull/hull_builder.h"
 
 namespace prohull {

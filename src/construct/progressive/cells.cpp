@@ -1,4 +1,4 @@
-#include "build/cells.h"
+#include "construct/progressive/cells.h"
 
 #include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/parallel_sort.h>

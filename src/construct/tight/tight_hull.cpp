@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "build/best_of.h"
-#include "build/tight_collapses.h"
-#include "build/tightening.h"
-#include "build/turned.h"
+#include "construct/best_of.h"
+#include "construct/tight/tight_collapses.h"
+#include "construct/tight/tightening.h"
+#include "construct/turned.h"
 #include "mesh/half_edge_mesh.h"
 #include "prohull/error.h"
 

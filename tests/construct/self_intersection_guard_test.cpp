@@ -1,4 +1,4 @@
-#include "build/self_intersection_guard.h"
+#include "construct/guard/self_intersection_guard.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "build/fan.h"
+#include "construct/guard/fan.h"
 #include "effort.h"
 #include "geometry/triangle_intersection.h"
 #include "meshes.h"

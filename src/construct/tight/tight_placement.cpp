@@ -1,10 +1,10 @@
-#include "build/tight_placement.h"
+#include "construct/tight/tight_placement.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "build/placement.h"
+#include "construct/placement.h"
 #include "geometry/float32.h"
 #include "geometry/predicates.h"
 

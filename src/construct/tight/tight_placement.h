@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "build/original.h"
+#include "construct/tight/original.h"
 #include "geometry/linear_program.h"
 #include "geometry/simd.h"
 #include "mesh/half_edge_mesh.h"

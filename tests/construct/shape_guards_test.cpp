@@ -1,11 +1,11 @@
-#include "build/shape_guards.h"
+#include "construct/shape_guards.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <numbers>
 
-#include "build/placement.h"
+#include "construct/placement.h"
 #include "geometry/compactness.h"
 #include "meshes.h"
 

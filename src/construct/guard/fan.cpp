@@ -1,4 +1,4 @@
-#include "build/fan.h"
+#include "construct/guard/fan.h"
 
 #include <algorithm>
 #include <bit>

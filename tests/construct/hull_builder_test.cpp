@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "build/star.h"
+#include "construct/star.h"
 #include "effort.h"
 #include "geometry/float32.h"
 #include "meshes.h"

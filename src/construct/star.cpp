@@ -1,4 +1,4 @@
-#include "build/star.h"
+#include "construct/star.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
-#include "build/collapse_loop.h"
+#include "construct/progressive/collapse_loop.h"
 
 #include <cmath>
 #include <optional>
 #include <random>
 
-#include "build/edge_queue.h"
-#include "build/placement.h"
-#include "build/self_intersection_guard.h"
-#include "build/shape_guards.h"
-#include "build/star.h"
+#include "construct/edge_queue.h"
+#include "construct/guard/self_intersection_guard.h"
+#include "construct/placement.h"
+#include "construct/shape_guards.h"
+#include "construct/star.h"
 #include "geometry/float32.h"
 
 namespace prohull {

@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "build/placement.h"
-#include "build/shape_guards.h"
-#include "build/star.h"
-#include "build/turned.h"
+#include "construct/placement.h"
+#include "construct/shape_guards.h"
+#include "construct/star.h"
+#include "construct/turned.h"
 #include "geometry/float32.h"
 #include "geometry/linear_program.h"
 #include "geometry/predicates.h"

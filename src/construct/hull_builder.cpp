@@ -11,11 +11,11 @@
 #include <optional>
 #include <thread>
 
-#include "build/best_of.h"
-#include "build/cells.h"
-#include "build/collapse_loop.h"
-#include "build/placement.h"
-#include "build/turned.h"
+#include "construct/best_of.h"
+#include "construct/placement.h"
+#include "construct/progressive/cells.h"
+#include "construct/progressive/collapse_loop.h"
+#include "construct/turned.h"
 #include "parallel/arena.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "build/fan.h"
-#include "build/star.h"
+#include "construct/guard/fan.h"
+#include "construct/star.h"
 #include "geometry/simd.h"
 #include "geometry/unit_cube.h"
 #include "mesh/half_edge_mesh.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "build/star.h"
+#include "construct/star.h"
 
 namespace prohull {
 

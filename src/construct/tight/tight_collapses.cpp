@@ -1,16 +1,16 @@
-#include "build/tight_collapses.h"
+#include "construct/tight/tight_collapses.h"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
-#include "build/edge_queue.h"
-#include "build/placement.h"
-#include "build/self_intersection_guard.h"
-#include "build/shape_guards.h"
-#include "build/star.h"
-#include "build/steps.h"
-#include "build/tight_placement.h"
+#include "construct/edge_queue.h"
+#include "construct/guard/self_intersection_guard.h"
+#include "construct/placement.h"
+#include "construct/shape_guards.h"
+#include "construct/star.h"
+#include "construct/tight/steps.h"
+#include "construct/tight/tight_placement.h"
 
 namespace prohull {
 namespace {

@@ -1,4 +1,4 @@
-#include "build/cells.h"
+#include "construct/progressive/cells.h"
 
 #include <gtest/gtest.h>
 

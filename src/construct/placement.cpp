@@ -1,4 +1,4 @@
-#include "build/placement.h"
+#include "construct/placement.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "build/tightening.h"
+#include "construct/tight/tightening.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "build/self_intersection_guard.h"
-#include "build/steps.h"
-#include "build/tight_placement.h"
+#include "construct/guard/self_intersection_guard.h"
+#include "construct/tight/steps.h"
+#include "construct/tight/tight_placement.h"
 #include "geometry/compactness.h"
 #include "geometry/predicates.h"
 

@@ -1,4 +1,4 @@
-#include "build/edge_queue.h"
+#include "construct/edge_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "build/original.h"
+#include "construct/tight/original.h"
 #include "mesh/half_edge_mesh.h"
 #include "prohull/hull_builder.h"
 

@@ -1,11 +1,11 @@
-#include "build/self_intersection_guard.h"
+#include "construct/guard/self_intersection_guard.h"
 
 #include <algorithm>
 #include <bit>
 #include <limits>
 #include <span>
 
-#include "build/cells.h"
+#include "construct/progressive/cells.h"
 #include "geometry/triangle_intersection.h"
 
 namespace prohull {
@@ -110,8 +110,8 @@ void SelfIntersectionGuard::place(std::uint32_t slot, const FloatBox& box) {
   }
 }
 
-// Puts the corners of those faces near `box` that are others first in others_, and counts them. Level by level, and with
-// few branches, which nothing could predict.
+// Puts the corners of those faces near `box` that are others first in others_, and counts them. Level by level, and
+// with few branches, which nothing could predict.
 std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const FloatBox& box, auto&& is_other) {
   const auto make_room = [](auto& list, std::size_t size) {
     if (list.size() < size) list.resize(2 * size);

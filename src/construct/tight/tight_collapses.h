@@ -1,6 +1,6 @@
 #pragma once
 
-#include "build/original.h"
+#include "construct/tight/original.h"
 #include "mesh/half_edge_mesh.h"
 #include "prohull/hull_builder.h"
 

@@ -1,4 +1,4 @@
-#include "build/original.h"
+#include "construct/tight/original.h"
 
 #include <utility>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "build/shape_guards.h"
+#include "construct/shape_guards.h"
 
 #include <algorithm>
 #include <cmath>
