@@ -72,6 +72,10 @@ struct EnclosingHulls {
   double repair_seconds = 0;         ///< with wraps
 };
 
+/// The first step of enclosing_hulls: the triangles repaired. Where `closed` is empty, or with Repair::Wrap, hulls
+/// would be built from wraps. Throws InputError where enclosing_hulls would refuse these triangles with these options.
+RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& options = {});
+
 /// Hulls of any triangles, one for each of `target_faces`: meshes of at most so many faces that provably enclose every
 /// finite triangle of the input, also those without area (HullSide::Inner: that a closed input encloses). The ladder:
 ///  1. repaired_mesh; if it is closed, the hull is built from it, and encloses it as build_hull promises.

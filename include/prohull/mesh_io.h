@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "prohull/triangle_mesh.h"
@@ -27,6 +29,10 @@ std::vector<std::string> read_mesh_extensions();
 /// STL and GLB store coordinates as float32. The others keep doubles.
 bool stores_float32(MeshFormat format);
 
+/// Units of length by their names ("mm", "cm", "m", "in"), each with its length in metres. As ReadOptions::scale that
+/// number makes metres of a file in this unit.
+std::span<const std::pair<std::string_view, double>> length_units();
+
 /// What becomes of vertices with a coordinate that is NaN or infinite.
 enum class NonFinite {
   Refuse,  ///< InputError(NonFiniteCoordinate), with the place in the file
@@ -35,6 +41,7 @@ enum class NonFinite {
 
 struct ReadOptions {
   NonFinite non_finite = NonFinite::Refuse;
+  double scale = 1;  ///< every coordinate is multiplied by it, and rounded to double; greater than 0
   /// Asked some 20 times a second while another program reads the file; false ends that and throws Cancelled.
   std::function<bool()> go_on = {};
 };

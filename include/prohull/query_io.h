@@ -16,7 +16,8 @@ namespace prohull {
 ///   .npy   an array of shape (n, 6) or (n, 2, 3), of floating point numbers of 32 or 64 bits or of integers, of either
 ///          byte order, in C or Fortran order
 ///   .npz   with one such array, or one called `segments`
-///   .csv   with commas; blank lines, comments from # on, and a first line of names are skipped; LF or CR LF
+///   .csv   numbers with commas, semicolons or blanks between them, as the first line has them; a decimal point; blank
+///          lines, comments from # on, and a first line of names are skipped; LF or CR LF
 /// Each also gzipped. The name tells the format, the content if the name has none; a name that contradicts the content
 /// is an error. Integers beyond 2^53 and decimals become the nearest double. A file without rows gives none.
 /// Throws InputError with file, row or line, and what to do: CannotRead, UnknownFormat, Malformed (another shape, kind

@@ -54,7 +54,8 @@ class Ladder {
   Ladder(TriangleMesh triangles, std::span<const std::size_t> target_faces, const EnclosingOptions& options)
       : options_(options), target_faces_(target_faces), fewest_faces_(std::ranges::min(target_faces)) {
     Timer timer(made_.repair_seconds);
-    made_.input = repaired(std::move(triangles));
+    go_on("repair", 0);
+    made_.input = prepared_for_hulls(std::move(triangles), options);
     diagonal_ = bounding_box(made_.input.original).diagonal();
   }
 
@@ -87,7 +88,6 @@ class Ladder {
   bool is_outer() const { return options_.hull.side == HullSide::Outer; }
   bool may_wrap() const { return is_outer() && options_.repair != Repair::None && options_.wrap; }
 
-  RepairedMesh repaired(TriangleMesh triangles) const;
   EnclosingHull hull_of(std::size_t target_faces);
   void make_solid(std::size_t rung);
   TriangleMesh to_be_wrapped(double offset) const;
@@ -117,26 +117,6 @@ class Ladder {
   std::vector<std::optional<HullResult>> levels_;  ///< of each solid, down to fewest_faces_
   std::size_t next_rung_ = 0;
 };
-
-RepairedMesh Ladder::repaired(TriangleMesh triangles) const {
-  go_on("repair", 0);
-  if (options_.repair == Repair::None) {
-    ClosedMesh closed = closed_mesh(std::move(triangles));
-    RepairedMesh result{closed.mesh, std::nullopt, {}, closed.repairs, {}, closed.found};
-    result.closed = std::move(closed);
-    return result;
-  }
-  RepairedMesh result = repaired_mesh(std::move(triangles), options_.keep_cavities || !is_outer());
-  if (result.closed && options_.repair != Repair::Wrap) return result;
-  const std::string why = result.closed ? "" : result.obstacle + "; ";
-  if (!is_outer()) throw InputError(Defect::OpenEdge, why + "there is no inner hull of what is not closed");
-  if (!options_.wrap)
-    throw InputError(Defect::OpenEdge,
-                     why +
-                         "this build cannot wrap what is not closed: build prohull where CGAL's alpha wrap is "
-                         "installed (libcgal-dev), with PROHULL_WRAP=ON");
-  return result;
-}
 
 // Rung 0 is the repaired input, the others are wraps; some give nothing.
 void Ladder::make_solid(std::size_t rung) {
@@ -388,6 +368,26 @@ void Ladder::note_why_not(const EnclosingHull& hull) {
 }
 
 }  // namespace
+
+RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& options) {
+  if (options.repair == Repair::None) {
+    ClosedMesh closed = closed_mesh(std::move(triangles));
+    RepairedMesh result{closed.mesh, std::nullopt, {}, closed.repairs, {}, closed.found};
+    result.closed = std::move(closed);
+    return result;
+  }
+  const bool is_outer = options.hull.side == HullSide::Outer;
+  RepairedMesh result = repaired_mesh(std::move(triangles), options.keep_cavities || !is_outer);
+  if (result.closed && options.repair != Repair::Wrap) return result;
+  const std::string why = result.closed ? "" : result.obstacle + "; ";
+  if (!is_outer) throw InputError(Defect::OpenEdge, why + "there is no inner hull of what is not closed");
+  if (!options.wrap)
+    throw InputError(Defect::OpenEdge,
+                     why +
+                         "this build cannot wrap what is not closed: build prohull where CGAL's alpha wrap is "
+                         "installed (libcgal-dev), with PROHULL_WRAP=ON");
+  return result;
+}
 
 EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size_t> target_faces,
                                const EnclosingOptions& options) {

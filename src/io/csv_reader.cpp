@@ -8,7 +8,17 @@
 namespace prohull {
 namespace {
 
-constexpr TextSyntax kCsv{.comments = true, .separator = ','};
+/// What stands between the numbers of the first line that has any text: a semicolon, a comma, or blanks only (0).
+char separator_of(std::string_view content) {
+  TextScanner scanner(content, "", {.comments = true});
+  scanner.next_line();
+  char separator = 0;
+  for (std::string_view word = scanner.word(); !word.empty(); word = scanner.word()) {
+    if (word.find(';') != std::string_view::npos) return ';';
+    if (word.find(',') != std::string_view::npos) separator = ',';
+  }
+  return separator;
+}
 
 bool is_number(std::string_view word) {
   double value = 0;
@@ -17,10 +27,14 @@ bool is_number(std::string_view word) {
   return error != std::errc::invalid_argument && rest == end;
 }
 
-/// A line without any number: a row of which one number is mistyped is none.
+bool starts_like_number(std::string_view word) {
+  return word.find_first_of("0123456789+-.") == 0 || is_number(word);  // "nan" is a number too
+}
+
+/// A line of words none of which starts as a number does: a row in which something is mistyped is none.
 bool is_line_of_names(TextScanner line) {
   do {
-    if (is_number(line.word())) return false;
+    if (starts_like_number(line.word())) return false;
   } while (line.skip_separator() || !line.at_line_end());
   return true;
 }
@@ -28,7 +42,10 @@ bool is_line_of_names(TextScanner line) {
 class CsvReader {
  public:
   CsvReader(std::string_view content, const std::string& file, const Columns& columns)
-      : scanner_(content, file, kCsv), columns_(columns), row_(columns.names.size()) {}
+      : separator_(separator_of(content)),
+        scanner_(content, file, {.comments = true, .separator = separator_}),
+        columns_(columns),
+        row_(columns.names.size()) {}
 
   void read(const RowSink& sink) {
     bool more = scanner_.next_line();
@@ -42,7 +59,8 @@ class CsvReader {
  private:
   void read_row() {
     for (std::size_t i = 0; i < row_.size(); ++i) {
-      if (i > 0 && !scanner_.skip_separator()) fail(fmt::format("there is no comma after {}", columns_.names[i - 1]));
+      if (i > 0 && separator_ != 0 && !scanner_.skip_separator())
+        fail(fmt::format("there is no {} after {}", separator_ == ',' ? "comma" : "semicolon", columns_.names[i - 1]));
       row_[i] = scanner_.number(columns_.names[i]);
     }
     if (!scanner_.at_line_end()) fail("it goes on after that");
@@ -52,6 +70,7 @@ class CsvReader {
     scanner_.fail(fmt::format("{}; each line has {} numbers: {}", why, row_.size(), joined(columns_.names)));
   }
 
+  char separator_;
   TextScanner scanner_;
   const Columns& columns_;
   std::vector<double> row_;

@@ -169,7 +169,11 @@ bool is_hull_file(const std::filesystem::path& path) {
 }
 
 ProgressiveHull load_hull(std::string_view content, const std::filesystem::path& name) {
-  if (!is_hull_content(content)) malformed(name, "not a .phull file");
+  if (!is_hull_content(content))
+    throw InputError(Defect::UnknownFormat,
+                     fmt::format("{}: this is not a .phull file, which holds all levels of a hull; `prohull build MESH "
+                                 "-o HULL --hierarchy H.phull` makes one from a mesh",
+                                 name.string()));
   if (content.size() < kHeaderSize) malformed(name, fmt::format("truncated after {} bytes", content.size()));
   const auto version = Decoder(content.substr(kMagic.size())).integer<std::uint32_t>();
   if (version != kVersion)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@
 #include "io/text_scanner.h"
 #include "prohull/error.h"
 #include "prohull/file.h"
+#include "prohull/hull_file.h"
 
 namespace prohull {
 namespace {
@@ -73,6 +75,11 @@ const FormatTraits& format_of(std::string_view content, const std::filesystem::p
   if (named) return *named;
   if (found) return *found;
   if (is_obj_keyword(first_word(content))) return traits(MeshFormat::Obj);
+  if (is_hull_content(content))
+    throw InputError(Defect::UnknownFormat,
+                     fmt::format("{}: this is a progressive hull and not a mesh; load_hull (in Python, load) reads it, "
+                                 "and `prohull lod` makes a mesh of any of its levels",
+                                 name.string()));
   throw InputError(Defect::UnknownFormat,
                    fmt::format("{}: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another "
                                "file that is read",
@@ -82,6 +89,24 @@ const FormatTraits& format_of(std::string_view content, const std::filesystem::p
 TriangleMesh read_plain(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {
   if (is_imported(name)) return imported_mesh(content, name.string(), import_limits(content.size()), options.go_on);
   return format_of(content, name).read(content, name.string(), options.non_finite);
+}
+
+TriangleMesh read_unscaled(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {
+  const bool is_zip_by_itself = is_zip(content) && is_imported(name);  // as 3MF is
+  if (!is_zip_by_itself)
+    if (const auto inside = decompressed(content, name)) return read_plain(inside->bytes, inside->name, options);
+  return read_plain(content, name, options);
+}
+
+void scale(TriangleMesh& mesh, double factor, const std::filesystem::path& name) {
+  for (Vec3& p : mesh.positions) {
+    const bool was_finite = is_finite(p);
+    p = factor * p;
+    if (was_finite && !is_finite(p))
+      throw InputError(
+          Defect::InvalidOption,
+          fmt::format("{}: a scale of {} makes coordinates too large; choose a smaller one", name.string(), factor));
+  }
 }
 
 void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::filesystem::path& path) {
@@ -126,11 +151,17 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
 
 bool stores_float32(MeshFormat format) { return format == MeshFormat::Stl || format == MeshFormat::Glb; }
 
+std::span<const std::pair<std::string_view, double>> length_units() {
+  static constexpr std::pair<std::string_view, double> kMetres[]{{"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"in", 0.0254}};
+  return kMetres;
+}
+
 TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {
-  const bool is_zip_by_itself = is_zip(content) && is_imported(name);  // as 3MF is
-  if (!is_zip_by_itself)
-    if (const auto inside = decompressed(content, name)) return read_plain(inside->bytes, inside->name, options);
-  return read_plain(content, name, options);
+  if (!(options.scale > 0 && std::isfinite(options.scale)))
+    throw InputError(Defect::InvalidOption, fmt::format("a scale of {}; it must be greater than 0", options.scale));
+  TriangleMesh mesh = read_unscaled(content, name, options);
+  if (options.scale != 1) scale(mesh, options.scale, name);
+  return mesh;
 }
 
 TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {

@@ -24,6 +24,7 @@ QueryFormat format_of(std::string_view content, const std::filesystem::path& nam
   if (content.starts_with(kNpyMagic)) found = QueryFormat::Npy;
   if (is_zip(content)) found = QueryFormat::Npz;
   const auto named = format_of_name(name);
+  if (!named && !found && !name.has_extension()) return QueryFormat::Csv;
   if (!named && !found)
     throw InputError(Defect::UnknownFormat,
                      fmt::format("{}: unknown format; name it .npy, .npz or .csv", name.string()));

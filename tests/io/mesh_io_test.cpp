@@ -1,4 +1,5 @@
 #include <bit>
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -47,6 +48,27 @@ TEST(MeshFormat, ThatTheContentContradictsIsAnError) {
   expect_refused("OFF\n0 0 0\n", "a.ply", "a.ply: line 1: the name says PLY, but the content is OFF; name it .off");
   expect_refused("solid\nendsolid\n", "a.obj",
                  "a.obj: line 1: the name says OBJ, but the content is STL; name it .stl");
+}
+
+TEST(ReadMesh, PointsToWhatReadsAProgressiveHull) {
+  expect_refused("\x89PHULL\r\n", "knot.phull",
+                 "knot.phull: this is a progressive hull and not a mesh; load_hull (in Python, load) reads it, and "
+                 "`prohull lod` makes a mesh of any of its levels",
+                 Defect::UnknownFormat);
+}
+
+TEST(ReadMesh, MultipliesCoordinatesByTheScale) {
+  const std::string part = "OFF\n3 1 0\n1 0 -0.3\n25.4 1e3 0\n0 0 7\n3 0 1 2\n";
+  const TriangleMesh mesh = read_mesh(part, "part.off");
+  for (const auto& [unit, metres] : length_units()) {
+    const TriangleMesh scaled = read_mesh(part, "part.off", {.scale = metres});
+    EXPECT_EQ(scaled.triangles, mesh.triangles) << unit;
+    for (const VertexId v : mesh.positions.ids()) EXPECT_EQ(scaled.positions[v], metres * mesh.positions[v]) << unit;
+  }
+  for (const double scale : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")})
+    EXPECT_THROW(read_mesh(part, "part.off", {.scale = scale}), InputError);
+  expect_input_error([&] { read_mesh(part, "part.off", {.scale = 1e307}); }, Defect::InvalidOption,
+                     "part.off: a scale of 1e+307 makes coordinates too large; choose a smaller one");
 }
 
 TEST(ReadMesh, SaysWhyAFileCannotBeRead) {

@@ -217,25 +217,44 @@ TEST(CsvReader, TakesLinesAsPeopleWriteThem) {
   EXPECT_TRUE(read_segments("x0,y0,z0,x1,y1,z1\n", "s.csv").empty());
 }
 
+TEST(CsvReader, TakesSemicolonsTabsAndBlanksForCommas) {
+  for (const std::string separator : {";", " ; ", "\t", " ", "  \t "}) {
+    const auto row = [&](std::initializer_list<const char*> words) {
+      std::string line;
+      for (const char* word : words) line += (line.empty() ? "" : separator) + word;
+      return line + "\n";
+    };
+    const std::string rows = row({"0", "1", "2", "3", "4", "5"}) + row({"10", "11", "12", "13", "14", "15"});
+    expect_two_rows(rows, "s.csv");
+    expect_two_rows(row({"x0", "y0", "z0", "x1", "y1", "z1"}) + rows, "s.csv");
+  }
+}
+
 TEST(CsvReader, NamesTheLineThatItRefuses) {
   const std::string rows = "; each line has 6 numbers: x0,y0,z0,x1,y1,z1";
   refused("0,1,2,3,4,5\n0,1,2,3,4\n", "s.csv", "s.csv: line 2: there is no comma after y1" + rows);
   refused("0,1,2,3,4,\n", "s.csv", "s.csv: line 1: the line ends where z1 was expected");
   refused("0,1,2,3,4,5,6\n", "s.csv", "s.csv: line 1: it goes on after that" + rows);
   refused("0,1,2,3,4,5,\n", "s.csv", "s.csv: line 1: it goes on after that" + rows);
-  refused("0 1 2 3 4 5\n", "s.csv", "s.csv: line 1: there is no comma after x0" + rows);
+  refused("0;1;2;3;4;5\n0;1;2;3;4\n", "s.csv", "s.csv: line 2: there is no semicolon after y1" + rows);
+  refused("0;1;2;3;4;5\n0,1,2,3,4,5\n", "s.csv", "s.csv: line 2: '0,1,2,3,4,5' is not a number; expected x0");
+  refused("0,5;1;2;3;4;5\n", "s.csv", "s.csv: line 1: '0,5' is not a number; expected x0");
+  refused("0 1 2 3 4\n", "s.csv", "s.csv: line 1: the line ends where z1 was expected");
+  refused("0 1 2 3 4 5 6\n", "s.csv", "s.csv: line 1: it goes on after that" + rows);
   refused("0,1,,3,4,5\n", "s.csv", "s.csv: line 1: ',' is not a number; expected z0");
   refused("0,1,2,3,4,1e999\n", "s.csv", "s.csv: line 1: '1e999' is beyond the range of a number in 64 bits");
 }
 
 TEST(CsvReader, TakesNoRowWithAMistakeForNames) {
   refused("1.O,1,2,3,4,5\n", "s.csv", "s.csv: line 1: '1.O' is not a number; expected x0");
+  refused("0|1|2|3|4|5\n", "s.csv", "s.csv: line 1: '0|1|2|3|4|5' is not a number; expected x0");
   refused("x0,y0,z0,x1,y1,z1\nx0,y0,z0,x1,y1,z1\n", "s.csv", "s.csv: line 2: 'x0' is not a number; expected x0");
 }
 
 TEST(QueryReader, TakesTheFormatFromNameOrContent) {
   const std::string array = npy(header("<f8", kShape), kTwoRows);
   expect_two_rows(array, "s");
+  expect_two_rows("0,1,2,3,4,5\n10,11,12,13,14,15\n", "s");
   expect_two_rows(zipped({{"arr_0.npy", array}}), "s");
   expect_two_rows(gzipped(array), "s.npy.gz");
   expect_two_rows(gzipped("0,1,2,3,4,5\n10,11,12,13,14,15\n"), "s.csv.gz");
