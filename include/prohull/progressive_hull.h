@@ -7,22 +7,13 @@
 #include <vector>
 
 #include "prohull/triangle_mesh.h"
+#include "prohull/vertex_split.h"
 
 namespace prohull {
 
 enum class HullSide {
   Outer,  ///< every hull encloses the original mesh
   Inner,  ///< every hull is enclosed by the original mesh
-};
-
-/// The inverse of the edge collapse that made one vertex s: s becomes the edge o-d, and the faces (o, d, l) and (d, o,
-/// r) come back. Faces and their corners are numbered as in the original mesh; `od` and `do_` name the corners (3 face
-/// + corner) that o has in the first and d in the second.
-struct VertexSplit {
-  VertexId o, d, l, r;
-  std::uint32_t od, do_;
-
-  bool operator==(const VertexSplit&) const = default;
 };
 
 /// A mesh at every resolution from a coarse base mesh up to the original (P&T 2, Hoppe 1996). Immutable; any number of
