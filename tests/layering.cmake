@@ -1,44 +1,106 @@
-# Reads every include in src/, render/, apps/, examples/ and python/ and fails if one points against the flow of the folders.
+# Reads every include of include/, src/, render/, apps/, examples/ and python/, and fails if one points against the flow.
 # cmake -DROOT=<repository> -P layering.cmake
 cmake_policy(VERSION 3.25)
-set(may_geometry geometry)
-set(may_mesh mesh geometry)
-set(may_hull hull mesh geometry)
-set(may_io io hull mesh geometry)
-set(may_repair repair mesh geometry)
-set(may_parallel parallel)
-set(may_construct construct hull mesh geometry parallel)
-set(may_query query hull mesh geometry parallel)
-set(may_verify verify geometry)  # never construct, and mesh neither: it shares nothing but the predicates
-set(may_sample sample geometry)
-set(may_enclose enclose geometry)
-set(may_wrap wrap)
+
+# room(<folder of src/> OWNS <public headers that it implements> MAY <folders that it may include>)
+# An include of a public header counts as an include of the folder that owns it. MAY also takes single public headers,
+# as prohull/<name>: then only these are seen of the folder that owns them.
+set(rooms "")
+macro(room name)
+  cmake_parse_arguments(room "" "" "OWNS;MAY" ${ARGN})
+  list(APPEND rooms ${name})
+  set(owns_${name} ${room_OWNS})
+  set(may_${name} ${name} ${room_MAY})
+endmacro()
+
+room(base      OWNS error text)
+room(geometry  OWNS geometry                                                     MAY base)
+room(parallel                                                                    MAY base)
+room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality      MAY geometry base)
+room(hull      OWNS progressive_hull refined_hull                                MAY mesh geometry base)
+room(query     OWNS mesh_query                                                   MAY hull mesh geometry parallel base)
+room(io        OWNS mesh_io hull_file query_io file                              MAY hull mesh geometry base
+                                                                                     prohull/mesh_query)  # the answers
+room(repair    OWNS repair                                                       MAY mesh geometry base)
+room(construct OWNS hull_builder tight_hull float32_hull                         MAY hull mesh geometry parallel base)
+# Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges.
+room(verify    OWNS enclosure replay distance                                    MAY geometry base prohull/ids
+                                                                                     prohull/triangle_mesh
+                                                                                     prohull/vertex_split
+                                                                                     prohull/progressive_hull)
+room(sample    OWNS sample random_segments                                       MAY mesh geometry base)
+room(wrap      OWNS wrap                                                         MAY mesh geometry base)
+room(enclose   OWNS enclosing_hull                                               MAY construct repair verify wrap hull mesh
+                                                                                     geometry base)
+
+# Outside of src/: public headers, all of them, and these folders.
+set(outside render apps examples python)
 set(may_render render)
 set(may_apps render)
 set(may_examples "")
 set(may_python "")
-set(folders geometry parallel mesh hull io repair construct query verify sample enclose wrap render)
 
 set(failures "")
-file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/render/*.h ${ROOT}/render/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp
-     ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp)
+macro(fail)
+  string(APPEND failures "\n  " ${ARGN})
+endmacro()
+
+# --- every public header has one owner ---
+set(owned "")
+foreach(room ${rooms})
+  foreach(header ${owns_${room}})
+    if(header IN_LIST owned)
+      fail("prohull/${header}.h has two owners, ${owner_${header}} and ${room}")
+    endif()
+    list(APPEND owned ${header})
+    set(owner_${header} ${room})
+    if(NOT EXISTS ${ROOT}/include/prohull/${header}.h)
+      fail("prohull/${header}.h, which ${room} owns, does not exist")
+    endif()
+  endforeach()
+endforeach()
+file(GLOB headers RELATIVE ${ROOT}/include/prohull ${ROOT}/include/prohull/*.h)
+foreach(header ${headers})
+  string(REGEX REPLACE "\\.h$" "" header ${header})
+  if(NOT header IN_LIST owned)
+    fail("prohull/${header}.h has no owner here")
+  endif()
+endforeach()
+
+# --- every include follows the flow ---
+file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/include/*.h ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/render/*.h
+     ${ROOT}/render/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp)
 list(LENGTH sources count)
 if(count LESS 20)
   message(FATAL_ERROR "found only ${count} sources below ${ROOT}")
 endif()
 foreach(source ${sources})
-  string(REGEX MATCH "^(src/)?([a-z]+)/" _ ${source})
-  set(folder ${CMAKE_MATCH_2})
-  if(NOT DEFINED may_${folder})
-    string(APPEND failures "\n  ${source}: its folder ${folder} has no rule here")
+  if(source MATCHES "^include/prohull/([a-z0-9_]+)\\.h$")
+    set(folder "${owner_${CMAKE_MATCH_1}}")
+  else()
+    string(REGEX MATCH "^(src/)?([a-z]+)/" _ ${source})
+    set(folder ${CMAKE_MATCH_2})
+  endif()
+  if(NOT folder IN_LIST rooms AND NOT folder IN_LIST outside)
+    fail("${source}: its folder ${folder} has no rule here")
     continue()
   endif()
-  file(STRINGS ${ROOT}/${source} includes REGEX "^#include \"[a-z]+/")
+  file(STRINGS ${ROOT}/${source} includes REGEX "^[ \t]*#[ \t]*include[ \t]*[\"<][a-z]+/")
   foreach(line ${includes})
-    string(REGEX MATCH "\"([a-z]+)/" _ ${line})
-    set(included ${CMAKE_MATCH_1})
-    if(included IN_LIST folders AND NOT included IN_LIST may_${folder})
-      string(APPEND failures "\n  ${source}: ${folder} may not include ${included}")
+    string(REGEX MATCH "([\"<])([a-z]+)/([^\">]+)\\.h" _ ${line})
+    set(mark "${CMAKE_MATCH_1}")
+    set(included ${CMAKE_MATCH_2})
+    set(header ${CMAKE_MATCH_3})
+    if(source MATCHES "^include/" AND NOT included STREQUAL prohull AND mark STREQUAL "\"")
+      fail("${source}: public headers may not include ${included}/${header}.h")
+    elseif(included STREQUAL prohull)
+      if(NOT folder IN_LIST outside AND NOT "${owner_${header}}" IN_LIST may_${folder}
+         AND NOT prohull/${header} IN_LIST may_${folder})
+        fail("${source}: ${folder} may not include prohull/${header}.h of ${owner_${header}}")
+      endif()
+    elseif((included IN_LIST rooms OR included IN_LIST outside OR mark STREQUAL "\"")
+           AND NOT included IN_LIST may_${folder})
+      fail("${source}: ${folder} may not include ${included}/${header}.h")
     endif()
   endforeach()
 endforeach()
