@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Fails unless what README.md, CHANGELOG.md and the pages below docs/ link to or show is there: links.py ROOT
+"""Fails unless what README.md, CONTRIBUTING.md, CHANGELOG.md and the pages below docs/ link to or show is there: links.py ROOT
 
 Files, pictures and headings, by relative links; also unless each page is in the nav of mkdocs.yml, and each picture on
 some page, as one of its kinds.
@@ -37,7 +37,7 @@ def main(root):
     wrong = [f"mkdocs.yml: its nav has no {page}" for page in
              sorted({str(page.relative_to(root / "docs")) for page in pages} - nav)]
     shown = set()
-    for page in [root / "README.md", root / "CHANGELOG.md", *pages]:
+    for page in [root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md", *pages]:
         links = [link for link in LINK.findall(CODE.sub("", page.read_text())) if not re.match(r"\w+:", link)]
         shown |= {(page.parent / link).resolve() for link in links if link.endswith(PICTURES)}
         for link in links:

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs what readers can copy: snippets.py ROOT PROHULL [--write] [PAGE...]
 
-Of README.md and all pages below docs/, or of the given ones, each in an empty folder of its own that holds `part.stl`:
+Of README.md, CONTRIBUTING.md and all pages below docs/, or of the given ones, each in an empty folder of its own that holds `part.stl`:
 
     console   lines that begin with "$ " are run by sh, one after the other; the lines below are what each prints
     python    run as one program for each page, between the commands
@@ -159,7 +159,7 @@ def main(root, prohull, *arguments):
     root = pathlib.Path(root).resolve()
     os.environ["PATH"] = f"{pathlib.Path(prohull).resolve().parent}:{os.environ['PATH']}"
     paths = [pathlib.Path(a).resolve() for a in arguments if a != "--write"]
-    pages = [Page(root, path) for path in paths or [root / "README.md", *sorted(root.glob("docs/**/*.md"))]]
+    pages = [Page(root, path) for path in paths or [root / "README.md", root / "CONTRIBUTING.md", *sorted(root.glob("docs/**/*.md"))]]
     return all([check(page, "--write" in arguments) for page in pages])
 
 
