@@ -8,6 +8,7 @@
 #include <random>
 
 #include "effort.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -56,9 +57,7 @@ struct ByEighthOfOctaveAndAge {
 
 template <class Queue, class Rank>
 void compare_with_reference() {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   Queue queue(kEdges);
   Reference<Rank> reference;
   const auto random_key = [&]() -> double {

@@ -13,6 +13,7 @@
 #include "meshes.h"
 #include "prohull/enclosure.h"
 #include "prohull/sample.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -75,7 +76,7 @@ bool adds_pairs(const HalfEdgeMesh& mesh, VertexId v, const std::vector<VertexId
 }
 
 struct Random {
-  std::mt19937 engine{std::random_device{}()};
+  std::mt19937 engine{test_seed()};
   Vec3 direction() {
     std::normal_distribution<double> normal;
     return {normal(engine), normal(engine), normal(engine)};
@@ -109,9 +110,6 @@ std::vector<TriangleMesh> meshes_to_change() {
 // While the mesh is simplified and its vertices are moved, with new pairs every now and then.
 TEST(SelfIntersectionGuard, AgreesWithExactTestsOfAllPairs) {
   Random random;
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  random.engine.seed(seed);
   int added = 0, kept = 0;
   for (const TriangleMesh& original : meshes_to_change()) {
     HalfEdgeMesh mesh(original);
@@ -151,12 +149,8 @@ TEST(SelfIntersectionGuard, AgreesWithExactTestsOfAllPairs) {
   EXPECT_GT(kept, rounds(20));
 }
 
-// Most faces around a star of a smooth mesh are told apart from it without an exact test: that is what the fan is for.
 TEST(SelfIntersectionGuard, AgreesWithCountsOfWholeMeshesOnFlips) {
   Random random;
-  const std::uint32_t seed = random.engine();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  random.engine.seed(seed);
   std::size_t added = 0, not_added = 0;
   for (const TriangleMesh& original : {sphere(2), make_sample("bracket", 300), make_sample("knot", 300),
                                        together(sphere(1), moved(sphere(1), {1.7, 0, 0}))}) {
@@ -179,6 +173,7 @@ TEST(SelfIntersectionGuard, AgreesWithCountsOfWholeMeshesOnFlips) {
   EXPECT_GT(not_added, 0u);
 }
 
+// Faces around a star of a smooth mesh are told apart from it without an exact test: that is what the fan is for.
 TEST(Fan, IsCertainWhereverThereIsNoDoubt) {
   for (const double scale : {1.0, 0x1p-150, 0x1p250}) {
     const HalfEdgeMesh mesh(scaled(sphere(3), scale));

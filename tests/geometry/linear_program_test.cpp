@@ -14,6 +14,7 @@
 #include "construct/star.h"
 #include "effort.h"
 #include "prohull/sample.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -146,9 +147,7 @@ struct Counts {
 
 template <class Make>
 Counts check_many(int count, Make&& make) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RandomPrograms random(seed);
+  RandomPrograms random(test_seed());
   Counts counts;
   for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) counts.count(check(make(random)));
   return counts;
@@ -274,7 +273,7 @@ Program program_of(const Star& star) {
 void check_recorded(std::string_view sample, std::size_t faces) {
   SCOPED_TRACE(sample);
   HalfEdgeMesh mesh(make_sample(sample, faces));
-  std::mt19937 random(1);
+  std::mt19937 random(test_seed());
   Star star;
   Counts counts;
   int collapses = 0;
@@ -333,9 +332,7 @@ std::optional<Vec3> nearest_by_trying_all(const Vec3& target, const Program& pro
 
 template <class Make>
 void check_nearest(int count, int least_found, Make&& make) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RandomPrograms random(seed);
+  RandomPrograms random(test_seed());
   int found = 0;
   for (int i = 0; i < count; ++i) {
     const Program program = make(random);

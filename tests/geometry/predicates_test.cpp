@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "random.h"
+
 namespace prohull {
 namespace {
 
@@ -41,9 +43,7 @@ TEST(Side, HoldsWhereProductsUnderflowUnderAHugeHeight) {
 }
 
 TEST(Side, IsCyclicAndAntisymmetricOnNearlyCoplanarPoints) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < 20000; ++i) {
     const Vec3 a{unit(random), unit(random), unit(random)}, b{unit(random), unit(random), unit(random)},

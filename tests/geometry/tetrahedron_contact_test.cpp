@@ -9,6 +9,7 @@
 
 #include "effort.h"
 #include "geometry/predicates.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -50,9 +51,7 @@ Meeting true_meeting(const Triangle& t, const Tetrahedron& v) {
 }
 
 TEST(TetrahedronContact, AgreesWithTheClippedTriangleOnASmallGrid) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   std::uniform_int_distribution<int> grid(0, 3);
   const auto corner = [&] { return Vec3{0.1 * grid(random), 0.1 * grid(random), 0.1 * grid(random)}; };
   int met = 0, touched = 0, apart = 0, found_apart = 0;

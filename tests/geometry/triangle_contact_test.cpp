@@ -7,6 +7,8 @@
 #include <random>
 #include <variant>
 
+#include "random.h"
+
 namespace prohull {
 namespace {
 
@@ -32,9 +34,7 @@ std::string print(const Triangle& t) {
 
 TEST(TrianglesTouch, AgreesWithCgalOnSmallGridsWithAndWithoutArea) {
   // Corners on a grid of 3x3x3, 4x4 in a plane, or 6 on a line, make every kind of contact frequent.
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   int touching[3][3] = {}, apart[3][3] = {};
   for (int i = 0; i < 60000; ++i) {
     const int dimension = 1 + i % 3;
@@ -84,9 +84,7 @@ TEST(TrianglesTouch, TellsOneUlpApartAndHoldsForHugeAndTinyCoordinates) {
 }
 
 TEST(CertainlyApart, IsSeldomInDoubt) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   std::uniform_real_distribution<double> unit(0, 1);
   const auto point = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
   for (int i = 0; i < 5000; ++i) {

@@ -7,6 +7,7 @@
 
 #include "effort.h"
 #include "meshes.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -79,9 +80,7 @@ TEST(WindingNumber, StraightBelowVerticesAndEdges) {
   const TriangleMesh mesh = torus(24, 12);
   const std::vector<Triangle> triangles = triangles_of(mesh);
   const WindingNumber faces(triangles);
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   std::uniform_real_distribution<double> height(-0.6, 0.6);
   int inside = 0;
   for (int i = 0; i < rounds(20000); ++i) {

@@ -16,6 +16,7 @@
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
 #include "prohull/sample.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -182,9 +183,7 @@ TEST(HullFile, APayloadThatItsChecksumVouchesForIsCheckedToo) {
   const ProgressiveHull hull = small_hull();
   const std::string payload = decompressed(file_of(hull).substr(kHeaderSize));
   ASSERT_EQ(load_hull(with_payload(payload), "x"), hull);
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   const std::size_t numbers = 28 + 24 * hull.positions().size();
   int refused = 0;
   for (int i = 0; i < rounds(3000); ++i) {

@@ -13,6 +13,7 @@
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_report.h"
 #include "prohull/sample.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -131,9 +132,7 @@ TEST(FirstDefect, NamesASplitThatCannotBeMade) {
 
 // Whatever the record: either it is refused, or all its levels are closed manifolds.
 TEST(FirstDefect, LetsNothingPassThatIsNotAClosedManifoldOnEveryLevel) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   int refused = 0, accepted = 0;
   for (int i = 0; i < rounds(4000); ++i) {
     HullParts parts = parts_of(small_hull());

@@ -11,6 +11,7 @@
 #include "meshes.h"
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_report.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -65,9 +66,7 @@ std::vector<std::set<std::pair<FaceId, std::array<VertexId, 3>>>> stars_in_level
 TEST(RefinedHull, IsTheMeshThatSplitsInPlaceMakeInWhateverOrder) {
   const ProgressiveHull& hull = torus_hull();
   const auto stars = stars_in_level_order(hull);
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   RefinedHull refined(refinable(hull));
   for (int round = 0; round < rounds(20); ++round) {
     std::vector<VertexId> order = made_vertices(hull);
@@ -114,9 +113,7 @@ TEST(RefinedHull, SplitsOnlyWhatTheLinkNeeds) {
 
 TEST(RefinedHull, CanUndoASplitWhereTheLinkOfItsEdgeIsInPlaceAndNowhereElse) {
   const ProgressiveHull& hull = torus_hull();
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   // For each split the star of its edge, when all are made in turn.
   std::vector<std::set<std::pair<FaceId, std::array<VertexId, 3>>>> stars(hull.splits().size());
   HalfEdgeMesh mesh(hull.positions(), hull.base_corners());
@@ -146,9 +143,7 @@ TEST(RefinedHull, CanUndoASplitWhereTheLinkOfItsEdgeIsInPlaceAndNowhereElse) {
 TEST(RefinedHull, UndoesSplitsInAnyOrderThatIsPossible) {
   const ProgressiveHull& hull = torus_hull();
   const std::vector<VertexId> all = made_vertices(hull);
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   RefinedHull refined(refinable(hull));
   for (int step = 0; step < rounds(3000); ++step) {
     const VertexId made = all[random() % all.size()];
@@ -173,9 +168,7 @@ TEST(RefinedHull, UndoesSplitsInAnyOrderThatIsPossible) {
 TEST(RefinedHull, CoarsensToWhatIsWantedAndWhatThatNeeds) {
   const ProgressiveHull& hull = torus_hull();
   const std::vector<VertexId> all = made_vertices(hull);
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   for (int round = 0; round < rounds(50); ++round) {
     RefinedHull refined(refinable(hull)), wanted_alone(refinable(hull));
     for (int i = 0; i < 30; ++i) refined.split(all[random() % all.size()]);
@@ -298,7 +291,7 @@ TEST(RefinedHull, TakesNoMoreMemoryHoweverOftenItIsRefined) {
   RefinedHull refined(refinable(hull));
   for (const VertexId made : all) refined.split(made);
   const std::size_t memory = refined.memory_bytes();
-  std::mt19937 random(1);
+  std::mt19937 random(test_seed());
   for (int i = 0; i < rounds(1000); ++i) {
     for (int k = 0; k < 10; ++k) refined.split(all[random() % all.size()]);
     refined.coarsen([&](VertexId) { return random() % 4 != 0; });

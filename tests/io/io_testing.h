@@ -1,10 +1,11 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
-#include <random>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -18,9 +19,9 @@ namespace prohull {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::random_device random;
-    path_ = std::filesystem::temp_directory_path() / ("prohull_test_" + std::to_string(random()));
-    std::filesystem::create_directory(path_);
+    std::string name = std::filesystem::temp_directory_path() / "prohull_test_XXXXXX";
+    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    path_ = name;
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

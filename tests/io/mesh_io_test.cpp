@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "io_testing.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -144,9 +145,7 @@ TEST(Float32, RoundsEveryCoordinate) {
 }
 
 TEST(RoundTrip, GivesTheSameMeshForRandomBits) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test_seed());
   const TemporaryFolder folder;
   for (int run = 0; run < 50; ++run) {
     const bool floats = run % 2 == 0;

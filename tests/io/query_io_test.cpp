@@ -6,6 +6,7 @@
 
 #include "compressing.h"
 #include "io_testing.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -321,7 +322,7 @@ TEST(HitsWriter, RefusesOtherNames) {
 
 TEST(SegmentsWriter, WritesWhatReadsBackBitForBit) {
   const TemporaryFolder folder;
-  std::mt19937_64 random(7);
+  std::mt19937_64 random(test_seed());
   std::vector<Segment> segments;
   const auto coordinate = [&] {
     while (true)

@@ -7,6 +7,7 @@
 
 #include "geometry/predicates.h"
 #include "io_testing.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -54,9 +55,7 @@ TEST(TriangulatePolygon, CoversAPolygonWithASeamToAHole) {
 }
 
 TEST(TriangulatePolygon, CoversRandomStarShapedPolygonsOnce) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   std::uniform_real_distribution<double> radius(0.1, 1);
   for (int run = 0; run < 200; ++run) {
     PerVertex<Vec3> polygon;

@@ -9,6 +9,7 @@
 #include "meshes.h"
 #include "prohull/mesh_report.h"
 #include "prohull/sample.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -54,7 +55,7 @@ EdgeId edge_between(const HalfEdgeMesh& mesh, VertexId v, VertexId w) {
 
 class RandomCollapses {
  public:
-  RandomCollapses(const TriangleMesh& original, unsigned seed) : mesh(original), random_(seed) {}
+  explicit RandomCollapses(const TriangleMesh& original) : mesh(original), random_(test_seed()) {}
 
   /// Somewhere, if the link condition allows it.
   bool collapse() {
@@ -82,9 +83,7 @@ class RandomCollapses {
 
 void check_undoing(const TriangleMesh& original, int attempts) {
   ASSERT_TRUE(inspect(original).is_closed_manifold());
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RandomCollapses random(original, seed);
+  RandomCollapses random(original);
   std::vector<Snapshot> history{snapshot(random.mesh, original.vertex_count())};
   for (int i = 0; i < attempts; ++i) {
     if (!random.collapse()) continue;
@@ -115,10 +114,8 @@ TEST(HalfEdgeMesh, SplitsUndoCollapsesExactly) {
 
 TEST(HalfEdgeMesh, CollapsesAndSplitsMayAlternate) {
   const TriangleMesh original = make_sample("knot", 600);
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RandomCollapses random(original, seed);
-  std::mt19937 coin(seed);
+  RandomCollapses random(original);
+  std::mt19937 coin(test_seed());
   for (int i = 0; i < rounds(3000); ++i) {
     if (coin() % 3 != 0)
       random.collapse();
@@ -171,9 +168,7 @@ TEST(HalfEdgeMesh, AFlipPutsTheOtherDiagonal) {
 }
 
 TEST(HalfEdgeMesh, FourFlipsOfAnEdgeUndoEachOtherAndAnyKeepItSound) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   HalfEdgeMesh mesh(make_sample("bracket", 400));
   std::size_t flips = 0;
   for (int i = 0; i < rounds(500); ++i) {

@@ -15,6 +15,7 @@
 #include "prohull/error.h"
 #include "prohull/sample.h"
 #include "query/awkward_segments.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -43,13 +44,11 @@ TEST(MeshQuery, FindsWhereASegmentEntersAndLeaves) {
 }
 
 TEST(MeshQuery, EntersAndLeavesInTurnHoweverASegmentRuns) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
   for (const TriangleMesh& mesh : {box({0, 0, 0}, {1, 1, 1}), octahedron(), torus(8, 6), two_spheres_and_a_box()}) {
     MeshQuery query{QueryIndex(mesh)};
     const Box around = bounding_box(mesh);
     std::size_t hits = 0;
-    for (Segment s : awkward_segments(mesh, rounds(1000), seed)) {
+    for (Segment s : awkward_segments(mesh, rounds(1000), test_seed())) {
       // From far outside: to the middle of the segment, and on beyond the mesh.
       const Vec3 d = s.b - s.a;
       if (d == Vec3{}) continue;
@@ -66,12 +65,10 @@ TEST(MeshQuery, EntersAndLeavesInTurnHoweverASegmentRuns) {
 class Engines : public testing::TestWithParam<Engine> {};
 
 TEST_P(Engines, AnswerAsBruteForceDoes) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
   for (const TriangleMesh& mesh :
        {octahedron(), two_spheres_and_a_box(), soup(torus(8, 6)), make_sample("asteroid", 1000)}) {
     MeshQuery truth{QueryIndex(mesh, Engine::Brute)}, query{QueryIndex(mesh, GetParam())};
-    const auto segments = awkward_segments(mesh, rounds(250), seed);
+    const auto segments = awkward_segments(mesh, rounds(250), test_seed());
     for (const Segment& s : segments) {
       ASSERT_EQ(query.all_hits(s), truth.all_hits(s));
       ASSERT_EQ(query.first_hit(s), truth.first_hit(s));
@@ -119,7 +116,7 @@ TEST(QueryIndex, RefusesWhatItCannotAnswer) {
 
 TEST(Hits, AreTheSameForAnyNumberOfThreads) {
   const QueryIndex index(make_sample("asteroid", 2000));
-  const auto segments = awkward_segments(make_sample("asteroid", 2000), 3000, 5);
+  const auto segments = awkward_segments(make_sample("asteroid", 2000), 3000, test_seed());
   const HitBatch one = hits(index, segments, HitMode::All, {.threads = 1});
   ASSERT_EQ(one.offsets.size(), segments.size() + 1);
   MeshQuery query(index);
@@ -136,7 +133,7 @@ TEST(Hits, AreTheSameForAnyNumberOfThreads) {
 
 TEST(Hits, InPiecesAreTheSame) {
   const QueryIndex index(make_sample("asteroid", 2000));
-  const auto segments = awkward_segments(make_sample("asteroid", 2000), 3000, 6);
+  const auto segments = awkward_segments(make_sample("asteroid", 2000), 3000, test_seed());
   for (const HitMode mode : {HitMode::First, HitMode::Any, HitMode::All}) {
     const HitBatch whole = hits(index, segments, mode);
     std::mutex mutex;

@@ -12,6 +12,7 @@
 #include "prohull/random_segments.h"
 #include "prohull/sample.h"
 #include "query/awkward_segments.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -62,14 +63,13 @@ constexpr Variant kVariants[] = {
 class Refinement : public testing::TestWithParam<Variant> {};
 
 TEST_P(Refinement, WhereBoundsMeetAnswersAsBruteForceDoes) {
-  const unsigned seed = std::random_device{}();
   std::size_t hits = 0, met = 0;  // of all cases: one has few segments under sanitizers
   for (const auto& [name, hull] : cases()) {
-    SCOPED_TRACE(testing::Message() << name << ", seed " << seed);
+    SCOPED_TRACE(name);
     const TriangleMesh original = hull.original();
     MeshQuery truth{QueryIndex(original, Engine::Brute)},
         query{QueryIndex(hull, Engine::Refinement, GetParam().options)};
-    const auto segments = segments_for(original, static_cast<std::size_t>(rounds(60)), seed);
+    const auto segments = segments_for(original, static_cast<std::size_t>(rounds(60)), test_seed());
     for (const Segment& s : segments) {
       const auto all = truth.all_hits(s);
       hits += all.size();
@@ -91,21 +91,20 @@ TEST_P(Refinement, WhereBoundsMeetAnswersAsBruteForceDoes) {
       met += faces.size();
     }
   }
-  EXPECT_GT(hits, 0u) << "seed " << seed;
-  EXPECT_GT(met, 0u) << "seed " << seed;
+  EXPECT_GT(hits, 0u);
+  EXPECT_GT(met, 0u);
 }
 
 TEST_P(Refinement, WhereFacesMeetFindsFirstCrossingsFromOutside) {
-  const unsigned seed = std::random_device{}();
   std::size_t hits = 0;
   for (const auto& [name, hull] : cases()) {
     if (hull.side() == HullSide::Inner) continue;
-    SCOPED_TRACE(testing::Message() << name << ", seed " << seed);
+    SCOPED_TRACE(name);
     const TriangleMesh original = hull.original();
     const Box around = bounding_box(hull.base());
     MeshQuery truth{QueryIndex(original, Engine::Brute)},
         query{QueryIndex(hull, Engine::PaperRefinement, GetParam().options)};
-    for (const Segment& s : segments_for(original, static_cast<std::size_t>(rounds(100)), seed)) {
+    for (const Segment& s : segments_for(original, static_cast<std::size_t>(rounds(100)), test_seed())) {
       const auto all = truth.all_hits(s), found = query.all_hits(s);
       ASSERT_TRUE(std::ranges::all_of(found, [&](const Hit& hit) { return std::ranges::count(all, hit) == 1; }));
       if (around.overlaps({s.a, s.a})) continue;
@@ -116,12 +115,12 @@ TEST_P(Refinement, WhereFacesMeetFindsFirstCrossingsFromOutside) {
       hits += first.has_value();
     }
   }
-  EXPECT_GT(hits, 0u) << "seed " << seed;
+  EXPECT_GT(hits, 0u);
 }
 
 TEST_P(Refinement, GivesTheSameAnswersAndCountsForAnyNumberOfThreads) {
   const ProgressiveHull& hull = cases()[0].hull;
-  const auto segments = random_segments(bounding_box(hull.original()), 3000, 1);
+  const auto segments = random_segments(bounding_box(hull.original()), 3000, test_seed());
   for (const Engine engine : {Engine::Refinement, Engine::PaperRefinement}) {
     const QueryIndex index(hull, engine, GetParam().options);
     const HitBatch one = hits(index, segments, HitMode::All, {.threads = 1});
@@ -138,7 +137,7 @@ TEST_P(Refinement, GivesTheSameAnswersAndCountsForAnyNumberOfThreads) {
 TEST_P(Refinement, TakesNoMoreMemoryHoweverManyQueriesThereAre) {
   const ProgressiveHull& hull = cases()[0].hull;
   MeshQuery query{QueryIndex(hull, Engine::Refinement, GetParam().options)};
-  const auto segments = random_segments(bounding_box(hull.original()), 200, 1);
+  const auto segments = random_segments(bounding_box(hull.original()), 200, test_seed());
   const auto ask_all = [&] {
     for (const Segment& s : segments) query.all_hits(s), query.any_hit(s);
   };

@@ -9,6 +9,7 @@
 #include "geometry/triangle_contact.h"
 #include "query/balls.h"
 #include "query/line_sieve.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -60,9 +61,7 @@ Segment piece(const Ray& ray, const Box& frame) {
 constexpr double kScales[] = {1, 1e-30, 1e30, 0x1p-200, 0x1p200};
 
 TEST(Balls, NeverLetAQueryMissWhatItMeets) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   std::size_t met = 0, missed = 0, marked = 0;
   for (int round = 0; round < rounds(300); ++round) {
     const Scene scene(random, kScales[round % 5]);
@@ -92,9 +91,7 @@ TEST(Balls, NeverLetAQueryMissWhatItMeets) {
 }
 
 TEST(LineSieve, NeverPassesAFaceThatTheLineMeets) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   std::size_t met = 0, missed = 0, passed = 0;
   for (int round = 0; round < rounds(300); ++round) {
     const Scene scene(random, kScales[round % 5]);

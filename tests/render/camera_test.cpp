@@ -5,6 +5,7 @@
 #include <random>
 
 #include "meshes.h"
+#include "random.h"
 
 namespace prohull::render {
 namespace {
@@ -27,7 +28,7 @@ View random_view(std::mt19937_64& random) {
 }
 
 TEST(Camera, SeesAllPointsAndFillsThePictureInOneDirection) {
-  std::mt19937_64 random(1);
+  std::mt19937_64 random(test_seed());
   const auto points = corners_of_box();
   for (int round = 0; round < 100; ++round) {
     const Camera camera(random_view(random), points, kWidth, kHeight);
@@ -46,7 +47,7 @@ TEST(Camera, SeesAllPointsAndFillsThePictureInOneDirection) {
 }
 
 TEST(Camera, RaysPassThroughTheirPixels) {
-  std::mt19937_64 random(2);
+  std::mt19937_64 random(test_seed());
   for (int round = 0; round < 100; ++round) {
     View view = random_view(random);
     view.zoom = 3;

@@ -8,6 +8,8 @@
 #include <random>
 #include <set>
 
+#include "random.h"
+
 namespace prohull::render {
 namespace {
 
@@ -30,7 +32,7 @@ Decoded decoded(const std::string& png) {
 
 /// Noisy pictures compress badly.
 Image gradient(int width, int height, bool opaque, float noise = 0) {
-  std::mt19937 random(1);
+  std::mt19937 random(test_seed());
   std::uniform_real_distribution<float> unit(0, 1);
   Image image(width, height);
   for (int y = 0; y < height; ++y)

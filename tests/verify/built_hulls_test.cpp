@@ -10,6 +10,7 @@
 #include "prohull/enclosure.h"
 #include "prohull/hull_builder.h"
 #include "prohull/sample.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -50,10 +51,7 @@ void dent(TriangleMesh& hull, VertexId v, double step) {
 }
 
 TEST(BuiltHulls, AreAcceptedAndTheirMutantsAreNot) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   std::size_t lost = 0, kept = 0;
   for (const char* name : {"asteroid", "knot", "bracket", "box", "torus", "pony"}) {
     const TriangleMesh original = make_sample(name, effort(3000, 1000));

@@ -6,6 +6,7 @@
 #include "geometry/triangle_predicates.h"
 #include "meshes.h"
 #include "prohull/enclosure.h"
+#include "random.h"
 #include "verify/oracle.h"
 
 namespace prohull {
@@ -124,13 +125,11 @@ std::vector<TriangleMesh> originals(unsigned seed) {
 }
 
 TEST(Enclosure, RejectsMutantsExactlyWhereTheyLoseAPartOfTheOriginal) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   int accepted = 0, rejected = 0, hulls = 0;
-  for (const TriangleMesh& original : originals(seed)) {
+  for (const TriangleMesh& original : originals(test_seed())) {
     const oracle::Chain original_chain(original);
-    GrowingHull hull(original, seed);
+    GrowingHull hull(original, test_seed());
     for (int generation = 0; generation < 5; ++generation, ++hulls) {
       ASSERT_TRUE(verify_enclosure(original, hull.mesh()).encloses) << "hull " << hulls;
       for (int i = 0; i < effort(3, 1); ++i) {
@@ -150,10 +149,8 @@ TEST(Enclosure, RejectsMutantsExactlyWhereTheyLoseAPartOfTheOriginal) {
 }
 
 TEST(Enclosure, HoldsAlongThousandsOfOutwardMoves) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  for (const TriangleMesh& original : {sphere(4), with_noise(sphere(4), 0.05, seed), torus(40, 20)}) {
-    GrowingHull hull(original, seed);
+  for (const TriangleMesh& original : {sphere(4), with_noise(sphere(4), 0.05, test_seed()), torus(40, 20)}) {
+    GrowingHull hull(original, test_seed());
     for (int level = 0; level < effort(5, 2); ++level) {
       const TriangleMesh finer = hull.mesh();
       for (int i = 0; i < 1000; ++i) hull.grow();

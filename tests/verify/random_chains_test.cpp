@@ -2,6 +2,7 @@
 
 #include "effort.h"
 #include "prohull/enclosure.h"
+#include "random.h"
 #include "verify/oracle.h"
 #include "verify/random_chains.h"
 
@@ -9,10 +10,8 @@ namespace prohull {
 namespace {
 
 TEST(Enclosure, AgreesWithBruteForceOnRandomChains) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RandomChains chains(seed);
-  std::mt19937 random(seed);
+  RandomChains chains(test_seed());
+  std::mt19937 random(test_seed());
   int enclosed = 0, rejected = 0;
   while (enclosed + rejected < effort(16, 6) || rejected == 0) {  // nine in ten enclose
     TriangleMesh inner, outer;

@@ -6,6 +6,7 @@
 #include "prohull/enclosure.h"
 #include "prohull/hull_builder.h"
 #include "prohull/sample.h"
+#include "random.h"
 #include "verify/cover_oracle.h"
 #include "verify/random_chains.h"
 
@@ -61,10 +62,8 @@ class RandomTriangles {
 };
 
 TEST(Cover, AgreesWithBruteForceOnRandomChains) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RandomChains chains(seed);
-  std::mt19937 random(seed);
+  RandomChains chains(test_seed());
+  std::mt19937 random(test_seed());
   int covered = 0, outside = 0;
   for (int chain = 0; chain < 60;) {
     TriangleMesh outer;
@@ -111,9 +110,7 @@ bool holds(const TriangleMesh& convex, const Triangle& t) {
 }
 
 TEST(Cover, OfAConvexHullIsWhatAllItsPlanesLeaveInside) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RandomChains chains(seed);
+  RandomChains chains(test_seed());
   int covered = 0, outside = 0;
   for (TriangleMesh body : convex_bodies()) {
     if (signed_volume(body) < 0) body = inside_out(body);
@@ -172,10 +169,8 @@ TriangleMesh mutant_of(TriangleMesh hull, RandomChains& chains) {
 }
 
 TEST(Cover, AcceptsNoMutantThatBruteForceRejects) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RandomChains chains(seed);
-  std::mt19937 random(seed);
+  RandomChains chains(test_seed());
+  std::mt19937 random(test_seed());
   int accepted = 0, rejected = 0;
   for (const TriangleMesh& hull :
        {box({0, 0, 0}, {3, 3, 3}), subdivided(scaled(octahedron(), 2)), scaled(octahedron(), 3),
@@ -203,9 +198,7 @@ TEST(Cover, AcceptsNoMutantThatBruteForceRejects) {
 }
 
 TEST(Cover, AgreesWithEnclosureWhereMeshesAreSolids) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RandomChains chains(seed);
+  RandomChains chains(test_seed());
   int accepted = 0, rejected = 0;
   for (const char* name : {"asteroid", "bracket", "box", "pony"}) {
     const TriangleMesh original = make_sample(name, 1500);

@@ -9,6 +9,7 @@
 #include "meshes.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -26,9 +27,7 @@ std::size_t counted_by_cgal(const TriangleMesh& mesh) {
 }
 
 TEST(SelfIntersections, AreCountedAsByCgal) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test_seed());
   for (const double noise : {0.0, 0.01, 0.05, 0.1, 0.3}) {
     std::uniform_real_distribution<double> jitter(-noise, noise);
     for (TriangleMesh mesh : {meshes::torus(30, 12), meshes::sphere(3), meshes::subdivided(meshes::octahedron())}) {
