@@ -17,8 +17,8 @@ room(base      OWNS error text)
 room(geometry  OWNS geometry                                                     MAY base)
 room(parallel                                                                    MAY base)
 room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality      MAY geometry base)
-room(hull      OWNS progressive_hull refined_hull                                MAY mesh geometry base)
-room(query     OWNS mesh_query                                                   MAY hull mesh geometry parallel base)
+room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
+room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base)
 room(io        OWNS mesh_io hull_file query_io file                              MAY hull mesh geometry base
                                                                                      prohull/mesh_query)  # the answers
 room(repair    OWNS repair                                                       MAY mesh geometry base)

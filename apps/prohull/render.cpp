@@ -9,10 +9,10 @@
 #include "command.h"
 #include "prohull/error.h"
 #include "prohull/file.h"
+#include "prohull/refine_along.h"
 #include "render/compose.h"
 #include "render/draw.h"
 #include "render/mesh_table.h"
-#include "render/refine_along.h"
 
 namespace prohull::cli {
 namespace {
@@ -166,7 +166,7 @@ class Planner {
   void add_refined(const std::filesystem::path& path, std::size_t level, PanelPlan& plan) {
     if (!table_.is_hull(path)) refuse(fmt::format("{}: only .phull files can be refined", path.string()));
     const Segment segment = segment_of(options_.segment);
-    render::RefinedAlong refined = render::refine_along(table_.hull(path).with_base(level), segment);
+    RefinedAlong refined = refine_along(table_.hull(path).with_base(level), segment);
     plan.shown = table_.add(std::move(refined.hull));
     plan.segment = {segment, std::move(refined.found), std::move(refined.missed)};
   }

@@ -1,4 +1,4 @@
-#include "prohull/refined_hull.h"
+#include "hull/refined_hull.h"
 
 #include <algorithm>
 #include <utility>

@@ -7,7 +7,7 @@
 
 #include "geometry/bvh.h"
 #include "geometry/triangle_contact.h"
-#include "prohull/refined_hull.h"
+#include "hull/refined_hull.h"
 #include "query/balls.h"
 #include "query/box_line.h"
 #include "query/line_sieve.h"

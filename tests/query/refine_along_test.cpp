@@ -1,4 +1,4 @@
-#include "render/refine_along.h"
+#include "prohull/refine_along.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "prohull/random_segments.h"
 #include "prohull/sample.h"
 
-namespace prohull::render {
+namespace prohull {
 namespace {
 
 const ProgressiveHull& pony() {
@@ -56,4 +56,4 @@ TEST(RefineAlong, LeavesTheHullWhereTheSegmentPassesItBy) {
 }
 
 }  // namespace
-}  // namespace prohull::render
+}  // namespace prohull

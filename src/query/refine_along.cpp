@@ -1,12 +1,12 @@
-#include "render/refine_along.h"
+#include "prohull/refine_along.h"
 
 #include <algorithm>
 #include <memory>
 
+#include "hull/refined_hull.h"
 #include "prohull/mesh_query.h"
-#include "prohull/refined_hull.h"
 
-namespace prohull::render {
+namespace prohull {
 namespace {
 
 std::vector<FaceId> faces_of(const RefinedHull& hull) {
@@ -50,4 +50,4 @@ RefinedAlong refine_along(const ProgressiveHull& hull, const Segment& segment) {
   return result;
 }
 
-}  // namespace prohull::render
+}  // namespace prohull
