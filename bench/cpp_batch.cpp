@@ -31,8 +31,7 @@ HitMode mode_called(const std::string& name) {
 }
 
 Engine engine_called(const std::string& name) {
-  for (const auto& [text, engine] : engine_names())
-    if (text == name) return engine;
+  if (const auto engine = value_of(engine_names(), name)) return *engine;
   throw py::key_error(name);
 }
 

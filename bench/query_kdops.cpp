@@ -16,10 +16,7 @@ constexpr std::array<Engine, 4> kOverlapping{Engine::KDop6Overlap, Engine::KDop1
                                              Engine::KDop26Overlap};
 constexpr std::array<int, 4> kDirections{6, 14, 18, 26};
 
-std::string name(Engine engine) {
-  const auto named = std::ranges::find(engine_names(), engine, [](const auto& n) { return n.second; });
-  return std::string(named->first);
-}
+std::string name(Engine engine) { return std::string(name_of(engine_names(), engine)); }
 
 enum class Ask { First, Any, All };
 constexpr std::array kAsks{Ask::First, Ask::Any, Ask::All};

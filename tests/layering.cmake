@@ -13,7 +13,7 @@ macro(room name)
   set(may_${name} ${name} ${room_MAY})
 endmacro()
 
-room(base      OWNS error text)
+room(base      OWNS error names text)
 room(geometry  OWNS geometry                                                     MAY base)
 room(parallel                                                                    MAY base)
 room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality      MAY geometry base)

@@ -14,18 +14,6 @@
 #include "prohull/mesh_io.h"
 
 namespace prohull::cli {
-
-const Names<Strategy>& strategy_names() {
-  static const Names<Strategy> names{
-      {"lazy", Strategy::Lazy}, {"paper1", Strategy::Paper1}, {"paper2", Strategy::Paper2}};
-  return names;
-}
-
-const Names<Repair>& repair_names() {
-  static const Names<Repair> names{{"auto", Repair::Auto}, {"none", Repair::None}, {"wrap", Repair::Wrap}};
-  return names;
-}
-
 namespace {
 
 constexpr std::string_view kFacesInName = "{faces}";
@@ -226,7 +214,7 @@ void add_build(CLI::App& app, Run& run) {
   command.add_option("--max-added-volume", enclosing.bounds.max_added_volume, "The same in the mesh's unit, cubed")
       ->check(CLI::PositiveNumber)
       ->type_name("V");
-  add_choice(command, "--side", hull.side, side_names(), "outer: encloses the mesh; inner: is enclosed by it");
+  add_choice(command, "--side", hull.side, hull_side_names(), "outer: encloses the mesh; inner: is enclosed by it");
   CLI::Option* tight = command.add_flag("--tight", enclosing.tight,
                                         "Move vertices towards the mesh between collapses: the least void, never "
                                         "self-intersecting, some twenty to seventy times slower");

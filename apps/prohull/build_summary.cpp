@@ -65,8 +65,9 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
                kRelaxedGuards[hull.relaxed_guards - 1].normal_deviation / kDegree, hull.relaxed_guards,
                kRelaxedGuards.size());
   if (!hull.reached)
-    fmt::print("  no legal collapse is left above the {} faces asked for: {}; what refused the {} edges left: {}\n",
-               grouped(hull.target_faces), described_topology(hull.mesh), grouped(3 * faces / 2), listed(hull.blocked));
+    fmt::print("  no legal collapse is left above the {} faces asked for: {}; of the {} edges left, {}\n",
+               grouped(hull.target_faces), described_topology(hull.mesh), grouped(3 * faces / 2),
+               describe_refusals(hull.blocked));
   if (!hull.bounded) fmt::print("  NOT within the bounds asked for: no hull was\n");
   if (written.certified && !options.hierarchy.empty())
     fmt::print("{}: all levels from {} to {} faces\n", options.hierarchy.string(), grouped(faces),
@@ -83,7 +84,7 @@ nlohmann::json finite_or_null(double value) { return std::isfinite(value) ? nloh
 
 nlohmann::json facts_of(const RefusalCounts& counts) {
   nlohmann::json json;
-  for (std::size_t i = 0; i < kRefusalKinds; ++i) json[std::string(name(Refusal(i)))] = counts[Refusal(i)];
+  for (const auto& [name, refusal] : refusal_names()) json[std::string(name)] = counts[refusal];
   return json;
 }
 
@@ -91,7 +92,7 @@ nlohmann::json options_report(const BuildOptions& options) {
   const HullOptions& hull = options.enclosing.hull;
   const HullBounds& bounds = options.enclosing.bounds;
   return {{"faces", options.faces},
-          {"side", name_of(side_names(), hull.side)},
+          {"side", name_of(hull_side_names(), hull.side)},
           {"max_distance", finite_or_null(bounds.max_distance)},
           {"max_void", finite_or_null(bounds.max_void)},
           {"max_added_volume", finite_or_null(bounds.max_added_volume)},

@@ -40,9 +40,6 @@ struct BuildOutcome {
   const Solid& solid(const EnclosingHull& hull) const { return made.solids[hull.solid]; }
 };
 
-const Names<Strategy>& strategy_names();
-const Names<Repair>& repair_names();
-
 void print_summary(const BuildOptions& options, const BuildOutcome& outcome);
 nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcome);
 

@@ -143,9 +143,4 @@ void add_examples(CLI::App& command, const std::vector<std::string>& examples) {
   command.footer(text);
 }
 
-const Names<HullSide>& side_names() {
-  static const Names<HullSide> names{{"outer", HullSide::Outer}, {"inner", HullSide::Inner}};
-  return names;
-}
-
 }  // namespace prohull::cli

@@ -16,6 +16,7 @@
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_quality.h"
 #include "prohull/mesh_report.h"
+#include "prohull/names.h"
 #include "prohull/repair.h"
 #include "prohull/text.h"
 
@@ -94,34 +95,18 @@ void write_report(const std::filesystem::path& path, nlohmann::json report);
 void add_report_option(CLI::App& command, std::filesystem::path& path);
 void add_examples(CLI::App& command, const std::vector<std::string>& examples);
 
-/// Values by their names, as the command line has them.
-template <class Value>
-using Names = std::vector<std::pair<std::string, Value>>;
-
-template <class Value>
-std::string name_of(const Names<Value>& names, Value value) {
-  for (const auto& [name, v] : names)
-    if (v == value) return name;
-  return "";
-}
-
 /// An option that takes one of the names, of which --help tells the one that `value` has as the default.
 template <class Value>
-CLI::Option* add_choice(CLI::App& command, const std::string& flag, Value& value, const Names<Value>& names,
+CLI::Option* add_choice(CLI::App& command, const std::string& flag, Value& value, Names<Value> names,
                         const std::string& description) {
   std::vector<std::string> words;
-  for (const auto& [name, v] : names) words.push_back(name);
-  const auto set = [&value, names](const std::string& word) {
-    for (const auto& [name, v] : names)
-      if (name == word) value = v;
-  };
+  for (const auto& [name, v] : names) words.emplace_back(name);
+  const auto set = [&value, names](const std::string& word) { value = value_of(names, word).value_or(value); };
   return command.add_option_function<std::string>(flag, set, description)
       ->check(CLI::IsMember(words).description(""))
       ->type_name(CLI::detail::join(words, "|"))
-      ->default_str(name_of(names, value));
+      ->default_str(std::string(name_of(names, value)));
 }
-
-const Names<HullSide>& side_names();
 
 // Each adds its subcommand to the program and leaves in `run` what to do when it is chosen; run returns the exit code.
 using Run = std::function<int()>;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "arguments.h"
@@ -210,9 +211,10 @@ complete -c prohull -f
 
 using Writer = std::string (*)(const Command& app, const std::vector<Command>& all);
 
-const Names<Writer>& shells() {
-  static const Names<Writer> writers{{"bash", bash_script}, {"zsh", zsh_script}, {"fish", fish_script}};
-  return writers;
+Names<Writer> shells() {
+  static constexpr std::array<std::pair<std::string_view, Writer>, 3> kShells{
+      {{"bash", bash_script}, {"zsh", zsh_script}, {"fish", fish_script}}};
+  return kShells;
 }
 
 }  // namespace

@@ -20,16 +20,6 @@ struct Options {
   unsigned threads = 0;
 };
 
-const Names<HitMode>& mode_names() {
-  static const Names<HitMode> names{{"first", HitMode::First}, {"any", HitMode::Any}, {"all", HitMode::All}};
-  return names;
-}
-
-const Names<Engine>& engines() {
-  static const Names<Engine> names(engine_names().begin(), engine_names().end());
-  return names;
-}
-
 // What differs between the kinds of queries.
 std::string_view noun(const std::vector<Segment>&) { return "segment"; }
 std::string_view noun(const std::vector<Ray>&) { return "ray"; }
@@ -132,7 +122,7 @@ void print_summary(const Options& options, const Outcome& outcome) {
              grouped(outcome.queries), outcome.noun, faces ? "meet some" : "hit",
              100 * outcome.per_query(outcome.answered));
   const unsigned threads = threads_used(options);
-  fmt::print("  engine {}, {} thread{}: {} {}s per second\n", name_of(engines(), outcome.engine), threads,
+  fmt::print("  engine {}, {} thread{}: {} {}s per second\n", name_of(engine_names(), outcome.engine), threads,
              threads == 1 ? "" : "s", grouped(static_cast<std::size_t>(outcome.per_second())), outcome.noun);
   if (counts_tests(outcome.engine))
     fmt::print("  {:.1f} faces tested and {:.1f} vertices split per {}\n", outcome.per_query(outcome.counts.tests),
@@ -147,14 +137,14 @@ nlohmann::json report_of(const Options& options, const Outcome& outcome) {
                          {outcome.noun == "triangle" ? "faces_met" : "hits", outcome.answers},
                          {"queries_hit", outcome.answered},
                          {"queries_per_second", outcome.per_second()},
-                         {"engine", name_of(engines(), outcome.engine)},
+                         {"engine", name_of(engine_names(), outcome.engine)},
                          {"threads", threads_used(options)},
                          {"seconds",
                           {{"read", outcome.seconds.read},
                            {"index", outcome.seconds.index},
                            {"query", outcome.seconds.query},
                            {"write", outcome.seconds.write}}}};
-  if (outcome.noun != "triangle") json["mode"] = name_of(mode_names(), options.mode);
+  if (outcome.noun != "triangle") json["mode"] = name_of(hit_mode_names(), options.mode);
   if (options.random > 0) json["seed"] = options.seed;
   if (counts_tests(outcome.engine)) json["tests"] = outcome.counts.tests, json["splits"] = outcome.counts.splits;
   return json;
@@ -226,7 +216,7 @@ void add_queries(CLI::App& command, Options& options) {
   command.add_option("--write-segments", options.write_segments, "Where the random segments go: .npy or .csv")
       ->needs(random)
       ->type_name("FILE");
-  add_choice(command, "--mode", options.mode, mode_names(), "Which hits of a segment or ray")->excludes(triangles);
+  add_choice(command, "--mode", options.mode, hit_mode_names(), "Which hits of a segment or ray")->excludes(triangles);
 }
 
 }  // namespace
@@ -242,7 +232,7 @@ void add_query(CLI::App& app, Run& run) {
   command.add_option("-o,--out", options->out, "Where the hits go: .npz or .csv; without, only the summary")
       ->type_name("HITS");
   add_queries(command, *options);
-  add_choice(command, "--engine", options->engine, engines(),
+  add_choice(command, "--engine", options->engine, engine_names(),
              "auto: the fastest that is exact; others, see docs/queries.md");
   command
       .add_option("--threads", options->threads, "At most so many, and no more than there are cores; 0: all of them")

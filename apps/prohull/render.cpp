@@ -337,8 +337,8 @@ void add_look_options(CLI::App& command, Options& options) {
 
 void add_view_options(CLI::App& command, Options& options) {
   constexpr const char* kView = "View";
-  const Names<int> axes{{"x", 0}, {"y", 1}, {"z", 2}};
-  add_choice(command, "--up", options.look.view.up, axes, "The axis that points up")->group(kView);
+  static constexpr std::array<std::pair<std::string_view, int>, 3> kAxes{{{"x", 0}, {"y", 1}, {"z", 2}}};
+  add_choice(command, "--up", options.look.view.up, Names<int>(kAxes), "The axis that points up")->group(kView);
   command
       .add_option("--azimuth", options.azimuth_degrees, "Degrees around that axis; 0 is the front, 90 the right side")
       ->capture_default_str()

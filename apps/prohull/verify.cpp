@@ -195,7 +195,7 @@ void add_verify(CLI::App& app, Run& run) {
   command.add_option("original", options->original, "The mesh that it should enclose")
       ->required()
       ->type_name("ORIGINAL");
-  add_choice(command, "--side", options->side, side_names(),
+  add_choice(command, "--side", options->side, hull_side_names(),
              "inner: decide whether ORIGINAL encloses HULL (a .phull file knows its side)");
   command.add_flag(
       "--every-triangle", options->every_triangle,

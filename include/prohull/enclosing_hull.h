@@ -10,6 +10,7 @@
 
 #include "prohull/distance.h"
 #include "prohull/hull_builder.h"
+#include "prohull/names.h"
 #include "prohull/repair.h"
 #include "prohull/triangle_mesh.h"
 #include "prohull/wrap.h"
@@ -22,6 +23,9 @@ enum class Repair {
   None,  ///< only what closed_mesh does
   Wrap,  ///< a wrap at once
 };
+
+/// "auto", "none", "wrap"
+Names<Repair> repair_names();
 
 struct EnclosingOptions {
   HullOptions hull = {};  ///< of which target_faces is set for each hull

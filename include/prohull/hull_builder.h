@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "prohull/names.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"
 
@@ -20,6 +21,9 @@ enum class Strategy {
   Paper2,  ///< P&T 3.1.3, second strategy: the volume that the star spans with the centre of its link
 };
 
+/// "lazy", "paper1", "paper2"
+Names<Strategy> strategy_names();
+
 /// The priority queue (P&T 3.1.4). Heap and RedBlackTree give the same hulls; Bucket sorts to an eighth of an octave.
 enum class QueueKind { Bucket, Heap, RedBlackTree };
 
@@ -29,6 +33,9 @@ enum class SelfIntersections {
   Refused,     ///< exact; a hull has no more such pairs than the mesh itself
   Allowed,     ///< faster
 };
+
+/// "by-strategy", "refused", "allowed"
+Names<SelfIntersections> self_intersections_names();
 
 /// Why an edge was not collapsed.
 enum class Refusal : std::uint8_t {
@@ -41,7 +48,9 @@ enum class Refusal : std::uint8_t {
   SelfIntersection,  ///< faces would meet that share nothing there
 };
 constexpr std::size_t kRefusalKinds = 7;
-std::string_view name(Refusal refusal);
+
+/// Identifiers for reports, which stay the same in later versions: "link_condition", "valence" and so on.
+Names<Refusal> refusal_names();
 
 class RefusalCounts {
  public:
@@ -56,8 +65,9 @@ class RefusalCounts {
   std::array<std::size_t, kRefusalKinds> counts_{};
 };
 
-/// "link_condition 12, valence 3": those that there are.
-std::string listed(const RefusalCounts& counts);
+/// Why edges were not collapsed, for people: "12 would pinch the surface, 3 would make a triangle too thin". Reasons
+/// that did not occur are left out.
+std::string describe_refusals(const RefusalCounts& counts);
 
 struct HullProgress {
   std::size_t faces, original_faces, target_faces;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "prohull/names.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"
 
@@ -42,7 +43,7 @@ enum class Engine {
 };
 
 /// Each engine by its name: "auto", "bvh", "refinement", "paper-refinement", "kdop6" ... "kdop26-overlap", "brute".
-std::span<const std::pair<std::string_view, Engine>> engine_names();
+Names<Engine> engine_names();
 
 /// Which hull faces or vertices a query refines (P&T 3.2.1).
 enum class Refine {
@@ -145,6 +146,9 @@ class MeshQuery {
 };
 
 enum class HitMode { First, Any, All };
+
+/// "first", "any", "all"
+Names<HitMode> hit_mode_names();
 
 struct BatchOptions {
   unsigned threads = 0;  ///< at most, and no more than cores; 0: one for each core

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "prohull/names.h"
 #include "prohull/triangle_mesh.h"
 #include "prohull/vertex_split.h"
 
@@ -15,6 +16,9 @@ enum class HullSide {
   Outer,  ///< every hull encloses the original mesh
   Inner,  ///< every hull is enclosed by the original mesh
 };
+
+/// "outer", "inner"
+Names<HullSide> hull_side_names();
 
 /// A mesh at every resolution from a coarse base mesh up to the original (P&T 2, Hoppe 1996). Immutable; any number of
 /// threads may share one.

@@ -36,13 +36,9 @@ class Keywords {
     return value;
   }
   template <class T>
-  T choice(const char* name, std::initializer_list<std::pair<const char*, T>> choices) const {
-    std::string known;
-    for (const auto& [text, value] : choices) {
-      if (py::str(values_[name]).equal(py::str(text))) return value;
-      known += (known.empty() ? "" : ", ") + std::string(text);
-    }
-    refuse(name, ("one of " + known).c_str());
+  T choice(const char* name, Names<T> choices) const {
+    if (const auto value = value_of(choices, py::str(values_[name]).cast<std::string>())) return *value;
+    refuse(name, ("one of " + joined(choices)).c_str());
   }
 
  private:
@@ -57,13 +53,9 @@ class Keywords {
 EnclosingOptions options_of(const Keywords& given) {
   EnclosingOptions options;
   HullOptions& hull = options.hull;
-  hull.side = given.choice<HullSide>("side", {{"outer", HullSide::Outer}, {"inner", HullSide::Inner}});
-  hull.strategy = given.choice<Strategy>(
-      "strategy", {{"lazy", Strategy::Lazy}, {"paper1", Strategy::Paper1}, {"paper2", Strategy::Paper2}});
-  hull.self_intersections =
-      given.choice<SelfIntersections>("self_intersections", {{"by-strategy", SelfIntersections::ByStrategy},
-                                                             {"refused", SelfIntersections::Refused},
-                                                             {"allowed", SelfIntersections::Allowed}});
+  hull.side = given.choice("side", hull_side_names());
+  hull.strategy = given.choice("strategy", strategy_names());
+  hull.self_intersections = given.choice("self_intersections", self_intersections_names());
   hull.max_valence = given.count("max_valence");
   hull.min_compactness_ratio = given.number("min_compactness_ratio");
   hull.sufficient_compactness = given.number("sufficient_compactness");
@@ -78,8 +70,7 @@ EnclosingOptions options_of(const Keywords& given) {
   options.bounds.max_added_volume = given.not_negative("max_added_volume");
   options.tight = given.flag("tight");
   options.levels = given.flag("levels");
-  options.repair =
-      given.choice<Repair>("repair", {{"auto", Repair::Auto}, {"none", Repair::None}, {"wrap", Repair::Wrap}});
+  options.repair = given.choice("repair", repair_names());
   options.keep_cavities = given.flag("keep_cavities");
   options.seal_holes = given.not_negative("seal_holes");
 #ifdef PROHULL_HAS_WRAP
@@ -90,10 +81,8 @@ EnclosingOptions options_of(const Keywords& given) {
 
 py::dict dict_of(const RefusalCounts& counts) {
   py::dict result;
-  for (std::size_t kind = 0; kind < kRefusalKinds; ++kind) {
-    const auto refusal = static_cast<Refusal>(kind);
-    if (counts[refusal] > 0) result[py::cast(name(refusal))] = counts[refusal];
-  }
+  for (const auto& [name, refusal] : refusal_names())
+    if (counts[refusal] > 0) result[py::cast(name)] = counts[refusal];
   return result;
 }
 

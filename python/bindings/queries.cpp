@@ -22,12 +22,8 @@ namespace prohull::python {
 namespace {
 
 Engine engine_called(const std::string& name) {
-  std::string known;
-  for (const auto& [text, engine] : engine_names()) {
-    if (text == name) return engine;
-    known += (known.empty() ? "" : ", ") + std::string(text);
-  }
-  throw InputError(Defect::InvalidOption, "engine='" + name + "': expected one of " + known);
+  if (const auto engine = value_of(engine_names(), name)) return *engine;
+  throw InputError(Defect::InvalidOption, "engine='" + name + "': expected one of " + joined(engine_names()));
 }
 
 RefinementOptions refinement_of(bool coarsen, unsigned queries_per_roll_back) {

@@ -455,13 +455,6 @@ HullResult turned(HullResult result) {
 
 }  // namespace
 
-std::string_view name(Refusal refusal) {
-  constexpr std::array<std::string_view, kRefusalKinds> kNames = {"link_condition",   "valence",     "no_room_outside",
-                                                                  "certificate",      "compactness", "normal_deviation",
-                                                                  "self_intersection"};
-  return kNames[static_cast<std::size_t>(refusal)];
-}
-
 HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
   check(options);
   if (options.best_of > 1)

@@ -24,6 +24,9 @@ namespace {
 constexpr double kWrapAlphas[]{1.0 / 50, 1.0 / 20, 1.0 / 10};  // of the diagonal
 constexpr double kWrapOffset = 1.0 / 600;
 
+constexpr std::array<std::pair<std::string_view, Repair>, 3> kRepairNames{
+    {{"auto", Repair::Auto}, {"none", Repair::None}, {"wrap", Repair::Wrap}}};
+
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 double fraction_done(const HullProgress& p) {
@@ -363,11 +366,13 @@ void Ladder::note_why_not(const EnclosingHull& hull) {
     note(fmt::format("a hull of {} with {} faces has {:.1f} times the volume", source, grouped(hull.mesh.face_count()),
                      signed_volume(hull.mesh) / made_.solids.front().volume));
   else
-    note(fmt::format("no legal collapse of {} is left at {} faces: {}", source, grouped(hull.mesh.face_count()),
-                     listed(hull.blocked)));
+    note(fmt::format("no legal collapse of {} is left at {} faces: of its edges, {}", source,
+                     grouped(hull.mesh.face_count()), describe_refusals(hull.blocked)));
 }
 
 }  // namespace
+
+Names<Repair> repair_names() { return kRepairNames; }
 
 RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& options) {
   if (options.repair == Repair::None) {

@@ -3,11 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "mesh/half_edge_mesh.h"
 #include "prohull/mesh_report.h"
 
 namespace prohull {
+
+Names<HullSide> hull_side_names() {
+  static constexpr std::array<std::pair<std::string_view, HullSide>, 2> kNames{
+      {{"outer", HullSide::Outer}, {"inner", HullSide::Inner}}};
+  return kNames;
+}
 
 ProgressiveHull::ProgressiveHull(HullSide side, std::size_t original_vertices, PerVertex<Vec3> positions,
                                  std::vector<VertexId> base_corners, std::vector<VertexSplit> splits)

@@ -31,9 +31,14 @@ constexpr std::array<std::pair<std::string_view, Engine>, 13> kEngineNames{
      {"kdop26-overlap", Engine::KDop26Overlap},
      {"brute", Engine::Brute}}};
 
+constexpr std::array<std::pair<std::string_view, HitMode>, 3> kHitModeNames{
+    {{"first", HitMode::First}, {"any", HitMode::Any}, {"all", HitMode::All}}};
+
 }  // namespace
 
-std::span<const std::pair<std::string_view, Engine>> engine_names() { return kEngineNames; }
+Names<Engine> engine_names() { return kEngineNames; }
+
+Names<HitMode> hit_mode_names() { return kHitModeNames; }
 
 struct QueryIndex::Shared {
   TriangleMesh mesh;

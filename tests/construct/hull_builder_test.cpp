@@ -424,8 +424,17 @@ TEST(BuildHullStrategies, AddLittleVoid) {
 }
 
 TEST(BuildHullStrategies, RefusalsHaveNames) {
-  EXPECT_EQ(name(Refusal::LinkCondition), "link_condition");
-  EXPECT_EQ(name(Refusal::SelfIntersection), "self_intersection");
+  EXPECT_EQ(name_of(refusal_names(), Refusal::LinkCondition), "link_condition");
+  EXPECT_EQ(name_of(refusal_names(), Refusal::SelfIntersection), "self_intersection");
+  EXPECT_EQ(refusal_names().size(), kRefusalKinds);
+}
+
+TEST(BuildHullStrategies, RefusalsAreDescribedInWords) {
+  RefusalCounts counts;
+  EXPECT_EQ(describe_refusals(counts), "");
+  for (int i = 0; i < 1200; ++i) counts.count(Refusal::LinkCondition);
+  counts.count(Refusal::Compactness);
+  EXPECT_EQ(describe_refusals(counts), "1,200 would pinch the surface, 1 would make a triangle too thin");
 }
 
 }  // namespace
