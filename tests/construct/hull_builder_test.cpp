@@ -167,7 +167,6 @@ TEST_P(BuildHull, IsCertifiedFarFromTheOrigin) {
     const TriangleMesh& mesh = GetParam().mesh;
     const double far = 1e6 * bounding_box(mesh).diagonal();
     const TriangleMesh away = moved(mesh, {far, -0.7 * far, 0.3 * far});
-    if (!inspect(away).is_closed_manifold()) continue;
     const HullOptions options{.target_faces = kFaces / 4, .side = side};
     const HullResult result = build_hull(away, options);
     EXPECT_LT(result.hull.base_face_count(), mesh.face_count() / 2);
@@ -298,14 +297,6 @@ TEST(BuildHullProgress, CancelsBeforeTheFirstCollapse) {
       build_hull(mesh, {.target_faces = 40, .progress = [](const HullProgress&) { return false; }});
   EXPECT_EQ(result.stopped, Stopped::Cancelled);
   EXPECT_EQ(result.hull.base(), mesh);
-}
-
-// Each collapse changes the stars of all edges at the tips.
-TEST(BuildHullOfABipyramid, TakesNotTheSquareOfTheFacesOfItsTips) {
-  const TriangleMesh mesh = bipyramid(kFaces * 20);
-  const HullResult result = build_hull(mesh, {.target_faces = 100, .self_intersections = SelfIntersections::Allowed});
-  EXPECT_EQ(result.stopped, Stopped::TargetReached);
-  EXPECT_EQ(first_defect(result.hull), std::nullopt);
 }
 
 #ifndef PROHULL_TESTS_ARE_SLOW

@@ -156,7 +156,7 @@ TEST(SelfIntersectionGuard, AgreesWithCountsOfWholeMeshesOnFlips) {
                                        together(sphere(1), moved(sphere(1), {1.7, 0, 0}))}) {
     HalfEdgeMesh mesh(original);
     SelfIntersectionGuard guard(mesh, faces_along_curve(mesh));
-    for (int i = 0; i < rounds(150); ++i) {
+    for (int i = 0; i < effort(150, 60); ++i) {
       const HalfEdgeId h = mesh.half_edge(EdgeId{static_cast<std::uint32_t>(random.below(mesh.edge_id_count()))});
       if (!mesh.can_flip(h)) continue;
       const std::size_t before = count_self_intersections(mesh.triangle_mesh());

@@ -8,6 +8,7 @@
 #include "meshes.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
+#include "prohull/mesh_report.h"
 #include "prohull/sample.h"
 
 namespace prohull {
@@ -81,12 +82,27 @@ TEST(EnclosingHull, KeepsTheBoundsWithAsFewFacesAsItCan) {
 
 TEST(EnclosingHull, CoversWhatRepairHasDropped) {
   // A cavity.
-  TriangleMesh mesh = together(make_sample("asteroid", 500), inside_out(scaled(octahedron(), 0.1)));
-  const EnclosingHull filled = only(hull_of(mesh, 100));
-  EXPECT_TRUE(filled.certified);
+  const TriangleMesh mesh = together(make_sample("asteroid", 500), inside_out(scaled(octahedron(), 0.1)));
+  const EnclosingHulls filled = hull_of(mesh, 100);
+  EXPECT_EQ(filled.input.repairs.dropped_components, 1u);
+  EXPECT_EQ(filled.input.dropped.face_count(), octahedron().face_count());
+  EXPECT_TRUE(only(filled).certified);
+  EXPECT_EQ(inspect(only(filled).mesh).components, 1u);
+  EXPECT_TRUE(verify_cover(filled.input.dropped, only(filled).mesh).encloses);
   const EnclosingHulls kept = hull_of(mesh, 100, {.keep_cavities = true});
   EXPECT_TRUE(only(kept).certified);
   EXPECT_EQ(kept.input.repairs.dropped_components, 0u);
+  EXPECT_EQ(inspect(only(kept).mesh).components, 2u);
+  // A face without area that sticks out: the hull of the rest does not cover it.
+  TriangleMesh hair = make_sample("asteroid", 500);
+  const VertexId tip = hair.positions.push_back({5, 0, 0});
+  hair.triangles.push_back({VertexId(0), tip, tip});
+  EXPECT_FALSE(
+      verify_cover(hair, build_hull(make_sample("asteroid", 500), {.target_faces = 100}).hull.base()).encloses);
+  const EnclosingHulls around = hull_of(hair, 100, {.wrap = box_around});
+  EXPECT_EQ(around.input.dropped.face_count(), 1u);
+  EXPECT_TRUE(only(around).certified);
+  EXPECT_TRUE(verify_cover(hair, only(around).mesh).encloses);
 }
 
 TEST(EnclosingHull, RefusesWhatIsNotClosedWithoutAWrapper) {

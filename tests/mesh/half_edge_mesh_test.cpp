@@ -185,10 +185,38 @@ TEST(HalfEdgeMesh, FourFlipsOfAnEdgeUndoEachOtherAndAnyKeepItSound) {
   EXPECT_GT(flips, 0u);
 }
 
+/// Two tetrahedra whose tips lie far from each other, joined along a triangular neck 0-1-2 that is no face.
+TriangleMesh two_tetrahedra_joined_by_a_neck() {
+  return make({{1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {0, 0, 3}, {0, 0, -3}},
+              {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}});
+}
+
 TEST(HalfEdgeMesh, ItsFirstDefectIsFound) {
-  HalfEdgeMesh mesh(octahedron());
-  EXPECT_EQ(first_defect(mesh), std::nullopt);
-  // Around the octahedron's waist: the link condition forbids no edge, but a collapse without it pinches a prism.
+  const TriangleMesh mesh = octahedron();
+  std::vector<VertexId> corners;
+  for (const auto& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
+  std::vector<HalfEdgeId> twins;
+  const HalfEdgeMesh sound(mesh);
+  for (std::uint32_t h = 0; h < corners.size(); ++h) twins.push_back(sound.twin(HalfEdgeId{h}));
+  const auto defect = [&] { return first_defect(HalfEdgeMesh(mesh.positions, corners, twins)).value_or("none"); };
+  EXPECT_EQ(defect(), "none");
+  const HalfEdgeId twin = std::exchange(twins[0], kNoHalfEdge);
+  EXPECT_EQ(defect(), "half-edge 0: has no twin");
+  twins[0] = sound.next(twin);
+  EXPECT_NE(defect(), "none") << "a twin of another";
+  twins[0] = twin;
+  std::swap(corners[0], corners[1]);
+  EXPECT_NE(defect(), "none") << "a face that is turned";
+  std::swap(corners[0], corners[1]);
+  EXPECT_EQ(defect(), "none");
+
+  // A collapse that the link condition forbids pinches the surface.
+  HalfEdgeMesh neck(two_tetrahedra_joined_by_a_neck());
+  neck.collapse(neck.half_edge(edge_between(neck, VertexId(0), VertexId(1))), {0, 0, 0});
+  EXPECT_NE(first_defect(neck), std::nullopt);
+}
+
+TEST(LinkCondition, LetsAnEdgeOfAPrismCollapse) {
   HalfEdgeMesh prism(make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
                           {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}}));
   EXPECT_EQ(first_defect(prism), std::nullopt);
@@ -198,12 +226,6 @@ TEST(HalfEdgeMesh, ItsFirstDefectIsFound) {
 TEST(LinkCondition, NeverLetsATetrahedronCollapse) {
   const HalfEdgeMesh mesh(tetrahedron());
   for (std::uint32_t e = 0; e < 6; ++e) EXPECT_FALSE(may_collapse(mesh, EdgeId(e)));
-}
-
-/// Two tetrahedra whose tips lie far from each other, joined along a triangular neck 0-1-2 that is no face.
-TriangleMesh two_tetrahedra_joined_by_a_neck() {
-  return make({{1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {0, 0, 3}, {0, 0, -3}},
-              {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}});
 }
 
 TEST(LinkCondition, RefusesAnEdgeOfANeck) {

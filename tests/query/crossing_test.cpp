@@ -69,7 +69,8 @@ TEST_P(CrossingOnGrid, IsThatOfALineActuallyMoved) {
     const Vec3 a = corner(), b = corner();
     const DirectedLine line = is_ray ? DirectedLine(Ray{a, b}) : DirectedLine(Segment{a, b});
     const Point direction = is_ray ? exact(b) : exact(b) - exact(a);
-    const Triangle first = face(), second = face();
+    // Half of the faces share an edge, on which lines cross both at once.
+    const Triangle first = face(), second = i % 2 == 0 ? face() : Triangle{first.b, first.a, corner()};
     const auto truth = true_crossing(exact(a), direction, is_ray, first);
     const auto expected = !truth ? Crossing::None : truth->entering ? Crossing::Entering : Crossing::Leaving;
     ASSERT_EQ(crossing(line, first), expected);
@@ -87,8 +88,8 @@ TEST_P(CrossingOnGrid, IsThatOfALineActuallyMoved) {
     EXPECT_EQ(crosses_before(line, first, at, second, at_other), truth->t < other->t);
     EXPECT_EQ(crosses_before(line, second, at_other, first, at), other->t < truth->t);
   }
-  EXPECT_GT(crossings, rounds(20000) / 50);
-  EXPECT_GT(orders, rounds(20000) / 2000);
+  EXPECT_GT(crossings, rounds(20000) / 100);
+  EXPECT_GT(orders, rounds(20000) / 200);
 }
 
 INSTANTIATE_TEST_SUITE_P(Segments, CrossingOnGrid, testing::Values(false));

@@ -61,7 +61,7 @@ TEST(BuiltHulls, AreAcceptedAndTheirMutantsAreNot) {
          {hull.base_face_count(), std::size_t{400}, original.face_count() / 2, original.face_count() - 2}) {
       const TriangleMesh level = hull.level(faces);
       ASSERT_TRUE(verify_enclosure(original, level).encloses) << name << " " << faces;
-      for (int i = 0; i < rounds(8); ++i) {
+      for (int i = 0; i < effort(8, 3); ++i) {
         TriangleMesh mutant = level;
         std::uniform_int_distribution<std::uint32_t> any(0, static_cast<std::uint32_t>(level.vertex_count() - 1));
         const VertexId v{any(random)};

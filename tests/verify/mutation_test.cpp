@@ -144,8 +144,8 @@ TEST(Enclosure, RejectsMutantsExactlyWhereTheyLoseAPartOfTheOriginal) {
     }
   }
   std::printf("%d hulls; mutants: %d enclose, %d do not\n", hulls, accepted, rejected);
-  EXPECT_GT(accepted, effort(20, 4));
-  EXPECT_GT(rejected, effort(20, 4));
+  EXPECT_GT(accepted, effort(20, 1));
+  EXPECT_GT(rejected, effort(20, 1));
 }
 
 TEST(Enclosure, HoldsAlongThousandsOfOutwardMoves) {

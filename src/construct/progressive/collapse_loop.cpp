@@ -68,7 +68,7 @@ class CollapseLoop {
         refuse(edge, Refusal::Valence);
         continue;
       }
-      gather_star(mesh_, edge, star_);
+      gather(edge);
       if (!is_free_to_change(star_.link)) continue;
       if (const auto why = refusal_of_topology()) {  // 3.1.4: link condition, valence
         refuse(edge, *why);
@@ -125,6 +125,11 @@ class CollapseLoop {
     const HalfEdgeId h = mesh_.half_edge(edge);
     star_.o = mesh_.tail(h), star_.d = mesh_.tip(h);
     return is_hub(mesh_, star_.o, options_) || is_hub(mesh_, star_.d, options_);
+  }
+
+  void gather(EdgeId edge) {
+    gather_star(mesh_, edge, star_);
+    patch_.visited_faces += star_.valence();
   }
 
   std::optional<Refusal> refusal_of_topology() const {
@@ -256,7 +261,7 @@ class CollapseLoop {
 
   void evaluate_and_queue(EdgeId edge) {
     if (is_at_hub(edge)) return refuse(edge, Refusal::Valence);
-    gather_star(mesh_, edge, star_);
+    gather(edge);
     if (const auto why = refusal_of_topology()) return refuse(edge, *why);
     measure_star(mesh_, star_);
     if (options_.strategy == Strategy::Paper2) {
@@ -308,6 +313,7 @@ void estimate_keys(Patch& patch, const CollapseRules& rules) {
       continue;
     }
     gather_star(patch.mesh, edge, star);
+    patch.visited_faces += star.valence();
     patch.edges[edge].key = noise(lazy_key(estimated_volume(patch.mesh, star), star));
   }
 }

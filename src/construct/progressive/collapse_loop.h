@@ -42,6 +42,7 @@ struct Patch {
   std::vector<double> keys = {};  ///< of each collapse, the greatest until then
   RefusalCounts refused = {};
   std::size_t linear_programs = 0;
+  std::size_t visited_faces = 0;  ///< of the stars that were looked at: where the time goes if there are hubs
 };
 
 /// What all patches of a construction share.
