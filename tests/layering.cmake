@@ -24,7 +24,7 @@ room(io        OWNS mesh_io hull_file query_io file                             
 room(repair    OWNS repair                                                       MAY mesh geometry base)
 room(construct OWNS hull_builder tight_hull float32_hull                         MAY hull mesh geometry parallel base)
 # Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges.
-room(verify    OWNS enclosure replay distance                                    MAY geometry base prohull/ids
+room(verify    OWNS enclosure verification replay distance                       MAY geometry base prohull/ids
                                                                                      prohull/triangle_mesh
                                                                                      prohull/vertex_split
                                                                                      prohull/progressive_hull)

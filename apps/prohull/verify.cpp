@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
 #include "command.h"
-#include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
-#include "prohull/replay.h"
+#include "prohull/verification.h"
 
 namespace prohull::cli {
 namespace {
@@ -17,10 +16,10 @@ struct Options {
 
 std::string text(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x, p.y, p.z); }
 
-void print_offenders(const EnclosureReport& report, const std::string& mesh) {
-  if (report.faces_outside > 0)
-    fmt::print("  {} faces of {} lie outside, at least in part; the farthest:\n", grouped(report.faces_outside), mesh);
-  for (const Offender& o : report.worst)
+void print_offenders(const Verification& found, const std::string& mesh) {
+  if (found.faces_outside > 0)
+    fmt::print("  {} faces of {} lie outside, at least in part; the farthest:\n", grouped(found.faces_outside), mesh);
+  for (const Offender& o : found.worst)
     fmt::print("    face {} at {}, {:.6g} outside\n", index(o.face), text(o.point), o.distance);
 }
 
@@ -31,154 +30,93 @@ nlohmann::json facts(const std::vector<Offender>& worst) {
   return all;
 }
 
-/// Whether the original bounds a solid; else, or where it is asked for, every triangle of it must be covered.
-bool is_solid(const Options& options, HullSide side, const TriangleMesh& original) {
-  const bool closed = is_closed(original);
-  if (side == HullSide::Inner && options.every_triangle)
-    throw InputError(Defect::InvalidOption, "--every-triangle: only an outer hull can cover triangles");
-  if (side == HullSide::Inner && !closed)
-    throw InputError(Defect::OpenEdge, "the original is not closed: it has no inside that could enclose an inner hull");
-  return closed;
-}
-
-constexpr const char* kNotClosed = "  {} is not closed: every triangle of it must be covered, no volume\n";
-
-int replay(const Options& options, const ProgressiveHull& hull, const TriangleMesh& original) {
-  const std::string name = options.hull.string(), of = options.original.string();
-  Stopwatch verifying;
-  const bool solid = is_solid(options, hull.side(), original), every_triangle = options.every_triangle || !solid;
-  const TriangleMesh finest = every_triangle ? hull.original() : TriangleMesh{};
-  ReplayReport report;
-  EnclosureReport cover;
-  {
-    ProgressLine line("verify");
-    report = verify_replay(hull, solid ? original : finest, [&](double fraction) { return line(fraction); });
-    if (interrupted()) throw Interrupted{};
-    if (every_triangle && report.holds)
-      cover = verify_cover(original, finest, {.progress = [&](double fraction) { return line(fraction); }});
-  }
-  const bool holds = report.holds && (!every_triangle || cover.encloses);
-  const char* relation = hull.side() == HullSide::Inner ? "is enclosed by"
-                         : !solid                       ? "covers every triangle of"
-                         : every_triangle               ? "encloses, and covers every triangle of,"
-                                                        : "encloses";
-  if (holds)
-    fmt::print("yes: every level of {} {} {}; {} splits replayed, {} signs exact, {:.2f} s\n", name, relation, of,
-               grouped(report.splits), grouped(report.signs), verifying.seconds());
-  else if (report.holds)
-    fmt::print("NO: the finest level of {} does not cover every triangle of {}, {:.2f} s\n", name, of,
-               verifying.seconds());
-  else
-    fmt::print("NO: {} proves nothing about {}: {}\n", name, of, report.why_not);
-  print_offenders(cover, of);
-  if (!solid) fmt::print(kNotClosed, of);
-  write_report(options.report, {{"hull", name},
-                                {"original", of},
-                                {"original_closed", solid},
-                                {"every_triangle", every_triangle},
-                                {"encloses", holds},
-                                {"route", "replay"},
-                                {"why_not", report.why_not},
-                                {"splits", report.splits},
-                                {"signs", report.signs},
-                                {"faces_outside", cover.faces_outside},
-                                {"worst", facts(cover.worst)},
-                                {"seconds", verifying.seconds()}});
-  return holds ? kDone : kAnswerIsNo;
-}
-
-/// The mesh as turned_outwards turns it, and how many faces that were.
-std::pair<TriangleMesh, std::size_t> turned(const TriangleMesh& mesh) {
-  TriangleMesh result = turned_outwards(mesh);
-  std::size_t count = 0;
-  for (const FaceId f : mesh.triangles.ids()) count += result.triangles[f] != mesh.triangles[f];
-  return {std::move(result), count};
-}
-
-int compare(const Options& options, const TriangleMesh& given_hull, const TriangleMesh& given_original) {
-  const bool outer = options.side == HullSide::Outer;
-  Stopwatch verifying;
-  const bool solid = is_solid(options, options.side, given_original);
-  const bool every_triangle = options.every_triangle || !solid;
-  const auto [hull, turned_of_hull] = turned(given_hull);
-  const auto [original, turned_of_original] =
-      solid ? turned(given_original) : std::pair{given_original, std::size_t{0}};
-  EnclosureReport report;
-  {
-    ProgressLine line("verify");
-    EnclosureOptions enclosure;
-    enclosure.progress = [&](double fraction) { return line(fraction); };
-    if (solid)
-      report = outer ? verify_enclosure(original, hull, enclosure) : verify_enclosure(hull, original, enclosure);
-    if (every_triangle && (!solid || report.encloses)) {
-      const EnclosureReport cover = verify_cover(original, hull, enclosure);
-      report.encloses = cover.encloses;
-      report.faces_outside = cover.faces_outside;
-      report.worst = cover.worst;
-      report.self_intersections = cover.self_intersections;
-      report.outer_volume = cover.outer_volume;
-    }
-  }
-  const std::string inside = (outer ? options.original : options.hull).string();
-  const std::string outside = (outer ? options.hull : options.original).string();
-  const double hull_volume = outer ? report.outer_volume : report.inner_volume;
-  const double original_volume = outer ? report.inner_volume : report.outer_volume;
-  const char* does = !solid           ? "covers every triangle of"
-                     : every_triangle ? "encloses, and covers every triangle of,"
-                                      : "encloses";
-  const char* does_not = !solid           ? "does not cover every triangle of"
-                         : every_triangle ? "does not enclose, or not cover every triangle of,"
-                                          : "does not enclose";
-  if (report.encloses) {
-    fmt::print("yes: {} {} {}, exactly, {:.2f} s\n", outside, does, inside, verifying.seconds());
-  } else {
-    fmt::print("NO: {} {} {}, {:.2f} s\n", outside, does_not, inside, verifying.seconds());
-    print_offenders(report, inside);
-    if (report.cavities > 0 && report.faces_outside == 0)
-      fmt::print("  {} cavities inside it are not covered\n", grouped(report.cavities));
-  }
-  if (!solid) fmt::print(kNotClosed, inside);
-  for (const auto& [path, count] : {std::pair{options.hull, turned_of_hull}, {options.original, turned_of_original}})
-    if (count > 0) fmt::print("  {}: {} faces face inwards and count as turned\n", path.string(), grouped(count));
-  if (solid)
-    fmt::print("  hull: volume {:.9g}, void {:.3f} %\n", hull_volume, 100 * (hull_volume / original_volume - 1));
-  else
-    fmt::print("  hull: volume {:.9g}\n", hull_volume);
-  const std::size_t self_intersections = outer ? report.self_intersections : count_self_intersections(hull);
-  fmt::print("  {} intersects itself in {} pairs of faces\n", options.hull.string(), grouped(self_intersections));
-
-  nlohmann::json facts_found = {{"hull", options.hull.string()},
-                                {"original", options.original.string()},
-                                {"original_closed", solid},
-                                {"every_triangle", every_triangle},
-                                {"side", outer ? "outer" : "inner"},
-                                {"encloses", report.encloses},
-                                {"route", "two_meshes"},
-                                {"faces_outside", report.faces_outside},
-                                {"worst", facts(report.worst)},
-                                {"cavities", report.cavities},
-                                {"self_intersections", self_intersections},
-                                {"turned_faces", {{"hull", turned_of_hull}, {"original", turned_of_original}}},
-                                {"seconds", verifying.seconds()}};
-  if (solid) facts_found["void_ratio"] = hull_volume / original_volume - 1;
-  write_report(options.report, std::move(facts_found));
-  return report.encloses ? kDone : kAnswerIsNo;
-}
-
-int run_verify(const Options& options) {
-  const auto hull = read_mesh_or_hull(options.hull);
-  TriangleMesh original = read_input(options.original, NonFinite::Keep);
-  if (const std::size_t dropped = drop_non_finite_faces(original))
-    fmt::print("{} faces of {} are not finite and left out\n", grouped(dropped), options.original.string());
+Verification verify(const Options& options, const std::variant<TriangleMesh, ProgressiveHull>& hull,
+                    TriangleMesh original) {
+  ProgressLine line("verify");
+  const VerificationOptions how{.every_triangle = options.every_triangle,
+                                .progress = [&](double fraction) { return line(fraction); }};
   try {
     const auto* const levels = std::get_if<ProgressiveHull>(&hull);
-    return levels ? replay(options, *levels, original) : compare(options, std::get<TriangleMesh>(hull), original);
+    return levels ? verify_hull(*levels, std::move(original), how)
+                  : verify_hull(std::get<TriangleMesh>(hull), std::move(original), options.side, how);
   } catch (const Cancelled&) {
     throw Interrupted{};
   } catch (const InputError& error) {
     throw InputError(error.defect(),
                      fmt::format("{} and {}: {}", options.hull.string(), options.original.string(), error.what()));
   }
+}
+
+/// "yes: hull.stl encloses part.stl", or why not.
+std::string verdict(const Verification& found, const std::string& hull, const std::string& original) {
+  const bool inner = found.side == HullSide::Inner, replayed = found.proof == "replay";
+  if (replayed && !found.why_not.empty())
+    return fmt::format("NO: {} proves nothing about {}: {}", hull, original, found.why_not);
+  if (replayed && !found.encloses)
+    return fmt::format("NO: the finest level of {} does not cover every triangle of {}", hull, original);
+  const std::string subject = inner ? original : replayed ? "every level of " + hull : hull;
+  const std::string object = !inner ? original : replayed ? "every level of " + hull : hull;
+  const char* does = !found.original_closed ? "covers every triangle of"
+                     : found.every_triangle ? "encloses, and covers every triangle of,"
+                                            : "encloses";
+  const char* does_not = !found.original_closed ? "does not cover every triangle of"
+                         : found.every_triangle ? "does not enclose, or not cover every triangle of,"
+                                                : "does not enclose";
+  if (!found.encloses) return fmt::format("NO: {} {} {}", subject, does_not, object);
+  const std::string how =
+      replayed ? fmt::format("; {} splits replayed, {} signs exact", grouped(found.splits), grouped(found.signs))
+               : ", exactly";
+  return fmt::format("yes: {} {} {}{}", subject, does, object, how);
+}
+
+void print_summary(const Options& options, const Verification& found, double seconds) {
+  const std::string hull = options.hull.string(), original = options.original.string();
+  fmt::print("{}, {:.2f} s\n", verdict(found, hull, original), seconds);
+  print_offenders(found, found.side == HullSide::Outer ? original : hull);
+  if (found.cavities > 0 && found.faces_outside == 0)
+    fmt::print("  {} cavities inside it are not covered\n", grouped(found.cavities));
+  for (const std::string& note : found.notes) fmt::print("  {}\n", note);
+  if (!found.why_not.empty()) return;
+  fmt::print("  hull: volume {:.9g}{}\n", found.hull_volume,
+             found.original_closed ? fmt::format(", void {:.3f} %", 100 * found.void_ratio) : "");
+  fmt::print("  {} intersects itself in {} pairs of faces\n", hull, grouped(found.self_intersections));
+}
+
+nlohmann::json report_of(const Options& options, const Verification& found, double seconds) {
+  nlohmann::json json = {{"hull", options.hull.string()},
+                         {"original", options.original.string()},
+                         {"original_closed", found.original_closed},
+                         {"every_triangle", found.every_triangle},
+                         {"side", std::string(name_of(hull_side_names(), found.side))},
+                         {"encloses", found.encloses},
+                         {"proof", std::string(found.proof)},
+                         {"why_not", found.why_not},
+                         {"splits", found.splits},
+                         {"signs", found.signs},
+                         {"faces_outside", found.faces_outside},
+                         {"worst", facts(found.worst)},
+                         {"cavities", found.cavities},
+                         {"notes", found.notes},
+                         {"seconds", seconds}};
+  if (!found.why_not.empty()) return json;
+  json["self_intersections"] = found.self_intersections;
+  json["turned_hull_faces"] = found.turned_hull_faces;
+  json["turned_original_faces"] = found.turned_original_faces;
+  json["hull_volume"] = found.hull_volume;
+  json["original_volume"] = found.original_closed ? nlohmann::json(found.original_volume) : nlohmann::json();
+  json["void_ratio"] = found.original_closed ? nlohmann::json(found.void_ratio) : nlohmann::json();
+  return json;
+}
+
+int run_verify(const Options& options) {
+  const auto hull = read_mesh_or_hull(options.hull);
+  TriangleMesh original = read_input(options.original, NonFinite::Keep);
+  const Stopwatch verifying;
+  const Verification found = verify(options, hull, std::move(original));
+  const double seconds = verifying.seconds();
+  print_summary(options, found, seconds);
+  write_report(options.report, report_of(options, found, seconds));
+  return found.encloses ? kDone : kAnswerIsNo;
 }
 
 }  // namespace

@@ -171,51 +171,46 @@ class Offender(NamedTuple):
 class Verification:
     """What verify() found; true if it encloses."""
 
-    encloses: bool  #: exact
-    faces_outside: int  #: triangles of the inner mesh of which a part lies outside; exact
+    encloses: bool  #: the verdict, exact
+    proof: str  #: "replay" of the levels in a .phull file, "enclosure" of closed meshes, or "coverage" of every triangle
+    side: str  #: "outer" or "inner"
+    original_closed: bool  #: the original bounds a solid; else every triangle must be covered
+    every_triangle: bool  #: every triangle had to be covered
+    why_not: str  #: the first step of a replay that fails; empty if it holds
+    faces_outside: int  #: triangles of the inner mesh of which a part lies outside of the outer one; exact
     worst: list[Offender]  #: the farthest of them
     cavities: int  #: hollows of the outer mesh that leave a part of the inner one uncovered
     self_intersections: int  #: pairs of faces of the hull that meet beyond what they share; exact
-    void_ratio: float  #: volume of the hull / volume of the mesh - 1; nan if the mesh is not closed
+    void_ratio: float  #: volume of the hull / volume of the original - 1; nan if the original is not closed
+    notes: list[str]  #: what was left out of the original or turned, and units that seem to differ
 
     def __bool__(self) -> bool:
         return self.encloses
 
 
-def verify(hull: MeshLike, mesh: MeshLike, *, side: Optional[str] = None, every_triangle: bool = False,
+def verify(hull: MeshLike, original: MeshLike, *, side: Optional[str] = None, every_triangle: bool = False,
            progress: Optional[Progress] = None) -> Verification:
-    """Decides exactly whether `hull` encloses `mesh` (side="inner": whether it is enclosed by it), from both meshes.
+    """Decides exactly whether `hull` encloses `original` (side="inner": whether `original` encloses it).
 
-    hull, mesh: as of build(); hulls must be closed. Of a mesh that is not closed every triangle must be covered; with
+    hull, original: as of build(). A .phull file is a proof, and is replayed; any other hull must be closed, and is
+        compared with the original. Of an original that is not closed every triangle must be covered; with
         `every_triangle` also of one that is, which matters where it intersects itself. Components that are inside out
-        count as turned.
-    side: of a Hull its own unless given; else "outer".
+        count as turned, and triangles of the original that are not finite are left out; `notes` tell of both.
+    side: of a Hull or a .phull file its own; of other meshes "outer" unless given.
 
-    Raises InputError if a mesh is empty or not finite, or not closed where it has to be.
+    Raises InputError if a mesh is empty, or not finite or not closed where it has to be.
 
         assert prohull.verify("hull.stl", "part.stl")
     """
-    hull, mesh = _mesh(hull), _mesh(mesh)
-    side = side or getattr(hull, "side", "outer")
-    if side not in ("outer", "inner"):
-        raise InputError(f"side={side!r}: expected one of outer, inner")
-    closed = mesh.is_closed
-    if side == "inner" and (every_triangle or not closed):
-        raise InputError("side='inner': " + ("only an outer hull can cover triangles" if every_triangle else
-                                             "the mesh is not closed, it has no inside"))
-    outer = _prohull.turned_outwards(hull._core)
-    inner = _prohull.turned_outwards(mesh._core) if closed else mesh._core
-    hull_volume, volume = outer.volume, inner.volume
-    if side == "inner":
-        outer, inner = inner, outer
-    facts = _prohull.verify_enclosure(inner, outer, progress) if closed else {"encloses": True}
-    if facts["encloses"] and (every_triangle or not closed):
-        facts = _prohull.verify_cover(inner, outer, progress)
-    return Verification(
-        facts["encloses"], facts["faces_outside"], [Offender(*offender) for offender in facts["worst"]],
-        facts["cavities"],
-        facts["self_intersections"] if side == "outer" else _prohull.count_self_intersections(inner),
-        hull_volume / volume - 1 if closed else math.nan)
+    second = _mesh(original, keep_non_finite=True)._core
+    if isinstance(hull, (str, os.PathLike)) and _prohull.is_hull_file(hull):
+        facts = _prohull.verify_levels(_prohull.load(hull), second, every_triangle, progress)
+    else:
+        first = _mesh(hull)
+        facts = _prohull.verify_mesh(first._core, second, side or getattr(first, "side", "outer"), every_triangle,
+                                     progress)
+    facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
+    return Verification(**facts)
 
 
 def distance_bounds(from_: MeshLike, to: MeshLike, *, relative_gap: float = 0.01,

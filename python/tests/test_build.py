@@ -125,6 +125,15 @@ def test_verify_names_offenders(pony):
     assert distance > 0 and point.shape == (3,) and face < len(pony.faces)
 
 
+def test_verify_says_how_it_decided(pony, hull, tmp_path):
+    hull.save(tmp_path / "hull.phull")
+    replayed = prohull.verify(tmp_path / "hull.phull", pony)
+    assert replayed and replayed.proof == "replay" and replayed.void_ratio == hull.void_ratio
+    assert prohull.verify(hull, pony).proof == "enclosure"
+    scaled = prohull.verify(prohull.Mesh(1000 * hull.vertices, hull.faces), pony)
+    assert scaled and "1,000 times larger" in scaled.notes[0]
+
+
 def test_pickled_hulls_are_the_same(hull, pony):
     copy = pickle.loads(pickle.dumps(hull, protocol=5))
     assert repr(copy) == repr(hull) and copy.certified and copy.levels == hull.levels

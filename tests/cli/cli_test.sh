@@ -71,12 +71,17 @@ expect 0 "inner hull verified" $prohull verify inner.obj rock.ply --side inner
 expect 0 "inner proof verified" $prohull verify inner.phull rock.ply
 expect 1 "an inner hull does not enclose" $prohull verify inner.obj rock.ply
 
+# --- the same mesh in metres and in millimetres ---
+awk '/^v / { printf "v %.17g %.17g %.17g\n", $2 / 1000, $3 / 1000, $4 / 1000; next } { print }' inner.obj >metres.obj
+expect 1 "another unit" $prohull verify metres.obj rock.ply
+says out "another unit" "about 1,000 times smaller than the original"
+
 # --- originals that are no solid ---
 $prohull lod rock.phull --faces 20000000 -o finest.obj >/dev/null
 sed '$d' finest.obj >open.obj
 expect 0 "an open original" $prohull verify hull.stl open.obj --report verify.json
 says out "an open original" "covers every triangle of open.obj, exactly"
-says out "an open original" "open.obj is not closed"
+says out "an open original" "the original is not closed"
 says verify.json "report: an open original" '"original_closed": false'
 expect 0 "an open original by a proof" $prohull verify rock.phull open.obj
 says out "an open original by a proof" "covers every triangle of open.obj"
@@ -392,7 +397,7 @@ if [ "$has_wrap" = 1 ]; then
   expect 0 "NaN" $prohull build nan.off --faces 100 -o wrapped.off
   says out "NaN" "dropped 3 faces with a corner that is not finite"
   expect 0 "NaN, verified" $prohull verify wrapped.off nan.off
-  says out "NaN, verified" "3 faces of nan.off are not finite"
+  says out "NaN, verified" "3 faces of the original are not finite"
   expect 0 "a sheet, by levels" $prohull build open.off --faces 200 -o wrapped.ply --hierarchy wrapped.phull
   expect 0 "its levels, verified" $prohull verify wrapped.phull open.off
 else
@@ -410,7 +415,7 @@ expect 0 "inside out" $prohull build inside_out.off -o tetrahedron.ply
 says out "inside out" "inside out"
 expect 0 "inside out, verified" $prohull verify tetrahedron.ply inside_out.off
 expect 0 "a hull that is inside out" $prohull verify inside_out.off tetrahedron.ply
-says out "a hull that is inside out" "inside_out.off: 4 faces face inwards"
+says out "a hull that is inside out" "4 faces of the hull face inwards"
 
 # --- nothing half-written ---
 expect 3 "no such folder" $prohull build rock.ply --faces 500 -o nowhere/hull.ply
