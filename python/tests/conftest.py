@@ -1,6 +1,22 @@
+import pathlib
+import sys
+
 import numpy as np
 import prohull
 import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "tests"))
+from seed import REPLAY, SEED  # noqa: E402
+
+
+def pytest_terminal_summary(terminalreporter):
+    terminalreporter.write_line(REPLAY)
+
+
+@pytest.fixture(scope="session")
+def random():
+    """A generator of the same numbers each time; PROHULL_TEST_SEED chooses others."""
+    return lambda: np.random.default_rng(SEED)
 
 
 @pytest.fixture(scope="session")

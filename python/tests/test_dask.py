@@ -199,8 +199,8 @@ def test_wrong_arguments_are_named(tmp_path, meshes, options, error, message):
 
 
 @pytest.fixture(scope="module")
-def segments():
-    return np.random.default_rng(1).uniform(-1.5, 1.5, size=(5000, 6))
+def segments(random):
+    return random().uniform(-1.5, 1.5, size=(5000, 6))
 
 
 @needs_dask

@@ -4,11 +4,11 @@ import pytest
 
 
 @pytest.fixture(scope="module")
-def rays():
+def rays(random):
     """Of which some miss; towards points around the origin."""
-    random = np.random.default_rng(1)
-    origins = random.normal(size=(400, 3)) * 3
-    return origins, 0.4 * random.normal(size=(400, 3)) - origins
+    numbers = random()
+    origins = numbers.normal(size=(400, 3)) * 3
+    return origins, 0.4 * numbers.normal(size=(400, 3)) - origins
 
 
 def test_first_hits_of_a_cube(cube):
@@ -69,11 +69,11 @@ def test_what_a_hull_misses_the_mesh_misses(hull, pony, rays):
     assert hull.any_hit(*rays).sum() > pony.any_hit(*rays).sum() > 0
 
 
-def test_contains(cube, hull, pony):
+def test_contains(cube, hull, pony, random):
     mesh = prohull.Mesh(*cube)
     assert mesh.contains([[0, 0, 0], [0.99, 0.99, -0.99], [1.01, 0, 0], [-7, 0, 0]]).tolist() == [True, True, False, False]
     assert not prohull.Mesh(cube[0], cube[1][:, ::-1]).contains([[0, 0, 0]]).any(), "inside out"
-    points = np.random.default_rng(2).uniform(pony.vertices.min(0), pony.vertices.max(0), (3000, 3))
+    points = random().uniform(pony.vertices.min(0), pony.vertices.max(0), (3000, 3))
     inside, inside_hull = pony.contains(points), hull.contains(points)
     assert not (inside & ~inside_hull).any() and 0 < inside.sum() < inside_hull.sum() < len(points)
     with pytest.raises(prohull.InputError, match="not closed"):

@@ -4,7 +4,6 @@ import _thread
 import concurrent.futures
 import multiprocessing
 import threading
-import time
 
 import numpy as np
 import prohull
@@ -23,10 +22,15 @@ def test_progress_is_told_on_the_calling_thread(pony):
 
 
 def test_progress_can_stop_a_build(pony):
-    start = time.monotonic()
+    stages = []
+
+    def progress(stage, fraction):
+        stages.append(stage)
+        return stage == "start"
+
     with pytest.raises(KeyboardInterrupt, match="progress returned False"):
-        prohull.build(pony, progress=lambda stage, fraction: stage == "start", **TAKES_SECONDS)
-    assert time.monotonic() - start < 5
+        prohull.build(pony, progress=progress, **TAKES_SECONDS)
+    assert len(stages) == 2 and "done" not in stages
 
 
 def test_what_progress_raises_goes_on_to_the_caller(pony):
@@ -39,39 +43,38 @@ def test_what_progress_raises_goes_on_to_the_caller(pony):
 
 
 @pytest.mark.parametrize("work", ["build", "query"])
-def test_ctrl_c_interrupts(pony, work):
-    """As Ctrl-C does, by a signal to the main thread while it waits in C++."""
-    rays = np.random.default_rng(3).normal(size=(2, 20000, 3))
+def test_ctrl_c_interrupts(random, work):
+    """As Ctrl-C does, by a signal to the main thread while it waits in C++ for what would take an hour."""
+    mesh, rays = prohull.sample("pony", 200000), random().normal(size=(2, 2000000, 3))
     interrupt = threading.Timer(0.3, _thread.interrupt_main)
     interrupt.start()
-    start = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         if work == "build":
-            prohull.build(pony, **TAKES_SECONDS)
+            prohull.build(mesh, faces_target=100, tight=True, best_of=1000)
         else:
-            pony.all_hits(*rays, engine="brute")
+            mesh.all_hits(*rays, engine="brute")
     interrupt.join()
-    assert 0.25 < time.monotonic() - start < 5
 
 
 def test_other_threads_run_meanwhile(pony):
-    ticks = []
+    ticks = 0
     done = threading.Event()
 
     def tick():
-        while not done.wait(0.005):
-            ticks.append(time.monotonic())
+        nonlocal ticks
+        while not done.wait(0.001):
+            ticks += 1
 
     thread = threading.Thread(target=tick)
     thread.start()
     prohull.build(pony, faces_target=300, tight=True)
     done.set()
     thread.join()
-    assert len(ticks) > 5
+    assert ticks
 
 
-def test_threads_share_a_hull(hull):
-    rays = np.random.default_rng(4).normal(size=(2, 500, 3))
+def test_threads_share_a_hull(hull, random):
+    rays = random().normal(size=(2, 500, 3))
     expected = hull.first_hit(*rays)
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
         for hits in pool.map(lambda _: hull.first_hit(*rays), range(8)):
@@ -83,8 +86,8 @@ def ask(hull, rays):
 
 
 @pytest.mark.parametrize("method", ["fork", "spawn"])
-def test_processes_share_a_hull(hull, method):
-    rays = np.random.default_rng(5).normal(size=(2, 100, 3))
+def test_processes_share_a_hull(hull, random, method):
+    rays = random().normal(size=(2, 100, 3))
     expected = hull.first_hit(*rays).face  # with threads, before the processes start
     with concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context(method)) as pool:
         for face, certified in pool.map(ask, [hull] * 2, [rays] * 2):

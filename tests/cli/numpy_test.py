@@ -1,9 +1,13 @@
 #!/usr/bin/python3
 """What numpy writes is read, and what prohull writes is read by numpy: numpy_test.py PROHULL. Skipped without numpy."""
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1]))
+from seed import REPLAY, SEED  # noqa: E402
 
 try:
     import numpy as np
@@ -34,7 +38,8 @@ def check(condition, what):
 
 
 subprocess.run([prohull, "sample", "box", "-o", "cube.obj", "--faces", "200"], check=True, capture_output=True)
-random = np.random.default_rng(1)
+print(REPLAY)
+random = np.random.default_rng(SEED)
 segments = random.integers(-3, 4, (500, 6))
 segments[:, 0], segments[:, 3] = 2, -2  # across the box
 np.savetxt("segments.csv", segments, delimiter=",", header="x0,y0,z0,x1,y1,z1")
