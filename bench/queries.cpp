@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "command.h"
+#include "kdop/kdop_index.h"
 #include "machine.h"
 #include "prohull/random_segments.h"
 #include "query_section.h"
@@ -15,6 +16,13 @@ namespace prohull::bench {
 const ProgressiveHull& QueryModel::hull(Strategy strategy) const {
   const auto named = std::ranges::find(kStrategies, strategy, &NamedStrategy::strategy);
   return hulls[static_cast<std::size_t>(named - kStrategies.begin())];
+}
+
+QueryIndex index_called(std::string_view engine, const QueryModel& model) {
+  if (std::ranges::find(kdop_names(), engine) != kdop_names().end()) return kdop_index(model.mesh, engine);
+  const Engine ours = value_of(engine_names(), engine).value();
+  const bool refines = ours == Engine::Refinement || ours == Engine::PaperRefinement;
+  return refines ? QueryIndex(model.hull_of_table4(), ours) : QueryIndex(model.mesh, ours);
 }
 
 std::vector<double> best_seconds(std::size_t rounds, std::span<const std::function<void()>> contestants) {

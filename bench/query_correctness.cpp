@@ -17,23 +17,16 @@ namespace {
 
 struct CheckedEngine {
   std::string_view name;
-  Engine engine;
   std::size_t most;  ///< segments that are asked; slow engines get fewer
 };
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 constexpr std::array kEngines{
-    CheckedEngine{"brute", Engine::Brute, 1000},
-    CheckedEngine{"bvh", Engine::Bvh, kAll},
-    CheckedEngine{"kdop6", Engine::KDop6, kAll},
-    CheckedEngine{"kdop14", Engine::KDop14, kAll},
-    CheckedEngine{"kdop18", Engine::KDop18, kAll},
-    CheckedEngine{"kdop26", Engine::KDop26, kAll},
-    CheckedEngine{"kdop6-overlap", Engine::KDop6Overlap, 20000},
-    CheckedEngine{"kdop14-overlap", Engine::KDop14Overlap, 20000},
-    CheckedEngine{"kdop18-overlap", Engine::KDop18Overlap, 20000},
-    CheckedEngine{"kdop26-overlap", Engine::KDop26Overlap, 20000},
-    CheckedEngine{"refinement", Engine::Refinement, kAll},
-    CheckedEngine{"paper-refinement", Engine::PaperRefinement, kAll},
+    CheckedEngine{"brute", 1000},           CheckedEngine{"bvh", kAll},
+    CheckedEngine{"kdop6", kAll},           CheckedEngine{"kdop14", kAll},
+    CheckedEngine{"kdop18", kAll},          CheckedEngine{"kdop26", kAll},
+    CheckedEngine{"kdop6-overlap", 20000},  CheckedEngine{"kdop14-overlap", 20000},
+    CheckedEngine{"kdop18-overlap", 20000}, CheckedEngine{"kdop26-overlap", 20000},
+    CheckedEngine{"refinement", kAll},      CheckedEngine{"paper-refinement", kAll},
 };
 
 using Truth = std::vector<std::vector<Hit>>;
@@ -83,14 +76,12 @@ std::span<const Hit> hits_of(const HitBatch& batch, std::size_t i) {
 
 Facts check_engine(const QueryModel& model, const CheckedEngine& checked, std::span<const Segment> segments,
                    const Truth& truth) {
-  const bool is_hull = checked.engine == Engine::Refinement || checked.engine == Engine::PaperRefinement;
-  const QueryIndex index =
-      is_hull ? QueryIndex(model.hull_of_table4(), checked.engine) : QueryIndex(model.mesh, checked.engine);
+  const QueryIndex index = index_called(checked.name, model);
   const auto asked = segments.first(std::min(segments.size(), checked.most));
   Facts facts{.model = model.name,
               .engine = std::string(checked.name),
               .is_ours = true,
-              .finds_all = checked.engine != Engine::PaperRefinement};
+              .finds_all = checked.name != "paper-refinement"};
   count_truth(truth, asked.size(), facts);
   const HitBatch first = hits(index, asked, HitMode::First), all = hits(index, asked, HitMode::All);
   for (std::size_t i = 0; i < asked.size(); ++i) {

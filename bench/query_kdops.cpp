@@ -12,11 +12,10 @@
 namespace prohull::bench {
 namespace {
 
-constexpr std::array<Engine, 4> kOverlapping{Engine::KDop6Overlap, Engine::KDop14Overlap, Engine::KDop18Overlap,
-                                             Engine::KDop26Overlap};
+constexpr std::array<std::string_view, 4> kOverlapping{"kdop6-overlap", "kdop14-overlap", "kdop18-overlap",
+                                                       "kdop26-overlap"};
 constexpr std::array<int, 4> kDirections{6, 14, 18, 26};
-
-std::string name(Engine engine) { return std::string(name_of(engine_names(), engine)); }
+constexpr std::string_view kHull = "paper-refinement";
 
 enum class Ask { First, Any, All };
 constexpr std::array kAsks{Ask::First, Ask::Any, Ask::All};
@@ -24,7 +23,8 @@ constexpr std::array kAsks{Ask::First, Ask::Any, Ask::All};
 /// Something that answers segments.
 class Contestant {
  public:
-  Contestant(std::string name, QueryIndex index) : name_(std::move(name)), ours_(MeshQuery(std::move(index))) {}
+  Contestant(std::string_view engine, const QueryModel& model)
+      : name_(engine), ours_(MeshQuery(index_called(engine, model))) {}
   Contestant(std::string name, std::unique_ptr<QueryPeer> peer) : name_(std::move(name)), peer_(std::move(peer)) {}
 
   const std::string& name() const { return name_; }
@@ -67,14 +67,10 @@ struct ModelFacts {
   std::vector<Trees> trees;  ///< second Table 4
 };
 
-Contestant hull_contestant(const QueryModel& model, Engine engine) {
-  return {name(engine), QueryIndex(model.hull_of_table4(), engine)};
-}
-
 void measure_table4(const QueryModel& model, std::size_t rounds, ModelFacts& facts) {
   std::vector<Contestant> contestants;
-  for (const Engine engine : kOverlapping) contestants.emplace_back(name(engine), QueryIndex(model.mesh, engine));
-  contestants.push_back(hull_contestant(model, Engine::PaperRefinement));
+  for (const std::string_view engine : kOverlapping) contestants.emplace_back(engine, model);
+  contestants.emplace_back(kHull, model);
   std::vector<std::function<void()>> runs;
   for (Contestant& c : contestants) runs.emplace_back([&] { c.run(Ask::All, model.segments); });
   facts.seconds = best_seconds(rounds, runs);
@@ -83,10 +79,8 @@ void measure_table4(const QueryModel& model, std::size_t rounds, ModelFacts& fac
 
 std::vector<Contestant> todays_contestants(const QueryModel& model) {
   std::vector<Contestant> contestants;
-  contestants.push_back(hull_contestant(model, Engine::PaperRefinement));
-  contestants.push_back(hull_contestant(model, Engine::Refinement));
-  for (const Engine engine : {Engine::KDop6, Engine::KDop14, Engine::KDop18, Engine::KDop26, Engine::Bvh})
-    contestants.emplace_back(name(engine), QueryIndex(model.mesh, engine));
+  for (const std::string_view engine : {"paper-refinement", "refinement", "kdop6", "kdop14", "kdop18", "kdop26", "bvh"})
+    contestants.emplace_back(engine, model);
   if (auto peer = make_cgal_tree(model.mesh)) contestants.emplace_back("CGAL AABB tree", std::move(peer));
   if (auto peer = make_embree(model.mesh, false)) contestants.emplace_back("Embree", std::move(peer));
   if (auto peer = make_embree(model.mesh, true)) contestants.emplace_back("Embree robust", std::move(peer));
@@ -145,7 +139,7 @@ std::string table4_csv(const std::vector<ModelFacts>& models) {
       const bool is_hull = i == kOverlapping.size();
       table.add({m.name, fmt::to_string(m.faces), fmt::to_string(m.segments), fmt::to_string(m.segments_that_meet),
                  m.paper ? fmt::to_string(m.paper->lines_that_meet) : "",
-                 name(is_hull ? Engine::PaperRefinement : kOverlapping[i]), number(per_10000(m, m.seconds[i]), 4),
+                 std::string(is_hull ? kHull : kOverlapping[i]), number(per_10000(m, m.seconds[i]), 4),
                  m.paper ? number(is_hull ? m.paper->hull_seconds : m.paper->kdop_seconds[i], 0) : ""});
     }
   return table.csv();
@@ -154,7 +148,7 @@ std::string table4_csv(const std::vector<ModelFacts>& models) {
 std::string trees_table(const std::vector<ModelFacts>& models) {
   Table table({"model", "engine", "first", "any", "all", "first / bvh"});
   for (const ModelFacts& m : models) {
-    const double bvh = std::ranges::find(m.trees, name(Engine::Bvh), &ModelFacts::Trees::name)->nanoseconds[0];
+    const double bvh = std::ranges::find(m.trees, "bvh", &ModelFacts::Trees::name)->nanoseconds[0];
     for (const ModelFacts::Trees& t : m.trees) {
       std::vector<std::string> row{m.name, t.name};
       for (const double ns : t.nanoseconds) row.push_back(number(ns, 0, " ns"));

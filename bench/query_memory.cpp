@@ -23,14 +23,11 @@ struct Facts {
 class MemorySection final : public QuerySection {
  public:
   void measure(const QueryModel& model, const QueryOptions&) override {
-    const ProgressiveHull hull = model.hull_of_table4();
-    for (const auto& [name, engine] : {std::pair{"bvh", Engine::Bvh},
-                                       {"kdop26", Engine::KDop26},
-                                       {"refinement", Engine::Refinement},
-                                       {"paper-refinement", Engine::PaperRefinement}}) {
-      const QueryIndex index(hull, engine);
+    for (const std::string_view engine : {"bvh", "kdop26", "refinement", "paper-refinement"}) {
+      const QueryIndex index = index_called(engine, model);
       MeshQuery query(index);
-      Facts facts{model.name, name, model.segments.size(), index.memory_bytes(), query.memory_bytes(), 0, 0, 0};
+      Facts facts{
+          model.name, std::string(engine), model.segments.size(), index.memory_bytes(), query.memory_bytes(), 0, 0, 0};
       query.all_hits(model.segments[0]);
       facts.after_one = query.memory_bytes();
       ask_all(query, model.segments);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "models.h"
@@ -56,6 +57,9 @@ std::unique_ptr<QuerySection> make_kdops_section();        ///< P&T Table 4, and
 std::unique_ptr<QuerySection> make_updates_section();      ///< P&T 3.2.2
 std::unique_ptr<QuerySection> make_correctness_section();  ///< wrong and missed answers
 std::unique_ptr<QuerySection> make_memory_section();       ///< of a query object
+
+/// Of the model's mesh, or for the refinement engines of hull_of_table4(): an engine of the library, or k-DOP trees.
+QueryIndex index_called(std::string_view engine, const QueryModel& model);
 
 /// Runs all in turns, `rounds` times; the best processor time of each, in seconds.
 std::vector<double> best_seconds(std::size_t rounds, std::span<const std::function<void()>> contestants);

@@ -1,4 +1,4 @@
-# Reads every include of include/, src/, render/, apps/, examples/ and python/, and fails if one points against the flow.
+# Reads every include of include/, src/, render/, kdop/, apps/, examples/ and python/, and fails if one points against the flow.
 # cmake -DROOT=<repository> -P layering.cmake
 cmake_policy(VERSION 3.25)
 
@@ -34,9 +34,10 @@ room(enclose   OWNS enclosing_hull                                              
                                                                                      geometry base)
 
 # Outside of src/: public headers, all of them, and these folders.
-set(outside render apps examples python)
+set(outside render kdop apps examples python)
 set(may_render render)
-set(may_apps render)
+set(may_kdop kdop query geometry)  # an engine as those of src/query
+set(may_apps render kdop)
 set(may_examples "")
 set(may_python "")
 
@@ -69,7 +70,7 @@ endforeach()
 
 # --- every include follows the flow ---
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/include/*.h ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/render/*.h
-     ${ROOT}/render/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp)
+     ${ROOT}/render/*.cpp ${ROOT}/kdop/*.h ${ROOT}/kdop/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp)
 list(LENGTH sources count)
 if(count LESS 20)
   message(FATAL_ERROR "found only ${count} sources below ${ROOT}")

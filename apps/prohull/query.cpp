@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "command.h"
+#include "kdop/kdop_index.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
 #include "prohull/query_io.h"
@@ -11,14 +12,28 @@
 namespace prohull::cli {
 namespace {
 
+/// An engine of the library, or trees of k-DOPs, the paper's peer, by their name.
+using EngineChoice = std::variant<Engine, std::string_view>;
+
 struct Options {
   std::filesystem::path in, segments, rays, triangles, out, write_segments, report;
   std::size_t random = 0;
   std::uint64_t seed = 1;
   HitMode mode = HitMode::First;
-  Engine engine = Engine::Auto;
+  EngineChoice engine = Engine::Auto;
   unsigned threads = 0;
 };
+
+using NamedEngine = std::pair<std::string_view, EngineChoice>;
+
+Names<EngineChoice> engine_choices() {
+  static const std::vector<NamedEngine> choices = [] {
+    std::vector<NamedEngine> all(engine_names().begin(), engine_names().end());
+    for (const std::string_view name : kdop_names()) all.emplace_back(name, name);
+    return all;
+  }();
+  return choices;
+}
 
 // What differs between the kinds of queries.
 std::string_view noun(const std::vector<Segment>&) { return "segment"; }
@@ -66,9 +81,14 @@ std::size_t face_count(const MeshOrHull& target) {
   return hull ? hull->original_face_count() : std::get<TriangleMesh>(target).face_count();
 }
 
-Box box_of(const MeshOrHull& target) {
+TriangleMesh mesh_of(MeshOrHull target) {
   const auto* const hull = std::get_if<ProgressiveHull>(&target);
-  return bounding_box(hull ? hull->original() : std::get<TriangleMesh>(target));
+  return hull ? hull->original() : std::get<TriangleMesh>(std::move(target));
+}
+
+Box box_of(const MeshOrHull& target) {
+  const auto* const mesh = std::get_if<TriangleMesh>(&target);
+  return bounding_box(mesh ? *mesh : mesh_of(target));
 }
 
 Queries make_queries(const Options& options, const MeshOrHull& target) {
@@ -80,7 +100,11 @@ Queries make_queries(const Options& options, const MeshOrHull& target) {
 
 QueryIndex make_index(MeshOrHull target, const Options& options) {
   try {
-    return std::visit([&](auto& mesh_or_hull) { return QueryIndex(std::move(mesh_or_hull), options.engine); }, target);
+    if (const auto* const kdops = std::get_if<std::string_view>(&options.engine))
+      return kdop_index(mesh_of(std::move(target)), *kdops);
+    return std::visit(
+        [&](auto& mesh_or_hull) { return QueryIndex(std::move(mesh_or_hull), std::get<Engine>(options.engine)); },
+        target);
   } catch (const InputError& error) {
     throw InputError(error.defect(), options.in.string() + ": " + error.what());
   }
@@ -91,14 +115,16 @@ unsigned threads_used(const Options& options) {
   return options.threads == 0 ? cores : std::min(options.threads, cores);
 }
 
-bool counts_tests(Engine engine) { return engine == Engine::Refinement || engine == Engine::PaperRefinement; }
+bool counts_tests(const EngineChoice& engine) {
+  return engine == EngineChoice(Engine::Refinement) || engine == EngineChoice(Engine::PaperRefinement);
+}
 
 /// What has come of the queries, whatever their kind.
 struct Outcome {
   std::string_view noun;
   std::size_t queries, answers, answered;  ///< hits or faces met; queries that have any
   QueryCounts counts;
-  Engine engine;
+  std::string_view engine;  ///< the name of the one that answered
   Seconds seconds;
 
   double per_second() const { return seconds.query > 0 ? static_cast<double>(queries) / seconds.query : 0; }
@@ -122,9 +148,9 @@ void print_summary(const Options& options, const Outcome& outcome) {
              grouped(outcome.queries), outcome.noun, faces ? "meet some" : "hit",
              100 * outcome.per_query(outcome.answered));
   const unsigned threads = threads_used(options);
-  fmt::print("  engine {}, {} thread{}: {} {}s per second\n", name_of(engine_names(), outcome.engine), threads,
-             threads == 1 ? "" : "s", grouped(static_cast<std::size_t>(outcome.per_second())), outcome.noun);
-  if (counts_tests(outcome.engine))
+  fmt::print("  engine {}, {} thread{}: {} {}s per second\n", outcome.engine, threads, threads == 1 ? "" : "s",
+             grouped(static_cast<std::size_t>(outcome.per_second())), outcome.noun);
+  if (counts_tests(options.engine))
     fmt::print("  {:.1f} faces tested and {:.1f} vertices split per {}\n", outcome.per_query(outcome.counts.tests),
                outcome.per_query(outcome.counts.splits), outcome.noun);
   const Seconds& s = outcome.seconds;
@@ -137,7 +163,7 @@ nlohmann::json report_of(const Options& options, const Outcome& outcome) {
                          {outcome.noun == "triangle" ? "faces_met" : "hits", outcome.answers},
                          {"queries_hit", outcome.answered},
                          {"queries_per_second", outcome.per_second()},
-                         {"engine", name_of(engine_names(), outcome.engine)},
+                         {"engine", outcome.engine},
                          {"threads", threads_used(options)},
                          {"seconds",
                           {{"read", outcome.seconds.read},
@@ -146,7 +172,7 @@ nlohmann::json report_of(const Options& options, const Outcome& outcome) {
                            {"write", outcome.seconds.write}}}};
   if (outcome.noun != "triangle") json["mode"] = name_of(hit_mode_names(), options.mode);
   if (options.random > 0) json["seed"] = options.seed;
-  if (counts_tests(outcome.engine)) json["tests"] = outcome.counts.tests, json["splits"] = outcome.counts.splits;
+  if (counts_tests(options.engine)) json["tests"] = outcome.counts.tests, json["splits"] = outcome.counts.splits;
   return json;
 }
 
@@ -167,8 +193,8 @@ Outcome answer(const Options& options, const QueryIndex& index, const std::vecto
   Stopwatch writing;
   if (!options.out.empty()) write(options.out, batch, queries);
   seconds.write = writing.seconds();
-  return {noun(queries),  queries.size(), batch.offsets.back(), count_answered(batch.offsets), batch.counts,
-          index.engine(), seconds};
+  return {noun(queries),       queries.size(), batch.offsets.back(), count_answered(batch.offsets), batch.counts,
+          index.engine_name(), seconds};
 }
 
 int run_query(const Options& options) {
@@ -232,7 +258,7 @@ void add_query(CLI::App& app, Run& run) {
   command.add_option("-o,--out", options->out, "Where the hits go: .npz or .csv; without, only the summary")
       ->type_name("HITS");
   add_queries(command, *options);
-  add_choice(command, "--engine", options->engine, engine_names(),
+  add_choice(command, "--engine", options->engine, engine_choices(),
              "auto: the fastest that is exact; others, see docs/queries.md");
   command
       .add_option("--threads", options->threads, "At most so many, and no more than there are cores; 0: all of them")

@@ -25,34 +25,22 @@ struct Hit {
   bool operator==(const Hit&) const = default;
 };
 
-/// How queries are answered. All give the same answers but where said otherwise.
+/// How queries are answered. All engines give the same answers, except where it is said.
 enum class Engine {
-  Auto,             ///< the fastest that is exact: Bvh
-  Bvh,              ///< a tree of boxes over the original mesh
-  Refinement,       ///< P&T 3.2.1 with bounds (Refine::WhereBoundsMeet); for a ProgressiveHull
-  PaperRefinement,  ///< P&T 3.2.1 as published (Refine::WhereFacesMeet); may miss inner crossings
-  KDop6,            ///< trees of k-DOPs (Klosowski et al. 1998), the line clipped by the slabs
-  KDop14,
-  KDop18,
-  KDop26,
-  KDop6Overlap,   ///< the same trees, tested by the overlap of the segment's own k-DOP with the node's, as the paper's
-  KDop14Overlap,  ///< peer most likely did; a ray is cut off where it leaves the box of the mesh
-  KDop18Overlap,
-  KDop26Overlap,
+  Auto,  ///< the fastest that is exact: Bvh
+  Bvh,   ///< a tree of boxes over the original mesh
+  /// P&T 3.2.1 with bounds, for a ProgressiveHull: splits every vertex with something below it that the query may meet.
+  Refinement,
+  /// P&T 3.2.1 as published, for a ProgressiveHull: splits the corners of the hull faces that the query meets. Of a
+  /// segment or ray that starts outside of an outer base hull it finds the first crossing into the solid always. It may
+  /// miss crossings further in, where the query passes below the hull (P&T Figure 5), and sheets without thickness.
+  /// Hulls that are kept from query to query are finer, and may miss less.
+  PaperRefinement,
   Brute,  ///< every face, exactly
 };
 
-/// Each engine by its name: "auto", "bvh", "refinement", "paper-refinement", "kdop6" ... "kdop26-overlap", "brute".
+/// "auto", "bvh", "refinement", "paper-refinement", "brute"
 Names<Engine> engine_names();
-
-/// Which hull faces or vertices a query refines (P&T 3.2.1).
-enum class Refine {
-  WhereFacesMeet,   ///< as published: the corners of hull faces that the query meets. Of a segment or ray that starts
-                    ///< outside of an outer base hull the first crossing into the solid is found always; crossings
-                    ///< further in may be missed where it passes below the hull (P&T Figure 5), and so may sheets
-                    ///< without thickness. Hulls kept from query to query are finer and may miss less
-  WhereBoundsMeet,  ///< every vertex with something below it that the query may meet: finds all crossings
-};
 
 /// What becomes of the refined hull between one query and the next (P&T 3.2.2).
 enum class BetweenQueries {
@@ -88,13 +76,15 @@ class QueryIndex {
   /// Throws InputError(InvalidOption) for options outside their range.
   explicit QueryIndex(const ProgressiveHull& hull, Engine engine = Engine::Auto, const RefinementOptions& options = {});
 
-  Engine engine() const;  ///< never Auto
+  std::string_view engine_name() const;  ///< of the engine that answers, such as "bvh"; never "auto"
   std::size_t face_count() const;
   std::size_t memory_bytes() const;  ///< of what all copies share
 
  private:
   friend class MeshQuery;
+  friend struct QueryAccess;
   struct Shared;
+  explicit QueryIndex(std::shared_ptr<const Shared> shared) : shared_(std::move(shared)) {}
   std::shared_ptr<const Shared> shared_;
 };
 
@@ -140,7 +130,7 @@ class MeshQuery {
   std::size_t memory_bytes() const;  ///< of this object alone
 
  private:
-  friend struct QueryBatch;
+  friend struct QueryAccess;
   struct State;
   std::unique_ptr<State> state_;
 };

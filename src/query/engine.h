@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "prohull/mesh_query.h"
@@ -85,7 +86,10 @@ class QueryEngine {
 
 std::unique_ptr<QueryEngine> make_brute_engine(const TriangleMesh& mesh);
 std::unique_ptr<QueryEngine> make_bvh_engine(const TriangleMesh& mesh);
-/// One of KDop6 to KDop26Overlap.
-std::unique_ptr<QueryEngine> make_kdop_engine(const TriangleMesh& mesh, Engine engine);
+
+/// An index that asks an engine of another library, made to be measured. `name`, which must outlive it, is the index's
+/// engine_name().
+QueryIndex peer_index(TriangleMesh mesh, std::string_view name,
+                      std::unique_ptr<QueryEngine> (*make_engine)(const TriangleMesh&));
 
 }  // namespace prohull

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <mutex>
@@ -16,19 +17,11 @@
 namespace prohull {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Engine>, 13> kEngineNames{
+constexpr std::array<std::pair<std::string_view, Engine>, 5> kEngineNames{
     {{"auto", Engine::Auto},
      {"bvh", Engine::Bvh},
      {"refinement", Engine::Refinement},
      {"paper-refinement", Engine::PaperRefinement},
-     {"kdop6", Engine::KDop6},
-     {"kdop14", Engine::KDop14},
-     {"kdop18", Engine::KDop18},
-     {"kdop26", Engine::KDop26},
-     {"kdop6-overlap", Engine::KDop6Overlap},
-     {"kdop14-overlap", Engine::KDop14Overlap},
-     {"kdop18-overlap", Engine::KDop18Overlap},
-     {"kdop26-overlap", Engine::KDop26Overlap},
      {"brute", Engine::Brute}}};
 
 constexpr std::array<std::pair<std::string_view, HitMode>, 3> kHitModeNames{
@@ -42,7 +35,7 @@ Names<HitMode> hit_mode_names() { return kHitModeNames; }
 
 struct QueryIndex::Shared {
   TriangleMesh mesh;
-  Engine kind;
+  std::string_view engine_name;
   std::unique_ptr<QueryEngine> engine;  ///< refers to `mesh`
 };
 
@@ -57,47 +50,59 @@ void require_finite(const TriangleMesh& mesh) {
                                      index(f), index(v)));
 }
 
-std::unique_ptr<QueryEngine> make_engine(const TriangleMesh& mesh, Engine engine) {
-  switch (engine) {
-    case Engine::Brute:
-      return make_brute_engine(mesh);
-    case Engine::Auto:
-    case Engine::Bvh:
-      return make_bvh_engine(mesh);
-    case Engine::Refinement:
-    case Engine::PaperRefinement:
-      throw InputError(Defect::InvalidOption, "this engine refines a progressive hull, which a mesh is not");
-    default:
-      return make_kdop_engine(mesh, engine);
+}  // namespace
+
+/// What of these classes is not for users.
+struct QueryAccess {
+  using MakeEngine = std::unique_ptr<QueryEngine> (*)(const TriangleMesh&);
+
+  static QueryIndex index(TriangleMesh mesh, std::string_view engine_name, MakeEngine make_engine) {
+    require_finite(mesh);
+    auto shared = std::make_shared<QueryIndex::Shared>();
+    shared->mesh = std::move(mesh);
+    shared->engine_name = engine_name;
+    shared->engine = make_engine(shared->mesh);
+    return QueryIndex(std::move(shared));
   }
+
+  static QueryIndex index(const ProgressiveHull& hull, Engine engine, const RefinementOptions& options) {
+    if (options.queries_per_roll_back < 1) throw InputError(Defect::InvalidOption, "queries per roll back: at least 1");
+    auto shared = std::make_shared<QueryIndex::Shared>();
+    shared->mesh = hull.original();
+    shared->engine_name = name_of(engine_names(), engine);
+    shared->engine = make_refinement_engine(
+        hull, engine == Engine::Refinement ? Refine::WhereBoundsMeet : Refine::WhereFacesMeet, options);
+    return QueryIndex(std::move(shared));
+  }
+
+  /// Each chunk of a batch starts afresh, so that answers and counts are the same whatever thread had which before.
+  static void start(MeshQuery& query);
+};
+
+namespace {
+
+bool refines(Engine engine) { return engine == Engine::Refinement || engine == Engine::PaperRefinement; }
+
+QueryIndex index_of(TriangleMesh mesh, Engine engine) {
+  if (refines(engine))
+    throw InputError(Defect::InvalidOption, "this engine refines a progressive hull, which a mesh is not");
+  if (engine == Engine::Brute)
+    return QueryAccess::index(std::move(mesh), name_of(engine_names(), engine), make_brute_engine);
+  return QueryAccess::index(std::move(mesh), name_of(engine_names(), Engine::Bvh), make_bvh_engine);
 }
 
 }  // namespace
 
-QueryIndex::QueryIndex(TriangleMesh mesh, Engine engine) {
-  require_finite(mesh);
-  auto shared = std::make_shared<Shared>();
-  shared->mesh = std::move(mesh);
-  shared->kind = engine == Engine::Auto ? Engine::Bvh : engine;
-  shared->engine = make_engine(shared->mesh, shared->kind);
-  shared_ = std::move(shared);
+QueryIndex peer_index(TriangleMesh mesh, std::string_view name, QueryAccess::MakeEngine make_engine) {
+  return QueryAccess::index(std::move(mesh), name, make_engine);
 }
 
-QueryIndex::QueryIndex(const ProgressiveHull& hull, Engine engine, const RefinementOptions& options) {
-  if (engine != Engine::Refinement && engine != Engine::PaperRefinement) {
-    *this = QueryIndex(hull.original(), engine);
-    return;
-  }
-  if (options.queries_per_roll_back < 1) throw InputError(Defect::InvalidOption, "queries per roll back: at least 1");
-  auto shared = std::make_shared<Shared>();
-  shared->mesh = hull.original();
-  shared->kind = engine;
-  shared->engine = make_refinement_engine(
-      hull, engine == Engine::Refinement ? Refine::WhereBoundsMeet : Refine::WhereFacesMeet, options);
-  shared_ = std::move(shared);
-}
+QueryIndex::QueryIndex(TriangleMesh mesh, Engine engine) : QueryIndex(index_of(std::move(mesh), engine)) {}
 
-Engine QueryIndex::engine() const { return shared_->kind; }
+QueryIndex::QueryIndex(const ProgressiveHull& hull, Engine engine, const RefinementOptions& options)
+    : QueryIndex(refines(engine) ? QueryAccess::index(hull, engine, options) : index_of(hull.original(), engine)) {}
+
+std::string_view QueryIndex::engine_name() const { return shared_->engine_name; }
 
 std::size_t QueryIndex::face_count() const { return shared_->mesh.face_count(); }
 
@@ -136,6 +141,8 @@ struct MeshQuery::State {
   std::unique_ptr<QueryWorker> worker;
 };
 
+void QueryAccess::start(MeshQuery& query) { query.state_->worker->forget(); }
+
 MeshQuery::MeshQuery(QueryIndex index) : state_(std::make_unique<State>(std::move(index))) {}
 MeshQuery::~MeshQuery() = default;
 MeshQuery::MeshQuery(MeshQuery&&) noexcept = default;
@@ -156,11 +163,6 @@ bool MeshQuery::meets(const Triangle& triangle) { return state_->collected(trian
 
 QueryCounts MeshQuery::counts() const { return state_->worker->counts(); }
 std::size_t MeshQuery::memory_bytes() const { return sizeof(State) + state_->worker->memory_bytes(); }
-
-/// Each piece of a batch starts afresh, so that answers and counts are the same whatever thread had which before.
-struct QueryBatch {
-  static void start(MeshQuery& query) { query.state_->worker->forget(); }
-};
 
 namespace {
 
@@ -214,7 +216,7 @@ QueryCounts ask_in_chunks(const QueryIndex& index, std::span<const Primitive> pr
     oneapi::tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
       if (progress.cancelled()) return;
       MeshQuery& query = queries.local();
-      QueryBatch::start(query);
+      QueryAccess::start(query);
       const auto chunk = primitives.subspan(c * kChunk, std::min(kChunk, primitives.size() - c * kChunk));
       Batch<Answer> batch;
       for (const Primitive& primitive : chunk) {

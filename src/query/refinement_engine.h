@@ -7,6 +7,12 @@
 
 namespace prohull {
 
+/// Which vertices of the hull a query splits; see Engine.
+enum class Refine {
+  WhereFacesMeet,   ///< Engine::PaperRefinement
+  WhereBoundsMeet,  ///< Engine::Refinement
+};
+
 /// P&T 3.2: a progressive hull refined where the query meets it. Options as QueryIndex takes them.
 std::unique_ptr<QueryEngine> make_refinement_engine(const ProgressiveHull& hull, Refine refine,
                                                     const RefinementOptions& options);

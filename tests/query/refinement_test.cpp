@@ -209,8 +209,8 @@ TEST(RefinementCounts, AreUndoneByRollingBackAndByCoarsening) {
 
 TEST(QueryIndex, RefusesRefinementOptionsOutOfRange) {
   EXPECT_THROW(QueryIndex(cases()[0].hull, Engine::Refinement, {.queries_per_roll_back = 0}), InputError);
-  EXPECT_EQ(QueryIndex(cases()[0].hull, Engine::PaperRefinement).engine(), Engine::PaperRefinement);
-  EXPECT_EQ(QueryIndex(cases()[0].hull).engine(), Engine::Bvh);
+  EXPECT_EQ(QueryIndex(cases()[0].hull, Engine::PaperRefinement).engine_name(), "paper-refinement");
+  EXPECT_EQ(QueryIndex(cases()[0].hull).engine_name(), "bvh");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "query/kdop.h"
+#include "kdop/kdop.h"
 
 #include <gtest/gtest.h>
 

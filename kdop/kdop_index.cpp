@@ -1,10 +1,15 @@
-#include <algorithm>
-#include <cassert>
-#include <numeric>
-#include <span>
+#include "kdop/kdop_index.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "kdop/kdop.h"
+#include "prohull/error.h"
 #include "query/engine.h"
-#include "query/kdop.h"
 
 namespace prohull {
 namespace {
@@ -186,28 +191,30 @@ class KDopEngine final : public QueryEngine {
   KDopTree<K> tree_;
 };
 
+constexpr std::array<std::string_view, 8> kNames{"kdop6",         "kdop14",         "kdop18",         "kdop26",
+                                                 "kdop6-overlap", "kdop14-overlap", "kdop18-overlap", "kdop26-overlap"};
+
+template <int K, LineTest kTest>
+std::unique_ptr<QueryEngine> make_engine(const TriangleMesh& mesh) {
+  return std::make_unique<KDopEngine<K, kTest>>(mesh);
+}
+
+constexpr std::array<std::unique_ptr<QueryEngine> (*)(const TriangleMesh&), kNames.size()> kMakers{
+    make_engine<6, LineTest::Clip>,     make_engine<14, LineTest::Clip>,    make_engine<18, LineTest::Clip>,
+    make_engine<26, LineTest::Clip>,    make_engine<6, LineTest::Overlap>,  make_engine<14, LineTest::Overlap>,
+    make_engine<18, LineTest::Overlap>, make_engine<26, LineTest::Overlap>,
+};
+
 }  // namespace
 
-std::unique_ptr<QueryEngine> make_kdop_engine(const TriangleMesh& mesh, Engine engine) {
-  switch (engine) {
-    case Engine::KDop6:
-      return std::make_unique<KDopEngine<6, LineTest::Clip>>(mesh);
-    case Engine::KDop14:
-      return std::make_unique<KDopEngine<14, LineTest::Clip>>(mesh);
-    case Engine::KDop18:
-      return std::make_unique<KDopEngine<18, LineTest::Clip>>(mesh);
-    case Engine::KDop26:
-      return std::make_unique<KDopEngine<26, LineTest::Clip>>(mesh);
-    case Engine::KDop6Overlap:
-      return std::make_unique<KDopEngine<6, LineTest::Overlap>>(mesh);
-    case Engine::KDop14Overlap:
-      return std::make_unique<KDopEngine<14, LineTest::Overlap>>(mesh);
-    case Engine::KDop18Overlap:
-      return std::make_unique<KDopEngine<18, LineTest::Overlap>>(mesh);
-    default:
-      assert(engine == Engine::KDop26Overlap);
-      return std::make_unique<KDopEngine<26, LineTest::Overlap>>(mesh);
-  }
+std::span<const std::string_view> kdop_names() { return kNames; }
+
+QueryIndex kdop_index(TriangleMesh mesh, std::string_view name) {
+  const auto place = static_cast<std::size_t>(std::ranges::find(kNames, name) - kNames.begin());
+  if (place == kNames.size())
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("there are no k-DOP trees {}; expected one of {}", name, fmt::join(kNames, ", ")));
+  return peer_index(std::move(mesh), kNames[place], kMakers[place]);
 }
 
 }  // namespace prohull
