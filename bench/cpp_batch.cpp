@@ -48,7 +48,7 @@ py::tuple timed(const QueryIndex& index, const Rows& rows, const std::string& mo
   double seconds = 0;
   {
     const py::gil_scoped_release released;
-    seconds = elapsed_seconds_of([&] { batch = hits(index, segments, asked, {.threads = threads}); });
+    seconds = elapsed_seconds_of([&] { batch = find_hits(index, segments, asked, {.threads = threads}); });
   }
   return py::make_tuple(seconds, batch.hits.size());
 }

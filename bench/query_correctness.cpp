@@ -83,7 +83,7 @@ Facts check_engine(const QueryModel& model, const CheckedEngine& checked, std::s
               .is_ours = true,
               .finds_all = checked.name != "paper-refinement"};
   count_truth(truth, asked.size(), facts);
-  const HitBatch first = hits(index, asked, HitMode::First), all = hits(index, asked, HitMode::All);
+  const HitBatch first = find_hits(index, asked, HitMode::First), all = find_hits(index, asked, HitMode::All);
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const auto found = hits_of(first, i);
     check_first(truth[i], found.empty() ? std::nullopt : std::optional(found[0]), facts);

@@ -18,7 +18,8 @@ room(geometry  OWNS geometry                                                    
 room(parallel                                                                    MAY base)
 room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality      MAY geometry base)
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
-room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base)
+room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base
+                                                                                     prohull/enclosure)  # is_closed
 room(io        OWNS mesh_io hull_file query_io file                              MAY hull mesh geometry base
                                                                                      prohull/mesh_query)  # the answers
 room(repair    OWNS repair                                                       MAY mesh geometry base)

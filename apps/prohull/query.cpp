@@ -41,13 +41,13 @@ std::string_view noun(const std::vector<Ray>&) { return "ray"; }
 std::string_view noun(const std::vector<Triangle>&) { return "triangle"; }
 
 HitBatch ask(const QueryIndex& index, const std::vector<Segment>& segments, HitMode mode, const BatchOptions& batch) {
-  return hits(index, segments, mode, batch);
+  return find_hits(index, segments, mode, batch);
 }
 HitBatch ask(const QueryIndex& index, const std::vector<Ray>& rays, HitMode mode, const BatchOptions& batch) {
-  return hits(index, rays, mode, batch);
+  return find_hits(index, rays, mode, batch);
 }
 FaceBatch ask(const QueryIndex& index, const std::vector<Triangle>& triangles, HitMode, const BatchOptions& batch) {
-  return faces_met(index, triangles, batch);
+  return find_faces_met(index, triangles, batch);
 }
 
 void write(const std::filesystem::path& path, const HitBatch& batch, const std::vector<Segment>&) {

@@ -124,6 +124,14 @@ class MeshQuery {
   std::vector<FaceId> faces_met(const Triangle& triangle);
   bool meets(const Triangle& triangle);
 
+  /// Whether the point is inside: whether the mesh winds around it at least once. So a point in several overlapping
+  /// parts is inside, and a point in a cavity is not; nothing is inside of a mesh that is inside out. Exact. A point on
+  /// the surface may count as inside or as outside, but every engine says the same; only Engine::PaperRefinement, which
+  /// may miss crossings, may be wrong.
+  /// Throws InputError(OpenEdge) if the mesh is not closed as is_closed (enclosure.h) has it, and InputError(EmptyMesh)
+  /// if it has no faces: it has no inside. The first call for an index finds that out, and takes longer.
+  bool contains(const Vec3& point);
+
   /// Of all queries asked so far.
   QueryCounts counts() const;
 
@@ -160,22 +168,28 @@ struct FaceBatch {
   QueryCounts counts;
 };
 
-/// Many queries by many threads; the answers are the same, in the same order, for any number of threads.
-/// Throws InputError(NonFiniteCoordinate) with the number of the first query that is not finite; Cancelled.
-HitBatch hits(const QueryIndex& index, std::span<const Segment> segments, HitMode mode,
-              const BatchOptions& options = {});
-HitBatch hits(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const BatchOptions& options = {});
-FaceBatch faces_met(const QueryIndex& index, std::span<const Triangle> triangles, const BatchOptions& options = {});
+/// A batch of queries, answered by many threads. The answers are those of MeshQuery, in the same order, for any number
+/// of threads. Throws InputError(NonFiniteCoordinate) with the number of the first query that is not finite; Cancelled.
+HitBatch find_hits(const QueryIndex& index, std::span<const Segment> segments, HitMode mode,
+                   const BatchOptions& options = {});
+HitBatch find_hits(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const BatchOptions& options = {});
+FaceBatch find_faces_met(const QueryIndex& index, std::span<const Triangle> triangles,
+                         const BatchOptions& options = {});
 
-/// Is given the hits of queries `first`, `first + 1`, ...; without counts.
-using TakeHits = std::function<void(std::size_t first, HitBatch piece)>;
+/// A batch of MeshQuery::contains: for each point whether it is inside. Also throws what that throws.
+///
+///     const std::vector<bool> inside = contains(QueryIndex(mesh), points);
+std::vector<bool> contains(const QueryIndex& index, std::span<const Vec3> points, const BatchOptions& options = {});
 
-/// The same hits in pieces of some hundred queries, so that memory does not grow with their number: each goes to
-/// `take`, by several threads at a time and in any order. Returns the counts of all. What `take` throws goes on to the
-/// caller.
-QueryCounts hits_in_pieces(const QueryIndex& index, std::span<const Segment> segments, HitMode mode,
-                           const TakeHits& take, const BatchOptions& options = {});
-QueryCounts hits_in_pieces(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const TakeHits& take,
-                           const BatchOptions& options = {});
+/// Receives the hits of consecutive queries, starting with query `first`. `counts` is left empty.
+using TakeHits = std::function<void(std::size_t first, HitBatch chunk)>;
+
+/// find_hits for batches whose hits shall not all be in memory at once. Each chunk of some hundred queries goes to
+/// `take`, which is called by several threads at a time and in any order. Returns the counts of all. What `take` throws
+/// goes on to the caller.
+QueryCounts find_hits_in_chunks(const QueryIndex& index, std::span<const Segment> segments, HitMode mode,
+                                const TakeHits& take, const BatchOptions& options = {});
+QueryCounts find_hits_in_chunks(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const TakeHits& take,
+                                const BatchOptions& options = {});
 
 }  // namespace prohull

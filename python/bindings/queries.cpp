@@ -39,12 +39,12 @@ BatchOptions batch_options(Watch& watch, unsigned threads) {
   return {threads, [&watch](double fraction) { return watch.go_on("query", fraction); }};
 }
 
-/// Hands the hits of `rows`, of shape (n, 6), to `take` in pieces.
+/// Hands the hits of `rows`, of shape (n, 6), to `take` in chunks.
 template <class Query>
 void take_hits(const QueryIndex& index, const Array<double>& rows, HitMode mode, unsigned threads,
                const TakeHits& take) {
   watched(py::none(), [&](Watch& watch) {
-    return hits_in_pieces(index, queries_of<Query>(rows), mode, take, batch_options(watch, threads));
+    return find_hits_in_chunks(index, queries_of<Query>(rows), mode, take, batch_options(watch, threads));
   });
 }
 
@@ -91,9 +91,9 @@ bool is_answered(const HitBatch& batch, std::size_t i) { return batch.offsets[i]
 
 py::list first_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
   Columns columns(static_cast<std::size_t>(rows.shape(0)));
-  take_hits(index, rows, are_rays, HitMode::First, threads, [&](std::size_t first, const HitBatch& piece) {
-    for (std::size_t i = 0; i + 1 < piece.offsets.size(); ++i)
-      is_answered(piece, i) ? columns.set(first + i, piece.hits[piece.offsets[i]]) : columns.set_none(first + i);
+  take_hits(index, rows, are_rays, HitMode::First, threads, [&](std::size_t first, const HitBatch& chunk) {
+    for (std::size_t i = 0; i + 1 < chunk.offsets.size(); ++i)
+      is_answered(chunk, i) ? columns.set(first + i, chunk.hits[chunk.offsets[i]]) : columns.set_none(first + i);
   });
   py::list result;
   columns.append_to(result);
@@ -103,39 +103,39 @@ py::list first_hits(const QueryIndex& index, const Array<double>& rows, bool are
 py::array any_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
   py::array_t<bool> result(rows.shape(0));
   bool* const is_hit = result.mutable_data();
-  take_hits(index, rows, are_rays, HitMode::Any, threads, [&](std::size_t first, const HitBatch& piece) {
-    for (std::size_t i = 0; i + 1 < piece.offsets.size(); ++i) is_hit[first + i] = is_answered(piece, i);
+  take_hits(index, rows, are_rays, HitMode::Any, threads, [&](std::size_t first, const HitBatch& chunk) {
+    for (std::size_t i = 0; i + 1 < chunk.offsets.size(); ++i) is_hit[first + i] = is_answered(chunk, i);
   });
   return result;
 }
 
-struct Piece {
+struct Chunk {
   std::size_t first;
   HitBatch batch;
 };
 
 /// By the numbers of their queries.
-std::vector<Piece> all_pieces(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
-  std::vector<Piece> pieces;
+std::vector<Chunk> all_chunks(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
+  std::vector<Chunk> chunks;
   std::mutex mutex;
   take_hits(index, rows, are_rays, HitMode::All, threads, [&](std::size_t first, HitBatch batch) {
     const std::scoped_lock lock(mutex);
-    pieces.push_back({first, std::move(batch)});
+    chunks.push_back({first, std::move(batch)});
   });
-  std::ranges::sort(pieces, {}, &Piece::first);
-  return pieces;
+  std::ranges::sort(chunks, {}, &Chunk::first);
+  return chunks;
 }
 
 py::list all_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
-  const std::vector<Piece> pieces = all_pieces(index, rows, are_rays, threads);
+  const std::vector<Chunk> chunks = all_chunks(index, rows, are_rays, threads);
   std::size_t count = 0;
-  for (const Piece& piece : pieces) count += piece.batch.hits.size();
+  for (const Chunk& chunk : chunks) count += chunk.batch.hits.size();
   Columns columns(count);
   py::array_t<std::int64_t> offsets(rows.shape(0) + 1);
   std::int64_t* offset = offsets.mutable_data();
   *offset = 0;
   std::size_t row = 0;
-  for (const auto& [first, batch] : pieces) {
+  for (const auto& [first, batch] : chunks) {
     for (std::size_t i = 1; i < batch.offsets.size(); ++i)
       offset[first + i] = static_cast<std::int64_t>(row + batch.offsets[i]);
     for (const Hit& hit : batch.hits) columns.set(row++, hit);
@@ -154,7 +154,7 @@ py::array offsets_of(const std::vector<std::size_t>& offsets) {
 /// `rows` of shape (n, 9).
 py::tuple triangles_met(const QueryIndex& index, const Array<double>& rows, unsigned threads) {
   const FaceBatch batch = watched(py::none(), [&](Watch& watch) {
-    return faces_met(index, queries_of<Triangle>(rows), batch_options(watch, threads));
+    return find_faces_met(index, queries_of<Triangle>(rows), batch_options(watch, threads));
   });
   std::vector<std::int64_t> faces(batch.faces.size());
   std::ranges::transform(batch.faces, faces.begin(), [](FaceId f) { return prohull::index(f); });
@@ -162,32 +162,14 @@ py::tuple triangles_met(const QueryIndex& index, const Array<double>& rows, unsi
   return py::make_tuple(offsets_of(batch.offsets), array_of(std::move(faces), {n}));
 }
 
-/// How often a closed mesh winds around the start of a ray that has these hits.
-long winding_number(std::span<const Hit> hits) {
-  long winding = 0;
-  for (const Hit& hit : hits) winding += hit.entering ? -1 : 1;
-  return winding;
-}
-
-/// `points` of shape (n, 3); the mesh must be closed.
-py::array contains(const QueryIndex& index, const Array<double>& points, unsigned threads) {
-  const std::span<const Vec3> all(rows_of<Vec3>(points), static_cast<std::size_t>(points.shape(0)));
-  std::vector<std::uint8_t> inside = watched(py::none(), [&](Watch& watch) {
-    constexpr std::size_t kAtOnce = 1 << 16;  // a ray may have many hits, 48 bytes each
-    std::vector<std::uint8_t> result;
-    std::vector<Ray> rays;
-    for (std::size_t first = 0; first < all.size(); first += kAtOnce) {
-      rays.clear();
-      for (const Vec3& p : all.subspan(first, std::min(kAtOnce, all.size() - first))) rays.push_back({p, {1, 0, 0}});
-      const HitBatch batch = hits(index, rays, HitMode::All, batch_options(watch, threads));
-      for (std::size_t i = 0; i < rays.size(); ++i)
-        result.push_back(
-            winding_number(std::span(batch.hits).subspan(batch.offsets[i], batch.offsets[i + 1] - batch.offsets[i])) >
-            0);
-    }
-    return result;
+/// `points` of shape (n, 3).
+py::array points_inside(const QueryIndex& index, const Array<double>& points, unsigned threads) {
+  const std::vector<bool> inside = watched(py::none(), [&](Watch& watch) {
+    return contains(index, queries_of<Vec3>(points), batch_options(watch, threads));
   });
-  return array_of(std::move(inside), {points.shape(0)}).attr("view")("bool");
+  py::array_t<bool> result(points.shape(0));
+  std::ranges::copy(inside, result.mutable_data());
+  return result;
 }
 
 }  // namespace
@@ -208,7 +190,7 @@ void bind_queries(py::module_& module) {
       .def("any_hits", &any_hits)
       .def("all_hits", &all_hits)
       .def("triangles_met", &triangles_met)
-      .def("contains", &contains);
+      .def("contains", &points_inside);
   std::vector<std::string> names;
   for (const auto& [name, engine] : engine_names()) names.emplace_back(name);
   module.attr("engines") = py::tuple(py::cast(names));

@@ -10,6 +10,7 @@
 #include <mutex>
 
 #include "parallel/arena.h"
+#include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "query/engine.h"
 #include "query/refinement_engine.h"
@@ -37,6 +38,17 @@ struct QueryIndex::Shared {
   TriangleMesh mesh;
   std::string_view engine_name;
   std::unique_ptr<QueryEngine> engine;  ///< refers to `mesh`
+
+  /// Throws InputError if the mesh is not closed.
+  void require_closed() const {
+    std::call_once(closed_is_known_, [&] { is_closed_ = is_closed(mesh); });
+    if (!is_closed_)
+      throw InputError(Defect::OpenEdge, "the mesh is not closed, so that it has no inside; close it first");
+  }
+
+ private:
+  mutable std::once_flag closed_is_known_;
+  mutable bool is_closed_ = false;
 };
 
 namespace {
@@ -74,6 +86,8 @@ struct QueryAccess {
         hull, engine == Engine::Refinement ? Refine::WhereBoundsMeet : Refine::WhereFacesMeet, options);
     return QueryIndex(std::move(shared));
   }
+
+  static void require_closed(const QueryIndex& index) { index.shared_->require_closed(); }
 
   /// Each chunk of a batch starts afresh, so that answers and counts are the same whatever thread had which before.
   static void start(MeshQuery& query);
@@ -161,18 +175,26 @@ std::vector<FaceId> MeshQuery::faces_met(const Triangle& triangle) {
 }
 bool MeshQuery::meets(const Triangle& triangle) { return state_->collected(triangle, HitMode::Any).any(); }
 
+bool MeshQuery::contains(const Vec3& point) {
+  QueryAccess::require_closed(state_->index);
+  int winding = 0;
+  for (const Hit& hit : all_hits(Ray{point, {1, 0, 0}})) winding += hit.entering ? -1 : 1;
+  return winding > 0;
+}
+
 QueryCounts MeshQuery::counts() const { return state_->worker->counts(); }
 std::size_t MeshQuery::memory_bytes() const { return sizeof(State) + state_->worker->memory_bytes(); }
 
 namespace {
 
+using prohull::is_finite;
 bool is_finite(const Segment& s) { return prohull::is_finite(s.a) && prohull::is_finite(s.b); }
 bool is_finite(const Ray& r) { return prohull::is_finite(r.origin) && prohull::is_finite(r.direction); }
 bool is_finite(const Triangle& t) {
   return prohull::is_finite(t.a) && prohull::is_finite(t.b) && prohull::is_finite(t.c);
 }
 
-/// Calls `progress` from whichever thread ends a piece of the work, one at a time.
+/// Calls `progress` from whichever thread ends a chunk, one at a time.
 class SharedProgress {
  public:
   SharedProgress(const BatchOptions& options, std::size_t total) : progress_(options.progress), total_(total) {}
@@ -274,28 +296,37 @@ QueryCounts take_hits_of(const QueryIndex& index, std::span<const Primitive> pri
 
 }  // namespace
 
-HitBatch hits(const QueryIndex& index, std::span<const Segment> segments, HitMode mode, const BatchOptions& options) {
+HitBatch find_hits(const QueryIndex& index, std::span<const Segment> segments, HitMode mode,
+                   const BatchOptions& options) {
   return hit_batch(ask_all<Hit>(index, segments, options, AskHits{mode}));
 }
 
-HitBatch hits(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const BatchOptions& options) {
+HitBatch find_hits(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const BatchOptions& options) {
   return hit_batch(ask_all<Hit>(index, rays, options, AskHits{mode}));
 }
 
-QueryCounts hits_in_pieces(const QueryIndex& index, std::span<const Segment> segments, HitMode mode,
-                           const TakeHits& take, const BatchOptions& options) {
+QueryCounts find_hits_in_chunks(const QueryIndex& index, std::span<const Segment> segments, HitMode mode,
+                                const TakeHits& take, const BatchOptions& options) {
   return take_hits_of(index, segments, mode, take, options);
 }
 
-QueryCounts hits_in_pieces(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const TakeHits& take,
-                           const BatchOptions& options) {
+QueryCounts find_hits_in_chunks(const QueryIndex& index, std::span<const Ray> rays, HitMode mode, const TakeHits& take,
+                                const BatchOptions& options) {
   return take_hits_of(index, rays, mode, take, options);
 }
 
-FaceBatch faces_met(const QueryIndex& index, std::span<const Triangle> triangles, const BatchOptions& options) {
+FaceBatch find_faces_met(const QueryIndex& index, std::span<const Triangle> triangles, const BatchOptions& options) {
   auto batch = ask_all<FaceId>(index, triangles, options,
                                [](MeshQuery& query, const Triangle& triangle) { return query.faces_met(triangle); });
   return {std::move(batch.offsets), std::move(batch.answers), batch.counts};
+}
+
+std::vector<bool> contains(const QueryIndex& index, std::span<const Vec3> points, const BatchOptions& options) {
+  QueryAccess::require_closed(index);
+  const auto batch = ask_all<char>(index, points, options, [](MeshQuery& query, const Vec3& point) {
+    return std::array{static_cast<char>(query.contains(point))};
+  });
+  return {batch.answers.begin(), batch.answers.end()};
 }
 
 }  // namespace prohull

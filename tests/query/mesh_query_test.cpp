@@ -87,7 +87,7 @@ TEST(QueryIndex, RefusesWhatItCannotAnswer) {
 TEST(Hits, AreTheSameForAnyNumberOfThreads) {
   const QueryIndex index(make_sample("asteroid", 2000));
   const auto segments = awkward_segments(make_sample("asteroid", 2000), 3000, test_seed());
-  const HitBatch one = hits(index, segments, HitMode::All, {.threads = 1});
+  const HitBatch one = find_hits(index, segments, HitMode::All, {.threads = 1});
   ASSERT_EQ(one.offsets.size(), segments.size() + 1);
   MeshQuery query(index);
   for (std::size_t i = 0; i < segments.size(); ++i)
@@ -95,26 +95,26 @@ TEST(Hits, AreTheSameForAnyNumberOfThreads) {
                           one.hits.begin() + static_cast<std::ptrdiff_t>(one.offsets[i + 1])),
               query.all_hits(segments[i]));
   for (const unsigned threads : {0u, 2u, 5u}) {
-    const HitBatch many = hits(index, segments, HitMode::All, {.threads = threads});
+    const HitBatch many = find_hits(index, segments, HitMode::All, {.threads = threads});
     EXPECT_EQ(many.offsets, one.offsets);
     EXPECT_EQ(many.hits, one.hits);
   }
 }
 
-TEST(Hits, InPiecesAreTheSame) {
+TEST(Hits, InChunksAreTheSame) {
   const QueryIndex index(make_sample("asteroid", 2000));
   const auto segments = awkward_segments(make_sample("asteroid", 2000), 3000, test_seed());
   for (const HitMode mode : {HitMode::First, HitMode::Any, HitMode::All}) {
-    const HitBatch whole = hits(index, segments, mode);
+    const HitBatch whole = find_hits(index, segments, mode);
     std::mutex mutex;
     std::size_t queries = 0;
-    hits_in_pieces(index, segments, mode, [&](std::size_t first, const HitBatch& piece) {
+    find_hits_in_chunks(index, segments, mode, [&](std::size_t first, const HitBatch& chunk) {
       const std::scoped_lock lock(mutex);
       const auto begin = whole.hits.begin() + static_cast<std::ptrdiff_t>(whole.offsets[first]);
-      EXPECT_TRUE(std::ranges::equal(piece.hits, std::span(begin, piece.hits.size())));
-      for (std::size_t i = 0; i < piece.offsets.size(); ++i)
-        EXPECT_EQ(piece.offsets[i], whole.offsets[first + i] - whole.offsets[first]);
-      queries += piece.offsets.size() - 1;
+      EXPECT_TRUE(std::ranges::equal(chunk.hits, std::span(begin, chunk.hits.size())));
+      for (std::size_t i = 0; i < chunk.offsets.size(); ++i)
+        EXPECT_EQ(chunk.offsets[i], whole.offsets[first + i] - whole.offsets[first]);
+      queries += chunk.offsets.size() - 1;
     });
     EXPECT_EQ(queries, segments.size());
   }
@@ -122,8 +122,8 @@ TEST(Hits, InPiecesAreTheSame) {
 
 TEST(Hits, EndWithWhatTakingThemThrows) {
   const std::vector<Segment> segments(5000, {{-1, 0.1, 0.2}, {1, 0.1, 0.2}});
-  EXPECT_THROW(hits_in_pieces(QueryIndex(octahedron()), segments, HitMode::First,
-                              [](std::size_t, const HitBatch&) { throw std::length_error("full"); }),
+  EXPECT_THROW(find_hits_in_chunks(QueryIndex(octahedron()), segments, HitMode::First,
+                                   [](std::size_t, const HitBatch&) { throw std::length_error("full"); }),
                std::length_error);
 }
 
@@ -132,7 +132,7 @@ TEST(Hits, NameTheFirstQueryThatIsNotFinite) {
   segments[7].b.z = std::nan("");
   segments[8].b.z = std::nan("");
   try {
-    hits(QueryIndex(octahedron()), segments, HitMode::First);
+    find_hits(QueryIndex(octahedron()), segments, HitMode::First);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("query 7"), std::string::npos) << error.what();
@@ -141,8 +141,9 @@ TEST(Hits, NameTheFirstQueryThatIsNotFinite) {
 
 TEST(Hits, CanBeCancelled) {
   const std::vector<Segment> segments(5000, {{-1, 0.1, 0.2}, {1, 0.1, 0.2}});
-  EXPECT_THROW(hits(QueryIndex(octahedron()), segments, HitMode::First, {.progress = [](double) { return false; }}),
-               Cancelled);
+  EXPECT_THROW(
+      find_hits(QueryIndex(octahedron()), segments, HitMode::First, {.progress = [](double) { return false; }}),
+      Cancelled);
 }
 
 TEST(FacesMet, OfManyTrianglesAreThoseOfEach) {
@@ -150,7 +151,7 @@ TEST(FacesMet, OfManyTrianglesAreThoseOfEach) {
   const std::vector<Triangle> triangles{{{-1, 0.5, 0.5}, {2, 0.5, 0.4}, {2, 0.5, 0.6}},  // in left, out right
                                         {{5, 5, 5}, {6, 5, 5}, {5, 6, 5}},               // far away
                                         {{1, 1, 1}, {2, 2, 2}, {2, 2, 3}}};              // touches a corner
-  const FaceBatch batch = faces_met(index, triangles);
+  const FaceBatch batch = find_faces_met(index, triangles);
   MeshQuery query(index);
   ASSERT_EQ(batch.offsets.size(), 4u);
   EXPECT_EQ(batch.faces.size(), batch.offsets[3]);
@@ -161,6 +162,57 @@ TEST(FacesMet, OfManyTrianglesAreThoseOfEach) {
                           batch.faces.begin() + static_cast<std::ptrdiff_t>(batch.offsets[i + 1])),
               met);
   }
+}
+
+TEST(Contains, SaysWhereTheMeshWindsAround) {
+  MeshQuery cube{QueryIndex(box({0, 0, 0}, {1, 1, 1}))};
+  EXPECT_TRUE(cube.contains({0.5, 0.5, 0.5}));
+  EXPECT_TRUE(cube.contains({0.99, 0.99, 0.01}));
+  EXPECT_FALSE(cube.contains({1.01, 0.5, 0.5}));
+  EXPECT_FALSE(cube.contains({-7, 0.5, 0.5}));
+  EXPECT_FALSE(MeshQuery{QueryIndex(inside_out(box({0, 0, 0}, {1, 1, 1})))}.contains({0.5, 0.5, 0.5}));
+
+  const TriangleMesh cavity = inside_out(box({0.2, 0.2, 0.2}, {0.4, 0.4, 0.4}));
+  MeshQuery hollow{QueryIndex(together(box({0, 0, 0}, {1, 1, 1}), cavity))};
+  EXPECT_FALSE(hollow.contains({0.3, 0.3, 0.3}));
+  EXPECT_TRUE(hollow.contains({0.1, 0.3, 0.3}));
+
+  MeshQuery overlapping{QueryIndex(together(box({0, 0, 0}, {1, 1, 1}), box({0.5, 0, 0}, {1.5, 1, 1})))};
+  for (const double x : {0.25, 0.75, 1.25}) EXPECT_TRUE(overlapping.contains({x, 0.3, 0.4})) << x;
+}
+
+TEST(Contains, TakesAClosedSoup) {
+  MeshQuery query{QueryIndex(soup(octahedron()))};
+  EXPECT_TRUE(query.contains({0.1, 0.1, 0.1}));
+  EXPECT_FALSE(query.contains({0.9, 0.9, 0.9}));
+}
+
+TEST(Contains, RefusesMeshesThatHaveNoInside) {
+  const std::vector<Vec3> none;
+  TriangleMesh open = octahedron();
+  open.triangles.pop_back();
+  const QueryIndex index(open);
+  EXPECT_THROW(MeshQuery(index).contains({0, 0, 0}), InputError);
+  EXPECT_THROW(contains(index, none), InputError);
+  EXPECT_THROW(contains(QueryIndex(TriangleMesh{}), none), InputError);
+}
+
+TEST(Contains, OfABatchIsThatOfEachPoint) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
+  std::vector<Vec3> points(2000);
+  for (Vec3& p : points) p = {coordinate(random), coordinate(random), coordinate(random)};
+  const QueryIndex index(two_spheres_and_a_box());
+  MeshQuery query(index);
+  for (const unsigned threads : {0u, 1u}) {
+    const std::vector<bool> inside = contains(index, points, {.threads = threads});
+    ASSERT_EQ(inside.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(inside[i], query.contains(points[i])) << i;
+    EXPECT_GT(std::ranges::count(inside, true), 0);
+    EXPECT_GT(std::ranges::count(inside, false), 0);
+  }
+  points[1234].x = std::nan("");
+  EXPECT_THROW(contains(index, points), InputError);
 }
 
 }  // namespace

@@ -123,9 +123,9 @@ TEST_P(Refinement, GivesTheSameAnswersAndCountsForAnyNumberOfThreads) {
   const auto segments = random_segments(bounding_box(hull.original()), 3000, test_seed());
   for (const Engine engine : {Engine::Refinement, Engine::PaperRefinement}) {
     const QueryIndex index(hull, engine, GetParam().options);
-    const HitBatch one = hits(index, segments, HitMode::All, {.threads = 1});
+    const HitBatch one = find_hits(index, segments, HitMode::All, {.threads = 1});
     for (int i = 0; i < 3; ++i) {
-      const HitBatch many = hits(index, segments, HitMode::All, {.threads = 0});
+      const HitBatch many = find_hits(index, segments, HitMode::All, {.threads = 0});
       EXPECT_EQ(many.hits, one.hits);
       EXPECT_EQ(many.counts.tests, one.counts.tests);
       EXPECT_EQ(many.counts.splits, one.counts.splits);
@@ -175,7 +175,7 @@ TEST(RefinementCounts, TradeTestsForSplitsAsTheBaseHullGetsCoarser) {
   QueryCounts last;
   for (const std::size_t faces : {5000u, 1000u, 200u}) {
     const QueryCounts counts =
-        hits(QueryIndex(hull.with_base(faces), Engine::PaperRefinement), segments, HitMode::All).counts;
+        find_hits(QueryIndex(hull.with_base(faces), Engine::PaperRefinement), segments, HitMode::All).counts;
     EXPECT_GT(counts.splits, last.splits);
     EXPECT_TRUE(last.tests == 0 || counts.tests < last.tests);
     last = counts;
