@@ -8,7 +8,6 @@ A path in backticks must be the path of a file or folder, or the end of one; it 
 import fnmatch
 import pathlib
 import re
-import subprocess
 import sys
 
 FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
@@ -18,6 +17,7 @@ PATH = re.compile(rf"[\w.*-]*(/[\w.*-]+)+/?|[\w*-]+/|[\w*-]+\.({SUFFIXES.replace
 NAME = re.compile(r"(\w+::)*\w+(\(\))?")
 SOURCE = re.compile(r"\.(h|cpp|py|pyi|cmake|sh)$|CMakeLists\.txt$|CMakePresets\.json$|^scripts/")
 ELSEWHERE = ("build/", "out/", "/", "CGAL::", "std::")  # made by building, of the system, of others
+NOT_OURS = ("build", "out", ".git")
 TEST_PROGRAM = re.compile(r"prohull_add_test\((\w+)")
 
 
@@ -47,9 +47,8 @@ def wrong_names(page, files, words):
 
 def main(root):
     root = pathlib.Path(root).resolve()
-    listed = subprocess.run(["git", "-C", root, "ls-files", "--cached", "--others", "--exclude-standard"], check=True,
-                            stdout=subprocess.PIPE, text=True).stdout.splitlines()
-    files = {name for name in listed if (root / name).is_file()}
+    files = {str(path.relative_to(root)) for path in root.rglob("*")
+             if path.is_file() and path.relative_to(root).parts[0] not in NOT_OURS}
     words = set()
     for text in ((root / name).read_text(errors="replace") for name in files
                  if SOURCE.search(name) and (root / name) != pathlib.Path(__file__).resolve()):
