@@ -5,7 +5,8 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <mutex>
+#include <atomic>
+#include <thread>
 
 #include "prohull/error.h"
 
@@ -29,20 +30,22 @@ std::vector<Task> tiles(const std::vector<Panel>& panels) {
   return tasks;
 }
 
-/// Counts what is done, and throws when the caller wants to stop.
-class Progress {
+/// Counts the tiles that are drawn, tells the caller's function on the caller's thread, and throws Cancelled.
+class TileCounter {
  public:
-  Progress(std::size_t all, const std::function<bool(double)>& report) : all_(all), report_(report) {}
-  void advance() {
-    if (!report_) return;
-    const std::scoped_lock lock(mutex_);
-    if (!report_(static_cast<double>(++done_) / static_cast<double>(all_))) throw Cancelled();
+  TileCounter(std::size_t all, const Progress& progress) : all_(all), progress_(progress) {}
+  void next() {
+    const std::size_t done = ++done_;
+    if (progress_ && std::this_thread::get_id() == caller_ &&
+        !progress_("render", static_cast<double>(done) / static_cast<double>(all_)))
+      throw Cancelled();
   }
 
  private:
-  std::mutex mutex_;
-  std::size_t done_ = 0, all_;
-  const std::function<bool(double)>& report_;
+  const std::thread::id caller_ = std::this_thread::get_id();
+  std::atomic<std::size_t> done_ = 0;
+  const std::size_t all_;
+  const Progress& progress_;
 };
 
 std::vector<TileRenderer> renderers(const std::vector<Panel>& panels, const Pattern& pattern) {
@@ -57,11 +60,11 @@ Image draw(int width, int height, const std::vector<Panel>& panels, const DrawOp
   Image image(width, height);
   const std::vector<Task> tasks = tiles(panels);
   const Pattern pattern(options.samples);
-  Progress progress(tasks.size(), options.progress);
+  TileCounter counter(tasks.size(), options.progress);
   oneapi::tbb::enumerable_thread_specific<std::vector<TileRenderer>> mine([&] { return renderers(panels, pattern); });
   const auto draw_tile = [&](std::size_t i) {
     mine.local()[tasks[i].panel].draw(tasks[i].tile, options.background, image);
-    progress.advance();
+    counter.next();
   };
   const int cores = oneapi::tbb::this_task_arena::max_concurrency();
   oneapi::tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, cores) : cores);

@@ -13,26 +13,26 @@ macro(room name)
   set(may_${name} ${name} ${room_MAY})
 endmacro()
 
-room(base      OWNS error names text)
+room(base      OWNS error names progress text)
 room(geometry  OWNS geometry                                                     MAY base)
 room(parallel                                                                    MAY base)
 room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality      MAY geometry base)
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
 room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base
                                                                                      prohull/enclosure)  # is_closed
-room(io        OWNS mesh_io hull_file query_io file                              MAY hull mesh geometry base
+room(io        OWNS mesh_io hull_file query_io file                              MAY hull mesh geometry parallel base
                                                                                      prohull/mesh_query)  # the answers
 room(repair    OWNS repair                                                       MAY mesh geometry base)
 room(construct OWNS hull_builder tight_hull float32_hull                         MAY hull mesh geometry parallel base)
 # Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges.
-room(verify    OWNS enclosure verification replay distance                       MAY geometry base prohull/ids
+room(verify    OWNS enclosure verification replay distance                       MAY geometry parallel base prohull/ids
                                                                                      prohull/triangle_mesh
                                                                                      prohull/vertex_split
                                                                                      prohull/progressive_hull)
 room(sample    OWNS sample random_segments                                       MAY mesh geometry base)
-room(wrap      OWNS wrap                                                         MAY mesh geometry base)
+room(wrap      OWNS wrap                                                         MAY mesh geometry parallel base)
 room(enclose   OWNS enclosing_hull                                               MAY construct repair verify wrap hull mesh
-                                                                                     geometry base)
+                                                                                     geometry parallel base)
 
 # Outside of src/: public headers, all of them, and these folders.
 set(outside render kdop apps examples python)

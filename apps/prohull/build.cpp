@@ -132,7 +132,7 @@ void measure(BuildOutcome& outcome) {
     const bool wrapped = outcome.solid(written.hull).alpha > 0;
     try {
       written.distance = distance_bounds(written.hull.mesh, wrapped ? made.input.original : made.input.closed->mesh,
-                                         {.progress = [](double) { return !interrupted(); }});
+                                         {.progress = [](std::string_view, double) { return !interrupted(); }});
     } catch (const Cancelled&) {
       throw Interrupted{};
     }
@@ -151,7 +151,7 @@ int run_build(BuildOptions options) {
   check_sides(options);
   HullOptions& hull = options.enclosing.hull;
   hull.float32_coordinates = stores_float32(mesh_format(options.out));
-  hull.max_normal_deviation = options.normal_deviation_degrees * kDegree;
+  hull.guards.max_normal_deviation = options.normal_deviation_degrees * kDegree;
   if (options.max_void_percent > 0) options.enclosing.bounds.max_void = options.max_void_percent / 100;
   if (options.allow_self_intersections) hull.self_intersections = SelfIntersections::Allowed;
   if (options.no_self_intersections) hull.self_intersections = SelfIntersections::Refused;
@@ -263,18 +263,18 @@ void add_build(CLI::App& app, Run& run) {
       .add_flag("!--keep-guards", hull.relax_guards,
                 "Do not relax them in the end, in three steps, where the number of faces is not reached otherwise")
       ->group(kGuards);
-  command.add_option("--max-valence", hull.max_valence, "Most faces around a new vertex")
+  command.add_option("--max-valence", hull.guards.max_valence, "Most faces around a new vertex")
       ->capture_default_str()
       ->check(CLI::Range(3.0, 1e6))
       ->group(kGuards);
   command
-      .add_option("--compactness-ratio", hull.min_compactness_ratio,
+      .add_option("--compactness-ratio", hull.guards.min_compactness_ratio,
                   "Least compactness of a star after a collapse, relative to before, 0 to 1")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0))
       ->group(kGuards);
   command
-      .add_option("--sufficient-compactness", hull.sufficient_compactness,
+      .add_option("--sufficient-compactness", hull.guards.sufficient_compactness,
                   "Compactness that is enough whatever it was before, 0 to 1 (lazy only)")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0))

@@ -62,7 +62,7 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
     fmt::print("  moved {} to coordinates that the file keeps\n", counted(hull.rounded_vertices, "vertex", "vertices"));
   if (hull.relaxed_guards > 0)
     fmt::print("  shape guards relaxed to reach it: normals may turn by {:.0f} degrees, step {} of {}\n",
-               kRelaxedGuards[hull.relaxed_guards - 1].normal_deviation / kDegree, hull.relaxed_guards,
+               kRelaxedGuards[hull.relaxed_guards - 1].max_normal_deviation / kDegree, hull.relaxed_guards,
                kRelaxedGuards.size());
   if (!hull.reached)
     fmt::print("  no legal collapse is left above the {} faces asked for: {}; of the {} edges left, {}\n",
@@ -101,9 +101,9 @@ nlohmann::json options_report(const BuildOptions& options) {
           {"seal_holes", options.enclosing.seal_holes},
           {"tight", options.enclosing.tight},
           {"strategy", name_of(strategy_names(), hull.strategy)},
-          {"max_valence", hull.max_valence},
-          {"min_compactness_ratio", hull.min_compactness_ratio},
-          {"sufficient_compactness", hull.sufficient_compactness},
+          {"max_valence", hull.guards.max_valence},
+          {"min_compactness_ratio", hull.guards.min_compactness_ratio},
+          {"sufficient_compactness", hull.guards.sufficient_compactness},
           {"max_normal_deviation_degrees", options.normal_deviation_degrees},
           {"allow_self_intersections", !options.enclosing.tight && !hull.refuses_self_intersections()},
           {"seed", hull.seed},

@@ -54,7 +54,8 @@ bool ProgressLine::operator()(double fraction) {
 }
 
 TriangleMesh read_input(const std::filesystem::path& path, NonFinite non_finite) {
-  return read_mesh(path, {.non_finite = non_finite, .go_on = [] { return !interrupted(); }});
+  return read_mesh(path,
+                   {.non_finite = non_finite, .progress = [](std::string_view, double) { return !interrupted(); }});
 }
 
 Input read_closed_mesh(const std::filesystem::path& path) {
@@ -74,7 +75,7 @@ Input read_closed_mesh(const std::filesystem::path& path) {
 std::variant<TriangleMesh, ProgressiveHull> read_mesh_or_hull(const std::filesystem::path& path) {
   const std::string content = read_file(path);
   if (is_hull_content(content)) return load_hull(content, path);
-  return read_mesh(content, path, {.go_on = [] { return !interrupted(); }});
+  return read_mesh(content, path, {.progress = [](std::string_view, double) { return !interrupted(); }});
 }
 
 nlohmann::json facts(const MeshReport& report) {

@@ -17,6 +17,7 @@
 #include "prohull/mesh_quality.h"
 #include "prohull/mesh_report.h"
 #include "prohull/names.h"
+#include "prohull/progress.h"
 #include "prohull/repair.h"
 #include "prohull/text.h"
 
@@ -48,6 +49,9 @@ class ProgressLine {
   ~ProgressLine();
   /// False once the user has interrupted, as the library's progress callbacks want it.
   bool operator()(double fraction);
+  Progress as_progress() {
+    return [this](std::string_view, double fraction) { return (*this)(fraction); };
+  }
 
  private:
   std::string label_;

@@ -181,7 +181,7 @@ Outcome answer(const Options& options, const QueryIndex& index, const std::vecto
   Stopwatch asking;
   const auto batch = [&] {
     ProgressLine line("query");
-    const BatchOptions how{.threads = options.threads, .progress = [&](double fraction) { return line(fraction); }};
+    const BatchOptions how{.threads = options.threads, .progress = line.as_progress()};
     try {
       return ask(index, queries, options.mode, how);
     } catch (const Cancelled&) {

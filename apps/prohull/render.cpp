@@ -232,7 +232,7 @@ render::Image drawn(const std::vector<render::Panel>& panels, const Size& size, 
   ProgressLine line("render");
   render::DrawOptions draw_options{.samples = options.samples, .background = {}, .threads = options.threads};
   if (options.background != kTransparent) draw_options.background = color_of(options.background);
-  draw_options.progress = [&](double fraction) { return line(fraction); };
+  draw_options.progress = line.as_progress();
   try {
     return render::draw(size.width, size.height, panels, draw_options);
   } catch (const Cancelled&) {

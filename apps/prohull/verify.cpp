@@ -33,8 +33,7 @@ nlohmann::json facts(const std::vector<Offender>& worst) {
 Verification verify(const Options& options, const std::variant<TriangleMesh, ProgressiveHull>& hull,
                     TriangleMesh original) {
   ProgressLine line("verify");
-  const VerificationOptions how{.every_triangle = options.every_triangle,
-                                .progress = [&](double fraction) { return line(fraction); }};
+  const VerificationOptions how{.every_triangle = options.every_triangle, .progress = line.as_progress()};
   try {
     const auto* const levels = std::get_if<ProgressiveHull>(&hull);
     return levels ? verify_hull(*levels, std::move(original), how)

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 
+#include "prohull/progress.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
@@ -19,13 +19,13 @@ struct DistanceBounds {
 struct DistanceOptions {
   double relative_gap = 0.01;         ///< stops when upper <= (1 + relative_gap) lower; at least 0
   std::size_t max_cells = 1'000'000;  ///< or after looking at so many parts of faces: upper then is looser, and holds
-  std::function<bool(double fraction)> progress = {};  ///< called now and then with [0, 1]; false cancels
+  Progress progress = {};             ///< stage "measure"
 };
 
 /// From the surface of `from` to that of `to`, both surfaces with the insides of their faces. Faces are cut where the
 /// bound is greatest. A part of a face is no farther from a triangle than the farthest of its corners, for the distance
 /// to a convex set is convex.
-/// Throws InputError if a mesh is empty or not finite; Cancelled if `progress` says so.
+/// Throws InputError if a mesh is empty or not finite; Cancelled.
 ///
 ///     const double reach = distance_bounds(hull, original).upper;
 DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to, const DistanceOptions& options = {});

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +10,7 @@
 #include "prohull/distance.h"
 #include "prohull/hull_builder.h"
 #include "prohull/names.h"
+#include "prohull/progress.h"
 #include "prohull/repair.h"
 #include "prohull/triangle_mesh.h"
 #include "prohull/wrap.h"
@@ -36,8 +36,8 @@ struct EnclosingOptions {
   bool keep_cavities = false;  ///< components inside of others; inner hulls always do
   double seal_holes = 0;       ///< a wrap closes round openings up to this diameter; the input's unit
   Wrapper wrap = {};           ///< such as alpha_wrap; without one, what is not closed is refused
-  /// Called now and then with what is being done and [0, 1]; false cancels.
-  std::function<bool(std::string_view stage, double fraction)> progress = {};
+  /// Stages "repair", "wrap", "build", "tighten", "search", "measure", "verify", some of them several times.
+  Progress progress = {};
 };
 
 /// A hull, and how far it is to be trusted.

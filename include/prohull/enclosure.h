@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
+#include "prohull/progress.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
@@ -29,7 +29,7 @@ struct EnclosureReport {
 
 struct EnclosureOptions {
   std::size_t max_offenders = 5;
-  std::function<bool(double fraction)> progress = {};  ///< called now and then with [0, 1]; false cancels
+  Progress progress = {};  ///< stage "verify"
 };
 
 /// Decides whether `outer` encloses `inner`: whether every point, off both surfaces, that `inner` winds around at least
@@ -42,7 +42,7 @@ struct EnclosureOptions {
 /// face inwards are cavities (turned_outwards turns those that cannot be). Parts of a self-intersecting `inner` that it
 /// winds around zero or fewer times need no cover.
 ///
-/// Throws InputError if a mesh is empty, not closed or has a non-finite coordinate; Cancelled if `progress` says so.
+/// Throws InputError if a mesh is empty, not closed or has a non-finite coordinate; Cancelled.
 ///
 ///     const EnclosureReport report = verify_enclosure(original, hull);
 ///     if (!report.encloses && !report.worst.empty()) show(report.worst[0].face, report.worst[0].point);
@@ -66,7 +66,7 @@ bool is_closed(const TriangleMesh& mesh);
 ///
 /// In the report `faces_outside` and `worst` are about the triangles; cavities, inner_volume and void_ratio are 0.
 /// Throws InputError if there is no triangle or a coordinate is not finite (drop such triangles first, and say so), or
-/// if `outer` is empty or not closed; Cancelled if `progress` says so.
+/// if `outer` is empty or not closed; Cancelled.
 ///
 ///     const bool proven = is_closed(original) ? verify_enclosure(original, hull).encloses
 ///                                             : verify_cover(original, hull).encloses;

@@ -3,12 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <numbers>
 #include <string>
 #include <string_view>
 
 #include "prohull/names.h"
+#include "prohull/progress.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"
 
@@ -69,29 +69,32 @@ class RefusalCounts {
 /// that did not occur are left out.
 std::string describe_refusals(const RefusalCounts& counts);
 
-struct HullProgress {
-  std::size_t faces, original_faces, target_faces;
+/// Which collapses are refused for the shape of the faces that they would make (P&T 3.1.4).
+struct ShapeGuards {
+  unsigned max_valence = 12;                           ///< of a new vertex; bigger stars, bigger linear programs
+  double min_compactness_ratio = 0.8;                  ///< worst face of the star, after / before; in [0, 1]
+  double sufficient_compactness = 0.15;                ///< good enough whatever it was before; not for the paper's two
+                                                       ///< strategies; in [0, 1]
+  double max_normal_deviation = std::numbers::pi / 4;  ///< of a face that a collapse moves; radians, in [0, pi/2]
+
+  bool operator==(const ShapeGuards&) const = default;
 };
 
-/// Guards of the shape that HullOptions::relax_guards uses in turn where no legal collapse is left above the target.
-struct RelaxedGuards {
-  double normal_deviation;                           ///< at least; radians
-  double compactness_ratio, sufficient_compactness;  ///< at most
-  unsigned valence;                                  ///< at least
-};
-constexpr std::array<RelaxedGuards, 3> kRelaxedGuards{{{std::numbers::pi / 3, 0.8, 0.15, 12},
-                                                       {89 * std::numbers::pi / 180, 0.5, 0.05, 16},
-                                                       {89 * std::numbers::pi / 180, 0.1, 0.01, 32}}};
+/// Of each guard the weaker one.
+ShapeGuards weaker(const ShapeGuards& a, const ShapeGuards& b);
+
+/// The guards that HullOptions::relax_guards comes down to, one after the other, where no legal collapse is left above
+/// the target.
+constexpr std::array<ShapeGuards, 3> kRelaxedGuards{{{12, 0.8, 0.15, std::numbers::pi / 3},
+                                                     {16, 0.5, 0.05, 89 * std::numbers::pi / 180},
+                                                     {32, 0.1, 0.01, 89 * std::numbers::pi / 180}}};
 
 struct HullOptions {
   std::size_t target_faces = 2000;  ///< at least 4
   HullSide side = HullSide::Outer;
   Strategy strategy = Strategy::Lazy;
-  unsigned max_valence = 12;                           ///< of a new vertex; bigger stars, bigger linear programs
-  double min_compactness_ratio = 0.8;                  ///< worst face of the star, after / before; in [0, 1]
-  double sufficient_compactness = 0.15;                ///< good enough whatever it was before; Strategy::Lazy only
-  double max_normal_deviation = std::numbers::pi / 4;  ///< of a face that a collapse moves; radians, in [0, pi/2]
-  bool relax_guards = false;                           ///< see kRelaxedGuards; never what makes the hull enclose
+  ShapeGuards guards = {};
+  bool relax_guards = false;  ///< see kRelaxedGuards; never what makes the hull enclose
   SelfIntersections self_intersections = SelfIntersections::ByStrategy;  ///< see refuses_self_intersections
   bool float32_coordinates = false;  ///< new vertices have coordinates that a float32 file keeps
   QueueKind queue = QueueKind::Bucket;
@@ -99,10 +102,8 @@ struct HullOptions {
       0;  ///< others than 0 change the order of the collapses a little, and so the hull; Strategy::Lazy only
   unsigned best_of =
       1;  ///< builds with so many seeds from `seed` on; keeps what is nearest to the target, of that the least void
-  unsigned threads = 0;  ///< at most, and no more than cores; 0: one for each core; the hull is the same for any
-  std::function<bool(const HullProgress&)> progress =
-      {};  ///< called now and then, on the caller's thread; false stops with the hull made so far;
-           ///< with best_of it starts anew for each build
+  unsigned threads = 0;    ///< at most, and no more than cores; 0: one for each core; the hull is the same for any
+  Progress progress = {};  ///< stage "build"
 
   /// Inner hulls always do: one that intersects itself may stick out of the mesh.
   bool refuses_self_intersections() const {
@@ -112,7 +113,7 @@ struct HullOptions {
   }
 };
 
-enum class Stopped { TargetReached, NoLegalCollapse, Cancelled };
+enum class Stopped { TargetReached, NoLegalCollapse };
 
 struct HullResult {
   ProgressiveHull hull;
@@ -127,7 +128,7 @@ struct HullResult {
 /// target_faces or no collapse is legal (P&T 3.1). Every vertex is accepted by an exact predicate on its stored
 /// coordinates; the guarantees are those of ProgressiveHull.
 /// Throws InputError for options outside their range, or if `mesh` is not a closed 2-manifold oriented outwards
-/// (repair.h makes one where it can).
+/// (repair.h makes one where it can); Cancelled.
 ///
 ///   const TriangleMesh horse = closed_mesh(read_mesh("horse.ply")).mesh;
 ///   const HullResult result = build_hull(horse, {.target_faces = 500});

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "prohull/progress.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
@@ -41,9 +41,8 @@ enum class NonFinite {
 
 struct ReadOptions {
   NonFinite non_finite = NonFinite::Refuse;
-  double scale = 1;  ///< every coordinate is multiplied by it, and rounded to double; greater than 0
-  /// Asked some 20 times a second while another program reads the file; false ends that and throws Cancelled.
-  std::function<bool()> go_on = {};
+  double scale = 1;        ///< every coordinate is multiplied by it, and rounded to double; greater than 0
+  Progress progress = {};  ///< stage "read"
 };
 
 /// Reads a mesh: PLY (ascii, binary little and big endian; triangle strips), OBJ, OFF, STL (ascii, binary), glTF 2.0

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "prohull/names.h"
+#include "prohull/progress.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"
 
@@ -149,9 +150,8 @@ enum class HitMode { First, Any, All };
 Names<HitMode> hit_mode_names();
 
 struct BatchOptions {
-  unsigned threads = 0;  ///< at most, and no more than cores; 0: one for each core
-  std::function<bool(double fraction)> progress =
-      {};  ///< called now and then with [0, 1], by one thread at a time; false cancels
+  unsigned threads = 0;    ///< at most, and no more than cores; 0: one for each core
+  Progress progress = {};  ///< stage "query"
 };
 
 /// The hits of query i are hits[offsets[i]] to hits[offsets[i + 1] - 1].

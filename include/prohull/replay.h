@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 
+#include "prohull/progress.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"
 
@@ -21,9 +21,8 @@ struct ReplayReport {
 /// (HullSide:: Inner: on the inside). Then the winding number of every level is at least that of the next finer one,
 /// everywhere (docs/theory.md). The finest level must have the triangles of `original`, bit for bit, and be oriented
 /// outwards; where the original is inside out, or has components that are, they are turned. Shares nothing with the
-/// construction of hulls but the exact predicate: it keeps its own record of the faces. `progress` is called now and
-/// then with [0, 1]; if it returns false the proof stops, and does not hold.
-ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& original,
-                           const std::function<bool(double)>& progress = {});
+/// construction of hulls but the exact predicate: it keeps its own record of the faces. `progress`: stage
+/// "verify". Throws Cancelled.
+ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& original, const Progress& progress = {});
 
 }  // namespace prohull

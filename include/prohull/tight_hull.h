@@ -22,6 +22,7 @@ struct TightHull {
 /// Guaranteed: a closed 2-manifold that encloses `mesh` (HullSide::Inner: is enclosed by it) in the sense of winding
 /// numbers; every collapse and every move is decided by exact predicates on stored coordinates. Pairs of faces that
 /// intersect are never more than those of `mesh`, whatever options.self_intersections says. Throws as build_hull does.
+/// The stage of its progress is "tighten".
 ///
 /// With `wrapped`, `mesh` is a wrap of these triangles (wrap.h): it covers them without touching. Then vertices move
 /// towards the triangles, but for a millionth of their diagonal, and the hull covers and does not touch them; it need
@@ -42,9 +43,8 @@ constexpr int kMaxTightBuilds = 11;
 /// The coarsest tight hull found, of at least options.target_faces, that `is_within` accepts: such as those that are
 /// near enough to the mesh (see HullBounds). Found by bisection of the logarithm of the number of faces, from
 /// target_faces to the coarsest level of build_hull that is accepted, to 3 %, as if finer hulls always were; a coarser
-/// one may exist. That level is the answer where no tight hull is both coarser and accepted. `progress` sees one build
-/// after another, each with its target_faces; if it cancels, the answer is the best so far, at worst `mesh` itself.
-/// Throws as build_hull does.
+/// one may exist. That level is the answer where no tight hull is both coarser and accepted. `progress`: stage
+/// "search". Throws as build_hull does, and what is_within throws.
 ///
 ///   const HullBounds bounds{.max_distance = 0.5};  // mm, if the mesh has that unit
 ///   const auto is_near = [&](const TriangleMesh& hull) { return bounds.hold(hull, arm, signed_volume(arm)); };

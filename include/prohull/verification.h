@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "prohull/enclosure.h"
+#include "prohull/progress.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"
 
@@ -18,7 +18,7 @@ struct VerificationOptions {
   /// single triangle, even those of folds and of inside-out parts, which bound no part of the solid. Outer hulls only.
   bool every_triangle = false;
   std::size_t max_offenders = 5;
-  std::function<bool(double fraction)> progress = {};  ///< called now and then with [0, 1]; false cancels
+  Progress progress = {};  ///< stage "verify"
 };
 
 /// What verify_hull has found. Volumes and distances are in the input's unit.

@@ -56,10 +56,10 @@ EnclosingOptions options_of(const Keywords& given) {
   hull.side = given.choice("side", hull_side_names());
   hull.strategy = given.choice("strategy", strategy_names());
   hull.self_intersections = given.choice("self_intersections", self_intersections_names());
-  hull.max_valence = given.count("max_valence");
-  hull.min_compactness_ratio = given.number("min_compactness_ratio");
-  hull.sufficient_compactness = given.number("sufficient_compactness");
-  hull.max_normal_deviation = given.number("max_normal_deviation");
+  hull.guards.max_valence = given.count("max_valence");
+  hull.guards.min_compactness_ratio = given.number("min_compactness_ratio");
+  hull.guards.sufficient_compactness = given.number("sufficient_compactness");
+  hull.guards.max_normal_deviation = given.number("max_normal_deviation");
   hull.relax_guards = given.flag("relax_guards");
   hull.float32_coordinates = given.flag("float32");
   hull.seed = given.get<std::uint64_t>("seed", "a whole number, at least 0");
@@ -131,7 +131,7 @@ py::list build(const TriangleMesh& mesh, const std::vector<std::size_t>& targets
                const py::dict& keywords) {
   EnclosingOptions options = options_of(Keywords(keywords));
   return facts_of(watched(progress, [&](Watch& watch) {
-    options.progress = [&](std::string_view stage, double fraction) { return watch.go_on(stage, fraction); };
+    options.progress = watch.progress();
     return enclosing_hulls(mesh, targets, options);
   }));
 }

@@ -48,8 +48,8 @@ SharedMesh mesh_of(const Array<double>& vertices, const Array<std::int64_t>& fac
 
 TriangleMesh read(const std::filesystem::path& path, bool keep_non_finite) {
   return watched(py::none(), [&](Watch& watch) {
-    return read_mesh(path, {.non_finite = keep_non_finite ? NonFinite::Keep : NonFinite::Refuse,
-                            .go_on = [&] { return watch.go_on("read", 0); }});
+    return read_mesh(
+        path, {.non_finite = keep_non_finite ? NonFinite::Keep : NonFinite::Refuse, .progress = watch.progress()});
   });
 }
 

@@ -35,9 +35,7 @@ std::span<const Query> queries_of(const Array<double>& rows) {
   return {rows_of<Query>(rows), static_cast<std::size_t>(rows.shape(0))};
 }
 
-BatchOptions batch_options(Watch& watch, unsigned threads) {
-  return {threads, [&watch](double fraction) { return watch.go_on("query", fraction); }};
-}
+BatchOptions batch_options(Watch& watch, unsigned threads) { return {threads, watch.progress()}; }
 
 /// Hands the hits of `rows`, of shape (n, 6), to `take` in chunks.
 template <class Query>

@@ -43,8 +43,7 @@ py::dict facts_of(const Verification& found) {
 template <class Decide>
 py::dict verified(bool every_triangle, const py::object& progress, Decide decide) {
   return facts_of(watched(progress, [&](Watch& watch) {
-    return decide(VerificationOptions{.every_triangle = every_triangle,
-                                      .progress = [&](double fraction) { return watch.go_on("verify", fraction); }});
+    return decide(VerificationOptions{.every_triangle = every_triangle, .progress = watch.progress()});
   }));
 }
 
@@ -66,17 +65,14 @@ py::dict verified_levels(const ProgressiveHull& hull, const TriangleMesh& origin
 /// Why the levels prove nothing; empty if they do.
 std::string replayed(const ProgressiveHull& levels, const py::object& progress) {
   return watched(progress, [&](Watch& watch) {
-    const ReplayReport report =
-        verify_replay(levels, levels.original(), [&](double fraction) { return watch.go_on("verify", fraction); });
+    const ReplayReport report = verify_replay(levels, levels.original(), watch.progress());
     return report.holds ? std::string() : report.why_not;
   });
 }
 
 py::tuple distance(const TriangleMesh& from, const TriangleMesh& to, double relative_gap, const py::object& progress) {
   const DistanceBounds bounds = watched(progress, [&](Watch& watch) {
-    return distance_bounds(from, to, {.relative_gap = relative_gap, .progress = [&](double fraction) {
-                                        return watch.go_on("measure", fraction);
-                                      }});
+    return distance_bounds(from, to, {.relative_gap = relative_gap, .progress = watch.progress()});
   });
   return py::make_tuple(bounds.lower, bounds.upper, point_of(bounds.farthest));
 }

@@ -9,16 +9,20 @@
 #include <string_view>
 #include <utility>
 
+#include "prohull/progress.h"
+
 namespace prohull::python {
 
 /// What passes between work in C++ and the thread of Python that waits for it.
 class Watch {
  public:
-  /// Called by the work, on any thread: false if it shall stop.
-  bool go_on(std::string_view stage, double fraction) {
-    const std::scoped_lock lock(mutex_);
-    stage_ = stage, fraction_ = fraction;
-    return !stopped_;
+  /// For the work.
+  Progress progress() {
+    return [this](std::string_view stage, double fraction) {
+      const std::scoped_lock lock(mutex_);
+      stage_ = stage, fraction_ = fraction;
+      return !stopped_;
+    };
   }
   void stop() {
     const std::scoped_lock lock(mutex_);

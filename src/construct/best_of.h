@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
+#include <numeric>
 #include <optional>
-#include <thread>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
 #include "parallel/arena.h"
+#include "parallel/progress_meter.h"
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_report.h"
 
@@ -18,9 +19,9 @@ namespace prohull {
 
 /// What `build(options)` gives for options.best_of seeds from options.seed on, each on one thread: the one that comes
 /// closest to the target, of those that of the least void, of those that of the least seed.
-/// `mesh_of(result)` is the hull.
+/// `mesh_of(result)` is the hull; `stage` is that of the progress.
 template <class Build, class MeshOf>
-auto best_of(const HullOptions& options, Build build, MeshOf mesh_of) {
+auto best_of(const HullOptions& options, const char* stage, Build build, MeshOf mesh_of) {
   using Result = decltype(build(options));
   struct Candidate {
     std::size_t faces;
@@ -28,21 +29,19 @@ auto best_of(const HullOptions& options, Build build, MeshOf mesh_of) {
     Result result;
   };
   std::vector<std::optional<Candidate>> candidates(options.best_of);
-  std::atomic<bool> cancelled = false;
-  const auto caller = std::this_thread::get_id();
-  const auto progress = [&](const HullProgress& p) {
-    if (!cancelled && options.progress && std::this_thread::get_id() == caller && !options.progress(p))
-      cancelled = true;
-    return !cancelled;
-  };
+  std::vector<std::atomic<double>> done(options.best_of);
+  ProgressMeter meter(options.progress, stage);
   arena_of(options.threads).execute([&] {
     oneapi::tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
-      if (cancelled && i > 0) return;
       HullOptions one = options;
       one.best_of = 1;
       one.threads = 1;
       one.seed = options.seed + i;
-      one.progress = progress;
+      one.progress = [&, i](std::string_view, double fraction) {
+        done[i] = fraction;
+        meter.at(std::accumulate(done.begin(), done.end(), 0.0) / static_cast<double>(done.size()));
+        return true;
+      };
       Result result = build(one);
       const TriangleMesh& mesh = mesh_of(result);
       const double volume = inspect(mesh).volume;
@@ -50,8 +49,7 @@ auto best_of(const HullOptions& options, Build build, MeshOf mesh_of) {
     });
   });
   const auto best = std::ranges::min_element(candidates, {}, [&](const std::optional<Candidate>& c) {
-    constexpr auto kNone = std::numeric_limits<std::size_t>::max();
-    return c ? std::tuple(std::max(c->faces, options.target_faces), c->void_volume) : std::tuple(kNone, 0.0);
+    return std::tuple(std::max(c->faces, options.target_faces), c->void_volume);
   });
   return std::move((*best)->result);
 }

@@ -67,11 +67,7 @@ class VertexMover {
   // Does use(corner after v, corner before v) for each face around v.
   template <class Use>
   void around(VertexId v, Use&& use) const {
-    HalfEdgeId h = mesh_.out(v);
-    do {
-      use(mesh_.tip(h), mesh_.tail(mesh_.previous(h)));
-      h = mesh_.rotated(h);
-    } while (h != mesh_.out(v));
+    for (const HalfEdgeId h : mesh_.around(v)) use(mesh_.tip(h), mesh_.tail(mesh_.previous(h)));
   }
 
   bool is_outside(VertexId v, const Vec3& p) const {
@@ -109,15 +105,9 @@ class VertexMover {
     });
     const double size = norm(objective);
     if (size == 0 || !std::isfinite(size)) return std::nullopt;
-    const LinearProgramResult best = solve_linear_program(objective / size, constraints_);
-    Vec3 step = best.x;
-    if (best.status == LinearProgramStatus::Infeasible) return std::nullopt;
-    if (best.status == LinearProgramStatus::Ambiguous) {
-      const auto nearest = nearest_feasible_point({}, constraints_);
-      if (!nearest) return std::nullopt;
-      step = *nearest;
-    }
-    const Vec3 p = nearest_float32(origin + step * clearance);
+    const auto step = optimum_or_nearest(objective / size, constraints_);
+    if (!step) return std::nullopt;
+    const Vec3 p = nearest_float32(origin + *step * clearance);
     return is_finite(p) && norm(p - level_.positions[v]) <= reach(v) && is_outside(v, p) ? std::optional(p)
                                                                                          : std::nullopt;
   }
@@ -173,20 +163,17 @@ class VertexMover {
       Vec3 apex;
     };
     std::optional<Choice> best;
-    HalfEdgeId h = mesh_.out(v);
-    do {
+    const auto rank = [](const Choice& c) { return std::pair(c.misshapen, c.added_volume); };
+    for (const HalfEdgeId h : mesh_.around(v)) {
       gather_star(mesh_, mesh_.edge(h), star_);
-      if (satisfies_link_condition(star_)) {
-        measure_star(mesh_, star_);
-        if (const auto placement = place_outside(star_, placement_margin(star_, 4 * spacing(v)))) {
-          const Choice choice{refused_shape(star_, placement->local, {}).has_value(), placement->added_volume,
-                              star_.edge, nearest_float32(star_.to_input(placement->local))};
-          const auto rank = [](const Choice& c) { return std::pair(c.misshapen, c.added_volume); };
-          if (prohull::is_outside(mesh_, star_, choice.apex) && (!best || rank(choice) < rank(*best))) best = choice;
-        }
-      }
-      h = mesh_.rotated(h);
-    } while (h != mesh_.out(v));
+      if (!satisfies_link_condition(star_)) continue;
+      measure_star(mesh_, star_);
+      const auto placement = place_outside(star_, placement_margin(star_, 4 * spacing(v)));
+      if (!placement) continue;
+      const Choice choice{refused_shape(star_, placement->local, {}).has_value(), placement->added_volume, star_.edge,
+                          nearest_float32(star_.to_input(placement->local))};
+      if (prohull::is_outside(mesh_, star_, choice.apex) && (!best || rank(choice) < rank(*best))) best = choice;
+    }
     if (best) mesh_.collapse(best->edge, best->apex);
     return best.has_value();
   }

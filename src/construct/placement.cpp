@@ -15,11 +15,8 @@ double cubed(double x) { return x * x * x; }
 // A volume may be beyond all numbers, or nothing at all if a part of it is.
 double finite(double volume) { return std::isfinite(volume) ? volume : std::numeric_limits<double>::max(); }
 
-bool is_usable(const Vec3& p) {
-  // The star has size 1 around the origin: nothing beyond is a shape that the guards would let pass.
-  constexpr double kReach = 8;
-  return std::abs(p.x) <= kReach && std::abs(p.y) <= kReach && std::abs(p.z) <= kReach;
-}
+// The star has size 1 around the origin: nothing beyond is a shape that the guards would let pass.
+constexpr double kReach = 8;
 
 // Calls use(a, b, c) for the corners of each face of the star until one call returns false.
 template <class Use>
@@ -51,14 +48,9 @@ std::optional<Placement> place_outside(const Star& star, double margin) {
     constraints.push_back({star.planes[i].normal, star.planes[i].offset + margin});
     objective += star.planes[i].normal * star.double_areas[i];
   }
-  LinearProgramResult best = solve_linear_program(objective, constraints);
-  if (best.status == LinearProgramStatus::Infeasible) return std::nullopt;
-  if (best.status == LinearProgramStatus::Ambiguous || !is_usable(best.x)) {
-    const auto nearest = nearest_feasible_point({}, constraints);
-    if (!nearest || !is_usable(*nearest)) return std::nullopt;
-    best.x = *nearest;
-  }
-  return Placement{best.x, std::max(0.0, added_volume(star, best.x))};
+  const auto best = optimum_or_nearest(objective, constraints, kReach);
+  if (!best) return std::nullopt;
+  return Placement{*best, std::max(0.0, added_volume(star, *best))};
 }
 
 bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p) {

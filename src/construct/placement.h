@@ -30,15 +30,25 @@ inline double storage_rounding(const Box& bounds, bool float32_coordinates) {
 double added_volume(const Star& star, const Vec3& p);
 
 /// What place_outside needs where storing the vertex moves its coordinates by up to `rounding` (input unit).
-inline double placement_margin(const Star& star, double rounding) { return 1e-10 + 2 * rounding / star.scale; }
+inline double placement_margin(const Star& star, double rounding) {
+  constexpr double kOfTheProgram = 1e-10;  // the rounding errors of the linear program, local
+  return kOfTheProgram + 2 * rounding / star.scale;
+}
 
-/// Exact. Where an end of the edge does, as in flat parts and along straight creases, a collapse to it adds nothing.
+/// Exact.
 bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p);
 
-/// Whether the collapse adds so little that an end of the edge may lie on all planes; saves exact tests where none can.
-inline bool may_be_flat(const Placement& placement, const Star& star) {
-  constexpr double kFlat = 1e-7;  // of the star's cube
-  return placement.added_volume <= kFlat * star.scale * star.scale * star.scale;
+/// Where an end of the edge lies on all planes of the star, as in flat parts and along straight creases, a collapse to
+/// it adds nothing. Whether such an end is accepted by accepts(position, local position), asked of one after the other.
+template <class Accepts>
+bool any_flat_end(const HalfEdgeMesh& mesh, const Star& star, const Placement& placement, Accepts&& accepts) {
+  constexpr double kFlat = 1e-7;  // of the star's cube; saves exact tests where no end can lie on all planes
+  if (placement.added_volume > kFlat * star.scale * star.scale * star.scale) return false;
+  const auto is_flat_and_accepted = [&](const Vec3& end, const Vec3& local) {
+    return lies_on_all_planes(mesh, star, end) && accepts(end, local);
+  };
+  return is_flat_and_accepted(mesh.position(star.o), star.local_o) ||
+         is_flat_and_accepted(mesh.position(star.d), star.local_d);
 }
 
 /// P&T 3.1.3, second strategy: the unsigned volume between the star and the centre of its link, in the input's unit.

@@ -22,7 +22,7 @@ double least_compactness_before(const Star& star) {
 }  // namespace
 
 std::optional<Refusal> refused_shape(const Star& star, const Vec3& apex, const HullOptions& options) {
-  const double least_cosine = std::cos(options.max_normal_deviation);
+  const double least_cosine = std::cos(options.guards.max_normal_deviation);
   double least_compactness = 1;
   for (std::size_t i = 0; i < star.link.size(); ++i) {
     const Vec3 &a = star.local[i], &b = star.local[star.after(i)];
@@ -32,8 +32,8 @@ std::optional<Refusal> refused_shape(const Star& star, const Vec3& apex, const H
       return Refusal::NormalDeviation;
     least_compactness = std::min(least_compactness, compactness(length, squared_edges(apex, a, b)));
   }
-  double required = options.min_compactness_ratio * least_compactness_before(star);
-  if (options.strategy == Strategy::Lazy) required = std::min(required, options.sufficient_compactness);
+  double required = options.guards.min_compactness_ratio * least_compactness_before(star);
+  if (options.strategy == Strategy::Lazy) required = std::min(required, options.guards.sufficient_compactness);
   if (!(least_compactness > required)) return Refusal::Compactness;
   return std::nullopt;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "geometry/float32.h"
+#include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
@@ -28,11 +29,6 @@ constexpr std::array<std::pair<std::string_view, Repair>, 3> kRepairNames{
     {{"auto", Repair::Auto}, {"none", Repair::None}, {"wrap", Repair::Wrap}}};
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-double fraction_done(const HullProgress& p) {
-  const double all = static_cast<double>(p.original_faces - std::min(p.target_faces, p.original_faces - 1));
-  return static_cast<double>(p.original_faces - p.faces) / all;
-}
 
 /// The corners of a face, those of the longest edge first.
 std::array<VertexId, 3> longest_edge_first(const TriangleMesh& mesh, FaceId f) {
@@ -57,7 +53,7 @@ class Ladder {
   Ladder(TriangleMesh triangles, std::span<const std::size_t> target_faces, const EnclosingOptions& options)
       : options_(options), target_faces_(target_faces), fewest_faces_(std::ranges::min(target_faces)) {
     Timer timer(made_.repair_seconds);
-    go_on("repair", 0);
+    ProgressMeter(options_.progress, "repair").at(0);
     made_.input = prepared_for_hulls(std::move(triangles), options);
     diagonal_ = bounding_box(made_.input.original).diagonal();
   }
@@ -81,13 +77,6 @@ class Ladder {
     double start_ = now();
   };
 
-  bool progress(std::string_view stage, double fraction) const {
-    return !options_.progress || options_.progress(stage, fraction);
-  }
-  void go_on(std::string_view stage, double fraction) const {
-    if (!progress(stage, fraction)) throw Cancelled();
-  }
-
   bool is_outer() const { return options_.hull.side == HullSide::Outer; }
   bool may_wrap() const { return is_outer() && options_.repair != Repair::None && options_.wrap; }
 
@@ -110,7 +99,7 @@ class Ladder {
   bool is_stored_within(const TriangleMesh& hull, std::size_t solid);
   bool is_as_asked(const EnclosingHull& hull) const;
   bool is_loose(const EnclosingHull& hull) const;
-  HullOptions hull_options(std::size_t target_faces, std::string_view stage) const;
+  HullOptions hull_options(std::size_t target_faces) const;
 
   const EnclosingOptions& options_;
   const std::span<const std::size_t> target_faces_;
@@ -153,10 +142,9 @@ TriangleMesh Ladder::to_be_wrapped(double offset) const {
 
 void Ladder::add_wrap(double alpha) {
   Timer timer(made_.repair_seconds);
-  go_on("wrap", 0);
   const bool is_first = made_.solids.empty() || made_.solids.back().alpha == 0;
   const double offset = kWrapOffset * diagonal_;
-  TriangleMesh wrap = options_.wrap(to_be_wrapped(offset), alpha, offset, [this] { return progress("wrap", 0); });
+  TriangleMesh wrap = options_.wrap(to_be_wrapped(offset), alpha, offset, options_.progress);
   if (options_.hull.float32_coordinates)  // the offset is far greater than what that moves them
     for (Vec3& p : wrap.positions) p = nearest_float32(p);
   try {
@@ -205,10 +193,10 @@ bool Ladder::is_as_asked(const EnclosingHull& hull) const {
   return hull.certified && hull.reached && hull.bounded && clean;
 }
 
-HullOptions Ladder::hull_options(std::size_t target_faces, std::string_view stage) const {
+HullOptions Ladder::hull_options(std::size_t target_faces) const {
   HullOptions options = options_.hull;
   options.target_faces = target_faces;
-  options.progress = [this, stage](const HullProgress& p) { return progress(stage, fraction_done(p)); };
+  options.progress = options_.progress;
   return options;
 }
 
@@ -225,7 +213,7 @@ std::optional<Float32Hull> Ladder::stored(const TriangleMesh& hull, std::size_t 
 
 bool Ladder::is_within(const TriangleMesh& hull, std::size_t solid) const {
   if (!options_.bounds.any()) return true;
-  const DistanceOptions distance{.progress = [this](double) { return progress("measure", 0); }};
+  const DistanceOptions distance{.progress = options_.progress};
   return options_.bounds.hold(hull, made_.solids[solid].alpha > 0 ? made_.input.original : made_.input.closed->mesh,
                               made_.solids.front().volume, distance);
 }
@@ -254,10 +242,7 @@ EnclosingHull Ladder::build(std::size_t solid, std::size_t target_faces) {
 EnclosingHull Ladder::build_levels(std::size_t solid, std::size_t target_faces) {
   levels_.resize(made_.solids.size());
   std::optional<HullResult>& result = levels_[solid];
-  if (!result) {
-    result = build_hull(made_.solids[solid].mesh, hull_options(fewest_faces_, "build"));
-    if (result->stopped == Stopped::Cancelled) throw Cancelled();
-  }
+  if (!result) result = build_hull(made_.solids[solid].mesh, hull_options(fewest_faces_));
   EnclosingHull hull;
   std::size_t faces = target_faces;
   if (options_.bounds.any())
@@ -277,7 +262,7 @@ EnclosingHull Ladder::build_levels(std::size_t solid, std::size_t target_faces) 
 // A level of a wrap moves towards the triangles, if it need not be one of a hierarchy.
 TriangleMesh Ladder::placed(const TriangleMesh& level, std::size_t solid) const {
   if (made_.solids[solid].alpha == 0 || options_.levels) return level;
-  return moved_towards(level, made_.input.original, hull_options(level.face_count(), "tighten"));
+  return moved_towards(level, made_.input.original, hull_options(level.face_count()));
 }
 
 EnclosingHull Ladder::build_tight(std::size_t solid, std::size_t target_faces) {
@@ -286,9 +271,8 @@ EnclosingHull Ladder::build_tight(std::size_t solid, std::size_t target_faces) {
   TightHull tight = options_.bounds.any()
                         ? build_tight_hull_within(
                               mesh, [&](const TriangleMesh& hull) { return is_stored_within(hull, solid); },
-                              hull_options(target_faces, "search"), wrapped)
-                        : build_tight_hull(mesh, hull_options(target_faces, "build"), wrapped);
-  if (tight.stopped == Stopped::Cancelled) throw Cancelled();
+                              hull_options(target_faces), wrapped)
+                        : build_tight_hull(mesh, hull_options(target_faces), wrapped);
   EnclosingHull hull;
   hull.mesh = std::move(tight.mesh);
   hull.reached = tight.stopped == Stopped::TargetReached;
@@ -299,8 +283,7 @@ EnclosingHull Ladder::build_tight(std::size_t solid, std::size_t target_faces) {
 
 bool Ladder::covers(const TriangleMesh& hull, const TriangleMesh& triangles) const {
   if (triangles.face_count() == 0) return true;
-  EnclosureOptions options{.max_offenders = 0};
-  options.progress = [this](double fraction) { return progress("verify", fraction); };
+  const EnclosureOptions options{.max_offenders = 0, .progress = options_.progress};
   return verify_cover(triangles, hull, options).encloses;
 }
 
@@ -309,18 +292,16 @@ bool Ladder::covers(const TriangleMesh& hull, const TriangleMesh& triangles) con
 // intersects itself, which may be inside out somewhere, have to be covered one by one; so has all that was wrapped.
 void Ladder::certify(EnclosingHull& hull) const {
   const Solid& solid = made_.solids[hull.solid];
-  const auto on_the_way = [this](double fraction) { return progress("verify", fraction); };
   if (solid.alpha > 0) {
     hull.certified = covers(hull.mesh, made_.input.original) &&
-                     (!hull.levels || verify_replay(*hull.levels, solid.mesh, on_the_way).holds);
+                     (!hull.levels || verify_replay(*hull.levels, solid.mesh, options_.progress).holds);
     if (hull.certified) hull.proof = "coverage";
     return;
   }
   hull.proof = "replay";
-  hull.certified = !hull.levels || verify_replay(*hull.levels, solid.mesh, on_the_way).holds;
-  go_on("verify", 1);
+  hull.certified = !hull.levels || verify_replay(*hull.levels, solid.mesh, options_.progress).holds;
   if (hull.certified && (!hull.levels || hull.mesh != hull.levels->base())) {
-    const EnclosureOptions options{.max_offenders = 0, .progress = on_the_way};
+    const EnclosureOptions options{.max_offenders = 0, .progress = options_.progress};
     hull.proof = "enclosure";
     hull.certified = is_outer() ? verify_enclosure(solid.mesh, hull.mesh, options).encloses
                                 : verify_enclosure(hull.mesh, solid.mesh, options).encloses;

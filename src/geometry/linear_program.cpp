@@ -256,4 +256,15 @@ std::optional<Vec3> nearest_feasible_point(const Vec3& target, const std::vector
   return std::nullopt;
 }
 
+std::optional<Vec3> optimum_or_nearest(const Vec3& objective, const std::vector<HalfSpace>& constraints, double reach) {
+  const auto is_within = [reach](const Vec3& p) {
+    return std::abs(p.x) <= reach && std::abs(p.y) <= reach && std::abs(p.z) <= reach;
+  };
+  const LinearProgramResult best = solve_linear_program(objective, constraints);
+  if (best.status == LinearProgramStatus::Infeasible) return std::nullopt;
+  if (best.status == LinearProgramStatus::Optimal && is_within(best.x)) return best.x;
+  const auto nearest = nearest_feasible_point({}, constraints);
+  return nearest && is_within(*nearest) ? nearest : std::nullopt;
+}
+
 }  // namespace prohull

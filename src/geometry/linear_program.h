@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -35,5 +36,10 @@ LinearProgramResult solve_linear_program(const Vec3& objective, const std::vecto
 /// The point nearest to `target` that satisfies all constraints (up to rounding), by the dual active-set method of
 /// Goldfarb and Idnani (1983) for the identity as quadratic form; nothing if there is none, or it stalled.
 std::optional<Vec3> nearest_feasible_point(const Vec3& target, const std::vector<HalfSpace>& constraints);
+
+/// The optimum if the program has one for certain, none of its coordinates beyond `reach`; otherwise, as where coplanar
+/// constraints leave it unbounded, the feasible point nearest to the origin, under the same condition.
+std::optional<Vec3> optimum_or_nearest(const Vec3& objective, const std::vector<HalfSpace>& constraints,
+                                       double reach = std::numeric_limits<double>::infinity());
 
 }  // namespace prohull

@@ -91,11 +91,8 @@ std::optional<std::string> first_defect_of_base(const ProgressiveHull& hull) {
 }
 
 bool in_link(const HalfEdgeMesh& mesh, VertexId s, VertexId v) {
-  HalfEdgeId h = mesh.out(s);
-  do {
+  for (const HalfEdgeId h : mesh.around(s))
     if (mesh.tip(h) == v) return true;
-    h = mesh.rotated(h);
-  } while (h != mesh.out(s));
   return false;
 }
 

@@ -91,8 +91,8 @@ struct Chunks {
 
 class GltfReader {
  public:
-  GltfReader(std::string_view content, const std::string& file, NonFinite non_finite)
-      : file_(file), content_size_(content.size()), builder_(file, 0, non_finite) {
+  GltfReader(std::string_view content, const std::string& file, const ReadOptions& options)
+      : file_(file), content_size_(content.size()), builder_(file, 0, content, options) {
     const Chunks chunks = content.starts_with(kMagic) ? chunks_of(content) : Chunks{content, {}};
     binary_ = chunks.binary;
     parse(chunks.json);
@@ -527,8 +527,8 @@ class GltfReader {
 
 bool is_glb(std::string_view content) { return content.starts_with(kMagic); }
 
-TriangleMesh read_gltf(std::string_view content, const std::string& file, NonFinite non_finite) {
-  return GltfReader(content, file, non_finite).read();
+TriangleMesh read_gltf(std::string_view content, const std::string& file, const ReadOptions& options) {
+  return GltfReader(content, file, options).read();
 }
 
 }  // namespace prohull

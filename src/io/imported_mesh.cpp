@@ -129,7 +129,7 @@ void check(const ProgramResult& result, const std::string& file, const std::file
 class ImportReader {
  public:
   ImportReader(std::string_view output, const std::string& file)
-      : file_(file), cursor_(output, 0, std::endian::native), builder_(file, 0, NonFinite::Refuse) {}
+      : file_(file), cursor_(output, 0, std::endian::native), builder_(file, 0, output, {}) {}
 
   TriangleMesh read() {
     expect(kImportMagic);
@@ -209,14 +209,15 @@ ImportLimits import_limits(std::size_t file_size) {
 }
 
 TriangleMesh imported_mesh(std::string_view content, const std::string& file, const ImportLimits& limits,
-                           const std::function<bool()>& go_on) {
+                           const Progress& progress) {
   const auto program = importer();
   if (!program) refuse_without_importer(file);
   const std::vector<std::string> arguments = {
       without_gz(file).string(), fmt::format("{}", (limits.time.count() + 1) / 2), fmt::format("{}", limits.memory)};
   const std::optional<std::string> utf8 = utf8_of_utf16(content);  // assimp 5.2.5 reads XML in UTF-8 only
-  const ProgramResult result =
-      run_program(*program, arguments, utf8 ? *utf8 : content, {limits.time, limits.output}, go_on);
+  ProgressMeter meter(progress, "read");
+  const ProgramResult result = run_program(*program, arguments, utf8 ? *utf8 : content, {limits.time, limits.output},
+                                           [&](double fraction) { meter.at(fraction); });
   check(result, file, *program, limits);
   return ImportReader(result.output, file).read();
 }

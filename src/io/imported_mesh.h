@@ -3,11 +3,11 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "prohull/progress.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
@@ -27,6 +27,6 @@ ImportLimits import_limits(std::size_t file_size);
 
 /// Reads the file with prohull-import. Throws InputError, whatever becomes of that program; Cancelled.
 TriangleMesh imported_mesh(std::string_view content, const std::string& file, const ImportLimits& limits,
-                           const std::function<bool()>& go_on);
+                           const Progress& progress);
 
 }  // namespace prohull

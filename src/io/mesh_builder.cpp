@@ -16,7 +16,25 @@ bool is_restart(std::int64_t corner) { return corner == -1 || corner == kNoIndex
 
 }  // namespace
 
+MeshBuilder::MeshBuilder(std::string file, std::size_t first_number, std::string_view content,
+                         const ReadOptions& options)
+    : file_(std::move(file)),
+      first_number_(first_number),
+      non_finite_(options.non_finite),
+      content_(content),
+      meter_(options.progress, "read") {}
+
+void MeshBuilder::tell(Place place) {
+  constexpr std::size_t kInterval = 4096;
+  if (++items_ % kInterval != 0) return;
+  if (place.unit == Place::Unit::Byte) return meter_.at(place.number, content_.size());
+  if (place.unit != Place::Unit::Line) return meter_.at(0);
+  if (lines_ == 0) lines_ = static_cast<std::size_t>(std::ranges::count(content_, '\n'));
+  meter_.at(place.number, lines_);
+}
+
 void MeshBuilder::add_vertex(const Vec3& position, Place place) {
+  tell(place);
   if (!is_finite(position))
     refuse_non_finite(position, fmt::format("vertex {}", first_number_ + vertex_count()), place);
   if (vertex_count() == static_cast<std::size_t>(kNoIndex)) fail(file_, place, "more than 2^32 - 1 vertices");
@@ -52,6 +70,7 @@ void MeshBuilder::add_triangle(VertexId a, VertexId b, VertexId c, Place place) 
 
 void MeshBuilder::add_polygon(std::span<const std::int64_t> corners, Place place) {
   if (corners.empty()) return;
+  tell(place);
   if (corners.size() < 3) {  // a point or an edge: no surface, but a hull covers it
     const VertexId first = checked(corners.front(), place), last = checked(corners.back(), place);
     add_triangle(first, last, last, place);

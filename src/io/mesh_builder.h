@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/place.h"
+#include "parallel/progress_meter.h"
 #include "prohull/mesh_io.h"
 #include "prohull/triangle_mesh.h"
 
@@ -15,9 +17,9 @@ namespace prohull {
 /// unless others are kept, and that indices exist, and triangulates. Faces may come before their vertices.
 class MeshBuilder {
  public:
-  /// `first_number` is the number of the first vertex in the format's own counting, for messages.
-  MeshBuilder(std::string file, std::size_t first_number, NonFinite non_finite)
-      : file_(std::move(file)), first_number_(first_number), non_finite_(non_finite) {}
+  /// `first_number` is the number of the first vertex in the format's own counting, for messages. `content` and
+  /// `options` must outlive the builder.
+  MeshBuilder(std::string file, std::size_t first_number, std::string_view content, const ReadOptions& options);
 
   void reserve_vertices(std::size_t count) { mesh_.positions.reserve(count); }
   void reserve_triangles(std::size_t count) { mesh_.triangles.reserve(count); }
@@ -41,6 +43,7 @@ class MeshBuilder {
     Place place;
   };
 
+  void tell(Place place);
   VertexId checked(std::int64_t corner, Place place);
   void add_triangle(VertexId a, VertexId b, VertexId c, Place place);
   [[noreturn]] void fail_on_index(std::int64_t corner, Place place) const;
@@ -49,6 +52,9 @@ class MeshBuilder {
   std::string file_;
   std::size_t first_number_;
   NonFinite non_finite_;
+  std::string_view content_;
+  ProgressMeter meter_;
+  std::size_t lines_ = 0, items_ = 0;
   TriangleMesh mesh_;
   std::vector<Polygon> polygons_;  ///< of more than three corners; each stands in the mesh as a fan until `finish`
   std::int64_t highest_corner_ = -1;

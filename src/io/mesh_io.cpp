@@ -26,7 +26,7 @@ namespace {
 /// What is read here; those with a writer are written too.
 struct FormatTraits {
   std::string_view extension, name;
-  TriangleMesh (*read)(std::string_view content, const std::string& file, NonFinite non_finite);
+  TriangleMesh (*read)(std::string_view content, const std::string& file, const ReadOptions& options);
   std::optional<MeshFormat> format;
   std::string (*content)(const TriangleMesh& mesh);
 };
@@ -87,8 +87,8 @@ const FormatTraits& format_of(std::string_view content, const std::filesystem::p
 }
 
 TriangleMesh read_plain(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {
-  if (is_imported(name)) return imported_mesh(content, name.string(), import_limits(content.size()), options.go_on);
-  return format_of(content, name).read(content, name.string(), options.non_finite);
+  if (is_imported(name)) return imported_mesh(content, name.string(), import_limits(content.size()), options.progress);
+  return format_of(content, name).read(content, name.string(), options);
 }
 
 TriangleMesh read_unscaled(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {

@@ -11,12 +11,12 @@ namespace prohull {
 
 // One reader for each format. `file` stands in messages. See mesh_io.h for what they promise.
 
-TriangleMesh read_ply(std::string_view content, const std::string& file, NonFinite non_finite);
-TriangleMesh read_obj(std::string_view content, const std::string& file, NonFinite non_finite);
-TriangleMesh read_off(std::string_view content, const std::string& file, NonFinite non_finite);
-TriangleMesh read_stl(std::string_view content, const std::string& file, NonFinite non_finite);
+TriangleMesh read_ply(std::string_view content, const std::string& file, const ReadOptions& options);
+TriangleMesh read_obj(std::string_view content, const std::string& file, const ReadOptions& options);
+TriangleMesh read_off(std::string_view content, const std::string& file, const ReadOptions& options);
+TriangleMesh read_stl(std::string_view content, const std::string& file, const ReadOptions& options);
 /// glTF or GLB; `file` is also where the files are that it names.
-TriangleMesh read_gltf(std::string_view content, const std::string& file, NonFinite non_finite);
+TriangleMesh read_gltf(std::string_view content, const std::string& file, const ReadOptions& options);
 
 /// Whether files of that name, with or without .gz, are meshes that are read.
 bool is_mesh_name(const std::filesystem::path& path);

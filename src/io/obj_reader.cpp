@@ -21,8 +21,8 @@ constexpr auto kIgnoredKeywords = std::to_array<std::string_view>(
 
 class ObjReader {
  public:
-  ObjReader(std::string_view content, const std::string& file, NonFinite non_finite)
-      : scanner_(content, file, {.comments = true, .continued_lines = true}), builder_(file, 1, non_finite) {}
+  ObjReader(std::string_view content, const std::string& file, const ReadOptions& options)
+      : scanner_(content, file, {.comments = true, .continued_lines = true}), builder_(file, 1, content, options) {}
 
   TriangleMesh read() {
     while (scanner_.next_line()) {
@@ -78,8 +78,8 @@ bool is_obj_keyword(std::string_view word) {
          std::find(kIgnoredKeywords.begin(), kIgnoredKeywords.end(), word) != kIgnoredKeywords.end();
 }
 
-TriangleMesh read_obj(std::string_view content, const std::string& file, NonFinite non_finite) {
-  return ObjReader(content, file, non_finite).read();
+TriangleMesh read_obj(std::string_view content, const std::string& file, const ReadOptions& options) {
+  return ObjReader(content, file, options).read();
 }
 
 }  // namespace prohull

@@ -12,8 +12,8 @@ namespace {
 
 class OffReader {
  public:
-  OffReader(std::string_view content, const std::string& file, NonFinite non_finite)
-      : size_(content.size()), scanner_(content, file, {.comments = true}), builder_(file, 0, non_finite) {}
+  OffReader(std::string_view content, const std::string& file, const ReadOptions& options)
+      : size_(content.size()), scanner_(content, file, {.comments = true}), builder_(file, 0, content, options) {}
 
   TriangleMesh read() {
     read_keyword();
@@ -79,8 +79,8 @@ bool is_off_keyword(std::string_view word) {
   return word == "OFF";
 }
 
-TriangleMesh read_off(std::string_view content, const std::string& file, NonFinite non_finite) {
-  return OffReader(content, file, non_finite).read();
+TriangleMesh read_off(std::string_view content, const std::string& file, const ReadOptions& options) {
+  return OffReader(content, file, options).read();
 }
 
 }  // namespace prohull

@@ -141,8 +141,9 @@ class BinaryBody {
 template <class Body>
 class PlyReader {
  public:
-  PlyReader(const PlyHeader& header, Body body, const std::string& file, NonFinite non_finite)
-      : header_(header), body_(std::move(body)), file_(file), builder_(file, 0, non_finite) {}
+  PlyReader(const PlyHeader& header, Body body, std::string_view content, const std::string& file,
+            const ReadOptions& options)
+      : header_(header), body_(std::move(body)), file_(file), builder_(file, 0, content, options) {}
 
   TriangleMesh read() {
     for (const PlyElement& element : header_.elements) {
@@ -225,10 +226,11 @@ class PlyReader {
 
 }  // namespace
 
-TriangleMesh read_ply(std::string_view content, const std::string& file, NonFinite non_finite) {
+TriangleMesh read_ply(std::string_view content, const std::string& file, const ReadOptions& options) {
   const PlyHeader header = read_ply_header(content, file);
-  if (header.encoding == PlyEncoding::Ascii) return PlyReader(header, AsciiBody(header, file), file, non_finite).read();
-  return PlyReader(header, BinaryBody(content, header, file), file, non_finite).read();
+  if (header.encoding == PlyEncoding::Ascii)
+    return PlyReader(header, AsciiBody(header, file), content, file, options).read();
+  return PlyReader(header, BinaryBody(content, header, file), content, file, options).read();
 }
 
 }  // namespace prohull

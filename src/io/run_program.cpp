@@ -139,7 +139,8 @@ bool is_ready(int descriptor) {
 }  // namespace
 
 ProgramResult run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                          std::string_view input, const ProgramLimits& limits, const std::function<bool()>& go_on) {
+                          std::string_view input, const ProgramLimits& limits,
+                          const std::function<void(double)>& wait) {
   using End = ProgramResult::End;
   constexpr std::size_t kChunk = std::size_t{1} << 16;
   const Descriptor memory(memfd_create("prohull", MFD_CLOEXEC), "memfd_create");
@@ -158,10 +159,11 @@ ProgramResult run_program(const std::filesystem::path& program, const std::vecto
   Child child(pid);
   write_end.close();
 
-  const auto deadline = Clock::now() + limits.time;
+  const auto start = Clock::now(), deadline = start + limits.time;
   const auto may_go_on = [&] {
-    if (go_on && !go_on()) throw Cancelled();
-    return Clock::now() < deadline;
+    const auto now = Clock::now();
+    if (wait) wait(std::chrono::duration<double>(now - start) / limits.time);
+    return now < deadline;
   };
   std::string output;
   while (true) {

@@ -32,10 +32,10 @@ struct ProgramLimits {
 
 /// Runs a program without a shell: `input` is its standard input, its standard output is returned, its errors go to
 /// /dev/null. It inherits nothing else: no other open file, no signal mask, no ignored signals. It is waited for in any
-/// case, so that no zombie is left, and killed before, if it exceeds a limit or if `go_on`, asked some 20 times a
-/// second, says false: throws Cancelled; so does a program that ends by Ctrl-C. Throws std::system_error if the
-/// system is out of descriptors or memory. May be called from any thread.
+/// case, so that no zombie is left, and killed before, if it exceeds a limit or if `wait`, called some 20 times a
+/// second with the part of the time that is over, throws. Throws Cancelled if the program ends by Ctrl-C. Throws
+/// std::system_error if the system is out of descriptors or memory. May be called from any thread.
 ProgramResult run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                          std::string_view input, const ProgramLimits& limits, const std::function<bool()>& go_on);
+                          std::string_view input, const ProgramLimits& limits, const std::function<void(double)>& wait);
 
 }  // namespace prohull

@@ -31,8 +31,8 @@ std::size_t claimed_triangles(std::string_view content) {
 /// Makes triangles of loose corners.
 class StlSoup {
  public:
-  StlSoup(const std::string& file, NonFinite non_finite)
-      : builder_(file, 1, non_finite), welder_(builder_.positions()) {}
+  StlSoup(std::string_view content, const std::string& file, const ReadOptions& options)
+      : builder_(file, 1, content, options), welder_(builder_.positions()) {}
 
   void reserve(std::size_t triangles) { builder_.reserve_triangles(triangles); }
 
@@ -60,10 +60,10 @@ class StlSoup {
   std::size_t count_ = 0;
 };
 
-TriangleMesh read_binary(std::string_view content, const std::string& file, NonFinite non_finite) {
+TriangleMesh read_binary(std::string_view content, const std::string& file, const ReadOptions& options) {
   ByteCursor cursor(content, kHeaderSize);
   const std::size_t count = claimed_triangles(content);
-  StlSoup soup(file, non_finite);
+  StlSoup soup(content, file, options);
   soup.reserve(std::min(count, content.size() / kTriangleSize));
   for (std::size_t i = 0; i < count; ++i) {
     const Place place = cursor.place();
@@ -82,8 +82,8 @@ TriangleMesh read_binary(std::string_view content, const std::string& file, NonF
 
 class AsciiStlReader {
  public:
-  AsciiStlReader(std::string_view content, const std::string& file, NonFinite non_finite)
-      : scanner_(content, file), soup_(file, non_finite) {}
+  AsciiStlReader(std::string_view content, const std::string& file, const ReadOptions& options)
+      : scanner_(content, file), soup_(content, file, options) {}
 
   TriangleMesh read() {
     scanner_.next_line();
@@ -150,12 +150,12 @@ bool is_ascii_stl(std::string_view content) {
          content.substr(0, kLookedAt).find('\0') == std::string_view::npos;
 }
 
-TriangleMesh read_stl(std::string_view content, const std::string& file, NonFinite non_finite) {
-  if (is_ascii_stl(content)) return AsciiStlReader(content, file, non_finite).read();
+TriangleMesh read_stl(std::string_view content, const std::string& file, const ReadOptions& options) {
+  if (is_ascii_stl(content)) return AsciiStlReader(content, file, options).read();
   if (content.size() < kHeaderSize)
     fail(file, {Place::Unit::Byte, content.size()},
          "the file ends within the header; a binary STL has 84 bytes of it, and an ascii STL starts with solid");
-  return read_binary(content, file, non_finite);
+  return read_binary(content, file, options);
 }
 
 }  // namespace prohull

@@ -154,12 +154,8 @@ void HalfEdgeMesh::split(VertexId s, const VertexSplit& record) {
 bool HalfEdgeMesh::can_flip(HalfEdgeId h) const {
   const VertexId l = tail(previous(h)), r = tail(previous(twin(h)));
   if (l == r || valence_[tail(h)] <= 3 || valence_[tip(h)] <= 3) return false;
-  const HalfEdgeId first = out(l);
-  HalfEdgeId a = first;
-  do {
+  for (const HalfEdgeId a : around(l))
     if (tip(a) == r) return false;
-    a = rotated(a);
-  } while (a != first);
   return true;
 }
 

@@ -50,6 +50,38 @@ class HalfEdgeMesh {
   /// The next half-edge that starts where h does, counter-clockwise seen from outside.
   HalfEdgeId rotated(HalfEdgeId h) const { return twin(previous(h)); }
 
+  /// The half-edges that start at v, counter-clockwise seen from outside, from out(v) on.
+  ///
+  ///     for (const HalfEdgeId h : mesh.around(v)) visit(mesh.tip(h));
+  class Around {
+   public:
+    struct End {};
+    class Iterator {
+     public:
+      Iterator(const HalfEdgeMesh& mesh, HalfEdgeId first) : mesh_(mesh), first_(first), at_(first) {}
+      HalfEdgeId operator*() const { return at_; }
+      Iterator& operator++() {
+        at_ = mesh_.rotated(at_);
+        is_round_ = at_ == first_;
+        return *this;
+      }
+      bool operator==(End) const { return is_round_; }
+
+     private:
+      const HalfEdgeMesh& mesh_;
+      HalfEdgeId first_, at_;
+      bool is_round_ = false;
+    };
+    Around(const HalfEdgeMesh& mesh, HalfEdgeId first) : mesh_(mesh), first_(first) {}
+    Iterator begin() const { return {mesh_, first_}; }
+    End end() const { return {}; }
+
+   private:
+    const HalfEdgeMesh& mesh_;
+    HalfEdgeId first_;
+  };
+  Around around(VertexId v) const { return {*this, out(v)}; }
+
   const Vec3& position(VertexId v) const { return positions_[v]; }
   std::uint32_t valence(VertexId v) const { return valence_[v]; }
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <mutex>
 
 #include "parallel/arena.h"
+#include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "query/engine.h"
@@ -194,25 +194,6 @@ bool is_finite(const Triangle& t) {
   return prohull::is_finite(t.a) && prohull::is_finite(t.b) && prohull::is_finite(t.c);
 }
 
-/// Calls `progress` from whichever thread ends a chunk, one at a time.
-class SharedProgress {
- public:
-  SharedProgress(const BatchOptions& options, std::size_t total) : progress_(options.progress), total_(total) {}
-  bool cancelled() const { return cancelled_; }
-  void add(std::size_t done) {
-    if (!progress_) return;
-    const std::lock_guard lock(mutex_);
-    done_ += done;
-    if (!cancelled_ && !progress_(static_cast<double>(done_) / static_cast<double>(total_))) cancelled_ = true;
-  }
-
- private:
-  const std::function<bool(double)>& progress_;
-  std::size_t total_, done_ = 0;
-  std::mutex mutex_;
-  std::atomic<bool> cancelled_ = false;
-};
-
 template <class Answer>
 struct Batch {
   std::vector<std::size_t> offsets{0};
@@ -232,11 +213,11 @@ QueryCounts ask_in_chunks(const QueryIndex& index, std::span<const Primitive> pr
       throw InputError(Defect::NonFiniteCoordinate,
                        fmt::format("query {} has a coordinate that is not finite; remove it", i));
   const std::size_t chunks = (primitives.size() + kChunk - 1) / kChunk;
-  SharedProgress progress(options, primitives.size());
+  ProgressMeter meter(options.progress, "query");
+  std::atomic<std::size_t> done = 0;
   oneapi::tbb::enumerable_thread_specific<MeshQuery> queries([&] { return MeshQuery(index); });
   arena_of(options.threads).execute([&] {
     oneapi::tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-      if (progress.cancelled()) return;
       MeshQuery& query = queries.local();
       QueryAccess::start(query);
       const auto chunk = primitives.subspan(c * kChunk, std::min(kChunk, primitives.size() - c * kChunk));
@@ -247,10 +228,9 @@ QueryCounts ask_in_chunks(const QueryIndex& index, std::span<const Primitive> pr
         batch.offsets.push_back(batch.answers.size());
       }
       take(c * kChunk, std::move(batch));
-      progress.add(chunk.size());
+      meter.at(done += chunk.size(), primitives.size());
     });
   });
-  if (progress.cancelled()) throw Cancelled();
   QueryCounts counts;
   for (const MeshQuery& query : queries) counts += query.counts();
   return counts;

@@ -8,6 +8,7 @@
 
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
+#include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "verify/contact.h"
@@ -198,13 +199,14 @@ class CoverVerifier {
         outer_(outer, "outer"),
         covered_(outer_),
         options_(options),
+        counter_(options.progress, "verify", mesh.face_count()),
         number_(numbered_by_position(mesh.positions)),
         groups_(mesh.vertex_count()),
         is_clear_(mesh.vertex_count()) {}
 
   EnclosureReport report() {
     for (const FaceId f : mesh_.triangles.ids()) {
-      if (index(f) % 1024 == 0) progress(0.9 * double(index(f)) / double(mesh_.face_count()));
+      counter_.next();
       check(f);
     }
     check_free();
@@ -214,7 +216,6 @@ class CoverVerifier {
     report.faces_outside = offenders_.size();
     report.encloses = offenders_.empty();
     report.worst = worst_of(std::move(offenders_), options_.max_offenders);
-    progress(1);
     return report;
   }
 
@@ -375,14 +376,11 @@ class CoverVerifier {
     offenders_.push_back(farthest(f, std::array{t.a, t.b, t.c, t.a / 3 + t.b / 3 + t.c / 3}, outer_));
   }
 
-  void progress(double fraction) const {
-    if (options_.progress && !options_.progress(fraction)) throw Cancelled();
-  }
-
   const TriangleMesh& mesh_;
   const Surface outer_;
   CoveredFaces covered_;
   const EnclosureOptions& options_;
+  ProgressCounter counter_;
   const std::vector<std::uint32_t> number_;  // of the vertices, by position
   Clusters groups_;                          // of clear vertices, which are in one region of H
   std::vector<bool> is_clear_;               // by number: H does not touch a triangle that has the vertex

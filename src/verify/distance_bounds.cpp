@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/bvh.h"
+#include "parallel/progress_meter.h"
 #include "prohull/error.h"
 #include "verify/distance.h"
 
@@ -45,7 +46,10 @@ struct Cell {
 class Search {
  public:
   Search(const TriangleMesh& from, const TriangleMesh& to, const DistanceOptions& options)
-      : from_(from), to_(to), options_(options) {
+      : from_(from),
+        to_(to),
+        options_(options),
+        counter_(options.progress, "measure", options.max_cells + from.face_count()) {
     std::vector<Box> boxes;
     double largest = 0;
     for (const FaceId f : to.triangles.ids()) boxes.push_back(box_of(to.triangle(f)));
@@ -88,10 +92,8 @@ class Search {
   double distance(const Vec3& p, std::uint32_t f) const { return norm(p - closest_point(p, to_.triangle(FaceId(f)))); }
 
   void push(const std::array<Vec3, 3>& corners, const std::array<std::uint32_t, 3>& near) {
-    constexpr std::size_t kInterval = 4096;
-    if (++seen_ % kInterval == 0 && options_.progress &&
-        !options_.progress(static_cast<double>(seen_) / static_cast<double>(options_.max_cells + from_.face_count())))
-      throw Cancelled();
+    ++seen_;
+    counter_.next();
     double upper = std::numeric_limits<double>::infinity();
     for (const std::uint32_t f : near) {
       double farthest = 0;
@@ -124,6 +126,7 @@ class Search {
   double rounding_;
   std::priority_queue<Cell> cells_;
   std::size_t seen_ = 0;
+  ProgressCounter counter_;
   DistanceBounds bounds_;
 };
 

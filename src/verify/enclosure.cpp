@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "parallel/progress_meter.h"
 #include "prohull/error.h"
 #include "verify/contact.h"
 #include "verify/offenders.h"
@@ -42,7 +43,7 @@ struct Sides {
 class Verifier {
  public:
   Verifier(const TriangleMesh& inner, const TriangleMesh& outer, const EnclosureOptions& options)
-      : inner_(inner, "inner"), outer_(outer, "outer"), options_(options) {}
+      : inner_(inner, "inner"), outer_(outer, "outer"), options_(options), meter_(options.progress, "verify") {}
 
   EnclosureReport report() {
     check_inner_faces();
@@ -53,7 +54,7 @@ class Verifier {
     report_.inner_volume = inner_.volume;
     report_.outer_volume = outer_.volume;
     if (inner_.volume != 0) report_.void_ratio = (outer_.volume - inner_.volume) / inner_.volume;
-    progress(1);
+    meter_.at(1);
     return report_;
   }
 
@@ -83,7 +84,7 @@ class Verifier {
     std::vector<std::uint8_t> is_free(inner_.faces.size());        // H does not meet the interior
     std::vector<std::uint8_t> open_edges(inner_.faces.size(), 0);  // bit e: edge e is not on H
     for (FaceIndex f = 0; f < inner_.faces.size(); ++f) {
-      if (f % 1024 == 0) progress(0.7 * double(f) / double(inner_.faces.size()));
+      if (f % 64 == 0) meter_.at(0.7 * double(f) / double(inner_.faces.size()));
       const Neighbours near = neighbours(inner_, f, outer_);
       if (near.touches_interior) {
         check_inner_face(f, near.cutters);
@@ -152,7 +153,7 @@ class Verifier {
     for (const auto& [f, g] : pairs) meets[f].push_back(g), meets[g].push_back(f);
     std::vector<std::uint8_t> bounds_hole(outer_.faces.size());
     for (FaceIndex f = 0; f < outer_.faces.size(); ++f) {
-      if (f % 1024 == 0) progress(0.8 + 0.2 * double(f) / double(outer_.faces.size()));
+      if (f % 64 == 0) meter_.at(0.8 + 0.2 * double(f) / double(outer_.faces.size()));
       Neighbours near;
       for (const FaceIndex g : meets[f]) near.add(outer_.faces[f], outer_.axis[f], outer_.faces[g]);
       for (const Cell& cell : subdivide(outer_.faces[f], outer_.axis[f], near.cutters))
@@ -205,12 +206,9 @@ class Verifier {
     return farthest(inner_.source[f], points, outer_);
   }
 
-  void progress(double fraction) const {
-    if (options_.progress && !options_.progress(fraction)) throw Cancelled();
-  }
-
   const Surface inner_, outer_;
   const EnclosureOptions& options_;
+  ProgressMeter meter_;
   std::mt19937 random_;  // the verdict does not depend on it
   std::vector<Offender> offenders_;
   EnclosureReport report_;

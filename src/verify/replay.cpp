@@ -12,6 +12,7 @@
 
 #include "geometry/orientation.h"
 #include "geometry/predicates.h"
+#include "parallel/progress_meter.h"
 
 namespace prohull {
 namespace {
@@ -181,9 +182,8 @@ bool is_well_formed(const ProgressiveHull& hull) {
 
 }  // namespace
 
-ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& original,
-                           const std::function<bool(double)>& progress) {
-  constexpr std::size_t kInterval = 4096;
+ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& original, const Progress& progress) {
+  ProgressCounter counter(progress, "verify", hull.splits().size());
   ReplayReport report;
   if (!is_well_formed(hull)) {
     report.why_not = "it names vertices that do not exist, or that are not finite";
@@ -196,11 +196,8 @@ ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& orig
       return report;
     }
     report.signs = replay.signs();
-    if (++report.splits % kInterval == 0 && progress &&
-        !progress(static_cast<double>(report.splits) / static_cast<double>(hull.splits().size()))) {
-      report.why_not = "cancelled";
-      return report;
-    }
+    ++report.splits;
+    counter.next();
   }
   std::vector<Triangle> theirs;
   for (const FaceId f : original.triangles.ids()) theirs.push_back(original.triangle(f));

@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "parallel/progress_meter.h"
 #include "prohull/error.h"
 #include "prohull/replay.h"
 #include "prohull/text.h"
@@ -63,22 +64,19 @@ TriangleMesh turned(const TriangleMesh& mesh, std::string_view name, std::size_t
 /// Steps of one verification, each of which has its share of the progress.
 class Steps {
  public:
-  Steps(std::size_t count, const VerificationOptions& options) : count_(count), options_(options) {}
+  Steps(std::size_t count, const VerificationOptions& options)
+      : count_(static_cast<double>(count)), options_(options), meter_(options.progress, "verify") {}
 
-  EnclosureOptions next() { return {.max_offenders = options_.max_offenders, .progress = progress_of(done_++)}; }
-
- private:
-  std::function<bool(double)> progress_of(std::size_t step) const {
-    return [this, step](double fraction) {
-      if (options_.progress && !options_.progress((static_cast<double>(step) + fraction) / static_cast<double>(count_)))
-        throw Cancelled();
-      return true;
-    };
+  EnclosureOptions next() {
+    const double from = done_++;
+    return {.max_offenders = options_.max_offenders, .progress = meter_.part(from / count_, (from + 1) / count_)};
   }
 
-  const std::size_t count_;
-  std::size_t done_ = 0;
+ private:
+  const double count_;
+  double done_ = 0;
   const VerificationOptions& options_;
+  ProgressMeter meter_;
 };
 
 /// Everything that does not depend on the hull.

@@ -55,21 +55,22 @@ TEST(ShapeGuards, RefuseAThinFace) {
   const HalfEdgeMesh mesh(roof());
   const Star star = star_of(mesh, 0, 1);
   const Vec3 apex = to_local(star, {0, 0, 30});
-  HullOptions options{.max_normal_deviation = std::numbers::pi / 2};
+  HullOptions options{.guards = {.max_normal_deviation = std::numbers::pi / 2}};
   EXPECT_EQ(refused_shape(star, apex, options), Refusal::Compactness);
-  options.sufficient_compactness = 0.01;
+  options.guards.sufficient_compactness = 0.01;
   EXPECT_EQ(refused_shape(star, apex, options), std::nullopt) << "good enough whatever it was before";
   options.strategy = Strategy::Paper1;
   EXPECT_EQ(refused_shape(star, apex, options), Refusal::Compactness) << "the paper has no such floor";
-  options.min_compactness_ratio = 0;
+  options.guards.min_compactness_ratio = 0;
   EXPECT_EQ(refused_shape(star, apex, options), std::nullopt);
 }
 
 TEST(ShapeGuards, NeverAllowAFaceWithoutArea) {
   const HalfEdgeMesh mesh(roof());
   const Star star = star_of(mesh, 0, 1);
-  const HullOptions lax{
-      .min_compactness_ratio = 0, .sufficient_compactness = 0, .max_normal_deviation = std::numbers::pi / 2};
+  const HullOptions lax{.guards = {.min_compactness_ratio = 0,
+                                   .sufficient_compactness = 0,
+                                   .max_normal_deviation = std::numbers::pi / 2}};
   EXPECT_EQ(refused_shape(star, to_local(star, {0, 1, 0}), lax), Refusal::Compactness) << "in line with 2 and 3";
 }
 
@@ -80,9 +81,10 @@ TEST(ShapeGuards, RefuseAFaceThatTurns) {
   for (const double degrees : {5.0, 20.0}) {
     const double h = std::tan((45 + degrees) * std::numbers::pi / 180);
     const Vec3 apex = to_local(star, {0, 0, h});
-    HullOptions options{.min_compactness_ratio = 0, .max_normal_deviation = (degrees - 2) * std::numbers::pi / 180};
+    HullOptions options{
+        .guards = {.min_compactness_ratio = 0, .max_normal_deviation = (degrees - 2) * std::numbers::pi / 180}};
     EXPECT_EQ(refused_shape(star, apex, options), Refusal::NormalDeviation);
-    options.max_normal_deviation = (degrees + 20) * std::numbers::pi / 180;
+    options.guards.max_normal_deviation = (degrees + 20) * std::numbers::pi / 180;
     EXPECT_EQ(refused_shape(star, apex, options), std::nullopt);
   }
 }
@@ -90,7 +92,7 @@ TEST(ShapeGuards, RefuseAFaceThatTurns) {
 TEST(ShapeGuards, RefuseAFaceThatFlipsHoweverLax) {
   const HalfEdgeMesh mesh(roof());
   const Star star = star_of(mesh, 0, 1);
-  const HullOptions lax{.min_compactness_ratio = 0, .max_normal_deviation = std::numbers::pi / 2};
+  const HullOptions lax{.guards = {.min_compactness_ratio = 0, .max_normal_deviation = std::numbers::pi / 2}};
   EXPECT_EQ(refused_shape(star, to_local(star, {0, 0, -2}), lax), Refusal::NormalDeviation);
 }
 

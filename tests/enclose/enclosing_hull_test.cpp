@@ -6,6 +6,7 @@
 
 #include "geometry/float32.h"
 #include "meshes.h"
+#include "progress.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
@@ -26,7 +27,7 @@ EnclosingHulls hull_of(const TriangleMesh& mesh, std::size_t faces, const Enclos
 }
 
 /// A wrapper for tests of the ladder alone: the box around all, in so many faces that it can be simplified.
-TriangleMesh box_around(const TriangleMesh& triangles, double, double offset, const std::function<bool()>&) {
+TriangleMesh box_around(const TriangleMesh& triangles, double, double offset, const Progress&) {
   const Box around = bounding_box(triangles);
   const Vec3 room = Vec3{1, 1, 1} * offset;
   return subdivided(subdivided(box(around.min - room, around.max + room)));
@@ -131,21 +132,21 @@ TEST(EnclosingHull, OfAWrapMovesTowardsTheTriangles) {
 }
 
 TEST(EnclosingHull, OfAWrapIsNotTrusted) {
-  const auto too_small = [](const TriangleMesh&, double, double, const std::function<bool()>&) {
+  const auto too_small = [](const TriangleMesh&, double, double, const Progress&) {
     return subdivided(box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}));
   };
   const EnclosingHull hull = only(hull_of(without_a_face(octahedron()), 40, {.wrap = too_small}));
   EXPECT_FALSE(hull.certified);
-  const auto open = [](const TriangleMesh& mesh, double, double, const std::function<bool()>&) { return mesh; };
+  const auto open = [](const TriangleMesh& mesh, double, double, const Progress&) { return mesh; };
   EXPECT_THROW(hull_of(without_a_face(octahedron()), 40, {.wrap = open}), InputError);
 }
 
 TEST(EnclosingHull, TriesCoarserWrapsUntilOneIsAsAsked) {
   std::vector<double> alphas;
-  const auto wrapper = [&](const TriangleMesh& mesh, double alpha, double offset, const std::function<bool()>& go_on) {
+  const auto wrapper = [&](const TriangleMesh& mesh, double alpha, double offset, const Progress& progress) {
     alphas.push_back(alpha / bounding_box(mesh).diagonal());
     // Eight boxes that cannot be one until alpha is great.
-    TriangleMesh wrap = box_around(mesh, alpha, offset, go_on);
+    TriangleMesh wrap = box_around(mesh, alpha, offset, progress);
     if (alphas.size() == 1)
       for (int i = 1; i < 8; ++i) wrap = together(wrap, moved(octahedron(), {10.0 * i, 0, 0}));
     return wrap;
@@ -162,6 +163,7 @@ TEST(EnclosingHull, TriesCoarserWrapsUntilOneIsAsAsked) {
 
 TEST(EnclosingHull, CanBeCancelledAnywhere) {
   const TriangleMesh open = without_a_face(make_sample("asteroid", 1000));
+  const UnthrottledProgress unthrottled;
   int calls = 0;
   EnclosingOptions options{.hull = {.threads = 1}, .wrap = box_around};
   options.progress = [&](std::string_view, double) { return ++calls > 0; };

@@ -116,7 +116,7 @@ TEST_F(FakeImporter, ThatCannotBeRunIsAnError) {
 
 TEST_F(FakeImporter, IsEndedByCancelling) {
   install("exec sleep 100");
-  EXPECT_THROW(read_mesh("content", "a.dae", {.go_on = [] { return false; }}), Cancelled);
+  EXPECT_THROW(read_mesh("content", "a.dae", {.progress = [](std::string_view, double) { return false; }}), Cancelled);
 }
 
 // --- what assimp reads ---

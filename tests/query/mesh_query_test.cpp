@@ -141,9 +141,9 @@ TEST(Hits, NameTheFirstQueryThatIsNotFinite) {
 
 TEST(Hits, CanBeCancelled) {
   const std::vector<Segment> segments(5000, {{-1, 0.1, 0.2}, {1, 0.1, 0.2}});
-  EXPECT_THROW(
-      find_hits(QueryIndex(octahedron()), segments, HitMode::First, {.progress = [](double) { return false; }}),
-      Cancelled);
+  EXPECT_THROW(find_hits(QueryIndex(octahedron()), segments, HitMode::First,
+                         {.progress = [](std::string_view, double) { return false; }}),
+               Cancelled);
 }
 
 TEST(FacesMet, OfManyTrianglesAreThoseOfEach) {

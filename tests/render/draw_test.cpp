@@ -127,14 +127,14 @@ TEST(Draw, MarksShineThrough) {
 
 TEST(Draw, CanBeCancelled) {
   DrawOptions options;
-  options.progress = [](double) { return false; };
+  options.progress = [](std::string_view, double) { return false; };
   EXPECT_THROW(drawn({plan(0, "red")}, {meshes::sphere(2)}, {}, options), Cancelled);
 }
 
 TEST(Draw, ProgressEndsAtOne) {
   DrawOptions options;
   double last = 0;
-  options.progress = [&](double fraction) {
+  options.progress = [&](std::string_view, double fraction) {
     EXPECT_GT(fraction, last);
     last = fraction;
     return true;

@@ -237,9 +237,11 @@ TEST(Cover, ByAHullWithoutVolumeIsNone) {
 }
 
 TEST(Cover, CanBeCancelled) {
-  EXPECT_THROW(verify_cover(kUnitBox, kUnitBox, {.progress = [](double) { return false; }}), Cancelled);
+  EXPECT_THROW(verify_cover(kUnitBox, kUnitBox, {.progress = [](std::string_view, double) { return false; }}),
+               Cancelled);
   double last = 0;
-  verify_cover(kUnitBox, kUnitBox, {.progress = [&](double fraction) { return last = fraction, true; }});
+  verify_cover(kUnitBox, kUnitBox,
+               {.progress = [&](std::string_view, double fraction) { return last = fraction, true; }});
   EXPECT_EQ(last, 1);
 }
 

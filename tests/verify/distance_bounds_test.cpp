@@ -84,7 +84,7 @@ TEST(DistanceBounds, RefuseWhatHasNoDistance) {
   broken.positions[VertexId{1}].x = std::nan("");
   EXPECT_THROW(distance_bounds(octahedron(), broken), InputError);
   EXPECT_THROW(distance_bounds(make_sample("knot", 5000), make_sample("sphere", 5000),
-                               {.relative_gap = 0, .progress = [](double) { return false; }}),
+                               {.relative_gap = 0, .progress = [](std::string_view, double) { return false; }}),
                Cancelled);
 }
 

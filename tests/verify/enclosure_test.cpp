@@ -207,9 +207,11 @@ TEST(Enclosure, RefusesWhatIsNotClosed) {
 }
 
 TEST(Enclosure, CanBeCancelled) {
-  EXPECT_THROW(verify_enclosure(kUnitBox, kUnitBox, {.progress = [](double) { return false; }}), Cancelled);
+  EXPECT_THROW(verify_enclosure(kUnitBox, kUnitBox, {.progress = [](std::string_view, double) { return false; }}),
+               Cancelled);
   double last = 0;
-  verify_enclosure(kUnitBox, kUnitBox, {.progress = [&](double fraction) { return last = fraction, true; }});
+  verify_enclosure(kUnitBox, kUnitBox,
+                   {.progress = [&](std::string_view, double fraction) { return last = fraction, true; }});
   EXPECT_EQ(last, 1);
 }
 

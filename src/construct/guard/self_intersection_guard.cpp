@@ -83,13 +83,10 @@ void SelfIntersectionGuard::pack(const HalfEdgeMesh& mesh) {
 
 void SelfIntersectionGuard::changed(const HalfEdgeMesh& mesh, VertexId s) {
   if (mesh.face_count() < faces_when_packed_ / 2) return pack(mesh);
-  const HalfEdgeId first = mesh.out(s);
-  HalfEdgeId h = first;
-  do {
+  for (const HalfEdgeId h : mesh.around(s)) {
     const FaceId f{index(h) / 3};
     place(slot_of_[f], unit_cube_.at(triangle(mesh, f)));
-    h = mesh.rotated(h);
-  } while (h != first);
+  }
 }
 
 // Boxes of the upper levels only grow; where much is gone they soon are packed anew.

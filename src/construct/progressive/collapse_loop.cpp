@@ -35,7 +35,7 @@ double lazy_key(double added_volume, const Star& star) {
 /// None of its edges can be collapsed before it has lost faces, and there are too many to look at them before.
 bool is_hub(const HalfEdgeMesh& mesh, VertexId v, const HullOptions& options) {
   constexpr unsigned kMany = 64;
-  return mesh.valence(v) > std::max(kMany, options.max_valence) + 1;
+  return mesh.valence(v) > std::max(kMany, options.guards.max_valence) + 1;
 }
 
 std::vector<FaceId> all_faces(const HalfEdgeMesh& mesh) {
@@ -62,9 +62,10 @@ class CollapseLoop {
 
   void run() {
     queue_all();
-    while (mesh_.face_count() > patch_.target_faces && !queue_.empty() && !cancelled()) {
+    while (mesh_.face_count() > patch_.target_faces && !queue_.empty()) {
+      tell();
       const EdgeId edge = queue_.pop();
-      if (is_at_hub(edge)) {
+      if (ends_at_hub(edge)) {
         refuse(edge, Refusal::Valence);
         continue;
       }
@@ -97,7 +98,8 @@ class CollapseLoop {
 
  private:
   void queue_all() {
-    for (std::uint32_t i = 0; i < mesh_.edge_id_count() && !cancelled(); ++i) {
+    for (std::uint32_t i = 0; i < mesh_.edge_id_count(); ++i) {
+      tell();
       const EdgeId edge{i};
       const VertexId v = mesh_.tail(mesh_.half_edge(edge)), w = mesh_.tip(mesh_.half_edge(edge));
       if (!vertices_[v].is_free || !vertices_[w].is_free) continue;
@@ -121,10 +123,9 @@ class CollapseLoop {
   }
 
   // Known before the star is looked at, which may have a million faces.
-  bool is_at_hub(EdgeId edge) {
+  bool ends_at_hub(EdgeId edge) const {
     const HalfEdgeId h = mesh_.half_edge(edge);
-    star_.o = mesh_.tail(h), star_.d = mesh_.tip(h);
-    return is_hub(mesh_, star_.o, options_) || is_hub(mesh_, star_.d, options_);
+    return is_hub(mesh_, mesh_.tail(h), options_) || is_hub(mesh_, mesh_.tip(h), options_);
   }
 
   void gather(EdgeId edge) {
@@ -134,7 +135,7 @@ class CollapseLoop {
 
   std::optional<Refusal> refusal_of_topology() const {
     if (!satisfies_link_condition(star_)) return Refusal::LinkCondition;
-    if (star_.valence() > options_.max_valence) return Refusal::Valence;
+    if (star_.valence() > options_.guards.max_valence) return Refusal::Valence;
     return std::nullopt;
   }
 
@@ -166,16 +167,14 @@ class CollapseLoop {
   // Where it would go, or why it may not. An end of the edge that adds nothing at all is preferred (not in the paper);
   // where the shape guards refuse it for now, so is the edge: any other apex would move flat parts by the margin.
   std::optional<Refusal> refusal_of_apex(const Placement& placement, Vec3& apex) {
-    if (options_.strategy == Strategy::Lazy && may_be_flat(placement, star_)) {
+    if (options_.strategy == Strategy::Lazy) {
       std::optional<Refusal> why;
-      for (const VertexId end : {star_.o, star_.d}) {
-        apex = mesh_.position(end);
-        if (!lies_on_all_planes(mesh_, star_, apex)) continue;
-        why = refused_shape(star_, end == star_.o ? star_.local_o : star_.local_d, options_);
-        if (!why && as_stored(apex) == apex && !(guard_ && guard_->would_add_intersections(mesh_, star_, apex)))
-          return std::nullopt;
-      }
-      if (why) return why;
+      const bool is_flat = any_flat_end(mesh_, star_, placement, [&](const Vec3& end, const Vec3& local) {
+        apex = end;
+        why = refused_shape(star_, local, options_);
+        return !why && as_stored(end) == end && !(guard_ && guard_->would_add_intersections(mesh_, star_, end));
+      });
+      if (is_flat || why) return why;
     }
     if (const auto why = refused_shape(star_, placement.local, options_)) return why;
     apex = as_stored(star_.to_input(placement.local));
@@ -189,7 +188,8 @@ class CollapseLoop {
     edges_[edge].last_refusal = why;
     edges_[edge].is_refused = true;
     edges_[edge].evaluated = patch_.time;
-    vertices_[star_.o].has_refused = vertices_[star_.d].has_refused = true;
+    const HalfEdgeId h = mesh_.half_edge(edge);
+    vertices_[mesh_.tail(h)].has_refused = vertices_[mesh_.tip(h)].has_refused = true;
   }
 
   VertexId collapse(EdgeId edge, const Vec3& apex) {
@@ -211,43 +211,31 @@ class CollapseLoop {
   // comes; those that were refused get another.
   void mark_changed_around(VertexId s) {
     mark_changed(s);
-    const HalfEdgeId first = mesh_.out(s);
-    HalfEdgeId h = first;
-    do {
-      mark_changed(mesh_.tip(h));
-      h = mesh_.rotated(h);
-    } while (h != first);
+    for (const HalfEdgeId h : mesh_.around(s)) mark_changed(mesh_.tip(h));
   }
 
   void mark_changed(VertexId v) {
     vertices_[v].changed = patch_.time;
     if (!vertices_[v].has_refused || is_hub(mesh_, v, options_)) return;
     vertices_[v].has_refused = false;
-    const HalfEdgeId first = mesh_.out(v);
-    HalfEdgeId h = first;
-    do {
+    for (const HalfEdgeId h : mesh_.around(v)) {
       const EdgeId edge = mesh_.edge(h);
-      if (edges_[edge].is_refused && vertices_[mesh_.tip(h)].is_free) {
-        edges_[edge].is_refused = false;
-        enqueue(edge);
-      }
-      h = mesh_.rotated(h);
-    } while (h != first);
+      if (!edges_[edge].is_refused || !vertices_[mesh_.tip(h)].is_free) continue;
+      edges_[edge].is_refused = false;
+      enqueue(edge);
+    }
   }
 
   // P&T Figure 3.
   void reevaluate_around(VertexId s) {
-    const HalfEdgeId first = mesh_.out(s);
-    HalfEdgeId h = first;
-    do {
-      const HalfEdgeId around = mesh_.twin(h);
+    for (const HalfEdgeId h : mesh_.around(s)) {
+      const HalfEdgeId back = mesh_.twin(h);
       reevaluate(mesh_.edge(h));
       // Edges between two link vertices are met from both: the one beside s is left to its own tail.
-      HalfEdgeId g = mesh_.rotated(around);
+      HalfEdgeId g = mesh_.rotated(back);
       reevaluate(mesh_.edge(g));
-      for (g = mesh_.rotated(g); mesh_.rotated(g) != around; g = mesh_.rotated(g)) reevaluate(mesh_.edge(g));
-      h = mesh_.rotated(h);
-    } while (h != first);
+      for (g = mesh_.rotated(g); mesh_.rotated(g) != back; g = mesh_.rotated(g)) reevaluate(mesh_.edge(g));
+    }
   }
 
   void unqueue(EdgeId edge) {
@@ -260,7 +248,7 @@ class CollapseLoop {
   }
 
   void evaluate_and_queue(EdgeId edge) {
-    if (is_at_hub(edge)) return refuse(edge, Refusal::Valence);
+    if (ends_at_hub(edge)) return refuse(edge, Refusal::Valence);
     gather(edge);
     if (const auto why = refusal_of_topology()) return refuse(edge, *why);
     measure_star(mesh_, star_);
@@ -275,11 +263,9 @@ class CollapseLoop {
     enqueue(edge);
   }
 
-  bool cancelled() {
+  void tell() {
     constexpr std::size_t kInterval = 1024;
-    if (!cancelled_ && ++steps_ % kInterval == 0)
-      cancelled_ = rules_.cancelled(2 * (patch_.record.size() - std::exchange(told_, patch_.record.size())));
-    return cancelled_;
+    if (++steps_ % kInterval == 0) rules_.tell(2 * (patch_.record.size() - std::exchange(told_, patch_.record.size())));
   }
 
   Patch& patch_;
@@ -293,7 +279,6 @@ class CollapseLoop {
   std::optional<SelfIntersectionGuard> guard_;
   Star star_;
   std::size_t steps_ = 0, told_ = 0;
-  bool cancelled_ = false;
 };
 
 }  // namespace
@@ -303,7 +288,7 @@ void estimate_keys(Patch& patch, const CollapseRules& rules) {
   Star star;
   Noise noise(patch.seed == 0 ? 0 : patch.seed + 1);
   for (const EdgeId edge : patch.edges.ids()) {
-    if (index(edge) % 1024 == 0 && rules.cancelled(0)) return;
+    if (index(edge) % 1024 == 0) rules.tell(0);
     if (patch.edges[edge].key != EdgeFacts::kUnknown) continue;
     const HalfEdgeId h = patch.mesh.half_edge(edge);
     const VertexId v = patch.mesh.tail(h), w = patch.mesh.tip(h);

@@ -50,10 +50,10 @@ struct CollapseRules {
   const HullOptions& options;
   const UnitCube& unit_cube;
   double rounding;  ///< the most by which storing moves a coordinate, with some room
-  std::function<bool(std::size_t removed_faces)> cancelled;  ///< asked now and then, from any thread
+  std::function<void(std::size_t removed_faces)> tell;  ///< called now and then, from any thread; may throw Cancelled
 };
 
-/// Estimates the keys that are not yet known; not all of them if cancelled.
+/// Estimates the keys that are not yet known.
 void estimate_keys(Patch& patch, const CollapseRules& rules);
 
 /// Collapses edges, the least key first, until the target is reached or no edge up to max_key is left that may be

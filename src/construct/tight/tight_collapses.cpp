@@ -9,8 +9,8 @@
 #include "construct/placement.h"
 #include "construct/shape_guards.h"
 #include "construct/star.h"
-#include "construct/tight/steps.h"
 #include "construct/tight/tight_placement.h"
+#include "parallel/progress_meter.h"
 
 namespace prohull {
 namespace {
@@ -25,12 +25,14 @@ class TightCollapses {
         queue_(mesh.edge_id_count()),
         edges_(mesh.edge_id_count()),
         changed_(mesh.positions().size(), 1),
-        steps_(mesh, options) {}
+        meter_(options.progress, "tighten"),
+        excess_(mesh.face_count() - std::min(mesh.face_count(), options.target_faces)) {}
 
   void run() {
     if (mesh_.face_count() <= options_.target_faces) return;
     queue_all();
-    while (mesh_.face_count() > options_.target_faces && !queue_.empty() && !steps_.cancelled()) {
+    while (mesh_.face_count() > options_.target_faces && !queue_.empty()) {
+      meter_.at(excess_ - (mesh_.face_count() - options_.target_faces), excess_);
       const EdgeId e = queue_.pop();
       const HalfEdgeId h = mesh_.half_edge(e);
       const bool is_fresh = edges_[e].evaluated >= std::max(changed_[mesh_.tail(h)], changed_[mesh_.tip(h)]);
@@ -55,7 +57,8 @@ class TightCollapses {
   // placements.
   void queue_all() {
     constexpr double kLikelyPart = 0.4;
-    for (std::uint32_t i = 0; i < mesh_.edge_id_count() && !steps_.cancelled(); ++i) {
+    for (std::uint32_t i = 0; i < mesh_.edge_id_count(); ++i) {
+      meter_.at(0);
       const EdgeId e{i};
       if (!mesh_.has(e)) continue;
       const auto outside = place_outside_of_star(e);
@@ -66,7 +69,7 @@ class TightCollapses {
 
   std::optional<Placement> place_outside_of_star(EdgeId e) {
     gather_star(mesh_, e, star_);
-    if (!satisfies_link_condition(star_) || star_.valence() > options_.max_valence) return std::nullopt;
+    if (!satisfies_link_condition(star_) || star_.valence() > options_.guards.max_valence) return std::nullopt;
     measure_star(mesh_, star_);
     return place_outside(star_, placement_margin(star_, placement_.rounding()));
   }
@@ -75,23 +78,19 @@ class TightCollapses {
   std::optional<Vec3> place(EdgeId e) {
     const auto outside = place_outside_of_star(e);
     if (!outside) return std::nullopt;
-    if (may_be_flat(*outside, star_)) {
-      bool has_flat_end = false;
-      for (const VertexId end : {star_.o, star_.d}) {
-        const Vec3 to = mesh_.position(end);
-        if (placement_.as_stored(to) != to || !lies_on_all_planes(mesh_, star_, to)) continue;
-        has_flat_end = true;
-        if (!refused_shape(star_, star_.to_local(to), options_) && !guard_.would_add_intersections(mesh_, star_, to))
-          return to;
-      }
-      if (has_flat_end) return std::nullopt;  // any other apex would move flat parts by the margin
-    }
+    std::optional<Vec3> flat;
+    const bool is_flat = any_flat_end(mesh_, star_, *outside, [&](const Vec3& end, const Vec3& local) {
+      if (placement_.as_stored(end) != end) return false;
+      flat = end;
+      return !refused_shape(star_, local, options_) && !guard_.would_add_intersections(mesh_, star_, end);
+    });
+    if (is_flat) return flat;
+    if (flat) return std::nullopt;  // any other apex would move flat parts by the margin
     const Vec3 from = placement_.as_stored(star_.to_input(outside->local));
     if (!is_finite(from) || !is_outside(mesh_, star_, from)) return std::nullopt;
     placement_.set(from, mesh_, star_.link);
     const auto is_accepted = [&](const Vec3& to) {
-      return !refused_shape(star_, star_.to_local(to), options_) && placement_.keeps_enclosing(to) &&
-             !guard_.would_add_intersections(mesh_, star_, to);
+      return !refused_shape(star_, star_.to_local(to), options_) && !guard_.would_add_intersections(mesh_, star_, to);
     };
     if (const auto to = placement_.first(is_accepted)) return to;
     return is_accepted(from) ? std::optional(from) : std::nullopt;
@@ -111,12 +110,8 @@ class TightCollapses {
   // Edges that were refused get another turn, others are placed anew when theirs comes.
   void mark_changed(VertexId v) {
     changed_[v] = time_;
-    HalfEdgeId h = mesh_.out(v);
-    do {
-      const EdgeId e = mesh_.edge(h);
-      if (std::exchange(edges_[e].is_refused, false)) queue_.insert(e, 0);
-      h = mesh_.rotated(h);
-    } while (h != mesh_.out(v));
+    for (const HalfEdgeId h : mesh_.around(v))
+      if (const EdgeId e = mesh_.edge(h); std::exchange(edges_[e].is_refused, false)) queue_.insert(e, 0);
   }
 
   HalfEdgeMesh& mesh_;
@@ -128,7 +123,8 @@ class TightCollapses {
   PerEdge<EdgeState> edges_;
   PerVertex<std::uint32_t> changed_;  ///< when a face around it last did
   std::uint32_t time_ = 1;
-  Steps steps_;
+  ProgressMeter meter_;
+  const std::size_t excess_;  ///< faces above the target, at first
 };
 
 }  // namespace

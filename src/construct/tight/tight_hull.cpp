@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "construct/best_of.h"
 #include "construct/tight/tight_collapses.h"
 #include "construct/tight/tightening.h"
 #include "construct/turned.h"
 #include "mesh/half_edge_mesh.h"
+#include "parallel/progress_meter.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -27,12 +29,12 @@ TightHull build_towards(const Original& original, const TriangleMesh& mesh, cons
   TightHull tight{mesh, Stopped::TargetReached, {}, {}, 0, 0};
   HullOptions step = options;
   step.self_intersections = SelfIntersections::Refused;
-  bool cancelled = false;
-  if (options.progress)
-    step.progress = [&](const HullProgress& p) {
-      cancelled = cancelled || !options.progress({p.faces, mesh.face_count(), options.target_faces});
-      return !cancelled;
-    };
+  ProgressMeter meter(options.progress, "tighten");
+  double done = 0;  // of the sum of kLevels: a level takes time with its faces
+  const auto set_part = [&](double level, double from, double to) {
+    const double all = std::accumulate(kLevels.begin(), kLevels.end(), 0.0);
+    step.progress = meter.part((done + from * level) / all, (done + to * level) / all);
+  };
   const auto apply = [&](auto&& change) {
     HalfEdgeMesh hull(inner ? turned(tight.mesh) : tight.mesh);
     change(hull);
@@ -41,20 +43,23 @@ TightHull build_towards(const Original& original, const TriangleMesh& mesh, cons
   for (const double level : kLevels) {
     const auto target = static_cast<double>(std::min(options.target_faces, mesh.face_count()));
     const auto faces = static_cast<std::size_t>(std::llround(level * target));
-    if (faces >= mesh.face_count() && level > 1) continue;
+    if (faces >= mesh.face_count() && level > 1) {
+      done += level;
+      continue;
+    }
     step.target_faces = faces;
+    set_part(level, 0, 0.3);
     if (level <= kTightCollapses) apply([&](HalfEdgeMesh& hull) { collapse_tightly(hull, original, step); });
+    set_part(level, 0.3, 0.4);
     HullResult result = build_hull(tight.mesh, step);
     tight.refused += result.refused;
     tight.blocked = result.blocked;
     tight.stopped = result.stopped;
     tight.relaxed_guards = result.relaxed_guards;
     tight.mesh = result.hull.base();
+    set_part(level, 0.4, 1);
     apply([&](HalfEdgeMesh& hull) { tight.moved_vertices += tighten(hull, original, step); });
-    if (cancelled) {
-      tight.stopped = Stopped::Cancelled;
-      break;
-    }
+    done += level;
   }
   return tight;
 }
@@ -73,7 +78,7 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options,
   const Original original = original_of(mesh, wrapped, options.side);
   if (options.best_of <= 1) return build_towards(original, mesh, options);
   return best_of(
-      options, [&](const HullOptions& one) { return build_towards(original, mesh, one); },
+      options, "tighten", [&](const HullOptions& one) { return build_towards(original, mesh, one); },
       [](const TightHull& result) -> const TriangleMesh& { return result.mesh; });
 }
 

@@ -121,15 +121,9 @@ std::optional<Vec3> TightPlacement::propose(double margin) {
       constraints_.push_back({normal, -kReach});
     }
   for (int i = 0; i < kMaxPrograms; ++i) {
-    LinearProgramResult best = solve_linear_program(objective_, constraints_);
-    if (best.status == LinearProgramStatus::Infeasible) return std::nullopt;
-    if (best.status == LinearProgramStatus::Ambiguous) {
-      const auto nearest = nearest_feasible_point({}, constraints_);
-      if (!nearest) return std::nullopt;
-      best.x = *nearest;
-    }
-    if (dot(objective_, best.x) > -kLeastGain * norm(objective_)) return std::nullopt;
-    if (!add_cuts(best.x, margin)) return best.x;
+    const auto best = optimum_or_nearest(objective_, constraints_);
+    if (!best || dot(objective_, *best) > -kLeastGain * norm(objective_)) return std::nullopt;
+    if (!add_cuts(*best, margin)) return best;
   }
   return std::nullopt;
 }

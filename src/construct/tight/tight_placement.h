@@ -28,12 +28,9 @@ class TightPlacement {
   /// The vertex, which need not be in the mesh, and its link in order around it.
   void set(const Vec3& from, const HalfEdgeMesh& mesh, const std::vector<VertexId>& link);
 
-  /// The first of its proposals that is_accepted(to) accepts, as stored. Asks for keeps_enclosing too, or encloses not.
+  /// The first of its proposals, as stored, that is_accepted(to) accepts and where the hull still encloses. Exact.
   template <class IsAccepted>
   std::optional<Vec3> first(IsAccepted&& is_accepted);
-
-  /// Exact: the hull still encloses if the vertex moves there.
-  bool keeps_enclosing(const Vec3& to) const;
 
   /// A frame with the origin at the vertex and the farthest link vertex at distance 1.
   const std::vector<Vec3>& local_link() const { return local_; }
@@ -44,6 +41,7 @@ class TightPlacement {
   double rounding() const { return rounding_; }
 
  private:
+  bool keeps_enclosing(const Vec3& to) const;
   void gather_original(const Box& box);
   std::optional<Vec3> propose(double margin);
   bool add_cuts(const Vec3& apex, double margin);
@@ -73,13 +71,14 @@ class TightPlacement {
 
 template <class IsAccepted>
 std::optional<Vec3> TightPlacement::first(IsAccepted&& is_accepted) {
-  const double clearance = original_.clearance() / scale_, rounding = rounding_ / scale_;
   // The second margin is for what rounding and the tolerances of the proposal have got wrong.
-  for (const double margin : {clearance + 1e-10 + 2 * rounding, clearance + 1e-7 + 8 * rounding}) {
+  constexpr double kLeastMargin = 1e-10, kWideMargin = 1e-7;
+  const double clearance = original_.clearance() / scale_, rounding = rounding_ / scale_;
+  for (const double margin : {clearance + kLeastMargin + 2 * rounding, clearance + kWideMargin + 8 * rounding}) {
     const auto apex = propose(margin);
     if (!apex) return std::nullopt;
     for (const double step : {1.0, 0.5, 0.25})
-      if (const Vec3 to = as_stored(from_ + *apex * (step * scale_)); is_accepted(to)) return to;
+      if (const Vec3 to = as_stored(from_ + *apex * (step * scale_)); is_accepted(to) && keeps_enclosing(to)) return to;
   }
   return std::nullopt;
 }

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "construct/guard/self_intersection_guard.h"
-#include "construct/tight/steps.h"
 #include "construct/tight/tight_placement.h"
 #include "geometry/compactness.h"
 #include "geometry/predicates.h"
+#include "parallel/progress_meter.h"
 
 namespace prohull {
 namespace {
@@ -25,19 +25,21 @@ class Tightener {
         placement_(original, options),
         waiting_(mesh.positions().size(), 1),
         changed_(waiting_),
-        steps_(mesh, options) {}
+        meter_(options.progress, "tighten") {}
 
   std::size_t run();
 
  private:
-  bool move_vertices();  ///< false if cancelled
-  bool flip_edges();     ///< the same
+  void move_vertices(int round);
+  void flip_edges();
   bool move(VertexId v);
   bool flip(HalfEdgeId h);
-  void has_changed(VertexId v) { waiting_[v] = changed_[v] = 1; }
+  void mark_changed(VertexId v) { waiting_[v] = changed_[v] = 1; }
   std::array<VertexId, 4> corners_beside(HalfEdgeId h) const;
   bool has_good_shape(const Vec3& to) const;
   bool has_good_shape_without(const Tetrahedron& removed) const;
+
+  static constexpr int kMostRounds = 12;
 
   HalfEdgeMesh& mesh_;
   const Original& original_;
@@ -47,57 +49,51 @@ class Tightener {
   std::vector<VertexId> link_;  ///< of the vertex in hand
   PerVertex<char> waiting_;     ///< to be moved
   PerVertex<char> changed_;     ///< since edges were flipped last, or a neighbour has
-  Steps steps_;
+  ProgressMeter meter_;
   std::size_t changes_ = 0, moves_ = 0;
 };
 
 std::size_t Tightener::run() {
-  constexpr int kRounds = 12;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kMostRounds; ++round) {
     const std::size_t before = changes_;
-    if (!move_vertices() || !flip_edges() || changes_ == before) break;
+    move_vertices(round);
+    flip_edges();
+    if (changes_ == before) break;
   }
   return moves_;
 }
 
-bool Tightener::move_vertices() {
+void Tightener::move_vertices(int round) {
   for (const VertexId v : mesh_.positions().ids()) {
     if (!mesh_.has(v) || !waiting_[v]) continue;
-    if (steps_.cancelled()) return false;
+    meter_.at(round * mesh_.positions().size() + index(v), kMostRounds * mesh_.positions().size());
     waiting_[v] = 0;
     if (!move(v)) continue;
     ++changes_, ++moves_;
-    has_changed(v);
-    for (const VertexId u : link_) has_changed(u);
+    mark_changed(v);
+    for (const VertexId u : link_) mark_changed(u);
   }
-  return true;
 }
 
-bool Tightener::flip_edges() {
+void Tightener::flip_edges() {
   const PerVertex<char> before = std::exchange(changed_, PerVertex<char>(changed_.size(), 0));
   for (std::uint32_t e = 0; e < mesh_.edge_id_count(); ++e) {
     if (!mesh_.has(EdgeId{e})) continue;
-    if (steps_.cancelled()) return false;
+    meter_.at(0);
     const HalfEdgeId h = mesh_.half_edge(EdgeId{e});
     const std::array corners = corners_beside(h);
     if (std::ranges::none_of(corners, [&](VertexId v) { return before[v] || changed_[v]; }) || !flip(h)) continue;
     ++changes_;
-    for (const VertexId v : corners) has_changed(v);
+    for (const VertexId v : corners) mark_changed(v);
   }
-  return true;
 }
 
 bool Tightener::move(VertexId v) {
   link_.clear();
-  HalfEdgeId h = mesh_.out(v);
-  do {
-    link_.push_back(mesh_.tip(h));
-    h = mesh_.rotated(h);
-  } while (h != mesh_.out(v));
+  for (const HalfEdgeId h : mesh_.around(v)) link_.push_back(mesh_.tip(h));
   placement_.set(mesh_.position(v), mesh_, link_);
-  const auto to = placement_.first([&](const Vec3& p) {
-    return has_good_shape(p) && placement_.keeps_enclosing(p) && !guard_.would_add_intersections(mesh_, v, link_, p);
-  });
+  const auto to = placement_.first(
+      [&](const Vec3& p) { return has_good_shape(p) && !guard_.would_add_intersections(mesh_, v, link_, p); });
   if (!to) return false;
   mesh_.move(v, *to);
   guard_.changed(mesh_, v);
@@ -114,7 +110,7 @@ bool Tightener::flip(HalfEdgeId h) {
   const auto [o, d, l, r] = corners_beside(h);
   const Tetrahedron removed{mesh_.position(o), mesh_.position(d), mesh_.position(l), mesh_.position(r)};
   if (side(removed.a, removed.b, removed.c, removed.d) != Side::Inside || !mesh_.can_flip(h)) return false;
-  if (std::max(mesh_.valence(l), mesh_.valence(r)) >= options_.max_valence) return false;
+  if (std::max(mesh_.valence(l), mesh_.valence(r)) >= options_.guards.max_valence) return false;
   if (!has_good_shape_without(removed) || !original_.lies_outside_of(removed)) return false;
   if (guard_.would_add_intersections(mesh_, h)) return false;
   mesh_.flip(h);
@@ -123,7 +119,7 @@ bool Tightener::flip(HalfEdgeId h) {
 }
 
 bool Tightener::has_good_shape(const Vec3& to) const {
-  const double least_cosine = std::cos(options_.max_normal_deviation);
+  const double least_cosine = std::cos(options_.guards.max_normal_deviation);
   const Vec3 apex = placement_.to_local(to);
   double least_before = 1, least_after = 1;
   for (std::size_t i = 0; i < link_.size(); ++i) {
@@ -134,7 +130,8 @@ bool Tightener::has_good_shape(const Vec3& to) const {
     least_before = std::min(least_before, compactness(norm(n), squared_norm(a) + squared_norm(b) + ab));
     least_after = std::min(least_after, compactness(norm(m), squared_norm(a - apex) + squared_norm(b - apex) + ab));
   }
-  return least_after > std::min(options_.min_compactness_ratio * least_before, options_.sufficient_compactness);
+  return least_after >
+         std::min(options_.guards.min_compactness_ratio * least_before, options_.guards.sufficient_compactness);
 }
 
 // Faces (o, d, l), (d, o, r) before, (r, l, o), (l, r, d) after; in a frame with the origin at o.
@@ -147,13 +144,14 @@ bool Tightener::has_good_shape_without(const Tetrahedron& removed) const {
   const auto compactness_of = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
     return compactness(norm(normal(a, b, c)), squared_edges(a, b, c));
   };
-  const double least_cosine = std::cos(options_.max_normal_deviation);
+  const double least_cosine = std::cos(options_.guards.max_normal_deviation);
   const Vec3 before = normal(o, d, l) + normal(d, o, r);
   for (const Vec3& after : {normal(r, l, o), normal(l, r, d)})
     if (dot(before, after) < least_cosine * norm(before) * norm(after)) return false;
   const double least_before = std::min(compactness_of(o, d, l), compactness_of(d, o, r));
   const double least_after = std::min(compactness_of(r, l, o), compactness_of(l, r, d));
-  return least_after > std::min(options_.min_compactness_ratio * least_before, options_.sufficient_compactness);
+  return least_after >
+         std::min(options_.guards.min_compactness_ratio * least_before, options_.guards.sufficient_compactness);
 }
 
 }  // namespace

@@ -1,0 +1,203 @@
+#include "construct/progressive/whole_mesh.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "construct/closed_manifold.h"
+
+namespace prohull {
+namespace {
+
+/// Other seeds for each cell of each round.
+std::uint64_t seed_of(const HullOptions& options, std::uint32_t time, FaceId first_face) {
+  return options.seed == 0 ? 0 : options.seed * 0x9e3779b97f4a7c15 + (std::uint64_t{time} << 32 | index(first_face));
+}
+
+}  // namespace
+
+WholeMesh::WholeMesh(const TriangleMesh& mesh, const HullOptions& options, const UnitCube& unit_cube)
+    : options_(options), unit_cube_(unit_cube) {
+  number_along_curve(mesh);
+  find_twins(mesh);
+  changed_.assign(positions_.size(), 1);
+  edges_.resize(corners_.size());
+  made_.reserve(mesh.vertex_count() + (mesh.face_count() - std::min(mesh.face_count(), options.target_faces)) / 2);
+  for (const Vec3& p : mesh.positions) made_.push_back(p);
+}
+
+void WholeMesh::number_along_curve(const TriangleMesh& mesh) {
+  std::vector<BoxedFace> faces;
+  faces.reserve(mesh.face_count());
+  for (const FaceId f : mesh.triangles.ids()) {
+    const auto& [a, b, c] = mesh.triangles[f];
+    faces.push_back({f, unit_cube_.at(Triangle{mesh.positions[a], mesh.positions[b], mesh.positions[c]})});
+  }
+  PerVertex<VertexId> place(mesh.vertex_count(), kNoVertex);
+  positions_.reserve(mesh.vertex_count()), names_.reserve(mesh.vertex_count());
+  corners_.reserve(3 * mesh.face_count()), faces_.reserve(mesh.face_count()), given_.reserve(mesh.face_count());
+  const auto number = [&](VertexId v) {
+    if (place[v] == kNoVertex) {
+      place[v] = positions_.push_back(mesh.positions[v]);
+      names_.push_back(v);
+    }
+    return place[v];
+  };
+  for (const FaceId face : along_curve(faces)) {
+    faces_.push_back(given_.push_back(face));
+    for (const VertexId v : mesh.triangles[face]) corners_.push_back(number(v));
+  }
+  for (const VertexId v : mesh.positions.ids()) number(v);
+}
+
+void WholeMesh::find_twins(const TriangleMesh& mesh) {
+  const HalfEdgeMesh whole(positions_, corners_);
+  if (first_defect(whole)) require_closed_manifold(mesh);  // says which, in the mesh's own numbers
+  twins_.reserve(corners_.size());
+  for (std::uint32_t c = 0; c < corners_.size(); ++c) twins_.push_back(whole.twin(HalfEdgeId{c}));
+}
+
+std::vector<BoxedFace> WholeMesh::boxed_faces() const {
+  std::vector<BoxedFace> boxes(faces_.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t i) {
+    const VertexId* corners = &corners_[3 * index(faces_[i])];
+    boxes[i] = {faces_[i],
+                unit_cube_.at(Triangle{positions_[corners[0]], positions_[corners[1]], positions_[corners[2]]})};
+  });
+  return boxes;
+}
+
+WholeMesh::Cut WholeMesh::cut(Cell cell, std::size_t target_faces, double max_key) {
+  LocalNumbers& local = local_numbers_.local();
+  local.vertices.resize(positions_.size(), kNoVertex);
+  local.faces.resize(given_.size(), LocalNumbers::kNoFace);
+  for (std::uint32_t i = 0; i < cell.faces.size(); ++i) local.faces[cell.faces[i]] = i;
+  std::vector<VertexId> vertices, corners;
+  std::vector<HalfEdgeId> twins;
+  PerVertex<Vec3> positions;
+  PerVertex<VertexFacts> facts;
+  corners.reserve(3 * cell.faces.size()), twins.reserve(3 * cell.faces.size());
+  for (const FaceId f : cell.faces)
+    for (std::uint32_t corner = 3 * index(f); corner < 3 * index(f) + 3; ++corner) {
+      const VertexId v = corners_[corner];
+      if (local.vertices[v] == kNoVertex) {
+        const bool is_free = cell.box.has_inside(unit_cube_.at(positions_[v]));
+        local.vertices[v] = positions.push_back(positions_[v]);
+        vertices.push_back(v);
+        facts.push_back({.changed = is_free ? changed_[v] : 0, .is_free = is_free});
+      }
+      corners.push_back(local.vertices[v]);
+      const std::uint32_t twin = index(twins_[corner]), face = local.faces[FaceId{twin / 3}];
+      twins.push_back(face == LocalNumbers::kNoFace ? kNoHalfEdge : HalfEdgeId{3 * face + twin % 3});
+    }
+  for (const VertexId v : vertices) local.vertices[v] = kNoVertex;
+  for (const FaceId f : cell.faces) local.faces[f] = LocalNumbers::kNoFace;
+  Cut cut{{.mesh = HalfEdgeMesh(std::move(positions), corners, twins),
+           .edges = {},
+           .vertices = std::move(facts),
+           .inside = cell.box,
+           .target_faces = target_faces,
+           .max_key = max_key,
+           .time = time_,
+           .seed = seed_of(options_, time_, cell.faces.front())},
+          std::move(cell.faces),
+          std::move(vertices)};
+  cut.patch.edges.resize(cut.patch.mesh.edge_id_count());
+  for (const EdgeId e : cut.patch.edges.ids())
+    if (const HalfEdgeId h = cut.patch.mesh.half_edge(e); cut.is_free(h))
+      cut.patch.edges[e] = edges_[cut.edge_place(h)];
+  return cut;
+}
+
+WholeMesh::Cut WholeMesh::cut_everything(std::size_t target_faces) {
+  return cut({everywhere(), faces_}, target_faces, std::numeric_limits<double>::infinity());
+}
+
+WholeMesh::Collapses WholeMesh::put_back(Cut cut) {
+  const Patch& patch = cut.patch;
+  Collapses result{.names = {},
+                   .places = {},
+                   .record = std::move(cut.patch.record),
+                   .keys = std::move(cut.patch.keys),
+                   .apexes = {},
+                   .refused = patch.refused,
+                   .linear_programs = patch.linear_programs,
+                   .time = patch.time};
+  result.names.reserve(cut.vertices.size());
+  for (const VertexId v : cut.vertices) result.names.push_back(names_[v]);
+  for (VertexSplit& split : result.record) {
+    split.od = given_corner(cut.corner_place(split.od)), split.do_ = given_corner(cut.corner_place(split.do_));
+    result.apexes.push_back(patch.mesh.position(VertexId{static_cast<std::uint32_t>(cut.vertices.size())}));
+    result.places.push_back(cut.vertices[index(split.o)]);
+    cut.vertices.push_back(cut.vertices[index(split.o)]);
+  }
+  for (const VertexId v : patch.vertices.ids()) {
+    if (!patch.mesh.has(v) || !patch.vertices[v].is_free) continue;
+    const bool is_new = index(v) >= result.names.size();
+    if (is_new) positions_[cut.vertices[index(v)]] = patch.mesh.position(v);
+    changed_[cut.vertices[index(v)]] = patch.vertices[v].changed;
+  }
+  for (std::uint32_t c = 0; c < 3 * cut.faces.size(); ++c) {
+    const VertexId v = patch.mesh.tail(HalfEdgeId{c});
+    const VertexId is = v == kNoVertex ? v : cut.vertices[index(v)];
+    if (VertexId& was = corners_[cut.corner_place(c)]; was != is) was = is;
+    const HalfEdgeId g = patch.mesh.twin(HalfEdgeId{c});
+    if (v == kNoVertex || g == kNoHalfEdge) continue;
+    const HalfEdgeId twin{cut.corner_place(index(g))};
+    if (HalfEdgeId& was = twins_[cut.corner_place(c)]; was != twin) was = twin;
+  }
+  for (const EdgeId e : patch.edges.ids())
+    if (patch.mesh.has(e))
+      if (const HalfEdgeId h = patch.mesh.half_edge(e); cut.is_free(h)) edges_[cut.edge_place(h)] = patch.edges[e];
+  return result;
+}
+
+void WholeMesh::add(const std::vector<Collapses>& patches) {
+  struct Collapse {
+    double key;
+    std::uint32_t patch, i;
+  };
+  std::vector<Collapse> order;
+  std::vector<std::vector<VertexId>> made(patches.size());
+  for (std::uint32_t p = 0; p < patches.size(); ++p) {
+    for (std::uint32_t i = 0; i < patches[p].keys.size(); ++i) order.push_back({patches[p].keys[i], p, i});
+    made[p].resize(patches[p].keys.size());
+    time_ = std::max(time_, patches[p].time);
+  }
+  std::ranges::stable_sort(order, {}, &Collapse::key);
+  for (const auto& [key, p, i] : order) {
+    const Collapses& patch = patches[p];
+    std::vector<VertexId>& made_here = made[p];
+    const auto name = [&](VertexId v) {
+      const std::size_t n = patch.names.size();
+      return index(v) < n ? patch.names[index(v)] : made_here[index(v) - n];
+    };
+    made_here[i] = names_[patch.places[i]] = made_.push_back(patch.apexes[i]);
+    const auto& [o, d, l, r, od, do_] = patch.record[i];
+    record_.push_back({name(o), name(d), name(l), name(r), od, do_});
+  }
+  std::erase_if(faces_, [&](FaceId f) { return corners_[3 * index(f)] == kNoVertex; });
+}
+
+std::vector<double> WholeMesh::known_keys(std::size_t n) const {
+  std::vector<double> keys;
+  for (std::size_t i = 0; i < faces_.size(); i += n)
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const EdgeFacts& edge = edges_[3 * index(faces_[i]) + c];
+      if (edge.key != EdgeFacts::kUnknown && !edge.is_refused) keys.push_back(edge.key);
+    }
+  return keys;
+}
+
+void WholeMesh::forget_edges() { std::ranges::fill(edges_, EdgeFacts{}); }
+
+ProgressiveHull WholeMesh::hull() {
+  std::vector<VertexId> corners(corners_.size(), kNoVertex);
+  for (const FaceId f : faces_)
+    for (std::uint32_t c = 0; c < 3; ++c) corners[given_corner(3 * index(f) + c)] = names_[corners_[3 * index(f) + c]];
+  return {options_.side, positions_.size(), std::move(made_), std::move(corners), std::move(record_)};
+}
+
+}  // namespace prohull
