@@ -158,7 +158,7 @@ TEST(VerifyHull, TellsOfSizesThatDifferAsUnitsDo) {
 
 TEST(VerifyHull, TellsProgressThatNeverRunsBackAndCanBeCancelled) {
   double last = 0;
-  const auto watch = [&](double fraction) {
+  const auto watch = [&](std::string_view, double fraction) {
     EXPECT_GE(fraction, last);
     EXPECT_LE(fraction, 1);
     last = fraction;
@@ -167,7 +167,7 @@ TEST(VerifyHull, TellsProgressThatNeverRunsBackAndCanBeCancelled) {
   const TriangleMesh mesh = make_sample("asteroid", 2000);
   EXPECT_TRUE(verify_hull(mesh, mesh, HullSide::Outer, {.every_triangle = true, .progress = watch}).encloses);
   EXPECT_EQ(last, 1);
-  EXPECT_THROW(verify_hull(mesh, mesh, HullSide::Outer, {.progress = [](double) { return false; }}), Cancelled);
+  EXPECT_THROW(verify_hull(mesh, mesh, HullSide::Outer, {.progress = [](std::string_view, double) { return false; }}), Cancelled);
 }
 
 }  // namespace
