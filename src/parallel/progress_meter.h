@@ -66,6 +66,7 @@ class ProgressCounter {
     constexpr std::size_t kInterval = 64;
     if (done_++ % kInterval == 0) meter_.at(done_, all_);
   }
+  void finish() { meter_.at(1); }
 
  private:
   ProgressMeter meter_;

@@ -216,6 +216,7 @@ class CoverVerifier {
     report.faces_outside = offenders_.size();
     report.encloses = offenders_.empty();
     report.worst = worst_of(std::move(offenders_), options_.max_offenders);
+    counter_.finish();
     return report;
   }
 
