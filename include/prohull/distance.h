@@ -8,39 +8,41 @@
 
 namespace prohull {
 
-/// The farthest that a point of one mesh is from another: the one-sided Hausdorff distance, between two bounds, in the
-/// input's unit.
+/// Two bounds of the one-sided Hausdorff distance: of the distance from the point of one mesh that is farthest from the
+/// other mesh. In the input's unit.
 struct DistanceBounds {
-  double lower = 0;  ///< the distance of `farthest`, rounded
-  double upper = 0;  ///< proven: no point is farther
-  Vec3 farthest;
+  double lower = 0;  ///< the distance of the point `farthest`, rounded
+  double upper = 0;  ///< proven: no point is farther away than this
+  Vec3 farthest;     ///< the farthest point that was found
 };
 
 struct DistanceOptions {
-  double relative_gap = 0.01;         ///< stops when upper <= (1 + relative_gap) lower; at least 0
-  std::size_t max_cells = 1'000'000;  ///< or after looking at so many parts of faces: upper then is looser, and holds
+  double relative_gap = 0.01;         ///< the search ends when upper <= (1 + relative_gap) lower; at least 0
+  std::size_t max_cells = 1'000'000;  ///< the search also ends after this many parts of faces; `upper` still holds then
   Progress progress = {};             ///< stage "measure"
 };
 
-/// From the surface of `from` to that of `to`, both surfaces with the insides of their faces. Faces are cut where the
-/// bound is greatest. A part of a face is no farther from a triangle than the farthest of its corners, for the distance
-/// to a convex set is convex.
-/// Throws InputError if a mesh is empty or not finite; Cancelled.
+/// Bounds how far the surface of `from` reaches from the surface of `to`. All points of the faces count, not only the
+/// vertices. Throws InputError if a mesh is empty or not finite; Cancelled.
 ///
 ///     const double reach = distance_bounds(hull, original).upper;
+///
+/// How it works: the face whose bound is greatest is cut in two, again and again. A part of a face is no farther from a
+/// triangle than the farthest of its corners, because the distance to a convex set is a convex function.
 DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to, const DistanceOptions& options = {});
 
-/// How far a hull may be from what it encloses, or is enclosed by.
+/// How far a hull may be from the mesh that it encloses, or that encloses it.
 struct HullBounds {
-  double max_distance = std::numeric_limits<double>::infinity();      ///< of any point of the hull; in the input's unit
-  double max_void = std::numeric_limits<double>::infinity();          ///< of |volume(hull) / volume - 1|
+  double max_distance =
+      std::numeric_limits<double>::infinity();                ///< from any point of the hull to the mesh; input's unit
+  double max_void = std::numeric_limits<double>::infinity();  ///< of |volume(hull) / volume - 1|
   double max_added_volume = std::numeric_limits<double>::infinity();  ///< of |volume(hull) - volume|; cubic units
 
   bool any() const { return *this != HullBounds{}; }
   bool operator==(const HullBounds&) const = default;
 
-  /// Whether they hold: the distance provenly (distance_bounds, to `original`), volumes in double precision, against
-  /// `volume`. Throws as distance_bounds does.
+  /// Whether the hull keeps all three bounds. The distance from `original` is proven (distance_bounds). Volumes are
+  /// computed in double precision and compared with `volume`. Throws as distance_bounds does.
   bool hold(const TriangleMesh& hull, const TriangleMesh& original, double volume,
             const DistanceOptions& options = {}) const;
 };

@@ -8,18 +8,18 @@
 
 namespace prohull {
 
-/// A triangle of the inner mesh of which a part lies outside of the outer mesh.
+/// A triangle of the inner mesh that lies, in part, outside of the outer mesh.
 struct Offender {
-  FaceId face;          ///< of the inner mesh
-  Vec3 point;           ///< a point of it outside of the outer mesh, rounded to double
-  double distance = 0;  ///< from there to the outer mesh, in the input's unit, rounded
+  FaceId face;          ///< its number in the inner mesh
+  Vec3 point;           ///< a point of the triangle outside of the outer mesh, rounded to double
+  double distance = 0;  ///< from that point to the outer mesh, in the input's unit, rounded
 };
 
 struct EnclosureReport {
   bool encloses = false;          ///< the verdict, exact
-  std::size_t faces_outside = 0;  ///< triangles of the inner mesh of which a part lies outside; exact
-  std::vector<Offender> worst;    ///< the farthest of them, farthest first
-  std::size_t cavities = 0;       ///< connected parts of the outer mesh that leave a hole in the cover by themselves
+  std::size_t faces_outside = 0;  ///< how many triangles of the inner mesh lie outside, at least in part; exact
+  std::vector<Offender> worst;    ///< those that reach farthest outside, the farthest first
+  std::size_t cavities = 0;       ///< connected parts of the outer mesh that leave a hole in the solid it bounds
   /// Pairs of faces of the outer mesh that meet beyond shared corners and edges; exact. Faces without area do not
   /// count.
   std::size_t self_intersections = 0;
@@ -32,15 +32,17 @@ struct EnclosureOptions {
   Progress progress = {};  ///< stage "verify"
 };
 
-/// Decides whether `outer` encloses `inner`: whether every point, off both surfaces, that `inner` winds around at least
-/// once is wound around at least once by `outer`. Guaranteed: the answer is exact for all finite coordinates, by exact
-/// predicates and constructions, without any tolerance. It shares nothing with the construction of hulls but geometry/.
+/// Decides whether `outer` encloses `inner`: whether `outer` winds at least once around every point, off both surfaces,
+/// that `inner` winds around at least once.
+/// Guaranteed: the answer is exact for all finite coordinates. It comes from exact predicates and constructions,
+/// without any tolerance. The code shares nothing with the construction of hulls but exact geometry.
 ///
-/// Required: two closed meshes (along every edge, matched by position, faces run as often one way as the other). They
-/// may touch, share vertices, edges and faces, overlap in a plane, intersect themselves, have faces without area,
-/// several components and cavities. A mesh with a negative volume is turned first, as a whole: single components that
-/// face inwards are cavities (turned_outwards turns those that cannot be). Parts of a self-intersecting `inner` that it
-/// winds around zero or fewer times need no cover.
+/// Required: both meshes are closed (is_closed). They may touch, share vertices, edges and faces, overlap in a plane,
+/// intersect themselves, and have faces without area, several components and cavities.
+///
+/// A mesh of negative volume counts as turned, as a whole. A single component that faces inwards counts as a cavity;
+/// turned_outwards turns those that cannot be one. Where `inner` intersects itself, the parts that it winds around zero
+/// or fewer times need not be enclosed; verify_cover asks for every triangle.
 ///
 /// Throws InputError if a mesh is empty, not closed or has a non-finite coordinate; Cancelled.
 ///
@@ -49,38 +51,38 @@ struct EnclosureOptions {
 EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& outer,
                                  const EnclosureOptions& options = {});
 
-/// Whether a mesh is closed as verify_enclosure requires it: along every edge, matched by position, faces run as often
-/// one way as the other. Throws InputError if the mesh is empty or not finite.
+/// Whether a mesh is closed as verify_enclosure requires: along every edge, as many faces run one way as the other way.
+/// Edges are matched by position. Throws InputError if the mesh is empty or not finite.
 bool is_closed(const TriangleMesh& mesh);
 
-/// Decides whether `outer` covers every one of the triangles: whether each of their points lies in the solid that
-/// `outer` bounds, the closure of what it winds around at least once off its surface. Guaranteed: the answer is exact
-/// for all finite coordinates, without any tolerance; no triangle is left out. It shares nothing with the construction
-/// of hulls but geometry/. The time is nearly linear in the faces of `outer` plus the triangles: a few triangles are
-/// quickly compared with a big hull.
+/// Decides whether `outer` covers every triangle: whether each point of the triangles lies in the solid that `outer`
+/// bounds. That solid is the closure of all points, off the surface, that `outer` winds around at least once.
+/// Guaranteed: the answer is exact for all finite coordinates, without any tolerance, and no triangle is left out. The
+/// code shares nothing with the construction of hulls but exact geometry.
+/// Not decided: whether the space between the triangles is covered. A thick shell around a closed mesh covers it, but
+/// does not enclose it; verify_enclosure tells these apart.
 ///
-/// Required: `outer` closed, as for verify_enclosure, and turned like there. The triangles may be any: open,
-/// non-manifold, not oriented, repeated, intersecting each other, in several parts; those without area count as the
-/// segments and points that they are. What they bound together is nothing to this function: a closed mesh is covered,
-/// but not enclosed, by a thick shell around it; verify_enclosure tells.
+/// Required: `outer` is closed; it counts as turned where its volume is negative. The triangles may be open,
+/// non-manifold, not oriented, repeated, and may intersect each other. A triangle without area counts as the segment or
+/// point that it is.
 ///
-/// In the report `faces_outside` and `worst` are about the triangles; cavities, inner_volume and void_ratio are 0.
-/// Throws InputError if there is no triangle or a coordinate is not finite (drop such triangles first, and say so), or
-/// if `outer` is empty or not closed; Cancelled.
+/// In the report `faces_outside` and `worst` describe the triangles; cavities, inner_volume and void_ratio are 0. The
+/// time is nearly linear in the number of faces of both. Throws InputError if there is no triangle, if a coordinate is
+/// not finite (drop such triangles first, and say so), or if `outer` is empty or not closed; Cancelled.
 ///
 ///     const bool proven = is_closed(original) ? verify_enclosure(original, hull).encloses
 ///                                             : verify_cover(original, hull).encloses;
 EnclosureReport verify_cover(const TriangleMesh& triangles, const TriangleMesh& outer,
                              const EnclosureOptions& options = {});
 
-/// The mesh turned as a whole if its volume is negative, then each component, connected by edges, whose volume is
-/// negative although it lies outside of the others, where it cannot be a cavity. What is verified against an original
-/// mesh is verified against this, as hulls are built from it. Exact. Throws InputError if the mesh is empty or not
-/// finite.
+/// Turns a mesh outwards: as a whole if its volume is negative, and then each component whose volume is negative and
+/// which lies outside of all others, where it cannot be a cavity. Components are connected by edges. Hulls are built
+/// from meshes that are turned like this, and verified against them. Exact. Throws InputError if the mesh is empty or
+/// not finite.
 TriangleMesh turned_outwards(TriangleMesh mesh);
 
-/// Pairs of faces of any triangles that meet beyond shared corners and edges, which are matched by position; faces
-/// without area do not count. Exact. Throws InputError if the mesh is empty or not finite.
+/// The number of pairs of faces that meet in more than the corners and edges that they share. Corners are matched by
+/// position. Faces without area do not count. Exact. Throws InputError if the mesh is empty or not finite.
 std::size_t count_self_intersections(const TriangleMesh& mesh);
 
 }  // namespace prohull

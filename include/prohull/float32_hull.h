@@ -9,14 +9,15 @@ namespace prohull {
 
 struct Float32Hull {
   TriangleMesh mesh;
-  std::size_t moved_vertices = 0;
+  std::size_t moved_vertices = 0;  ///< how many vertices have other coordinates than before
 };
 
-/// The level of a hull, its vertices moved to coordinates that a float32 file (STL, GLB) keeps, each to the outside of
-/// or onto the planes of all its faces (HullSide::Inner: to the inside), so that the result still encloses. Vertices
-/// that already are such coordinates stay, unless a neighbour needs room. A vertex that has no room even so goes by an
-/// edge collapse, so that the result may have a few faces less. Throws InputError(NoVolume) if that is impossible too;
-/// OBJ, OFF and PLY files keep doubles.
+/// Moves the vertices of a hull to coordinates that a float32 file (STL, GLB) keeps. OBJ, OFF and PLY files keep
+/// doubles and do not need this.
+/// Guaranteed: the result still encloses. Each vertex moves to a point that lies outside of, or on, the planes of all
+/// its faces (HullSide::Inner: inside of or on them).
+/// A vertex that already has float32 coordinates stays, unless a neighbour needs room. A vertex without room is removed
+/// by an edge collapse, so the result may have a few faces less. Throws InputError(NoVolume) if that is impossible too.
 Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side);
 
 }  // namespace prohull

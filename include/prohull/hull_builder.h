@@ -14,23 +14,25 @@
 
 namespace prohull {
 
-/// In which order edges are collapsed.
+/// The priority of edges: the edge with the least is collapsed first.
 enum class Strategy {
-  Lazy,    ///< enclosed volume, re-evaluated only when an edge comes to the front of the queue; best and fastest
-  Paper1,  ///< P&T 3.1.3, first strategy: enclosed volume, re-evaluated after each collapse nearby
-  Paper2,  ///< P&T 3.1.3, second strategy: the volume that the star spans with the centre of its link
+  Lazy,    ///< added volume, evaluated again only when the edge comes to the front of the queue; tightest and fastest
+  Paper1,  ///< P&T 3.1.3, first strategy: added volume, evaluated again after each collapse nearby
+  Paper2,  ///< P&T 3.1.3, second strategy: the volume between the star of the edge and the centre of its link
 };
 
 /// "lazy", "paper1", "paper2"
 Names<Strategy> strategy_names();
 
-/// The priority queue (P&T 3.1.4). Heap and RedBlackTree give the same hulls; Bucket sorts to an eighth of an octave.
+/// The priority queue (P&T 3.1.4). Heap and RedBlackTree give the same hulls. Bucket is the fastest; it treats
+/// priorities that differ by less than about 9 % as equal.
 enum class QueueKind { Bucket, Heap, RedBlackTree };
 
-/// Whether collapses are refused that would add pairs of faces that meet without sharing anything there.
+/// Whether a collapse is refused if it would make the hull intersect itself: if two faces would then meet at points
+/// that are no corner or edge of both.
 enum class SelfIntersections {
-  ByStrategy,  ///< Refused by Strategy::Lazy, Allowed by the paper's two, which do not look
-  Refused,     ///< exact; a hull has no more such pairs than the mesh itself
+  ByStrategy,  ///< Refused for Strategy::Lazy; Allowed for the paper's two strategies, which do not test for it
+  Refused,     ///< decided exactly; the hull has no more intersecting pairs of faces than the mesh
   Allowed,     ///< faster
 };
 
@@ -69,22 +71,23 @@ class RefusalCounts {
 /// that did not occur are left out.
 std::string describe_refusals(const RefusalCounts& counts);
 
-/// Which collapses are refused for the shape of the faces that they would make (P&T 3.1.4).
+/// Limits for the faces that a collapse makes; a collapse beyond them is refused (P&T 3.1.4). The *compactness* of a
+/// triangle is 4 sqrt(3) area / (sum of the squared edges): 1 if it is equilateral, near 0 if it is thin.
 struct ShapeGuards {
-  unsigned max_valence = 12;                           ///< of a new vertex; bigger stars, bigger linear programs
-  double min_compactness_ratio = 0.8;                  ///< worst face of the star, after / before; in [0, 1]
-  double sufficient_compactness = 0.15;                ///< good enough whatever it was before; not for the paper's two
-                                                       ///< strategies; in [0, 1]
-  double max_normal_deviation = std::numbers::pi / 4;  ///< of a face that a collapse moves; radians, in [0, pi/2]
+  unsigned max_valence = 12;           ///< faces around the new vertex, at most; at least 3
+  double min_compactness_ratio = 0.8;  ///< least compactness after the collapse / before it, at least; in [0, 1]
+  double sufficient_compactness =
+      0.15;  ///< a face this compact is accepted whatever the ratio is; Strategy::Lazy only; in [0, 1]
+  double max_normal_deviation = std::numbers::pi / 4;  ///< a face turns by this angle at most; radians, in [0, pi/2]
 
   bool operator==(const ShapeGuards&) const = default;
 };
 
-/// Of each guard the weaker one.
+/// The guards of which each limit is the weaker one of `a` and `b`.
 ShapeGuards weaker(const ShapeGuards& a, const ShapeGuards& b);
 
-/// The guards that HullOptions::relax_guards comes down to, one after the other, where no legal collapse is left above
-/// the target.
+/// With HullOptions::relax_guards the guards weaken to these, one after the other, each time no legal collapse is left
+/// above the target.
 constexpr std::array<ShapeGuards, 3> kRelaxedGuards{{{12, 0.8, 0.15, std::numbers::pi / 3},
                                                      {16, 0.5, 0.05, 89 * std::numbers::pi / 180},
                                                      {32, 0.1, 0.01, 89 * std::numbers::pi / 180}}};
@@ -94,18 +97,20 @@ struct HullOptions {
   HullSide side = HullSide::Outer;
   Strategy strategy = Strategy::Lazy;
   ShapeGuards guards = {};
-  bool relax_guards = false;  ///< see kRelaxedGuards; never what makes the hull enclose
-  SelfIntersections self_intersections = SelfIntersections::ByStrategy;  ///< see refuses_self_intersections
-  bool float32_coordinates = false;  ///< new vertices have coordinates that a float32 file keeps
+  bool relax_guards = false;  ///< weaken the guards where the target is out of reach; see kRelaxedGuards
+  SelfIntersections self_intersections = SelfIntersections::ByStrategy;
+  bool float32_coordinates = false;  ///< give new vertices coordinates that a float32 file (STL, GLB) keeps
   QueueKind queue = QueueKind::Bucket;
-  std::uint64_t seed =
-      0;  ///< others than 0 change the order of the collapses a little, and so the hull; Strategy::Lazy only
-  unsigned best_of =
-      1;  ///< builds with so many seeds from `seed` on; keeps what is nearest to the target, of that the least void
-  unsigned threads = 0;    ///< at most, and no more than cores; 0: one for each core; the hull is the same for any
+  /// A seed other than 0 changes the order of the collapses a little, and so the hull. Strategy::Lazy only.
+  std::uint64_t seed = 0;
+  /// Build with this many seeds, from `seed` on, and keep the hull that is nearest to the target; of several, that with
+  /// the least void. At least 1.
+  unsigned best_of = 1;
+  unsigned threads = 0;    ///< threads at most; 0: one for each core. The hull is the same for any number.
   Progress progress = {};  ///< stage "build"
 
-  /// Inner hulls always do: one that intersects itself may stick out of the mesh.
+  /// Whether collapses are refused that make the hull intersect itself. Inner hulls always refuse them, because an
+  /// inner hull that intersects itself may stick out of the mesh.
   bool refuses_self_intersections() const {
     if (side == HullSide::Inner) return true;
     if (self_intersections == SelfIntersections::ByStrategy) return strategy == Strategy::Lazy;
@@ -118,17 +123,17 @@ enum class Stopped { TargetReached, NoLegalCollapse };
 struct HullResult {
   ProgressiveHull hull;
   Stopped stopped;
-  RefusalCounts refused;  ///< over the whole construction; an edge may be refused many times
-  RefusalCounts blocked;  ///< of the edges that are left, why each was refused last
-  std::size_t linear_programs = 0;
-  unsigned relaxed_guards = 0;  ///< so many of kRelaxedGuards were used at the end
+  RefusalCounts refused;            ///< over the whole construction; one edge may be refused many times
+  RefusalCounts blocked;            ///< why each edge of the base mesh was refused the last time it was tried
+  std::size_t linear_programs = 0;  ///< how many were solved
+  unsigned relaxed_guards = 0;      ///< how many of kRelaxedGuards were used, from the first on
 };
 
-/// Simplifies `mesh` by edge collapses, every new vertex on the outside of all faces that it replaces, until
-/// target_faces or no collapse is legal (P&T 3.1). Every vertex is accepted by an exact predicate on its stored
-/// coordinates; the guarantees are those of ProgressiveHull.
-/// Throws InputError for options outside their range, or if `mesh` is not a closed 2-manifold oriented outwards
-/// (repair.h makes one where it can); Cancelled.
+/// Simplifies `mesh` by edge collapses (P&T 3.1), until the hull has at most target_faces faces or no collapse is
+/// legal. Guaranteed: what ProgressiveHull guarantees. A collapse places its new vertex outside of all faces that it
+/// replaces, and an exact predicate decides that for the coordinates that are stored. Required: `mesh` is a closed
+/// 2-manifold oriented outwards. repair.h makes one where it can; enclosing_hull.h takes any triangles. Throws
+/// InputError otherwise, and for options outside their range; Cancelled.
 ///
 ///   const TriangleMesh horse = closed_mesh(read_mesh("horse.ply")).mesh;
 ///   const HullResult result = build_hull(horse, {.target_faces = 500});

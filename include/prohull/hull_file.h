@@ -7,20 +7,23 @@
 
 namespace prohull {
 
-/// The .phull file: a progressive hull, compressed and checksummed; see docs/phull.md for its layout.
+// A .phull file holds a progressive hull, compressed and with a checksum. docs/phull.md describes the format.
 
-/// Writes beside `path`, then renames. Throws InputError(CannotWrite).
+/// Writes a .phull file: first beside `path`, then it is renamed, so that no half-written file is left. Throws
+/// InputError(CannotWrite).
 void save_hull(const std::filesystem::path& path, const ProgressiveHull& hull);
 
-/// Throws InputError if the file cannot be read, is no .phull, is of a newer version, truncated, corrupted, or holds
-/// anything but a sound progressive hull (first_defect). Memory is bounded by the size of the file.
+/// Reads a .phull file. Throws InputError if the file cannot be read, is not a .phull file, has a newer version of the
+/// format, is truncated or corrupted, or does not hold a sound progressive hull (first_defect). The memory that it uses
+/// is bounded by the size of the file.
 ProgressiveHull load_hull(const std::filesystem::path& path);
 
-/// The same for the content of a file; `name` stands in error messages.
+/// Reads the content of a .phull file. `name` stands in error messages.
 ProgressiveHull load_hull(std::string_view content, const std::filesystem::path& name);
 
-/// Whether the content starts as a .phull file does. A pipe cannot be read again after is_hull_file: read_file first.
+/// Whether the content of a file starts as a .phull file does.
 bool is_hull_content(std::string_view content);
+/// Whether a file starts as a .phull file does. Not for pipes, which can be read only once.
 bool is_hull_file(const std::filesystem::path& path);
 
 }  // namespace prohull

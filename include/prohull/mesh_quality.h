@@ -7,23 +7,25 @@
 
 namespace prohull {
 
-/// How values are spread where greater is better: the worst of them, and those that 1, 10 and 50 % do not exceed.
+/// The spread of values of which greater ones are better: the least value, and the values that 1 %, 10 % and 50 % of
+/// all do not exceed.
 struct Percentiles {
   double worst = 0, p1 = 0, p10 = 0, median = 0;
 };
 
-/// An edge with a smaller dihedral angle is sharp: its faces turn by more than 45 degrees.
+/// An edge is *sharp* if its dihedral angle is smaller than this: if its faces turn by more than 45 degrees.
 constexpr double kSharpDihedralAngle = 0.75 * std::numbers::pi;
 
-/// How good the triangles of a mesh are; rounded. Nothing is refused: what cannot be measured does not count.
+/// How good the triangles of a mesh are. All values are rounded. Elements that cannot be measured are left out.
 struct MeshQuality {
-  /// Of faces, P&T 3.1.4: 4 sqrt(3) area / (sum of the squared edges), 1 if equilateral, 0 without area.
+  /// The compactness of faces (P&T 3.1.4): 4 sqrt(3) area / (sum of the squared edges); 1 if a face is equilateral, 0
+  /// if it has no area.
   Percentiles compactness;
-  /// Of edges between two faces of equal orientation, both with an area; radians, pi where flat and 0 where folded
-  /// onto itself, whether convex or not.
+  /// The dihedral angle of edges between two faces that have an area and agree about the outside. In radians: pi where
+  /// the surface is flat, 0 where it is folded onto itself. Convex and concave edges are not told apart.
   Percentiles dihedral_angle;
-  std::size_t edges = 0;        ///< that have a dihedral angle
-  std::size_t sharp_edges = 0;  ///< below kSharpDihedralAngle
+  std::size_t edges = 0;        ///< edges that have a dihedral angle
+  std::size_t sharp_edges = 0;  ///< edges below kSharpDihedralAngle
 };
 
 MeshQuality mesh_quality(const TriangleMesh& mesh);

@@ -20,16 +20,16 @@ namespace prohull {
 struct Hit {
   FaceId face{};  ///< of the original mesh
   double t = 0;   ///< segment: fraction of the way from a to b, in [0, 1]; ray: in lengths of its direction, >= 0
-  Vec3 position;  ///< at t; both are rounded
-  bool entering = true;  ///< from the outside of the face to its inside
+  Vec3 position;  ///< the point at t; both are rounded
+  bool entering = true;  ///< the query passes from the outside of the face to its inside
 
   bool operator==(const Hit&) const = default;
 };
 
-/// How queries are answered. All engines give the same answers, except where it is said.
+/// How queries are answered. All engines give the same answers, except PaperRefinement.
 enum class Engine {
-  Auto,  ///< the fastest that is exact: Bvh
-  Bvh,   ///< a tree of boxes over the original mesh
+  Auto,  ///< the fastest engine that is exact: Bvh
+  Bvh,   ///< a tree of boxes over the faces of the original mesh
   /// P&T 3.2.1 with bounds, for a ProgressiveHull: splits every vertex with something below it that the query may meet.
   Refinement,
   /// P&T 3.2.1 as published, for a ProgressiveHull: splits the corners of the hull faces that the query meets. Of a
@@ -37,7 +37,7 @@ enum class Engine {
   /// miss crossings further in, where the query passes below the hull (P&T Figure 5), and sheets without thickness.
   /// Hulls that are kept from query to query are finer, and may miss less.
   PaperRefinement,
-  Brute,  ///< every face, exactly
+  Brute,  ///< tests every face, exactly
 };
 
 /// "auto", "bvh", "refinement", "paper-refinement", "brute"
@@ -45,8 +45,8 @@ Names<Engine> engine_names();
 
 /// What becomes of the refined hull between one query and the next (P&T 3.2.2).
 enum class BetweenQueries {
-  RollBack,  ///< to the base hull, after every `queries_per_roll_back` queries
-  Coarsen,   ///< kept, and coarsened where the query no longer meets it
+  RollBack,  ///< after every `queries_per_roll_back` queries it goes back to the base hull
+  Coarsen,   ///< it is kept, and coarsened where the query no longer meets it
 };
 
 struct RefinementOptions {
@@ -54,11 +54,11 @@ struct RefinementOptions {
   unsigned queries_per_roll_back = 1;  ///< at least 1
 };
 
-/// What queries have cost; counted by the refinement engines only.
+/// What queries have cost. Only the refinement engines count this.
 struct QueryCounts {
-  std::size_t tests = 0;        ///< of faces against the query, those of the original included (P&T Table 3, "#tests")
-  std::size_t splits = 0;       ///< vertex splits made ("#splits")
-  std::size_t coarsenings = 0;  ///< collapses made between queries (BetweenQueries::Coarsen)
+  std::size_t tests = 0;        ///< faces tested against queries, at all levels (P&T Table 3, "#tests")
+  std::size_t splits = 0;       ///< vertex splits that were made ("#splits")
+  std::size_t coarsenings = 0;  ///< collapses that were made between queries (BetweenQueries::Coarsen)
 
   QueryCounts& operator+=(const QueryCounts& other) {
     tests += other.tests, splits += other.splits, coarsenings += other.coarsenings;
@@ -66,12 +66,12 @@ struct QueryCounts {
   }
 };
 
-/// A mesh made ready for queries. Immutable and cheap to copy: copies share one, and so may any number of threads.
-/// Faces are those of the mesh that is handed over, or of the original mesh of the hull.
+/// A mesh made ready for queries. It is immutable and cheap to copy: copies share their data, and any number of threads
+/// may share one index. Face numbers are those of the mesh that is handed over, or of the original mesh of the hull.
 class QueryIndex {
  public:
-  /// Any triangles will do, closed or not. Throws InputError(NonFiniteCoordinate) for a vertex of a face that is not
-  /// finite, and InputError(InvalidOption) for the refinement engines, which need a hull.
+  /// Takes any triangles, closed or not. Throws InputError(NonFiniteCoordinate) if a vertex of a face is not finite,
+  /// and InputError(InvalidOption) for the refinement engines, which need a hull.
   explicit QueryIndex(TriangleMesh mesh, Engine engine = Engine::Auto);
 
   /// Throws InputError(InvalidOption) for options outside their range.
@@ -89,18 +89,21 @@ class QueryIndex {
   std::shared_ptr<const Shared> shared_;
 };
 
-/// Asks a mesh. Keeps its scratch memory, which does not grow with the number of queries; use one per thread.
+/// Asks a mesh where segments, rays and triangles meet it. It keeps its scratch memory from query to query; that memory
+/// does not grow with the number of queries. Use one object per thread.
 ///
-/// Segments and rays are answered as if moved by (e, e^2, e^3), for an e smaller than any distance: so they pass every
-/// edge and vertex to one side, and neither start, end nor run in a face. Hence every crossing is found once, those of
-/// a closed mesh enter and leave in turn, and which they are and in what order is exact. One that only touches, or only
-/// ends at, a face may cross it or not. Segments of no length, rays of no direction and faces without area cross
-/// nothing.
+/// Guaranteed: every crossing is found once, also at edges and vertices. Which faces are crossed, and in which order,
+/// is exact. The crossings of a closed mesh that does not intersect itself enter and leave in turn. Not guaranteed:
+/// whether a segment or ray crosses a face that it only touches, or at which it ends. Segments of no length, rays of no
+/// direction and faces without area cross nothing.
 ///
 ///     const QueryIndex index(mesh);
 ///     MeshQuery query(index);
 ///     for (const Segment& s : segments)
 ///       if (const auto hit = query.first_hit(s)) mark(hit->face, hit->t);
+///
+/// How it works: a query is answered as if it were moved by (e, e^2, e^3), for an e smaller than any distance. So it
+/// passes every edge and vertex on one side, and it neither starts, ends nor runs in a face.
 class MeshQuery {
  public:
   explicit MeshQuery(QueryIndex index);
@@ -108,11 +111,11 @@ class MeshQuery {
   MeshQuery(MeshQuery&&) noexcept;
   MeshQuery& operator=(MeshQuery&&) noexcept;
 
-  /// The crossing nearest to the start. Coordinates must be finite, here and below.
+  /// The crossing nearest to the start. The coordinates of all queries must be finite.
   std::optional<Hit> first_hit(const Segment& segment);
   std::optional<Hit> first_hit(const Ray& ray);
 
-  /// Some crossing.
+  /// One of the crossings; faster than first_hit.
   std::optional<Hit> any_hit(const Segment& segment);
   std::optional<Hit> any_hit(const Ray& ray);
 
@@ -120,8 +123,8 @@ class MeshQuery {
   std::vector<Hit> all_hits(const Segment& segment);
   std::vector<Hit> all_hits(const Ray& ray);
 
-  /// The faces that have a point in common with the triangle, ascending; touching counts, and nothing is moved. A
-  /// triangle without area is the segment or point that it is; so are faces.
+  /// The faces that have a point in common with the triangle, in ascending order. Faces that only touch it count:
+  /// nothing is moved here. A triangle or face without area counts as the segment or point that it is.
   std::vector<FaceId> faces_met(const Triangle& triangle);
   bool meets(const Triangle& triangle);
 
@@ -133,7 +136,7 @@ class MeshQuery {
   /// if it has no faces: it has no inside. The first call for an index finds that out, and takes longer.
   bool contains(const Vec3& point);
 
-  /// Of all queries asked so far.
+  /// What all queries so far have cost.
   QueryCounts counts() const;
 
   std::size_t memory_bytes() const;  ///< of this object alone
@@ -150,7 +153,7 @@ enum class HitMode { First, Any, All };
 Names<HitMode> hit_mode_names();
 
 struct BatchOptions {
-  unsigned threads = 0;    ///< at most, and no more than cores; 0: one for each core
+  unsigned threads = 0;    ///< threads at most; 0: one for each core
   Progress progress = {};  ///< stage "query"
 };
 

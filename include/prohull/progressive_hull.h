@@ -20,16 +20,15 @@ enum class HullSide {
 /// "outer", "inner"
 Names<HullSide> hull_side_names();
 
-/// A mesh at every resolution from a coarse base mesh up to the original (P&T 2, Hoppe 1996). Immutable; any number of
-/// threads may share one.
-/// Guaranteed: every level is a closed 2-manifold, and encloses the next finer one (HullSide::Inner: is enclosed by it)
-/// in the sense of winding numbers; the finest is the original mesh bit for bit.
-/// Not guaranteed: freedom from self-intersection.
+/// A mesh at every resolution, from a coarse base mesh up to the original mesh (P&T 2, Hoppe 1996). It is immutable;
+/// any number of threads may share one. Guaranteed: every level is a closed 2-manifold. Every level encloses the next
+/// finer one (HullSide::Inner: is enclosed by it) in the sense of winding numbers. The finest level is the original
+/// mesh, bit for bit. Not guaranteed: freedom from self-intersection.
 class ProgressiveHull {
  public:
-  /// Vertices are numbered: those of the original mesh first, then one for each edge collapse in the order in which
-  /// they were made. `base_corners` holds the base mesh: for corner c of face f, at 3 f + c, its vertex, or kAbsent.
-  /// Requires that first_defect finds none; unused vertices are allowed.
+  /// Vertices are numbered: the vertices of the original mesh come first, then one vertex for each edge collapse, in
+  /// the order of the collapses. `base_corners` holds the base mesh: at 3 f + c the vertex of corner c of face f, or
+  /// kAbsent. Required: first_defect finds no defect. Unused vertices are allowed.
   ProgressiveHull(HullSide side, std::size_t original_vertices, PerVertex<Vec3> positions,
                   std::vector<VertexId> base_corners, std::vector<VertexSplit> splits);
 
@@ -50,7 +49,7 @@ class ProgressiveHull {
 
   const PerVertex<Vec3>& positions() const { return positions_; }
   const std::vector<VertexId>& base_corners() const { return base_corners_; }
-  /// In the order of the collapses: splits()[i] replaces vertex made_vertex(i). The last comes first when refining.
+  /// In the order of the collapses: splits()[i] replaces vertex made_vertex(i). Refinement starts with the last one.
   const std::vector<VertexSplit>& splits() const { return splits_; }
   VertexId made_vertex(std::size_t i) const { return VertexId(static_cast<std::uint32_t>(original_vertices_ + i)); }
 
@@ -64,12 +63,13 @@ class ProgressiveHull {
   std::vector<VertexSplit> splits_;
 };
 
-/// The faces of the coarsest level that `is_within` accepts, found by bisection, as if it accepted all finer ones;
-/// those of the original if it accepts no other.
+/// The number of faces of the coarsest level that `is_within` accepts. It is found by bisection, which assumes that
+/// `is_within` accepts every level that is finer than an accepted one. If no level is accepted: the number of faces of
+/// the original mesh.
 std::size_t faces_within(const ProgressiveHull& hull, const std::function<bool(const TriangleMesh&)>& is_within);
 
-/// "split 12 does not fit the mesh it refines", or nothing if the record is sound: a closed 2-manifold whose splits can
-/// all be made, down to the original. Says nothing of enclosure (see enclosure.h).
+/// The first defect of the record, such as "split 12 does not fit the mesh it refines"; nothing if the base mesh is a
+/// closed 2-manifold and all splits can be made. Whether levels enclose each other is decided by verify_replay.
 std::optional<std::string> first_defect(const ProgressiveHull& hull);
 
 }  // namespace prohull

@@ -10,7 +10,7 @@
 
 namespace prohull {
 
-/// Files of queries and of their answers. Rows, and so queries, are counted from 0; lines of text from 1.
+// Files of queries and of their answers. Rows are counted from 0, and so are queries. Lines of text are counted from 1.
 
 /// Reads segments, one a row: x0,y0,z0,x1,y1,z1.
 ///   .npy   an array of shape (n, 6) or (n, 2, 3), of floating point numbers of 32 or 64 bits or of integers, of either
@@ -18,8 +18,8 @@ namespace prohull {
 ///   .npz   with one such array, or one called `segments`
 ///   .csv   numbers with commas, semicolons or blanks between them, as the first line has them; a decimal point; blank
 ///          lines, comments from # on, and a first line of names are skipped; LF or CR LF
-/// Each also gzipped. The name tells the format, the content if the name has none; a name that contradicts the content
-/// is an error. Integers beyond 2^53 and decimals become the nearest double. A file without rows gives none.
+/// Each may be gzipped. The file name tells the format; if it does not, the content does. A name that contradicts the
+/// content is an error. Integers beyond 2^53 and decimals become the nearest double. A file without rows gives none.
 /// Throws InputError with file, row or line, and what to do: CannotRead, UnknownFormat, Malformed (another shape, kind
 /// of number, or truncated), NonFiniteCoordinate, NoLength for ends that are equal. Memory use is bounded by the size
 /// of the content, as in mesh_io.h.
@@ -51,11 +51,11 @@ enum class HitsOf { Segments, Rays };
 /// Writes one row for each hit, in the order of the batch: segment (or ray), t, face, x, y, z, entering.
 ///   .csv   with a line of names; the shortest decimals that read back as the same doubles; entering 0 or 1
 ///   .npz   one array for each name: segment and face int64, entering bool, the others float64
-/// Written beside `path`, then renamed; the same bytes for the same batch. Throws InputError(UnknownFormat),
-/// InputError(CannotWrite).
+/// The file is written beside `path`, then renamed. The same batch gives the same bytes. Throws
+/// InputError(UnknownFormat), InputError(CannotWrite).
 void write_hits(const std::filesystem::path& path, const HitBatch& batch, HitsOf of = HitsOf::Segments);
 
-/// The same for the faces that triangles meet: triangle, face.
+/// Writes one row for each face that a triangle meets, in the same way: triangle, face.
 void write_faces_met(const std::filesystem::path& path, const FaceBatch& batch);
 
 }  // namespace prohull

@@ -8,10 +8,10 @@
 
 namespace prohull {
 
-/// Segments as in P&T 4.2: each from one side of a box twice as large as `box`, about the same centre, to another side;
-/// the two sides, and the points on them, uniformly at random. The same bits for the same arguments with every
-/// compiler and standard library. Throws InputError(EmptyMesh) for an empty box, InputError(NonFiniteCoordinate) for
-/// one that is not finite when doubled.
+/// Random segments as in P&T 4.2. Each runs from one side of a box to another; that box is twice as large as `box` and
+/// has the same centre. The two sides, and the points on them, are uniformly random.
+/// Guaranteed: the same arguments give the same bits, with every compiler and standard library.
+/// Throws InputError(EmptyMesh) if the box is empty, InputError(NonFiniteCoordinate) if it is not finite when doubled.
 std::vector<Segment> random_segments(const Box& box, std::size_t count, std::uint64_t seed);
 
 }  // namespace prohull

@@ -10,58 +10,59 @@
 
 namespace prohull {
 
-/// What was done to a mesh to make it closed, manifold and oriented outwards.
+/// How many elements of a mesh were changed to make it closed, manifold and oriented outwards.
 struct Repairs {
-  std::size_t dropped_non_finite_faces = 0;  ///< that had a corner with NaN or infinity
-  std::size_t welded_vertices = 0;           ///< that had the position of another one
-  std::size_t dropped_faces = 0;             ///< that had the same vertex twice, after welding
-  std::size_t dropped_duplicate_faces = 0;   ///< that had the same three corners as another one
-  std::size_t split_vertices = 0;            ///< in which parts met that are connected nowhere else
-  std::size_t turned_single_faces = 0;       ///< to agree with their neighbours about the outside
-  std::size_t turned_components = 0;         ///< that were inside out
-  std::size_t turned_faces = 0;              ///< in those
-  std::size_t dropped_components = 0;        ///< that lay inside of others
-  std::size_t dropped_component_faces = 0;   ///< of those
+  std::size_t dropped_non_finite_faces = 0;  ///< faces dropped because a corner was NaN or infinite
+  std::size_t welded_vertices = 0;           ///< vertices joined with another one at the same position
+  std::size_t dropped_faces = 0;             ///< faces dropped because they had the same vertex twice, after welding
+  std::size_t dropped_duplicate_faces = 0;   ///< faces dropped because another one had the same three corners
+  std::size_t split_vertices = 0;            ///< vertices split because two parts met in nothing else
+  std::size_t turned_single_faces = 0;       ///< faces turned to agree with their neighbours about the outside
+  std::size_t turned_components = 0;         ///< components turned because they were inside out
+  std::size_t turned_faces = 0;              ///< faces of these components
+  std::size_t dropped_components = 0;        ///< components dropped because they lay inside of others
+  std::size_t dropped_component_faces = 0;   ///< faces of these components
 
   bool any() const { return *this != Repairs{}; }
   bool operator==(const Repairs&) const = default;
 };
 
-/// "welded 2,100 vertices", one phrase for each kind.
+/// One phrase for each kind of repair that was made, such as "welded 2,100 vertices".
 std::vector<std::string> describe(const Repairs& repairs);
 
 struct ClosedMesh {
   TriangleMesh mesh;
   Repairs repairs;
-  MeshReport report;      ///< of `mesh`
-  MeshReport found = {};  ///< of the mesh as it came to closed_mesh
+  MeshReport report;      ///< describes `mesh`
+  MeshReport found = {};  ///< describes the mesh before the repairs
 };
 
-/// The mesh that hulls are built from: a closed 2-manifold of any number of components and any genus, outwards
-/// oriented. Vertices at equal positions are welded only if the mesh is not closed without. A mesh of negative volume
-/// is turned as a whole; then each component of negative volume is turned too, unless it lies inside others: there it
-/// bounds a cavity. Throws InputError for anything else, with the first offending edge or vertex.
+/// Makes the mesh that build_hull needs: a closed 2-manifold that is oriented outwards. It may have any number of
+/// components, and any genus. Vertices at equal positions are welded, but only if the mesh is not closed otherwise. A
+/// mesh of negative volume is turned as a whole. Then each component of negative volume is turned too, unless it lies
+/// inside of others, where it bounds a cavity. Throws InputError for any other mesh, with the first offending edge or
+/// vertex.
 ClosedMesh closed_mesh(TriangleMesh mesh);
 
 /// Drops the faces with a corner that is NaN or infinite; returns how many there were.
 std::size_t drop_non_finite_faces(TriangleMesh& mesh);
 
-/// Any triangles, and what of them is closed.
+/// What repaired_mesh makes of any triangles.
 struct RepairedMesh {
-  TriangleMesh original;             ///< the triangles of the input that are finite, as they were: what a hull covers
-  std::optional<ClosedMesh> closed;  ///< if a hull can be built from it as from closed_mesh
-  /// Triangles of `original` that `closed` has not, and no others of the same corners: it may leave them uncovered.
+  TriangleMesh original;             ///< the finite triangles of the input, unchanged: a hull must cover these
+  std::optional<ClosedMesh> closed;  ///< the closed mesh, if one could be made
+  /// The triangles of `original` that have no counterpart in `closed`. A hull of `closed` may leave them uncovered.
   TriangleMesh dropped;
-  Repairs repairs;       ///< all of them; up to where it failed if `closed` is empty
-  std::string obstacle;  ///< the first defect that was left if `closed` is empty
-  MeshReport found;      ///< of the input as it came
+  Repairs repairs;       ///< the repairs that were made; if `closed` is empty, those before the obstacle
+  std::string obstacle;  ///< the first defect that was left; empty if there is a closed mesh
+  MeshReport found;      ///< describes the input before the repairs
 };
 
-/// Makes of any triangles a mesh as of closed_mesh, if that takes no new faces. Beyond what closed_mesh does, it drops
+/// Makes a closed mesh of any triangles, if that takes no new faces. It does what closed_mesh does. It also drops
 /// triangles that are not finite and duplicates, makes neighbours agree about the outside, and separates parts that
-/// meet in a vertex only. Unless `keep_cavities`, components inside of another one, which they do not touch, are
-/// dropped: an outer hull covers them with it. Exact.
-/// Throws InputError if no finite triangle is left, or if coordinates are too large or too close for volumes.
+/// meet in a vertex only. Components that lie inside of another one without touching it are dropped too, because an
+/// outer hull of the other one covers them; `keep_cavities` keeps them. All decisions are exact. Throws InputError if
+/// no finite triangle is left, or if coordinates are too large or too close for volumes.
 RepairedMesh repaired_mesh(TriangleMesh mesh, bool keep_cavities = false);
 
 }  // namespace prohull

@@ -11,17 +11,18 @@ namespace prohull {
 struct SampleInfo {
   std::string_view name;
   std::string_view description;
-  int genus;  ///< at every face count
+  int genus;  ///< the number of handles, the same for every number of faces
 };
 
 /// The meshes that make_sample can make.
 std::span<const SampleInfo> samples();
 
-/// Guaranteed: one closed, 2-manifold, outward-oriented surface free of self-intersection and of slivers, of the
-/// sample's genus; about `faces` faces (within 20 %, or the fewest that the shape allows: 12 for the sphere, some
-/// 22,000 for the gyroid); the same bits every time. Time and memory are linear in `faces`, up to tens of millions. The
-/// planar faces of "box" and "bracket" are exactly planar, also as float32. Throws InputError(InvalidOption) for an
-/// unknown name (listing the known) or a face count outside [4, 2^30].
+/// Makes a test mesh of about `faces` faces: within 20 %, or the fewest that the shape allows (12 for the sphere, about
+/// 22,000 for the gyroid).
+/// Guaranteed: one closed 2-manifold of the sample's genus, oriented outwards, free of self-intersection and of
+/// slivers; the same bits every time. The planar faces of "box" and "bracket" are exactly planar, also as float32. Time
+/// and memory are linear in `faces`, up to tens of millions. Throws InputError(InvalidOption) if the name is unknown
+/// (the message lists the known ones) or `faces` is outside of [4, 2^30].
 TriangleMesh make_sample(std::string_view name, std::size_t faces);
 
 }  // namespace prohull

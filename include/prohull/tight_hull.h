@@ -11,22 +11,22 @@ namespace prohull {
 struct TightHull {
   TriangleMesh mesh;
   Stopped stopped;
-  RefusalCounts refused, blocked;  ///< as in HullResult, but for the collapses towards the mesh at the end
-  std::size_t moved_vertices = 0;  ///< how often a vertex was moved towards the original
+  RefusalCounts refused, blocked;  ///< as in HullResult; the tight collapses at the end are not counted
+  std::size_t moved_vertices = 0;  ///< how many times a vertex was moved towards the original
   unsigned relaxed_guards = 0;     ///< as in HullResult
 };
 
-/// One hull of at most options.target_faces, tighter than the base mesh of build_hull: edge collapses take turns with
-/// rounds in which each vertex moves towards the original mesh, as far as enclosure, shape and freedom from
-/// self-intersection allow. It takes some twenty to seventy times as long, and leaves no nested levels.
-/// Guaranteed: a closed 2-manifold that encloses `mesh` (HullSide::Inner: is enclosed by it) in the sense of winding
-/// numbers; every collapse and every move is decided by exact predicates on stored coordinates. Pairs of faces that
-/// intersect are never more than those of `mesh`, whatever options.self_intersections says. Throws as build_hull does.
-/// The stage of its progress is "tighten".
+/// Builds one hull of at most options.target_faces faces that is tighter than the base mesh of build_hull. Edge
+/// collapses take turns with rounds in which every vertex moves towards the original mesh, as far as enclosure, shape
+/// and freedom from self-intersection allow. This takes 20 to 70 times as long as build_hull, and gives no levels.
+/// Guaranteed: the hull is a closed 2-manifold and encloses `mesh` (HullSide::Inner: is enclosed by it) in the sense of
+/// winding numbers. Exact predicates on stored coordinates decide every collapse and every move. The hull has no more
+/// pairs of intersecting faces than `mesh`, whatever options.self_intersections says.
+/// The stage of progress is "tighten". Throws as build_hull does.
 ///
-/// With `wrapped`, `mesh` is a wrap of these triangles (wrap.h): it covers them without touching. Then vertices move
-/// towards the triangles, but for a millionth of their diagonal, and the hull covers and does not touch them; it need
-/// not enclose the wrap. HullSide::Outer only.
+/// With `wrapped`, `mesh` is a wrap of these triangles (wrap.h). Then vertices move towards the triangles, up to a
+/// millionth of their diagonal. The hull covers the triangles without touching them; it need not enclose the wrap.
+/// HullSide::Outer only.
 ///
 ///   const TightHull hull = build_tight_hull(closed_mesh(read_mesh("arm.stl")).mesh, {.target_faces = 500});
 TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options = {},
@@ -37,14 +37,14 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options 
 /// same. options gives the shape guards, float32_coordinates and progress, which may leave the rest as it is.
 TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const HullOptions& options = {});
 
-/// The most hulls that build_tight_hull_within builds, with the progressive one that it begins with.
+/// build_tight_hull_within builds at most this many hulls, the progressive hull that it begins with included.
 constexpr int kMaxTightBuilds = 11;
 
-/// The coarsest tight hull found, of at least options.target_faces, that `is_within` accepts: such as those that are
-/// near enough to the mesh (see HullBounds). Found by bisection of the logarithm of the number of faces, from
-/// target_faces to the coarsest level of build_hull that is accepted, to 3 %, as if finer hulls always were; a coarser
-/// one may exist. That level is the answer where no tight hull is both coarser and accepted. `progress`: stage
-/// "search". Throws as build_hull does, and what is_within throws.
+/// Searches the coarsest tight hull of at least options.target_faces faces that `is_within` accepts, for instance one
+/// that is near enough to the mesh (HullBounds). The search is a bisection of the number of faces to 3 %. It ends at
+/// the coarsest level of build_hull that is accepted; if no tight hull is both coarser and accepted, that level is the
+/// answer. The bisection assumes that a hull with more faces is accepted if one with fewer is, so a coarser hull may
+/// exist. The stage of progress is "search". Throws as build_hull does, and what is_within throws.
 ///
 ///   const HullBounds bounds{.max_distance = 0.5};  // mm, if the mesh has that unit
 ///   const auto is_near = [&](const TriangleMesh& hull) { return bounds.hold(hull, arm, signed_volume(arm)); };

@@ -7,8 +7,8 @@
 
 namespace prohull {
 
-/// Positions and triangles, a plain value without any promise: it may be a soup, open, or worse (see mesh_report.h).
-/// Triangles are counter-clockwise seen from outside.
+/// Positions and triangles: a plain value that promises nothing. It may be open, a soup, or worse; mesh_report.h tells.
+/// The corners of a triangle are in counter-clockwise order, seen from outside.
 struct TriangleMesh {
   PerVertex<Vec3> positions;
   PerFace<std::array<VertexId, 3>> triangles;
@@ -23,12 +23,12 @@ struct TriangleMesh {
   bool operator==(const TriangleMesh&) const = default;
 };
 
-/// Of the positions that triangles use.
+/// The bounding box of the vertices that triangles use.
 Box bounding_box(const TriangleMesh& mesh);
 
-/// The sum of the signed tetrahedra under all triangles: positive if a closed mesh is oriented outwards. Evaluated
-/// about the centre of the bounding box in double precision; may overflow to infinity, never to NaN, for huge
-/// coordinates.
+/// The sum of the signed volumes of the tetrahedra between each triangle and a common point: for a closed mesh its
+/// volume, which is positive if the mesh is oriented outwards. Computed in double precision about the centre of the
+/// bounding box. For huge coordinates it may overflow to infinity, but never to NaN.
 double signed_volume(const TriangleMesh& mesh);
 
 }  // namespace prohull

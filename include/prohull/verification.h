@@ -54,7 +54,7 @@ struct Verification {
 /// units did. Guaranteed: the verdict is exact, as that of the functions named.
 ///
 /// Throws InputError if a mesh is empty, if the hull is not closed or not finite, and for an inner hull if the original
-/// is not closed or `every_triangle` is asked for; Cancelled if `progress` says so.
+/// is not closed or `every_triangle` is asked for; Cancelled.
 ///
 ///     const Verification found = verify_hull(read_mesh("hull.stl"), read_mesh("part.stl"));
 ///     if (!found.encloses && !found.worst.empty()) show(found.worst[0].point);
