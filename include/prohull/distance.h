@@ -33,7 +33,7 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
 /// How far a hull may be from what it encloses, or is enclosed by.
 struct HullBounds {
   double max_distance = std::numeric_limits<double>::infinity();      ///< of any point of the hull; in the input's unit
-  double max_void = std::numeric_limits<double>::infinity();          ///< of |volume(hull) / volume - 1|
+  double max_void_ratio = std::numeric_limits<double>::infinity();    ///< of |volume(hull) / volume - 1|; 0.05 is 5 %
   double max_added_volume = std::numeric_limits<double>::infinity();  ///< of |volume(hull) - volume|; cubic units
 
   bool any() const { return *this != HullBounds{}; }
@@ -41,8 +41,7 @@ struct HullBounds {
 
   /// Whether they hold: the distance provenly (distance_bounds, to `original`), volumes in double precision, against
   /// `volume`. Throws as distance_bounds does.
-  bool hold(const TriangleMesh& hull, const TriangleMesh& original, double volume,
-            const DistanceOptions& options = {}) const;
+  bool hold(const TriangleMesh& hull, const TriangleMesh& original, double volume, const Progress& progress = {}) const;
 };
 
 }  // namespace prohull

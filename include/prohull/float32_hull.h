@@ -9,7 +9,7 @@ namespace prohull {
 
 struct Float32Hull {
   TriangleMesh mesh;
-  std::size_t moved_vertices = 0;
+  std::size_t rounded_vertices = 0;
 };
 
 /// The level of a hull, its vertices moved to coordinates that a float32 file (STL, GLB) keeps, each to the outside of

@@ -118,8 +118,8 @@ enum class Stopped { TargetReached, NoLegalCollapse };
 struct HullResult {
   ProgressiveHull hull;
   Stopped stopped;
-  RefusalCounts refused;  ///< over the whole construction; an edge may be refused many times
-  RefusalCounts blocked;  ///< of the edges that are left, why each was refused last
+  RefusalCounts refusals;  ///< over the whole construction; an edge may be refused many times
+  RefusalCounts blocked;   ///< of the edges that are left, why each was refused last
   std::size_t linear_programs = 0;
   unsigned relaxed_guards = 0;  ///< so many of kRelaxedGuards were used at the end
 };
@@ -127,8 +127,8 @@ struct HullResult {
 /// Simplifies `mesh` by edge collapses, every new vertex on the outside of all faces that it replaces, until
 /// target_faces or no collapse is legal (P&T 3.1). Every vertex is accepted by an exact predicate on its stored
 /// coordinates; the guarantees are those of ProgressiveHull.
-/// Throws InputError for options outside their range, or if `mesh` is not a closed 2-manifold oriented outwards
-/// (repair.h makes one where it can); Cancelled.
+/// Throws InputError for options outside their range or that contradict each other, or if `mesh` is not a closed
+/// 2-manifold oriented outwards (repair.h makes one where it can); Cancelled.
 ///
 ///   const TriangleMesh horse = closed_mesh(read_mesh("horse.ply")).mesh;
 ///   const HullResult result = build_hull(horse, {.target_faces = 500});

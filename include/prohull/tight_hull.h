@@ -11,9 +11,9 @@ namespace prohull {
 struct TightHull {
   TriangleMesh mesh;
   Stopped stopped;
-  RefusalCounts refused, blocked;  ///< as in HullResult, but for the collapses towards the mesh at the end
-  std::size_t moved_vertices = 0;  ///< how often a vertex was moved towards the original
-  unsigned relaxed_guards = 0;     ///< as in HullResult
+  RefusalCounts refusals, blocked;  ///< as in HullResult, but for the collapses towards the mesh at the end
+  std::size_t moved_vertices = 0;   ///< how often a vertex was moved towards the original
+  unsigned relaxed_guards = 0;      ///< as in HullResult
 };
 
 /// One hull of at most options.target_faces, tighter than the base mesh of build_hull: edge collapses take turns with
@@ -21,8 +21,8 @@ struct TightHull {
 /// self-intersection allow. It takes some twenty to seventy times as long, and leaves no nested levels.
 /// Guaranteed: a closed 2-manifold that encloses `mesh` (HullSide::Inner: is enclosed by it) in the sense of winding
 /// numbers; every collapse and every move is decided by exact predicates on stored coordinates. Pairs of faces that
-/// intersect are never more than those of `mesh`, whatever options.self_intersections says. Throws as build_hull does.
-/// The stage of its progress is "tighten".
+/// intersect are never more than those of `mesh`. Throws as build_hull does, and InputError(InvalidOption) if
+/// options.self_intersections allows more of them. The stage of its progress is "tighten".
 ///
 /// With `wrapped`, `mesh` is a wrap of these triangles (wrap.h): it covers them without touching. Then vertices move
 /// towards the triangles, but for a millionth of their diagonal, and the hull covers and does not touch them; it need
@@ -32,10 +32,16 @@ struct TightHull {
 TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options = {},
                            const TriangleMesh* wrapped = nullptr);
 
+struct MoveOptions {
+  ShapeGuards guards = {};
+  bool float32_coordinates = false;  ///< as in HullOptions
+  Progress progress = {};            ///< stage "tighten"
+};
+
 /// A hull that covers the triangles without touching them, its vertices moved towards them as build_tight_hull does at
 /// the end: a fraction of its time, and of hulls of wraps nearly all of what there is to gain. The guarantees are the
-/// same. options gives the shape guards, float32_coordinates and progress, which may leave the rest as it is.
-TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const HullOptions& options = {});
+/// same.
+TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options = {});
 
 /// The most hulls that build_tight_hull_within builds, with the progressive one that it begins with.
 constexpr int kMaxTightBuilds = 11;
