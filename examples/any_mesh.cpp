@@ -1,8 +1,8 @@
 // Triangles of any kind in, hulls for STL out: repaired where that is needed, certified with the numbers of the file.
 #include <prohull/enclosing_hull.h>
-#include <prohull/enclosure.h>
 #include <prohull/mesh_io.h>
 #include <prohull/sample.h>
+#include <prohull/verification.h>
 
 #include <array>
 #include <cstdio>
@@ -22,8 +22,8 @@ int main() {
   prohull::write_mesh(output, made.hulls.back().mesh);
   // docs: end
 
-  const bool encloses = prohull::verify_enclosure(prohull::read_mesh(input), prohull::read_mesh(output)).encloses;
+  const bool encloses = prohull::verify_hull(prohull::read_mesh(output), prohull::read_mesh(input)).encloses;
   std::filesystem::remove(input);
   std::filesystem::remove(output);
-  return encloses && made.hulls[0].certified && made.hulls[1].reached ? 0 : 1;
+  return encloses && made.hulls[0].certified && made.hulls[1].target_reached ? 0 : 1;
 }

@@ -2,8 +2,8 @@
 #include <prohull/enclosure.h>
 #include <prohull/hull_builder.h>
 #include <prohull/hull_file.h>
-#include <prohull/replay.h>
 #include <prohull/sample.h>
+#include <prohull/verification.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -18,7 +18,7 @@ int main() {
   const prohull::ProgressiveHull hull = prohull::load_hull(file);
   for (const std::size_t faces : {400, 1000, 4000})
     std::printf("%5zu faces: volume %.4f\n", faces, prohull::signed_volume(hull.level(faces)));
-  const bool proven = prohull::verify_replay(hull, knot).holds;
+  const bool proven = prohull::verify_hull(hull, knot).encloses;
   // docs: end
 
   std::filesystem::remove(file);

@@ -127,9 +127,9 @@ void measure(BuildOutcome& outcome) {
   const EnclosingHulls& made = outcome.made;
   const Solid& first = made.solids.front();
   outcome.input_self_intersections =
-      first.alpha > 0 ? count_self_intersections(made.input.original) : first.self_intersections;
+      first.wrap_alpha > 0 ? count_self_intersections(made.input.original) : first.self_intersections;
   for (Written& written : outcome.written) {
-    const bool wrapped = outcome.solid(written.hull).alpha > 0;
+    const bool wrapped = written.hull.wrap_alpha > 0;
     try {
       written.distance = distance_bounds(written.hull.mesh, wrapped ? made.input.original : made.input.closed->mesh,
                                          {.progress = [](std::string_view, double) { return !interrupted(); }});
@@ -152,7 +152,7 @@ int run_build(BuildOptions options) {
   HullOptions& hull = options.enclosing.hull;
   hull.float32_coordinates = stores_float32(mesh_format(options.out));
   hull.guards.max_normal_deviation = options.normal_deviation_degrees * kDegree;
-  if (options.max_void_percent > 0) options.enclosing.bounds.max_void = options.max_void_percent / 100;
+  if (options.max_void_percent > 0) options.enclosing.bounds.max_void_ratio = options.max_void_percent / 100;
   if (options.allow_self_intersections) hull.self_intersections = SelfIntersections::Allowed;
   if (options.no_self_intersections) hull.self_intersections = SelfIntersections::Refused;
   options.enclosing.levels = !options.hierarchy.empty();

@@ -8,12 +8,7 @@
 namespace prohull::cli {
 namespace {
 
-bool was_wrapped(const BuildOutcome& outcome, const EnclosingHull& hull) { return outcome.solid(hull).alpha > 0; }
-
-// A wrap has a volume of its own, but that of the triangles in it is not known.
-double void_ratio(const BuildOutcome& outcome, const EnclosingHull& hull) {
-  return signed_volume(hull.mesh) / outcome.solid(hull).volume - 1;
-}
+bool was_wrapped(const EnclosingHull& hull) { return hull.wrap_alpha > 0; }
 
 std::size_t added_self_intersections(const BuildOutcome& outcome, const EnclosingHull& hull) {
   return hull.self_intersections - std::min(hull.self_intersections, outcome.input_self_intersections);
@@ -32,10 +27,10 @@ void print_input(const BuildOptions& options, const BuildOutcome& outcome) {
              counted(outcome.made.input.found.components, "component", "components"));
   for (const std::string& repair : describe(outcome.made.input.repairs)) fmt::print("  {}\n", repair);
   if (!outcome.made.input.closed) fmt::print("  not closed: {}\n", outcome.made.input.obstacle);
-  for (const std::string& note : outcome.made.notes) fmt::print("  {}\n", note);
+  for (const std::string& note : outcome.written.back().hull.notes) fmt::print("  {}\n", note);
   for (const Solid& solid : outcome.made.solids)
-    if (solid.alpha > 0)
-      fmt::print("  wrap with alpha {:.4g}: {}\n", solid.alpha, counted(solid.mesh.face_count(), "face", "faces"));
+    if (solid.wrap_alpha > 0)
+      fmt::print("  wrap with alpha {:.4g}: {}\n", solid.wrap_alpha, counted(solid.mesh.face_count(), "face", "faces"));
 }
 
 // What no collapse changes. A closed surface with h handles has an Euler characteristic of 2 - 2 h.
@@ -49,13 +44,12 @@ std::string described_topology(const TriangleMesh& hull) {
 void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
   const EnclosingHull& hull = written.hull;
   const std::size_t faces = hull.mesh.face_count();
-  fmt::print(
-      "{}: {} hull of {}{}, {}, at most {:.4g} from the mesh\n", written.path.string(),
-      options.is_outer() ? "outer" : "inner", counted(faces, "face", "faces"),
-      was_wrapped(outcome, hull) ? fmt::format(", of the wrap with alpha {:.4g}", outcome.solid(hull).alpha) : "",
-      was_wrapped(outcome, hull) ? fmt::format("volume {:.4g}", signed_volume(hull.mesh))
-                                 : fmt::format("void {:.3f} %", 100 * void_ratio(outcome, hull)),
-      written.distance.upper);
+  fmt::print("{}: {} hull of {}{}, {}, at most {:.4g} from the mesh\n", written.path.string(),
+             options.is_outer() ? "outer" : "inner", counted(faces, "face", "faces"),
+             was_wrapped(hull) ? fmt::format(", of the wrap with alpha {:.4g}", hull.wrap_alpha) : "",
+             was_wrapped(hull) ? fmt::format("volume {:.4g}", signed_volume(hull.mesh))
+                               : fmt::format("void {:.3f} %", 100 * hull.void_ratio),
+             written.distance.upper);
   fmt::print("  self-intersections: {}\n", described_self_intersections(outcome, hull));
   fmt::print("  triangles: {}\n", described(written.quality));
   if (hull.rounded_vertices > 0)
@@ -64,19 +58,19 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
     fmt::print("  shape guards relaxed to reach it: normals may turn by {:.0f} degrees, step {} of {}\n",
                kRelaxedGuards[hull.relaxed_guards - 1].max_normal_deviation / kDegree, hull.relaxed_guards,
                kRelaxedGuards.size());
-  if (!hull.reached)
+  if (!hull.target_reached)
     fmt::print("  no legal collapse is left above the {} faces asked for: {}; of the {} edges left, {}\n",
                grouped(hull.target_faces), described_topology(hull.mesh), grouped(3 * faces / 2),
                describe_refusals(hull.blocked));
-  if (!hull.bounded) fmt::print("  NOT within the bounds asked for: no hull was\n");
+  if (!hull.within_bounds) fmt::print("  NOT within the bounds asked for: no hull was\n");
   if (written.certified && !options.hierarchy.empty())
     fmt::print("{}: all levels from {} to {} faces\n", options.hierarchy.string(), grouped(faces),
                grouped(outcome.solid(hull).mesh.face_count()));
   fmt::print("  certified: {}\n",
              !written.certified ? "NO: nothing was written; please report this mesh"
              : options.is_outer()
-                 ? (was_wrapped(outcome, hull) ? "yes, the file as written covers every triangle of the original"
-                                               : "yes, the file as written encloses the original")
+                 ? (was_wrapped(hull) ? "yes, the file as written covers every triangle of the original"
+                                      : "yes, the file as written encloses the original")
                  : "yes, the file as written is enclosed by the original");
 }
 
@@ -91,36 +85,38 @@ nlohmann::json facts_of(const RefusalCounts& counts) {
 nlohmann::json options_report(const BuildOptions& options) {
   const HullOptions& hull = options.enclosing.hull;
   const HullBounds& bounds = options.enclosing.bounds;
-  return {{"faces", options.faces},
-          {"side", name_of(hull_side_names(), hull.side)},
-          {"max_distance", finite_or_null(bounds.max_distance)},
-          {"max_void", finite_or_null(bounds.max_void)},
-          {"max_added_volume", finite_or_null(bounds.max_added_volume)},
-          {"repair", name_of(repair_names(), options.enclosing.repair)},
-          {"keep_cavities", options.enclosing.keep_cavities},
-          {"seal_holes", options.enclosing.seal_holes},
-          {"tight", options.enclosing.tight},
-          {"strategy", name_of(strategy_names(), hull.strategy)},
-          {"max_valence", hull.guards.max_valence},
-          {"min_compactness_ratio", hull.guards.min_compactness_ratio},
-          {"sufficient_compactness", hull.guards.sufficient_compactness},
-          {"max_normal_deviation_degrees", options.normal_deviation_degrees},
-          {"allow_self_intersections", !options.enclosing.tight && !hull.refuses_self_intersections()},
-          {"seed", hull.seed},
-          {"best_of", hull.best_of},
-          {"float32_coordinates", hull.float32_coordinates}};
+  return {
+      {"target_faces", options.faces},
+      {"side", name_of(hull_side_names(), hull.side)},
+      {"max_distance", finite_or_null(bounds.max_distance)},
+      {"max_void_percent", options.max_void_percent > 0 ? nlohmann::json(options.max_void_percent) : nlohmann::json()},
+      {"max_added_volume", finite_or_null(bounds.max_added_volume)},
+      {"repair", name_of(repair_names(), options.enclosing.repair)},
+      {"keep_cavities", options.enclosing.keep_cavities},
+      {"seal_holes", options.enclosing.seal_holes},
+      {"tight", options.enclosing.tight},
+      {"strategy", name_of(strategy_names(), hull.strategy)},
+      {"max_valence", hull.guards.max_valence},
+      {"min_compactness_ratio", hull.guards.min_compactness_ratio},
+      {"sufficient_compactness", hull.guards.sufficient_compactness},
+      {"max_normal_deviation_degrees", options.normal_deviation_degrees},
+      {"self_intersections", options.enclosing.tight || hull.refuses_self_intersections() ? "refused" : "allowed"},
+      {"relax_guards", hull.relax_guards},
+      {"seed", hull.seed},
+      {"best_of", hull.best_of},
+      {"float32_coordinates", hull.float32_coordinates}};
 }
 
 nlohmann::json hull_report(const BuildOutcome& outcome, const Written& written) {
   const EnclosingHull& hull = written.hull;
-  const bool wrapped = was_wrapped(outcome, hull);
+  const bool wrapped = was_wrapped(hull);
   return {{"path", written.path.string()},
           {"target_faces", hull.target_faces},
           {"faces", hull.mesh.face_count()},
           {"vertices", hull.mesh.vertex_count()},
           {"volume", signed_volume(hull.mesh)},
-          {"void_ratio", wrapped ? nlohmann::json() : finite_or_null(void_ratio(outcome, hull))},
-          {"wrap_alpha", wrapped ? nlohmann::json(outcome.solid(hull).alpha) : nlohmann::json()},
+          {"void_ratio", wrapped ? nlohmann::json() : finite_or_null(hull.void_ratio)},
+          {"wrap_alpha", wrapped ? nlohmann::json(hull.wrap_alpha) : nlohmann::json()},
           {"distance_bound", written.distance.upper},
           {"self_intersections", hull.self_intersections},
           {"added_self_intersections", added_self_intersections(outcome, hull)},
@@ -129,15 +125,15 @@ nlohmann::json hull_report(const BuildOutcome& outcome, const Written& written) 
           {"certified", written.certified},
           {"proof", std::string(hull.proof)},
           {"relaxed_guards", hull.relaxed_guards},
-          {"stopped", hull.reached ? "target_reached" : "no_legal_collapse"},
-          {"within_bounds", hull.bounded},
-          {"refusals", facts_of(hull.refused)},
+          {"stopped", hull.target_reached ? "target_reached" : "no_legal_collapse"},
+          {"within_bounds", hull.within_bounds},
+          {"refusals", facts_of(hull.refusals)},
           {"blocked", facts_of(hull.blocked)}};
 }
 
 std::string repair_of(const BuildOutcome& outcome) {
   const bool wrapped =
-      std::ranges::any_of(outcome.written, [&](const Written& written) { return was_wrapped(outcome, written.hull); });
+      std::ranges::any_of(outcome.written, [&](const Written& written) { return was_wrapped(written.hull); });
   return wrapped ? "wrap" : outcome.made.input.repairs.any() ? "repaired" : "none";
 }
 
@@ -174,7 +170,7 @@ nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcom
   in["repair"] = repair_of(outcome);
   in["repairs"] = describe(outcome.made.input.repairs);
   in["obstacle"] = outcome.made.input.obstacle;
-  in["notes"] = outcome.made.notes;
+  in["notes"] = outcome.written.back().hull.notes;
   in["self_intersections"] = outcome.input_self_intersections;
   nlohmann::json hulls = nlohmann::json::array();
   for (const Written& written : outcome.written) hulls.push_back(hull_report(outcome, written));

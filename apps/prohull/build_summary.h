@@ -28,7 +28,7 @@ struct Written {
   MeshQuality quality = {};
   double write_seconds = 0;
 
-  bool is_as_asked() const { return certified && hull.reached && hull.bounded; }
+  bool is_as_asked() const { return certified && hull.target_reached && hull.within_bounds; }
 };
 
 struct BuildOutcome {

@@ -46,14 +46,17 @@ struct EnclosingHull {
   bool certified = false;        ///< proven exactly by code that shares nothing with the construction; see `proof`
   std::string_view proof;        ///< "replay", "enclosure" or "coverage"; empty if not certified
   std::size_t target_faces = 0;  ///< that were asked for
-  bool reached = false;          ///< at most target_faces, or `bounds` allow no fewer
-  bool bounded = true;           ///< `bounds` hold
-  bool stored = true;            ///< the mesh has the float32 coordinates asked for; not certified otherwise
+  bool target_reached = false;   ///< the mesh has at most so many faces, or `bounds` allow no fewer
+  bool within_bounds = true;     ///< `bounds` hold
+  double void_ratio = 0;         ///< volume of the mesh / volume of what it was built from - 1
+  double wrap_alpha = 0;         ///< of the wrap that it was built from; 0: built from the repaired input itself
+  /// Phrases for the user: why something is not as it was asked for, and what to look at.
+  std::vector<std::string> notes;
 
   /// What it was built from: EnclosingHulls::solids[solid].
   std::size_t solid = 0;
   std::optional<ProgressiveHull> levels;  ///< with this hull, but for rounding, as its base; unless vertices moved
-  RefusalCounts refused, blocked;         ///< as in HullResult
+  RefusalCounts refusals, blocked;        ///< as in HullResult
   unsigned relaxed_guards = 0;            ///< as in HullResult; not where the hull is a finer level
   std::size_t rounded_vertices = 0;       ///< moved to float32 coordinates
   std::size_t self_intersections = 0;     ///< pairs of faces
@@ -63,7 +66,7 @@ struct EnclosingHull {
 /// A closed mesh that hulls were built from.
 struct Solid {
   TriangleMesh mesh;
-  double alpha = 0;  ///< of the wrap; 0: the repaired input itself
+  double wrap_alpha = 0;  ///< 0: the repaired input itself
   double volume = 0;
   std::size_t self_intersections = 0;
 };
@@ -72,7 +75,6 @@ struct EnclosingHulls {
   RepairedMesh input;
   std::vector<Solid> solids;         ///< that were looked at, in the order of the ladder
   std::vector<EnclosingHull> hulls;  ///< one for each budget, in the order that was asked for
-  std::vector<std::string> notes;    ///< phrases for the user: why a solid was not good enough, what to look at
   double repair_seconds = 0;         ///< with wraps
 };
 
@@ -99,5 +101,11 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
 ///   if (made.hulls[1].certified) write_mesh("coarse.ply", made.hulls[1].mesh);
 EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size_t> target_faces,
                                const EnclosingOptions& options = {});
+
+/// The only hull of enclosing_hulls for one budget.
+///
+///   const EnclosingHull hull = enclosing_hull(read_mesh("part.stl"), 500, {.wrap = alpha_wrap});
+///   if (hull.certified) write_mesh("hull.ply", hull.mesh);
+EnclosingHull enclosing_hull(TriangleMesh triangles, std::size_t target_faces, const EnclosingOptions& options = {});
 
 }  // namespace prohull

@@ -9,7 +9,11 @@ namespace prohull {
 
 struct Float32Hull {
   TriangleMesh mesh;
+<<<<<<< HEAD
   std::size_t moved_vertices = 0;  ///< how many vertices have other coordinates than before
+=======
+  std::size_t rounded_vertices = 0;
+>>>>>>> refs/lanes/policy
 };
 
 /// Moves the vertices of a hull to coordinates that a float32 file (STL, GLB) keeps. OBJ, OFF and PLY files keep

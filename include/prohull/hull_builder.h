@@ -123,6 +123,7 @@ enum class Stopped { TargetReached, NoLegalCollapse };
 struct HullResult {
   ProgressiveHull hull;
   Stopped stopped;
+<<<<<<< HEAD
   RefusalCounts refused;            ///< over the whole construction; one edge may be refused many times
   RefusalCounts blocked;            ///< why each edge of the base mesh was refused the last time it was tried
   std::size_t linear_programs = 0;  ///< how many were solved
@@ -134,6 +135,19 @@ struct HullResult {
 /// replaces, and an exact predicate decides that for the coordinates that are stored. Required: `mesh` is a closed
 /// 2-manifold oriented outwards. repair.h makes one where it can; enclosing_hull.h takes any triangles. Throws
 /// InputError otherwise, and for options outside their range; Cancelled.
+=======
+  RefusalCounts refusals;  ///< over the whole construction; an edge may be refused many times
+  RefusalCounts blocked;   ///< of the edges that are left, why each was refused last
+  std::size_t linear_programs = 0;
+  unsigned relaxed_guards = 0;  ///< so many of kRelaxedGuards were used at the end
+};
+
+/// Simplifies `mesh` by edge collapses, every new vertex on the outside of all faces that it replaces, until
+/// target_faces or no collapse is legal (P&T 3.1). Every vertex is accepted by an exact predicate on its stored
+/// coordinates; the guarantees are those of ProgressiveHull.
+/// Throws InputError for options outside their range or that contradict each other, or if `mesh` is not a closed
+/// 2-manifold oriented outwards (repair.h makes one where it can); Cancelled.
+>>>>>>> refs/lanes/policy
 ///
 ///   const TriangleMesh horse = closed_mesh(read_mesh("horse.ply")).mesh;
 ///   const HullResult result = build_hull(horse, {.target_faces = 500});

@@ -11,9 +11,9 @@ namespace prohull {
 struct TightHull {
   TriangleMesh mesh;
   Stopped stopped;
-  RefusalCounts refused, blocked;  ///< as in HullResult; the tight collapses at the end are not counted
-  std::size_t moved_vertices = 0;  ///< how many times a vertex was moved towards the original
-  unsigned relaxed_guards = 0;     ///< as in HullResult
+  RefusalCounts refusals, blocked;  ///< as in HullResult; the tight collapses at the end are not counted
+  std::size_t moved_vertices = 0;   ///< how many times a vertex was moved towards the original
+  unsigned relaxed_guards = 0;      ///< as in HullResult
 };
 
 /// Builds one hull of at most options.target_faces faces that is tighter than the base mesh of build_hull. Edge
@@ -21,8 +21,9 @@ struct TightHull {
 /// and freedom from self-intersection allow. This takes 20 to 70 times as long as build_hull, and gives no levels.
 /// Guaranteed: the hull is a closed 2-manifold and encloses `mesh` (HullSide::Inner: is enclosed by it) in the sense of
 /// winding numbers. Exact predicates on stored coordinates decide every collapse and every move. The hull has no more
-/// pairs of intersecting faces than `mesh`, whatever options.self_intersections says.
-/// The stage of progress is "tighten". Throws as build_hull does.
+/// pairs of intersecting faces than `mesh`.
+/// The stage of progress is "tighten". Throws as build_hull does, and InputError(InvalidOption) if
+/// options.self_intersections allows more pairs.
 ///
 /// With `wrapped`, `mesh` is a wrap of these triangles (wrap.h). Then vertices move towards the triangles, up to a
 /// millionth of their diagonal. The hull covers the triangles without touching them; it need not enclose the wrap.
@@ -32,10 +33,15 @@ struct TightHull {
 TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options = {},
                            const TriangleMesh* wrapped = nullptr);
 
-/// A hull that covers the triangles without touching them, its vertices moved towards them as build_tight_hull does at
-/// the end: a fraction of its time, and of hulls of wraps nearly all of what there is to gain. The guarantees are the
-/// same. options gives the shape guards, float32_coordinates and progress, which may leave the rest as it is.
-TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const HullOptions& options = {});
+struct MoveOptions {
+  ShapeGuards guards = {};
+  bool float32_coordinates = false;  ///< as in HullOptions
+  Progress progress = {};            ///< stage "tighten"
+};
+
+/// Moves the vertices of a hull towards the triangles that it covers without touching them, as build_tight_hull does at
+/// the end. For hulls of wraps that gains nearly as much, in a fraction of the time. The guarantees are the same.
+TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options = {});
 
 /// build_tight_hull_within builds at most this many hulls, the progressive hull that it begins with included.
 constexpr int kMaxTightBuilds = 11;

@@ -66,7 +66,7 @@ EnclosingOptions options_of(const Keywords& given) {
   hull.best_of = given.count("best_of");
   hull.threads = given.count("threads");
   options.bounds.max_distance = given.not_negative("max_distance");
-  options.bounds.max_void = given.not_negative("max_void");
+  options.bounds.max_void_ratio = given.not_negative("max_void");
   options.bounds.max_added_volume = given.not_negative("max_added_volume");
   options.tight = given.flag("tight");
   options.levels = given.flag("levels");
@@ -87,18 +87,19 @@ py::dict dict_of(const RefusalCounts& counts) {
 }
 
 /// A hull and what it was built from, which hulls of one run share.
-py::dict facts_of(EnclosingHull hull, const SharedMesh& original, double alpha) {
+py::dict facts_of(EnclosingHull hull, const SharedMesh& original) {
   py::dict facts;
   facts["mesh"] = std::move(hull.mesh);
   facts["original"] = original;
   facts["levels"] = std::move(hull.levels);
-  facts["wrap_alpha"] = alpha;
+  facts["wrap_alpha"] = hull.wrap_alpha;
+  facts["notes"] = hull.notes;
   facts["certified"] = hull.certified;
   facts["proof"] = hull.proof;
   facts["faces_target"] = hull.target_faces;
-  facts["reached"] = hull.reached;
-  facts["bounded"] = hull.bounded;
-  facts["refused"] = dict_of(hull.refused);
+  facts["reached"] = hull.target_reached;
+  facts["bounded"] = hull.within_bounds;
+  facts["refused"] = dict_of(hull.refusals);
   facts["blocked"] = dict_of(hull.blocked);
   facts["relaxed_guards"] = hull.relaxed_guards;
   facts["self_intersections"] = hull.self_intersections;
@@ -116,11 +117,9 @@ py::list facts_of(EnclosingHulls made) {
   };
   py::list hulls;
   for (EnclosingHull& hull : made.hulls) {
-    const double alpha = made.solids[hull.solid].alpha;
     const SharedMesh original =
-        alpha > 0 ? once(triangles, made.input.original) : once(closed, made.input.closed->mesh);
-    py::dict facts = facts_of(std::move(hull), original, alpha);
-    facts["notes"] = made.notes;
+        hull.wrap_alpha > 0 ? once(triangles, made.input.original) : once(closed, made.input.closed->mesh);
+    py::dict facts = facts_of(std::move(hull), original);
     facts["repairs"] = repairs;
     hulls.append(facts);
   }

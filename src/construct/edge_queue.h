@@ -13,21 +13,21 @@
 
 namespace prohull {
 
-// Three priority queues of edges with one interface. Keys are >= 0; the least comes first; equal keys are ordered by
-// edge (Heap, RedBlackTree) or by age (Bucket).
+// Three priority queues of edges with one interface. Priorities are >= 0; the least comes first; equal priorities are
+// ordered by edge (Heap, RedBlackTree) or by age (Bucket).
 
 /// A binary heap that knows where each edge is.
 class EdgeHeap {
  public:
-  explicit EdgeHeap(std::size_t edges) : key_(edges), place_(edges, kNowhere) {}
+  explicit EdgeHeap(std::size_t edges) : priority_(edges), place_(edges, kNowhere) {}
 
   bool empty() const { return heap_.empty(); }
   bool contains(EdgeId e) const { return place_[e] != kNowhere; }
-  bool precedes_all(double key) const { return heap_.empty() || key <= key_[heap_.front()]; }
+  bool precedes_all(double priority) const { return heap_.empty() || priority <= priority_[heap_.front()]; }
 
-  void insert(EdgeId e, double key) {
+  void insert(EdgeId e, double priority) {
     assert(!contains(e));
-    key_[e] = key;
+    priority_[e] = priority;
     heap_.push_back(e);
     place_[e] = static_cast<std::uint32_t>(heap_.size() - 1);
     sift_up(place_[e]);
@@ -51,7 +51,7 @@ class EdgeHeap {
  private:
   static constexpr std::uint32_t kNowhere = 0xffffffff;
 
-  bool before(EdgeId a, EdgeId b) const { return std::pair(key_[a], a) < std::pair(key_[b], b); }
+  bool before(EdgeId a, EdgeId b) const { return std::pair(priority_[a], a) < std::pair(priority_[b], b); }
   void put(std::uint32_t i, EdgeId e) { heap_[i] = e, place_[e] = i; }
   void sift_up(std::uint32_t i) {
     const EdgeId e = heap_[i];
@@ -70,7 +70,7 @@ class EdgeHeap {
     put(i, e);
   }
 
-  PerEdge<double> key_;
+  PerEdge<double> priority_;
   PerEdge<std::uint32_t> place_;
   std::vector<EdgeId> heap_;
 };
@@ -78,21 +78,21 @@ class EdgeHeap {
 /// The paper's choice: std::set is a red-black tree.
 class EdgeTree {
  public:
-  explicit EdgeTree(std::size_t edges) : key_(edges), queued_(edges, 0) {}
+  explicit EdgeTree(std::size_t edges) : priority_(edges), queued_(edges, 0) {}
 
   bool empty() const { return tree_.empty(); }
   bool contains(EdgeId e) const { return queued_[e] != 0; }
-  bool precedes_all(double key) const { return tree_.empty() || key <= tree_.begin()->first; }
+  bool precedes_all(double priority) const { return tree_.empty() || priority <= tree_.begin()->first; }
 
-  void insert(EdgeId e, double key) {
+  void insert(EdgeId e, double priority) {
     assert(!contains(e));
-    key_[e] = key;
+    priority_[e] = priority;
     queued_[e] = 1;
-    tree_.emplace(key, e);
+    tree_.emplace(priority, e);
   }
   void erase(EdgeId e) {
     queued_[e] = 0;
-    tree_.erase({key_[e], e});
+    tree_.erase({priority_[e], e});
   }
   EdgeId pop() {
     const EdgeId e = tree_.begin()->second;
@@ -101,25 +101,25 @@ class EdgeTree {
   }
 
  private:
-  PerEdge<double> key_;
+  PerEdge<double> priority_;
   PerEdge<std::uint8_t> queued_;
   std::set<std::pair<double, EdgeId>> tree_;
 };
 
 /// Eight buckets to an octave, first in first out within each: all operations take constant time. A bucket is an array
-/// in which erased edges leave their entries behind. Keys mostly span few of the many octaves: buckets are made in
-/// pages.
+/// in which erased edges leave their entries behind. Priorities mostly span few of the many octaves: buckets are made
+/// in pages.
 class EdgeBuckets {
  public:
   explicit EdgeBuckets(std::size_t edges) : places_(edges) {}
 
   bool empty() const { return size_ == 0; }
   bool contains(EdgeId e) const { return places_[e].bucket != kNotQueued; }
-  bool precedes_all(double key) { return empty() || bucket_of(key) <= least(); }
+  bool precedes_all(double priority) { return empty() || bucket_of(priority) <= least(); }
 
-  void insert(EdgeId e, double key) {
+  void insert(EdgeId e, double priority) {
     assert(!contains(e));
-    const std::uint16_t b = bucket_of(key);
+    const std::uint16_t b = bucket_of(priority);
     auto& page = pages_[b / kPage];
     if (!page) page = std::make_unique<Page>();
     std::vector<EdgeId>& entries = bucket(b).entries;
@@ -159,9 +159,9 @@ class EdgeBuckets {
 
   // The exponent of a non-negative double and the first three bits of its mantissa, which are in the order of the
   // values.
-  static std::uint16_t bucket_of(double key) {
-    assert(key >= 0);
-    return static_cast<std::uint16_t>(std::bit_cast<std::uint64_t>(key + 0.0) >> 49);
+  static std::uint16_t bucket_of(double priority) {
+    assert(priority >= 0);
+    return static_cast<std::uint16_t>(std::bit_cast<std::uint64_t>(priority + 0.0) >> 49);
   }
   bool is_queued(std::uint16_t b, std::size_t entry) {
     const Place& place = places_[bucket(b).entries[entry]];

@@ -50,7 +50,7 @@ class VertexMover {
       cramped_ = std::move(cramped);
     }
     Float32Hull result{mesh_.triangle_mesh(), 0};
-    result.moved_vertices = wanted + lifted_;
+    result.rounded_vertices = wanted + lifted_;
     return result;
   }
 

@@ -21,6 +21,8 @@ void check(const HullOptions& options) {
   };
   require(options.target_faces >= 4, "target_faces must be at least 4, the faces of a tetrahedron");
   require(options.best_of >= 1, "best_of must be at least 1");
+  require(options.side == HullSide::Outer || options.self_intersections != SelfIntersections::Allowed,
+          "self-intersections cannot be allowed: an inner hull that intersects itself could stick out of the mesh");
   const ShapeGuards& guards = options.guards;
   require(guards.max_valence >= 3, "max_valence must be at least 3");
   require(guards.min_compactness_ratio >= 0 && guards.min_compactness_ratio <= 1,

@@ -59,11 +59,19 @@ class Ladder {
   }
 
   EnclosingHulls climb() {
-    for (const std::size_t faces : target_faces_) made_.hulls.push_back(hull_of(faces));
+    for (const std::size_t faces : target_faces_) {
+      made_.hulls.push_back(hull_of(faces));
+      made_.hulls.back().notes = notes_;
+    }
     return std::move(made_);
   }
 
  private:
+  struct Attempt {
+    EnclosingHull hull;
+    bool is_storable;  ///< with the float32 coordinates asked for; a note says why not
+  };
+
   /// Adds the time until it ends.
   class Timer {
    public:
@@ -88,15 +96,15 @@ class Ladder {
   void note_why_not(const EnclosingHull& hull);
   void note(std::string text);
   std::string described(const Solid& solid) const;
-  EnclosingHull build(std::size_t solid, std::size_t target_faces);
+  Attempt build(std::size_t solid, std::size_t target_faces);
   EnclosingHull build_levels(std::size_t solid, std::size_t target_faces);
   TriangleMesh placed(const TriangleMesh& level, std::size_t solid) const;
   EnclosingHull build_tight(std::size_t solid, std::size_t target_faces);
   void certify(EnclosingHull& hull) const;
   bool covers(const TriangleMesh& hull, const TriangleMesh& triangles) const;
-  std::optional<Float32Hull> stored(const TriangleMesh& hull, std::size_t solid);
+  std::optional<Float32Hull> as_stored(const TriangleMesh& hull, std::size_t solid);
   bool is_within(const TriangleMesh& hull, std::size_t solid) const;
-  bool is_stored_within(const TriangleMesh& hull, std::size_t solid);
+  bool is_within_as_stored(const TriangleMesh& hull, std::size_t solid);
   bool is_as_asked(const EnclosingHull& hull) const;
   bool is_loose(const EnclosingHull& hull) const;
   HullOptions hull_options(std::size_t target_faces) const;
@@ -105,6 +113,7 @@ class Ladder {
   const std::span<const std::size_t> target_faces_;
   const std::size_t fewest_faces_;
   EnclosingHulls made_;
+  std::vector<std::string> notes_;                 ///< on all hulls so far
   double diagonal_;                                ///< of the input
   std::vector<std::optional<HullResult>> levels_;  ///< of each solid, down to fewest_faces_
   std::size_t next_rung_ = 0;
@@ -119,7 +128,7 @@ void Ladder::make_solid(std::size_t rung) {
     return;
   }
   const double alpha = std::max(kWrapAlphas[rung - 1] * diagonal_, options_.seal_holes / 2);
-  if (made_.solids.empty() || made_.solids.back().alpha < alpha) add_wrap(alpha);
+  if (made_.solids.empty() || made_.solids.back().wrap_alpha < alpha) add_wrap(alpha);
 }
 
 // What is wrapped: as wrappers may look at faces with an area only, the others get a little of it.
@@ -142,7 +151,7 @@ TriangleMesh Ladder::to_be_wrapped(double offset) const {
 
 void Ladder::add_wrap(double alpha) {
   Timer timer(made_.repair_seconds);
-  const bool is_first = made_.solids.empty() || made_.solids.back().alpha == 0;
+  const bool is_first = made_.solids.empty() || made_.solids.back().wrap_alpha == 0;
   const double offset = kWrapOffset * diagonal_;
   TriangleMesh wrap = options_.wrap(to_be_wrapped(offset), alpha, offset, options_.progress);
   if (options_.hull.float32_coordinates)  // the offset is far greater than what that moves them
@@ -159,23 +168,23 @@ void Ladder::add_wrap(double alpha) {
 EnclosingHull Ladder::hull_of(std::size_t target_faces) {
   std::optional<EnclosingHull> best;
   const auto rank = [&](const EnclosingHull& hull) {
-    return std::tuple(!hull.certified, hull.self_intersections > 0, !hull.bounded,
+    return std::tuple(!hull.certified, hull.self_intersections > 0, !hull.within_bounds,
                       std::max(hull.mesh.face_count(), target_faces), signed_volume(hull.mesh));
   };
   const std::size_t rungs = may_wrap() ? 1 + std::size(kWrapAlphas) : 1;
   for (std::size_t solid = 0;; ++solid) {
     while (solid == made_.solids.size() && next_rung_ < rungs) make_solid(next_rung_++);
     if (solid == made_.solids.size()) break;
-    EnclosingHull hull = build(solid, target_faces);
+    auto [hull, is_storable] = build(solid, target_faces);
     const bool is_good = is_as_asked(hull) && !is_loose(hull);
-    if (!is_good && hull.stored && rungs > 1) note_why_not(hull);
+    if (!is_good && is_storable && rungs > 1) note_why_not(hull);
     if (!best || rank(hull) < rank(*best)) best = std::move(hull);
     if (is_good) break;
   }
   if (!best)
     throw InputError(
         made_.input.closed ? Defect::NoVolume : Defect::OpenEdge,
-        fmt::format("nothing could be wrapped: {}", made_.notes.empty() ? made_.input.obstacle : made_.notes.back()));
+        fmt::format("nothing could be wrapped: {}", notes_.empty() ? made_.input.obstacle : notes_.back()));
   return std::move(*best);
 }
 
@@ -184,13 +193,13 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
 bool Ladder::is_loose(const EnclosingHull& hull) const {
   constexpr double kMuch = 1.5;
   const Solid& solid = made_.solids[hull.solid];
-  return is_outer() && solid.alpha == 0 && !options_.levels && options_.hull.refuses_self_intersections() &&
+  return is_outer() && solid.wrap_alpha == 0 && !options_.levels && options_.hull.refuses_self_intersections() &&
          signed_volume(hull.mesh) > kMuch * solid.volume;
 }
 
 bool Ladder::is_as_asked(const EnclosingHull& hull) const {
   const bool clean = hull.self_intersections == 0 || !options_.hull.refuses_self_intersections();
-  return hull.certified && hull.reached && hull.bounded && clean;
+  return hull.certified && hull.target_reached && hull.within_bounds && clean;
 }
 
 HullOptions Ladder::hull_options(std::size_t target_faces) const {
@@ -201,7 +210,7 @@ HullOptions Ladder::hull_options(std::size_t target_faces) const {
 }
 
 // The hull with the coordinates that a file keeps, if it has such.
-std::optional<Float32Hull> Ladder::stored(const TriangleMesh& hull, std::size_t solid) {
+std::optional<Float32Hull> Ladder::as_stored(const TriangleMesh& hull, std::size_t solid) {
   if (!options_.hull.float32_coordinates) return Float32Hull{hull, 0};
   try {
     return with_float32_coordinates(hull, options_.hull.side);
@@ -213,30 +222,31 @@ std::optional<Float32Hull> Ladder::stored(const TriangleMesh& hull, std::size_t 
 
 bool Ladder::is_within(const TriangleMesh& hull, std::size_t solid) const {
   if (!options_.bounds.any()) return true;
-  const DistanceOptions distance{.progress = options_.progress};
-  return options_.bounds.hold(hull, made_.solids[solid].alpha > 0 ? made_.input.original : made_.input.closed->mesh,
-                              made_.solids.front().volume, distance);
+  return options_.bounds.hold(hull,
+                              made_.solids[solid].wrap_alpha > 0 ? made_.input.original : made_.input.closed->mesh,
+                              made_.solids.front().volume, options_.progress);
 }
 
-bool Ladder::is_stored_within(const TriangleMesh& hull, std::size_t solid) {
-  const auto file = stored(hull, solid);
+bool Ladder::is_within_as_stored(const TriangleMesh& hull, std::size_t solid) {
+  const auto file = as_stored(hull, solid);
   return file && is_within(file->mesh, solid);
 }
 
-EnclosingHull Ladder::build(std::size_t solid, std::size_t target_faces) {
+Ladder::Attempt Ladder::build(std::size_t solid, std::size_t target_faces) {
   const double start = now();
   EnclosingHull hull = options_.tight ? build_tight(solid, target_faces) : build_levels(solid, target_faces);
   hull.target_faces = target_faces;
   hull.solid = solid;
-  auto file = stored(hull.mesh, solid);
-  hull.stored = file.has_value();
-  if (file) hull.mesh = std::move(file->mesh), hull.rounded_vertices = file->moved_vertices;
+  hull.wrap_alpha = made_.solids[solid].wrap_alpha;
+  auto file = as_stored(hull.mesh, solid);
+  if (file) hull.mesh = std::move(file->mesh), hull.rounded_vertices = file->rounded_vertices;
+  hull.void_ratio = signed_volume(hull.mesh) / made_.solids[solid].volume - 1;
   hull.self_intersections = count_self_intersections(hull.mesh);
-  hull.bounded = !file || is_within(hull.mesh, solid);
+  hull.within_bounds = !file || is_within(hull.mesh, solid);
   const double built = now();
   if (file) certify(hull);
   hull.build_seconds = built - start, hull.verify_seconds = now() - built;
-  return hull;
+  return {std::move(hull), file.has_value()};
 }
 
 EnclosingHull Ladder::build_levels(std::size_t solid, std::size_t target_faces) {
@@ -247,36 +257,37 @@ EnclosingHull Ladder::build_levels(std::size_t solid, std::size_t target_faces) 
   std::size_t faces = target_faces;
   if (options_.bounds.any())
     faces = std::max(faces, faces_within(result->hull, [&](const TriangleMesh& level) {
-                       return is_stored_within(placed(level, solid), solid);
+                       return is_within_as_stored(placed(level, solid), solid);
                      }));
   const TriangleMesh level = result->hull.level(faces);
-  hull.reached = faces > target_faces || level.face_count() <= target_faces;
+  hull.target_reached = faces > target_faces || level.face_count() <= target_faces;
   hull.mesh = placed(level, solid);
   if (hull.mesh == level)
     hull.levels = faces > result->hull.base_face_count() ? result->hull.with_base(faces) : result->hull;
-  hull.refused = result->refused, hull.blocked = result->blocked;
+  hull.refusals = result->refusals, hull.blocked = result->blocked;
   if (level.face_count() == result->hull.base_face_count()) hull.relaxed_guards = result->relaxed_guards;
   return hull;
 }
 
 // A level of a wrap moves towards the triangles, if it need not be one of a hierarchy.
 TriangleMesh Ladder::placed(const TriangleMesh& level, std::size_t solid) const {
-  if (made_.solids[solid].alpha == 0 || options_.levels) return level;
-  return moved_towards(level, made_.input.original, hull_options(level.face_count()));
+  if (made_.solids[solid].wrap_alpha == 0 || options_.levels) return level;
+  const HullOptions& hull = options_.hull;
+  return moved_towards(level, made_.input.original, {hull.guards, hull.float32_coordinates, options_.progress});
 }
 
 EnclosingHull Ladder::build_tight(std::size_t solid, std::size_t target_faces) {
   const TriangleMesh& mesh = made_.solids[solid].mesh;
-  const TriangleMesh* wrapped = made_.solids[solid].alpha > 0 ? &made_.input.original : nullptr;
+  const TriangleMesh* wrapped = made_.solids[solid].wrap_alpha > 0 ? &made_.input.original : nullptr;
   TightHull tight = options_.bounds.any()
                         ? build_tight_hull_within(
-                              mesh, [&](const TriangleMesh& hull) { return is_stored_within(hull, solid); },
+                              mesh, [&](const TriangleMesh& hull) { return is_within_as_stored(hull, solid); },
                               hull_options(target_faces), wrapped)
                         : build_tight_hull(mesh, hull_options(target_faces), wrapped);
   EnclosingHull hull;
   hull.mesh = std::move(tight.mesh);
-  hull.reached = tight.stopped == Stopped::TargetReached;
-  hull.refused = tight.refused, hull.blocked = tight.blocked;
+  hull.target_reached = tight.stopped == Stopped::TargetReached;
+  hull.refusals = tight.refusals, hull.blocked = tight.blocked;
   hull.relaxed_guards = tight.relaxed_guards;
   return hull;
 }
@@ -292,7 +303,7 @@ bool Ladder::covers(const TriangleMesh& hull, const TriangleMesh& triangles) con
 // intersects itself, which may be inside out somewhere, have to be covered one by one; so has all that was wrapped.
 void Ladder::certify(EnclosingHull& hull) const {
   const Solid& solid = made_.solids[hull.solid];
-  if (solid.alpha > 0) {
+  if (solid.wrap_alpha > 0) {
     hull.certified = covers(hull.mesh, made_.input.original) &&
                      (!hull.levels || verify_replay(*hull.levels, solid.mesh, options_.progress).holds);
     if (hull.certified) hull.proof = "coverage";
@@ -328,11 +339,12 @@ void Ladder::note_open_shell(const Solid& wrap) {
 }
 
 void Ladder::note(std::string text) {
-  if (std::ranges::find(made_.notes, text) == made_.notes.end()) made_.notes.push_back(std::move(text));
+  if (std::ranges::find(notes_, text) == notes_.end()) notes_.push_back(std::move(text));
 }
 
 std::string Ladder::described(const Solid& solid) const {
-  return solid.alpha > 0 ? fmt::format("the wrap with alpha {:.4g}", solid.alpha) : std::string("the mesh itself");
+  return solid.wrap_alpha > 0 ? fmt::format("the wrap with alpha {:.4g}", solid.wrap_alpha)
+                              : std::string("the mesh itself");
 }
 
 void Ladder::note_why_not(const EnclosingHull& hull) {
@@ -341,9 +353,9 @@ void Ladder::note_why_not(const EnclosingHull& hull) {
     note(fmt::format("a hull of {} does not cover every triangle", source));
   else if (hull.self_intersections > 0 && options_.hull.refuses_self_intersections())
     note(fmt::format("a hull of {} intersects itself in {} pairs of faces", source, grouped(hull.self_intersections)));
-  else if (!hull.bounded)
+  else if (!hull.within_bounds)
     note(fmt::format("no hull of {} is within the bounds", source));
-  else if (hull.reached)
+  else if (hull.target_reached)
     note(fmt::format("a hull of {} with {} faces has {:.1f} times the volume", source, grouped(hull.mesh.face_count()),
                      signed_volume(hull.mesh) / made_.solids.front().volume));
   else
@@ -381,6 +393,10 @@ EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size
   if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
     throw InputError(Defect::InvalidOption, "nothing is known to be inside of a wrap: inner hulls do without");
   return Ladder(std::move(triangles), target_faces, options).climb();
+}
+
+EnclosingHull enclosing_hull(TriangleMesh triangles, std::size_t target_faces, const EnclosingOptions& options) {
+  return std::move(enclosing_hulls(std::move(triangles), {&target_faces, 1}, options).hulls.front());
 }
 
 }  // namespace prohull

@@ -147,10 +147,10 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
 }
 
 bool HullBounds::hold(const TriangleMesh& hull, const TriangleMesh& original, double volume,
-                      const DistanceOptions& options) const {
+                      const Progress& progress) const {
   const double added = std::abs(signed_volume(hull) - volume);
-  if (added > max_added_volume || (std::isfinite(max_void) && !(added <= max_void * volume))) return false;
-  return !std::isfinite(max_distance) || distance_bounds(hull, original, options).upper <= max_distance;
+  if (added > max_added_volume || (std::isfinite(max_void_ratio) && !(added <= max_void_ratio * volume))) return false;
+  return !std::isfinite(max_distance) || distance_bounds(hull, original, {.progress = progress}).upper <= max_distance;
 }
 
 }  // namespace prohull

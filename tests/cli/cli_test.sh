@@ -110,11 +110,11 @@ expect 0 "guarded" $prohull build knot.ply --faces 100 -o guarded.ply --report g
 says out "guarded" "self-intersections: none"
 says out "quality" "triangles: median compactness 0."
 says guarded.json "report: self-intersections" '"self_intersections": 0'
-says guarded.json "report: guarded by default" '"allow_self_intersections": false'
+says guarded.json "report: guarded by default" '"self_intersections": "refused"'
 says guarded.json "report: quality" '"dihedral_degrees": {'
 expect 0 "unguarded" $prohull build knot.ply --faces 100 -o loose.ply --allow-self-intersections --report loose.json
 says out "unguarded" "pairs of faces (the mesh: 0; added: "
-says loose.json "report: unguarded" '"allow_self_intersections": true'
+says loose.json "report: unguarded" '"self_intersections": "allowed"'
 expect 0 "of a self-intersecting mesh" $prohull build loose.ply --faces 80 -o looser.ply
 if [ "$has_wrap" = 1 ]; then
   says out "of a self-intersecting mesh" "self-intersections: none (the mesh: "

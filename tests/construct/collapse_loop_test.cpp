@@ -24,16 +24,16 @@ TEST(CollapseLoop, TakesNotTheSquareOfTheFacesAroundAHub) {
               .vertices = PerVertex<VertexFacts>(mesh.vertex_count()),
               .inside = everywhere(),
               .target_faces = options.target_faces,
-              .max_key = std::numeric_limits<double>::infinity(),
+              .max_priority = std::numeric_limits<double>::infinity(),
               .time = 1,
               .seed = 0};
   patch.edges.resize(patch.mesh.edge_id_count());
-  estimate_keys(patch, rules);
+  estimate_priorities(patch, rules);
   run_collapse_loop(patch, rules);
   EXPECT_EQ(patch.mesh.face_count(), options.target_faces);
   EXPECT_EQ(first_defect(patch.mesh), std::nullopt);
   std::size_t refused = 0;
-  for (std::size_t i = 0; i < kRefusalKinds; ++i) refused += patch.refused[static_cast<Refusal>(i)];
+  for (std::size_t i = 0; i < kRefusalKinds; ++i) refused += patch.refusals[static_cast<Refusal>(i)];
   EXPECT_LT(patch.visited_faces, 30 * mesh.face_count());
   EXPECT_LT(refused, 30 * mesh.face_count());
   EXPECT_LT(patch.linear_programs, 30 * mesh.face_count());

@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::size_t kEdges = 300;
 
-/// The order by key and edge, or by octave bucket and age, of a multimap.
+/// The order by priority and edge, or by octave bucket and age, of a multimap.
 template <class Rank>
 class Reference {
  public:
   bool empty() const { return sorted_.empty(); }
   bool contains(EdgeId e) const { return places_.contains(e); }
-  void insert(EdgeId e, double key) { places_[e] = sorted_.emplace(Rank()(e, key, ++age_), e); }
+  void insert(EdgeId e, double priority) { places_[e] = sorted_.emplace(Rank()(e, priority, ++age_), e); }
   void erase(EdgeId e) {
     sorted_.erase(places_.at(e));
     places_.erase(e);
@@ -31,9 +31,9 @@ class Reference {
     erase(e);
     return e;
   }
-  /// Whether an edge inserted now with this key would not be behind any other with a smaller key.
-  bool precedes_all(double key) const {
-    return empty() || Rank()(EdgeId{0}, key, 0).first <= sorted_.begin()->first.first;
+  /// Whether an edge inserted now with this priority would not be behind any other with a smaller priority.
+  bool precedes_all(double priority) const {
+    return empty() || Rank()(EdgeId{0}, priority, 0).first <= sorted_.begin()->first.first;
   }
 
  private:
@@ -43,15 +43,17 @@ class Reference {
   std::uint64_t age_ = 0;
 };
 
-struct ByKeyAndEdge {
-  std::pair<double, std::uint64_t> operator()(EdgeId e, double key, std::uint64_t) const { return {key, index(e)}; }
+struct ByPriorityAndEdge {
+  std::pair<double, std::uint64_t> operator()(EdgeId e, double priority, std::uint64_t) const {
+    return {priority, index(e)};
+  }
 };
 
 struct ByEighthOfOctaveAndAge {
-  std::pair<double, std::uint64_t> operator()(EdgeId, double key, std::uint64_t age) const {
-    if (key < std::numeric_limits<double>::min()) return {0, age};  // denormal numbers are not in the test
-    const double octave = std::floor(std::log2(key));
-    return {octave + std::floor((key / std::exp2(octave) - 1) * 8) / 8 + 2000, age};
+  std::pair<double, std::uint64_t> operator()(EdgeId, double priority, std::uint64_t age) const {
+    if (priority < std::numeric_limits<double>::min()) return {0, age};  // denormal numbers are not in the test
+    const double octave = std::floor(std::log2(priority));
+    return {octave + std::floor((priority / std::exp2(octave) - 1) * 8) / 8 + 2000, age};
   }
 };
 
@@ -60,7 +62,7 @@ void compare_with_reference() {
   std::mt19937 random(test_seed());
   Queue queue(kEdges);
   Reference<Rank> reference;
-  const auto random_key = [&]() -> double {
+  const auto random_priority = [&]() -> double {
     switch (random() % 6) {
       case 0:
         return 0;
@@ -76,17 +78,17 @@ void compare_with_reference() {
   };
   for (int i = 0; i < rounds(200000); ++i) {
     const EdgeId e{static_cast<std::uint32_t>(random() % kEdges)};
-    const double key = random_key();
+    const double priority = random_priority();
     ASSERT_EQ(queue.contains(e), reference.contains(e));
     ASSERT_EQ(queue.empty(), reference.empty());
-    ASSERT_EQ(queue.precedes_all(key), reference.precedes_all(key)) << key;
+    ASSERT_EQ(queue.precedes_all(priority), reference.precedes_all(priority)) << priority;
     // Long phases of growth and of shrinking.
     const bool grows = i / 2000 % 2 == 0;
     if (queue.contains(e)) {
       if (grows && random() % 2) continue;
       queue.erase(e), reference.erase(e);
     } else if (grows || random() % 3 == 0) {
-      queue.insert(e, key), reference.insert(e, key);
+      queue.insert(e, priority), reference.insert(e, priority);
     } else if (!queue.empty()) {
       ASSERT_EQ(queue.pop(), reference.pop()) << "operation " << i;
     }
@@ -95,8 +97,8 @@ void compare_with_reference() {
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(EdgeHeap, PopsLikeASortedMap) { compare_with_reference<EdgeHeap, ByKeyAndEdge>(); }
-TEST(EdgeTree, PopsLikeASortedMap) { compare_with_reference<EdgeTree, ByKeyAndEdge>(); }
+TEST(EdgeHeap, PopsLikeASortedMap) { compare_with_reference<EdgeHeap, ByPriorityAndEdge>(); }
+TEST(EdgeTree, PopsLikeASortedMap) { compare_with_reference<EdgeTree, ByPriorityAndEdge>(); }
 TEST(EdgeBuckets, PopByEighthsOfAnOctaveThenByAge) { compare_with_reference<EdgeBuckets, ByEighthOfOctaveAndAge>(); }
 
 TEST(EdgeBuckets, FirstInFirstOutWithinABucket) {
@@ -114,7 +116,7 @@ TEST(EdgeBuckets, EightToAnOctave) {
   EXPECT_EQ(queue.pop(), EdgeId{1}) << "an ulp below, but in the bucket before";
 }
 
-TEST(EdgeBuckets, TakeEveryKeyFromZeroToInfinity) {
+TEST(EdgeBuckets, TakeEveryPriorityFromZeroToInfinity) {
   EdgeBuckets queue(5);
   const double denormal = std::numeric_limits<double>::denorm_min();
   queue.insert(EdgeId{0}, std::numeric_limits<double>::infinity());

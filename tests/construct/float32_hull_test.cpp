@@ -23,7 +23,7 @@ void check(const TriangleMesh& level, HullSide side) {
   const Float32Hull rounded = with_float32_coordinates(level, side);
   EXPECT_TRUE(std::ranges::all_of(rounded.mesh.positions, [](const Vec3& p) { return is_float32(p); }));
   ASSERT_EQ(rounded.mesh.triangles, level.triangles) << "only vertices move";
-  EXPECT_GT(rounded.moved_vertices, 0u);
+  EXPECT_GT(rounded.rounded_vertices, 0u);
   EXPECT_TRUE(side == HullSide::Outer ? verify_enclosure(level, rounded.mesh).encloses
                                       : verify_enclosure(rounded.mesh, level).encloses);
   double farthest = 0;
@@ -75,7 +75,7 @@ TEST(Float32Hull, IsTheMeshItselfWhereThatHasSuchCoordinates) {
   const TriangleMesh mesh = box({0, 0, 0}, {1, 2, 0.1f});
   const Float32Hull same = with_float32_coordinates(mesh, HullSide::Outer);
   EXPECT_EQ(same.mesh, mesh);
-  EXPECT_EQ(same.moved_vertices, 0u);
+  EXPECT_EQ(same.rounded_vertices, 0u);
 }
 
 TEST(Float32Hull, OfHullsBuiltOnFloat32CoordinatesNeedsNothing) {
@@ -83,7 +83,7 @@ TEST(Float32Hull, OfHullsBuiltOnFloat32CoordinatesNeedsNothing) {
   for (Vec3& p : mesh.positions) p = nearest_float32(p);
   ASSERT_TRUE(inspect(mesh).is_closed_manifold());
   const TriangleMesh base = build_hull(mesh, {.target_faces = 200, .float32_coordinates = true}).hull.base();
-  EXPECT_EQ(with_float32_coordinates(base, HullSide::Outer).moved_vertices, 0u);
+  EXPECT_EQ(with_float32_coordinates(base, HullSide::Outer).rounded_vertices, 0u);
 }
 
 TEST(Float32Hull, RefusesWhatAFloat32CannotHold) {
@@ -98,7 +98,7 @@ TEST(Float32Hull, RefusesWhatAFloat32CannotHold) {
   };
   EXPECT_EQ(defect_of(scaled(octahedron(), 1e39)), Defect::NonFiniteCoordinate);
   EXPECT_EQ(defect_of(scaled(octahedron(), std::nextafter(largest, INFINITY))), Defect::NonFiniteCoordinate);
-  EXPECT_EQ(with_float32_coordinates(scaled(octahedron(), largest), HullSide::Outer).moved_vertices, 0u);
+  EXPECT_EQ(with_float32_coordinates(scaled(octahedron(), largest), HullSide::Outer).rounded_vertices, 0u);
 }
 
 }  // namespace

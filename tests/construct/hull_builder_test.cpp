@@ -152,7 +152,7 @@ TEST_P(BuildHull, DoesNotDependOnTheUnit) {
   const TriangleMesh& mesh = GetParam().mesh;
   const HullOptions options{.target_faces = kFaces / 8};
   const ProgressiveHull hull = build_hull(mesh, options).hull;
-  // Powers of eight keep volumes, that is keys, in the same eighths of octaves; scaling loses no bit.
+  // Powers of eight keep volumes, that is priorities, in the same eighths of octaves; scaling loses no bit.
   for (const double scale : {0x1p20, 0x1p-20, 0x1p200, 0x1p-200}) {
     const ProgressiveHull other = build_hull(scaled(mesh, scale), options).hull;
     EXPECT_TRUE(have_equal_structure(other, hull)) << scale;
@@ -293,7 +293,7 @@ TEST(BuildHullInRounds, KeepsItsPromisesAndIsTheSameForAnyNumberOfThreads) {
       const HullResult many = build_hull(mesh, options);
       EXPECT_EQ(many.hull, one.hull);
       EXPECT_EQ(many.linear_programs, one.linear_programs);
-      EXPECT_EQ(total(many.refused), total(one.refused));
+      EXPECT_EQ(total(many.refusals), total(one.refusals));
     }
   }
 }

@@ -44,9 +44,18 @@ TEST(EnclosingHull, OfAClosedMeshIsThatOfBuildHull) {
   EXPECT_EQ(hull.mesh, build_hull(mesh, {.target_faces = 200}).hull.base());
   EXPECT_TRUE(hull.certified);
   EXPECT_EQ(hull.proof, "replay");
-  EXPECT_TRUE(hull.reached);
+  EXPECT_TRUE(hull.target_reached);
   ASSERT_TRUE(hull.levels);
   EXPECT_EQ(hull.levels->original(), mesh);
+}
+
+TEST(EnclosingHull, OfOneBudgetIsTheOnlyOne) {
+  const TriangleMesh mesh = make_sample("asteroid", 2000);
+  const EnclosingHull hull = enclosing_hull(mesh, 200);
+  EXPECT_EQ(hull.mesh, only(hull_of(mesh, 200)).mesh);
+  EXPECT_TRUE(hull.certified && hull.target_reached && hull.within_bounds && hull.notes.empty());
+  EXPECT_EQ(hull.void_ratio, signed_volume(hull.mesh) / signed_volume(mesh) - 1);
+  EXPECT_EQ(hull.wrap_alpha, 0);
 }
 
 TEST(EnclosingHull, HasALevelForEachBudgetInTheirOrder) {
@@ -68,15 +77,16 @@ TEST(EnclosingHull, KeepsTheBoundsWithAsFewFacesAsItCan) {
   const TriangleMesh mesh = make_sample("asteroid", 2000);
   const double volume = signed_volume(mesh);
   for (const bool tight : {false, true}) {
-    EnclosingOptions options{.bounds = {.max_void = 0.05}, .tight = tight};
+    EnclosingOptions options{.bounds = {.max_void_ratio = 0.05}, .tight = tight};
     const EnclosingHull hull = only(hull_of(mesh, 4, options));
-    EXPECT_TRUE(hull.certified && hull.bounded);
+    EXPECT_TRUE(hull.certified && hull.within_bounds);
     EXPECT_LE(signed_volume(hull.mesh), 1.05 * volume);
     EXPECT_GT(signed_volume(hull.mesh), 1.04 * volume) << "nearly used up";
     options.bounds = {.max_added_volume = 0.05 * volume};
     EXPECT_EQ(only(hull_of(mesh, 4, options)).mesh, hull.mesh);
   }
-  const EnclosingHull inner = only(hull_of(mesh, 4, {.hull = {.side = HullSide::Inner}, .bounds = {.max_void = 0.05}}));
+  const EnclosingHull inner =
+      only(hull_of(mesh, 4, {.hull = {.side = HullSide::Inner}, .bounds = {.max_void_ratio = 0.05}}));
   EXPECT_TRUE(inner.certified);
   EXPECT_GE(signed_volume(inner.mesh), 0.95 * volume);
 }
@@ -156,9 +166,9 @@ TEST(EnclosingHull, TriesCoarserWrapsUntilOneIsAsAsked) {
   EXPECT_DOUBLE_EQ(alphas[0], 1.0 / 50);
   EXPECT_DOUBLE_EQ(alphas[1], 1.0 / 20);
   EXPECT_EQ(only(made).solid, 1u);
-  EXPECT_TRUE(only(made).reached);
-  ASSERT_EQ(made.notes.size(), 1u);
-  EXPECT_NE(made.notes[0].find("no legal collapse"), std::string::npos) << made.notes[0];
+  EXPECT_TRUE(only(made).target_reached);
+  ASSERT_EQ(only(made).notes.size(), 1u);
+  EXPECT_NE(only(made).notes[0].find("no legal collapse"), std::string::npos) << only(made).notes[0];
 }
 
 TEST(EnclosingHull, CanBeCancelledAnywhere) {
@@ -225,8 +235,8 @@ TEST(EnclosingHull, SealsHolesUpToTheirSize) {
   EXPECT_LT(volume(0), 0.5 * solid) << "the wrap goes in";
   EXPECT_GT(volume(0.8), 0.9 * solid);
   const EnclosingHulls shell = hull_of(open, 500, {.wrap = alpha_wrap});
-  ASSERT_FALSE(shell.notes.empty());
-  EXPECT_NE(shell.notes[0].find("--seal-holes"), std::string::npos) << shell.notes[0];
+  ASSERT_FALSE(only(shell).notes.empty());
+  EXPECT_NE(only(shell).notes[0].find("--seal-holes"), std::string::npos) << only(shell).notes[0];
 }
 
 TEST(AlphaWrap, CanBeCancelled) {

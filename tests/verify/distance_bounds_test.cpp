@@ -113,11 +113,11 @@ TEST(HullBounds, HoldEachByItself) {
   EXPECT_FALSE(HullBounds{}.any());
   EXPECT_TRUE(hold({.max_distance = 1.02}));
   EXPECT_FALSE(hold({.max_distance = 0.99}));
-  EXPECT_TRUE(hold({.max_void = 0.5001}));
-  EXPECT_FALSE(hold({.max_void = 0.49}));
+  EXPECT_TRUE(hold({.max_void_ratio = 0.5001}));
+  EXPECT_FALSE(hold({.max_void_ratio = 0.49}));
   EXPECT_TRUE(hold({.max_added_volume = 32.01}));
   EXPECT_FALSE(hold({.max_added_volume = 31}));
-  EXPECT_FALSE(hold({.max_distance = 1.02, .max_void = 0.1}));
+  EXPECT_FALSE(hold({.max_distance = 1.02, .max_void_ratio = 0.1}));
   EXPECT_TRUE((HullBounds{.max_added_volume = 32.01}.hold(inner, outer, 96))) << "an inner hull";
 }
 

@@ -14,12 +14,14 @@
 namespace prohull {
 namespace {
 
-/// Makes keys greater by up to 5 %.
+/// Makes priorities greater by up to 5 %.
 class Noise {
  public:
   explicit Noise(std::uint64_t seed) : is_on_(seed != 0), random_(seed) {}
 
-  double operator()(double key) { return is_on_ ? key * (1 + 0.05 * 0x1p-64 * static_cast<double>(random_())) : key; }
+  double operator()(double priority) {
+    return is_on_ ? priority * (1 + 0.05 * 0x1p-64 * static_cast<double>(random_())) : priority;
+  }
 
  private:
   bool is_on_;
@@ -28,7 +30,7 @@ class Noise {
 
 /// Not in the paper: of two collapses that add the same volume, that with more faces to spread it over goes first.
 /// 1 % less void than by the volume alone (docs/performance.md).
-double lazy_key(double added_volume, const Star& star) {
+double lazy_priority(double added_volume, const Star& star) {
   return added_volume / std::sqrt(static_cast<double>(star.valence()));
 }
 
@@ -115,7 +117,7 @@ class CollapseLoop {
   }
 
   void enqueue(EdgeId edge) {
-    if (edges_[edge].key <= patch_.max_key) queue_.insert(edge, edges_[edge].key);
+    if (edges_[edge].priority <= patch_.max_priority) queue_.insert(edge, edges_[edge].priority);
   }
 
   bool is_free_to_change(const std::vector<VertexId>& link) const {
@@ -150,16 +152,16 @@ class CollapseLoop {
     return edges_[edge].evaluated >= std::max(vertices_[v].changed, vertices_[w].changed);
   }
 
-  void set_key(EdgeId edge, double key) {
-    edges_[edge].key = noise_(key);
+  void set_priority(EdgeId edge, double priority) {
+    edges_[edge].priority = noise_(priority);
     edges_[edge].evaluated = patch_.time;
   }
 
-  // Lazy only: the key of an edge whose star has changed is found now, and may send it back into the queue.
+  // Lazy only: the priority of an edge whose star has changed is found now, and may send it back into the queue.
   bool comes_too_early(EdgeId edge, const Placement& placement) {
     if (is_fresh(edge, star_.o, star_.d)) return false;
-    set_key(edge, lazy_key(placement.added_volume, star_));
-    if (edges_[edge].key <= patch_.max_key && queue_.precedes_all(edges_[edge].key)) return false;
+    set_priority(edge, lazy_priority(placement.added_volume, star_));
+    if (edges_[edge].priority <= patch_.max_priority && queue_.precedes_all(edges_[edge].priority)) return false;
     enqueue(edge);
     return true;
   }
@@ -184,7 +186,7 @@ class CollapseLoop {
   }
 
   void refuse(EdgeId edge, Refusal why) {
-    patch_.refused.count(why);
+    patch_.refusals.count(why);
     edges_[edge].last_refusal = why;
     edges_[edge].is_refused = true;
     edges_[edge].evaluated = patch_.time;
@@ -196,8 +198,8 @@ class CollapseLoop {
     // The edges d-l and o-r merge into o-l and d-r.
     unqueue(mesh_.edge(mesh_.next(star_.edge)));
     unqueue(mesh_.edge(mesh_.next(mesh_.twin(star_.edge))));
-    const double last_key = patch_.keys.empty() ? 0 : patch_.keys.back();
-    patch_.keys.push_back(std::max(last_key, edges_[edge].key));
+    const double last_priority = patch_.priorities.empty() ? 0 : patch_.priorities.back();
+    patch_.priorities.push_back(std::max(last_priority, edges_[edge].priority));
     const VertexId s = mesh_.positions().next_id();
     patch_.record.push_back(mesh_.collapse(star_.edge, apex));
     ++patch_.time;
@@ -253,11 +255,11 @@ class CollapseLoop {
     if (const auto why = refusal_of_topology()) return refuse(edge, *why);
     measure_star(mesh_, star_);
     if (options_.strategy == Strategy::Paper2) {
-      set_key(edge, link_center_volume(star_));
+      set_priority(edge, link_center_volume(star_));
     } else {
       const auto placement = place();
       if (!placement) return refuse(edge, Refusal::NoRoomOutside);
-      set_key(edge, placement->added_volume);
+      set_priority(edge, placement->added_volume);
     }
     edges_[edge].is_refused = false;
     enqueue(edge);
@@ -283,23 +285,23 @@ class CollapseLoop {
 
 }  // namespace
 
-void estimate_keys(Patch& patch, const CollapseRules& rules) {
+void estimate_priorities(Patch& patch, const CollapseRules& rules) {
   if (rules.options.strategy != Strategy::Lazy) return;
   Star star;
   Noise noise(patch.seed == 0 ? 0 : patch.seed + 1);
   for (const EdgeId edge : patch.edges.ids()) {
     if (index(edge) % 1024 == 0) rules.tell(0);
-    if (patch.edges[edge].key != EdgeFacts::kUnknown) continue;
+    if (patch.edges[edge].priority != EdgeFacts::kUnknown) continue;
     const HalfEdgeId h = patch.mesh.half_edge(edge);
     const VertexId v = patch.mesh.tail(h), w = patch.mesh.tip(h);
     if (!patch.vertices[v].is_free || !patch.vertices[w].is_free) continue;
     if (is_hub(patch.mesh, v, rules.options) || is_hub(patch.mesh, w, rules.options)) {
-      patch.edges[edge].key = 0;  // refused at once
+      patch.edges[edge].priority = 0;  // refused at once
       continue;
     }
     gather_star(patch.mesh, edge, star);
     patch.visited_faces += star.valence();
-    patch.edges[edge].key = noise(lazy_key(estimated_volume(patch.mesh, star), star));
+    patch.edges[edge].priority = noise(lazy_priority(estimated_volume(patch.mesh, star), star));
   }
 }
 

@@ -11,8 +11,8 @@ namespace prohull {
 
 /// What is known of an edge between its visits. Times order changes, from 1 on.
 struct EdgeFacts {
-  double key = kUnknown;
-  std::uint32_t evaluated = 0;  ///< when the key was that of the star, or the edge was refused
+  double priority = kUnknown;
+  std::uint32_t evaluated = 0;  ///< when the priority was that of the star, or the edge was refused
   Refusal last_refusal = Refusal::LinkCondition;
   bool is_refused = false;  ///< not to be tried again before its star changes
 
@@ -33,14 +33,14 @@ struct Patch {
   PerVertex<VertexFacts> vertices;
   FloatBox inside;  ///< in the coordinates of CollapseRules::unit_cube
   std::size_t target_faces;
-  double max_key;      ///< edges of greater keys are left
-  std::uint32_t time;  ///< of the next collapse
-  std::uint64_t seed;  ///< of the noise in the keys; 0: none
+  double max_priority;  ///< edges of greater priorities are left
+  std::uint32_t time;   ///< of the next collapse
+  std::uint64_t seed;   ///< of the noise in the priorities; 0: none
 
   // What the loop brings forth.
   std::vector<VertexSplit> record = {};
-  std::vector<double> keys = {};  ///< of each collapse, the greatest until then
-  RefusalCounts refused = {};
+  std::vector<double> priorities = {};  ///< of each collapse, the greatest until then
+  RefusalCounts refusals = {};
   std::size_t linear_programs = 0;
   std::size_t visited_faces = 0;  ///< of the stars that were looked at: where the time goes if there are hubs
 };
@@ -53,11 +53,11 @@ struct CollapseRules {
   std::function<void(std::size_t removed_faces)> tell;  ///< called now and then, from any thread; may throw Cancelled
 };
 
-/// Estimates the keys that are not yet known.
-void estimate_keys(Patch& patch, const CollapseRules& rules);
+/// Estimates the priorities that are not yet known.
+void estimate_priorities(Patch& patch, const CollapseRules& rules);
 
-/// Collapses edges, the least key first, until the target is reached or no edge up to max_key is left that may be
-/// collapsed. Requires that keys are known.
+/// Collapses edges, the least priority first, until the target is reached or no edge up to max_priority is left that
+/// may be collapsed. Requires that priorities are known.
 void run_collapse_loop(Patch& patch, const CollapseRules& rules);
 
 }  // namespace prohull

@@ -42,7 +42,7 @@ class Rounds {
     }
     const bool is_reached = whole_.face_count() <= options_.target_faces;
     return {whole_.hull(),    is_reached ? Stopped::TargetReached : Stopped::NoLegalCollapse,
-            refused_,         blocked,
+            refusals_,        blocked,
             linear_programs_, relaxed};
   }
 
@@ -72,12 +72,12 @@ class Rounds {
     std::vector<Cell> cells =
         split_into_cells(whole_.boxed_faces(), cell_faces, std::fmod(static_cast<double>(round) * kGoldenRatio, 1));
     if (cells.size() < kLeastCells / 2) return false;  // they would gain nothing
-    const double max_key = key_for_a_round(cells), most = most_removed(cells);
+    const double max_priority = priority_for_a_round(cells), most = most_removed(cells);
     std::vector<WholeMesh::Collapses> collapses(cells.size());
     oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
       const std::size_t size = cells[i].faces.size();
       const auto most_collapses = static_cast<std::size_t>(most * static_cast<double>(size) / 2);
-      WholeMesh::Cut cut = whole_.cut(std::move(cells[i]), size - 2 * most_collapses, max_key);
+      WholeMesh::Cut cut = whole_.cut(std::move(cells[i]), size - 2 * most_collapses, max_priority);
       simplify(cut.patch);
       collapses[i] = whole_.put_back(std::move(cut));
     });
@@ -95,34 +95,35 @@ class Rounds {
   }
 
   void simplify(Patch& patch) {
-    estimate_keys(patch, rules_);
+    estimate_priorities(patch, rules_);
     run_collapse_loop(patch, rules_);
   }
 
-  /// The key up to which edges are collapsed.
-  double key_for_a_round(const std::vector<Cell>& cells) {
+  /// The priority up to which edges are collapsed.
+  double priority_for_a_round(const std::vector<Cell>& cells) {
     constexpr double kPartOfEdges = 0.5;
-    std::vector<double> keys = whole_.known_keys(kSample);
-    if (keys.empty()) {  // The first round has no keys yet.
+    std::vector<double> priorities = whole_.known_priorities(kSample);
+    if (priorities.empty()) {  // The first round has no priorities yet.
       std::vector<PerEdge<EdgeFacts>> samples((cells.size() + kSample - 1) / kSample);
       oneapi::tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
         WholeMesh::Cut cut = whole_.cut(cells[kSample * i], 0, 0);
-        estimate_keys(cut.patch, rules_);
+        estimate_priorities(cut.patch, rules_);
         samples[i] = std::move(cut.patch.edges);
       });
       for (const PerEdge<EdgeFacts>& edges : samples)
         for (const EdgeFacts& edge : edges)
-          if (edge.key != EdgeFacts::kUnknown && !edge.is_refused) keys.push_back(edge.key);
+          if (edge.priority != EdgeFacts::kUnknown && !edge.is_refused) priorities.push_back(edge.priority);
     }
-    if (keys.empty()) return std::numeric_limits<double>::infinity();
-    const auto place = keys.begin() + static_cast<std::ptrdiff_t>(kPartOfEdges * static_cast<double>(keys.size() - 1));
-    std::ranges::nth_element(keys, place);
+    if (priorities.empty()) return std::numeric_limits<double>::infinity();
+    const auto place =
+        priorities.begin() + static_cast<std::ptrdiff_t>(kPartOfEdges * static_cast<double>(priorities.size() - 1));
+    std::ranges::nth_element(priorities, place);
     return *place;
   }
 
   void add(const std::vector<WholeMesh::Collapses>& patches) {
     for (const WholeMesh::Collapses& patch : patches) {
-      refused_ += patch.refused;
+      refusals_ += patch.refusals;
       linear_programs_ += patch.linear_programs;
     }
     whole_.add(patches);
@@ -143,7 +144,7 @@ class Rounds {
   std::atomic<std::size_t> removed_ = 0;
   const CollapseRules rules_;
   WholeMesh whole_;
-  RefusalCounts refused_;
+  RefusalCounts refusals_;
   std::size_t linear_programs_ = 0;
 };
 

@@ -69,7 +69,7 @@ std::vector<BoxedFace> WholeMesh::boxed_faces() const {
   return boxes;
 }
 
-WholeMesh::Cut WholeMesh::cut(Cell cell, std::size_t target_faces, double max_key) {
+WholeMesh::Cut WholeMesh::cut(Cell cell, std::size_t target_faces, double max_priority) {
   LocalNumbers& local = local_numbers_.local();
   local.vertices.resize(positions_.size(), kNoVertex);
   local.faces.resize(given_.size(), LocalNumbers::kNoFace);
@@ -99,7 +99,7 @@ WholeMesh::Cut WholeMesh::cut(Cell cell, std::size_t target_faces, double max_ke
            .vertices = std::move(facts),
            .inside = cell.box,
            .target_faces = target_faces,
-           .max_key = max_key,
+           .max_priority = max_priority,
            .time = time_,
            .seed = seed_of(options_, time_, cell.faces.front())},
           std::move(cell.faces),
@@ -120,9 +120,9 @@ WholeMesh::Collapses WholeMesh::put_back(Cut cut) {
   Collapses result{.names = {},
                    .places = {},
                    .record = std::move(cut.patch.record),
-                   .keys = std::move(cut.patch.keys),
+                   .priorities = std::move(cut.patch.priorities),
                    .apexes = {},
-                   .refused = patch.refused,
+                   .refusals = patch.refusals,
                    .linear_programs = patch.linear_programs,
                    .time = patch.time};
   result.names.reserve(cut.vertices.size());
@@ -156,18 +156,18 @@ WholeMesh::Collapses WholeMesh::put_back(Cut cut) {
 
 void WholeMesh::add(const std::vector<Collapses>& patches) {
   struct Collapse {
-    double key;
+    double priority;
     std::uint32_t patch, i;
   };
   std::vector<Collapse> order;
   std::vector<std::vector<VertexId>> made(patches.size());
   for (std::uint32_t p = 0; p < patches.size(); ++p) {
-    for (std::uint32_t i = 0; i < patches[p].keys.size(); ++i) order.push_back({patches[p].keys[i], p, i});
-    made[p].resize(patches[p].keys.size());
+    for (std::uint32_t i = 0; i < patches[p].priorities.size(); ++i) order.push_back({patches[p].priorities[i], p, i});
+    made[p].resize(patches[p].priorities.size());
     time_ = std::max(time_, patches[p].time);
   }
-  std::ranges::stable_sort(order, {}, &Collapse::key);
-  for (const auto& [key, p, i] : order) {
+  std::ranges::stable_sort(order, {}, &Collapse::priority);
+  for (const auto& [priority, p, i] : order) {
     const Collapses& patch = patches[p];
     std::vector<VertexId>& made_here = made[p];
     const auto name = [&](VertexId v) {
@@ -181,14 +181,14 @@ void WholeMesh::add(const std::vector<Collapses>& patches) {
   std::erase_if(faces_, [&](FaceId f) { return corners_[3 * index(f)] == kNoVertex; });
 }
 
-std::vector<double> WholeMesh::known_keys(std::size_t n) const {
-  std::vector<double> keys;
+std::vector<double> WholeMesh::known_priorities(std::size_t n) const {
+  std::vector<double> priorities;
   for (std::size_t i = 0; i < faces_.size(); i += n)
     for (std::uint32_t c = 0; c < 3; ++c) {
       const EdgeFacts& edge = edges_[3 * index(faces_[i]) + c];
-      if (edge.key != EdgeFacts::kUnknown && !edge.is_refused) keys.push_back(edge.key);
+      if (edge.priority != EdgeFacts::kUnknown && !edge.is_refused) priorities.push_back(edge.priority);
     }
-  return keys;
+  return priorities;
 }
 
 void WholeMesh::forget_edges() { std::ranges::fill(edges_, EdgeFacts{}); }

@@ -56,24 +56,24 @@ class WholeMesh {
     std::vector<VertexId> names;   ///< of the vertices that it began with
     std::vector<VertexId> places;  ///< of the vertex that each collapse makes
     std::vector<VertexSplit> record;
-    std::vector<double> keys;
+    std::vector<double> priorities;
     std::vector<Vec3> apexes;
-    RefusalCounts refused;
+    RefusalCounts refusals;
     std::size_t linear_programs;
     std::uint32_t time;
   };
 
   /// Cells of a partition may be cut and put back by any number of threads: cut reads only what put_back of no other
   /// cell writes.
-  Cut cut(Cell cell, std::size_t target_faces, double max_key);
+  Cut cut(Cell cell, std::size_t target_faces, double max_priority);
   Cut cut_everything(std::size_t target_faces);
   Collapses put_back(Cut cut);
-  /// Takes the collapses of patches that have been put back into the record, ordered by their keys, as if there had
-  /// been one queue.
+  /// Takes the collapses of patches that have been put back into the record, ordered by their priorities, as if there
+  /// had been one queue.
   void add(const std::vector<Collapses>& patches);
 
-  /// Of the edges of every n-th face, the keys that are known of edges that are not refused.
-  std::vector<double> known_keys(std::size_t n) const;
+  /// Of the edges of every n-th face, the priorities that are known of edges that are not refused.
+  std::vector<double> known_priorities(std::size_t n) const;
   /// So that edges that were refused are looked at again.
   void forget_edges();
 

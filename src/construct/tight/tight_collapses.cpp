@@ -21,7 +21,7 @@ class TightCollapses {
       : mesh_(mesh),
         options_(options),
         guard_(mesh, faces_along_curve(mesh)),
-        placement_(original, options),
+        placement_(original, options.float32_coordinates),
         queue_(mesh.edge_id_count()),
         edges_(mesh.edge_id_count()),
         changed_(mesh.positions().size(), 1),
@@ -39,11 +39,11 @@ class TightCollapses {
       const auto to = place(e);
       edges_[e] = {.evaluated = time_, .is_refused = !to};
       if (!to) continue;
-      const double key = std::max(0.0, added_volume(star_, star_.to_local(*to)));
-      if (is_fresh || queue_.precedes_all(key))
+      const double priority = std::max(0.0, added_volume(star_, star_.to_local(*to)));
+      if (is_fresh || queue_.precedes_all(priority))
         collapse(e, *to);
       else
-        queue_.insert(e, key);
+        queue_.insert(e, priority);
     }
   }
 
@@ -53,7 +53,7 @@ class TightCollapses {
     bool is_refused = false;  ///< and not queued before its star changes
   };
 
-  // First keys are estimated, from what the collapse would add if it had to enclose the hull: a third of the
+  // First priorities are estimated, from what the collapse would add if it had to enclose the hull: a third of the
   // placements.
   void queue_all() {
     constexpr double kLikelyPart = 0.4;

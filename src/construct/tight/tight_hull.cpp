@@ -52,13 +52,15 @@ TightHull build_towards(const Original& original, const TriangleMesh& mesh, cons
     if (level <= kTightCollapses) apply([&](HalfEdgeMesh& hull) { collapse_tightly(hull, original, step); });
     set_part(level, 0.3, 0.4);
     HullResult result = build_hull(tight.mesh, step);
-    tight.refused += result.refused;
+    tight.refusals += result.refusals;
     tight.blocked = result.blocked;
     tight.stopped = result.stopped;
     tight.relaxed_guards = result.relaxed_guards;
     tight.mesh = result.hull.base();
     set_part(level, 0.4, 1);
-    apply([&](HalfEdgeMesh& hull) { tight.moved_vertices += tighten(hull, original, step); });
+    apply([&](HalfEdgeMesh& hull) {
+      tight.moved_vertices += tighten(hull, original, {step.guards, step.float32_coordinates, step.progress});
+    });
     done += level;
   }
   return tight;
@@ -75,6 +77,8 @@ Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, Hull
 }  // namespace
 
 TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped) {
+  if (options.self_intersections == SelfIntersections::Allowed)
+    throw InputError(Defect::InvalidOption, "self-intersections cannot be allowed: a tight hull never adds any");
   const Original original = original_of(mesh, wrapped, options.side);
   if (options.best_of <= 1) return build_towards(original, mesh, options);
   return best_of(
@@ -82,9 +86,9 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options,
       [](const TightHull& result) -> const TriangleMesh& { return result.mesh; });
 }
 
-TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const HullOptions& options) {
+TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options) {
   HalfEdgeMesh moving(hull);
-  tighten(moving, original_of(hull, &triangles, options.side), options);
+  tighten(moving, original_of(hull, &triangles, HullSide::Outer), options);
   return moving.triangle_mesh();
 }
 

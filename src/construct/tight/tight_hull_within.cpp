@@ -44,7 +44,7 @@ class TightSearch {
     guarded.self_intersections = SelfIntersections::Refused;
     HullResult result = build_hull(mesh_, guarded);
     const std::size_t faces = faces_within(result.hull, is_within_);
-    best_ = {result.hull.level(faces), result.stopped, result.refused, result.blocked, 0, result.relaxed_guards};
+    best_ = {result.hull.level(faces), result.stopped, result.refusals, result.blocked, 0, result.relaxed_guards};
     return faces;
   }
 

@@ -54,10 +54,10 @@ void clip(std::vector<Vec3>& polygon, const HalfSpace& plane, double least_depth
 
 }  // namespace
 
-TightPlacement::TightPlacement(const Original& original, const HullOptions& options)
+TightPlacement::TightPlacement(const Original& original, bool float32_coordinates)
     : original_(original),
-      float32_coordinates_(options.float32_coordinates),
-      rounding_(storage_rounding(original.bounds(), options.float32_coordinates)),
+      float32_coordinates_(float32_coordinates),
+      rounding_(storage_rounding(original.bounds(), float32_coordinates)),
       place_(original.mesh().vertex_count(), kNotNearby) {}
 
 Vec3 TightPlacement::as_stored(const Vec3& p) const { return float32_coordinates_ ? nearest_float32(p) : p; }

@@ -23,7 +23,7 @@ namespace prohull {
 /// exactly, on stored coordinates.
 class TightPlacement {
  public:
-  TightPlacement(const Original& original, const HullOptions& options);
+  TightPlacement(const Original& original, bool float32_coordinates);
 
   /// The vertex, which need not be in the mesh, and its link in order around it.
   void set(const Vec3& from, const HalfEdgeMesh& mesh, const std::vector<VertexId>& link);

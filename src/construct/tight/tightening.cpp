@@ -17,12 +17,12 @@ namespace {
 
 class Tightener {
  public:
-  Tightener(HalfEdgeMesh& mesh, const Original& original, const HullOptions& options)
+  Tightener(HalfEdgeMesh& mesh, const Original& original, const MoveOptions& options)
       : mesh_(mesh),
         original_(original),
         options_(options),
         guard_(mesh, faces_along_curve(mesh)),
-        placement_(original, options),
+        placement_(original, options.float32_coordinates),
         waiting_(mesh.positions().size(), 1),
         changed_(waiting_),
         meter_(options.progress, "tighten") {}
@@ -43,7 +43,7 @@ class Tightener {
 
   HalfEdgeMesh& mesh_;
   const Original& original_;
-  const HullOptions& options_;
+  const MoveOptions& options_;
   SelfIntersectionGuard guard_;
   TightPlacement placement_;
   std::vector<VertexId> link_;  ///< of the vertex in hand
@@ -156,7 +156,7 @@ bool Tightener::has_good_shape_without(const Tetrahedron& removed) const {
 
 }  // namespace
 
-std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const HullOptions& options) {
+std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options) {
   return Tightener(hull, original, options).run();
 }
 

@@ -4,16 +4,15 @@
 
 #include "construct/tight/original.h"
 #include "mesh/half_edge_mesh.h"
-#include "prohull/hull_builder.h"
+#include "prohull/tight_hull.h"
 
 namespace prohull {
 
 /// Moves the vertices of a hull towards the original mesh, one at a time (tight_placement.h), and flips edges, in
-/// rounds until hardly anything is gained. Returns the number of moves. HullOptions gives the shape guards,
-/// float32_coordinates and progress.
+/// rounds until hardly anything is gained. Returns the number of moves.
 ///
 /// Flipping an edge over which the hull is convex removes the tetrahedron of its two faces: the hull still encloses if
 /// the original lies outside of that. Nor is a move or flip made that adds a pair of intersecting faces.
-std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const HullOptions& options);
+std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options);
 
 }  // namespace prohull
