@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "prohull/file.h"
+#include "io/file.h"
 
 namespace prohull::bench {
 namespace {

@@ -16,11 +16,11 @@
 
 #include "command.h"
 #include "defects/defects.h"
+#include "io/file.h"
 #include "machine.h"
 #include "models.h"
 #include "program.h"
 #include "prohull/error.h"
-#include "prohull/file.h"
 #include "table.h"
 
 namespace prohull::bench {

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "figure.h"
+#include "io/file.h"
 #include "machine.h"
-#include "prohull/file.h"
 #include "query_section.h"
 #include "strategies.h"
 #include "table.h"

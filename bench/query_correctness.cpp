@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "exhaustive_scan.h"
-#include "prohull/file.h"
+#include "io/file.h"
 #include "prohull/random_segments.h"
 #include "query_peers.h"
 #include "query_section.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "prohull/file.h"
+#include "io/file.h"
 #include "query_peers.h"
 #include "query_section.h"
 #include "table.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "prohull/file.h"
+#include "io/file.h"
 #include "query_section.h"
 #include "table.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "prohull/file.h"
+#include "io/file.h"
 #include "query_section.h"
 #include "table.h"
 

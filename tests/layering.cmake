@@ -13,14 +13,14 @@ macro(room name)
   set(may_${name} ${name} ${room_MAY})
 endmacro()
 
-room(base      OWNS error names progress text)
+room(base      OWNS error names progress)
 room(geometry  OWNS geometry                                                     MAY base)
 room(parallel                                                                    MAY base)
 room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality      MAY geometry base)
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
 room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base
                                                                                      prohull/enclosure)  # is_closed
-room(io        OWNS mesh_io hull_file query_io file                              MAY hull mesh geometry parallel base
+room(io        OWNS mesh_io hull_file query_io                                   MAY hull mesh geometry parallel base
                                                                                      prohull/mesh_query)  # the answers
 room(repair    OWNS repair                                                       MAY mesh geometry base)
 room(construct OWNS hull_builder tight_hull float32_hull                         MAY hull mesh geometry parallel base)

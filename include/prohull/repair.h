@@ -44,9 +44,6 @@ struct ClosedMesh {
 /// vertex.
 ClosedMesh closed_mesh(TriangleMesh mesh);
 
-/// Drops the faces with a corner that is NaN or infinite; returns how many there were.
-std::size_t drop_non_finite_faces(TriangleMesh& mesh);
-
 /// What repaired_mesh makes of any triangles.
 struct RepairedMesh {
   TriangleMesh original;             ///< the finite triangles of the input, unchanged: a hull must cover these

@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "base/text.h"
 #include "prohull/hull_builder.h"
-#include "prohull/text.h"
 
 namespace prohull {
 namespace {

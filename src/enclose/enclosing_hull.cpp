@@ -9,13 +9,13 @@
 #include <tuple>
 #include <utility>
 
+#include "base/text.h"
 #include "geometry/float32.h"
 #include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/replay.h"
-#include "prohull/text.h"
 #include "prohull/tight_hull.h"
 
 namespace prohull {

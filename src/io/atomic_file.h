@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "prohull/file.h"
+#include "io/file.h"
 
 namespace prohull {
 

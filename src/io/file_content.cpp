@@ -12,9 +12,9 @@
 #include <memory>
 #include <system_error>
 
+#include "io/file.h"
 #include "io/mesh_readers.h"
 #include "prohull/error.h"
-#include "prohull/file.h"
 
 namespace prohull {
 namespace {

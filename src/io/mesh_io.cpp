@@ -10,6 +10,7 @@
 #include <string>
 
 #include "io/extension.h"
+#include "io/file.h"
 #include "io/file_content.h"
 #include "io/imported_mesh.h"
 #include "io/mesh_readers.h"
@@ -17,7 +18,6 @@
 #include "io/place.h"
 #include "io/text_scanner.h"
 #include "prohull/error.h"
-#include "prohull/file.h"
 #include "prohull/hull_file.h"
 
 namespace prohull {

@@ -4,11 +4,11 @@
 #include <optional>
 
 #include "io/extension.h"
+#include "io/file.h"
 #include "io/file_content.h"
 #include "io/npy_header.h"
 #include "io/number_table.h"
 #include "io/query_format.h"
-#include "prohull/file.h"
 #include "prohull/query_io.h"
 
 namespace prohull {

@@ -4,11 +4,11 @@
 
 #include "io/append.h"
 #include "io/extension.h"
+#include "io/file.h"
 #include "io/npy_header.h"
 #include "io/query_format.h"
 #include "io/zip_writer.h"
 #include "prohull/error.h"
-#include "prohull/file.h"
 
 namespace prohull {
 namespace {

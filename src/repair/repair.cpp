@@ -4,9 +4,9 @@
 #include <array>
 #include <tuple>
 
+#include "base/text.h"
 #include "prohull/error.h"
 #include "prohull/repair.h"
-#include "prohull/text.h"
 #include "repair/steps.h"
 
 namespace prohull {
@@ -137,7 +137,7 @@ RepairedMesh repaired_mesh(TriangleMesh mesh, bool keep_cavities) {
   RepairedMesh result;
   MeshReport report = result.found = inspect(mesh);
   if (report.non_finite_vertices > 0) {
-    result.repairs.dropped_non_finite_faces = drop_non_finite_faces(mesh);
+    drop_non_finite_faces(mesh, result.repairs);
     if (mesh.face_count() == 0)
       throw InputError(Defect::NonFiniteCoordinate, "no face has finite corners: nothing to enclose");
     report = inspect(mesh);

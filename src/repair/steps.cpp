@@ -119,8 +119,8 @@ bool lies_inside(const Component& inner, Component& outer) {
 
 }  // namespace
 
-std::size_t drop_non_finite_faces(TriangleMesh& mesh) {
-  return keep_faces(mesh, [&](FaceId f) {
+void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs) {
+  repairs.dropped_non_finite_faces += keep_faces(mesh, [&](FaceId f) {
     return std::ranges::all_of(mesh.triangles[f], [&](VertexId v) { return is_finite(mesh.positions[v]); });
   });
 }

@@ -11,6 +11,9 @@ namespace prohull {
 
 // What a repair is made of. Each step counts what it did.
 
+/// Drops the faces with a corner that is NaN or infinite.
+void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs);
+
 /// Vertices at equal positions become one, the first; -0 equals 0. Faces that then have a vertex twice go.
 void weld(TriangleMesh& mesh, Repairs& repairs);
 

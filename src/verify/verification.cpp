@@ -6,10 +6,10 @@
 #include <array>
 #include <utility>
 
+#include "base/text.h"
 #include "parallel/progress_meter.h"
 #include "prohull/error.h"
 #include "prohull/replay.h"
-#include "prohull/text.h"
 
 namespace prohull {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/file.h"
 #include "prohull/error.h"
-#include "prohull/file.h"
 #include "prohull/mesh_io.h"
 
 namespace prohull {

@@ -4,9 +4,9 @@
 
 #include <limits>
 
+#include "base/text.h"
 #include "meshes.h"
 #include "prohull/sample.h"
-#include "prohull/text.h"
 
 namespace prohull {
 namespace {
