@@ -55,7 +55,7 @@ def compare(ask, index, query, segments, threads, rounds):
 
 def subjects(options, folder):
     """Name, mesh, the file that C++ reads of it, engine, how many segments."""
-    hull = prohull.build(options.mesh or prohull.sample("pony", 100000), faces_target=options.faces)
+    hull = prohull.build(options.mesh or prohull.sample("pony", 100000), target_faces=options.faces)
     hull.save(folder / "hull.phull")
     hull.save(folder / "hull.ply")
     yield "hull", hull, folder / "hull.ply", "bvh", options.segments

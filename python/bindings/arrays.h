@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "prohull/names.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"
 
@@ -50,6 +51,13 @@ inline pybind11::array vertices_of(const SharedMesh& mesh) {
 inline pybind11::array faces_of(const SharedMesh& mesh) {
   return view_of(mesh, reinterpret_cast<const std::uint32_t*>(mesh->triangles.data()),
                  {static_cast<pybind11::ssize_t>(mesh->face_count()), 3});
+}
+
+template <class T>
+pybind11::tuple tuple_of(Names<T> names) {
+  pybind11::list all;
+  for (const auto& [name, value] : names) all.append(name);
+  return pybind11::tuple(all);
 }
 
 /// Rows of a C-contiguous array as they lie in memory.

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include <cstdint>
+#include <numbers>
 #include <string>
 
 #include "arrays.h"
@@ -59,14 +60,14 @@ EnclosingOptions options_of(const Keywords& given) {
   hull.guards.max_valence = given.count("max_valence");
   hull.guards.min_compactness_ratio = given.number("min_compactness_ratio");
   hull.guards.sufficient_compactness = given.number("sufficient_compactness");
-  hull.guards.max_normal_deviation = given.number("max_normal_deviation");
+  hull.guards.max_normal_deviation = given.number("max_normal_deviation_degrees") * std::numbers::pi / 180;
   hull.relax_guards = given.flag("relax_guards");
-  hull.float32_coordinates = given.flag("float32");
+  hull.float32_coordinates = given.flag("float32_coordinates");
   hull.seed = given.get<std::uint64_t>("seed", "a whole number, at least 0");
   hull.best_of = given.count("best_of");
   hull.threads = given.count("threads");
   options.bounds.max_distance = given.not_negative("max_distance");
-  options.bounds.max_void_ratio = given.not_negative("max_void");
+  options.bounds.max_void_ratio = given.not_negative("max_void_percent") / 100;
   options.bounds.max_added_volume = given.not_negative("max_added_volume");
   options.tight = given.flag("tight");
   options.levels = given.flag("levels");
@@ -86,57 +87,95 @@ py::dict dict_of(const RefusalCounts& counts) {
   return result;
 }
 
-/// A hull and what it was built from, which hulls of one run share.
-py::dict facts_of(EnclosingHull hull, const SharedMesh& original) {
+/// What the hulls of one run share.
+class Sources {
+ public:
+  explicit Sources(EnclosingHulls& made) : made_(made) {
+    if (made.input.closed) closed_ = shared(std::move(made.input.closed->mesh));
+    original_ = shared(std::move(made.input.original));
+    dropped_ = shared(std::move(made.input.dropped));
+  }
+
+  SharedMesh original(const EnclosingHull& hull) const { return hull.wrap_alpha > 0 ? original_ : closed_; }
+  /// The triangles that the hull has to cover beside enclosing its original.
+  SharedMesh covered(const EnclosingHull& hull, const EnclosingOptions& options) const {
+    if (hull.wrap_alpha > 0 || options.hull.side == HullSide::Inner || options.repair == Repair::None) return nullptr;
+    return made_.solids[hull.solid].self_intersections > 0 ? original_ : dropped_;
+  }
+  /// What void is measured against: of a mesh that is not closed, the wrap that the hull was built from.
+  double volume(const EnclosingHull& hull) const {
+    return made_.input.closed ? made_.input.closed->report.volume : made_.solids[hull.solid].volume;
+  }
+
+ private:
+  static SharedMesh shared(TriangleMesh mesh) {
+    return mesh.face_count() > 0 ? std::make_shared<TriangleMesh>(std::move(mesh)) : nullptr;
+  }
+
+  const EnclosingHulls& made_;
+  SharedMesh closed_, original_, dropped_;
+};
+
+std::vector<std::string> notes_of(const EnclosingHull& hull, const EnclosingHulls& made) {
+  std::vector<std::string> notes = hull.notes;
+  if (!made.input.closed)
+    notes.push_back("the mesh is not closed and has no volume: void_ratio is measured against the wrap");
+  return notes;
+}
+
+py::dict facts_of(EnclosingHull hull, const Sources& sources, const EnclosingHulls& made,
+                  const EnclosingOptions& options) {
   py::dict facts;
-  facts["mesh"] = std::move(hull.mesh);
-  facts["original"] = original;
-  facts["levels"] = std::move(hull.levels);
+  facts["original"] = sources.original(hull);
+  facts["covered"] = sources.covered(hull, options);
+  facts["volume_inside"] = sources.volume(hull);
+  if (options.bounds.any())
+    facts["bounds"] = py::make_tuple(made.solids.front().volume, options.bounds.max_distance,
+                                     options.bounds.max_void_ratio, options.bounds.max_added_volume);
   facts["wrap_alpha"] = hull.wrap_alpha;
-  facts["notes"] = hull.notes;
+  facts["notes"] = notes_of(hull, made);
+  facts["mesh"] = std::move(hull.mesh);
+  facts["levels"] = std::move(hull.levels);
   facts["certified"] = hull.certified;
   facts["proof"] = hull.proof;
-  facts["faces_target"] = hull.target_faces;
-  facts["reached"] = hull.target_reached;
-  facts["bounded"] = hull.within_bounds;
-  facts["refused"] = dict_of(hull.refusals);
+  facts["target_faces"] = hull.target_faces;
+  facts["target_reached"] = hull.target_reached;
+  facts["within_bounds"] = hull.within_bounds;
+  facts["refusals"] = dict_of(hull.refusals);
   facts["blocked"] = dict_of(hull.blocked);
   facts["relaxed_guards"] = hull.relaxed_guards;
-  facts["self_intersections"] = hull.self_intersections;
+  facts["rounded_vertices"] = hull.rounded_vertices;
   facts["build_seconds"] = hull.build_seconds;
   facts["verify_seconds"] = hull.verify_seconds;
+  facts["repairs"] = describe(made.input.repairs);
   return facts;
 }
 
-py::list facts_of(EnclosingHulls made) {
-  const auto repairs = describe(made.input.repairs);
-  SharedMesh closed, triangles;  // each only once, and only if needed
-  const auto once = [](SharedMesh& mesh, TriangleMesh& from) {
-    if (!mesh) mesh = std::make_shared<TriangleMesh>(std::move(from));
-    return mesh;
-  };
+py::list facts_of(EnclosingHulls made, const EnclosingOptions& options) {
+  const Sources sources(made);
   py::list hulls;
-  for (EnclosingHull& hull : made.hulls) {
-    const SharedMesh original =
-        hull.wrap_alpha > 0 ? once(triangles, made.input.original) : once(closed, made.input.closed->mesh);
-    py::dict facts = facts_of(std::move(hull), original);
-    facts["repairs"] = repairs;
-    hulls.append(facts);
-  }
+  for (EnclosingHull& hull : made.hulls) hulls.append(facts_of(std::move(hull), sources, made, options));
   return hulls;
 }
 
 py::list build(const TriangleMesh& mesh, const std::vector<std::size_t>& targets, const py::object& progress,
                const py::dict& keywords) {
   EnclosingOptions options = options_of(Keywords(keywords));
-  return facts_of(watched(progress, [&](Watch& watch) {
+  EnclosingHulls made = watched(progress, [&](Watch& watch) {
     options.progress = watch.progress();
     return enclosing_hulls(mesh, targets, options);
-  }));
+  });
+  return facts_of(std::move(made), options);
 }
 
 }  // namespace
 
-void bind_construction(py::module_& module) { module.def("build", &build); }
+void bind_construction(py::module_& module) {
+  module.def("build", &build);
+  module.attr("sides") = tuple_of(hull_side_names());
+  module.attr("strategies") = tuple_of(strategy_names());
+  module.attr("repairs") = tuple_of(repair_names());
+  module.attr("self_intersections") = tuple_of(self_intersections_names());
+}
 
 }  // namespace prohull::python

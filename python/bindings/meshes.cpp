@@ -123,6 +123,7 @@ void bind_meshes(py::module_& module) {
       .def(py::pickle(&parts_of, &levels_of_parts));
 
   module.def("read", &read);
+  module.def("stores_float32", [](const std::filesystem::path& path) { return stores_float32(mesh_format(path)); });
   module.def("is_hull_file", [](const std::filesystem::path& path) { return is_hull_file(path); });
   module.def(
       "load", [](const std::filesystem::path& path) { return load_hull(path); }, Release());

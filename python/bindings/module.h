@@ -8,5 +8,6 @@ void bind_meshes(pybind11::module_& module);
 void bind_construction(pybind11::module_& module);
 void bind_verification(pybind11::module_& module);
 void bind_queries(pybind11::module_& module);
+void bind_pictures(pybind11::module_& module);
 
 }  // namespace prohull::python

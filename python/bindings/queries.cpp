@@ -40,15 +40,16 @@ BatchOptions batch_options(Watch& watch, unsigned threads) { return {threads, wa
 /// Hands the hits of `rows`, of shape (n, 6), to `take` in chunks.
 template <class Query>
 void take_hits(const QueryIndex& index, const Array<double>& rows, HitMode mode, unsigned threads,
-               const TakeHits& take) {
-  watched(py::none(), [&](Watch& watch) {
+               const py::object& progress, const TakeHits& take) {
+  watched(progress, [&](Watch& watch) {
     return find_hits_in_chunks(index, queries_of<Query>(rows), mode, take, batch_options(watch, threads));
   });
 }
 
 void take_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, HitMode mode, unsigned threads,
-               const TakeHits& take) {
-  are_rays ? take_hits<Ray>(index, rows, mode, threads, take) : take_hits<Segment>(index, rows, mode, threads, take);
+               const py::object& progress, const TakeHits& take) {
+  are_rays ? take_hits<Ray>(index, rows, mode, threads, progress, take)
+           : take_hits<Segment>(index, rows, mode, threads, progress, take);
 }
 
 /// The columns of n hits, which belong to numpy: not touched before rows are set, which needs no GIL.
@@ -87,9 +88,10 @@ class Columns {
 
 bool is_answered(const HitBatch& batch, std::size_t i) { return batch.offsets[i] < batch.offsets[i + 1]; }
 
-py::list first_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
+py::list first_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
+                    const py::object& progress) {
   Columns columns(static_cast<std::size_t>(rows.shape(0)));
-  take_hits(index, rows, are_rays, HitMode::First, threads, [&](std::size_t first, const HitBatch& chunk) {
+  take_hits(index, rows, are_rays, HitMode::First, threads, progress, [&](std::size_t first, const HitBatch& chunk) {
     for (std::size_t i = 0; i + 1 < chunk.offsets.size(); ++i)
       is_answered(chunk, i) ? columns.set(first + i, chunk.hits[chunk.offsets[i]]) : columns.set_none(first + i);
   });
@@ -98,10 +100,11 @@ py::list first_hits(const QueryIndex& index, const Array<double>& rows, bool are
   return result;
 }
 
-py::array any_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
+py::array any_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
+                   const py::object& progress) {
   py::array_t<bool> result(rows.shape(0));
   bool* const is_hit = result.mutable_data();
-  take_hits(index, rows, are_rays, HitMode::Any, threads, [&](std::size_t first, const HitBatch& chunk) {
+  take_hits(index, rows, are_rays, HitMode::Any, threads, progress, [&](std::size_t first, const HitBatch& chunk) {
     for (std::size_t i = 0; i + 1 < chunk.offsets.size(); ++i) is_hit[first + i] = is_answered(chunk, i);
   });
   return result;
@@ -113,10 +116,11 @@ struct Chunk {
 };
 
 /// By the numbers of their queries.
-std::vector<Chunk> all_chunks(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
+std::vector<Chunk> all_chunks(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
+                              const py::object& progress) {
   std::vector<Chunk> chunks;
   std::mutex mutex;
-  take_hits(index, rows, are_rays, HitMode::All, threads, [&](std::size_t first, HitBatch batch) {
+  take_hits(index, rows, are_rays, HitMode::All, threads, progress, [&](std::size_t first, HitBatch batch) {
     const std::scoped_lock lock(mutex);
     chunks.push_back({first, std::move(batch)});
   });
@@ -124,8 +128,9 @@ std::vector<Chunk> all_chunks(const QueryIndex& index, const Array<double>& rows
   return chunks;
 }
 
-py::list all_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads) {
-  const std::vector<Chunk> chunks = all_chunks(index, rows, are_rays, threads);
+py::list all_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
+                  const py::object& progress) {
+  const std::vector<Chunk> chunks = all_chunks(index, rows, are_rays, threads, progress);
   std::size_t count = 0;
   for (const Chunk& chunk : chunks) count += chunk.batch.hits.size();
   Columns columns(count);
@@ -150,8 +155,9 @@ py::array offsets_of(const std::vector<std::size_t>& offsets) {
 }
 
 /// `rows` of shape (n, 9).
-py::tuple triangles_met(const QueryIndex& index, const Array<double>& rows, unsigned threads) {
-  const FaceBatch batch = watched(py::none(), [&](Watch& watch) {
+py::tuple triangles_met(const QueryIndex& index, const Array<double>& rows, unsigned threads,
+                        const py::object& progress) {
+  const FaceBatch batch = watched(progress, [&](Watch& watch) {
     return find_faces_met(index, queries_of<Triangle>(rows), batch_options(watch, threads));
   });
   std::vector<std::int64_t> faces(batch.faces.size());
@@ -161,10 +167,10 @@ py::tuple triangles_met(const QueryIndex& index, const Array<double>& rows, unsi
 }
 
 /// `points` of shape (n, 3).
-py::array points_inside(const QueryIndex& index, const Array<double>& points, unsigned threads) {
-  const std::vector<bool> inside = watched(py::none(), [&](Watch& watch) {
-    return contains(index, queries_of<Vec3>(points), batch_options(watch, threads));
-  });
+py::array points_inside(const QueryIndex& index, const Array<double>& points, unsigned threads,
+                        const py::object& progress) {
+  const std::vector<bool> inside = watched(
+      progress, [&](Watch& watch) { return contains(index, queries_of<Vec3>(points), batch_options(watch, threads)); });
   py::array_t<bool> result(points.shape(0));
   std::ranges::copy(inside, result.mutable_data());
   return result;
@@ -189,9 +195,7 @@ void bind_queries(py::module_& module) {
       .def("all_hits", &all_hits)
       .def("triangles_met", &triangles_met)
       .def("contains", &points_inside);
-  std::vector<std::string> names;
-  for (const auto& [name, engine] : engine_names()) names.emplace_back(name);
-  module.attr("engines") = py::tuple(py::cast(names));
+  module.attr("engines") = tuple_of(engine_names());
 }
 
 }  // namespace prohull::python

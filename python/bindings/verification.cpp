@@ -8,6 +8,7 @@
 #include "prohull/distance.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
+#include "prohull/float32_hull.h"
 #include "prohull/replay.h"
 #include "prohull/verification.h"
 #include "watch.h"
@@ -40,6 +41,11 @@ py::dict facts_of(const Verification& found) {
   return facts;
 }
 
+HullSide side_called(const std::string& name) {
+  if (const auto side = value_of(hull_side_names(), name)) return *side;
+  throw InputError(Defect::InvalidOption, "side='" + name + "': expected one of " + joined(hull_side_names()));
+}
+
 template <class Decide>
 py::dict verified(bool every_triangle, const py::object& progress, Decide decide) {
   return facts_of(watched(progress, [&](Watch& watch) {
@@ -49,11 +55,9 @@ py::dict verified(bool every_triangle, const py::object& progress, Decide decide
 
 py::dict verified_mesh(const TriangleMesh& hull, const TriangleMesh& original, const std::string& side_name,
                        bool every_triangle, const py::object& progress) {
-  const auto side = value_of(hull_side_names(), side_name);
-  if (!side)
-    throw InputError(Defect::InvalidOption, "side='" + side_name + "': expected one of " + joined(hull_side_names()));
+  const HullSide side = side_called(side_name);
   return verified(every_triangle, progress,
-                  [&](const VerificationOptions& options) { return verify_hull(hull, original, *side, options); });
+                  [&](const VerificationOptions& options) { return verify_hull(hull, original, side, options); });
 }
 
 py::dict verified_levels(const ProgressiveHull& hull, const TriangleMesh& original, bool every_triangle,
@@ -77,6 +81,36 @@ py::tuple distance(const TriangleMesh& from, const TriangleMesh& to, double rela
   return py::make_tuple(bounds.lower, bounds.upper, point_of(bounds.farthest));
 }
 
+/// How it is proven that a hull, or a level of it, does what it promises; empty if it does not: it covers `original`
+/// where that was wrapped, else it encloses (inner: is enclosed by) it, and covers `covered`. `known` says that the
+/// former is known.
+std::string proof_of(const TriangleMesh& hull, const TriangleMesh& original, const TriangleMesh* covered,
+                     const std::string& side, bool wrapped, const std::string& known) {
+  return watched(py::none(), [&](Watch& watch) -> std::string {
+    const EnclosureOptions options{.max_offenders = 0, .progress = watch.progress()};
+    if (wrapped) return verify_cover(original, hull, options).encloses ? "coverage" : "";
+    const bool outer = side_called(side) == HullSide::Outer;
+    if (known.empty() && !verify_enclosure(outer ? original : hull, outer ? hull : original, options).encloses)
+      return "";
+    if (covered && !verify_cover(*covered, hull, options).encloses) return "";
+    return known.empty() ? "enclosure" : known;
+  });
+}
+
+bool is_within(const TriangleMesh& hull, const TriangleMesh& original, double volume, double max_distance,
+               double max_void_ratio, double max_added_volume) {
+  return watched(py::none(), [&](Watch& watch) {
+    return HullBounds{max_distance, max_void_ratio, max_added_volume}.hold(hull, original, volume,
+                                                                           {.progress = watch.progress()});
+  });
+}
+
+py::tuple float32_hull(const TriangleMesh& hull, const std::string& side) {
+  Float32Hull rounded =
+      watched(py::none(), [&](Watch&) { return with_float32_coordinates(hull, side_called(side), NoRoom::Round); });
+  return py::make_tuple(std::move(rounded.mesh), rounded.moved_vertices);
+}
+
 }  // namespace
 
 void bind_verification(py::module_& module) {
@@ -85,6 +119,9 @@ void bind_verification(py::module_& module) {
   module.def("verify_mesh", &verified_mesh);
   module.def("verify_levels", &verified_levels);
   module.def("replayed", &replayed);
+  module.def("proof_of", &proof_of);
+  module.def("is_within", &is_within);
+  module.def("with_float32_coordinates", &float32_hull);
   module.def("distance", &distance);
 }
 

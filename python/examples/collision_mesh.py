@@ -1,13 +1,14 @@
 #!/usr/bin/python3
-"""A collision mesh for one part, proven to cover it: collision_mesh.py PART OUT [FACES]"""
+"""Builds a collision mesh for one part, proven to cover it."""
 
+import argparse
 import sys
 
 import prohull
 
 
-def main(part, out, faces=200):
-    hull = prohull.build(part, faces_target=int(faces), tight=True, float32=out.endswith((".stl", ".glb")))
+def main(part, out, faces):
+    hull = prohull.build(part, faces, tight=True)
     for what in hull.repairs + hull.notes:
         print(f"{part}: {what}")
     if not hull.certified:
@@ -19,4 +20,12 @@ def main(part, out, faces=200):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("part", help="the mesh file of the part")
+    parser.add_argument("out", help="where the collision mesh goes: .stl, .glb, .ply, .obj or .off")
+    parser.add_argument("faces", nargs="?", type=int, default=200, help="its number of faces (200)")
+    arguments = parser.parse_args()
+    try:
+        main(**vars(arguments))
+    except prohull.InputError as error:
+        sys.exit(str(error))

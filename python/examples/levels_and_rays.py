@@ -1,10 +1,7 @@
 #!/usr/bin/python3
-"""Rays against the levels of a hull: coarse levels answer sooner, and what they miss the mesh misses.
+"""Asks rays of the levels of a hull. Coarse levels answer sooner, and what they miss the mesh misses."""
 
-levels_and_rays.py [MESH] [RAYS]; without a mesh a sample.
-"""
-
-import sys
+import argparse
 import time
 
 import numpy as np
@@ -20,10 +17,10 @@ def rays_through(mesh, count, random):
     return origins, random.uniform(low, high, size=(count, 3)) - origins
 
 
-def main(path=None, count=20000):
-    mesh = prohull.read(path) if path else prohull.sample("pony", 20000)
-    hull = prohull.build(mesh, faces_target=200, levels=True)
-    rays = rays_through(hull.original, int(count), np.random.default_rng(1))
+def main(mesh, rays):
+    mesh = prohull.read(mesh) if mesh else prohull.sample("pony", 20000)
+    hull = prohull.build(mesh, 200, levels=True)
+    rays = rays_through(hull.original, rays, np.random.default_rng(1))
     truth = hull.original.any_hit(*rays)
     for faces in (200, 1000, 5000):
         level = hull.level(faces)
@@ -38,4 +35,7 @@ def main(path=None, count=20000):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("mesh", nargs="?", help="a mesh file; a sample unless given")
+    parser.add_argument("rays", nargs="?", type=int, default=20000, help="how many rays (20000)")
+    main(**vars(parser.parse_args()))

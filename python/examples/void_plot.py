@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Void against faces, of levels and of tight hulls: void_plot.py OUT.png [MESH]; without a mesh a sample."""
+"""Draws the void against the number of faces, of the levels of a hull and of tight hulls."""
 
-import sys
+import argparse
 
 import matplotlib
 
@@ -10,12 +10,12 @@ import matplotlib.pyplot as plt
 import prohull
 
 
-def main(out, path=None):
-    mesh = prohull.read(path) if path else prohull.sample("asteroid", 5000)
-    hull = prohull.build(mesh, faces_target=100, levels=True)
+def main(out, mesh):
+    mesh = prohull.read(mesh) if mesh else prohull.sample("asteroid", 5000)
+    hull = prohull.build(mesh, 100, levels=True)
     faces = [n for n in (100, 200, 500, 1000, 2000) if n < len(mesh.faces)]
-    void = [hull.level(n).volume / hull.original.volume - 1 for n in faces]
-    tight = prohull.build(mesh, faces_target=faces, tight=True)
+    void = [hull.level(n).void_ratio for n in faces]
+    tight = prohull.build(mesh, faces, tight=True)
 
     figure, axes = plt.subplots(figsize=(5, 3.5), layout="constrained")
     axes.loglog(faces, [100 * v for v in void], "o-", label="levels of one hull")
@@ -28,4 +28,7 @@ def main(out, path=None):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("out", help="where the picture goes: .png, .svg or .pdf")
+    parser.add_argument("mesh", nargs="?", help="a mesh file; a sample unless given")
+    main(**vars(parser.parse_args()))

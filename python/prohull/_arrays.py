@@ -1,18 +1,26 @@
 """What callers hand over becomes arrays that the extension module takes as they are."""
 
+import os
+from typing import Any, Optional
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ._prohull import InputError
 
 
-def _numbers(name, values):
+#: What is taken for a mesh, for messages.
+MESHES = "expected the path of a file, vertices and faces, or an object that has both"
+
+
+def _numbers(name: str, values: ArrayLike) -> NDArray[Any]:
     array = np.asarray(values)
     if array.dtype.kind not in "fiu" and array.size > 0:
         raise InputError(f"{name}: an array of {array.dtype}; expected floating point numbers or integers")
     return array
 
 
-def rows(name, values, *shapes):
+def rows(name: str, values: ArrayLike, *shapes: tuple[int, ...]) -> NDArray[np.float64]:
     """A C-contiguous float64 array whose first axis counts rows, each of one of `shapes`; copied only if needed."""
     array = _numbers(name, values)
     if array.shape[1:] not in shapes or array.ndim == 0:
@@ -21,7 +29,7 @@ def rows(name, values, *shapes):
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
-def indices(name, values):
+def indices(name: str, values: ArrayLike) -> NDArray[np.int64]:
     """A C-contiguous int64 array of shape (m, 3); copied only if needed."""
     array = _numbers(name, values)
     if array.ndim != 2 or array.shape[1] != 3:
@@ -31,8 +39,8 @@ def indices(name, values):
     return np.ascontiguousarray(array, dtype=np.int64)
 
 
-def rays(origins, directions):
-    """Rows of an origin and a direction, shape (n, 6); a single one, of shape (3,), is repeated for all of the others."""
+def rays(origins: ArrayLike, directions: ArrayLike) -> NDArray[np.float64]:
+    """Rows of an origin and a direction, shape (n, 6); a single one, of shape (3,), is repeated for all others."""
     origins, directions = _numbers("origins", origins), _numbers("directions", directions)
     for name, array in (("origins", origins), ("directions", directions)):
         if array.shape[-1:] != (3,) or array.ndim > 2:
@@ -46,7 +54,7 @@ def rays(origins, directions):
     return both
 
 
-def arrays_of_mesh(mesh):
+def arrays_of_mesh(mesh: Any) -> Optional[tuple[Any, Any]]:
     """Vertices and faces of whatever looks like a mesh of trimesh, Open3D or another library; None of anything else."""
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):  # trimesh.Trimesh and many others
         return mesh.vertices, mesh.faces
@@ -55,5 +63,20 @@ def arrays_of_mesh(mesh):
     if hasattr(mesh, "vertex") and hasattr(mesh, "triangle"):  # open3d.t.geometry.TriangleMesh
         return mesh.vertex["positions"].cpu().numpy(), mesh.triangle["indices"].cpu().numpy()
     if isinstance(mesh, tuple) and len(mesh) == 2:
-        return mesh
+        return mesh[0], mesh[1]
     return None
+
+
+def is_mesh(given: Any) -> bool:
+    """Whether it is a mesh by itself, rather than vertices without their faces."""
+    return isinstance(given, (str, os.PathLike)) or arrays_of_mesh(given) is not None
+
+
+def described(given: Any) -> str:
+    """For messages about what was handed over."""
+    if isinstance(given, (str, os.PathLike, int, float)):
+        return repr(given)
+    if isinstance(given, np.ndarray):
+        return f"an array of shape {given.shape}"
+    kind = type(given)
+    return f"a {kind.__qualname__}" if kind.__module__ == "builtins" else f"a {kind.__module__}.{kind.__qualname__}"

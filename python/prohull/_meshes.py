@@ -1,28 +1,27 @@
-"""Meshes, hulls, and what rays and segments hit of them."""
+"""Meshes, and what rays and segments hit of them."""
 
-import os
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _prohull
 from ._prohull import InputError
+from ._types import EngineName, Path, Progress, Rows
 
 if TYPE_CHECKING:
     import open3d
     import trimesh
 
-Path = Union[str, "os.PathLike[str]"]
-
 
 class FirstHits(NamedTuple):
-    """The first hit of each of n rays or segments; -1 and nan where there is none."""
+    """The first hit of each of n rays or segments. Where there is none, face is -1 and t and position are nan."""
 
     face: NDArray[np.int64]  #: (n,), rows of `faces`
-    t: NDArray[np.float64]  #: (n,), of rays in lengths of their directions, of segments the fraction of the way
+    t: NDArray[np.float64]  #: (n,); of a ray in lengths of its direction, of a segment the fraction of its way
     position: NDArray[np.float64]  #: (n, 3)
-    entering: NDArray[np.bool_]  #: (n,), from the outside of the face to its inside
+    entering: NDArray[np.bool_]  #: (n,), whether it goes from the outside of the face to its inside
 
     @property
     def hit(self) -> NDArray[np.bool_]:
@@ -31,50 +30,65 @@ class FirstHits(NamedTuple):
 
 
 class AllHits(NamedTuple):
-    """All hits of n rays or segments: those of ray i are rows offsets[i] to offsets[i + 1] - 1, in order along it."""
+    """All hits of n rays or segments. Those of ray i are rows offsets[i] to offsets[i + 1] - 1, in order along it."""
 
     offsets: NDArray[np.int64]  #: (n + 1,)
     face: NDArray[np.int64]  #: (hits,), rows of `faces`
     t: NDArray[np.float64]  #: (hits,), as in FirstHits
     position: NDArray[np.float64]  #: (hits, 3)
-    entering: NDArray[np.bool_]  #: (hits,)
+    entering: NDArray[np.bool_]  #: (hits,), as in FirstHits
 
     @property
-    def query(self) -> NDArray[np.int64]:
-        """(hits,), the ray or segment of each hit."""
+    def query(self) -> NDArray[np.intp]:
+        """(hits,), the number of the ray or segment of each hit."""
         return np.repeat(np.arange(len(self.offsets) - 1), np.diff(self.offsets))
 
 
 class FacesMet(NamedTuple):
-    """The faces that triangle i meets are face[offsets[i]:offsets[i + 1]], ascending."""
+    """The faces that n triangles meet. Those of triangle i are face[offsets[i]:offsets[i + 1]], in ascending order."""
 
     offsets: NDArray[np.int64]  #: (n + 1,)
-    face: NDArray[np.int64]  #: rows of `faces`
+    face: NDArray[np.int64]  #: (meetings,), rows of `faces`
 
 
 class Refinement(NamedTuple):
-    """An engine that asks a mesh through the levels of its hull, refined where a query comes near (docs/queries.md)."""
+    """An engine that asks a mesh through the levels of its hull, refined where a query comes near (docs/queries.md).
 
-    paper: bool = False  #: as published, which may miss inner hits
+    It belongs to the `original` of a hull with levels: hull.original.first_hit(..., engine=prohull.Refinement()).
+    """
+
+    paper: bool = False  #: refine as the paper does, which may miss hits inside
     coarsen: bool = False  #: keep the refined hull, and coarsen it where the next query does not touch it
-    queries_per_roll_back: int = 1  #: at least 1; without `coarsen`
+    queries_per_roll_back: int = 1  #: at least 1: after so many the hull is coarse again; without `coarsen`
+
+
+Engine = Union[EngineName, Refinement]
 
 
 class Mesh:
-    """Vertices and triangles, which do not change; triangles are counter-clockwise seen from outside.
+    """Vertices and triangles, which do not change. Triangles are counter-clockwise when seen from outside.
 
-    Queries take arrays and use all cores (`threads` limits them), release the GIL, and can be interrupted by Ctrl-C;
-    the index that they need is built by the first of them and kept. Answers are exact and the same for any number of
-    threads: nothing leaks between faces, and on closed meshes hits enter and leave in turn. `engine` is a name in
-    prohull.ENGINES; all give the same answers, "paper-refinement" may miss some (docs/queries.md). Segments without
-    length and rays without direction hit nothing. Errors: InputError, a ValueError, for another shape, which it names,
-    for coordinates that are not finite and for engines that are not there.
+    Queries (first_hit, any_hit, all_hits, faces_met, contains) take arrays and answer exactly: nothing leaks between
+    faces, and the hits on a closed mesh enter and leave in turn. The first query builds an index, which is kept. All of
+    them take these arguments too:
+
+    engine: a name in prohull.ENGINES, or a Refinement. All give the same answers, except that "paper-refinement" may
+        miss some (docs/queries.md).
+    threads: the largest number of threads; 0 means one for each core. The answers do not depend on it.
+    progress: called as build() calls it, with the stage "query".
+
+    Queries release the GIL, and Ctrl-C stops them. A segment without length and a ray without direction hit nothing.
+    Queries raise InputError, a ValueError, for an array of another shape, for coordinates that are not finite, and for
+    an unknown engine.
     """
 
-    def __init__(self, vertices: ArrayLike, faces: ArrayLike) -> None:
-        """vertices: (n, 3) of any floating point or integer dtype; faces: (m, 3) indices of vertices. They are copied.
+    def __init__(self, vertices: Rows, faces: Rows) -> None:
+        """Copies the arrays.
 
-        Raises InputError for another shape, and for faces that name vertices that are not there.
+        vertices: (n, 3), of any floating point or integer dtype.
+        faces: (m, 3), of any integer dtype: for each corner of a face the row of its vertex.
+
+        Raises InputError for another shape, and for a face that names a vertex that does not exist.
         """
         self._set(_prohull.Mesh(_arrays.rows("vertices", vertices, (3,)), _arrays.indices("faces", faces)))
 
@@ -94,208 +108,156 @@ class Mesh:
         return {**self.__dict__, "_indices": {}}
 
     def __repr__(self) -> str:
-        return f"<prohull.{type(self).__name__}: {len(self.vertices):,} vertices, {len(self.faces):,} faces>"
+        size = " x ".join(f"{side:.4g}" for side in np.ptp(self.vertices, axis=0)) if len(self.vertices) else "0"
+        return f"<prohull.Mesh: {len(self.vertices):,} vertices, {len(self.faces):,} faces, size {size}>"
+
+    def picture(self, width: int = 400, height: int = 300) -> bytes:
+        """Draws the mesh; of a hull, draws it around its original. Returns the content of a .png file.
+
+        width, height: in pixels, each in [1, 16384].
+
+        Notebooks show this picture for a mesh. Raises InputError if there is nothing to be drawn.
+
+            pathlib.Path("hull.png").write_bytes(hull.picture())
+        """
+        return self._picture(width, height)
+
+    def _picture(self, width: int, height: int) -> bytes:
+        return _prohull.picture(self._core, None, width, height)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        try:
+            return self.picture()
+        except InputError:
+            return None
 
     @property
     def vertices(self) -> NDArray[np.float64]:
-        """(n, 3), read-only, a view of the mesh's own memory."""
+        """(n, 3), float64: the coordinates of each vertex. A read-only view of the mesh's own memory."""
         return self._core.vertices
 
     @property
     def faces(self) -> NDArray[np.uint32]:
-        """(m, 3), read-only, a view of the mesh's own memory."""
+        """(m, 3), uint32: the rows in `vertices` of each face's corners. A read-only view of the mesh's own memory."""
         return self._core.faces
 
     @property
     def volume(self) -> float:
-        """In cubic units; meaningful for closed meshes, negative if inside out."""
+        """The volume inside, in cubic units. Meaningful for closed meshes only; negative if they are inside out."""
         return self._core.volume
 
     @property
     def is_closed(self) -> bool:
-        """Along every edge, matched by position, faces run as often one way as the other. Raises InputError if empty or
-        not finite."""
+        """Whether faces run along every edge, matched by position, as often one way as the other.
+
+        Raises InputError if the mesh is empty or not finite.
+        """
         if self._is_closed is None:
             self._is_closed = _prohull.is_closed(self._core)
         return self._is_closed
 
     def report(self) -> dict[str, Any]:
-        """What the mesh is and what is wrong with it: counts of components and of each kind of defect."""
+        """Says what the mesh is and what is wrong with it, as `prohull info` does: counts by name."""
         return self._core.report()
 
     def save(self, path: Path) -> None:
-        """Writes .ply, .obj, .off, .stl or .glb, whole or not at all.
+        """Writes the mesh to a .ply, .obj, .off, .stl or .glb file, whole or not at all.
 
-        Raises InputError if that is not possible; .stl and .glb keep only float32 (build with `float32=True`).
+        Raises InputError for another suffix, if the file cannot be written, and if coordinates are not float32 numbers,
+        which is all that .stl and .glb files keep. A Hull is rounded where that is needed.
         """
         self._core.write(path)
 
     def to_trimesh(self) -> "trimesh.Trimesh":
-        """A copy; needs trimesh."""
+        """Makes a copy as a mesh of trimesh, which must be installed."""
         import trimesh
 
         return trimesh.Trimesh(self.vertices.copy(), self.faces.astype(np.int64), process=False)
 
     def to_open3d(self) -> "open3d.geometry.TriangleMesh":
-        """A copy; needs Open3D."""
+        """Makes a copy as a mesh of Open3D, which must be installed."""
         import open3d
 
         return open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(self.vertices),
                                             open3d.utility.Vector3iVector(self.faces.astype(np.int32)))
 
     def first_hit(self, origins: Optional[ArrayLike] = None, directions: Optional[ArrayLike] = None, *,
-                  segments: Optional[ArrayLike] = None, engine: Union[str, Refinement] = "auto",
-                  threads: int = 0) -> FirstHits:
-        """Of each ray, or segment, the hit nearest to its start.
+                  segments: Optional[ArrayLike] = None, engine: Engine = "auto", threads: int = 0,
+                  progress: Optional[Progress] = None) -> FirstHits:
+        """Finds for each ray, or for each segment, the hit that is nearest to its start.
 
-        origins, directions: (n, 3), one of them may be a single (3,); directions need not be of unit length.
-        segments instead: (n, 2, 3) or (n, 6), both ends.
+        origins, directions: (n, 3) each; one of them may be a single (3,), for all rays. Directions may have any
+            length.
+        segments instead: (n, 2, 3) or (n, 6), both ends of each.
         """
-        return FirstHits(*self._index(engine).first_hits(*_lines(origins, directions, segments), threads))
+        return FirstHits(*self._index(engine).first_hits(*_lines(origins, directions, segments), threads, progress))
 
     def any_hit(self, origins: Optional[ArrayLike] = None, directions: Optional[ArrayLike] = None, *,
-                segments: Optional[ArrayLike] = None, engine: Union[str, Refinement] = "auto",
-                threads: int = 0) -> NDArray[np.bool_]:
-        """Whether each ray, or segment, hits the mesh: (n,); arguments as of first_hit. Faster than the first hit."""
-        return self._index(engine).any_hits(*_lines(origins, directions, segments), threads)
+                segments: Optional[ArrayLike] = None, engine: Engine = "auto", threads: int = 0,
+                progress: Optional[Progress] = None) -> NDArray[np.bool_]:
+        """Decides for each ray, or for each segment, whether it hits the mesh: (n,). Faster than first_hit().
+
+        The arguments are those of first_hit().
+        """
+        return self._index(engine).any_hits(*_lines(origins, directions, segments), threads, progress)
 
     def all_hits(self, origins: Optional[ArrayLike] = None, directions: Optional[ArrayLike] = None, *,
-                 segments: Optional[ArrayLike] = None, engine: Union[str, Refinement] = "auto",
-                 threads: int = 0) -> AllHits:
-        """Of each ray, or segment, every hit; arguments as of first_hit."""
-        return AllHits(*self._index(engine).all_hits(*_lines(origins, directions, segments), threads))
+                 segments: Optional[ArrayLike] = None, engine: Engine = "auto", threads: int = 0,
+                 progress: Optional[Progress] = None) -> AllHits:
+        """Finds for each ray, or for each segment, all of its hits. The arguments are those of first_hit()."""
+        return AllHits(*self._index(engine).all_hits(*_lines(origins, directions, segments), threads, progress))
 
-    def faces_met(self, triangles: ArrayLike, *, engine: Union[str, Refinement] = "auto",
-                  threads: int = 0) -> FacesMet:
-        """The faces that have a point in common with each of triangles (n, 3, 3) or (n, 9), exactly; touching counts."""
-        rows = _arrays.rows("triangles", triangles, (3, 3), (9,)).reshape(-1, 9)
-        return FacesMet(*self._index(engine).triangles_met(rows, threads))
+    def faces_met(self, triangles: ArrayLike, *, engine: Engine = "auto", threads: int = 0,
+                  progress: Optional[Progress] = None) -> FacesMet:
+        """Finds for each triangle the faces that have a point in common with it, exactly; touching counts.
 
-    def contains(self, points: ArrayLike, *, engine: Union[str, Refinement] = "auto",
-                 threads: int = 0) -> NDArray[np.bool_]:
-        """Whether each of points (n, 3) is inside, where the mesh winds around it at least once: (n,), exactly.
-
-        Points on the surface may count as inside or outside. Raises InputError if the mesh is not closed.
+        triangles: (n, 3, 3) or (n, 9), the corners of each.
         """
-        rows = _arrays.rows("points", points, (3,))
+        rows = _arrays.rows("triangles", triangles, (3, 3), (9,)).reshape(-1, 9)
+        return FacesMet(*self._index(engine).triangles_met(rows, threads, progress))
+
+    @overload
+    def contains(self, points: Sequence[float], *, engine: Engine = ..., threads: int = ...,
+                 progress: Optional[Progress] = ...) -> bool: ...
+    @overload
+    def contains(self, points: Rows, *, engine: Engine = ..., threads: int = ...,
+                 progress: Optional[Progress] = ...) -> NDArray[np.bool_]: ...
+    def contains(self, points: Any, *, engine: Engine = "auto", threads: int = 0,
+                 progress: Optional[Progress] = None) -> Union[bool, NDArray[np.bool_]]:
+        """Decides for each point, exactly, whether it is inside: where the mesh winds around it at least once.
+
+        points: (n, 3), which gives (n,); or a single point, (3,), which gives True or False.
+
+        A point on the surface may count as inside or as outside. Raises InputError if the mesh is not closed.
+        """
+        is_one = np.shape(points) == (3,)
+        rows = _arrays.rows("points", [points] if is_one else points, (3,))
         if not self.is_closed:
             raise InputError("the mesh is not closed: it has no inside")
-        return self._index(engine).contains(rows, threads)
+        inside = self._index(engine).contains(rows, threads, progress)
+        return bool(inside[0]) if is_one else inside
 
-    def _index(self, engine: Union[str, Refinement]) -> _prohull.Index:
+    def _index(self, engine: Engine) -> _prohull.Index:
         if engine not in self._indices:
             self._indices[engine] = self._new_index(engine)
         return self._indices[engine]
 
-    def _new_index(self, engine: Union[str, Refinement]) -> _prohull.Index:
+    def _new_index(self, engine: Engine) -> _prohull.Index:
         options = engine if isinstance(engine, Refinement) else Refinement()
         name = ("paper-refinement" if options.paper else "refinement") if engine is options else str(engine)
         if "refinement" not in name:
             return _prohull.Index(self._core, name)
         if self._query_levels is None:
-            raise InputError(f"engine={engine!r}: of a hull's `original` only, and not where it was wrapped or has no levels")
+            raise InputError(f"engine={engine!r}: this engine goes through the levels of a hull; ask the `original` of a hull "
+                             "that has levels and was not wrapped")
         return _prohull.Index(self._query_levels, name, options.coarsen, options.queries_per_roll_back)
 
 
-def _lines(origins, directions, segments):
+def _lines(origins: Optional[ArrayLike], directions: Optional[ArrayLike],
+           segments: Optional[ArrayLike]) -> tuple[NDArray[np.float64], bool]:
     """Rows of six numbers, and whether they are rays."""
     if segments is not None and origins is None and directions is None:
         return _arrays.rows("segments", segments, (2, 3), (6,)).reshape(-1, 6), False
     if segments is None and origins is not None and directions is not None:
         return _arrays.rays(origins, directions), True
     raise InputError("expected either origins and directions, or segments")
-
-
-class Hull(Mesh):
-    """A mesh that encloses another one, or is enclosed by it; from build() or load(). May be pickled."""
-
-    certified: bool  #: proven exactly, by code that shares nothing with the construction
-    proof: str  #: how: "replay", "enclosure" or "coverage" (docs/repair.md); empty if not certified
-    side: str  #: "outer" or "inner"
-    faces_target: int  #: that were asked for; of a loaded hull what it has
-    reached: bool  #: has at most so many faces, or the bounds allow no fewer
-    bounded: bool  #: max_distance, max_void and max_added_volume hold
-    refused: dict[str, int]  #: how often collapses were refused, by reason
-    blocked: dict[str, int]  #: of the edges that are left, why
-    relaxed_guards: int  #: steps by which the guards of the shape were relaxed in the end
-    wrap_alpha: float  #: of the wrap that it was built from, in the mesh's unit; 0 if from the mesh itself
-    repairs: list[str]  #: what was done to the mesh before
-    notes: list[str]  #: why something is not as it was asked for
-    build_seconds: float
-    verify_seconds: float
-
-    @classmethod
-    def _made(cls, facts: dict[str, Any], side: str) -> "Hull":
-        hull = cls.__new__(cls)
-        hull._set(facts.pop("mesh"))
-        hull._levels: Optional[_prohull.Levels] = facts.pop("levels")
-        hull._original = Mesh._of(facts.pop("original"), None if facts["wrap_alpha"] > 0 else hull._levels)
-        hull._self_intersections = facts.pop("self_intersections")
-        hull._distance: Optional[float] = None
-        hull.side = side
-        hull.__dict__.update(facts)
-        return hull
-
-    @property
-    def original(self) -> Mesh:
-        """What the hull encloses: the mesh after repairs, or all its finite triangles where they were wrapped.
-
-        Its queries also take the engines that go through the hull, "refinement" and "paper-refinement".
-        """
-        return self._original
-
-    @property
-    def levels(self) -> range:
-        """The numbers of faces that level() has, from the hull to the original; empty without levels.
-
-        A tight hull has none, and neither has one whose vertices moved after a wrap (see `levels` of build()).
-        """
-        if self._levels is None:
-            return range(0)
-        return range(self._levels.base_face_count, self._levels.original_face_count + 1, 2)
-
-    def level(self, faces: int) -> Mesh:
-        """The finest level of at most so many faces; the coarsest if that has more. Each encloses the next finer one.
-
-        Raises InputError without levels.
-        """
-        return Mesh._of(self._with_levels().level(faces))
-
-    def save(self, path: Path) -> None:
-        """Writes all levels to .phull (docs/phull.md), or the hull alone to .ply, .obj, .off, .stl or .glb.
-
-        Raises InputError if that is not possible; .stl and .glb keep only float32 (build with `float32=True`).
-        """
-        if os.fspath(path).lower().endswith(".phull"):
-            self._with_levels().save(path)
-        else:
-            super().save(path)
-
-    def _with_levels(self) -> _prohull.Levels:
-        if self._levels is None:
-            raise InputError("the hull has no levels; build with levels=True and tight=False")
-        return self._levels
-
-    @property
-    def void_ratio(self) -> float:
-        """Volume / volume of the original - 1; negative of inner hulls, nan if the original is not closed."""
-        return self.volume / self._original.volume - 1 if self._original.is_closed else float("nan")
-
-    @property
-    def distance_bound(self) -> float:
-        """No point of the hull is farther from the original, in its unit: proven, at most 1 % too great where that is
-        found in time. Computed when first asked for."""
-        if self._distance is None:
-            self._distance = _prohull.distance(self._core, self._original._core, 0.01, None)[1]
-        return self._distance
-
-    @property
-    def self_intersections(self) -> int:
-        """Pairs of faces that meet beyond what they share; exact."""
-        if self._self_intersections is None:
-            self._self_intersections = _prohull.count_self_intersections(self._core)
-        return self._self_intersections
-
-    def __repr__(self) -> str:
-        return (f"<prohull.Hull: {self.side}, {len(self.faces):,} faces, "
-                f"{'certified' if self.certified else 'NOT CERTIFIED'}>")

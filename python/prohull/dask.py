@@ -1,12 +1,12 @@
-"""Many meshes, or many segments, by the workers of a dask cluster; a guide is docs/guides/dask.md.
+"""Builds hulls of many meshes, and asks many segments, on the workers of a dask cluster (docs/guides/dask.md).
 
     client = distributed.Client("scheduler:8786")
-    rows = prohull.dask.build_folder(client, "meshes", "hulls", faces_target=500)
+    rows = prohull.dask.build_folder(client, "meshes", "hulls", 500)
     hits = prohull.dask.query(client, hull.original, segments)
 
-The workers need prohull, and read and write the same files by the same paths as the caller. Whatever they had under way
-when they died is done again by others. Importing raises ImportError where dask and its distributed scheduler are not
-installed; `import prohull` needs neither.
+The workers need prohull, and must see the same files by the same paths as the caller. What a worker had under way when
+it died is done again by others. Importing this module raises ImportError where dask and its distributed scheduler are
+not installed; `import prohull` needs neither.
 """
 
 import contextlib
@@ -23,7 +23,7 @@ import time
 import uuid
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, Literal, NamedTuple, Optional, Union, overload
+from typing import Any, Literal, NamedTuple, Optional, Union, get_args, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,34 +36,39 @@ except ImportError as error:
 
 import prohull
 
-from . import AllHits, FirstHits, InputError, Mesh, MeshLike, _arrays
-from ._meshes import Path
+from . import AllHits, FirstHits, InputError, Mesh, _arrays
+from ._files import mesh_of
+from ._meshes import Engine
+from ._types import MeshLike, Path
 
 __all__ = ["Row", "build_folder", "query", "show"]
 
 #: What Hull.save() writes.
-SUFFIXES = (".ply", ".obj", ".off", ".stl", ".glb", ".phull")
+Suffix = Literal[".ply", ".obj", ".off", ".stl", ".glb", ".phull"]
 #: Files that build_folder() takes from a folder, also with .gz after it.
 FORMATS = frozenset({".ply", ".obj", ".off", ".stl", ".glb", ".gltf", ".dae", ".3mf"})
 
-#: Called with how many are done, of how many, and how many of them failed; may return False to stop.
+#: A function that is called with the number of what is done, of what there is, and of what failed. False stops the run.
 Progress = Callable[[int, int, int], Optional[bool]]
 
 
-class Row(NamedTuple):
-    """What became of one mesh; a row of report.csv."""
+Status = Literal["built", "kept", "refused", "failed"]
 
-    name: str  #: of the mesh: its path within the folder, its file's name, the key or the number that it was given by
-    status: str  #: "built", "kept" from an earlier run, "refused" for an InputError, "failed" for anything else
-    file: str = ""  #: of the hull; empty without
-    faces: int = 0  #: of the hull
-    void_ratio: Optional[float] = None  #: Hull.void_ratio; None without a hull or if the mesh is not closed
-    seconds: float = 0.0  #: that building took, with reading and writing
-    message: str = ""  #: why there is no hull, or notes and repairs
+
+class Row(NamedTuple):
+    """What became of one mesh. report.csv has such a row for each."""
+
+    name: str  #: name of the mesh: its path within the folder, the name of its file, its key, or its number
+    status: Status  #: "built", "kept" from an earlier run, "refused" for an InputError, "failed" for anything else
+    file: str = ""  #: path of the hull; empty if there is none
+    faces: int = 0  #: number of faces of the hull
+    void_ratio: Optional[float] = None  #: Hull.void_ratio of the hull as it was written; None if there is none
+    seconds: float = 0.0  #: time that building took, with reading and writing
+    message: str = ""  #: why there is no hull; or what was repaired, and the notes of the hull
 
 
 def show(done: int, total: int, failed: int) -> None:
-    """Progress on stderr: one line that changes where that is a terminal, else one at the end."""
+    """Writes progress to stderr: to a terminal one line that changes, else one line at the end."""
     terminal = sys.stderr.isatty()
     if terminal or done == total:
         begin, end = "\r" if terminal else "", "" if terminal and done < total else "\n"
@@ -71,31 +76,34 @@ def show(done: int, total: int, failed: int) -> None:
 
 
 def build_folder(client: "distributed.Client", meshes: Union[Path, Sequence[MeshLike], Mapping[str, MeshLike]],
-                 out: Path, *, suffix: str = ".stl", progress: Optional[Progress] = show,
+                 out: Path, target_faces: int = 2000, *, suffix: Suffix = ".stl", progress: Optional[Progress] = show,
                  **options: Any) -> list[Row]:
-    """Builds a certified hull of each mesh into the folder `out`, and says there in report.csv what became of it.
+    """Builds a certified hull of each mesh into the folder `out`, and writes to report.csv there what became of each.
 
-    Guaranteed: a row for each mesh, in the order given, whatever happens to meshes and workers; a hull's file is whole
-    and certified, or not there. A mesh with which its worker dies every time, also alone, is a row that failed.
-    Called again, it keeps hulls that are there with mesh file (by size and time of change; arrays by content) and
-    options unchanged, and builds the others, also after it was interrupted.
+    Guaranteed: there is a row for each mesh, in the order given, whatever happens to meshes and workers. The file of a
+    hull is whole and certified, or it is not there. A mesh whose workers die each time, also when it is alone on one,
+    gets a row that failed.
+
+    When it is called again, also after an interruption, it keeps a hull if the mesh and the options are the same as
+    before, and builds the others. Files count as the same by size and time of change, arrays by content.
 
     client: of a cluster whose workers see `meshes` and `out` by the same paths.
-    meshes: a folder, which is searched for meshes at any depth; or a sequence of paths or meshes; or those by name.
-        Paths are read by the workers, other meshes travel as arrays. Names of files must be distinct in a sequence.
-    out: made if it is not there. The hull of NAME is NAME + suffix; beside it, NAME + suffix + ".json" says what it was
-        made from.
-    suffix: ".ply", ".obj", ".off", ".stl", ".glb", or ".phull" for all levels. The hulls for .stl and .glb are built
-        with float32=True.
+    meshes: a folder, which is searched for meshes at any depth; or a sequence of paths or meshes; or a dictionary of
+        them by name. Workers read the paths; other meshes travel as arrays. The names of files in a sequence must be
+        distinct.
+    out: a folder, which is made if it is not there. The hull of NAME is NAME + suffix. NAME + suffix + ".json" beside
+        it says what it was made from.
+    target_faces: the largest number of faces of each hull, at least 4.
+    suffix: ".ply", ".obj", ".off", ".stl" or ".glb", or ".phull" for all levels.
     progress: see Progress; None for none. If it returns False, KeyboardInterrupt is raised.
-    options: of prohull.build(), one number as faces_target. Without `threads` each build has one: give a worker as many
-        threads as it has cores.
+    options: other options of prohull.build(), by name. Unless given, `float32_coordinates` is True for .stl and .glb,
+        and `threads` is 1: start one worker for each core.
 
     Raises InputError if `meshes` is no folder or is `out`, if names are not distinct or lead out of `out`, and for
-    another suffix; TypeError for options that build() does not have; OSError if `out` cannot be written.
+    another suffix; TypeError for an option that build() does not have; OSError if `out` cannot be written.
     """
     out = pathlib.Path(out).resolve()
-    jobs = _jobs(_named(meshes, out), out, suffix, _checked(options, suffix))
+    jobs = _jobs(_named(meshes, out), out, suffix, _checked({"target_faces": target_faces, **options}, suffix))
     rows: dict[int, Row] = {}
     told = _Told(progress, len(jobs))
     for i, job in enumerate(jobs):
@@ -118,35 +126,36 @@ def build_folder(client: "distributed.Client", meshes: Union[Path, Sequence[Mesh
 
 @overload
 def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kind: Literal["first_hit"] = ..., *,
-          chunk: int = ..., engine: Any = ..., threads: int = ..., progress: Optional[Progress] = ...) -> FirstHits: ...
+          chunk: int = ..., engine: Engine = ..., threads: int = ..., progress: Optional[Progress] = ...) -> FirstHits: ...
 @overload
 def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kind: Literal["any_hit"], *,
-          chunk: int = ..., engine: Any = ..., threads: int = ...,
+          chunk: int = ..., engine: Engine = ..., threads: int = ...,
           progress: Optional[Progress] = ...) -> NDArray[np.bool_]: ...
 @overload
 def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kind: Literal["all_hits"], *,
-          chunk: int = ..., engine: Any = ..., threads: int = ..., progress: Optional[Progress] = ...) -> AllHits: ...
+          chunk: int = ..., engine: Engine = ..., threads: int = ..., progress: Optional[Progress] = ...) -> AllHits: ...
 def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kind: str = "first_hit", *,
-          chunk: int = 1 << 17, engine: Any = "auto", threads: int = 1,
+          chunk: int = 1 << 17, engine: Engine = "auto", threads: int = 1,
           progress: Optional[Progress] = None) -> Union[FirstHits, NDArray[np.bool_], AllHits]:
-    """The answers of mesh.first_hit(), any_hit() or all_hits() for `segments`: the same bits, in the same order.
+    """Answers mesh.first_hit(), any_hit() or all_hits() for `segments`: with the same bits, in the same order.
 
-    The mesh, with its levels where `engine` needs them, travels to each worker once, which builds its index once.
+    The mesh travels to each worker once, with its levels where `engine` needs them, and each worker builds its index
+    once.
 
-    mesh: a Mesh, a Hull or its `original`, or what else prohull.build() takes; a path is read by the caller.
-    segments: (n, 2, 3) or (n, 6), both ends.
+    mesh: a Mesh, a Hull or its `original`, or what else prohull.build() takes. The caller reads a path.
+    segments: (n, 2, 3) or (n, 6), both ends of each.
     kind: "first_hit", "any_hit" or "all_hits".
-    chunk: segments of one task, at least 1; rounded up to a multiple of 512.
-    engine, threads: as of the queries of Mesh; without `threads` each task has one.
-    progress: see Progress, counting segments.
+    chunk: number of segments of one task, at least 1; it is rounded up to a multiple of 512.
+    engine, threads: as of the queries of Mesh. Each task has one thread unless `threads` is given.
+    progress: see Progress; it counts segments.
 
-    Raises InputError as the local call does, and distributed.KilledWorker if all workers died that a chunk was given
+    Raises InputError as the query itself does, and distributed.KilledWorker if all workers died that a chunk was given
     to.
     """
     if kind not in ("first_hit", "any_hit", "all_hits"):
         raise InputError(f"kind={kind!r}: expected one of first_hit, any_hit, all_hits")
     rows = _finite(_arrays.rows("segments", segments, (2, 3), (6,)).reshape(-1, 6))
-    given = prohull._mesh(mesh)
+    given = mesh_of(mesh)
     bare = Mesh._of(given._core, given._query_levels)  # of a Hull no more than is asked
     # Multiples of what a batch answers at a time, which paper-refinement can tell.
     size = -(-max(1, chunk) // 512) * 512
@@ -172,16 +181,16 @@ class _Job(NamedTuple):
 
 
 def _checked(options: dict[str, Any], suffix: str) -> dict[str, Any]:
-    known = inspect.signature(prohull.build).parameters
-    if unknown := {name for name in options if name not in known or known[name].kind is not known[name].KEYWORD_ONLY}:
+    known = inspect.signature(prohull.build).parameters.values()
+    if unknown := options.keys() - {"target_faces", *(p.name for p in known if p.kind is p.KEYWORD_ONLY)}:
         raise TypeError(f"build_folder() got options that build() does not have: {', '.join(sorted(unknown))}")
-    if np.ndim(options.get("faces_target", 4)) > 0:
-        raise InputError(f"faces_target={options['faces_target']!r}: expected one number")
-    if suffix.lower() not in SUFFIXES:
-        raise InputError(f"suffix={suffix!r}: expected one of {', '.join(SUFFIXES)}")
+    if np.ndim(options["target_faces"]) > 0:
+        raise InputError(f"target_faces={options['target_faces']!r}: expected one number")
+    if suffix.lower() not in get_args(Suffix):
+        raise InputError(f"suffix={suffix!r}: expected one of {', '.join(get_args(Suffix))}")
     if suffix.lower() == ".phull" and options.get("tight"):
         raise InputError("suffix='.phull': a tight hull has no levels; give another suffix or leave out tight")
-    return {"float32": suffix.lower() in (".stl", ".glb"), "threads": 1, **options}
+    return {"float32_coordinates": suffix.lower() in (".stl", ".glb"), "threads": 1, **options}
 
 
 def _named(meshes: Any, out: pathlib.Path) -> dict[str, Any]:
@@ -226,7 +235,7 @@ def _jobs(named: dict[str, Any], out: pathlib.Path, suffix: str, options: dict[s
     for name, mesh in named.items():
         try:
             is_path = isinstance(mesh, (str, os.PathLike))
-            mesh = os.path.abspath(mesh) if is_path else prohull._mesh(mesh, keep_non_finite=True)
+            mesh = os.path.abspath(mesh) if is_path else mesh_of(mesh, keep_non_finite=True)
             made_from = {"options": json.loads(json.dumps(options, default=repr)),
                          "mesh": {"path": mesh, **_state(mesh)} if is_path else {"digest": _digest(mesh)}}
             jobs.append(_Job(name, mesh, str(out / (name + suffix)), options, made_from))
@@ -285,8 +294,7 @@ def _built(job: _Job) -> Row:
         return Row(job.name, "failed", message=f"not certified: {notes}")
     os.makedirs(os.path.dirname(job.target), exist_ok=True)
     hull.save(job.target)
-    void = float(hull.void_ratio)
-    row = Row(job.name, "built", job.target, len(hull.faces), None if np.isnan(void) else void,
+    row = Row(job.name, "built", job.target, len(hull.faces), float(hull.void_ratio),
               round(time.perf_counter() - start, 3), notes)
     record = {"made_from": job.made_from, "hull": _state(job.target), "row": row._asdict()}
     _write(pathlib.Path(job.target + ".json"), json.dumps(record, indent=1) + "\n")  # only now it counts

@@ -26,7 +26,7 @@ def pony():
 
 @pytest.fixture(scope="session")
 def hull(pony):
-    return prohull.build(pony, faces_target=300, levels=True)
+    return prohull.build(pony, target_faces=300, levels=True)
 
 
 @pytest.fixture

@@ -1,5 +1,4 @@
 import inspect
-import math
 import pickle
 import subprocess
 import sys
@@ -10,36 +9,59 @@ import pytest
 
 
 def test_a_hull_is_certified_and_says_how_it_came_about(pony):
-    hull = prohull.build(pony.vertices, pony.faces, faces_target=500)
-    assert hull.certified and hull.reached and hull.bounded
+    hull = prohull.build(pony.vertices, pony.faces, target_faces=500)
+    assert hull.certified and hull.target_reached and hull.within_bounds
     assert len(hull.faces) == 500
-    assert hull.side == "outer" and hull.proof == "replay" and hull.faces_target == 500
+    assert hull.side == "outer" and hull.proof == "replay" and hull.target_faces == 500
     assert 0 < hull.void_ratio == hull.volume / pony.volume - 1
-    assert sum(hull.refused.values()) > 0 and set(hull.refused) <= {
+    assert sum(hull.refusals.values()) > 0 and set(hull.refusals) <= {
         "link_condition", "valence", "no_room_outside", "certificate", "compactness", "normal_deviation",
         "self_intersection"}
     assert hull.self_intersections == 0
     assert prohull.verify(hull, pony)
 
 
+def test_what_one_types_first_works(pony, tmp_path):
+    pony.save(tmp_path / "part.ply")
+    vertices, faces = pony.vertices, pony.faces
+    expected = prohull.build(pony, target_faces=500).vertices
+    for call in (lambda: prohull.build(str(tmp_path / "part.ply"), 500), lambda: prohull.build(tmp_path / "part.ply", 500),
+                 lambda: prohull.build(pony, 500), lambda: prohull.build(vertices, faces, 500),
+                 lambda: prohull.build((vertices, faces), 500), lambda: prohull.build(vertices, faces, target_faces=500),
+                 lambda: prohull.build(vertices.tolist(), faces.tolist(), 500), lambda: prohull.build(pony, [500])[0]):
+        assert np.array_equal(call().vertices, expected)
+
+
+@pytest.mark.parametrize("call, message", [
+    (lambda v, f, mesh: prohull.build("part.stl", "500"), "target_faces='500': expected a whole number of at least 4"),
+    (lambda v, f, mesh: prohull.build(500, "part.stl"), r"500, 'part.stl': expected build\(mesh, target_faces\) or build\(v"),
+    (lambda v, f, mesh: prohull.build(v, 500), r"an array of shape \(8, 3\), 500: expected build\(mesh, target_faces\)"),
+    (lambda v, f, mesh: prohull.build(mesh, f, 500), "is a mesh already: expected build"),
+    (lambda v, f, mesh: prohull.build(mesh, 400, target_faces=500), "is a mesh already: expected build"),
+])
+def test_arguments_in_the_wrong_place_are_named(cube, call, message):
+    with pytest.raises(prohull.InputError, match=message):
+        call(*cube, prohull.Mesh(*cube))
+
+
 def test_several_budgets_give_a_list(pony):
-    fine, coarse = prohull.build(pony, faces_target=[800, 400])
+    fine, coarse = prohull.build(pony, target_faces=[800, 400])
     assert (len(fine.faces), len(coarse.faces)) == (800, 400)
     assert fine.original.vertices.ctypes.data == coarse.original.vertices.ctypes.data, "one original for both"
-    assert isinstance(prohull.build(pony, faces_target=(800,)), list)
-    assert isinstance(prohull.build(pony, faces_target=np.int32(800)), prohull.Hull)
+    assert isinstance(prohull.build(pony, target_faces=(800,)), list)
+    assert isinstance(prohull.build(pony, target_faces=np.int32(800)), prohull.Hull)
 
 
 def test_distance_bound_holds_and_bounds_are_kept(pony):
-    hull = prohull.build(pony, faces_target=500)
+    hull = prohull.build(pony, target_faces=500)
     lower, upper = prohull.distance_bounds(hull, pony)
     assert 0 < lower <= upper == hull.distance_bound <= 1.01 * lower
-    near = prohull.build(pony, faces_target=500, max_distance=upper / 4)
-    assert near.bounded and near.distance_bound <= upper / 4 and len(near.faces) > 500
+    near = prohull.build(pony, target_faces=500, max_distance=upper / 4)
+    assert near.within_bounds and near.distance_bound <= upper / 4 and len(near.faces) > 500
 
 
 def test_inner_hulls_are_enclosed(pony):
-    inner = prohull.build(pony, faces_target=500, side="inner")
+    inner = prohull.build(pony, target_faces=500, side="inner")
     assert inner.certified and inner.side == "inner" and inner.void_ratio < 0
     assert prohull.verify(inner, pony)
     assert prohull.verify(inner.level(1000), pony, side="inner")
@@ -47,8 +69,8 @@ def test_inner_hulls_are_enclosed(pony):
 
 
 def test_tight_hulls_have_less_void_and_no_levels(pony):
-    tight = prohull.build(pony, faces_target=500, tight=True)
-    assert tight.certified and tight.void_ratio < prohull.build(pony, faces_target=500).void_ratio
+    tight = prohull.build(pony, target_faces=500, tight=True)
+    assert tight.certified and tight.void_ratio < prohull.build(pony, target_faces=500).void_ratio
     assert len(tight.levels) == 0
     with pytest.raises(prohull.InputError, match="no levels"):
         tight.level(600)
@@ -74,19 +96,20 @@ def test_what_is_not_closed_is_wrapped_or_refused(cube):
     with pytest.raises(prohull.InputError, match="edge"):
         prohull.build(vertices, lidless, repair="none")
     try:
-        hull = prohull.build(vertices, lidless, faces_target=200, seal_holes=1)
+        hull = prohull.build(vertices, lidless, target_faces=200, seal_holes=1)
     except prohull.InputError as error:
         assert "cannot wrap" in str(error)
         return
     assert hull.certified and hull.proof == "coverage" and hull.wrap_alpha > 0
-    assert math.isnan(hull.void_ratio) and hull.distance_bound > 0 and len(hull.levels) == 0
+    assert np.isfinite(hull.void_ratio) and "void_ratio is measured against the wrap" in hull.notes[-1]
+    assert hull.distance_bound > 0 and len(hull.levels) == 0
     assert len(hull.original.faces) == len(lidless)
     assert prohull.verify(hull, (vertices, lidless))
 
 
 def test_repairs_are_told(cube):
     vertices, faces = cube
-    hull = prohull.build(vertices[faces].reshape(-1, 3), np.arange(36).reshape(12, 3), faces_target=12)
+    hull = prohull.build(vertices[faces].reshape(-1, 3), np.arange(36).reshape(12, 3), target_faces=12)
     assert hull.certified and hull.repairs == ["welded 28 vertices at equal positions"]
 
 
@@ -95,7 +118,7 @@ def test_triangles_that_are_not_finite_are_dropped(tmp_path, cube):
     (tmp_path / "cube.off").write_text("OFF\n9 13 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in vertices) +
                                        "".join(f"3 {a} {b} {c}\n" for a, b, c in faces))
     for given in (tmp_path / "cube.off", (vertices, faces)):
-        hull = prohull.build(given, faces_target=12)
+        hull = prohull.build(given, target_faces=12)
         assert hull.certified and len(hull.original.faces) == 12 and "dropped 1 face" in hull.repairs[0]
     with pytest.raises(prohull.InputError, match="cube.off"):
         prohull.read(tmp_path / "cube.off")
@@ -111,10 +134,12 @@ def test_files(tmp_path, pony, hull):
 
     pony.save(tmp_path / "pony.ply")
     assert np.array_equal(prohull.read(tmp_path / "pony.ply").vertices, pony.vertices)
-    with pytest.raises(prohull.InputError, match="float32"):
-        hull.save(tmp_path / "hull.stl")
-    prohull.build(str(tmp_path / "pony.ply"), faces_target=500, float32=True).save(tmp_path / "hull.stl")
-    assert prohull.verify(tmp_path / "hull.stl", tmp_path / "pony.ply")
+    with pytest.raises(prohull.InputError, match="pony.phull: .*prohull.load"):
+        prohull.read(tmp_path / "pony.phull")
+    with pytest.raises(prohull.InputError, match="pony.ply"):
+        prohull.load(tmp_path / "pony.ply")
+    hull = prohull.build(str(tmp_path / "pony.ply"), 500, float32_coordinates=True)
+    assert np.array_equal(hull.vertices, hull.vertices.astype(np.float32)) and hull.with_float32_coordinates() is hull
 
 
 def test_verify_names_offenders(pony):
@@ -140,14 +165,14 @@ def test_pickled_hulls_are_the_same(hull, pony):
     assert np.array_equal(copy.vertices, hull.vertices) and np.array_equal(copy.level(900).faces, hull.level(900).faces)
     assert copy.original.first_hit([0, 0, 9], [0, 0, -1], engine="refinement").hit[0] == \
         hull.original.first_hit([0, 0, 9], [0, 0, -1]).hit[0]
-    tight = prohull.build(pony, faces_target=1000, tight=True)
+    tight = prohull.build(pony, target_faces=1000, tight=True)
     assert np.array_equal(pickle.loads(pickle.dumps(tight)).vertices, tight.vertices)
     with pytest.raises(prohull.InputError, match="hello"):
         raise pickle.loads(pickle.dumps(prohull.InputError("hello")))
 
 
 def test_threads_do_not_change_hulls(pony):
-    one, two = (prohull.build(pony, faces_target=400, threads=threads) for threads in (1, 2))
+    one, two = (prohull.build(pony, target_faces=400, threads=threads) for threads in (1, 2))
     assert np.array_equal(one.vertices, two.vertices) and np.array_equal(one.faces, two.faces)
 
 
@@ -155,22 +180,22 @@ def test_defaults_are_those_of_the_library(pony):
     """Giving none of the options is giving their documented defaults."""
     defaults = {name: p.default for name, p in inspect.signature(prohull.build).parameters.items()
                 if p.kind is p.KEYWORD_ONLY}
-    assert defaults.pop("faces_target") == 2000
-    assert np.array_equal(prohull.build(pony, faces_target=500, **defaults).vertices,
-                          prohull.build(pony, faces_target=500).vertices)
+    assert len(prohull.build(prohull.sample("pony", 3000)).faces) == 2000
+    assert np.array_equal(prohull.build(pony, target_faces=500, **defaults).vertices,
+                          prohull.build(pony, target_faces=500).vertices)
 
 
 @pytest.mark.parametrize("options, message", [
     ({"side": "outter"}, "side='outter': expected one of outer, inner"),
     ({"repair": "magic"}, "repair='magic': expected one of auto, none, wrap"),
     ({"strategy": None}, "strategy=None: expected one of lazy"),
-    ({"faces_target": 3}, "faces_target=3"),
-    ({"faces_target": []}, "faces_target=\\[\\]"),
-    ({"faces_target": 2.5}, "faces_target=2.5"),
+    ({"target_faces": 3}, "target_faces=3"),
+    ({"target_faces": []}, "target_faces=\\[\\]"),
+    ({"target_faces": 2.5}, "target_faces=2.5"),
     ({"threads": -1}, "threads=-1: expected a whole number"),
     ({"best_of": "many"}, "best_of='many': expected a whole number"),
     ({"max_distance": -1.0}, "max_distance=-1.0: expected a number, at least 0"),
-    ({"max_void": "small"}, "max_void='small': expected a number"),
+    ({"max_void_percent": "small"}, "max_void_percent='small': expected a number"),
     ({"min_compactness_ratio": 2.0}, "compactness"),
 ])
 def test_bad_options_are_named(cube, options, message):

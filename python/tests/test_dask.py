@@ -22,7 +22,7 @@ else:
     needs_dask = pytest.mark.filterwarnings("ignore:make_current is deprecated")
 
 KILLER = "killer.off"
-TAKES_A_WHILE = dict(faces_target=100, tight=True, best_of=2)
+TAKES_A_WHILE = dict(target_faces=100, tight=True, best_of=2)
 
 
 def test_without_dask_it_is_told_what_to_install():
@@ -119,7 +119,7 @@ def test_a_killed_worker_costs_nothing_but_time(client, folder, tmp_path):
 
 @needs_dask
 def test_what_is_finished_is_kept(client, folder, tmp_path):
-    options = dict(faces_target=300, progress=None)
+    options = dict(target_faces=300, progress=None)
     few = [folder / f"mesh{i}.off" for i in range(3)]
     first = prohull.dask.build_folder(client, few, tmp_path, **options)
     times = times_of_change(tmp_path)
@@ -133,7 +133,7 @@ def test_what_is_finished_is_kept(client, folder, tmp_path):
     (tmp_path / "mesh1.off.stl").write_text("cut off")  # a hull that did
     os.remove(tmp_path / "mesh2.off.stl.json")  # a run that ended before this one counted
     assert set(statuses(prohull.dask.build_folder(client, few, tmp_path, **options)).values()) == {"built"}
-    options["faces_target"] = 200
+    options["target_faces"] = 200
     assert set(statuses(prohull.dask.build_folder(client, few, tmp_path, **options)).values()) == {"built"}
 
 
@@ -154,7 +154,7 @@ def test_a_mesh_that_kills_is_a_row(client, folder, tmp_path):
     prohull.sample("torus", 200).save(tmp_path / KILLER)
     client.register_worker_plugin(KilledByOneMesh(), name="killed")
     try:
-        rows = prohull.dask.build_folder(client, meshes, tmp_path / "out", faces_target=300, progress=None)
+        rows = prohull.dask.build_folder(client, meshes, tmp_path / "out", target_faces=300, progress=None)
     finally:
         client.unregister_worker_plugin("killed")
     assert statuses(rows) == {"a": "built", "b": "built", "c": "built", "d": "built", "killer": "failed"}
@@ -165,17 +165,17 @@ def test_a_mesh_that_kills_is_a_row(client, folder, tmp_path):
 def test_meshes_may_be_objects(client, cube, tmp_path):
     solid = prohull.Mesh(*cube)
     rows = prohull.dask.build_folder(client, [cube, solid, (cube[0], cube[1][:3, :2])], tmp_path, suffix=".ply",
-                                     faces_target=12, progress=None)
+                                     target_faces=12, progress=None)
     assert statuses(rows) == {"000000": "built", "000001": "built", "000002": "refused"}
     assert "expected (m, 3)" in rows[2].message and rows[0].void_ratio == 0
     assert prohull.verify(tmp_path / "000001.ply", cube)
     named = {"sub/cube": cube, "gone": tmp_path / "gone.stl", "0": (2 * cube[0], cube[1]), "none": None,
              "empty": (np.zeros((0, 3)), np.zeros((0, 3), int)), "ragged": ([[0, 1], [0]], cube[1])}
     others = {"gone": "failed", "none": "refused", "empty": "refused", "ragged": "failed"}
-    rows = prohull.dask.build_folder(client, named, tmp_path, suffix=".ply", faces_target=12, progress=None)
+    rows = prohull.dask.build_folder(client, named, tmp_path, suffix=".ply", target_faces=12, progress=None)
     assert statuses(rows) == {"sub/cube": "built", "0": "built", **others} and "gone.stl" in rows[1].message
     named["0"] = (3 * cube[0], cube[1])
-    rows = prohull.dask.build_folder(client, named, tmp_path, suffix=".ply", faces_target=12, progress=None)
+    rows = prohull.dask.build_folder(client, named, tmp_path, suffix=".ply", target_faces=12, progress=None)
     assert statuses(rows) == {"sub/cube": "kept", "0": "built", **others}
 
 
@@ -187,7 +187,7 @@ def test_meshes_may_be_objects(client, cube, tmp_path):
     ({"../x": "x.stl"}, {}, prohull.InputError, "'../x': a name of a mesh is a path within"),
     ({}, {"faces": [4]}, TypeError, "faces"),
     ({}, {"facets": 4}, TypeError, "facets"),
-    ({}, {"faces_target": [100, 200]}, prohull.InputError, "expected one number"),
+    ({}, {"target_faces": [100, 200]}, prohull.InputError, "expected one number"),
     ({"a/b": "x.stl", "./a/b": "x.stl"}, {}, prohull.InputError, "'./a/b' and 'a/b' are one name"),
     ({}, {"suffix": ".xyz"}, prohull.InputError, "suffix='.xyz': expected one of .ply"),
     ({}, {"suffix": ".phull", "tight": True}, prohull.InputError, "a tight hull has no levels"),

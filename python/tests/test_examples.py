@@ -36,6 +36,20 @@ def test_batch(tmp_path):
     assert prohull.verify(tmp_path / "out" / "torus.off.stl", tmp_path / "torus.off")
 
 
+def test_wrapped_links_have_a_void_and_notes(tmp_path):
+    """Of a mesh that is not closed the void is measured against the wrap, and that is said."""
+    torus = prohull.sample("torus", 1000)
+    prohull.Mesh(torus.vertices, torus.faces[20:]).save(tmp_path / "link.off")
+    line = run("batch.py", tmp_path, tmp_path / "out", 300)
+    assert "cannot wrap" in line or line.startswith("ok") and "nan" not in line and "measured against the wrap" in line
+
+
+@pytest.mark.parametrize("name", ["collision_mesh.py", "batch.py"])
+def test_without_arguments_examples_say_how_to_call_them(name):
+    called = subprocess.run([sys.executable, str(EXAMPLES / name)], text=True, capture_output=True)
+    assert called.returncode == 2 and called.stderr.startswith("usage: " + name), called.stderr
+
+
 def test_levels_and_rays():
     assert run("levels_and_rays.py").count("hit") == 4
 

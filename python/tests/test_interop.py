@@ -38,7 +38,7 @@ class Tensor:
 
 def test_trimesh(cube, monkeypatch):
     monkeypatch.setitem(sys.modules, "trimesh", types.SimpleNamespace(Trimesh=Trimesh))
-    hull = prohull.build(Trimesh(*cube), faces_target=12)
+    hull = prohull.build(Trimesh(*cube), target_faces=12)
     mesh = hull.to_trimesh()
     assert mesh.faces.dtype == np.int64 and mesh.process is False
     assert mesh.vertices.flags.writeable, "a mesh of its own"
@@ -49,7 +49,7 @@ def test_open3d(cube, monkeypatch):
     monkeypatch.setitem(sys.modules, "open3d", types.SimpleNamespace(
         geometry=types.SimpleNamespace(TriangleMesh=Open3DMesh),
         utility=types.SimpleNamespace(Vector3dVector=Vector, Vector3iVector=Vector)))
-    hull = prohull.build(Open3DMesh(Vector(cube[0]), Vector(cube[1])), faces_target=12)
+    hull = prohull.build(Open3DMesh(Vector(cube[0]), Vector(cube[1])), target_faces=12)
     mesh = hull.to_open3d()
     assert isinstance(mesh.vertices, Vector) and prohull.verify(mesh, cube)
 
@@ -57,10 +57,12 @@ def test_open3d(cube, monkeypatch):
 def test_open3d_tensors(cube):
     mesh = types.SimpleNamespace(vertex={"positions": Tensor(cube[0].astype(np.float32))},
                                  triangle={"indices": Tensor(cube[1])})
-    assert len(prohull.build(mesh, faces_target=12).faces) == 12
+    assert len(prohull.build(mesh, target_faces=12).faces) == 12
 
 
-@pytest.mark.parametrize("thing", [None, 7, [1, 2], object()])
-def test_what_is_no_mesh_is_named(thing):
-    with pytest.raises(prohull.InputError, match=type(thing).__name__ + " is no mesh"):
-        prohull.build(thing)
+@pytest.mark.parametrize("thing, named", [(None, "NoneType"), (7, "7"), ([1, 2], "a list"), (object(), "a object"),
+                                          (np.zeros((8, 3)), r"an array of shape \(8, 3\)")])
+def test_what_is_no_mesh_is_named(thing, named):
+    for call in (prohull.build, lambda mesh: prohull.distance_bounds(mesh, mesh)):
+        with pytest.raises(prohull.InputError, match=named + " is no mesh; expected the path of a file, vertices and faces"):
+            call(thing)

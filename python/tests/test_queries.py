@@ -82,8 +82,15 @@ def test_contains(cube, hull, pony, random):
     assert not (inside & ~inside_hull).any() and 0 < inside.sum() < inside_hull.sum() < len(points)
     with pytest.raises(prohull.InputError, match="not closed"):
         prohull.Mesh(cube[0], cube[1][1:]).contains([[0, 0, 0]])
-    with pytest.raises(prohull.InputError, match=r"points: an array of shape \(3,\)"):
-        mesh.contains([0, 0, 0])
+    with pytest.raises(prohull.InputError, match=r"points: an array of shape \(2,\)"):
+        mesh.contains([0, 0])
+
+
+def test_contains_takes_one_point(cube):
+    mesh = prohull.Mesh(*cube)
+    assert mesh.contains([0, 0, 0]) is True and mesh.contains((2, 0, 0)) is False
+    assert mesh.contains(np.array([0.5, 0, 0])) is True
+    assert mesh.contains([[0, 0, 0], [2, 0, 0], [0, 0, 0]]).tolist() == [True, False, True], "three points are three"
 
 
 def test_faces_met(cube):

@@ -9,12 +9,12 @@ import numpy as np
 import prohull
 import pytest
 
-TAKES_SECONDS = dict(faces_target=100, tight=True, best_of=50)
+TAKES_SECONDS = dict(target_faces=100, tight=True, best_of=50)
 
 
 def test_progress_is_told_on_the_calling_thread(pony):
     told = []
-    prohull.build(pony, faces_target=300, tight=True,
+    prohull.build(pony, target_faces=300, tight=True,
                   progress=lambda stage, fraction: told.append((stage, fraction, threading.get_ident())))
     assert told[-1][:2] == ("done", 1.0)
     assert all(0 <= fraction <= 1 for _, fraction, _ in told)
@@ -50,7 +50,7 @@ def test_ctrl_c_interrupts(random, work):
     interrupt.start()
     with pytest.raises(KeyboardInterrupt):
         if work == "build":
-            prohull.build(mesh, faces_target=100, tight=True, best_of=1000)
+            prohull.build(mesh, target_faces=100, tight=True, best_of=1000)
         else:
             mesh.all_hits(*rays, engine="brute")
     interrupt.join()
@@ -67,7 +67,7 @@ def test_other_threads_run_meanwhile(pony):
 
     thread = threading.Thread(target=tick)
     thread.start()
-    prohull.build(pony, faces_target=300, tight=True)
+    prohull.build(pony, target_faces=300, tight=True)
     done.set()
     thread.join()
     assert ticks
@@ -82,7 +82,7 @@ def test_threads_share_a_hull(hull, random):
 
 
 def ask(hull, rays):
-    return hull.first_hit(*rays).face, prohull.build(hull, faces_target=100).certified
+    return hull.first_hit(*rays).face, prohull.build(hull, target_faces=100).certified
 
 
 @pytest.mark.parametrize("method", ["fork", "spawn"])

@@ -23,8 +23,8 @@ namespace {
 
 class VertexMover {
  public:
-  explicit VertexMover(const TriangleMesh& level)
-      : level_(level), diagonal_(bounding_box(level).diagonal()), mesh_(level) {}
+  VertexMover(const TriangleMesh& level, NoRoom no_room)
+      : level_(level), no_room_(no_room), diagonal_(bounding_box(level).diagonal()), mesh_(level) {}
 
   Float32Hull run() {
     std::vector<VertexId> pending;
@@ -39,7 +39,8 @@ class VertexMover {
       if (pending.empty()) break;
       if (round == kRounds) {
         std::erase_if(pending, [&](VertexId v) { return !mesh_.has(v) || move_nearby(v) || collapse_away(v); });
-        if (!pending.empty()) refuse(pending.front(), pending.size());
+        if (!pending.empty() && no_room_ == NoRoom::Refuse) refuse(pending.front(), pending.size());
+        for (const VertexId v : pending) mesh_.move(v, nearest_float32(mesh_.position(v)));
         break;
       }
       std::vector<VertexId> cramped;
@@ -179,6 +180,7 @@ class VertexMover {
   }
 
   const TriangleMesh& level_;
+  const NoRoom no_room_;
   const double diagonal_;
   HalfEdgeMesh mesh_;
   std::vector<HalfSpace> constraints_;
@@ -189,7 +191,7 @@ class VertexMover {
 
 }  // namespace
 
-Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side) {
+Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side, NoRoom no_room) {
   for (const Vec3& p : level.positions)
     if (constexpr double kMost = std::numeric_limits<float>::max();
         std::abs(p.x) > kMost || std::abs(p.y) > kMost || std::abs(p.z) > kMost)
@@ -199,7 +201,7 @@ Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side) {
                                    kMost));
   if (std::ranges::all_of(level.positions, is_float32)) return {level, 0};
   // An inner hull is the outer hull of the mesh turned inside out.
-  Float32Hull result = VertexMover(side == HullSide::Inner ? turned(level) : level).run();
+  Float32Hull result = VertexMover(side == HullSide::Inner ? turned(level) : level, no_room).run();
   if (side == HullSide::Inner) result.mesh = turned(std::move(result.mesh));
   return result;
 }

@@ -61,6 +61,26 @@ TEST(Float32Hull, OfThinLimbsStillEnclosesOrIsRefused) {
   EXPECT_GT(enclosed, refused);
 }
 
+// What has no room in the hull mostly has some above the mesh.
+TEST(Float32Hull, IsRoundedToNearestWhereThereIsNoRoom) {
+  int refused = 0, enclosing = 0;
+  for (const char* name : {"knot", "pony", "torus"})
+    for (const std::size_t faces : {50u, 200u, 400u, 800u}) {
+      SCOPED_TRACE(testing::Message() << name << ", " << faces << " faces");
+      const TriangleMesh mesh = make_sample(name, 1000), level = build_hull(mesh, {.target_faces = faces}).hull.base();
+      const Float32Hull rounded = with_float32_coordinates(level, HullSide::Outer, NoRoom::Round);
+      EXPECT_TRUE(std::ranges::all_of(rounded.mesh.positions, [](const Vec3& p) { return is_float32(p); }));
+      try {
+        EXPECT_EQ(rounded.mesh, with_float32_coordinates(level, HullSide::Outer).mesh) << "as long as there is room";
+      } catch (const InputError&) {
+        ++refused;
+        enclosing += verify_enclosure(mesh, rounded.mesh).encloses;
+      }
+    }
+  EXPECT_GT(refused, 0);
+  EXPECT_GT(2 * enclosing, refused);
+}
+
 TEST(Float32Hull, OfConvexAndSaddleShapedMeshes) {
   for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
     SCOPED_TRACE(testing::Message() << "side " << int(side));

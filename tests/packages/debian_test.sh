@@ -55,6 +55,6 @@ if [ -d root/usr/lib/python3 ]; then
   PYTHONPATH=root/usr/lib/python3/dist-packages /usr/bin/python3 -B -c '
 import prohull
 assert "dist-packages" in prohull.__file__, prohull.__file__
-assert prohull.build("box.stl", faces_target=50).certified' || fail "import prohull"
+assert prohull.build("box.stl", target_faces=50).certified' || fail "import prohull"
 fi
 echo "packages: $(ls *.deb | tr '\n' ' ')"

@@ -1,0 +1,46 @@
+#include <algorithm>
+#include <vector>
+
+#include "arrays.h"
+#include "module.h"
+#include "prohull/error.h"
+#include "render/compose.h"
+#include "render/draw.h"
+#include "watch.h"
+
+namespace py = pybind11;
+
+namespace prohull::python {
+namespace {
+
+/// Of a bigger original the picture would take a moment, and shows the hull alone.
+constexpr std::size_t kMostFacesInside = 100'000;
+
+std::string png_of(const TriangleMesh& mesh, const TriangleMesh* inside, int width, int height, Watch& watch) {
+  render::PanelPlan plan;
+  plan.color = *render::parse_color(inside ? "blue" : "clay");
+  std::vector<TriangleMesh> meshes{mesh};
+  if (inside) plan.line_width = 1;
+  if (inside && inside->face_count() <= kMostFacesInside) {
+    plan.inside = meshes.size();
+    meshes.push_back(*inside);
+  }
+  const auto panels = render::compose({plan}, meshes, {}, width, height);
+  return render::encode_png(
+      render::draw(width, height, panels, {.background = render::Rgb{1, 1, 1}, .progress = watch.progress()}));
+}
+
+/// A PNG picture of a mesh, drawn as a hull if there is something inside.
+py::bytes picture(const TriangleMesh& mesh, const TriangleMesh* inside, int width, int height) {
+  if (std::min(width, height) < 1 || std::max(width, height) > render::Image::kMaxSide)
+    throw InputError(Defect::InvalidOption, "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                                                " pixels: expected sides of 1 to " +
+                                                std::to_string(render::Image::kMaxSide));
+  return watched(py::none(), [&](Watch& watch) { return png_of(mesh, inside, width, height, watch); });
+}
+
+}  // namespace
+
+void bind_pictures(py::module_& module) { module.def("picture", &picture); }
+
+}  // namespace prohull::python

@@ -1,0 +1,60 @@
+"""Meshes and hulls from files, from arrays and from other libraries."""
+
+import os
+
+from . import _arrays, _prohull
+from ._hull import Hull
+from ._meshes import Mesh
+from ._prohull import InputError
+from ._types import MeshLike, Path
+
+
+def mesh_of(mesh: MeshLike, keep_non_finite: bool = False) -> Mesh:
+    """The Mesh of whatever is taken for one; a Hull of a .phull file."""
+    if isinstance(mesh, Mesh):
+        return mesh
+    if isinstance(mesh, (str, os.PathLike)):
+        return load(mesh) if _prohull.is_hull_file(mesh) else Mesh._of(_prohull.read(mesh, keep_non_finite))
+    arrays = _arrays.arrays_of_mesh(mesh)
+    if arrays is None:
+        raise InputError(f"{_arrays.described(mesh)} is no mesh; {_arrays.MESHES}")
+    return Mesh(*arrays)
+
+
+def read(path: Path) -> Mesh:
+    """Reads a mesh from a file: PLY, OBJ, OFF, STL, glTF, each also gzipped, and others (docs/formats.md).
+
+    Returns the triangles as they are in the file, closed or not. Coordinates keep their bits. Raises InputError if the
+    file cannot be read; the message says what is wrong with it, and where. A .phull file is read by load().
+    """
+    if _prohull.is_hull_file(path):
+        raise InputError(f"{os.fspath(path)}: this file holds the levels of a hull; prohull.load reads it")
+    return Mesh._of(_prohull.read(path, False))
+
+
+def load(path: Path) -> Hull:
+    """Loads the hull that Hull.save() wrote to a .phull file, with all of its levels.
+
+    The file holds the original mesh too. The proof is replayed: `certified` says whether each level encloses all finer
+    ones up to the original. If it does not, `notes` says why. Raises InputError if the file is not a sound .phull file.
+    A mesh file is read by read().
+    """
+    levels = _prohull.load(path)
+    why_not = _prohull.replayed(levels, None)
+    faces = levels.base_face_count
+    original = levels.level(levels.original_face_count)
+    facts = dict(mesh=levels.level(0), original=original, levels=levels, wrap_alpha=0.0,
+                 certified=not why_not, proof="" if why_not else "replay", target_faces=faces, target_reached=True,
+                 within_bounds=True, refusals={}, blocked={}, relaxed_guards=0, rounded_vertices=0, build_seconds=0.0,
+                 verify_seconds=0.0, repairs=[], notes=[why_not] if why_not else [])
+    return Hull._made(facts, "inner" if levels.is_inner else "outer")
+
+
+def sample(name: str, faces: int) -> Mesh:
+    """Makes a closed mesh of about so many faces: asteroid, bracket, box, gyroid, knot, pony, sphere or torus.
+
+    faces: in [4, 2^30]; the mesh may have a few more or fewer.
+
+    Raises InputError for another name, and for a number of faces outside of this range.
+    """
+    return Mesh._of(_prohull.sample(name, faces))

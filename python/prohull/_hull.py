@@ -1,0 +1,181 @@
+"""Hulls: meshes that know what they enclose, and how that was proven."""
+
+import math
+import os
+from typing import Any, Optional
+
+from . import _prohull
+from ._meshes import Mesh
+from ._prohull import InputError
+from ._types import Path, Proof, Side
+
+
+class Hull(Mesh):
+    """A mesh that encloses another mesh, or is enclosed by it. build() and load() make hulls; they may be pickled.
+
+    Everything that a Mesh does, a hull does too: rays, segments, points, pictures.
+    """
+
+    certified: bool  #: whether it is proven, exactly, by code that shares nothing with the construction
+    proof: Proof  #: how it was proven: "replay", "enclosure" or "coverage" (docs/repair.md); empty if it was not
+    side: Side  #: "outer" if the hull encloses its original, "inner" if it is enclosed by it
+    target_faces: int  #: number of faces that was asked for; of a loaded hull its own
+    target_reached: bool  #: whether the hull has at most target_faces faces, or the bounds allow no fewer
+    within_bounds: bool  #: whether max_distance, max_void_percent and max_added_volume hold
+    refusals: dict[str, int]  #: how often collapses were refused during the construction, by reason
+    blocked: dict[str, int]  #: how many of the edges that are left cannot be collapsed, by reason
+    relaxed_guards: int  #: number of steps, 0 to 3, by which the guards of the shape were relaxed in the end
+    rounded_vertices: int  #: number of vertices that were moved to coordinates that float32 keeps
+    wrap_alpha: float  #: alpha of the wrap that the hull was built from, in the mesh's unit; 0 if it was not wrapped
+    repairs: list[str]  #: what was done to the mesh before the hull was built
+    notes: list[str]  #: what is not as it was asked for, and what is worth a look
+    build_seconds: float
+    verify_seconds: float
+
+    _levels: Optional[_prohull.Levels]
+    _original: Mesh
+    _covered: Optional[_prohull.Mesh]  # triangles that the hull has to cover beside enclosing its original
+    _bounds: tuple[float, ...]  # the volume that they are about, max_distance, max_void_ratio, max_added_volume
+    _volume_inside: float  # that void is measured against
+    _distance: Optional[float]  # computed when it is asked for, and so is the next
+    _self_intersections: Optional[int]
+
+    @classmethod
+    def _made(cls, facts: dict[str, Any], side: Side) -> "Hull":
+        levels = facts.pop("levels")
+        original = Mesh._of(facts.pop("original"), None if facts["wrap_alpha"] > 0 else levels)
+        private = dict(_levels=levels, _original=original, _covered=facts.pop("covered", None),
+                       _bounds=facts.pop("bounds", ()),
+                       _volume_inside=facts.pop("volume_inside", original.volume))
+        return cls._with(facts.pop("mesh"), side=side, **private, **facts)
+
+    @classmethod
+    def _with(cls, core: _prohull.Mesh, **attributes: Any) -> "Hull":
+        hull = cls.__new__(cls)
+        hull._set(core)
+        hull._distance, hull._self_intersections = None, None
+        hull.__dict__.update(attributes)
+        return hull
+
+    def _as(self, core: _prohull.Mesh, **changes: Any) -> "Hull":
+        """Another mesh with the facts of this hull, but for `changes`."""
+        computed = ("_core", "_query_levels", "_is_closed", "_indices", "_distance", "_self_intersections")
+        facts = {name: value for name, value in self.__dict__.items() if name not in computed}
+        return Hull._with(core, **{**facts, **changes})
+
+    @property
+    def original(self) -> Mesh:
+        """What the hull encloses: the mesh after repairs, or all of its finite triangles where they were wrapped.
+
+        Its queries also take the engines that go through the hull, "refinement" and "paper-refinement".
+        """
+        return self._original
+
+    @property
+    def levels(self) -> range:
+        """The numbers of faces that level() has, from the hull to the original. Empty if the hull has no levels.
+
+        A tight hull has none, nor has a hull of a wrap unless it was built with levels=True.
+        """
+        if self._levels is None:
+            return range(0)
+        return range(self._levels.base_face_count, self._levels.original_face_count + 1, 2)
+
+    def level(self, faces: int) -> "Hull":
+        """The finest level of at most `faces` faces; the coarsest one if that has more.
+
+        Each level encloses the next finer one (inner hulls: is enclosed by it). A level is a hull without levels of its
+        own. Raises InputError if the hull has no levels.
+        """
+        level = self._with_levels().level(faces)
+        proof = self._proof_of(level, "replay") if self.certified else ""
+        return self._as(level, certified=bool(proof), proof=proof, target_faces=faces,
+                        target_reached=len(level.faces) <= faces, within_bounds=self._is_within_bounds(level),
+                        rounded_vertices=0, _levels=None)
+
+    def with_float32_coordinates(self) -> "Hull":
+        """The hull with coordinates that float32 keeps, as STL and GLB files do: itself if it has such already.
+
+        Vertices move outwards (of inner hulls: inwards) by about a ten-millionth of their distance from the origin. The
+        result is certified anew, on the coordinates that it then has: see its `certified` and `within_bounds`.
+        """
+        rounded, moved = _prohull.with_float32_coordinates(self._core, self.side)
+        if moved == 0:
+            return self
+        proof = self._proof_of(rounded, "") if self.certified else ""
+        return self._as(rounded, certified=bool(proof), proof=proof, rounded_vertices=moved,
+                        target_reached=self.target_reached, within_bounds=self._is_within_bounds(rounded))
+
+    def save(self, path: Path) -> None:
+        """Writes the hull to a .ply, .obj, .off, .stl or .glb file, or all levels to a .phull file (docs/phull.md).
+
+        The file is written whole or not at all. STL and GLB files keep float32 coordinates only: what is written there
+        is with_float32_coordinates(), certified anew.
+
+        Raises InputError for another suffix, for .phull if there are no levels, and if a certified hull that is rounded
+        for STL or GLB is not certified, or not within its bounds, any more; the message says what to do.
+        """
+        if os.fspath(path).lower().endswith(".phull"):
+            self._with_levels().save(path)
+        elif _prohull.stores_float32(path):
+            self._rounded_for(path)._core.write(path)
+        else:
+            self._core.write(path)
+
+    def _rounded_for(self, path: Path) -> "Hull":
+        rounded = self.with_float32_coordinates()
+        lost = ("does not provably enclose its original" if self.certified and not rounded.certified else
+                "is not within its bounds" if self.within_bounds and not rounded.within_bounds else "")
+        if lost:
+            raise InputError(f"{os.fspath(path)}: the file keeps float32 coordinates, and rounded to them the hull {lost} "
+                             "any more; build it with float32_coordinates=True, or save it as .ply, .obj or .off")
+        return rounded
+
+    def _proof_of(self, core: _prohull.Mesh, known: Proof) -> Proof:
+        """How `core` is proven in place of this hull; "replay" may be known."""
+        return _prohull.proof_of(core, self._original._core, self._covered, self.side, self.wrap_alpha > 0, known)
+
+    def _is_within_bounds(self, core: _prohull.Mesh) -> bool:
+        return not self._bounds or _prohull.is_within(core, self._original._core, *self._bounds)
+
+    def _with_levels(self) -> _prohull.Levels:
+        if self._levels is None:
+            raise InputError("the hull has no levels; build with levels=True and tight=False")
+        return self._levels
+
+    @property
+    def void_ratio(self) -> float:
+        """The void, as a share of the volume of the mesh: volume of the hull / volume of the mesh - 1.
+
+        Negative for inner hulls. A mesh that is not closed has no volume: there the void is measured against the wrap
+        that the hull was built from, which a hull that moved back towards the mesh may be smaller than, and `notes`
+        says so.
+        """
+        return self.volume / self._volume_inside - 1 if self._volume_inside else math.nan
+
+    @property
+    def distance_bound(self) -> float:
+        """No point of the hull is farther than this from the original, in the mesh's unit: proven.
+
+        At most 1 % more than the true distance, unless finding it takes too long. Computed when it is first asked for.
+        """
+        if self._distance is None:
+            self._distance = _prohull.distance(self._core, self._original._core, 0.01, None)[1]
+        return self._distance
+
+    @property
+    def self_intersections(self) -> int:
+        """The number of pairs of faces that meet beyond the corners and edges that they share; exact."""
+        if self._self_intersections is None:
+            self._self_intersections = _prohull.count_self_intersections(self._core)
+        return self._self_intersections
+
+    def __repr__(self) -> str:
+        void = "" if math.isnan(self.void_ratio) else f"void {100 * self.void_ratio:.3g} %, "
+        notes = {0: "", 1: ", 1 note"}.get(len(self.notes), f", {len(self.notes)} notes")
+        return (f"<prohull.Hull: {self.side}, {len(self.faces):,} faces, {void}"
+                f"{f'certified by {self.proof}' if self.certified else 'NOT CERTIFIED'}{notes}>")
+
+    def _picture(self, width: int, height: int) -> bytes:
+        around, inside = (self, self._original) if self.side == "outer" else (self._original, self)
+        return _prohull.picture(around._core, inside._core, width, height)

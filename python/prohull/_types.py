@@ -1,0 +1,59 @@
+"""The types of arguments, which editors complete and mypy checks."""
+
+import os
+from collections.abc import Sequence
+from typing import Any, Callable, Literal, Optional, Protocol, Union
+
+from numpy.typing import NDArray
+
+#: The name of a file.
+Path = Union[str, "os.PathLike[str]"]
+#: A function that is called with the stage and a fraction in [0, 1]. If it returns False, what runs is stopped.
+Progress = Callable[[str, float], Optional[bool]]
+
+# The names that the library knows; a test compares them.
+Side = Literal["outer", "inner"]
+Strategy = Literal["lazy", "paper1", "paper2"]
+Repair = Literal["auto", "none", "wrap"]
+SelfIntersections = Literal["by-strategy", "refused", "allowed"]
+Proof = Literal["", "replay", "enclosure", "coverage"]
+EngineName = Literal["auto", "bvh", "refinement", "paper-refinement", "brute"]
+
+
+class _BecomesArray(Protocol):
+    """What numpy.asarray takes."""
+
+    def __array__(self) -> NDArray[Any]: ...
+
+
+class _HasFaces(Protocol):
+    """Such as trimesh.Trimesh and prohull.Mesh."""
+
+    @property
+    def vertices(self) -> Any: ...
+    @property
+    def faces(self) -> Any: ...
+
+
+class _HasTriangles(Protocol):
+    """Such as open3d.geometry.TriangleMesh."""
+
+    @property
+    def vertices(self) -> Any: ...
+    @property
+    def triangles(self) -> Any: ...
+
+
+class _HasTensors(Protocol):
+    """Such as open3d.t.geometry.TriangleMesh."""
+
+    @property
+    def vertex(self) -> Any: ...
+    @property
+    def triangle(self) -> Any: ...
+
+
+#: An array with two axes, or what numpy makes one of. ArrayLike would also take a file's name, and a number.
+Rows = Union[NDArray[Any], _BecomesArray, Sequence[Sequence[float]], Sequence[NDArray[Any]]]
+#: What is taken for a mesh: a path, vertices and faces, or a mesh of prohull, trimesh or Open3D.
+MeshLike = Union[Path, tuple[Rows, Rows], _HasFaces, _HasTriangles, _HasTensors]

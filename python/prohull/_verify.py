@@ -1,0 +1,87 @@
+"""Proofs and distances between two meshes."""
+
+import os
+from dataclasses import dataclass
+from typing import NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _prohull
+from ._files import mesh_of
+from ._hull import Hull
+from ._types import MeshLike, Progress, Proof, Side
+
+
+class Offender(NamedTuple):
+    """A triangle of the inner mesh of which a part lies outside of the outer one."""
+
+    face: int  #: its row in the `faces` of the inner mesh
+    point: NDArray[np.float64]  #: (3,), a point of it that lies outside
+    distance: float  #: from that point to the outer mesh, in the meshes' unit
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What verify() found. It counts as true if the hull encloses the original."""
+
+    encloses: bool  #: the verdict, exact; of an inner hull, whether the original encloses it
+    proof: Proof  #: "replay" of a .phull file, "enclosure" of closed meshes, or "coverage" of every triangle
+    side: Side  #: "outer" or "inner"
+    original_closed: bool  #: whether the original bounds a solid; if it does not, every triangle must be covered
+    every_triangle: bool  #: whether every triangle had to be covered
+    why_not: str  #: the first step of a replay that fails; empty if it holds
+    faces_outside: int  #: number of triangles of the inner mesh of which a part lies outside of the outer one; exact
+    worst: list[Offender]  #: the farthest of these, farthest first
+    cavities: int  #: number of hollows of the outer mesh that leave a part of the inner one uncovered
+    self_intersections: int  #: number of pairs of faces of the hull that meet beyond what they share; exact
+    void_ratio: float  #: volume of the hull / volume of the original - 1; nan if the original is not closed
+    notes: list[str]  #: what was left out of the original or turned, and units that seem to differ
+
+    def __bool__(self) -> bool:
+        return self.encloses
+
+
+def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, every_triangle: bool = False,
+           progress: Optional[Progress] = None) -> Verification:
+    """Decides exactly whether `hull` encloses `original`, as `prohull verify` does.
+
+    A .phull file is a proof, and is replayed. Any other hull must be closed, and is compared with the original. Of an
+    original that is not closed, every triangle must be covered. Components that are inside out count as turned, and
+    triangles of the original that are not finite are left out; `notes` tell of both.
+
+    hull, original: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
+    side: "outer"; or "inner" to decide whether `original` encloses `hull`. Unless given, it is the side of the Hull or
+        of the .phull file, and "outer" for any other mesh.
+    every_triangle: whether every triangle must be covered also of a closed original. This makes a difference where the
+        original intersects itself. Outer hulls only.
+    progress: called as build() calls it, with the stage "verify".
+
+    Raises InputError if a mesh is empty, or if it is not finite or not closed where it has to be.
+
+        assert prohull.verify("hull.stl", "part.stl")
+    """
+    second = mesh_of(original, keep_non_finite=True)._core
+    if isinstance(hull, (str, os.PathLike)) and _prohull.is_hull_file(hull):
+        facts = _prohull.verify_levels(_prohull.load(hull), second, every_triangle, progress)
+    else:
+        first = mesh_of(hull)
+        own_side = first.side if isinstance(first, Hull) else "outer"
+        facts = _prohull.verify_mesh(first._core, second, side or own_side, every_triangle, progress)
+    facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
+    return Verification(**facts)
+
+
+def distance_bounds(from_: MeshLike, to: MeshLike, *, relative_gap: float = 0.01,
+                    progress: Optional[Progress] = None) -> tuple[float, float]:
+    """Returns two bounds of the largest distance of a point of one mesh from the other. The upper bound is proven.
+
+    from_, to: meshes, as verify() takes them. The result is in their unit.
+    relative_gap: stops when upper <= (1 + relative_gap) lower, at least 0; or after a million steps, when the bounds
+        are farther apart.
+    progress: called as build() calls it, with the stage "measure".
+
+    Raises InputError if a mesh is empty or not finite.
+    """
+    lower, upper, _ = _prohull.distance(mesh_of(from_)._core, mesh_of(to)._core, relative_gap, progress)
+    return lower, upper

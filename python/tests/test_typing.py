@@ -1,0 +1,49 @@
+"""What editors complete and mypy checks. Skipped without mypy, but for what needs none."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import typing
+
+import prohull
+import pytest
+from prohull import _prohull, _types
+
+HERE = pathlib.Path(__file__).parent
+PACKAGE = pathlib.Path(prohull.__file__).parent
+
+
+@pytest.fixture(scope="module")
+def mypy(tmp_path_factory):
+    cache = tmp_path_factory.mktemp("mypy")
+    return lambda *arguments: run_mypy(cache, *arguments)
+
+
+def run_mypy(cache, *arguments):
+    pytest.importorskip("mypy", reason="types are not checked: mypy is not installed (python3-mypy)")
+    run = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache, *arguments], text=True,
+                         capture_output=True, env={"MYPYPATH": str(PACKAGE.parent)})
+    assert run.returncode in (0, 1), run.stdout + run.stderr
+    return run.stdout
+
+
+def test_mypy_refuses_wrong_names_and_values(mypy):
+    calls = HERE / "typed_calls.py"
+    found = mypy("--follow-imports=silent", calls)
+    wrong = {i for i, line in enumerate(calls.read_text().splitlines(), 1) if line.endswith("# refused")}
+    told = {int(line) for line in re.findall(r"typed_calls\.py:(\d+): error", found)}
+    assert told == wrong, found
+
+
+def test_the_package_itself_is_typed(mypy):
+    """But for what dask does not tell of its own types."""
+    found = mypy("--ignore-missing-imports", *(p for p in PACKAGE.glob("*.py") if p.name != "dask.py"))
+    assert found.startswith("Success"), found
+
+
+@pytest.mark.parametrize("names", ["engines", "sides", "strategies", "repairs", "self_intersections"])
+def test_names_are_those_of_the_library(names):
+    types = dict(engines=_types.EngineName, sides=_types.Side, strategies=_types.Strategy, repairs=_types.Repair,
+                 self_intersections=_types.SelfIntersections)
+    assert typing.get_args(types[names]) == getattr(_prohull, names)

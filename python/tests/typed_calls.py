@@ -1,0 +1,55 @@
+"""Calls that `mypy --strict` accepts, and calls that it refuses: the lines that end in "# refused". See test_typing.py."""
+
+from typing import Any
+
+import numpy as np
+import prohull
+from numpy.typing import NDArray
+
+v, f = np.zeros((8, 3)), np.zeros((12, 3), dtype=np.int64)
+mesh = prohull.Mesh(v, f)
+
+one: prohull.Hull = prohull.build("part.stl", 500)
+one = prohull.build("part.stl", target_faces=500, tight=True, side="inner")
+one = prohull.build(v, f, 500)
+one = prohull.build(v.tolist(), [[0, 1, 2]], target_faces=500)
+one = prohull.build((v, f), 500, self_intersections="allowed", max_void_percent=3, repair="wrap", strategy="paper1")
+one = prohull.build(mesh)
+one = prohull.build(one.original, 100, progress=lambda stage, fraction: stage != "verify")
+several: list[prohull.Hull] = prohull.build("part.stl", [1000, 500])
+several = prohull.build(v, f, target_faces=(1000, 500), best_of=3)
+
+prohull.build("part.stl", "500")  # refused
+prohull.build(500, "part.stl")  # refused
+prohull.build(500)  # refused
+prohull.build("part.stl", 500.5)  # refused
+prohull.build(v, 500)  # refused
+prohull.build(mesh, f, 500)  # refused
+prohull.build("part.stl", 500, "outer")  # refused
+prohull.build("part.stl", faces_target=500)  # refused
+prohull.build("part.stl", 500, side="outter")  # refused
+prohull.build("part.stl", 500, repair="magic")  # refused
+prohull.build("part.stl", 500, strategy="fast")  # refused
+prohull.build("part.stl", 500, self_intersections=True)  # refused
+prohull.build("part.stl", 500, max_distance="1 mm")  # refused
+prohull.build("part.stl", 500, best_of=2.5)  # refused
+prohull.build("part.stl", 500, tigth=True)  # refused
+prohull.build(v, f, 500, sied="inner")  # refused
+prohull.build("part.stl", 500, progress=lambda stage: True)  # refused
+several = prohull.build("part.stl", 500)  # refused
+one = prohull.build("part.stl", [500])  # refused
+
+hits: prohull.FirstHits = mesh.first_hit([0, 0, 9], [0, 0, -1], engine="bvh")
+hits = one.original.first_hit(v, -v, engine=prohull.Refinement(coarsen=True), threads=2)
+inside: bool = mesh.contains([0, 0, 0])
+each: NDArray[np.bool_] = mesh.contains([[0, 0, 0], [1, 1, 1]], progress=lambda stage, fraction: None)
+facts: dict[str, Any] = mesh.report()
+level: prohull.Hull = one.level(1000)
+level.save("level.stl")
+reason: str = one.proof if prohull.verify(one, "part.stl", side="outer") else one.notes[0]
+
+mesh.first_hit([0, 0, 9], [0, 0, -1], engine="magic")  # refused
+mesh.any_hit(segments=v, threads="all")  # refused
+each = mesh.contains([0, 0, 0])  # refused
+prohull.verify(one, "part.stl", side="out")  # refused
+one.reached  # refused
