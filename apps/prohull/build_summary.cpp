@@ -164,7 +164,7 @@ void print_search(const BuildOutcome& outcome) {
     say_more("  {}: built in {:.2f} s, verified in {:.2f} s by {}\n", output_name(written.path),
              written.hull.build_seconds, written.hull.verify_seconds,
              written.hull.proof.empty() ? "nothing" : written.hull.proof);
-    if (const std::string refused = describe_refusals(written.hull.refused); !refused.empty())
+    if (const std::string refused = describe_refusals(written.hull.refusals); !refused.empty())
       say_more("    collapses refused on the way: {}\n", refused);
   }
 }
