@@ -158,7 +158,7 @@ double write_seconds(const BuildOutcome& outcome) {
 void print_search(const BuildOutcome& outcome) {
   for (const Solid& solid : outcome.made.solids)
     say_more("  tried {}: {}, {} of its faces intersecting\n",
-             solid.alpha > 0 ? fmt::format("a wrap with alpha {:.4g}", solid.alpha) : "the mesh itself",
+             solid.wrap_alpha > 0 ? fmt::format("a wrap with alpha {:.4g}", solid.wrap_alpha) : "the mesh itself",
              counted(solid.mesh.face_count(), "face", "faces"), counted(solid.self_intersections, "pair", "pairs"));
   for (const Written& written : outcome.written) {
     say_more("  {}: built in {:.2f} s, verified in {:.2f} s by {}\n", output_name(written.path),

@@ -33,29 +33,16 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
 
 /// How far a hull may be from the mesh that it encloses, or that encloses it.
 struct HullBounds {
-<<<<<<< HEAD
-  double max_distance =
-      std::numeric_limits<double>::infinity();                ///< from any point of the hull to the mesh; input's unit
-  double max_void = std::numeric_limits<double>::infinity();  ///< of |volume(hull) / volume - 1|
-=======
   double max_distance = std::numeric_limits<double>::infinity();      ///< of any point of the hull; in the input's unit
   double max_void_ratio = std::numeric_limits<double>::infinity();    ///< of |volume(hull) / volume - 1|; 0.05 is 5 %
->>>>>>> refs/lanes/policy
   double max_added_volume = std::numeric_limits<double>::infinity();  ///< of |volume(hull) - volume|; cubic units
 
   bool any() const { return *this != HullBounds{}; }
   bool operator==(const HullBounds&) const = default;
 
-<<<<<<< HEAD
   /// Whether the hull keeps all three bounds. The distance from `original` is proven (distance_bounds). Volumes are
   /// computed in double precision and compared with `volume`. Throws as distance_bounds does.
-  bool hold(const TriangleMesh& hull, const TriangleMesh& original, double volume,
-            const DistanceOptions& options = {}) const;
-=======
-  /// Whether they hold: the distance provenly (distance_bounds, to `original`), volumes in double precision, against
-  /// `volume`. Throws as distance_bounds does.
   bool hold(const TriangleMesh& hull, const TriangleMesh& original, double volume, const Progress& progress = {}) const;
->>>>>>> refs/lanes/policy
 };
 
 }  // namespace prohull

@@ -9,11 +9,7 @@ namespace prohull {
 
 struct Float32Hull {
   TriangleMesh mesh;
-<<<<<<< HEAD
-  std::size_t moved_vertices = 0;  ///< how many vertices have other coordinates than before
-=======
-  std::size_t rounded_vertices = 0;
->>>>>>> refs/lanes/policy
+  std::size_t rounded_vertices = 0;  ///< how many vertices have other coordinates than before
 };
 
 /// What becomes of a vertex that has no room outside of its faces.

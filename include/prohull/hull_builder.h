@@ -123,31 +123,21 @@ enum class Stopped { TargetReached, NoLegalCollapse };
 struct HullResult {
   ProgressiveHull hull;
   Stopped stopped;
-<<<<<<< HEAD
-  RefusalCounts refused;            ///< over the whole construction; one edge may be refused many times
+  RefusalCounts refusals;           ///< over the whole construction; one edge may be refused many times
   RefusalCounts blocked;            ///< why each edge of the base mesh was refused the last time it was tried
   std::size_t linear_programs = 0;  ///< how many were solved
   unsigned relaxed_guards = 0;      ///< how many of kRelaxedGuards were used, from the first on
 };
 
 /// Simplifies `mesh` by edge collapses (P&T 3.1), until the hull has at most target_faces faces or no collapse is
-/// legal. Guaranteed: what ProgressiveHull guarantees. A collapse places its new vertex outside of all faces that it
-/// replaces, and an exact predicate decides that for the coordinates that are stored. Required: `mesh` is a closed
-/// 2-manifold oriented outwards. repair.h makes one where it can; enclosing_hull.h takes any triangles. Throws
-/// InputError otherwise, and for options outside their range; Cancelled.
-=======
-  RefusalCounts refusals;  ///< over the whole construction; an edge may be refused many times
-  RefusalCounts blocked;   ///< of the edges that are left, why each was refused last
-  std::size_t linear_programs = 0;
-  unsigned relaxed_guards = 0;  ///< so many of kRelaxedGuards were used at the end
-};
-
-/// Simplifies `mesh` by edge collapses, every new vertex on the outside of all faces that it replaces, until
-/// target_faces or no collapse is legal (P&T 3.1). Every vertex is accepted by an exact predicate on its stored
-/// coordinates; the guarantees are those of ProgressiveHull.
-/// Throws InputError for options outside their range or that contradict each other, or if `mesh` is not a closed
-/// 2-manifold oriented outwards (repair.h makes one where it can); Cancelled.
->>>>>>> refs/lanes/policy
+/// legal.
+///
+/// Guaranteed: what ProgressiveHull guarantees. A collapse places its new vertex outside of all faces that it replaces,
+/// and an exact predicate decides that for the coordinates that are stored.
+///
+/// Required: `mesh` is a closed 2-manifold oriented outwards. repair.h makes one where it can; enclosing_hull.h takes
+/// any triangles. Throws InputError otherwise, and for options that are outside their range or contradict each other;
+/// Cancelled.
 ///
 ///   const TriangleMesh horse = closed_mesh(read_mesh("horse.ply")).mesh;
 ///   const HullResult result = build_hull(horse, {.target_faces = 500});
