@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include "prohull/error.h"
-#include "prohull/file.h"
-#include "prohull/hull_file.h"
-#include "prohull/mesh_io.h"
 
 namespace prohull::render {
 namespace {
@@ -44,11 +41,11 @@ std::size_t MeshTable::add(TriangleMesh mesh) {
 
 void MeshTable::read(const std::filesystem::path& path) {
   if (hulls_.contains(path) || places_.contains({path, kFinest})) return;
-  const std::string content = read_file(path);
-  if (is_hull_content(content)) {
-    hulls_.emplace(path, load_hull(content, path));
+  auto content = read_file_(path);
+  if (auto* const hull = std::get_if<ProgressiveHull>(&content)) {
+    hulls_.emplace(path, std::move(*hull));
   } else {
-    TriangleMesh mesh = read_mesh(content, path);
+    TriangleMesh& mesh = std::get<TriangleMesh>(content);
     require_drawable(mesh, path);
     places_[{path, kFinest}] = add(std::move(mesh));
   }

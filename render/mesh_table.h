@@ -1,7 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "prohull/progressive_hull.h"
@@ -13,6 +16,10 @@ namespace prohull::render {
 class MeshTable {
  public:
   static constexpr std::size_t kFinest = ~std::size_t{0};
+
+  /// What reads a file; throws InputError.
+  using Reader = std::function<std::variant<TriangleMesh, ProgressiveHull>(const std::filesystem::path&)>;
+  explicit MeshTable(Reader read_file) : read_file_(std::move(read_file)) {}
 
   bool is_hull(const std::filesystem::path& path);
   /// Of a .phull file.
@@ -28,6 +35,7 @@ class MeshTable {
  private:
   void read(const std::filesystem::path& path);
 
+  Reader read_file_;
   std::map<std::filesystem::path, ProgressiveHull> hulls_;
   std::map<std::pair<std::filesystem::path, std::size_t>, std::size_t> places_;
   std::vector<TriangleMesh> meshes_;

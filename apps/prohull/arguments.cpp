@@ -1,5 +1,7 @@
 #include "arguments.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <sstream>
@@ -43,12 +45,6 @@ std::vector<std::string> names_of(const CLI::Option& option) {
   return names;
 }
 
-/// "D" of "D:POSITIVE": CLI11 adds what its validators say.
-std::string type_of(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  return type.substr(0, type.find(':'));
-}
-
 std::string heading(const CLI::App& group, const CLI::Option& option) {
   if (!group.get_name().empty()) return option.get_group();
   return group.get_group() + ". " + group.get_description();
@@ -66,15 +62,27 @@ Argument argument(const CLI::App& group, const CLI::Option& option) {
   result.group = heading(group, option);
   result.required = option.get_required();
   if (option.get_items_expected_max() > 0) {
-    result.value = type_of(option);
+    result.value = option.get_type_name();
     if (!result.required) result.initial = without_brackets(option.get_default_str());
     result.repeats = option.get_items_expected_max() > 1;
   }
   for (const CLI::Option* other : option.get_excludes()) result.excluded.push_back(other->get_name());
+  for (const CLI::Option* other : option.get_needs()) result.needed.push_back(other->get_name());
   std::ranges::sort(result.excluded);  // CLI11 has them in the order of their addresses
+  std::ranges::sort(result.needed);
   if (result.value.find('|') != std::string::npos) result.words = split(result.value, '|');
   if (const auto type = file_types().find(result.value); type != file_types().end()) result.extensions = type->second;
   return result;
+}
+
+/// One heading after the other, in the order in which they come first.
+void gather_groups(std::vector<Argument>& arguments) {
+  std::vector<std::string> groups;
+  for (const Argument& argument : arguments)
+    if (std::ranges::find(groups, argument.group) == groups.end()) groups.push_back(argument.group);
+  std::ranges::stable_sort(arguments, {}, [&](const Argument& argument) {
+    return std::ranges::find(groups, argument.group) - groups.begin();
+  });
 }
 
 std::vector<const CLI::App*> children(const CLI::App& app, bool named) {
@@ -90,9 +98,25 @@ void append_arguments(const CLI::App& group, std::vector<Argument>& arguments) {
 
 }  // namespace
 
+std::string explained(const Argument& argument) {
+  std::string text = argument.description;
+  if (argument.required && !argument.is_positional()) text += " Required.";
+  if (!argument.initial.empty()) text += fmt::format(" The default is {}.", argument.initial);
+  if (!argument.excluded.empty()) text += fmt::format(" Not with {}.", fmt::join(argument.excluded, ", "));
+  if (!argument.needed.empty()) text += fmt::format(" Only with {}.", fmt::join(argument.needed, ", "));
+  return text;
+}
+
+std::string first_sentence(const std::string& description) {
+  std::string sentence = description.substr(0, std::min(description.find(". "), description.find(":\n")));
+  if (sentence.ends_with('.')) sentence.pop_back();
+  return sentence;
+}
+
 Command command_of(const CLI::App& app) {
   Command result{app.get_name(), app.get_description(), {}, split(app.get_footer(), '\n')};
   append_arguments(app, result.arguments);
+  gather_groups(result.arguments);
   return result;
 }
 

@@ -13,6 +13,7 @@ struct Argument {
   std::string description, group;       ///< group: the heading in --help
   std::string initial;                  ///< its value where it is not given; may be empty
   std::vector<std::string> excluded;    ///< names of options that may not be given with it, sorted
+  std::vector<std::string> needed;      ///< names of options without which it may not be given, sorted
   std::vector<std::string> words;       ///< its value is one of these, if there are any,
   std::vector<std::string> extensions;  ///< or, if there are any, a file whose name ends in one: ".ply"
   bool required = false, repeats = false;
@@ -26,6 +27,12 @@ struct Command {
   std::vector<Argument> arguments;
   std::vector<std::string> footer;  ///< lines
 };
+
+/// The description, and behind it what else there is to say: "Required." "The default is 4." "Not with --tight."
+std::string explained(const Argument& argument);
+
+/// Without its full stop, for lists.
+std::string first_sentence(const std::string& description);
 
 /// One of the commands, or the program itself without them.
 Command command_of(const CLI::App& app);

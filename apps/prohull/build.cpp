@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <utility>
@@ -14,30 +13,10 @@
 #include "prohull/mesh_io.h"
 
 namespace prohull::cli {
+
 namespace {
 
 constexpr std::string_view kFacesInName = "{faces}";
-
-// A file beside another one, of the same format, that becomes it once it is certified, and vanishes otherwise.
-class Candidate {
- public:
-  explicit Candidate(const std::filesystem::path& target)
-      : target_(exists(target) ? canonical(target) : target), path_(target_) {
-    path_.replace_filename(
-        fmt::format(".{}.{}.uncertified{}", target.stem().string(), getpid(), target_.extension().string()));
-  }
-  Candidate(const Candidate&) = delete;
-  Candidate& operator=(const Candidate&) = delete;
-  ~Candidate() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-  void accept() { std::filesystem::rename(path_, target_); }
-
- private:
-  std::filesystem::path target_, path_;
-};
 
 std::filesystem::path path_for(const std::filesystem::path& pattern, std::size_t faces) {
   std::string name = pattern.string();
@@ -46,53 +25,35 @@ std::filesystem::path path_for(const std::filesystem::path& pattern, std::size_t
   return name;
 }
 
-void check_outputs(const BuildOptions& options) {
-  mesh_format(options.out);
-  if (options.out.extension() == ".gz")
-    throw InputError(Defect::InvalidOption,
-                     options.out.string() + ": meshes are read from .gz, but not written; leave it out");
+/// What the names of the outputs end in; refuses options that contradict each other.
+std::string check_options(const BuildOptions& options) {
+  const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
+  const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
+  if (!options.hierarchy.empty())
+    output_suffix(options.hierarchy, {"hierarchies", {".phull"}}, is_standard_stream(options.hierarchy) ? "phull" : "");
   if (options.faces.size() > 1 && options.out.string().find(kFacesInName) == std::string::npos)
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("{}: several hulls need several names; put {{faces}} where the number of faces goes, "
-                                 "as in hull_{{faces}}.stl",
-                                 options.out.string()));
+    refuse(
+        fmt::format("{}: several hulls need several names; put {{faces}} where the number of faces goes, as in "
+                    "hull_{{faces}}.stl",
+                    options.out.string()));
   if (options.faces.size() > 1 && !options.hierarchy.empty())
-    throw InputError(Defect::InvalidOption, "--hierarchy: of one hull only; its file holds all finer levels anyway");
-  std::vector<std::filesystem::path> files{options.in, options.hierarchy, options.report};
+    refuse("--hierarchy is for one number of --faces only; its file holds all finer levels anyway");
+  if (options.allow_self_intersections && !options.is_outer())
+    refuse("--allow-self-intersections is not for inner hulls: one that intersects itself could stick out of the mesh");
+  std::vector<std::filesystem::path> files{options.hierarchy, options.report};
   for (const std::size_t faces : options.faces) files.push_back(path_for(options.out, faces));
-  require_distinct(files);
-  for (std::size_t i = 1; i < files.size(); ++i) require_writable(files[i]);
+  check_files({options.in}, files);
+  return suffix;
 }
 
-/// One line after another: for each stage its own.
-class Progress {
- public:
-  bool operator()(std::string_view stage, double fraction) {
-    if (!line_ || stage != stage_) {
-      line_.reset();
-      stage_ = stage;
-      line_.emplace(stage_);
-    }
-    return (*line_)(fraction);
-  }
-
- private:
-  std::string stage_;
-  std::optional<ProgressLine> line_;
-};
-
 EnclosingHulls build(const TriangleMesh& mesh, const BuildOptions& options) {
-  Progress progress;
+  ProgressLine line;
   EnclosingOptions enclosing = options.enclosing;
-  enclosing.progress = std::ref(progress);
+  enclosing.progress = std::ref(line);
   try {
-    EnclosingHulls made = enclosing_hulls(mesh, options.faces, enclosing);
-    if (interrupted()) throw Interrupted{};
-    return made;
-  } catch (const Cancelled&) {
-    throw Interrupted{};
+    return enclosing_hulls(mesh, options.faces, enclosing);
   } catch (const InputError& error) {
-    throw InputError(error.defect(), fmt::format("{}: {}", options.in.string(), error.what()));
+    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
   }
 }
 
@@ -106,19 +67,19 @@ bool has_triangles_of(const TriangleMesh& file, const TriangleMesh& mesh) {
   return true;
 }
 
-Written write_certified(EnclosingHull hull, const BuildOptions& options) {
+Written write_certified(EnclosingHull hull, const BuildOptions& options, const std::string& suffix, Outputs& outputs) {
   Written written;
   written.hull = std::move(hull);
   written.path = path_for(options.out, written.hull.target_faces);
   if (!written.hull.certified) return written;
   Stopwatch writing;
-  Candidate candidate(written.path);
-  write_mesh(candidate.path(), written.hull.mesh);
-  written.certified = has_triangles_of(read_mesh(candidate.path()), written.hull.mesh);
-  if (written.certified) {
-    candidate.accept();
-    if (!options.hierarchy.empty()) save_hull(options.hierarchy, *written.hull.levels);
-  }
+  written.certified = outputs.add(written.path, suffix, [&](const auto& file) {
+    write_mesh(file, written.hull.mesh);
+    return has_triangles_of(read_mesh(file), written.hull.mesh);
+  });
+  if (written.certified)
+    outputs.add(options.hierarchy, ".phull",
+                [&](const auto& file) { return save_hull(file, *written.hull.levels), true; });
   written.write_seconds = writing.seconds();
   return written;
 }
@@ -128,29 +89,19 @@ void measure(BuildOutcome& outcome) {
   const Solid& first = made.solids.front();
   outcome.input_self_intersections =
       first.alpha > 0 ? count_self_intersections(made.input.original) : first.self_intersections;
+  ProgressLine line;
   for (Written& written : outcome.written) {
     const bool wrapped = outcome.solid(written.hull).alpha > 0;
-    try {
-      written.distance = distance_bounds(written.hull.mesh, wrapped ? made.input.original : made.input.closed->mesh,
-                                         {.progress = [](std::string_view, double) { return !interrupted(); }});
-    } catch (const Cancelled&) {
-      throw Interrupted{};
-    }
+    written.distance = distance_bounds(written.hull.mesh, wrapped ? made.input.original : made.input.closed->mesh,
+                                       {.progress = std::ref(line)});
     written.quality = mesh_quality(written.hull.mesh);
   }
 }
 
-void check_sides(const BuildOptions& options) {
-  if (options.allow_self_intersections && !options.is_outer())
-    throw InputError(Defect::InvalidOption,
-                     "--allow-self-intersections: not of an inner hull, it could stick out of the mesh");
-}
-
-int run_build(BuildOptions options) {
-  check_outputs(options);
-  check_sides(options);
+/// What the library is asked for, where options say it in other units or words.
+void complete(BuildOptions& options, const std::string& suffix) {
   HullOptions& hull = options.enclosing.hull;
-  hull.float32_coordinates = stores_float32(mesh_format(options.out));
+  hull.float32_coordinates = stores_float32(mesh_format("hull" + suffix));
   hull.guards.max_normal_deviation = options.normal_deviation_degrees * kDegree;
   if (options.max_void_percent > 0) options.enclosing.bounds.max_void = options.max_void_percent / 100;
   if (options.allow_self_intersections) hull.self_intersections = SelfIntersections::Allowed;
@@ -159,19 +110,85 @@ int run_build(BuildOptions options) {
 #ifdef PROHULL_HAS_WRAP
   options.enclosing.wrap = alpha_wrap;
 #endif
+}
 
+int run_build(BuildOptions options) {
+  const std::string suffix = check_options(options);
+  complete(options, suffix);
   BuildOutcome outcome;
   Stopwatch reading;
-  const TriangleMesh mesh = read_input(options.in, NonFinite::Keep);
+  const TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
   outcome.read_seconds = reading.seconds();
   outcome.made = build(mesh, options);
-  for (EnclosingHull& made : outcome.made.hulls) outcome.written.push_back(write_certified(std::move(made), options));
+  Outputs outputs;
+  for (EnclosingHull& made : outcome.made.hulls)
+    outcome.written.push_back(write_certified(std::move(made), options, suffix, outputs));
   measure(outcome);
+  outputs.add_report(options.report, report_of(options, outcome));
+  outputs.commit();
   print_summary(options, outcome);
-  write_report(options.report, report_of(options, outcome));
   const bool all_certified = std::ranges::all_of(outcome.written, &Written::certified);
   const bool all_as_asked = std::ranges::all_of(outcome.written, &Written::is_as_asked);
   return !all_certified || (options.strict && !all_as_asked) ? kAnswerIsNo : kDone;
+}
+
+void add_guards(CLI::App& command, BuildOptions& options) {
+  HullOptions& hull = options.enclosing.hull;
+  constexpr const char* kGuards = "Guards of the shape";
+  command
+      .add_flag("!--keep-guards", hull.relax_guards,
+                "Keep these limits. Otherwise they are relaxed in three steps where the number of faces cannot be "
+                "reached.")
+      ->group(kGuards);
+  add_number(command, "--max-valence", hull.guards.max_valence, {3, 1e6},
+             "Largest valence of a new vertex. The valence of a vertex is the number of faces around it.")
+      ->capture_default_str()
+      ->group(kGuards);
+  add_number(command, "--compactness-ratio", hull.guards.min_compactness_ratio, {0, 1},
+             "Least compactness of the worst face that a collapse leaves, divided by that of the worst face before, 0 "
+             "to 1. The compactness of a triangle is 1 if its sides are equal, and 0 if it has no area.")
+      ->capture_default_str()
+      ->type_name("RATIO")
+      ->group(kGuards);
+  add_number(command, "--sufficient-compactness", hull.guards.sufficient_compactness, {0, 1},
+             "Compactness, 0 to 1, that is enough for a face whatever it was before. For the strategy lazy only.")
+      ->capture_default_str()
+      ->type_name("COMPACTNESS")
+      ->group(kGuards);
+  add_number(command, "--normal-deviation", options.normal_deviation_degrees, {0, 90},
+             "Largest angle by which a collapse may turn a face, in degrees, 0 to 90.")
+      ->capture_default_str()
+      ->type_name("DEGREES")
+      ->group(kGuards);
+}
+
+void add_bounds(CLI::App& command, BuildOptions& options) {
+  HullBounds& bounds = options.enclosing.bounds;
+  add_number(command, "--max-distance", bounds.max_distance, kPositive,
+             "Largest allowed distance of any point of the hull from the mesh, in the mesh's unit. The hull is the "
+             "coarsest one, of at least --faces faces, that provably keeps it. With --tight, some ten hulls are built "
+             "to find it.")
+      ->type_name("D");
+  add_number(command, "--max-void", options.max_void_percent, kPositive,
+             "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh or its "
+             "wrap (an inner hull: how much less).")
+      ->type_name("PERCENT");
+  add_number(command, "--max-added-volume", bounds.max_added_volume, kPositive,
+             "Largest allowed volume between hull and mesh, in the mesh's unit, cubed.")
+      ->type_name("V");
+}
+
+void add_self_intersections(CLI::App& command, BuildOptions& options, CLI::Option* tight) {
+  CLI::Option* const allow =
+      command.add_flag("--allow-self-intersections", options.allow_self_intersections,
+                       "Allow collapses that make an outer hull intersect itself, which is faster. On by default for "
+                       "the strategies paper1 and paper2.");
+  command
+      .add_flag("--no-self-intersections", options.no_self_intersections,
+                "Refuse collapses that make the hull intersect itself. On by default, except for the strategies paper1 "
+                "and paper2.")
+      ->excludes(allow);
+  allow->excludes(tight);
 }
 
 }  // namespace
@@ -181,119 +198,72 @@ void add_build(CLI::App& app, Run& run) {
   EnclosingOptions& enclosing = options->enclosing;
   HullOptions& hull = enclosing.hull;
   hull.relax_guards = true;
-  CLI::App& command = *app.add_subcommand("build", "Build a hull of any mesh, certified");
-  command
-      .add_option("in", options->in,
-                  "Mesh: PLY, OBJ, OFF, STL, GLB, DAE, 3MF and others (docs/formats.md), also .gz or .zip")
+  CLI::App& command = *app.add_subcommand(
+      "build",
+      "Builds a hull of a mesh: a mesh of fewer faces that provably encloses it. Any triangles will do; what is not "
+      "closed is repaired or wrapped. Building repeats one step, the collapse: the two ends of an edge become one new "
+      "vertex, and two faces vanish. The file that was written is read again and certified by exact arithmetic.");
+  command.add_option("in", options->in, std::string("Mesh to build a hull of. ") + kMeshFiles)
       ->required()
       ->type_name("IN");
-  command
-      .add_option("-o,--out", options->out,
-                  "Where the hull goes: .ply, .obj, .off, .stl or .glb; {faces} in it becomes the number asked for")
-      ->required()
-      ->type_name("OUT");
-  command
-      .add_option("--faces", options->faces, "Stop at this many faces, at least 4; several, as 1000,100: a hull each")
+  add_format_option(command, options->input);
+  add_unit_options(command, options->input, "the mesh");
+  add_mesh_output_options(command, options->out, options->out_format,
+                          "the hull, in whose name {faces} becomes the number of faces asked for");
+  add_number(
+      command, "--faces,--target-faces", options->faces, {4, 1e9},
+      "Number of faces that the hull should have, at least 4. Several numbers, as in 1000,100, make a hull each.")
       ->delimiter(',')
       ->capture_default_str()
-      ->type_name("N[,N...]")
-      ->check(CLI::Range(4.0, 1e9));
-  command
-      .add_option("--max-distance", enclosing.bounds.max_distance,
-                  "The coarsest level, of at least --faces, with no point farther from the mesh, in its unit; proven. "
-                  "With --tight: the coarsest of some ten hulls built to find it")
-      ->check(CLI::PositiveNumber)
-      ->type_name("D");
-  command
-      .add_option(
-          "--max-void", options->max_void_percent,
-          "The same with a volume at most so much greater (of inner hulls smaller) than that of the mesh, or of "
-          "its wrap, in per cent")
-      ->check(CLI::PositiveNumber)
-      ->type_name("PCT");
-  command.add_option("--max-added-volume", enclosing.bounds.max_added_volume, "The same in the mesh's unit, cubed")
-      ->check(CLI::PositiveNumber)
-      ->type_name("V");
-  add_choice(command, "--side", hull.side, hull_side_names(), "outer: encloses the mesh; inner: is enclosed by it");
-  CLI::Option* tight = command.add_flag("--tight", enclosing.tight,
-                                        "Move vertices towards the mesh between collapses: the least void, never "
-                                        "self-intersecting, some twenty to seventy times slower");
-  add_choice(
-      command, "--repair", enclosing.repair, repair_names(),
-      "auto: repairs what is not closed, and wraps where that is not enough; none: refuses; wrap: wraps at once");
+      ->type_name("N[,N...]");
+  add_bounds(command, *options);
+  add_choice(command, "--side", hull.side, hull_side_names(),
+             "Side of the mesh's surface on which the hull lies: an outer hull encloses the mesh, an inner hull is "
+             "enclosed by it.");
+  CLI::Option* const tight = command.add_flag(
+      "--tight", enclosing.tight,
+      "Also move vertices towards the mesh between collapses. Such a hull has the least void and never intersects "
+      "itself, but takes 20 to 70 times as long to build.");
+  add_choice(command, "--repair", enclosing.repair, repair_names(),
+             "What to do with a mesh that is not closed. auto repairs it and, where that is not enough, wraps it in a "
+             "new closed surface; none refuses it; wrap wraps any mesh at once.");
   command.add_flag("--keep-cavities", enclosing.keep_cavities,
-                   "Keep components that lie inside of others; inner hulls always do");
-  command
-      .add_option("--seal-holes", enclosing.seal_holes,
-                  "Where it wraps, close openings up to D across, in the mesh's unit")
-      ->check(CLI::PositiveNumber)
+                   "Keep parts of the mesh that lie inside of other parts. An outer hull encloses them also if they "
+                   "are dropped; an inner hull always keeps them.");
+  add_number(command, "--seal-holes", enclosing.seal_holes, kPositive,
+             "Close openings up to this diameter where the mesh is wrapped, in the mesh's unit.")
       ->type_name("D");
   add_choice(command, "--strategy", hull.strategy, strategy_names(),
-             "lazy: tight and fast; paper1, paper2: the two of Platis and Theoharis (2003)");
-  command.add_option("--hierarchy", options->hierarchy, "Also write all levels, for lod and verify")
+             "Order in which edges collapse. lazy is the tightest and fastest; paper1 and paper2 are those of Platis "
+             "and Theoharis (2003).");
+  command
+      .add_option("--hierarchy", options->hierarchy,
+                  "Also write all levels between hull and mesh to this file, for lod, verify, query and render.")
       ->excludes(tight)
       ->type_name("H.phull");
-  CLI::Option* allow = command.add_flag("--allow-self-intersections", options->allow_self_intersections,
-                                        "Do not refuse collapses that make an outer hull intersect itself: faster; the "
-                                        "default of paper1 and paper2");
-  command
-      .add_flag("--no-self-intersections", options->no_self_intersections,
-                "Refuse them; the default of lazy, of --tight and of inner hulls")
-      ->excludes(allow);
-  allow->excludes(tight);
-  command
-      .add_option("--best-of", hull.best_of,
-                  "Build with so many seeds, on all threads, and keep the hull of least void; lazy and --tight only")
-      ->capture_default_str()
-      ->check(CLI::Range(1.0, 1e6))
-      ->type_name("N");
-  command
-      .add_option("--seed", hull.seed,
-                  "The first of the seeds; others give slightly different hulls, of lazy and --tight")
+  add_self_intersections(command, *options, tight);
+  add_number(command, "--best-of", hull.best_of, {1, 1e6},
+             "Build this many hulls, with a seed each, and keep the one of least void. For the strategy lazy and "
+             "--tight only.")
       ->capture_default_str();
-  command
-      .add_option(
-          "--threads", hull.threads,
-          "At most so many, and no more than there are cores; 0: all of them. The hull is the same for any number")
+  add_number(command, "--seed", hull.seed, kSeed,
+             "Number that varies the order of collapses a little, and so the hull; the first seed of --best-of. For "
+             "the strategy lazy and --tight only.")
       ->capture_default_str();
-  command.add_flag("--strict", options->strict, "Exit with 1 if the face count or a bound is not reached");
+  add_threads_option(command, hull.threads, "The hull is the same for any number.");
+  command.add_flag("--strict", options->strict, "Exit with code 1 if the number of faces or a bound is not reached.");
   add_report_option(command, options->report);
-  constexpr const char* kGuards = "Guards";
-  command
-      .add_flag("!--keep-guards", hull.relax_guards,
-                "Do not relax them in the end, in three steps, where the number of faces is not reached otherwise")
-      ->group(kGuards);
-  command.add_option("--max-valence", hull.guards.max_valence, "Most faces around a new vertex")
-      ->capture_default_str()
-      ->check(CLI::Range(3.0, 1e6))
-      ->group(kGuards);
-  command
-      .add_option("--compactness-ratio", hull.guards.min_compactness_ratio,
-                  "Least compactness of a star after a collapse, relative to before, 0 to 1")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0))
-      ->group(kGuards);
-  command
-      .add_option("--sufficient-compactness", hull.guards.sufficient_compactness,
-                  "Compactness that is enough whatever it was before, 0 to 1 (lazy only)")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0))
-      ->group(kGuards);
-  command
-      .add_option("--normal-deviation", options->normal_deviation_degrees,
-                  "Most degrees by which a collapse may turn a face, 0 to 90")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 90.0))
-      ->group(kGuards);
+  add_guards(command, *options);
   add_examples(command, {"prohull build horse.ply --faces 2000 -o hull.ply",
-                         "prohull build arm.stl --faces 500 -o arm_collision.stl --report arm.json",
+                         "prohull build arm.stl --unit mm --faces 500 -o arm_collision.stl --report arm.json",
                          "prohull build arm.stl --faces 200 --tight -o arm_collision.stl",
                          "prohull build arm.stl --faces 200 --tight --best-of 9 -o arm_collision.stl",
                          "prohull build arm.stl --faces 50 --tight --max-distance 2 -o arm_collision.stl",
                          "prohull build arm.dae --faces 1000,300,100 -o arm_{faces}.stl",
                          "prohull build open_scan.obj --faces 500 --seal-holes 0.02 -o scan.glb",
                          "prohull build rock.obj --side inner --faces 300 -o occluder.obj",
-                         "prohull build horse.ply --faces 200 -o hull.ply --hierarchy horse.phull"});
+                         "prohull build horse.ply --faces 200 -o hull.ply --hierarchy horse.phull",
+                         "prohull build - --in-format stl -o - --out-format ply <part.stl >hull.ply"});
   command.callback([options, &run] { run = [options] { return run_build(*options); }; });
 }
 

@@ -28,14 +28,14 @@ std::string described_self_intersections(const BuildOutcome& outcome, const Encl
 }
 
 void print_input(const BuildOptions& options, const BuildOutcome& outcome) {
-  fmt::print("{}: {}, {}\n", options.in.string(), counted(outcome.made.input.found.faces, "face", "faces"),
-             counted(outcome.made.input.found.components, "component", "components"));
-  for (const std::string& repair : describe(outcome.made.input.repairs)) fmt::print("  {}\n", repair);
-  if (!outcome.made.input.closed) fmt::print("  not closed: {}\n", outcome.made.input.obstacle);
-  for (const std::string& note : outcome.made.notes) fmt::print("  {}\n", note);
+  say("{}: {}, {}\n", input_name(options.in), counted(outcome.made.input.found.faces, "face", "faces"),
+      counted(outcome.made.input.found.components, "component", "components"));
+  for (const std::string& repair : describe(outcome.made.input.repairs)) say("  {}\n", repair);
+  if (!outcome.made.input.closed) say("  not closed: {}\n", outcome.made.input.obstacle);
+  for (const std::string& note : outcome.made.notes) say("  {}\n", note);
   for (const Solid& solid : outcome.made.solids)
     if (solid.alpha > 0)
-      fmt::print("  wrap with alpha {:.4g}: {}\n", solid.alpha, counted(solid.mesh.face_count(), "face", "faces"));
+      say("  wrap with alpha {:.4g}: {}\n", solid.alpha, counted(solid.mesh.face_count(), "face", "faces"));
 }
 
 // What no collapse changes. A closed surface with h handles has an Euler characteristic of 2 - 2 h.
@@ -49,35 +49,34 @@ std::string described_topology(const TriangleMesh& hull) {
 void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
   const EnclosingHull& hull = written.hull;
   const std::size_t faces = hull.mesh.face_count();
-  fmt::print(
-      "{}: {} hull of {}{}, {}, at most {:.4g} from the mesh\n", written.path.string(),
+  say("{}: {} hull of {}{}, {}, at most {:.4g} from the mesh\n", output_name(written.path),
       options.is_outer() ? "outer" : "inner", counted(faces, "face", "faces"),
       was_wrapped(outcome, hull) ? fmt::format(", of the wrap with alpha {:.4g}", outcome.solid(hull).alpha) : "",
       was_wrapped(outcome, hull) ? fmt::format("volume {:.4g}", signed_volume(hull.mesh))
                                  : fmt::format("void {:.3f} %", 100 * void_ratio(outcome, hull)),
       written.distance.upper);
-  fmt::print("  self-intersections: {}\n", described_self_intersections(outcome, hull));
-  fmt::print("  triangles: {}\n", described(written.quality));
+  say("  self-intersections: {}\n", described_self_intersections(outcome, hull));
+  say("  triangles: {}\n", described(written.quality));
   if (hull.rounded_vertices > 0)
-    fmt::print("  moved {} to coordinates that the file keeps\n", counted(hull.rounded_vertices, "vertex", "vertices"));
+    say("  moved {} to coordinates that the file keeps\n", counted(hull.rounded_vertices, "vertex", "vertices"));
   if (hull.relaxed_guards > 0)
-    fmt::print("  shape guards relaxed to reach it: normals may turn by {:.0f} degrees, step {} of {}\n",
-               kRelaxedGuards[hull.relaxed_guards - 1].max_normal_deviation / kDegree, hull.relaxed_guards,
-               kRelaxedGuards.size());
+    say("  shape guards relaxed to reach it: normals may turn by {:.0f} degrees, step {} of {}\n",
+        kRelaxedGuards[hull.relaxed_guards - 1].max_normal_deviation / kDegree, hull.relaxed_guards,
+        kRelaxedGuards.size());
   if (!hull.reached)
-    fmt::print("  no legal collapse is left above the {} faces asked for: {}; of the {} edges left, {}\n",
-               grouped(hull.target_faces), described_topology(hull.mesh), grouped(3 * faces / 2),
-               describe_refusals(hull.blocked));
-  if (!hull.bounded) fmt::print("  NOT within the bounds asked for: no hull was\n");
+    say("  no legal collapse is left above the {} faces asked for: {}; of the {} edges left, {}\n",
+        grouped(hull.target_faces), described_topology(hull.mesh), grouped(3 * faces / 2),
+        describe_refusals(hull.blocked));
+  if (!hull.bounded) say("  NOT within the bounds asked for: no hull was\n");
   if (written.certified && !options.hierarchy.empty())
-    fmt::print("{}: all levels from {} to {} faces\n", options.hierarchy.string(), grouped(faces),
-               grouped(outcome.solid(hull).mesh.face_count()));
-  fmt::print("  certified: {}\n",
-             !written.certified ? "NO: nothing was written; please report this mesh"
-             : options.is_outer()
-                 ? (was_wrapped(outcome, hull) ? "yes, the file as written covers every triangle of the original"
-                                               : "yes, the file as written encloses the original")
-                 : "yes, the file as written is enclosed by the original");
+    say("{}: all levels from {} to {} faces\n", output_name(options.hierarchy), grouped(faces),
+        grouped(outcome.solid(hull).mesh.face_count()));
+  say("  certified: {}\n",
+      !written.certified ? "NO: nothing was written; please report this mesh"
+      : options.is_outer()
+          ? (was_wrapped(outcome, hull) ? "yes, the file as written covers every triangle of the original"
+                                        : "yes, the file as written encloses the original")
+          : "yes, the file as written is enclosed by the original");
 }
 
 nlohmann::json finite_or_null(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
@@ -91,7 +90,8 @@ nlohmann::json facts_of(const RefusalCounts& counts) {
 nlohmann::json options_report(const BuildOptions& options) {
   const HullOptions& hull = options.enclosing.hull;
   const HullBounds& bounds = options.enclosing.bounds;
-  return {{"faces", options.faces},
+  return {{"target_faces", options.faces},
+          {"scale", options.input.factor()},
           {"side", name_of(hull_side_names(), hull.side)},
           {"max_distance", finite_or_null(bounds.max_distance)},
           {"max_void", finite_or_null(bounds.max_void)},
@@ -158,14 +158,30 @@ double write_seconds(const BuildOutcome& outcome) {
   return total(outcome.written, [](const Written& w) { return w.write_seconds; });
 }
 
+/// What the ladder looked at before it chose: docs/repair.md.
+void print_search(const BuildOutcome& outcome) {
+  for (const Solid& solid : outcome.made.solids)
+    say_more("  tried {}: {}, {} of its faces intersecting\n",
+             solid.alpha > 0 ? fmt::format("a wrap with alpha {:.4g}", solid.alpha) : "the mesh itself",
+             counted(solid.mesh.face_count(), "face", "faces"), counted(solid.self_intersections, "pair", "pairs"));
+  for (const Written& written : outcome.written) {
+    say_more("  {}: built in {:.2f} s, verified in {:.2f} s by {}\n", output_name(written.path),
+             written.hull.build_seconds, written.hull.verify_seconds,
+             written.hull.proof.empty() ? "nothing" : written.hull.proof);
+    if (const std::string refused = describe_refusals(written.hull.refused); !refused.empty())
+      say_more("    collapses refused on the way: {}\n", refused);
+  }
+}
+
 }  // namespace
 
 void print_summary(const BuildOptions& options, const BuildOutcome& outcome) {
   print_input(options, outcome);
   for (const Written& written : outcome.written) print_hull(options, outcome, written);
-  fmt::print("  read {:.2f} s, {}build {:.2f} s, write {:.2f} s, verify {:.2f} s\n", outcome.read_seconds,
-             outcome.made.repair_seconds >= 0.005 ? fmt::format("repair {:.2f} s, ", outcome.made.repair_seconds) : "",
-             build_seconds(outcome), write_seconds(outcome), verify_seconds(outcome));
+  say("  read {:.2f} s, {}build {:.2f} s, write {:.2f} s, verify {:.2f} s\n", outcome.read_seconds,
+      outcome.made.repair_seconds >= 0.005 ? fmt::format("repair {:.2f} s, ", outcome.made.repair_seconds) : "",
+      build_seconds(outcome), write_seconds(outcome), verify_seconds(outcome));
+  print_search(outcome);
 }
 
 nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcome) {

@@ -12,6 +12,8 @@ struct BuildOptions {
   std::filesystem::path in, out, hierarchy, report;
   std::vector<std::size_t> faces{2000};
   EnclosingOptions enclosing;
+  InputOptions input;
+  std::string out_format;
   double normal_deviation_degrees = 45;
   double max_void_percent = 0;  ///< 0: any
   bool strict = false, allow_self_intersections = false, no_self_intersections = false;

@@ -23,10 +23,6 @@ std::vector<std::string> option_names(const Command& command) {
   return names;
 }
 
-std::string first_sentence(const std::string& description) {
-  return description.substr(0, std::min(description.find(". "), description.find(":\n")));
-}
-
 /// With a backslash before each of `special`.
 std::string escaped(const std::string& text, std::string_view special) {
   std::string result;
@@ -221,8 +217,9 @@ Names<Writer> shells() {
 
 void add_completion(CLI::App& app, Run& run) {
   const auto shell = std::make_shared<Writer>(bash_script);
-  CLI::App& command = *app.add_subcommand("completion", "Print a script that completes commands in a shell");
-  add_choice(command, "shell", *shell, shells(), "Which")->required();
+  CLI::App& command = *app.add_subcommand(
+      "completion", "Prints a script by which a shell completes the commands, options and files of prohull.");
+  add_choice(command, "shell", *shell, shells(), "The shell.")->required();
   add_examples(command, {"source <(prohull completion bash)", "prohull completion fish | source"});
   command.callback([&app, shell, &run] {
     run = [&app, shell] {

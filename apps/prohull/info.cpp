@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "prohull/enclosing_hull.h"
 #include "prohull/error.h"
 
 namespace prohull::cli {
@@ -8,7 +9,13 @@ namespace {
 
 struct Options {
   std::filesystem::path in, report;
+  InputOptions input;
 };
+
+template <class... Values>
+void say_fact(const char* name, fmt::format_string<Values...> text, Values&&... values) {
+  say("  {:<14} {}\n", name, fmt::format(text, std::forward<Values>(values)...));
+}
 
 // Of all components together; of a closed manifold.
 long genus(const MeshReport& report) { return static_cast<long>(report.components) - report.euler_characteristic / 2; }
@@ -16,103 +23,134 @@ long genus(const MeshReport& report) { return static_cast<long>(report.component
 void print_defects(const MeshReport& report) {
   for (const DefectCount& defect : defect_counts(report))
     if (defect.count > 0)
-      fmt::print("  {:<14} {} {}{}\n", "", grouped(defect.count), defect.description,
-                 defect.allowed ? " (allowed)" : "");
-  if (!report.first_defect.empty()) fmt::print("  {:<14} {}\n", "first", report.first_defect);
+      say_fact("", "{} {}{}", grouped(defect.count), defect.description, defect.allowed ? " (allowed)" : "");
+  if (!report.first_defect.empty()) say_fact("first", "{}", report.first_defect);
 }
 
 void print_quality(const MeshQuality& quality) {
   const auto print = [](const char* name, const Percentiles& p, double unit, const char* unit_name) {
-    fmt::print("  {:<14} median {:.3g}, 10 % below {:.3g}, 1 % below {:.3g}, worst {:.3g}{}\n", name, p.median / unit,
-               p.p10 / unit, p.p1 / unit, p.worst / unit, unit_name);
+    say_fact(name, "median {:.3g}, 10 % below {:.3g}, 1 % below {:.3g}, worst {:.3g}{}", p.median / unit, p.p10 / unit,
+             p.p1 / unit, p.worst / unit, unit_name);
   };
   print("compactness", quality.compactness, 1, "");
   print("dihedral angle", quality.dihedral_angle, kDegree, " degrees");
-  fmt::print("  {:<14} {} of {} edges, below {:.0f} degrees\n", "sharp", grouped(quality.sharp_edges),
-             grouped(quality.edges), kSharpDihedralAngle / kDegree);
+  say_fact("sharp", "{} of {} edges, below {:.0f} degrees", grouped(quality.sharp_edges), grouped(quality.edges),
+           kSharpDihedralAngle / kDegree);
 }
 
-int describe_mesh(const Options& options, const TriangleMesh& mesh) {
+void print_report(const MeshReport& report) {
+  const Box& box = report.box;
+  say_fact("faces", "{}", grouped(report.faces));
+  say_fact("vertices", "{}", grouped(report.vertices));
+  say_fact("components", "{}", grouped(report.components));
+  if (!box.is_empty())
+    say_fact("box", "({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), diagonal {:.6g}", box.min.x, box.min.y,
+             box.min.z, box.max.x, box.max.y, box.max.z, box.diagonal());
+  if (report.is_closed_manifold()) {
+    say_fact("surface", "closed 2-manifold");
+    say_fact("genus", "{}", genus(report));
+    say_fact("volume", "{:.9g}{}", report.volume, report.volume < 0 ? " (inside out)" : "");
+  } else {
+    say_fact("surface", "{}", report.faces == 0 ? "no faces" : "not a closed 2-manifold");
+  }
+}
+
+/// What build would do with the mesh, as it is without options: it takes the same first step.
+void tell_hull(const TriangleMesh& mesh, nlohmann::json& json) {
+  EnclosingOptions as_built;
+#ifdef PROHULL_HAS_WRAP
+  as_built.wrap = alpha_wrap;
+#endif
+  try {
+    const RepairedMesh prepared = prepared_for_hulls(mesh, as_built);
+    const auto repairs = describe(prepared.repairs);
+    const bool wrapped = !prepared.closed;
+    json["usable"] = true;
+    json["hull_from"] = wrapped ? "wrap" : repairs.empty() ? "mesh" : "repaired";
+    json["repairs"] = repairs;
+    json["obstacle"] = prepared.obstacle;
+    if (wrapped)
+      say_fact("hull possible", "yes, but outer hulls only, of a wrap around it: {}", prepared.obstacle);
+    else
+      say_fact("hull possible", "yes, {}", repairs.empty() ? "of the mesh as it is" : "after these repairs:");
+    if (wrapped) return;
+    for (const std::string& repair : repairs) say_fact("", "{}", repair);
+    const MeshReport& closed = prepared.closed->report;
+    if (!repairs.empty())
+      say_fact("then", "{}, {}, genus {}, volume {:.9g}", counted(closed.faces, "face", "faces"),
+               counted(closed.components, "component", "components"), genus(closed), closed.volume);
+  } catch (const InputError& error) {
+    json["usable"] = false;
+    json["hull_from"] = nullptr;
+    json["why_not"] = error.what();
+    say_fact("hull possible", "no: {}", error.what());
+  }
+}
+
+nlohmann::json describe_mesh(const TriangleMesh& mesh) {
   const MeshReport report = inspect(mesh);
   nlohmann::json json = facts(report);
-  json["path"] = options.in.string();
-  const Box& box = report.box;
-  fmt::print("{}\n", options.in.string());
-  fmt::print("  {:<14} {}\n", "faces", grouped(report.faces));
-  fmt::print("  {:<14} {}\n", "vertices", grouped(report.vertices));
-  fmt::print("  {:<14} {}\n", "components", grouped(report.components));
-  if (!box.is_empty())
-    fmt::print("  {:<14} ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), diagonal {:.6g}\n", "box", box.min.x,
-               box.min.y, box.min.z, box.max.x, box.max.y, box.max.z, box.diagonal());
-  if (report.is_closed_manifold()) {
-    json["genus"] = genus(report);
-    fmt::print("  {:<14} {}\n", "surface", "closed 2-manifold");
-    fmt::print("  {:<14} {}\n", "genus", genus(report));
-    fmt::print("  {:<14} {:.9g}{}\n", "volume", report.volume, report.volume < 0 ? " (inside out)" : "");
-  } else {
-    fmt::print("  {:<14} {}\n", "surface", report.faces == 0 ? "no faces" : "not a closed 2-manifold");
-  }
+  print_report(report);
+  if (report.is_closed_manifold()) json["genus"] = genus(report);
+  stop_if_interrupted();
   if (report.faces > 0 && report.non_finite_vertices == 0) {
     const MeshQuality quality = mesh_quality(mesh);
     json["quality"] = facts(quality);
     print_quality(quality);
   }
   print_defects(report);
-  try {
-    const ClosedMesh closed = closed_mesh(mesh);
-    const auto repairs = describe(closed.repairs);
-    json["usable"] = true;
-    json["repairs"] = repairs;
-    fmt::print("  {:<14} yes{}\n", "hull possible", repairs.empty() ? "" : ", after these repairs:");
-    for (const std::string& repair : repairs) fmt::print("  {:<14} {}\n", "", repair);
-    if (!repairs.empty())
-      fmt::print("  {:<14} {} faces, {} components, genus {}, volume {:.9g}\n", "then", grouped(closed.report.faces),
-                 grouped(closed.report.components), genus(closed.report), closed.report.volume);
-  } catch (const InputError& error) {
-    json["usable"] = false;
-    json["why_not"] = error.what();
-    fmt::print("  {:<14} no: {}\n", "hull possible", error.what());
-  }
-  write_report(options.report, json);
-  return kDone;
+  stop_if_interrupted();
+  tell_hull(mesh, json);
+  return json;
 }
 
-int describe_hull(const Options& options, const ProgressiveHull& hull) {
+nlohmann::json describe_hull(const ProgressiveHull& hull) {
+  const std::string side(name_of(hull_side_names(), hull.side()));
   const double original = signed_volume(hull.original()), base = signed_volume(hull.base());
-  fmt::print("{}\n", options.in.string());
-  fmt::print("  {:<14} {} progressive hull\n", "kind", hull.side() == HullSide::Outer ? "outer" : "inner");
-  fmt::print("  {:<14} {} faces, {} vertices, volume {:.9g}\n", "original", grouped(hull.original_face_count()),
-             grouped(hull.original_vertex_count()), original);
-  fmt::print("  {:<14} {} faces, volume {:.9g}, void {:.3f} %\n", "base", grouped(hull.base_face_count()), base,
-             100 * (base / original - 1));
-  fmt::print("  {:<14} {}\n", "splits", grouped(hull.splits().size()));
-  write_report(options.report,
-               {{"path", options.in.string()},
-                {"side", hull.side() == HullSide::Outer ? "outer" : "inner"},
-                {"original", {{"faces", hull.original_face_count()}, {"volume", original}}},
-                {"base", {{"faces", hull.base_face_count()}, {"volume", base}, {"void_ratio", base / original - 1}}},
-                {"splits", hull.splits().size()}});
-  return kDone;
+  say_fact("kind", "{} progressive hull", side);
+  say_fact("original", "{} faces, {} vertices, volume {:.9g}", grouped(hull.original_face_count()),
+           grouped(hull.original_vertex_count()), original);
+  say_fact("coarsest", "{} faces, volume {:.9g}, void {:.3f} %", grouped(hull.base_face_count()), base,
+           100 * (base / original - 1));
+  say_fact("splits", "{}", grouped(hull.splits().size()));
+  return {{"side", side},
+          {"original", {{"faces", hull.original_face_count()}, {"volume", original}}},
+          {"base", {{"faces", hull.base_face_count()}, {"volume", base}, {"void_ratio", base / original - 1}}},
+          {"splits", hull.splits().size()}};
 }
 
 int run_info(const Options& options) {
-  const auto content = read_mesh_or_hull(options.in);
+  check_files({options.in}, {options.report});
+  const Stopwatch reading;
+  const MeshOrHull content = read_mesh_or_hull(options.in, options.input, NonFinite::Keep);
+  const double read_seconds = reading.seconds();
+  const Stopwatch looking;
+  say("{}\n", input_name(options.in));
   const auto* const hull = std::get_if<ProgressiveHull>(&content);
-  return hull ? describe_hull(options, *hull) : describe_mesh(options, std::get<TriangleMesh>(content));
+  nlohmann::json json = hull ? describe_hull(*hull) : describe_mesh(std::get<TriangleMesh>(content));
+  say_more("  read {:.2f} s, examined {:.2f} s\n", read_seconds, looking.seconds());
+  json["path"] = options.in.string();
+  Outputs outputs;
+  outputs.add_report(options.report, json);
+  outputs.commit();
+  return kDone;
 }
 
 }  // namespace
 
 void add_info(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command =
-      *app.add_subcommand("info", "Tell what a mesh or .phull file holds, and whether a hull can be built");
-  command
-      .add_option("in", options->in, "Mesh (PLY, OBJ, OFF, STL, GLB, DAE, 3MF, ...; also .gz or .zip) or .phull file")
-      ->required()
-      ->type_name("IN");
+  CLI::App& command = *app.add_subcommand(
+      "info",
+      "Tells what a mesh or .phull file holds, how good its triangles are, and what `prohull build` would do with it. "
+      "The compactness of a triangle is 1 if its sides are equal and 0 if it has no area; an edge is sharp if its two "
+      "faces meet at less than 135 degrees.");
+  command.add_option("in", options->in, std::string("Mesh or .phull file. ") + kMeshFiles)->required()->type_name("IN");
+  add_format_option(command, options->input);
+  add_unit_options(command, options->input, "the mesh");
   add_report_option(command, options->report);
-  add_examples(command, {"prohull info horse.ply", "prohull info horse.phull --report info.json"});
+  add_examples(command, {"prohull info horse.ply", "prohull info horse.phull --report info.json",
+                         "prohull info part.stl --unit mm", "curl -s https://example.com/part.stl | prohull info -"});
   command.callback([options, &run] { run = [options] { return run_info(*options); }; });
 }
 

@@ -2,7 +2,6 @@
 
 #include "command.h"
 #include "prohull/float32_hull.h"
-#include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
 
 namespace prohull::cli {
@@ -10,26 +9,33 @@ namespace {
 
 struct Options {
   std::filesystem::path in, out, report;
+  std::string out_format;
   std::size_t faces = 0;
 };
 
 int extract(const Options& options) {
-  const bool float32 = stores_float32(mesh_format(options.out));
-  require_distinct({options.in, options.out, options.report});
-  for (const auto& path : {options.out, options.report}) require_writable(path);
-  const ProgressiveHull hull = load_hull(options.in);
+  const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
+  check_files({options.in}, {options.out, options.report});
+  const Stopwatch reading;
+  const ProgressiveHull hull = read_hull(options.in);
+  const double read_seconds = reading.seconds();
+  stop_if_interrupted();
+  const Stopwatch extracting;
   TriangleMesh level = hull.level(options.faces);
-  if (float32 && level.face_count() < hull.original_face_count())
+  if (stores_float32(mesh_format("mesh" + suffix)) && level.face_count() < hull.original_face_count())
     level = with_float32_coordinates(level, hull.side()).mesh;
-  if (interrupted()) throw Interrupted{};
-  write_mesh(options.out, level);
-  fmt::print("{}: {} faces of {}{}\n", options.out.string(), grouped(level.face_count()),
-             grouped(hull.original_face_count()),
-             options.faces != 0 && level.face_count() > options.faces ? " (the base mesh; there is none coarser)" : "");
-  write_report(options.report, {{"path", options.out.string()},
-                                {"faces", level.face_count()},
-                                {"vertices", level.vertex_count()},
-                                {"volume", signed_volume(level)}});
+  const double extract_seconds = extracting.seconds();
+  Outputs outputs;
+  outputs.add(options.out, suffix, [&](const auto& file) { return write_mesh(file, level), true; });
+  outputs.add_report(options.report, {{"path", options.out.string()},
+                                      {"faces", level.face_count()},
+                                      {"vertices", level.vertex_count()},
+                                      {"volume", signed_volume(level)}});
+  outputs.commit();
+  say("{}: {} faces of {}{}\n", output_name(options.out), grouped(level.face_count()),
+      grouped(hull.original_face_count()),
+      options.faces != 0 && level.face_count() > options.faces ? ", which is the coarsest level of the file" : "");
+  say_more("  read {:.2f} s, extracted {:.2f} s\n", read_seconds, extract_seconds);
   return kDone;
 }
 
@@ -37,15 +43,22 @@ int extract(const Options& options) {
 
 void add_lod(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("lod", "Extract any level of a .phull file");
-  command.add_option("in", options->in, "What build --hierarchy wrote")->required()->type_name("H.phull");
-  command.add_option("-o,--out", options->out, "Where the level goes: .ply, .obj, .off, .stl or .glb")
+  CLI::App& command = *app.add_subcommand(
+      "lod",
+      "Extracts a level of a .phull file as a mesh. Every level encloses the next finer one (of an inner hull: is "
+      "enclosed by it), and the finest is the original mesh, bit for bit.");
+  command
+      .add_option("in", options->in,
+                  "File with all levels of a hull, which `prohull build --hierarchy` wrote. With - it is "
+                  "read from standard input.")
       ->required()
-      ->type_name("OUT");
-  command.add_option("--faces", options->faces, "The finest level of at most this many faces; without, the base mesh")
-      ->check(CLI::Range(0.0, 1e10));
+      ->type_name("H.phull");
+  add_mesh_output_options(command, options->out, options->out_format, "the level");
+  add_number(command, "--faces", options->faces, {0, 1e10},
+             "Take the finest level that has at most this number of faces. Without it, the coarsest level is taken.");
   add_report_option(command, options->report);
-  add_examples(command, {"prohull lod horse.phull --faces 5000 -o level.ply", "prohull lod horse.phull -o base.stl"});
+  add_examples(command, {"prohull lod horse.phull --faces 5000 -o level.ply", "prohull lod horse.phull -o base.stl",
+                         "prohull lod horse.phull -o - --out-format obj >base.obj"});
   command.callback([options, &run] { run = [options] { return extract(*options); }; });
 }
 

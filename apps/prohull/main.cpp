@@ -3,20 +3,14 @@
 #include <new>
 
 #include "command.h"
+#include "help.h"
 #include "prohull/error.h"
 
-int main(int argc, char** argv) {
-  using namespace prohull::cli;
-  CLI::App app(fmt::format("prohull {}: {}. Ever coarser meshes, each of which provably encloses the finer one.",
-                           PROHULL_VERSION, kWhatItIs),
-               "prohull");
-  app.set_version_flag("--version", "prohull " PROHULL_VERSION);
-  app.require_subcommand(1);
-  app.fallthrough(false);
-  app.footer(
-      "prohull COMMAND --help shows the options and examples of a command.\n"
-      "Exit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 130 interrupted.");
-  Run run;
+namespace {
+
+using namespace prohull::cli;
+
+void add_commands(CLI::App& app, Run& run) {
   add_build(app, run);
   add_verify(app, run);
   add_info(app, run);
@@ -26,21 +20,41 @@ int main(int argc, char** argv) {
   add_sample(app, run);
   add_completion(app, run);
   add_manual(app, run);
+  add_help(app, run);
+  for (CLI::App* command : app.get_subcommands({})) {
+    CLI::Option* const quiet = command->add_flag(
+        "-q,--quiet", console().quiet, "Print no summary and no progress. Errors and files written to - still appear.");
+    command->add_flag("-v,--verbose", console().verbose, "Print more about what was done, and how long it took.")
+        ->excludes(quiet);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(fmt::format("prohull {}: {}. Makes ever coarser meshes, each of which provably encloses the finer one.",
+                           PROHULL_VERSION, kWhatItIs),
+               "prohull");
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.failure_message(usage_error);
+  app.set_help_flag("-h,--help", "Show this help.");
+  app.set_version_flag("--version", "prohull " PROHULL_VERSION, "Show the version.");
+  app.require_subcommand(1);
+  app.fallthrough(false);
+  app.footer(
+      "`prohull help COMMAND` shows the options and examples of a command.\n"
+      "Exit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 130 interrupted.");
+  Run run;
+  add_commands(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
 
-  catch_interrupts();
-  const auto tell_interrupted = [] {
-    fmt::print(stderr, "prohull: interrupted; nothing was written\n");
-    return kInterrupted;
-  };
+  catch_interrupts(remove_unfinished_outputs);
   try {
     return run();
-  } catch (const Interrupted&) {
-    return tell_interrupted();
   } catch (const prohull::Cancelled&) {
     return tell_interrupted();
   } catch (const prohull::InputError& error) {

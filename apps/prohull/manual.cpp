@@ -55,10 +55,7 @@ std::string paragraph(const std::string& text) {
 }
 
 std::string described(const Argument& argument) {
-  std::string text = argument.description;
-  if (!argument.initial.empty()) text += fmt::format(" (default: {})", argument.initial);
-  if (!argument.excluded.empty()) text += fmt::format(" (not with {})", fmt::join(argument.excluded, ", "));
-  return ".TP\n" + tag(argument) + "\n" + paragraph(text);
+  return ".TP\n" + tag(argument) + "\n" + paragraph(explained(argument));
 }
 
 /// "prohull build [OPTIONS] -o OUT IN"
@@ -111,7 +108,8 @@ std::string manual_page(const Command& app, const std::vector<Command>& all) {
 }  // namespace
 
 void add_manual(CLI::App& app, Run& run) {
-  CLI::App& command = *app.add_subcommand("manual", "Print the manual page, all of --help in one, for man and groff");
+  CLI::App& command =
+      *app.add_subcommand("manual", "Prints the manual page, for man and groff: the help of all commands in one.");
   add_examples(command, {"prohull manual | man -l -"});
   command.callback([&app, &run] {
     run = [&app] {

@@ -17,6 +17,8 @@ using EngineChoice = std::variant<Engine, std::string_view>;
 
 struct Options {
   std::filesystem::path in, segments, rays, triangles, out, write_segments, report;
+  std::string out_format;
+  InputOptions input;
   std::size_t random = 0;
   std::uint64_t seed = 1;
   HitMode mode = HitMode::First;
@@ -33,6 +35,11 @@ Names<EngineChoice> engine_choices() {
     return all;
   }();
   return choices;
+}
+
+const OutputKind& hit_outputs() {
+  static const OutputKind kind{"hits", {".npz", ".csv"}};
+  return kind;
 }
 
 // What differs between the kinds of queries.
@@ -66,15 +73,20 @@ struct Seconds {
   double read = 0, index = 0, query = 0, write = 0;
 };
 
-void check_outputs(const Options& options) {
-  if (!options.out.empty()) hits_format(options.out);
-  if (!options.write_segments.empty()) segments_format(options.write_segments);
-  require_distinct({options.in, options.segments, options.rays, options.triangles, options.out, options.write_segments,
-                    options.report});
-  for (const auto& path : {options.out, options.write_segments, options.report}) require_writable(path);
-}
+/// What the names of the outputs end in.
+struct Suffixes {
+  std::string out, write_segments;
+};
 
-using MeshOrHull = std::variant<TriangleMesh, ProgressiveHull>;
+Suffixes check_outputs(const Options& options) {
+  Suffixes suffixes;
+  if (!options.out.empty()) suffixes.out = output_suffix(options.out, hit_outputs(), options.out_format);
+  if (!options.write_segments.empty())
+    suffixes.write_segments = output_suffix(options.write_segments, {"segments", {".npy", ".csv"}});
+  check_files({options.in, options.segments, options.rays, options.triangles},
+              {options.out, options.write_segments, options.report});
+  return suffixes;
+}
 
 std::size_t face_count(const MeshOrHull& target) {
   const auto* const hull = std::get_if<ProgressiveHull>(&target);
@@ -92,9 +104,10 @@ Box box_of(const MeshOrHull& target) {
 }
 
 Queries make_queries(const Options& options, const MeshOrHull& target) {
-  if (!options.segments.empty()) return read_segments(options.segments);
-  if (!options.rays.empty()) return read_rays(options.rays);
-  if (!options.triangles.empty()) return read_triangles(options.triangles);
+  const auto name = [](const std::filesystem::path& path) { return std::filesystem::path(input_name(path)); };
+  if (!options.segments.empty()) return read_segments(read_bytes(options.segments), name(options.segments));
+  if (!options.rays.empty()) return read_rays(read_bytes(options.rays), name(options.rays));
+  if (!options.triangles.empty()) return read_triangles(read_bytes(options.triangles), name(options.triangles));
   return random_segments(box_of(target), options.random, options.seed);
 }
 
@@ -106,7 +119,7 @@ QueryIndex make_index(MeshOrHull target, const Options& options) {
         [&](auto& mesh_or_hull) { return QueryIndex(std::move(mesh_or_hull), std::get<Engine>(options.engine)); },
         target);
   } catch (const InputError& error) {
-    throw InputError(error.defect(), options.in.string() + ": " + error.what());
+    throw InputError(error.defect(), input_name(options.in) + ": " + error.what());
   }
 }
 
@@ -141,20 +154,19 @@ std::size_t count_answered(const std::vector<std::size_t>& offsets) {
 
 void print_summary(const Options& options, const Outcome& outcome) {
   const bool faces = outcome.noun == "triangle";
-  const std::string out = options.out.empty() ? "" : options.out.string() + ": ";
+  const std::string out = options.out.empty() ? "" : output_name(options.out) + ": ";
   const bool one = outcome.answers == 1;
-  fmt::print("{}{} {}; {} of {} {}s {} ({:.2f} %)\n", out, grouped(outcome.answers),
-             faces ? (one ? "face met" : "faces met") : (one ? "hit" : "hits"), grouped(outcome.answered),
-             grouped(outcome.queries), outcome.noun, faces ? "meet some" : "hit",
-             100 * outcome.per_query(outcome.answered));
+  say("{}{} {}; {} of {} {}s {} ({:.2f} %)\n", out, grouped(outcome.answers),
+      faces ? (one ? "face met" : "faces met") : (one ? "hit" : "hits"), grouped(outcome.answered),
+      grouped(outcome.queries), outcome.noun, faces ? "meet some" : "hit", 100 * outcome.per_query(outcome.answered));
   const unsigned threads = threads_used(options);
-  fmt::print("  engine {}, {} thread{}: {} {}s per second\n", outcome.engine, threads, threads == 1 ? "" : "s",
-             grouped(static_cast<std::size_t>(outcome.per_second())), outcome.noun);
+  say("  engine {}, {} thread{}: {} {}s per second\n", outcome.engine, threads, threads == 1 ? "" : "s",
+      grouped(static_cast<std::size_t>(outcome.per_second())), outcome.noun);
   if (counts_tests(options.engine))
-    fmt::print("  {:.1f} faces tested and {:.1f} vertices split per {}\n", outcome.per_query(outcome.counts.tests),
-               outcome.per_query(outcome.counts.splits), outcome.noun);
+    say("  {:.1f} faces tested and {:.1f} vertices split per {}\n", outcome.per_query(outcome.counts.tests),
+        outcome.per_query(outcome.counts.splits), outcome.noun);
   const Seconds& s = outcome.seconds;
-  fmt::print("  read {:.2f} s, index {:.2f} s, query {:.2f} s, write {:.2f} s\n", s.read, s.index, s.query, s.write);
+  say("  read {:.2f} s, index {:.2f} s, query {:.2f} s, write {:.2f} s\n", s.read, s.index, s.query, s.write);
 }
 
 nlohmann::json report_of(const Options& options, const Outcome& outcome) {
@@ -177,72 +189,80 @@ nlohmann::json report_of(const Options& options, const Outcome& outcome) {
 }
 
 template <class Query>
-Outcome answer(const Options& options, const QueryIndex& index, const std::vector<Query>& queries, Seconds seconds) {
+Outcome answer(const Options& options, const QueryIndex& index, const std::vector<Query>& queries, Seconds seconds,
+               const std::string& suffix, Outputs& outputs) {
   Stopwatch asking;
   const auto batch = [&] {
-    ProgressLine line("query");
-    const BatchOptions how{.threads = options.threads, .progress = line.as_progress()};
-    try {
-      return ask(index, queries, options.mode, how);
-    } catch (const Cancelled&) {
-      throw Interrupted{};
-    }
+    ProgressLine line;
+    return ask(index, queries, options.mode, {.threads = options.threads, .progress = std::ref(line)});
   }();
   seconds.query = asking.seconds();
-  if (interrupted()) throw Interrupted{};
   Stopwatch writing;
-  if (!options.out.empty()) write(options.out, batch, queries);
+  outputs.add(options.out, suffix, [&](const auto& file) { return write(file, batch, queries), true; });
   seconds.write = writing.seconds();
   return {noun(queries),       queries.size(), batch.offsets.back(), count_answered(batch.offsets), batch.counts,
           index.engine_name(), seconds};
 }
 
 int run_query(const Options& options) {
-  check_outputs(options);
+  const Suffixes suffixes = check_outputs(options);
   Seconds seconds;
   Stopwatch reading;
-  MeshOrHull target = read_mesh_or_hull(options.in);
+  MeshOrHull target = read_mesh_or_hull(options.in, options.input);
   const std::size_t faces = face_count(target);
   if (faces == 0)
-    throw InputError(Defect::EmptyMesh, options.in.string() + ": it has no faces, so that nothing can hit it");
+    throw InputError(Defect::EmptyMesh, input_name(options.in) + ": it has no faces, so that nothing can hit it");
   const Queries queries = make_queries(options, target);
   seconds.read = reading.seconds();
-  if (interrupted()) throw Interrupted{};
+  stop_if_interrupted();
 
   Stopwatch indexing;
   const QueryIndex index = make_index(std::move(target), options);
   seconds.index = indexing.seconds();
-  if (interrupted()) throw Interrupted{};
-  const Outcome outcome = std::visit([&](const auto& q) { return answer(options, index, q, seconds); }, queries);
-  if (!options.write_segments.empty()) write_segments(options.write_segments, std::get<std::vector<Segment>>(queries));
-  fmt::print("{}: {} faces\n", options.in.string(), grouped(faces));
-  if (options.random > 0) fmt::print("{} random segments, seed {}\n", grouped(options.random), options.seed);
-  print_summary(options, outcome);
+  stop_if_interrupted();
+  Outputs outputs;
+  const Outcome outcome =
+      std::visit([&](const auto& q) { return answer(options, index, q, seconds, suffixes.out, outputs); }, queries);
+  outputs.add(options.write_segments, suffixes.write_segments,
+              [&](const auto& file) { return write_segments(file, std::get<std::vector<Segment>>(queries)), true; });
   nlohmann::json json = report_of(options, outcome);
   json["input"] = {{"path", options.in.string()}, {"faces", faces}};
-  write_report(options.report, json);
+  outputs.add_report(options.report, json);
+  outputs.commit();
+  say("{}: {}\n", input_name(options.in), counted(faces, "face", "faces"));
+  if (options.random > 0) say("{} random segments, seed {}\n", grouped(options.random), options.seed);
+  print_summary(options, outcome);
+  say_more("  the index takes {} bytes\n", grouped(index.memory_bytes()));
   return kDone;
 }
 
 void add_queries(CLI::App& command, Options& options) {
-  CLI::App& queries = *command.add_option_group("Queries", "One of these; files are .npy, .npz or .csv");
-  queries.add_option("--segments", options.segments, "Each row x0,y0,z0,x1,y1,z1")->type_name("FILE");
-  queries.add_option("--rays", options.rays, "Each row an origin and a direction")->type_name("FILE");
+  CLI::App& queries = *command.add_option_group(
+      "Queries", "One of these is required. Files are .npy, .npz or .csv, and - is standard input");
+  queries.add_option("--segments", options.segments, "File of segments, one a row: x0,y0,z0,x1,y1,z1.")
+      ->type_name("FILE");
+  queries.add_option("--rays", options.rays, "File of rays, one a row: the origin and the direction, x,y,z,dx,dy,dz.")
+      ->type_name("FILE");
   CLI::Option* const triangles =
-      queries.add_option("--triangles", options.triangles, "Each row three corners; answered by the faces they meet")
+      queries
+          .add_option("--triangles", options.triangles,
+                      "File of triangles, one a row: the three corners. They are answered by the faces that they meet.")
           ->type_name("FILE");
   CLI::Option* const random =
-      queries
-          .add_option("--random", options.random,
-                      "So many segments from one side to another of a box twice as large as the mesh's")
-          ->check(CLI::Range(1.0, 1e9))
-          ->type_name("N");
+      add_number(queries, "--random", options.random, {1, 1e9},
+                 "Number of random segments to ask. Each goes from one side to another of a box twice as large as that "
+                 "of the mesh.");
   queries.require_option(1);
-  command.add_option("--seed", options.seed, "Of the random segments")->capture_default_str()->needs(random);
-  command.add_option("--write-segments", options.write_segments, "Where the random segments go: .npy or .csv")
+  add_number(command, "--seed", options.seed, kSeed,
+             "Number that the random segments depend on. The same seed gives the same segments.")
+      ->capture_default_str()
+      ->needs(random);
+  command.add_option("--write-segments", options.write_segments, "File for the random segments, .npy or .csv.")
       ->needs(random)
       ->type_name("FILE");
-  add_choice(command, "--mode", options.mode, hit_mode_names(), "Which hits of a segment or ray")->excludes(triangles);
+  add_choice(command, "--mode", options.mode, hit_mode_names(),
+             "Hits to find of each segment or ray: the first one, any one (which is faster), or all.")
+      ->excludes(triangles);
 }
 
 }  // namespace
@@ -250,25 +270,31 @@ void add_queries(CLI::App& command, Options& options) {
 void add_query(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand(
-      "query", "Find where segments, rays or triangles meet a mesh, exactly; it need not be closed");
-  command
-      .add_option("in", options->in, "Mesh (PLY, OBJ, OFF, STL, GLB, DAE, 3MF, ...; also .gz or .zip) or .phull file")
+      "query",
+      "Finds where segments, rays or triangles meet a mesh, exactly. The mesh need not be closed, and nothing slips "
+      "through at its edges and vertices.");
+  command.add_option("in", options->in, std::string("Mesh or .phull file to ask. ") + kMeshFiles)
       ->required()
       ->type_name("IN");
-  command.add_option("-o,--out", options->out, "Where the hits go: .npz or .csv; without, only the summary")
+  add_format_option(command, options->input);
+  add_unit_options(command, options->input, "the mesh");
+  command
+      .add_option("-o,--out", options->out,
+                  "File for the hits, .npz or .csv. With - they go to standard output. Without this option only the "
+                  "summary is printed.")
       ->type_name("HITS");
+  add_out_format_option(command, options->out_format, hit_outputs());
   add_queries(command, *options);
   add_choice(command, "--engine", options->engine, engine_choices(),
-             "auto: the fastest that is exact; others, see docs/queries.md");
-  command
-      .add_option("--threads", options->threads, "At most so many, and no more than there are cores; 0: all of them")
-      ->capture_default_str();
+             "How the answers are found; docs/queries.md explains each. auto is the fastest that is exact.");
+  add_threads_option(command, options->threads, "The answers are the same for any number.");
   add_report_option(command, options->report);
   add_examples(command,
-               {"prohull query horse.ply --random 10000", "prohull query horse.ply --segments segments.npy -o hits.npz",
+               {"prohull query horse.ply --random 1e4", "prohull query horse.ply --segments segments.npy -o hits.npz",
                 "prohull query scan.stl --rays rays.csv --mode all -o hits.csv --threads 4",
                 "prohull query arm.obj --triangles tool.npy -o contacts.csv",
-                "prohull query horse.phull --random 10000 --engine paper-refinement --report counts.json"});
+                "prohull query part.stl --rays - -o - --out-format csv <rays.csv",
+                "prohull query horse.phull --random 1e4 --engine paper-refinement --report counts.json"});
   command.callback([options, &run] { run = [options] { return run_query(*options); }; });
 }
 

@@ -8,7 +8,6 @@
 
 #include "command.h"
 #include "prohull/error.h"
-#include "prohull/file.h"
 #include "prohull/refine_along.h"
 #include "render/compose.h"
 #include "render/draw.h"
@@ -32,12 +31,14 @@ struct Options {
   double azimuth_degrees = 35, elevation_degrees = 20, field_of_view_degrees = 25;
   render::Look look;
   std::string size = "1024x768", background = "white";
-  int samples = 4, threads = 0;
+  int samples = 4;
+  unsigned threads = 0;
+  InputOptions input;
 };
 
 constexpr std::string_view kOriginal = "original", kNone = "none", kTransparent = "transparent";
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+double radians(double degrees) { return degrees * kDegree; }
 
 [[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
 
@@ -160,7 +161,7 @@ class Planner {
     plan.zoom = for_panel(options_.zooms, i).value_or(1);
     if (const auto center = for_panel(options_.centers, i); center && *center != kNone) plan.center = point_of(*center);
     plans_.push_back(std::move(plan));
-    if (interrupted()) throw Interrupted{};
+    stop_if_interrupted();
   }
 
   void add_refined(const std::filesystem::path& path, std::size_t level, PanelPlan& plan) {
@@ -199,12 +200,14 @@ render::Look look_of(const Options& options) {
 }
 
 void require_sound(const Options& options) {
-  if (options.out.extension() != ".png") refuse(options.out.string() + ": pictures are written as .png");
-  std::vector<std::filesystem::path> files{options.out, options.report};
-  for (const auto& path : options.in)
-    if (std::ranges::find(files, path) == files.end()) files.push_back(path);
-  require_distinct(files);
-  for (const auto& path : {options.out, options.report}) require_writable(path);
+  output_suffix(options.out, {"pictures", {".png"}}, is_standard_stream(options.out) ? "png" : "");
+  std::vector<std::filesystem::path> inputs = options.in;
+  for (const auto& names : {options.over, options.split})
+    for (const std::string& name : names)
+      if (name != kOriginal && name != kNone) inputs.emplace_back(name);
+  std::ranges::sort(inputs);  // each is read once
+  inputs.erase(std::unique(inputs.begin(), inputs.end()), inputs.end());
+  check_files(inputs, {options.out, options.report});
   if (options.refine && options.segment.empty()) refuse("--refine needs the --segment to refine along");
 }
 
@@ -229,15 +232,12 @@ nlohmann::json facts_of(const std::vector<PanelPlan>& plans, const MeshTable& ta
 }
 
 render::Image drawn(const std::vector<render::Panel>& panels, const Size& size, const Options& options) {
-  ProgressLine line("render");
-  render::DrawOptions draw_options{.samples = options.samples, .background = {}, .threads = options.threads};
+  ProgressLine line;
+  render::DrawOptions draw_options{
+      .samples = options.samples, .background = {}, .threads = static_cast<int>(options.threads)};
   if (options.background != kTransparent) draw_options.background = color_of(options.background);
-  draw_options.progress = line.as_progress();
-  try {
-    return render::draw(size.width, size.height, panels, draw_options);
-  } catch (const Cancelled&) {
-    throw Interrupted{};
-  }
+  draw_options.progress = std::ref(line);
+  return render::draw(size.width, size.height, panels, draw_options);
 }
 
 int run_render(const Options& options) {
@@ -247,89 +247,105 @@ int run_render(const Options& options) {
   const render::Look look = look_of(options);
   if (options.background != kTransparent) color_of(options.background);
 
-  MeshTable table;
+  MeshTable table([&](const std::filesystem::path& path) { return read_mesh_or_hull(path, options.input); });
   const std::vector<PanelPlan> plans = Planner(options, table).plans();
   if (static_cast<std::size_t>(size.width) < plans.size())
     refuse(fmt::format("{} panels do not fit into {} pixels", plans.size(), size.width));
+  const double read_seconds = watch.seconds();
   const auto panels = render::compose(plans, table.meshes(), look, size.width, size.height);
+  stop_if_interrupted();
   const render::Image image = drawn(panels, size, options);
+  const double draw_seconds = watch.seconds() - read_seconds;
   const std::string png = options.palette ? render::encode_small_png(image) : render::encode_png(image);
-  if (interrupted()) throw Interrupted{};
-  write_file(options.out, png);
-
-  fmt::print("{}: {} x {}, {} faces, {:.1f} s\n", options.out.string(), size.width, size.height,
-             face_counts(plans, table), watch.seconds());
-  write_report(options.report, {{"path", options.out.string()},
-                                {"width", size.width},
-                                {"height", size.height},
-                                {"panels", facts_of(plans, table)},
-                                {"bytes", png.size()},
-                                {"seconds", watch.seconds()}});
+  Outputs outputs;
+  outputs.add(options.out, png);
+  outputs.add_report(options.report, {{"path", options.out.string()},
+                                      {"width", size.width},
+                                      {"height", size.height},
+                                      {"panels", facts_of(plans, table)},
+                                      {"bytes", png.size()},
+                                      {"seconds", watch.seconds()}});
+  outputs.commit();
+  say("{}: {} x {}, {} faces, {:.1f} s\n", output_name(options.out), size.width, size.height, face_counts(plans, table),
+      watch.seconds());
+  say_more("  {} bytes; read {:.2f} s, draw {:.2f} s, write {:.2f} s\n", grouped(png.size()), read_seconds,
+           draw_seconds, watch.seconds() - read_seconds - draw_seconds);
   return kDone;
 }
+
+/// What is said of options that are given once, for all panels, or once for each.
+constexpr const char* kForPanels = " Given once, for all panels, or once for each.";
 
 void add_content_options(CLI::App& command, Options& options) {
   constexpr const char* kContent = "What is drawn";
   command
       .add_option("--faces", options.faces,
-                  "Levels of .phull files, each in a panel: numbers of faces, or 'original'; without, the base mesh")
+                  "Levels of .phull files to draw, each in a panel: numbers of faces, or original for the original "
+                  "mesh. Without this option the coarsest level is drawn.")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->type_name("N,...")
+      ->type_name("N[,N...]")
       ->group(kContent);
   command
       .add_option("--over", options.over,
-                  "Draw IN translucent over this mesh; 'original': over the finest level of the .phull file itself; "
-                  "once, or for each panel, 'none' for none")
+                  std::string("Draw IN translucent over this mesh, or over its own original mesh, if that is original "
+                              "and IN is a .phull file; none draws it over nothing.") +
+                      kForPanels)
       ->allow_extra_args(false)
       ->type_name("MESH")
       ->group(kContent);
-  command.add_option("--split", options.split, "Draw IN in the left half, and this mesh in the right one; as --over")
+  command
+      .add_option(
+          "--split", options.split,
+          std::string("Draw IN in the left half of its panel and this mesh in the right half. original and none "
+                      "mean the same as with --over.") +
+              kForPanels)
       ->allow_extra_args(false)
       ->type_name("MESH")
       ->group(kContent);
   command
       .add_option("--segment", options.segment,
-                  "Draw a segment, and where it crosses IN, or the mesh that IN is drawn over")
+                  "Draw this segment, and a mark where it crosses IN, or the mesh that IN is drawn over.")
       ->type_name("X,Y,Z,X,Y,Z")
       ->group(kContent);
   command
       .add_flag("--refine", options.refine,
-                "Refine the hull of a .phull file along the segment, as Platis and Theoharis (2003) do; crossings are "
-                "green where this finds them, and red where it does not")
+                "Refine the hull of a .phull file where the --segment meets it, as Platis and Theoharis (2003) do. "
+                "Crossings that this finds are green, others are red.")
       ->group(kContent);
 }
 
 void add_look_options(CLI::App& command, Options& options) {
   constexpr const char* kLook = "Look";
-  command.add_flag("--wireframe", options.wireframe, "Draw the edges of IN")->group(kLook);
-  command.add_option("--line-width", options.line_widths, "Of edges, in pixels; once, or for each panel")
+  command.add_flag("--wireframe", options.wireframe, "Draw the edges of IN.")->group(kLook);
+  add_number(command, "--line-width", options.line_widths, {0, 100},
+             std::string("Width of the edges, in pixels.") + kForPanels)
       ->allow_extra_args(false)
-      ->check(CLI::Range(0.0, 100.0).description(""))
       ->default_str("1")
       ->type_name("WIDTH")
       ->group(kLook);
-  command
-      .add_option(
-          "--crease", options.crease_degrees,
-          "Faces that meet at less than so many degrees look smooth, 0 to 180; without, 40 for meshes of 10,000 "
-          "faces or more and 0 for others")
-      ->check(CLI::Range(0.0, 180.0))
+  add_number(command, "--crease", options.crease_degrees, {0, 180},
+             "Faces look smooth where their directions differ by less than this angle, 0 to 180 degrees. Without this "
+             "option it is "
+             "40 for meshes of 10,000 faces or more, and 0 for others.")
+      ->type_name("DEGREES")
       ->group(kLook);
   command
       .add_option("--color", options.colors,
-                  fmt::format("Of IN: #rrggbb, {}; once, or for each panel. Without, hulls are "
-                              "blue and other meshes are of clay",
-                              render::color_names()))
+                  fmt::format("Colour of IN: #rrggbb, {}.{} Without this option hulls are blue, and other meshes have "
+                              "the colour of clay.",
+                              render::color_names(), kForPanels))
       ->allow_extra_args(false)
       ->type_name("COLOR")
       ->group(kLook);
-  command.add_option("--opacity", options.look.opacity, "Of IN with --over, 0 to 1")
+  add_number(command, "--opacity", options.look.opacity, {0, 1},
+             "Opacity of IN where it is drawn --over a mesh, 0 to 1.")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("OPACITY")
       ->group(kLook);
-  command.add_flag("--ground", options.look.ground, "Let shadows fall on a ground below")->group(kLook);
-  command.add_option("--background", options.background, "A colour, or 'transparent'")
+  command.add_flag("--ground", options.look.ground, "Draw a ground below the meshes, on which shadows fall.")
+      ->group(kLook);
+  command.add_option("--background", options.background, "Colour of the background, or transparent.")
       ->capture_default_str()
       ->type_name("COLOR")
       ->group(kLook);
@@ -338,32 +354,35 @@ void add_look_options(CLI::App& command, Options& options) {
 void add_view_options(CLI::App& command, Options& options) {
   constexpr const char* kView = "View";
   static constexpr std::array<std::pair<std::string_view, int>, 3> kAxes{{{"x", 0}, {"y", 1}, {"z", 2}}};
-  add_choice(command, "--up", options.look.view.up, Names<int>(kAxes), "The axis that points up")->group(kView);
-  command
-      .add_option("--azimuth", options.azimuth_degrees, "Degrees around that axis; 0 is the front, 90 the right side")
+  add_choice(command, "--up", options.look.view.up, kAxes, "Axis that points up.")->group(kView);
+  add_number(command, "--azimuth", options.azimuth_degrees, {-360, 360},
+             "Degrees by which the camera goes around that axis. 0 shows the front, 90 the right side.")
       ->capture_default_str()
-      ->check(CLI::Range(-360.0, 360.0))
+      ->type_name("DEGREES")
       ->group(kView);
-  command.add_option("--elevation", options.elevation_degrees, "Degrees above the horizon, -90 to 90")
+  add_number(command, "--elevation", options.elevation_degrees, {-90, 90},
+             "Degrees by which the camera is above the horizon, -90 to 90.")
       ->capture_default_str()
-      ->check(CLI::Range(-90.0, 90.0))
+      ->type_name("DEGREES")
       ->group(kView);
-  command
-      .add_option("--zoom", options.zooms, "1: all is seen; above, only what is in the middle; once, or for each panel")
+  add_number(
+      command, "--zoom", options.zooms, {0.01, 1000},
+      std::string("Magnification. At 1 all of the meshes is seen, at 2 the middle half of the picture.") + kForPanels)
       ->allow_extra_args(false)
-      ->check(CLI::Range(0.01, 1000.0).description(""))
       ->default_str("1")
       ->type_name("FACTOR")
       ->group(kView);
   command
-      .add_option("--center", options.centers,
-                  "What is in the middle of the picture; once, or for each panel, 'none' for none")
+      .add_option(
+          "--center", options.centers,
+          std::string("Point that is in the middle of the picture, or none for the middle of the meshes.") + kForPanels)
       ->allow_extra_args(false)
       ->type_name("X,Y,Z")
       ->group(kView);
-  command.add_option("--fov", options.field_of_view_degrees, "Degrees across the shorter side of a panel, 1 to 120")
+  add_number(command, "--fov", options.field_of_view_degrees, {1, 120},
+             "Angle that the camera sees across the shorter side of a panel, in degrees, 1 to 120.")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 120.0))
+      ->type_name("DEGREES")
       ->group(kView);
 }
 
@@ -371,23 +390,24 @@ void add_view_options(CLI::App& command, Options& options) {
 
 void add_render(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("render", "Draw meshes and hulls, side by side, as a PNG picture");
-  command
-      .add_option("in", options->in,
-                  "Meshes (PLY, OBJ, OFF, STL, GLB, DAE, 3MF, ...; also .gz or .zip) or .phull files")
+  CLI::App& command = *app.add_subcommand(
+      "render", "Draws meshes and hulls as a PNG picture. Each mesh has a panel of its own, side by side.");
+  command.add_option("in", options->in, std::string("Meshes or .phull files to draw. ") + kMeshFiles)
       ->required()
       ->type_name("IN");
-  command.add_option("-o,--out", options->out, "Where the picture goes")->required()->type_name("OUT.png");
-  command.add_option("--size", options->size, "Of the picture, in pixels")
+  command.add_option("-o,--out", options->out, "File for the picture, .png. With - it goes to standard output.")
+      ->required()
+      ->type_name("OUT.png");
+  add_format_option(command, options->input);
+  command.add_option("--size", options->size, "Size of the picture, in pixels.")
       ->capture_default_str()
       ->type_name("WIDTHxHEIGHT");
-  command.add_option("--samples", options->samples, "Per pixel, 1 to 256: more are smoother")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 256));
-  command.add_flag("--palette", options->palette, "At most 256 colours: a file of less than half the size");
-  command.add_option("--threads", options->threads, "0: one for each core; the picture is the same for any number")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
+  add_number(command, "--samples", options->samples, {1, 256},
+             "Number of samples in each pixel, 1 to 256. More of them make smoother edges.")
+      ->capture_default_str();
+  command.add_flag("--palette", options->palette,
+                   "Use at most 256 colours, so that the file is less than half as large.");
+  add_threads_option(command, options->threads, "The picture is the same for any number.");
   add_report_option(command, options->report);
   add_content_options(command, *options);
   add_look_options(command, *options);

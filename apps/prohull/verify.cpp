@@ -10,6 +10,7 @@ namespace {
 
 struct Options {
   std::filesystem::path hull, original, report;
+  InputOptions hull_input, original_input;
   HullSide side = HullSide::Outer;
   bool every_triangle = false;
 };
@@ -18,9 +19,9 @@ std::string text(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})",
 
 void print_offenders(const Verification& found, const std::string& mesh) {
   if (found.faces_outside > 0)
-    fmt::print("  {} faces of {} lie outside, at least in part; the farthest:\n", grouped(found.faces_outside), mesh);
+    say("  {} faces of {} lie outside, at least in part; the farthest:\n", grouped(found.faces_outside), mesh);
   for (const Offender& o : found.worst)
-    fmt::print("    face {} at {}, {:.6g} outside\n", index(o.face), text(o.point), o.distance);
+    say("    face {} at {}, {:.6g} outside\n", index(o.face), text(o.point), o.distance);
 }
 
 nlohmann::json facts(const std::vector<Offender>& worst) {
@@ -30,19 +31,16 @@ nlohmann::json facts(const std::vector<Offender>& worst) {
   return all;
 }
 
-Verification verify(const Options& options, const std::variant<TriangleMesh, ProgressiveHull>& hull,
-                    TriangleMesh original) {
-  ProgressLine line("verify");
-  const VerificationOptions how{.every_triangle = options.every_triangle, .progress = line.as_progress()};
+Verification verify(const Options& options, const MeshOrHull& hull, TriangleMesh original) {
+  ProgressLine line;
+  const VerificationOptions how{.every_triangle = options.every_triangle, .progress = std::ref(line)};
   try {
     const auto* const levels = std::get_if<ProgressiveHull>(&hull);
     return levels ? verify_hull(*levels, std::move(original), how)
                   : verify_hull(std::get<TriangleMesh>(hull), std::move(original), options.side, how);
-  } catch (const Cancelled&) {
-    throw Interrupted{};
   } catch (const InputError& error) {
-    throw InputError(error.defect(),
-                     fmt::format("{} and {}: {}", options.hull.string(), options.original.string(), error.what()));
+    throw InputError(error.defect(), fmt::format("{} and {}: {}", input_name(options.hull),
+                                                 input_name(options.original), error.what()));
   }
 }
 
@@ -69,16 +67,16 @@ std::string verdict(const Verification& found, const std::string& hull, const st
 }
 
 void print_summary(const Options& options, const Verification& found, double seconds) {
-  const std::string hull = options.hull.string(), original = options.original.string();
-  fmt::print("{}, {:.2f} s\n", verdict(found, hull, original), seconds);
+  const std::string hull = input_name(options.hull), original = input_name(options.original);
+  say("{}, {:.2f} s\n", verdict(found, hull, original), seconds);
   print_offenders(found, found.side == HullSide::Outer ? original : hull);
   if (found.cavities > 0 && found.faces_outside == 0)
-    fmt::print("  {} cavities inside it are not covered\n", grouped(found.cavities));
-  for (const std::string& note : found.notes) fmt::print("  {}\n", note);
+    say("  {} cavities inside it are not covered\n", grouped(found.cavities));
+  for (const std::string& note : found.notes) say("  {}\n", note);
   if (!found.why_not.empty()) return;
-  fmt::print("  hull: volume {:.9g}{}\n", found.hull_volume,
-             found.original_closed ? fmt::format(", void {:.3f} %", 100 * found.void_ratio) : "");
-  fmt::print("  {} intersects itself in {} pairs of faces\n", hull, grouped(found.self_intersections));
+  say("  hull: volume {:.9g}{}\n", found.hull_volume,
+      found.original_closed ? fmt::format(", void {:.3f} %", 100 * found.void_ratio) : "");
+  say("  {} intersects itself in {} pairs of faces\n", hull, grouped(found.self_intersections));
 }
 
 nlohmann::json report_of(const Options& options, const Verification& found, double seconds) {
@@ -107,14 +105,28 @@ nlohmann::json report_of(const Options& options, const Verification& found, doub
   return json;
 }
 
+std::size_t face_count(const MeshOrHull& hull) {
+  const auto* const levels = std::get_if<ProgressiveHull>(&hull);
+  return levels ? levels->base_face_count() : std::get<TriangleMesh>(hull).face_count();
+}
+
 int run_verify(const Options& options) {
-  const auto hull = read_mesh_or_hull(options.hull);
-  TriangleMesh original = read_input(options.original, NonFinite::Keep);
+  check_files({options.hull, options.original}, {options.report});
+  const Stopwatch reading;
+  const MeshOrHull hull = read_mesh_or_hull(options.hull, options.hull_input);
+  TriangleMesh original = read_input(options.original, options.original_input, NonFinite::Keep);
+  const double read_seconds = reading.seconds();
+  const std::size_t original_faces = original.face_count();
+  stop_if_interrupted();
   const Stopwatch verifying;
   const Verification found = verify(options, hull, std::move(original));
   const double seconds = verifying.seconds();
+  Outputs outputs;
+  outputs.add_report(options.report, report_of(options, found, seconds));
+  outputs.commit();
   print_summary(options, found, seconds);
-  write_report(options.report, report_of(options, found, seconds));
+  say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(face_count(hull), "face", "faces"),
+           counted(original_faces, "face", "faces"), found.proof, read_seconds);
   return found.encloses ? kDone : kAnswerIsNo;
 }
 
@@ -124,24 +136,32 @@ void add_verify(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand(
       "verify",
-      "Decide exactly whether a hull encloses a mesh; exits with 1 if it does not. A .phull file is a proof and "
-      "is replayed; mesh files are compared by exact predicates. Of an original that is not closed, every triangle "
-      "must "
-      "be covered");
-  command.add_option("hull", options->hull, "Mesh or .phull file")->required()->type_name("HULL");
-  command.add_option("original", options->original, "The mesh that it should enclose")
+      "Decides exactly whether a hull encloses a mesh, and exits with code 1 if it does not. It shares no code with "
+      "the "
+      "construction of hulls. Two mesh files are compared; a .phull file is a proof, which is replayed. Of an original "
+      "that is not closed, every triangle must be covered.");
+  command.add_option("hull", options->hull, std::string("Mesh or .phull file. ") + kMeshFiles)
+      ->required()
+      ->type_name("HULL");
+  command.add_option("original", options->original, "Mesh that the hull should enclose, in any of these formats.")
       ->required()
       ->type_name("ORIGINAL");
+  add_format_option(command, options->original_input);
+  add_unit_options(command, options->original_input, "ORIGINAL (the same as `prohull build` was given for it)");
   add_choice(command, "--side", options->side, hull_side_names(),
-             "inner: decide whether ORIGINAL encloses HULL (a .phull file knows its side)");
-  command.add_flag(
-      "--every-triangle", options->every_triangle,
-      "Also of a closed original every triangle must be covered, even those of folds and inside-out parts, "
-      "which bound no part of the solid");
+             "Side on which the hull lies. With inner it is decided whether ORIGINAL encloses HULL. A .phull file "
+             "knows its side.");
+  command.add_flag("--every-triangle", options->every_triangle,
+                   "Also of a closed original, every triangle must be covered, even those of folds and of parts that "
+                   "are inside out, which bound no part of the solid.");
   add_report_option(command, options->report);
   add_examples(command, {"prohull verify hull.stl horse.ply", "prohull verify horse.phull horse.ply",
-                         "prohull verify occluder.obj rock.obj --side inner", "prohull verify hull.stl soup.stl"});
-  command.callback([options, &run] { run = [options] { return run_verify(*options); }; });
+                         "prohull verify occluder.obj rock.obj --side inner", "prohull verify hull.stl soup.stl",
+                         "prohull verify arm_collision.stl arm.stl --unit mm"});
+  command.callback([options, &run] {
+    options->hull_input.format = options->original_input.format;  // one of them may be standard input
+    run = [options] { return run_verify(*options); };
+  });
 }
 
 }  // namespace prohull::cli

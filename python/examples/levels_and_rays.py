@@ -38,4 +38,7 @@ def main(path=None, count=20000):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) > 3:
+        print(__doc__, file=sys.stderr)
+        sys.exit(2)
     main(*sys.argv[1:])

@@ -154,8 +154,8 @@ expect 0 "sample as GLB" $prohull sample torus -o torus.glb --faces 500
 expect 0 "info of GLB" $prohull info torus.glb
 expect 0 "render GLB" $prohull render torus.glb --size 16x16 -o torus.png
 expect 0 "query GLB" $prohull query torus.glb --random 10 -o torus.csv
-expect 3 "what is read only" $prohull build rock.ply -o out.dae
-says err "what is read only" "out.dae: that format is read, but not written; name it .ply, .obj, .off, .stl or .glb"
+expect 2 "what is read only" $prohull build rock.ply -o out.dae
+says err "what is read only" "out.dae: meshes are not written to .dae files; name the file .ply, .obj, .off, .stl or .glb"
 head -c 1000 hull.glb >cut.glb
 expect 3 "a GLB cut off" $prohull info cut.glb
 says err "a GLB cut off" "the file ends within the binary chunk; it is truncated"
@@ -235,6 +235,7 @@ printf '0.25,0.25,-0.5,0,0,2\n0.25,0.25,-0.5,0,0,-1\n' >rays.csv
 expect 0 "rays" $prohull query unit.off --rays rays.csv -o hits.csv
 printf 'ray,t,face,x,y,z,entering\n0,0.25,0,0.25,0.25,0,1\n' >expected.csv
 same "rays" hits.csv expected.csv
+cp expected.csv rays_expected.csv
 printf '0.1,0.1,-1,0.2,0.1,1,0.1,0.2,1\n' >triangle.csv
 expect 0 "triangles" $prohull query unit.off --triangles triangle.csv -o hits.csv
 printf 'triangle,face\n0,0\n0,2\n' >expected.csv
@@ -292,7 +293,7 @@ bad_query 2 "unknown engine" "paper-refinement" unit.off --segments three.csv --
 bad_query 2 "refinement of a mesh" "unit.off: this engine" unit.off --segments three.csv --engine refinement
 expect 2 "hits over the segments" $prohull query unit.off --segments three.csv -o three.csv
 says err "hits over the segments" "named twice"
-expect 3 "hits in .txt" $prohull query unit.off --segments three.csv -o hits.txt
+expect 2 "hits in .txt" $prohull query unit.off --segments three.csv -o hits.txt
 says err "hits in .txt" ".npz or .csv"
 expect 3 "hits to no folder" $prohull query unit.off --segments three.csv -o nowhere/hits.csv
 expect 0 "help of query" $prohull query --help
@@ -301,13 +302,45 @@ says out "help of query has engines" "kdop26-overlap"
 
 # --- wrong usage is 2 ---
 expect 2 "no command" $prohull
+says err "no command" "Commands:"
+expect 2 "unknown command" $prohull biuld rock.ply -o x.ply
+says err "unknown command" "unknown command 'biuld'; did you mean 'build'?"
 expect 2 "unknown option" $prohull build rock.ply -o x.ply --face 10
+says err "unknown option" "unknown option '--face' of build; did you mean '--faces'?"
+expect 2 "an option with =" $prohull build rock.ply -o x.ply --max-viod=10
+says err "an option with =" "unknown option '--max-viod' of build; did you mean '--max-void'?"
+expect 2 "an option before the command" $prohull --quiet info rock.ply
+says err "an option before the command" "unknown option '--quiet'; options go behind the command"
+expect 2 "nothing like it" $prohull frobnicate
+says err "nothing like it" "unknown command 'frobnicate'"
+checks=$((checks + 1))
+grep -q "did you mean" err && fail "nothing like it: something is suggested"
+expect 2 "one argument too many" $prohull info rock.ply hull.stl
+says err "one argument too many" "'hull.stl' is one argument too many for info"
+expect 2 "no mesh" $prohull build -o x.ply
+says err "no mesh" "IN is missing"
+expect 2 "a choice" $prohull build rock.ply -o x.ply --side iner
+says err "a choice" "--side must be outer or inner, not 'iner'; did you mean 'inner'?"
+expect 2 "a value left out" $prohull build rock.ply -o x.ply --faces
+says err "a value left out" "--faces needs a value behind it"
 expect 2 "no output" $prohull build rock.ply
 expect 2 "too few faces" $prohull build rock.ply --faces 3 -o x.ply
-says err "too few faces" "4"
+says err "too few faces" "--faces must be at least 4, not 3"
+expect 2 "too great a seed" $prohull build rock.ply -o x.ply --seed 1e20
+says err "too great a seed" "--seed must be at most"
+expect 2 "no number" $prohull build rock.ply --faces many -o x.ply
+says err "no number" "--faces must be a whole number, not 'many'"
+expect 2 "half a face" $prohull build rock.ply --faces 100.5 -o x.ply
+says err "half a face" "--faces must be a whole number, not 100.5"
+expect 2 "no distance" $prohull build rock.ply --max-distance 0 -o x.ply
+says err "no distance" "--max-distance must be greater than 0, not 0"
+expect 2 "too many degrees" $prohull build rock.ply --normal-deviation 91 -o x.ply
+says err "too many degrees" "--normal-deviation must be between 0 and 90, not 91"
+expect 0 "scientific notation" $prohull build rock.ply --target-faces 1e3,500 -o x_{faces}.ply --seed 18446744073709551615
+says out "scientific notation" "x_1000.ply: outer hull of 1,000 faces"
+rm x_*.ply
 expect 2 "negative faces" $prohull build rock.ply --faces -5 -o x.ply
-expect 2 "angle out of range" $prohull build rock.ply --normal-deviation 91 -o x.ply
-expect 2 "hierarchy over the input" $prohull build rock.ply -o x.ply --hierarchy rock.ply
+expect 2 "hierarchy over the input" $prohull build rock.phull -o x.ply --hierarchy rock.phull
 says err "hierarchy over the input" "named twice"
 expect 2 "output in .gz" $prohull build rock.ply -o x.ply.gz
 expect 2 "a side by number" $prohull build rock.ply -o x.ply --side 1
@@ -338,6 +371,27 @@ expect 2 "unknown sample" $prohull sample cow -o x.ply
 says err "unknown sample" "sphere"
 expect 0 "help" $prohull build --help
 says out "help has examples" "prohull build"
+cp out build_help
+expect 0 "help of a command" $prohull help build
+same "help of a command" out build_help
+expect 0 "help of the program" $prohull help
+says out "help of the program" "Commands:"
+expect 2 "help of no command" $prohull help biuld
+says err "help of no command" "did you mean 'build'?"
+for command in "" build verify info lod query render sample completion manual help; do
+  for columns in 40 80 132; do
+    expect 0 "help in $columns columns" env COLUMNS=$columns $prohull help $command
+    checks=$((checks + 1))  # names of options, lists of choices and examples are as long as they are
+    grep -vE '^  +(prohull|curl|-)|[^ ]\|' out | awk -v most=$columns 'length > most { exit 1 }' ||
+      fail "help $command: wider than $columns columns"
+    checks=$((checks + 1))
+    grep -qE '\b(TEXT|UINT|INT|FLOAT|BOOLEAN|ENUM)\b' out && fail "help $command: a type of C++"
+  done
+  [ -z "$command" ] && continue
+  says out "help $command has examples" "Examples:"
+  says out "help $command" "--quiet"
+  says out "help $command" "--verbose"
+done
 
 # --- bad input is 3, one line, with an address ---
 # bad NAME FILE SAYS [OPTIONS]
@@ -376,7 +430,6 @@ expect 3 "a picture of NaN" $prohull render nan.off -o bad.png
 expect 3 "a picture of no file" $prohull render rock.ply --over nowhere.ply -o bad.png
 says err "a picture of no file" "nowhere.ply"
 absent "bad.png" "bad input"
-expect 3 "a mesh is no .phull" $prohull lod rock.ply -o x.ply
 
 # --- what is not closed is repaired or wrapped; several budgets; bounds ---
 expect 0 "several budgets" $prohull build rock.ply --faces 400,100 -o rock_{faces}.stl --report levels.json
@@ -417,6 +470,98 @@ expect 0 "inside out, verified" $prohull verify tetrahedron.ply inside_out.off
 expect 0 "a hull that is inside out" $prohull verify inside_out.off tetrahedron.ply
 says out "a hull that is inside out" "4 faces of the hull face inwards"
 
+# --- how much is told, and where ---
+expect 0 "quiet" $prohull build rock.ply --faces 500 -o quiet.stl --quiet
+checks=$((checks + 1))
+[ -s out ] || [ -s err ] && fail "quiet: something is printed"
+same "quiet" quiet.stl hull.stl
+expect 3 "quiet, but wrong" $prohull info nowhere.ply --quiet
+says err "quiet, but wrong" "nowhere.ply"
+for command in "build rock.ply --faces 500 -o x.stl" "verify hull.stl rock.ply" "info rock.ply" "lod rock.phull -o x.stl" \
+  "query rock.ply --random 10" "render rock.ply --size 16x16 -o x.png" "sample torus -o x.stl"; do
+  expect 0 "quiet $command" $prohull $command -q
+  checks=$((checks + 1))
+  [ -s out ] && fail "quiet $command: something is printed"
+  expect 0 "$command" $prohull $command
+  lines=$(wc -l <out)
+  expect 0 "verbose $command" $prohull $command -v
+  checks=$((checks + 1))
+  [ "$(wc -l <out)" -gt "$lines" ] || fail "verbose $command: nothing more is printed"
+done
+expect 2 "quiet and verbose" $prohull info rock.ply -q -v
+expect 0 "verbose" $prohull build knot.ply --faces 100 -o x.ply --verbose
+says out "verbose: refusals in words" "would make a triangle too thin"
+
+# --- standard input and output ---
+expect 0 "through pipes" sh -c "$prohull build - --faces 500 -o - --out-format stl <rock.ply >piped.stl"
+says err "through pipes: the summary" "standard output: outer hull of 500 faces"
+same "through pipes" piped.stl hull.stl
+expect 0 "an input without magic bytes" sh -c "$prohull info - --in-format obj <finest.obj"
+says out "an input without magic bytes" "standard input"
+expect 0 "a mesh by another name" $prohull lod rock.phull -o level.tmp --out-format stl
+expect 0 "a chain of pipes" sh -c "$prohull sample torus --faces 500 -o - --out-format off | $prohull query - --random 10 \
+  -o - --out-format csv >piped.csv"
+says piped.csv "a chain of pipes" "segment,t,face"
+expect 0 "rays from a pipe" sh -c "$prohull query unit.off --rays - -o - --out-format csv <rays.csv >piped.csv"
+same "rays from a pipe" piped.csv rays_expected.csv
+expect 0 "a proof through pipes" sh -c "$prohull build rock.ply --faces 500 -o x.ply --hierarchy - | $prohull verify - rock.ply"
+says out "a proof through pipes" "every level of standard input encloses rock.ply"
+expect 0 "a picture through pipes" sh -c "$prohull render - --size 160x120 -o - <rock.ply >piped.png"
+same "a picture through pipes" piped.png rock.png
+expect 0 "a report to standard output" sh -c "$prohull info rock.ply --report - >piped.json"
+says piped.json "a report to standard output" '"version":'
+says err "a report to standard output: the summary" "closed 2-manifold"
+expect 2 "an output without a format" $prohull build rock.ply -o -
+says err "an output without a format" "add --out-format ply, obj, off, stl or glb"
+expect 2 "name and format disagree" $prohull build rock.ply -o x.stl --out-format ply
+expect 2 "two files in one output" $prohull build rock.ply -o - --out-format ply --report -
+expect 2 "two files from one input" $prohull verify - -
+for outputs in "build rock.ply -o x.txt" "build rock.ply -o x.ply --hierarchy x.ply2" "lod rock.phull -o x.txt" \
+  "sample torus -o x" "render rock.ply -o x.jpg" "query rock.ply --random 10 -o x.npy" \
+  "query rock.ply --random 10 --write-segments x.npz"; do
+  expect 2 "unsuitable: $outputs" $prohull $outputs
+  says err "unsuitable: $outputs" "; name the file ."
+done
+
+# --- units ---
+awk '/^v / { printf "v %.9g %.9g %.9g\n", $2 * 1000, $3 * 1000, $4 * 1000; next } { print }' finest.obj >mm.obj
+expect 0 "millimetres" $prohull build mm.obj --unit mm --faces 500 -o metres.ply --hierarchy metres.phull --report metres.json
+says metres.json "report: scale" '"scale": 0.001'
+expect 0 "millimetres, verified" $prohull verify metres.ply mm.obj --unit mm
+expect 0 "millimetres, proven" $prohull verify metres.phull mm.obj --unit mm
+expect 0 "millimetres, scaled" $prohull verify metres.ply mm.obj --scale 0.001
+expect 1 "millimetres and metres" $prohull verify metres.ply mm.obj
+says out "millimetres and metres" "the hull is about 1,000 times smaller than the original"
+expect 0 "metres and millimetres" $prohull verify mm.obj metres.ply
+says out "metres and millimetres" "the hull is about 1,000 times larger than the original"
+expect 0 "inches" $prohull info unit.off --unit in
+says out "inches" "(0.0254, 0.0254, 0.0254)"
+expect 0 "a query in metres" $prohull query unit.off --scale 2 --rays rays.csv
+says out "a query in metres" "1 hit;"
+expect 2 "a scale of nothing" $prohull info unit.off --scale 0
+expect 2 "scale and unit" $prohull info unit.off --scale 2 --unit mm
+expect 2 "a .phull has its unit" $prohull info rock.phull --unit mm
+
+# --- info and build agree ---
+cat >agree_unit.off <unit.off
+for mesh in rock.ply open.off nan.off inside_out.off flat.off empty.off huge.off; do
+  expect 0 "info of $mesh" $prohull info $mesh
+  possible=$(grep -c 'hull possible  yes' out)
+  $prohull build $mesh --faces 100 -o agreed.ply >out 2>err
+  got=$?
+  checks=$((checks + 1))
+  [ $got -eq $((possible ? 0 : 3)) ] || fail "info and build of $mesh: possible is $possible, build exits with $got"
+done
+[ "$has_wrap" = 1 ] && expect 0 "info of a mesh to be wrapped" $prohull info open.off &&
+  says out "info of a mesh to be wrapped" "of a wrap around it"
+
+# --- what was mixed up ---
+expect 3 "a mesh is no .phull" $prohull lod rock.ply -o x.ply
+says err "a mesh is no .phull" "this is not a .phull file"
+printf '0.25;0.25;-0.5;0;0;2\n' >semicolons.csv
+expect 0 "semicolons" $prohull query unit.off --rays semicolons.csv
+says out "semicolons" "1 hit; 1 of 1 rays hit"
+
 # --- nothing half-written ---
 expect 3 "no such folder" $prohull build rock.ply --faces 500 -o nowhere/hull.ply
 says err "no such folder" "nowhere/hull.ply"
@@ -426,7 +571,9 @@ if [ "$(id -u)" -ne 0 ]; then
   says err "read-only folder" "read_only/hull.ply"
 fi
 $prohull sample asteroid -o big.ply --faces $((400000 / divisor)) >/dev/null
-# interrupted NAME SECONDS COMMAND...: Ctrl-C so long after it listens ends it with 130 and leaves nothing named interrupted
+most_ms=2000  # a second, and as much where tests run beside each other
+# interrupted NAME SECONDS COMMAND...: Ctrl-C so long after it listens ends it soon, with 130, and leaves nothing named
+# interrupted
 interrupted() {
   name=$1 seconds=$2
   shift 2
@@ -437,16 +584,36 @@ interrupted() {
     sleep 0.05
   done
   sleep "$seconds"
+  since=$(date +%s%N)
   kill -INT $! 2>/dev/null
   wait $!
   code=$?
-  checks=$((checks + 1))
+  took=$((($(date +%s%N) - since) / 1000000))
+  checks=$((checks + 2))
+  [ $took -lt $most_ms ] || fail "$name: answers after $took ms"
   [ $code -eq 130 ] || fail "$name: exit code $code, expected 130"
-  absent "interrupted*" "$name"
+  says err "$name" "interrupted"
+  absent "interrupted* .interrupted*" "$name"
 }
 interrupted "Ctrl-C" 0.3 $prohull build big.ply --faces 500 -o interrupted.ply --hierarchy interrupted.phull
 interrupted "Ctrl-C of a query" 1 $prohull query big.ply --random 100000 --engine brute -o interrupted.csv
 interrupted "Ctrl-C of a picture" 1 $prohull render big.ply --size 4000x3000 --samples 256 -o interrupted.png
+interrupted "Ctrl-C of a tight hull" 1 $prohull build big.ply --faces 500 --tight -o interrupted.stl --report interrupted.json
+interrupted "Ctrl-C of many queries" 1 $prohull query big.ply --random 5e7 --mode all -o interrupted.npz
+interrupted "Ctrl-C of a verification" 0.5 $prohull verify big.ply big.ply --every-triangle --report interrupted.json
+interrupted "Ctrl-C of a sample" 0.5 $prohull sample knot --faces 3e7 -o interrupted.stl
+if [ "$has_wrap" = 1 ]; then
+  interrupted "Ctrl-C of a wrap" 1 $prohull build big.ply --repair wrap --faces 500 -o interrupted.stl
+fi
+mkfifo pipe
+sleep 60 >pipe &  # who writes into it and never ends
+writer=$!
+for command in "info pipe" "build pipe -o interrupted.stl" "lod pipe -o interrupted.stl" "verify pipe rock.ply" \
+  "render pipe -o interrupted.png" "query rock.ply --rays pipe -o interrupted.csv"; do
+  # shellcheck disable=SC2086
+  interrupted "Ctrl-C of $command" 0.2 $prohull $command
+done
+kill $writer
 
 echo "$((checks - failures)) passed, $failures failed"
 [ $failures -eq 0 ]

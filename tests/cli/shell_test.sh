@@ -87,13 +87,13 @@ if command -v man >/dev/null; then
 fi
 
 # Whatever --help shows is in each of them.
-commands=$("$prohull" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+commands=$("$prohull" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
 [ "$(echo "$commands" | wc -l)" -ge 9 ] || fail "only these commands found: $commands"
 for command in $commands; do
-  options=$("$prohull" "$command" --help | grep -oE '^ +(-[a-z],)?--[a-z0-9-]+' | grep -o -- '--.*')
+  names=$("$prohull" "$command" --help | grep -oE '^  (-[a-z], )?--[a-z0-9-]+(, --[a-z0-9-]+)*' | grep -oE -- '-[-a-z0-9]+')
+  options=$(echo "$names" | grep -- '^--')
   echo "$options" | grep -qx -- --help || fail "no options of $command found"
-  bash_completes "$(printf '%s\n' -h $options $("$prohull" "$command" --help | grep -q -- '-o,--out' && echo -o) | one_line)" \
-    "$command" -
+  bash_completes "$(echo "$names" | one_line)" "$command" -
   for option in $options; do
     grep -q -- "__fish_seen_subcommand_from $command' .*-l ${option#--}\b" prohull.fish || fail "fish: $command $option"
     sed -n "/^    $command)/,/;;/p" _prohull | grep -q -- "$option[=[]" || fail "zsh: $command $option"

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace prohull::cli {
+
+// What a command tells its user: a summary, and how far it is. Errors are main's, and go to standard error in any case.
+
+struct Console {
+  bool quiet = false, verbose = false;
+  std::FILE* summary = stdout;  ///< stderr where standard output carries a file
+};
+Console& console();
+
+/// Prints a part of the summary, unless --quiet was given.
+template <class... Values>
+void say(fmt::format_string<Values...> text, Values&&... values) {
+  if (!console().quiet) fmt::print(console().summary, text, std::forward<Values>(values)...);
+}
+
+/// Prints what only --verbose shows.
+template <class... Values>
+void say_more(fmt::format_string<Values...> text, Values&&... values) {
+  if (console().verbose) say(text, std::forward<Values>(values)...);
+}
+
+/// A count as messages have it: 96966 -> "96,966".
+std::string grouped(std::size_t number);
+
+/// "1 face", "2,100 faces"
+std::string counted(std::size_t number, const char* one, const char* many);
+
+/// A prohull::Progress that draws how far each stage is on one line of standard error, if that is a terminal. The line
+/// vanishes with the object. Returns false once the user has interrupted.
+class ProgressLine {
+ public:
+  ProgressLine() = default;
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ~ProgressLine();
+  bool operator()(std::string_view stage, double fraction);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string stage_;
+  double fraction_ = 0;
+  bool shown_ = false;
+  Clock::time_point started_ = Clock::now(), drawn_;
+};
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace prohull::cli

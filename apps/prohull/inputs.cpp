@@ -1,0 +1,119 @@
+#include "inputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include "command.h"
+#include "prohull/error.h"
+#include "prohull/hull_file.h"
+
+namespace prohull::cli {
+namespace {
+
+/// The name by which a reader knows a file, of which it takes the format.
+std::filesystem::path known_as(const std::filesystem::path& path, const InputOptions& options) {
+  if (!is_standard_stream(path)) return path;
+  return options.format.empty() ? "standard input" : "standard input." + options.format;
+}
+
+// A reader of COLLADA makes metres of its coordinates.
+bool carries_its_unit(const std::filesystem::path& path) {
+  std::string suffix = path.extension().string();
+  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
+  return suffix == ".dae" || suffix == ".zae";
+}
+
+ReadOptions read_options(const std::filesystem::path& name, const InputOptions& options, NonFinite non_finite,
+                         const Progress& progress) {
+  if (options.unit > 0 && carries_its_unit(name))
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("{}: --unit is for files that do not say their unit; COLLADA says it, and is read in "
+                                 "metres; leave --unit out, or use --scale",
+                                 name.string()));
+  return {.non_finite = non_finite, .scale = options.factor(), .progress = progress};
+}
+
+TriangleMesh mesh_in(std::string_view content, const std::filesystem::path& path, const InputOptions& options,
+                     NonFinite non_finite) {
+  const std::filesystem::path name = known_as(path, options);
+  ProgressLine line;
+  return read_mesh(content, name, read_options(name, options, non_finite, std::ref(line)));
+}
+
+std::vector<std::string> input_formats() {
+  std::vector<std::string> formats;
+  for (const std::string& extension : read_mesh_extensions()) formats.push_back(extension.substr(1));
+  return formats;
+}
+
+}  // namespace
+
+void add_format_option(CLI::App& command, InputOptions& options) {
+  command
+      .add_option("--in-format", options.format,
+                  "Format of a mesh that comes from standard input (-): ply, stl, dae or any other suffix of a format "
+                  "that is read. Without this option its content tells.")
+      ->transform(one_of("--in-format", input_formats()))
+      ->type_name("FORMAT");
+}
+
+void add_unit_options(CLI::App& command, InputOptions& options, const std::string& what) {
+  CLI::Option* const scale = add_number(command, "--scale", options.scale, kPositive,
+                                        "Multiply the coordinates of " + what + " by this number when it is read.")
+                                 ->type_name("S");
+  add_choice(command, "--unit", options.unit, length_units(),
+             "Unit of the numbers in " + what +
+                 ", which are converted to metres when it is read. For files that do not say their unit, such as STL, "
+                 "OBJ, PLY and OFF.")
+      ->excludes(scale);
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  const auto fail = [&] {
+    throw InputError(Defect::CannotRead,
+                     fmt::format("{}: cannot read: {}", input_name(path), std::generic_category().message(errno)));
+  };
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
+      is_standard_stream(path) ? stdin : std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file) fail();
+  constexpr std::size_t kChunk = std::size_t{1} << 20;
+  std::string bytes;
+  std::size_t size = 0;
+  do {
+    stop_if_interrupted();
+    bytes.resize(std::max(size + kChunk, 2 * size));
+    size += std::fread(bytes.data() + size, 1, bytes.size() - size, file.get());
+    if (std::ferror(file.get())) fail();
+  } while (!std::feof(file.get()));
+  bytes.resize(size);
+  return bytes;
+}
+
+TriangleMesh read_input(const std::filesystem::path& path, const InputOptions& options, NonFinite non_finite) {
+  return mesh_in(read_bytes(path), path, options, non_finite);
+}
+
+MeshOrHull read_mesh_or_hull(const std::filesystem::path& path, const InputOptions& options, NonFinite non_finite) {
+  const std::string content = read_bytes(path);
+  if (!is_hull_content(content)) return mesh_in(content, path, options, non_finite);
+  if (options.factor() != 1)
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("{}: --scale and --unit are for mesh files; a .phull file has the coordinates that it "
+                                 "was built with",
+                                 input_name(path)));
+  return load_hull(content, known_as(path, options));
+}
+
+ProgressiveHull read_hull(const std::filesystem::path& path) { return load_hull(read_bytes(path), known_as(path, {})); }
+
+std::string input_name(const std::filesystem::path& path) {
+  return is_standard_stream(path) ? "standard input" : path.string();
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "prohull/mesh_io.h"
+#include "prohull/progressive_hull.h"
+
+namespace prohull::cli {
+
+/// What --help says of an argument that is a mesh file.
+constexpr const char* kMeshFiles =
+    "Meshes are PLY, OBJ, OFF, STL, GLB, glTF, DAE, 3MF and others (docs/formats.md), also as .gz or .zip. With - "
+    "the file is read from standard input.";
+
+/// How mesh files are read.
+struct InputOptions {
+  std::string format;  ///< of standard input, such as "stl"; empty: its content tells
+  double scale = 1;
+  double unit = 0;  ///< of the file's numbers, in metres; 0: none is said
+
+  double factor() const { return unit > 0 ? unit : scale; }  ///< ReadOptions::scale
+};
+void add_format_option(CLI::App& command, InputOptions& options);
+/// --scale and --unit, which apply to `what`.
+void add_unit_options(CLI::App& command, InputOptions& options, const std::string& what);
+
+/// The bytes of a file, or of standard input for "-". Throws InputError(CannotRead).
+std::string read_bytes(const std::filesystem::path& path);
+
+/// read_mesh of a file, or of standard input for "-"; ended by Ctrl-C.
+TriangleMesh read_input(const std::filesystem::path& path, const InputOptions& options = {},
+                        NonFinite non_finite = NonFinite::Refuse);
+
+/// What a mesh or .phull file holds; it is read once, so that it may be a pipe.
+using MeshOrHull = std::variant<TriangleMesh, ProgressiveHull>;
+MeshOrHull read_mesh_or_hull(const std::filesystem::path& path, const InputOptions& options = {},
+                             NonFinite non_finite = NonFinite::Refuse);
+
+ProgressiveHull read_hull(const std::filesystem::path& path);
+
+/// As messages name it: "-" is "standard input".
+std::string input_name(const std::filesystem::path& path);
+
+}  // namespace prohull::cli

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "prohull/names.h"
+
+namespace prohull::cli {
+
+// Options that say in plain words what they take, where --help and errors tell it.
+
+/// The numbers that an option takes.
+struct Range {
+  double least = 0, most = std::numeric_limits<double>::infinity();
+  bool without_least = false;
+};
+constexpr Range kPositive{.without_least = true};
+constexpr Range kSeed{0, 0x1p64};
+
+/// Refuses what is no number in the range, and writes the others as CLI11 reads them: 1e6 as 1000000.
+/// `name` is that of the option, for the message.
+CLI::Validator number_in(const std::string& name, const Range& range, bool whole);
+
+/// Refuses what is none of the words, and suggests the nearest.
+CLI::Validator one_of(const std::string& name, const std::vector<std::string>& words);
+
+/// "--faces" of "-f,--faces,--target-faces"; "SHELL" of "shell"
+std::string main_name(const std::string& names);
+
+/// Values of which each is a number, such as std::size_t or std::vector<double>.
+template <class Values>
+CLI::Option* add_number(CLI::App& command, const std::string& names, Values& values, const Range& range,
+                        const std::string& description) {
+  constexpr bool kWhole = [] {
+    if constexpr (std::is_arithmetic_v<Values>)
+      return std::is_integral_v<Values>;
+    else
+      return std::is_integral_v<typename Values::value_type>;
+  }();
+  CLI::Option* const option =
+      command.add_option(names, values, description)->transform(number_in(main_name(names), range, kWhole));
+  return kWhole ? option->type_name("N") : option;
+}
+
+/// An option that takes one of the names, of which --help tells the one that `value` has as the default.
+template <class Value>
+CLI::Option* add_choice(CLI::App& command, const std::string& names, Value& value,
+                        std::type_identity_t<Names<Value>> choices, const std::string& description) {
+  std::vector<std::string> words;
+  for (const auto& [name, choice] : choices) words.emplace_back(name);
+  const auto set = [&value, choices](const std::string& word) { value = value_of(choices, word).value_or(value); };
+  return command.add_option_function<std::string>(names, set, description)
+      ->transform(one_of(main_name(names), words))
+      ->type_name(CLI::detail::join(words, "|"))
+      ->default_str(std::string(name_of(choices, value)));
+}
+
+/// `note` says what the threads do not change.
+void add_threads_option(CLI::App& command, unsigned& threads, const std::string& note);
+void add_report_option(CLI::App& command, std::filesystem::path& path);
+void add_examples(CLI::App& command, const std::vector<std::string>& examples);
+
+/// The word that someone most likely meant, or none if all are far from it.
+std::string nearest(std::string_view word, const std::vector<std::string>& words);
+
+/// "; did you mean 'build'?", or nothing
+std::string suggestion(std::string_view word, const std::vector<std::string>& words);
+
+/// "ply, obj or off"
+std::string alternatives(const std::vector<std::string>& words);
+
+}  // namespace prohull::cli

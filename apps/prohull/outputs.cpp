@@ -1,0 +1,249 @@
+#include "outputs.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <fstream>
+#include <mutex>
+#include <system_error>
+
+#include "console.h"
+#include "interrupt.h"
+#include "options.h"
+#include "prohull/error.h"
+#include "prohull/mesh_io.h"
+
+namespace prohull::cli {
+namespace {
+
+using std::filesystem::path;
+
+/// Held while outputs appear, and for good by the thread that ends the program.
+std::mutex g_mutex;
+std::vector<path> g_temporaries;
+
+[[noreturn]] void fail_to_write(const path& target, const std::string& why) {
+  throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write: {}", target.string(), why));
+}
+
+[[noreturn]] void fail_to_write(const path& target) { fail_to_write(target, std::generic_category().message(errno)); }
+
+[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
+
+bool is_stream(const path& target) {
+  std::error_code error;
+  const auto status = std::filesystem::status(target, error);
+  return is_standard_stream(target) || (exists(status) && !is_regular_file(status) && !is_directory(status));
+}
+
+// A pipe, as /dev/stdin may be, has no canonical name.
+path resolved(const path& file) {
+  std::error_code error;
+  path canonical = weakly_canonical(file, error);
+  return error ? file : canonical;
+}
+
+path temporary_for(const path& target, const std::string& suffix) {
+  static int count = 0;
+  const std::string tail = fmt::format(".{}.{}.unfinished{}", getpid(), count++, suffix);
+  if (is_stream(target)) return std::filesystem::temp_directory_path() / ("prohull" + tail);
+  return resolved(target).replace_filename("." + target.stem().string() + tail);
+}
+
+/// Together with what a writer left beside it, whose name begins alike.
+void remove_all_of(const path& temporary) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(temporary.parent_path(), ignored))
+    if (entry.path().filename().string().starts_with(temporary.filename().string()))
+      std::filesystem::remove(entry.path(), ignored);
+}
+
+class Descriptor {
+ public:
+  Descriptor(const path& file, int flags) : descriptor_(open(file.c_str(), flags)) {
+    if (descriptor_ < 0) fail_to_write(file);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { close(descriptor_); }
+  int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+void write_all(int to, const char* bytes, std::size_t size, const path& target) {
+  while (size > 0) {
+    const ssize_t written = write(to, bytes, size);
+    if (written < 0 && errno != EINTR) fail_to_write(target);
+    if (written < 0) continue;
+    bytes += written, size -= static_cast<std::size_t>(written);
+  }
+}
+
+/// The file has no name meanwhile, so that nothing of it stays if the reader of a pipe goes away.
+void pour(const path& temporary, const path& target) {
+  const Descriptor from(temporary, O_RDONLY);
+  std::filesystem::remove(temporary);
+  std::array<char, 1 << 16> bytes;
+  const auto copy_to = [&](int to) {
+    while (const ssize_t size = read(from.get(), bytes.data(), bytes.size())) {
+      if (size < 0) fail_to_write(target);
+      write_all(to, bytes.data(), static_cast<std::size_t>(size), target);
+    }
+  };
+  if (is_standard_stream(target))
+    copy_to(STDOUT_FILENO);
+  else
+    copy_to(Descriptor(target, O_WRONLY).get());
+}
+
+/// "ply" of ".ply"
+std::vector<std::string> formats_of(const OutputKind& kind) {
+  std::vector<std::string> formats;
+  for (const std::string& suffix : kind.suffixes) formats.push_back(suffix.substr(1));
+  return formats;
+}
+
+void require_writable(const path& file) {
+  if (file.empty() || is_stream(file)) return;
+  const path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder))
+    fail_to_write(file, fmt::format("there is no folder {}; create it first", folder.string()));
+  if (std::filesystem::is_directory(file)) fail_to_write(file, "it is a folder; name a file in it");
+  if (access(folder.c_str(), W_OK) != 0)
+    fail_to_write(file, fmt::format("{} takes no files from you; choose another folder", folder.string()));
+}
+
+}  // namespace
+
+Outputs::~Outputs() {
+  const std::lock_guard lock(g_mutex);
+  for (const Pending& pending : pending_) {
+    remove_all_of(pending.temporary);
+    std::erase(g_temporaries, pending.temporary);
+  }
+}
+
+bool Outputs::add(const path& target, const std::string& suffix, const std::function<bool(const path&)>& write) {
+  if (target.empty()) return true;
+  stop_if_interrupted();
+  const path temporary = temporary_for(target, suffix);
+  {
+    const std::lock_guard lock(g_mutex);
+    pending_.push_back({target, temporary});
+    g_temporaries.push_back(temporary);
+  }
+  try {
+    if (write(temporary)) return true;
+  } catch (const InputError& error) {  // which names the file that we see, not the one that the user knows
+    std::string what = error.what();
+    if (const auto at = what.find(temporary.string()); at != std::string::npos)
+      what.replace(at, temporary.string().size(), target.string());
+    throw InputError(error.defect(), what);
+  }
+  remove_all_of(temporary);
+  pending_.pop_back();
+  return false;
+}
+
+void Outputs::add(const path& target, std::string_view bytes) {
+  add(target, target.extension().string(), [&](const path& file) {
+    std::ofstream out(file, std::ios::binary);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out) fail_to_write(file);
+    return true;
+  });
+}
+
+void Outputs::add_report(const path& target, nlohmann::json report) {
+  if (target.empty()) return;
+  report["version"] = PROHULL_VERSION;
+  add(target, report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+void Outputs::commit() {
+  {
+    const std::lock_guard lock(g_mutex);
+    stop_if_interrupted();
+    for (const auto& [target, temporary] : pending_)
+      if (!is_stream(target)) {
+        std::error_code error;
+        std::filesystem::rename(temporary, resolved(target), error);
+        if (error) fail_to_write(target, error.message());
+      }
+  }
+  for (const auto& [target, temporary] : pending_)  // who reads a pipe may take his time
+    if (is_stream(target)) pour(temporary, target);
+}
+
+void remove_unfinished_outputs() {
+  g_mutex.lock();
+  for (const path& temporary : g_temporaries) remove_all_of(temporary);
+}
+
+bool is_standard_stream(const path& file) { return file == "-"; }
+
+void check_files(const std::vector<path>& inputs, const std::vector<path>& outputs) {
+  if (std::ranges::count_if(inputs, is_standard_stream) > 1)
+    refuse("standard input (-) is named twice, but can be read only once; save one of the files first");
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    if (output->empty()) continue;
+    const auto is_same = [&](const path& other) { return !other.empty() && resolved(other) == resolved(*output); };
+    if (std::any_of(outputs.begin(), output, is_same))
+      refuse(is_standard_stream(*output)
+                 ? "standard output (-) is named twice, but takes one file only; name another file"
+                 : fmt::format("{} is named twice, and would be overwritten; choose another name", output->string()));
+    if (!is_standard_stream(*output) && std::ranges::any_of(inputs, is_same))
+      refuse(fmt::format("{} is named twice, and would be overwritten; choose another name", output->string()));
+    require_writable(*output);
+    if (is_standard_stream(*output)) console().summary = stderr;
+  }
+}
+
+OutputKind mesh_outputs() { return {"meshes", written_mesh_extensions()}; }
+
+void add_mesh_output_options(CLI::App& command, path& out, std::string& format, const std::string& what) {
+  command
+      .add_option(
+          "-o,--out", out,
+          fmt::format("File for {}. Its name ends in {}, which tells the format. With - it goes to standard output.",
+                      what, alternatives(mesh_outputs().suffixes)))
+      ->required()
+      ->type_name("OUT");
+  add_out_format_option(command, format, mesh_outputs());
+}
+
+CLI::Option* add_out_format_option(CLI::App& command, std::string& format, const OutputKind& kind) {
+  const std::vector<std::string> formats = formats_of(kind);
+  return command
+      .add_option("--out-format", format, "Format of the output, where its name does not tell it: the name - does not.")
+      ->transform(one_of("--out-format", formats))
+      ->type_name(CLI::detail::join(formats, "|"));
+}
+
+std::string output_name(const path& file) { return is_standard_stream(file) ? "standard output" : file.string(); }
+
+std::string output_suffix(const path& file, const OutputKind& kind, const std::string& format) {
+  std::string suffix = file.extension().string();
+  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
+  const bool is_known = std::ranges::find(kind.suffixes, suffix) != kind.suffixes.end();
+  if (is_known && !format.empty() && suffix != "." + format)
+    refuse(fmt::format("{}: its name ends in {}, but --out-format says {}; make them agree", file.string(), suffix,
+                       format));
+  if (is_known) return suffix;
+  if (!format.empty()) return "." + format;
+  if (is_standard_stream(file))
+    refuse(fmt::format("standard output (-) has no name that tells its format; add --out-format {}",
+                       alternatives(formats_of(kind))));
+  refuse(fmt::format("{}: {} are not written to {}; name the file {}", file.string(), kind.what,
+                     suffix.empty() ? "files without a suffix" : suffix + " files", alternatives(kind.suffixes)));
+}
+
+}  // namespace prohull::cli
