@@ -7,6 +7,8 @@
 #include <random>
 #include <variant>
 
+#include "dyadic_points.h"
+#include "geometry/predicates.h"
 #include "random.h"
 
 namespace prohull {
@@ -81,6 +83,21 @@ TEST(TrianglesTouch, TellsOneUlpApartAndHoldsForHugeAndTinyCoordinates) {
     EXPECT_FALSE(triangles_touch(floor, {higher.a, higher.a, higher.a}));
     EXPECT_TRUE(triangles_touch(floor, {over.a, over.a, over.a}));
   }
+}
+
+TEST(CertainlyApart, IsNeverTrueOfTrianglesThatTouchInAPoint) {
+  DyadicPoints points(test_seed());
+  int beside = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Triangle s{points.any(), points.any(), points.any()};
+    const Vec3 on = points.on(s, i);
+    const Triangle t{on, points.any(), points.any()};
+    if (side(s.a, s.b, s.c, t.b) != side(s.a, s.b, s.c, t.c)) continue;  // it crosses the plane
+    ++beside;
+    ASSERT_FALSE(certainly_apart(s, t)) << print(s) << " and " << print(t);
+    ASSERT_FALSE(certainly_apart(t, s));
+  }
+  EXPECT_GT(beside, 5000);
 }
 
 TEST(CertainlyApart, IsSeldomInDoubt) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <random>
 
+#include "dyadic_points.h"
 #include "effort.h"
 #include "query/box_line.h"
 #include "query/line.h"
@@ -122,20 +123,12 @@ TEST(Crossing, IsAtAFiniteTWhereTheLineAllButRunsInTheFace) {
 }
 
 TEST(MayMeet, IsNeverFalseWhereALineTouches) {
-  // Lines from, to and through a corner of the face, a point of an edge and a point within: all exact, with coordinates
-  // of 40 bits and weights of 4, so that only the filters round.
-  std::mt19937 random(test_seed());
-  constexpr std::int64_t kOne = std::int64_t{1} << 40;
-  std::uniform_int_distribution<std::int64_t> coordinate(-kOne, kOne);
-  const auto any = [&] { return std::ldexp(static_cast<double>(coordinate(random)), -40); };
-  const auto point = [&] { return Vec3{any(), any(), any()}; };
-  const auto sixteenths = [&](int least, int most) { return std::uniform_int_distribution<int>(least, most)(random); };
+  // Lines from, to and through a corner of the face, a point of an edge and a point within: only the filters round.
+  DyadicPoints points(test_seed());
   for (int i = 0; i < rounds(20000); ++i) {
-    const Triangle face{point(), point(), point()};
-    const int a = i % 3 == 0 ? 16 : sixteenths(1, i % 3 == 1 ? 15 : 14);
-    const int b = i % 3 == 2 ? sixteenths(1, 15 - a) : 16 - a;
-    const Vec3 on = face.a * (a / 16.0) + face.b * (b / 16.0) + face.c * ((16 - a - b) / 16.0);
-    const Vec3 away = point();
+    const Triangle face{points.any(), points.any(), points.any()};
+    const Vec3 on = points.on(face, i);
+    const Vec3 away = points.any();
     EXPECT_TRUE(may_meet(DirectedLine(Segment{away, 2 * on - away}), face));
     EXPECT_TRUE(may_meet(DirectedLine(Segment{away, on}), face));
     EXPECT_TRUE(may_meet(DirectedLine(Segment{on, away}), face));

@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "dyadic_points.h"
 #include "effort.h"
 #include "geometry/bvh.h"
 #include "geometry/triangle_contact.h"
@@ -88,6 +89,22 @@ TEST(Balls, NeverLetAQueryMissWhatItMeets) {
   }
   EXPECT_GT(met, missed / 100);
   EXPECT_LT(marked, missed * 6 / 10);
+}
+
+// Of the least radius that there is: what remains is rounding.
+TEST(Balls, OfAPointAreMarkedByEveryLineThroughIt) {
+  DyadicPoints points(test_seed());
+  for (int i = 0; i < rounds(20000); ++i) {
+    const Vec3 p = points.any(), away = points.any();
+    Balls balls(Box{{-1, -1, -1}, {1, 1, 1}});
+    balls.add(std::array{p});
+    for (const DirectedLine& line : {DirectedLine(Segment{away, p}), DirectedLine(Segment{away, 2 * p - away}),
+                                     DirectedLine(Ray{p, away}), DirectedLine(Ray{away, p - away})}) {
+      std::vector<std::uint8_t> marks(1);
+      balls.mark(line, marks);
+      ASSERT_TRUE(marks[0]);
+    }
+  }
 }
 
 TEST(LineSieve, NeverPassesAFaceThatTheLineMeets) {
