@@ -100,15 +100,14 @@ std::string proof_of(const TriangleMesh& hull, const TriangleMesh& original, con
 bool is_within(const TriangleMesh& hull, const TriangleMesh& original, double volume, double max_distance,
                double max_void_ratio, double max_added_volume) {
   return watched(py::none(), [&](Watch& watch) {
-    return HullBounds{max_distance, max_void_ratio, max_added_volume}.hold(hull, original, volume,
-                                                                           {.progress = watch.progress()});
+    return HullBounds{max_distance, max_void_ratio, max_added_volume}.hold(hull, original, volume, watch.progress());
   });
 }
 
 py::tuple float32_hull(const TriangleMesh& hull, const std::string& side) {
   Float32Hull rounded =
       watched(py::none(), [&](Watch&) { return with_float32_coordinates(hull, side_called(side), NoRoom::Round); });
-  return py::make_tuple(std::move(rounded.mesh), rounded.moved_vertices);
+  return py::make_tuple(std::move(rounded.mesh), rounded.rounded_vertices);
 }
 
 }  // namespace
