@@ -102,10 +102,6 @@ class Sources {
     if (hull.wrap_alpha > 0 || options.hull.side == HullSide::Inner || options.repair == Repair::None) return nullptr;
     return made_.solids[hull.solid].self_intersections > 0 ? original_ : dropped_;
   }
-  /// What void is measured against: of a mesh that is not closed, the wrap that the hull was built from.
-  double volume(const EnclosingHull& hull) const {
-    return made_.input.closed ? made_.input.closed->report.volume : made_.solids[hull.solid].volume;
-  }
 
  private:
   static SharedMesh shared(TriangleMesh mesh) {
@@ -116,10 +112,14 @@ class Sources {
   SharedMesh closed_, original_, dropped_;
 };
 
-std::vector<std::string> notes_of(const EnclosingHull& hull, const EnclosingHulls& made) {
+std::vector<std::string> notes_of(const EnclosingHull& hull) {
   std::vector<std::string> notes = hull.notes;
-  if (!made.input.closed)
-    notes.push_back("the mesh is not closed and has no volume: void_ratio is measured against the wrap");
+  if (!hull.target_reached)
+    notes.push_back("the hull has " + std::to_string(hull.mesh.face_count()) + " faces, more than the " +
+                    std::to_string(hull.target_faces) + " asked for: of its edges, " + describe_refusals(hull.blocked));
+  if (!hull.within_bounds) notes.push_back("the hull is not within the bounds asked for: no hull was");
+  if (hull.wrap_alpha > 0)
+    notes.push_back("the hull was built from a wrap of the mesh: void_ratio is measured against the wrap");
   return notes;
 }
 
@@ -128,12 +128,12 @@ py::dict facts_of(EnclosingHull hull, const Sources& sources, const EnclosingHul
   py::dict facts;
   facts["original"] = sources.original(hull);
   facts["covered"] = sources.covered(hull, options);
-  facts["volume_inside"] = sources.volume(hull);
+  facts["volume_inside"] = made.solids[hull.solid].volume;
   if (options.bounds.any())
     facts["bounds"] = py::make_tuple(made.solids.front().volume, options.bounds.max_distance,
                                      options.bounds.max_void_ratio, options.bounds.max_added_volume);
   facts["wrap_alpha"] = hull.wrap_alpha;
-  facts["notes"] = notes_of(hull, made);
+  facts["notes"] = notes_of(hull);
   facts["mesh"] = std::move(hull.mesh);
   facts["levels"] = std::move(hull.levels);
   facts["certified"] = hull.certified;

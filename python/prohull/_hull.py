@@ -147,9 +147,9 @@ class Hull(Mesh):
     def void_ratio(self) -> float:
         """The void, as a share of the volume of the mesh: volume of the hull / volume of the mesh - 1.
 
-        Negative for inner hulls. A mesh that is not closed has no volume: there the void is measured against the wrap
-        that the hull was built from, which a hull that moved back towards the mesh may be smaller than, and `notes`
-        says so.
+        Negative for inner hulls. For a hull that was built from a wrap, the void is a share of the volume of that wrap,
+        and `notes` says so: a mesh that is not closed has no volume. It may be negative there, because the hull moves
+        back towards the mesh.
         """
         return self.volume / self._volume_inside - 1 if self._volume_inside else math.nan
 

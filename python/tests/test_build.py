@@ -107,6 +107,13 @@ def test_what_is_not_closed_is_wrapped_or_refused(cube):
     assert prohull.verify(hull, (vertices, lidless))
 
 
+def test_notes_tell_what_is_not_as_it_was_asked_for(pony):
+    assert prohull.build(pony, 500).notes == []
+    stuck = prohull.build(prohull.sample("torus", 200), 4, side="inner")  # a torus has at least 14
+    assert not stuck.target_reached and sum(stuck.blocked.values()) > 0
+    assert f"{len(stuck.faces)} faces, more than the 4 asked for: of its edges, " in stuck.notes[-1]
+
+
 def test_repairs_are_told(cube):
     vertices, faces = cube
     hull = prohull.build(vertices[faces].reshape(-1, 3), np.arange(36).reshape(12, 3), target_faces=12)

@@ -21,6 +21,25 @@ def test_progress_is_told_on_the_calling_thread(pony):
     assert {thread for _, _, thread in told} == {threading.get_ident()}
 
 
+@pytest.mark.parametrize("work, stages", [
+    (lambda mesh, rays, progress: mesh.first_hit(*rays, progress=progress), {"query"}),
+    (lambda mesh, rays, progress: mesh.any_hit(*rays, progress=progress), {"query"}),
+    (lambda mesh, rays, progress: mesh.all_hits(*rays, progress=progress), {"query"}),
+    (lambda mesh, rays, progress: mesh.contains(rays[0], progress=progress), {"query"}),
+    (lambda mesh, rays, progress: mesh.faces_met(np.zeros((1000, 9)), progress=progress), {"query"}),
+    (lambda mesh, rays, progress: prohull.verify(mesh, mesh, progress=progress), {"verify"}),
+    (lambda mesh, rays, progress: prohull.distance_bounds(mesh, mesh, progress=progress), {"measure"}),
+])
+def test_all_that_takes_long_tells_progress(pony, random, work, stages):
+    rays, told = random().normal(size=(2, 20000, 3)), []
+    work(pony, rays, lambda *state: told.append((*state, threading.get_ident())))
+    assert told[0][:2] == ("start", 0.0) and told[-1][:2] == ("done", 1.0)
+    assert {stage for stage, _, _ in told[1:-1]} <= stages | {"start"}
+    assert {thread for _, _, thread in told} == {threading.get_ident()}
+    with pytest.raises(KeyboardInterrupt, match="progress returned False"):
+        work(pony, rays, lambda stage, fraction: False)
+
+
 def test_progress_can_stop_a_build(pony):
     stages = []
 
