@@ -17,6 +17,13 @@ def run(name, *arguments):
                           stdout=subprocess.PIPE).stdout
 
 
+@pytest.mark.parametrize("name, arguments", [("batch.py", 0), ("collision_mesh.py", 1), ("levels_and_rays.py", 3),
+                                             ("void_plot.py", 0)])
+def test_wrong_arguments_get_the_usage(name, arguments):
+    done = subprocess.run([sys.executable, str(EXAMPLES / name), *["x"] * arguments], text=True, stderr=subprocess.PIPE)
+    assert done.returncode == 2 and name in done.stderr and "Traceback" not in done.stderr
+
+
 def test_docstring():
     assert doctest.testmod(prohull).failed == 0 < doctest.testmod(prohull).attempted
 

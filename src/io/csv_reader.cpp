@@ -63,7 +63,7 @@ class CsvReader {
         fail(fmt::format("there is no {} after {}", separator_ == ',' ? "comma" : "semicolon", columns_.names[i - 1]));
       row_[i] = scanner_.number(columns_.names[i]);
     }
-    if (!scanner_.at_line_end()) fail("it goes on after that");
+    if (!scanner_.at_line_end()) fail("the line goes on after the last number");
   }
 
   [[noreturn]] void fail(std::string_view why) const {

@@ -185,7 +185,7 @@ FileContent zip_member(std::string_view bytes, const std::filesystem::path& name
   ZipReader zip(bytes, name);
   while (const auto next = zip.next())
     if (*next == member) return {zip.data(), name / std::filesystem::path(member).relative_path()};
-  fail_to_decompress(name, fmt::format("it has no {}", member));
+  fail_to_decompress(name, fmt::format("it contains no {}", member));
 }
 
 std::optional<FileContent> decompressed(std::string_view bytes, const std::filesystem::path& name) {

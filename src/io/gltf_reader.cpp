@@ -126,7 +126,8 @@ class GltfReader {
     if (content.size() < kGlbHeader + kChunkHeader) fail_at_end("the header of a GLB");
     ByteCursor cursor(content, kMagic.size());
     if (const auto version = cursor.read<std::uint32_t>(); version != 2)
-      fail(file_, {Place::Unit::Byte, 4}, fmt::format("GLB version {}; only 2 is read, export as glTF 2.0", version));
+      fail(file_, {Place::Unit::Byte, 4},
+           fmt::format("it has version {} of GLB, and only 2 is read; export as glTF 2.0", version));
     cursor.skip(sizeof(std::uint32_t));  // the length of all, which chunks tell better
     Chunks chunks;
     for (std::size_t i = 0; i < 2 && cursor.has(1, kChunkHeader); ++i) {
@@ -203,9 +204,9 @@ class GltfReader {
     const bool has = asset != json_.end() && asset->is_object() && asset->value("version", Json()).is_string();
     const std::string version = has ? asset->at("version").get<std::string>() : "";
     if (!version.starts_with("2."))
-      fail_in("asset",
-              has ? fmt::format("glTF version {}; only 2 is read, export as glTF 2.0", prohull::quoted(version))
-                  : "it has no version; the file is no glTF 2.0");
+      fail_in("asset", has ? fmt::format("it has version {} of glTF, and only 2 is read; export as glTF 2.0",
+                                         prohull::quoted(version))
+                           : "it has no version; the file is no glTF 2.0");
   }
 
   /// An extension that a file requires may change what its geometry means: those that cannot are let pass.
@@ -274,9 +275,9 @@ class GltfReader {
     const auto found = object.find(name);
     if (found == object.end()) return {};
     std::array<double, N> values;
-    if (!found->is_array() || found->size() != N) fail_in(where, fmt::format("{} has not {} numbers", name, N));
+    if (!found->is_array() || found->size() != N) fail_in(where, fmt::format("{} must have {} numbers", name, N));
     for (std::size_t i = 0; i < N; ++i) {
-      if (!(*found)[i].is_number()) fail_in(where, fmt::format("{} has not {} numbers", name, N));
+      if (!(*found)[i].is_number()) fail_in(where, fmt::format("{} must have {} numbers", name, N));
       values[i] = (*found)[i].template get<double>();
     }
     return values;

@@ -96,8 +96,8 @@ ProgressiveHull decoded(std::string_view payload, const std::filesystem::path& n
   if (side > 1 || vertices > kMost || splits > kMost || vertices + splits > kMost || faces > kMost / 3)
     malformed(name, "the hull's header is impossible");
   if (in.remaining() != 24 * (vertices + splits) + 12 * faces + 24 * splits)
-    malformed(name,
-              fmt::format("{} bytes for {} vertices, {} faces and {} splits", in.remaining(), vertices, faces, splits));
+    malformed(name, fmt::format("it has {} bytes for {} vertices, {} faces and {} splits, which do not agree",
+                                in.remaining(), vertices, faces, splits));
 
   PerVertex<Vec3> positions(vertices + splits);
   for (Vec3& p : positions)
@@ -129,12 +129,12 @@ std::string unpacked(std::string_view frame, const std::filesystem::path& name) 
     ZSTD_outBuffer out{payload.data() + before, payload.size() - before, 0};
     state = ZSTD_decompressStream(stream.get(), &out, &in);
     payload.resize(before + out.pos);
-    if (ZSTD_isError(state)) malformed(name, fmt::format("corrupted ({})", ZSTD_getErrorName(state)));
-    if (payload.size() > limit) malformed(name, "corrupted (it grows beyond all measure when decompressed)");
+    if (ZSTD_isError(state)) malformed(name, fmt::format("it is damaged ({})", ZSTD_getErrorName(state)));
+    if (payload.size() > limit) malformed(name, "it is damaged (decompressed, it grows a thousand times)");
     if (state != 0 && in.pos == in.size && out.pos < out.size)
-      malformed(name, fmt::format("truncated after {} bytes", frame.size() + kHeaderSize));
+      malformed(name, fmt::format("it is truncated after {} bytes", frame.size() + kHeaderSize));
   }
-  if (in.pos != in.size) malformed(name, fmt::format("{} bytes too many at its end", in.size - in.pos));
+  if (in.pos != in.size) malformed(name, fmt::format("{} bytes too many follow at its end", in.size - in.pos));
   return payload;
 }
 
@@ -174,7 +174,7 @@ ProgressiveHull load_hull(std::string_view content, const std::filesystem::path&
                      fmt::format("{}: this is not a .phull file, which holds all levels of a hull; `prohull build MESH "
                                  "-o HULL --hierarchy H.phull` makes one from a mesh",
                                  name.string()));
-  if (content.size() < kHeaderSize) malformed(name, fmt::format("truncated after {} bytes", content.size()));
+  if (content.size() < kHeaderSize) malformed(name, fmt::format("it is truncated after {} bytes", content.size()));
   const auto version = Decoder(content.substr(kMagic.size())).integer<std::uint32_t>();
   if (version != kVersion)
     throw InputError(Defect::UnknownFormat,

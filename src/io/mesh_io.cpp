@@ -144,9 +144,10 @@ std::vector<std::string> read_mesh_extensions() {
 
 MeshFormat mesh_format(const std::filesystem::path& path) {
   if (const auto* const named = named_format(path); named && named->format) return *named->format;
-  throw InputError(Defect::UnknownFormat,
-                   fmt::format("{}: {}; name it .ply, .obj, .off, .stl or .glb", path.string(),
-                               is_mesh_name(path) ? "that format is read, but not written" : "unknown format"));
+  throw InputError(
+      Defect::UnknownFormat,
+      fmt::format("{}: {}; name it .ply, .obj, .off, .stl or .glb", path.string(),
+                  is_mesh_name(path) ? "prohull reads this format, but does not write it" : "unknown format"));
 }
 
 bool stores_float32(MeshFormat format) { return format == MeshFormat::Stl || format == MeshFormat::Glb; }
@@ -158,7 +159,7 @@ std::span<const std::pair<std::string_view, double>> length_units() {
 
 TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {
   if (!(options.scale > 0 && std::isfinite(options.scale)))
-    throw InputError(Defect::InvalidOption, fmt::format("a scale of {}; it must be greater than 0", options.scale));
+    throw InputError(Defect::InvalidOption, fmt::format("the scale is {}, but must be greater than 0", options.scale));
   TriangleMesh mesh = read_unscaled(content, name, options);
   if (options.scale != 1) scale(mesh, options.scale, name);
   return mesh;
@@ -171,8 +172,9 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& opt
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
   const MeshFormat format = mesh_format(path);
   if (lower_case_extension(path) == ".gz")
-    throw InputError(Defect::UnknownFormat,
-                     fmt::format("{}: meshes are read from .gz, but not written; leave it out", path.string()));
+    throw InputError(
+        Defect::UnknownFormat,
+        fmt::format("{}: prohull reads meshes from .gz files, but does not write them; leave .gz out", path.string()));
   check_coordinates(mesh, format, path);
   if (format == MeshFormat::Glb && glb_size(mesh) > std::numeric_limits<std::uint32_t>::max())
     throw InputError(Defect::CannotWrite, fmt::format("{}: a GLB holds at most 4 GiB; write PLY", path.string()));

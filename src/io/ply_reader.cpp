@@ -53,7 +53,7 @@ class AsciiBody {
   std::int64_t integer(PlyType) { return scanner_.integer("an integer"); }
   std::size_t list_length(PlyType, PlyType) {
     const std::int64_t length = scanner_.integer("the length of a list");
-    if (length < 0) scanner_.fail(fmt::format("a list of length {}", length));
+    if (length < 0) scanner_.fail(fmt::format("a list has the length {}", length));
     return static_cast<std::size_t>(length);
   }
   void skip(std::size_t count, PlyType) {
@@ -108,7 +108,7 @@ class BinaryBody {
   std::size_t list_length(PlyType type, PlyType item) {
     const Place place = cursor_.place();
     const std::int64_t length = integer(type);
-    if (length < 0) fail(file_, place, fmt::format("a list of length {}", length));
+    if (length < 0) fail(file_, place, fmt::format("a list has the length {}", length));
     require(static_cast<std::size_t>(length), size_of(item));
     return static_cast<std::size_t>(length);
   }

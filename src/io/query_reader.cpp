@@ -29,8 +29,8 @@ QueryFormat format_of(std::string_view content, const std::filesystem::path& nam
     throw InputError(Defect::UnknownFormat,
                      fmt::format("{}: unknown format; name it .npy, .npz or .csv", name.string()));
   if (named && found && named != found)
-    throw InputError(Defect::Malformed, fmt::format("{}: its content is that of a file named {}; name it so",
-                                                    name.string(), extension_of(*found)));
+    throw InputError(Defect::Malformed, fmt::format("{}: its content is that of a {} file; rename it", name.string(),
+                                                    extension_of(*found)));
   return named ? *named : *found;
 }
 

@@ -111,8 +111,8 @@ std::string npy_content(std::span<const Segment> segments) {
 QueryFormat format_for(std::string_view what, const std::filesystem::path& path, QueryFormat binary) {
   const auto format = query_format(path);
   if (format == binary || format == QueryFormat::Csv) return *format;
-  throw InputError(Defect::UnknownFormat, fmt::format("{}: {} are written to {} or .csv; name it so", path.string(),
-                                                      what, extension_of(binary)));
+  throw InputError(Defect::UnknownFormat, fmt::format("{}: {} are written to {} or .csv; name the file like that",
+                                                      path.string(), what, extension_of(binary)));
 }
 
 }  // namespace

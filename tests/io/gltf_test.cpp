@@ -232,10 +232,10 @@ TEST(Gltf, ThatPointsElsewhereIsAnError) {
   expect_document_refused(changed("/nodes/0/mesh", 1), "mesh of a node: there is no number 1 in meshes, which has 1");
   expect_document_refused(changed("/nodes/0/children", {0}),
                           "nodes 0: it has two parents or is below itself; the nodes of a scene must be a tree");
-  expect_document_refused(changed("/nodes/0/scale", {1, 2}), "nodes 0: scale has not 3 numbers");
+  expect_document_refused(changed("/nodes/0/scale", {1, 2}), "nodes 0: scale must have 3 numbers");
   expect_document_refused(changed("/nodes", 7), "the document: nodes is not an array");
   expect_document_refused(changed("/asset/version", "1.0"),
-                          "asset: glTF version '1.0'; only 2 is read, export as glTF 2.0");
+                          "asset: it has version '1.0' of glTF, and only 2 is read; export as glTF 2.0");
   expect_document_refused(
       changed("/extensionsRequired", {"KHR_draco_mesh_compression"}),
       "extensionsRequired: 'KHR_draco_mesh_compression' is not read; export without it, that is without "
@@ -289,7 +289,7 @@ TEST(Glb, ThatIsDamagedIsAnError) {
   expect_refused("[]", "a.gltf", "a.gltf: the JSON: not an object; the file is no glTF");
   std::string bytes = glb("{}", "");
   bytes[4] = 1;
-  expect_refused(bytes, "a.glb", "a.glb: byte 4: GLB version 1; only 2 is read, export as glTF 2.0");
+  expect_refused(bytes, "a.glb", "a.glb: byte 4: it has version 1 of GLB, and only 2 is read; export as glTF 2.0");
   bytes = glb("{}", "");
   expect_refused(bytes.substr(0, 22), "a.glb", "a.glb: byte 22: the file ends within the JSON chunk; it is truncated");
   expect_refused(glb("{]", ""), "a.glb",

@@ -29,7 +29,7 @@ TEST(MeshFormat, IsToldByTheNameInAnyCase) {
   expect_input_error([] { mesh_format("a.step"); }, Defect::UnknownFormat,
                      "a.step: unknown format; name it .ply, .obj, .off, .stl or .glb");
   expect_input_error([] { mesh_format("a.dae"); }, Defect::UnknownFormat,
-                     "a.dae: that format is read, but not written; name it .ply, .obj, .off, .stl or .glb");
+                     "a.dae: prohull reads this format, but does not write it; name it .ply, .obj, .off, .stl or .glb");
   EXPECT_EQ(mesh_format("a.Glb"), MeshFormat::Glb);
   EXPECT_THROW(mesh_format("ply"), InputError);
 }
@@ -133,7 +133,7 @@ TEST(WriteMesh, RefusesCoordinatesThatTheFormatCannotStore) {
 
 TEST(WriteMesh, RefusesNamesItCannotWrite) {
   expect_input_error([] { write_mesh("a.ply.gz", tetrahedron()); }, Defect::UnknownFormat,
-                     "a.ply.gz: meshes are read from .gz, but not written; leave it out");
+                     "a.ply.gz: prohull reads meshes from .gz files, but does not write them; leave .gz out");
   EXPECT_THROW(write_mesh("a.zip", tetrahedron()), InputError);
 }
 

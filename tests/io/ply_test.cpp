@@ -121,7 +121,7 @@ TEST(Ply, RefusesCountsThatAnAsciiBodyDoesNotHave) {
   expect_refused(header("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n", "a.ply",
                  "a.ply: line 13: the line ends where an integer was expected");
   expect_refused(header("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n", "a.ply",
-                 "a.ply: line 13: a list of length -3");
+                 "a.ply: line 13: a list has the length -3");
 }
 
 TEST(Ply, RefusesCountsThatABinaryBodyDoesNotHave) {

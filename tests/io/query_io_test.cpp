@@ -235,13 +235,13 @@ TEST(CsvReader, NamesTheLineThatItRefuses) {
   const std::string rows = "; each line has 6 numbers: x0,y0,z0,x1,y1,z1";
   refused("0,1,2,3,4,5\n0,1,2,3,4\n", "s.csv", "s.csv: line 2: there is no comma after y1" + rows);
   refused("0,1,2,3,4,\n", "s.csv", "s.csv: line 1: the line ends where z1 was expected");
-  refused("0,1,2,3,4,5,6\n", "s.csv", "s.csv: line 1: it goes on after that" + rows);
-  refused("0,1,2,3,4,5,\n", "s.csv", "s.csv: line 1: it goes on after that" + rows);
+  refused("0,1,2,3,4,5,6\n", "s.csv", "s.csv: line 1: the line goes on after the last number" + rows);
+  refused("0,1,2,3,4,5,\n", "s.csv", "s.csv: line 1: the line goes on after the last number" + rows);
   refused("0;1;2;3;4;5\n0;1;2;3;4\n", "s.csv", "s.csv: line 2: there is no semicolon after y1" + rows);
   refused("0;1;2;3;4;5\n0,1,2,3,4,5\n", "s.csv", "s.csv: line 2: '0,1,2,3,4,5' is not a number; expected x0");
   refused("0,5;1;2;3;4;5\n", "s.csv", "s.csv: line 1: '0,5' is not a number; expected x0");
   refused("0 1 2 3 4\n", "s.csv", "s.csv: line 1: the line ends where z1 was expected");
-  refused("0 1 2 3 4 5 6\n", "s.csv", "s.csv: line 1: it goes on after that" + rows);
+  refused("0 1 2 3 4 5 6\n", "s.csv", "s.csv: line 1: the line goes on after the last number" + rows);
   refused("0,1,,3,4,5\n", "s.csv", "s.csv: line 1: ',' is not a number; expected z0");
   refused("0,1,2,3,4,1e999\n", "s.csv", "s.csv: line 1: '1e999' is beyond the range of a number in 64 bits");
 }
@@ -260,8 +260,8 @@ TEST(QueryReader, TakesTheFormatFromNameOrContent) {
   expect_two_rows(gzipped(array), "s.npy.gz");
   expect_two_rows(gzipped("0,1,2,3,4,5\n10,11,12,13,14,15\n"), "s.csv.gz");
   refused("0,0,0,1,1,1\n", "s.txt", "s.txt: unknown format; name it .npy, .npz or .csv", Defect::UnknownFormat);
-  refused(array, "s.csv", "s.csv: its content is that of a file named .npy; name it so");
-  refused(zipped({{"arr_0.npy", array}}), "s.npy", "s.npy: its content is that of a file named .npz; name it so");
+  refused(array, "s.csv", "s.csv: its content is that of a .npy file; rename it");
+  refused(zipped({{"arr_0.npy", array}}), "s.npy", "s.npy: its content is that of a .npz file; rename it");
 }
 
 TEST(NpzReader, TakesTheOnlyArrayOrTheOneOfThatName) {
@@ -314,9 +314,9 @@ TEST(HitsWriter, WritesTheSameArchiveEveryTime) {
 TEST(HitsWriter, RefusesOtherNames) {
   const TemporaryFolder folder;
   expect_input_error([&] { write_hits("hits.npy", two_hits()); }, Defect::UnknownFormat,
-                     "hits.npy: hits are written to .npz or .csv; name it so");
+                     "hits.npy: hits are written to .npz or .csv; name the file like that");
   expect_input_error([&] { write_segments("s.npz", {}); }, Defect::UnknownFormat,
-                     "s.npz: segments are written to .npy or .csv; name it so");
+                     "s.npz: segments are written to .npy or .csv; name the file like that");
   EXPECT_EQ(folder.file_count(), 0u);
 }
 
