@@ -40,7 +40,7 @@ set(may_render render)
 set(may_kdop kdop query geometry)  # an engine as those of src/query
 set(may_apps render kdop)
 set(may_examples "")
-set(may_python "")
+set(may_python render)
 
 set(failures "")
 macro(fail)

@@ -1,5 +1,6 @@
 """What editors complete and mypy checks. Skipped without mypy, but for what needs none."""
 
+import inspect
 import pathlib
 import re
 import subprocess
@@ -40,6 +41,15 @@ def test_the_package_itself_is_typed(mypy):
     """But for what dask does not tell of its own types."""
     found = mypy("--ignore-missing-imports", *(p for p in PACKAGE.glob("*.py") if p.name != "dask.py"))
     assert found.startswith("Success"), found
+
+
+@pytest.mark.skipif(not hasattr(typing, "get_overloads"), reason="Python 3.11 or later tells overloads")
+def test_every_way_to_call_build_has_the_same_options():
+    def options(function):
+        return {p.name: p.annotation for p in inspect.signature(function).parameters.values() if p.kind is p.KEYWORD_ONLY}
+
+    ways = typing.get_overloads(prohull.build)
+    assert len(ways) == 4 and all(options(way) == options(prohull.build) for way in ways)
 
 
 @pytest.mark.parametrize("names", ["engines", "sides", "strategies", "repairs", "self_intersections"])

@@ -202,6 +202,7 @@ struct Batch {
 };
 
 constexpr std::size_t kChunk = 512;
+constexpr std::size_t kGlance = 8;  ///< queries between two looks at progress: each of them may take a while
 
 /// ask(query, primitive) -> std::vector<Answer>, or something else with begin and end; take(first, Batch<Answer>) is
 /// given the answers of each chunk.
@@ -226,6 +227,7 @@ QueryCounts ask_in_chunks(const QueryIndex& index, std::span<const Primitive> pr
         const auto answers = ask(query, primitive);
         batch.answers.insert(batch.answers.end(), answers.begin(), answers.end());
         batch.offsets.push_back(batch.answers.size());
+        if (batch.offsets.size() % kGlance == 0) meter.at(done, primitives.size());
       }
       take(c * kChunk, std::move(batch));
       meter.at(done += chunk.size(), primitives.size());
