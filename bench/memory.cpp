@@ -29,7 +29,7 @@ int run_memory(const Options& options) {
   Table table({"model", "faces", "mesh", "peak", "bytes per face"});
   Table csv({"mesh", "faces", "hull_faces", "mesh_bytes", "peak_bytes", "bytes_per_face"});
   std::vector<ModelSource> sources = model_sources(options.models);
-  if (!options.models.folder.empty()) sources.push_back({"asteroid", {}, 1000000});
+  if (!options.models.folder.empty()) sources.push_back({"asteroid", {}, "asteroid", 1000000});
   const std::size_t nothing = run_apart([] {}).peak_bytes;
   for (const ModelSource& source : sources) {
     fmt::print(stderr, "{}", source.name);

@@ -40,12 +40,18 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
       ->capture_default_str();
   command.add_option("--sample-faces", options.sample_faces, "About how many faces samples have")
       ->capture_default_str();
+  command
+      .add_flag("--record-sample", options.record_sample,
+                "Measure only the bundled mesh that comes after those of --models")
+      ->excludes(folder);
 }
 
 std::vector<ModelSource> model_sources(const ModelOptions& options) {
+  const ModelSource record_sample{"bundled_pony", {}, "pony", 20000, true};
+  if (options.record_sample) return {record_sample};
   std::vector<ModelSource> sources;
   if (options.folder.empty()) {
-    for (const std::string& sample : options.samples) sources.push_back({sample, {}, options.sample_faces});
+    for (const std::string& sample : options.samples) sources.push_back({sample, {}, sample, options.sample_faces});
     return sources;
   }
   for (const auto& entry : std::filesystem::directory_iterator(options.folder))
@@ -54,11 +60,12 @@ std::vector<ModelSource> model_sources(const ModelOptions& options) {
       sources.push_back({file.substr(0, file.find('.')), path});
     }
   std::ranges::sort(sources, {}, &ModelSource::name);
+  sources.push_back(record_sample);
   return sources;
 }
 
 TriangleMesh load(const ModelSource& source) {
-  if (source.path.empty()) return make_sample(source.name, source.sample_faces);
+  if (source.path.empty()) return make_sample(source.sample, source.sample_faces);
   return closed_mesh(read_mesh(source.path)).mesh;
 }
 

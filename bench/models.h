@@ -16,6 +16,7 @@ struct ModelOptions {
   std::filesystem::path folder;
   std::vector<std::string> samples{"sphere", "asteroid", "bracket", "pony"};
   std::size_t sample_faces = 50000;
+  bool record_sample = false;  ///< that alone
 };
 
 void add_model_options(CLI::App& command, ModelOptions& options);
@@ -24,13 +25,17 @@ void add_model_options(CLI::App& command, ModelOptions& options);
 struct ModelSource {
   std::string name;            ///< of the file up to its first dot, or of the sample
   std::filesystem::path path;  ///< empty for a sample
+  std::string sample = {};
   std::size_t sample_faces = 0;
+  bool is_record_sample = false;
 };
 
 /// By the extension, in any case, before .gz: of a format that prohull may read, or a .zip.
 bool is_named_like_a_mesh(const std::filesystem::path& path);
 
-/// Sorted by name. Files of the folder that are no meshes by their name are passed over.
+/// The models of a folder are sorted by name; files that are no meshes by their name are passed over. After them comes
+/// the record sample, a bundled mesh large enough for construction in rounds. Every recorded table has its rows, and
+/// scripts/records measures them again: they tell whether the record is of this build.
 std::vector<ModelSource> model_sources(const ModelOptions& options);
 
 /// Closed and oriented outwards; throws InputError where that cannot be.

@@ -29,7 +29,8 @@ namespace {
 struct Options {
   ModelOptions models{.folder = {}, .samples = {"asteroid", "bracket", "pony"}, .sample_faces = 20000};
   std::vector<std::size_t> hull_faces{2000, 500, 200};  ///< descending
-  unsigned limit_seconds = 120;                         ///< of processor time, of each process
+  bool only_ours = false;
+  unsigned limit_seconds = 120;  ///< of processor time, of each process
   std::filesystem::path out;
 };
 
@@ -107,8 +108,9 @@ class Bench {
     fmt::print(stderr, "{}: {} faces", source.name, size.faces);
     ModelFacts facts{source.name, size.vertices, size.faces, get_value<std::size_t>(count.get()), {}};
     for (const std::size_t faces : options_.hull_faces)
-      for (const Method& method : kMethods) facts.rows.push_back(measure(original.get(), method, faces));
-    facts.rows.push_back(measure(original.get(), kConvexHull, 0));
+      for (const Method& method : kMethods)
+        if (method.ours || !options_.only_ours) facts.rows.push_back(measure(original.get(), method, faces));
+    if (!options_.only_ours) facts.rows.push_back(measure(original.get(), kConvexHull, 0));
     fmt::print(stderr, "\n");
     return facts;
   }
@@ -260,6 +262,7 @@ void add_peers(CLI::App& app, Run& run) {
       *app.add_subcommand("peers", "Hulls and simplifications of others beside ours: void, time, memory, enclosure");
   add_model_options(command, options->models);
   add_faces_option(command, options->hull_faces);
+  command.add_flag("--ours", options->only_ours, "Measure only our methods");
   command.add_option("--time-limit", options->limit_seconds, "Processor time for one row, and for judging it")
       ->check(CLI::Range(1, 1000000))
       ->type_name("SECONDS")

@@ -48,6 +48,8 @@ def compare(ask, index, query, segments, threads, rounds):
         if count_hits(query, answer) != hits:
             sys.exit(f"{query}: {count_hits(query, answer)} hits in Python, {hits} in C++")
         del answer
+    if rounds == 0:
+        return 0, 0, 0, hits
     cpp, python = cpp[1:], python[1:]
     ratio = statistics.median(b / a for a, b in zip(cpp, python))
     return 1e3 * statistics.median(cpp), 1e3 * statistics.median(python), ratio, hits
@@ -82,7 +84,7 @@ def main():
     parser.add_argument("--faces", type=int, default=2000, help="of the hull [%(default)s]")
     parser.add_argument("--segments", type=int, default=1_000_000,
                         help="a hundredth of them for the refinement engines [%(default)s]")
-    parser.add_argument("--repeat", type=int, default=9, help="rounds [%(default)s]")
+    parser.add_argument("--repeat", type=int, default=9, help="rounds; 0: only hits are counted [%(default)s]")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--limit", type=float, default=float("inf"), help="of the ratios")
     parser.add_argument("--out", type=pathlib.Path, help="folder for python.csv")

@@ -58,13 +58,17 @@ int run_queries(QueryOptions options) {
   sections.push_back(make_memory_section());
   sections.push_back(make_correctness_section());
   measure_each(options.models, [&](const ModelSource& source) {
-    const QueryModel model = load_model(source, options);
+    QueryOptions mine = options;
+    if (source.is_record_sample) mine.segments = mine.checked = 1000;  // it is measured by a test
+    const QueryModel model = load_model(source, mine);
     fmt::print(stderr, "{}: {} faces", source.name, model.mesh.face_count());
-    for (const auto& section : sections) section->measure(model, options);
+    for (const auto& section : sections) section->measure(model, mine);
     fmt::print(stderr, "\n");
   });
   std::string text = fmt::format(
-      "# Queries\n\n{}; {} random segments per model (P&T 4.2), seed {}; processor time of one thread, best of {}\n",
+      "# Queries\n\n{}; {} random segments per model (P&T 4.2), of the bundled one fewer, seed {}; processor time of "
+      "one "
+      "thread, best of {}\n",
       machine(), options.segments, options.seed, options.rounds);
   for (const auto& section : sections) text += '\n' + section->text();
   publish(options.out, "queries", text);
