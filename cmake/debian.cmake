@@ -99,6 +99,8 @@ This package has the module for Python." "python3 (>= 3.${Python_VERSION_MINOR})
   install(TARGETS prohull_python LIBRARY DESTINATION ${site} COMPONENT python EXCLUDE_FROM_ALL)
   install(DIRECTORY python/prohull/ DESTINATION ${site} COMPONENT python EXCLUDE_FROM_ALL
           FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+  file(CREATE_LINK ../../../../bin/prohull ${documents}/prohull SYMBOLIC)  # for python3 -m prohull
+  install(FILES ${documents}/prohull DESTINATION ${site} COMPONENT python EXCLUDE_FROM_ALL)
 endif()
 
 include(CPack)

@@ -21,6 +21,7 @@ void end_idle_threads() {
 }  // namespace
 
 PYBIND11_MODULE(_prohull, module) {
+  module.attr("version") = PROHULL_VERSION;
   pybind11::register_exception<prohull::InputError>(module, "InputError", PyExc_ValueError);
   pybind11::module_::import("os").attr("register_at_fork")(pybind11::arg("before") =
                                                                pybind11::cpp_function(&end_idle_threads));

@@ -27,6 +27,8 @@ __all__ = ["AllHits", "ENGINES", "FacesMet", "FirstHits", "Hull", "InputError", 
 #: Names of the engines of queries.
 ENGINES: tuple[str, ...] = _prohull.engines
 
+__version__: str = _prohull.version
+
 InputError.__module__ = __name__
 
 # The program that reads COLLADA, 3MF and FBX, if this package was installed with it.

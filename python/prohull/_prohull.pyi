@@ -16,6 +16,7 @@ sides: Tuple[str, ...]
 strategies: Tuple[str, ...]
 repairs: Tuple[str, ...]
 self_intersections: Tuple[str, ...]
+version: str
 
 class InputError(ValueError): ...
 
