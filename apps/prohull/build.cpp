@@ -144,7 +144,7 @@ void add_guards(CLI::App& command, BuildOptions& options) {
              "Largest valence of a new vertex. The valence of a vertex is the number of faces around it.")
       ->capture_default_str()
       ->group(kGuards);
-  add_number(command, "--compactness-ratio", hull.guards.min_compactness_ratio, {0, 1},
+  add_number(command, "--min-compactness-ratio", hull.guards.min_compactness_ratio, {0, 1},
              "Least compactness of the worst face that a collapse leaves, divided by that of the worst face before, 0 "
              "to 1. The compactness of a triangle is 1 if its sides are equal, and 0 if it has no area.")
       ->capture_default_str()
@@ -155,7 +155,7 @@ void add_guards(CLI::App& command, BuildOptions& options) {
       ->capture_default_str()
       ->type_name("COMPACTNESS")
       ->group(kGuards);
-  add_number(command, "--normal-deviation", options.normal_deviation_degrees, {0, 90},
+  add_number(command, "--max-normal-deviation", options.normal_deviation_degrees, {0, 90},
              "Largest angle by which a collapse may turn a face, in degrees, 0 to 90.")
       ->capture_default_str()
       ->type_name("DEGREES")

@@ -33,6 +33,7 @@ struct TightHull {
 TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options = {},
                            const TriangleMesh* wrapped = nullptr);
 
+/// For moved_towards.
 struct MoveOptions {
   ShapeGuards guards = {};
   bool float32_coordinates = false;  ///< as in HullOptions

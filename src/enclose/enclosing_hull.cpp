@@ -390,6 +390,8 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
 EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size_t> target_faces,
                                const EnclosingOptions& options) {
   if (target_faces.empty()) throw InputError(Defect::InvalidOption, "no number of faces was asked for");
+  if (options.tight && options.levels)
+    throw InputError(Defect::InvalidOption, "a tight hull has no levels: ask for one of the two");
   if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
     throw InputError(Defect::InvalidOption, "nothing is known to be inside of a wrap: inner hulls do without");
   return Ladder(std::move(triangles), target_faces, options).climb();

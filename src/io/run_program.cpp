@@ -102,18 +102,19 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
   ~Child() {
-    if (is_over_) return;
+    if (has_ended_) return;
     kill(pid_, SIGKILL);
     while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
 
-  bool is_over() {
-    if (is_over_) return true;
+  /// Looks once whether the program has ended, without waiting for it.
+  bool check_ended() {
+    if (has_ended_) return true;
     int status = 0;
     const pid_t waited = waitpid(pid_, &status, WNOHANG);
     if (waited == pid_) status_ = status;
-    return is_over_ = waited == pid_ || (waited < 0 && errno != EINTR);
+    return has_ended_ = waited == pid_ || (waited < 0 && errno != EINTR);
   }
 
   ProgramResult result(std::string output) const {
@@ -125,12 +126,12 @@ class Child {
 
  private:
   pid_t pid_;
-  bool is_over_ = false;
+  bool has_ended_ = false;
   std::optional<int> status_;
 };
 
-/// Whether there is something to be read now, or nothing will ever be; waits for it a twentieth of a second.
-bool is_ready(int descriptor) {
+/// Waits for at most a twentieth of a second until there is something to be read, or nothing will ever be: then true.
+bool wait_for_output(int descriptor) {
   constexpr int kMilliseconds = 50;
   pollfd what{descriptor, POLLIN, 0};
   return poll(&what, 1, kMilliseconds) > 0;
@@ -168,7 +169,7 @@ ProgramResult run_program(const std::filesystem::path& program, const std::vecto
   std::string output;
   while (true) {
     if (!may_go_on()) return {End::TimedOut, 0, {}};
-    if (!is_ready(read_end.number())) continue;
+    if (!wait_for_output(read_end.number())) continue;
     const std::size_t size = output.size();
     output.resize(size + kChunk);
     const ssize_t read = ::read(read_end.number(), output.data() + size, kChunk);
@@ -177,7 +178,7 @@ ProgramResult run_program(const std::filesystem::path& program, const std::vecto
     if (read == 0) break;
     if (read < 0 && errno != EINTR) fail("read");
   }
-  for (std::chrono::milliseconds pause(1); !child.is_over();
+  for (std::chrono::milliseconds pause(1); !child.check_ended();
        pause = std::min(2 * pause, std::chrono::milliseconds(50))) {
     if (!may_go_on()) return {End::TimedOut, 0, {}};
     std::this_thread::sleep_for(pause);

@@ -334,8 +334,8 @@ expect 2 "half a face" $prohull build rock.ply --faces 100.5 -o x.ply
 says err "half a face" "--faces must be a whole number, not 100.5"
 expect 2 "no distance" $prohull build rock.ply --max-distance 0 -o x.ply
 says err "no distance" "--max-distance must be greater than 0, not 0"
-expect 2 "too many degrees" $prohull build rock.ply --normal-deviation 91 -o x.ply
-says err "too many degrees" "--normal-deviation must be between 0 and 90, not 91"
+expect 2 "too many degrees" $prohull build rock.ply --max-normal-deviation 91 -o x.ply
+says err "too many degrees" "--max-normal-deviation must be between 0 and 90, not 91"
 expect 0 "scientific notation" $prohull build rock.ply --target-faces 1e3,500 -o x_{faces}.ply --seed 18446744073709551615
 says out "scientific notation" "x_1000.ply: outer hull of 1,000 faces"
 rm x_*.ply
