@@ -241,7 +241,8 @@ TEST(EnclosingHull, SealsHolesUpToTheirSize) {
 }
 
 TEST(AlphaWrap, CanBeCancelled) {
-  EXPECT_THROW(alpha_wrap(make_sample("asteroid", 1000), 0.02, 0.001, [](std::string_view, double) { return false; }), Cancelled);
+  EXPECT_THROW(alpha_wrap(make_sample("asteroid", 1000), 0.02, 0.001, [](std::string_view, double) { return false; }),
+               Cancelled);
 }
 
 #endif

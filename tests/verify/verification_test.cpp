@@ -167,7 +167,8 @@ TEST(VerifyHull, TellsProgressThatNeverRunsBackAndCanBeCancelled) {
   const TriangleMesh mesh = make_sample("asteroid", 2000);
   EXPECT_TRUE(verify_hull(mesh, mesh, HullSide::Outer, {.every_triangle = true, .progress = watch}).encloses);
   EXPECT_EQ(last, 1);
-  EXPECT_THROW(verify_hull(mesh, mesh, HullSide::Outer, {.progress = [](std::string_view, double) { return false; }}), Cancelled);
+  EXPECT_THROW(verify_hull(mesh, mesh, HullSide::Outer, {.progress = [](std::string_view, double) { return false; }}),
+               Cancelled);
 }
 
 }  // namespace
