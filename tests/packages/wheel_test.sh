@@ -46,7 +46,7 @@ bare prohull verify hull.stl knot.stl >/dev/null || fail "prohull verify"
 bare python -c '
 import prohull
 assert prohull.verify("hull.stl", "knot.stl")
-assert prohull.build("knot.stl", float32=True).certified
+assert prohull.build("knot.stl", 200).certified
 ' || fail "import prohull"
 if [ "$has_importer" = 1 ]; then
   printf 'AC3Db\nMATERIAL "m" rgb 1 1 1 amb 0 0 0 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x00\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n' >part.ac
