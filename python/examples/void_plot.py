@@ -3,14 +3,14 @@
 
 import argparse
 
-import matplotlib
-
-matplotlib.use("Agg")  # no display
-import matplotlib.pyplot as plt
 import prohull
 
 
 def main(out, mesh):
+    import matplotlib
+    matplotlib.use("Agg")  # no display
+    import matplotlib.pyplot as plt
+
     mesh = prohull.read(mesh) if mesh else prohull.sample("asteroid", 5000)
     hull = prohull.build(mesh, 100, levels=True)
     faces = [n for n in (100, 200, 500, 1000, 2000) if n < len(mesh.faces)]
