@@ -44,9 +44,6 @@ struct MoveOptions {
 /// the end. For hulls of wraps that gains nearly as much, in a fraction of the time. The guarantees are the same.
 TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options = {});
 
-/// build_tight_hull_within builds at most this many hulls, the progressive hull that it begins with included.
-constexpr int kMaxTightBuilds = 11;
-
 /// Searches the coarsest tight hull of at least options.target_faces faces that `is_within` accepts, for instance one
 /// that is near enough to the mesh (HullBounds). The search is a bisection of the number of faces to 3 %. It ends at
 /// the coarsest level of build_hull that is accepted; if no tight hull is both coarser and accepted, that level is the

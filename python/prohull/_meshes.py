@@ -232,8 +232,6 @@ class Mesh:
         """
         is_one = np.shape(points) == (3,)
         rows = _arrays.rows("points", [points] if is_one else points, (3,))
-        if not self.is_closed:
-            raise InputError("the mesh is not closed: it has no inside")
         inside = self._index(engine).contains(rows, threads, progress)
         return bool(inside[0]) if is_one else inside
 

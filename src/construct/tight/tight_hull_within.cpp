@@ -6,6 +6,8 @@
 namespace prohull {
 namespace {
 
+constexpr int kMaxTightBuilds = 11;  // with the progressive hull that it begins with
+
 class TightSearch {
  public:
   TightSearch(const TriangleMesh& mesh, const std::function<bool(const TriangleMesh&)>& is_within,
