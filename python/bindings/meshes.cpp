@@ -46,10 +46,11 @@ SharedMesh mesh_of(const Array<double>& vertices, const Array<std::int64_t>& fac
       TriangleMesh{PerVertex<Vec3>(copied<Vec3>(vertices)), PerFace<std::array<VertexId, 3>>(std::move(triangles))});
 }
 
-TriangleMesh read(const std::filesystem::path& path, bool keep_non_finite) {
+TriangleMesh read(const std::filesystem::path& path, bool keep_non_finite, double scale) {
   return watched(py::none(), [&](Watch& watch) {
-    return read_mesh(
-        path, {.non_finite = keep_non_finite ? NonFinite::Keep : NonFinite::Refuse, .progress = watch.progress()});
+    return read_mesh(path, {.non_finite = keep_non_finite ? NonFinite::Keep : NonFinite::Refuse,
+                            .scale = scale,
+                            .progress = watch.progress()});
   });
 }
 

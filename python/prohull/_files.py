@@ -14,22 +14,25 @@ def mesh_of(mesh: MeshLike, keep_non_finite: bool = False) -> Mesh:
     if isinstance(mesh, Mesh):
         return mesh
     if isinstance(mesh, (str, os.PathLike)):
-        return load(mesh) if _prohull.is_hull_file(mesh) else Mesh._of(_prohull.read(mesh, keep_non_finite))
+        return load(mesh) if _prohull.is_hull_file(mesh) else Mesh._of(_prohull.read(mesh, keep_non_finite, 1.0))
     arrays = _arrays.arrays_of_mesh(mesh)
     if arrays is None:
         raise InputError(f"{_arrays.described(mesh)} is no mesh; {_arrays.MESHES}")
     return Mesh(*arrays)
 
 
-def read(path: Path) -> Mesh:
+def read(path: Path, *, scale: float = 1.0) -> Mesh:
     """Reads a mesh from a file: PLY, OBJ, OFF, STL, glTF, each also gzipped, and others (docs/formats.md).
 
     Returns the triangles as they are in the file, closed or not. Coordinates keep their bits. Raises InputError if the
     file cannot be read; the message says what is wrong with it, and where. A .phull file is read by load().
+
+    scale: every coordinate is multiplied by this number, greater than 0, and rounded to the nearest double. 0.001 makes
+        metres of millimetres.
     """
     if _prohull.is_hull_file(path):
         raise InputError(f"{os.fspath(path)}: this file holds the levels of a hull; prohull.load reads it")
-    return Mesh._of(_prohull.read(path, False))
+    return Mesh._of(_prohull.read(path, False, float(scale)))
 
 
 def load(path: Path) -> Hull:

@@ -78,3 +78,11 @@ def test_wrong_queries_are_named(cube, arguments, message):
     for ask in (prohull.Mesh(*cube).first_hit, prohull.Mesh(*cube).any_hit, prohull.Mesh(*cube).all_hits):
         with pytest.raises(ValueError, match=message):
             ask(**arguments)
+
+
+def test_a_file_is_read_at_a_scale(tmp_path):
+    mesh = prohull.sample("box", 12)
+    mesh.save(tmp_path / "box.ply")
+    np.testing.assert_array_equal(prohull.read(tmp_path / "box.ply", scale=0.5).vertices, 0.5 * mesh.vertices)
+    with pytest.raises(prohull.InputError, match="greater than 0"):
+        prohull.read(tmp_path / "box.ply", scale=0)
