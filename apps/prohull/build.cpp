@@ -166,8 +166,8 @@ void add_bounds(CLI::App& command, BuildOptions& options) {
   HullBounds& bounds = options.enclosing.bounds;
   add_number(command, "--max-distance", bounds.max_distance, kPositive,
              "Largest allowed distance of any point of the hull from the mesh, in the mesh's unit. The hull is the "
-             "coarsest one, of at least --faces faces, that provably keeps it. With --tight, some ten hulls are built "
-             "to find it.")
+             "coarsest of its levels, of at least --faces faces, that provably keeps it. With --tight, some ten hulls "
+             "are built to find it.")
       ->type_name("D");
   add_number(command, "--max-void", options.max_void_percent, kPositive,
              "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh or its "

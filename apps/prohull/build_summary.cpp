@@ -52,6 +52,8 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
       written.distance.upper);
   say("  self-intersections: {}\n", described_self_intersections(outcome, hull));
   say("  triangles: {}\n", described(written.quality));
+  if (faces == outcome.solid(hull).mesh.face_count() && faces <= hull.target_faces)
+    say("  the mesh has no more faces than were asked for: the hull is the mesh itself\n");
   if (hull.rounded_vertices > 0)
     say("  moved {} to coordinates that the file keeps\n", counted(hull.rounded_vertices, "vertex", "vertices"));
   if (hull.relaxed_guards > 0)
@@ -66,11 +68,17 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
   if (written.certified && !options.hierarchy.empty())
     say("{}: all levels from {} to {} faces\n", output_name(options.hierarchy), grouped(faces),
         grouped(outcome.solid(hull).mesh.face_count()));
-  say("  certified: {}\n", !written.certified ? "NO: nothing was written; please report this mesh"
-                           : options.is_outer()
-                               ? (was_wrapped(hull) ? "yes, the file as written covers every triangle of the original"
-                                                    : "yes, the file as written encloses the original")
-                               : "yes, the file as written is enclosed by the original");
+  const bool all_finite = outcome.made.input.repairs.dropped_non_finite_faces == 0;
+  if (!written.certified)
+    say("  certified: NO: nothing was written; please report this mesh\n");
+  else
+    say("  certified: yes, the file as written {} {}the original\n",
+        !options.is_outer() ? "is enclosed by"
+        : was_wrapped(hull) ? "covers"
+                            : "encloses",
+        !all_finite         ? "the finite triangles of "
+        : was_wrapped(hull) ? "every triangle of "
+                            : "");
 }
 
 nlohmann::json finite_or_null(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }

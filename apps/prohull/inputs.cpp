@@ -23,10 +23,14 @@ std::filesystem::path known_as(const std::filesystem::path& path, const InputOpt
 }
 
 // A reader of COLLADA makes metres of its coordinates.
-bool carries_its_unit(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string();
-  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
-  return suffix == ".dae" || suffix == ".zae";
+bool carries_its_unit(std::filesystem::path path) {
+  const auto suffix = [&] {
+    std::string text = path.extension().string();
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+  };
+  if (suffix() == ".gz") path = path.stem();
+  return suffix() == ".dae" || suffix() == ".zae";
 }
 
 ReadOptions read_options(const std::filesystem::path& name, const InputOptions& options, NonFinite non_finite,
@@ -67,10 +71,11 @@ void add_unit_options(CLI::App& command, InputOptions& options, const std::strin
   CLI::Option* const scale = add_number(command, "--scale", options.scale, kPositive,
                                         "Multiply the coordinates of " + what + " by this number when it is read.")
                                  ->type_name("S");
-  add_choice(command, "--unit", options.unit, length_units(),
-             "Unit of the numbers in " + what +
-                 ", which are converted to metres when it is read. For files that do not say their unit, such as STL, "
-                 "OBJ, PLY and OFF.")
+  add_choice(
+      command, "--unit", options.unit, length_units(),
+      "Unit of the numbers in " + what +
+          ", which are converted to metres when it is read; lengths in other options are then in metres, too. For "
+          "files that do not say their unit, such as STL, OBJ, PLY and OFF.")
       ->excludes(scale);
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "prohull/error.h"
 #include "prohull/progress.h"
 
 namespace prohull::python {
@@ -70,9 +71,14 @@ auto watched(const pybind11::object& progress, Work work) {
       result.wait();
       throw;
     }
-  auto made = result.get();
-  tell(progress, "done", 1);
-  return made;
+  try {
+    auto made = result.get();
+    tell(progress, "done", 1);
+    return made;
+  } catch (const Cancelled&) {  // Ctrl-C has also reached a program that was reading the file
+    if (PyErr_CheckSignals() == 0) PyErr_SetString(PyExc_KeyboardInterrupt, "interrupted");
+    throw pybind11::error_already_set();
+  }
 }
 
 }  // namespace prohull::python

@@ -7,7 +7,8 @@
 
 A mesh is given as the path of a file, as vertices and faces, or as a mesh of prohull, trimesh or Open3D. Lengths are in
 the unit of the mesh, angles in degrees. What is wrong with an argument or a file is raised as InputError, a ValueError.
-Ctrl-C stops whatever runs with KeyboardInterrupt, and leaves nothing half-written.
+Ctrl-C stops long work (build, verify, distance_bounds, queries, read) with KeyboardInterrupt. Files appear whole or
+not at all.
 """
 
 import os as _os

@@ -91,7 +91,7 @@ class Hull(Mesh):
         proof = self._proof_of(level, "replay") if self.certified else ""
         return self._as(level, certified=bool(proof), proof=proof, target_faces=faces,
                         target_reached=len(level.faces) <= faces, within_bounds=self._is_within_bounds(level),
-                        rounded_vertices=0, _levels=None)
+                        rounded_vertices=0, refusals={}, blocked={}, relaxed_guards=0, notes=[], _levels=None)
 
     def with_float32_coordinates(self) -> "Hull":
         """The hull with coordinates that float32 keeps, as STL and GLB files do: itself if it has such already.

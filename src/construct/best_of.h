@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <future>
 #include <numeric>
 #include <optional>
 #include <string_view>
@@ -31,23 +32,30 @@ auto best_of(const HullOptions& options, const char* stage, Build build, MeshOf 
   std::vector<std::optional<Candidate>> candidates(options.best_of);
   std::vector<std::atomic<double>> done(options.best_of);
   ProgressMeter meter(options.progress, stage);
-  arena_of(options.threads).execute([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
-      HullOptions one = options;
-      one.best_of = 1;
-      one.threads = 1;
-      one.seed = options.seed + i;
-      one.progress = [&, i](std::string_view, double fraction) {
-        done[i] = fraction;
-        meter.at(std::accumulate(done.begin(), done.end(), 0.0) / static_cast<double>(done.size()));
-        return true;
-      };
-      Result result = build(one);
-      const TriangleMesh& mesh = mesh_of(result);
-      const double volume = inspect(mesh).volume;
-      candidates[i] = {mesh.face_count(), options.side == HullSide::Outer ? volume : -volume, std::move(result)};
+  // On a thread of its own, so that the caller's can tell the progress until the last build ends.
+  auto builds = std::async(std::launch::async, [&] {
+    arena_of(options.threads).execute([&] {
+      oneapi::tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+        HullOptions one = options;
+        one.best_of = 1;
+        one.threads = 1;
+        one.seed = options.seed + i;
+        one.progress = [&, i](std::string_view, double fraction) {
+          done[i] = fraction;
+          meter.at(0);  // throws if the caller has cancelled
+          return true;
+        };
+        Result result = build(one);
+        const TriangleMesh& mesh = mesh_of(result);
+        const double volume = inspect(mesh).volume;
+        candidates[i] = {mesh.face_count(), options.side == HullSide::Outer ? volume : -volume, std::move(result)};
+      });
     });
   });
+  while (builds.wait_for(ProgressMeter::interval) != std::future_status::ready)
+    meter.at(std::accumulate(done.begin(), done.end(), 0.0) / static_cast<double>(done.size()));
+  builds.get();
+  meter.at(1);
   const auto best = std::ranges::min_element(candidates, {}, [&](const std::optional<Candidate>& c) {
     return std::tuple(std::max(c->faces, options.target_faces), c->void_volume);
   });

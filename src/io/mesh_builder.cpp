@@ -29,7 +29,7 @@ void MeshBuilder::tell(Place place) {
   if (++items_ % kInterval != 0) return;
   if (place.unit == Place::Unit::Byte) return meter_.at(place.number, content_.size());
   if (place.unit != Place::Unit::Line) return meter_.at(0);
-  if (lines_ == 0) lines_ = static_cast<std::size_t>(std::ranges::count(content_, '\n'));
+  if (lines_ == 0) lines_ = 1 + static_cast<std::size_t>(std::ranges::count(content_, '\n'));
   meter_.at(place.number, lines_);
 }
 

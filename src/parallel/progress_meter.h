@@ -20,7 +20,7 @@ class ProgressMeter {
   /// Between two calls of the Progress. Tests set it to 0, so that what they count does not hang on the clock.
   inline static std::chrono::nanoseconds interval = std::chrono::milliseconds(20);
 
-  ProgressMeter(const Progress& progress, std::string stage) : progress_(progress), stage_(std::move(stage)) {}
+  ProgressMeter(Progress progress, std::string stage) : progress_(std::move(progress)), stage_(std::move(stage)) {}
 
   /// So much is done; what is less than before asks only whether to go on. Throws Cancelled on every thread once the
   /// Progress has returned false.
@@ -48,7 +48,7 @@ class ProgressMeter {
   }
 
  private:
-  const Progress& progress_;
+  const Progress progress_;
   const std::string stage_;
   const std::thread::id caller_ = std::this_thread::get_id();
   std::chrono::steady_clock::time_point told_;
@@ -60,8 +60,8 @@ class ProgressMeter {
 /// For work of which one item after another is done: asks every 64th time only.
 class ProgressCounter {
  public:
-  ProgressCounter(const Progress& progress, std::string stage, std::size_t all)
-      : meter_(progress, std::move(stage)), all_(all) {}
+  ProgressCounter(Progress progress, std::string stage, std::size_t all)
+      : meter_(std::move(progress), std::move(stage)), all_(all) {}
   void next() {
     constexpr std::size_t kInterval = 64;
     if (done_++ % kInterval == 0) meter_.at(done_, all_);

@@ -126,7 +126,7 @@ class MarchingTetrahedra {
   }
 
   std::uint32_t sample(LatticePoint p) {
-    const auto key = [](std::int32_t x) { return std::uint64_t(x + 2 * kMostCubes); };
+    const auto key = [](std::int32_t x) { return static_cast<std::uint64_t>(std::int64_t{x} + 2 * kMostCubes); };
     const auto [index, is_new] = points_.find_or_add(key(p.x) << 42 | key(p.y) << 21 | key(p.z));
     if (is_new) {
       const Vec3 at = position(p);
