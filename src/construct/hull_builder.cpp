@@ -1,8 +1,6 @@
 #include "prohull/hull_builder.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
 #include "construct/best_of.h"

@@ -17,8 +17,8 @@ namespace prohull {
 /// unless others are kept, and that indices exist, and triangulates. Faces may come before their vertices.
 class MeshBuilder {
  public:
-  /// `first_number` is the number of the first vertex in the format's own counting, for messages. `content` and
-  /// `options` must outlive the builder.
+  /// `first_number` is the number of the first vertex in the format's own counting, for messages. `content`
+  /// must outlive the builder.
   MeshBuilder(std::string file, std::size_t first_number, std::string_view content, const ReadOptions& options);
 
   void reserve_vertices(std::size_t count) { mesh_.positions.reserve(count); }
