@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "command.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "prohull/verification.h"
+#include "recenter.h"
 
 namespace prohull::cli {
 namespace {
@@ -12,7 +15,8 @@ struct Options {
   std::filesystem::path hull, original, report;
   InputOptions hull_input, original_input;
   HullSide side = HullSide::Outer;
-  bool every_triangle = false;
+  bool solid_only = false;
+  std::string offset = "0,0,0";
 };
 
 std::string text(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x, p.y, p.z); }
@@ -33,7 +37,7 @@ nlohmann::json facts(const std::vector<Offender>& worst) {
 
 Verification verify(const Options& options, const MeshOrHull& hull, TriangleMesh original) {
   ProgressLine line;
-  const VerificationOptions how{.every_triangle = options.every_triangle, .progress = std::ref(line)};
+  const VerificationOptions how{.solid_only = options.solid_only, .progress = std::ref(line)};
   try {
     const auto* const levels = std::get_if<ProgressiveHull>(&hull);
     return levels ? verify_hull(*levels, std::move(original), how)
@@ -44,26 +48,28 @@ Verification verify(const Options& options, const MeshOrHull& hull, TriangleMesh
   }
 }
 
+bool has_failed_replay(const Verification& found) { return std::isnan(found.hull_volume); }
+
 /// "yes: hull.stl encloses part.stl", or why not.
 std::string verdict(const Verification& found, const std::string& hull, const std::string& original) {
   const bool inner = found.side == HullSide::Inner, replayed = found.proof == "replay";
-  if (replayed && !found.why_not.empty())
-    return fmt::format("NO: {} proves nothing about {}: {}", hull, original, found.why_not);
-  if (replayed && !found.encloses)
-    return fmt::format("NO: the finest level of {} does not cover every triangle of {}", hull, original);
-  const std::string subject = inner ? original : replayed ? "every level of " + hull : hull;
-  const std::string object = !inner ? original : replayed ? "every level of " + hull : hull;
-  const char* does = !found.original_closed ? "covers every triangle of"
-                     : found.every_triangle ? "encloses, and covers every triangle of,"
-                                            : "encloses";
-  const char* does_not = !found.original_closed ? "does not cover every triangle of"
-                         : found.every_triangle ? "does not enclose, or not cover every triangle of,"
-                                                : "does not enclose";
-  if (!found.encloses) return fmt::format("NO: {} {} {}", subject, does_not, object);
-  const std::string how =
-      replayed ? fmt::format("; {} splits replayed, {} signs exact", grouped(found.splits), grouped(found.signs))
-               : ", exactly";
-  return fmt::format("yes: {} {} {}{}", subject, does, object, how);
+  if (has_failed_replay(found)) return fmt::format("NO: {} proves nothing about {}: {}", hull, original, found.why_not);
+  const bool base_only = !found.encloses || found.faces_beside_solid > 0;
+  const std::string levels = replayed ? (base_only ? "the base mesh of " : "every level of ") + hull : hull;
+  const std::string& subject = inner ? original : levels;
+  const std::string& object = inner ? levels : original;
+  const bool covers = !found.original_closed, solid_only = !found.every_triangle;
+  const std::string what = (covers ? "every triangle of " : solid_only ? "the solid of " : "") + object;
+  if (!found.encloses)
+    return fmt::format("NO: {} does not {} {}: {}", subject, covers ? "cover" : "enclose", what, found.why_not);
+  std::string how = ", exactly";
+  if (replayed)
+    how = fmt::format("{}; {} splits replayed, {} signs exact",
+                      !base_only ? ""
+                      : inner    ? ", and the solid of every level"
+                                 : ", and every level its solid",
+                      grouped(found.splits), grouped(found.signs));
+  return fmt::format("yes: {} {} {}{}", subject, covers ? "covers" : "encloses", what, how);
 }
 
 void print_summary(const Options& options, const Verification& found, double seconds) {
@@ -73,7 +79,7 @@ void print_summary(const Options& options, const Verification& found, double sec
   if (found.cavities > 0 && found.faces_outside == 0)
     say("  {} cavities inside it are not covered\n", grouped(found.cavities));
   for (const std::string& note : found.notes) say("  {}\n", note);
-  if (!found.why_not.empty()) return;
+  if (has_failed_replay(found)) return;
   say("  hull: volume {:.9g}{}\n", found.hull_volume,
       found.original_closed ? fmt::format(", void {:.3f} %", 100 * found.void_ratio) : "");
   say("  {} intersects itself in {} pairs of faces\n", hull, grouped(found.self_intersections));
@@ -93,11 +99,12 @@ nlohmann::json report_of(const Options& options, const Verification& found, doub
                          {"faces_outside", found.faces_outside},
                          {"worst", facts(found.worst)},
                          {"cavities", found.cavities},
+                         {"faces_beside_solid", found.faces_beside_solid},
                          {"notes", found.notes},
                          {"seconds", seconds}};
-  if (!found.why_not.empty()) return json;
+  if (has_failed_replay(found)) return json;
   json["self_intersections"] = found.self_intersections;
-  json["turned_hull_faces"] = found.turned_hull_faces;
+  json["inverted_hull_faces"] = found.inverted_hull_faces;
   json["turned_original_faces"] = found.turned_original_faces;
   json["hull_volume"] = found.hull_volume;
   json["original_volume"] = found.original_closed ? nlohmann::json(found.original_volume) : nlohmann::json();
@@ -112,9 +119,11 @@ std::size_t face_count(const MeshOrHull& hull) {
 
 int run_verify(const Options& options) {
   check_files({options.hull, options.original}, {options.report});
+  const std::vector<double> numbers = numbers_of(options.offset, 3, "offset");
+  const Vec3 offset{numbers[0], numbers[1], numbers[2]};
   const Stopwatch reading;
   const MeshOrHull hull = read_mesh_or_hull(options.hull, options.hull_input);
-  TriangleMesh original = read_input(options.original, options.original_input, NonFinite::Keep);
+  TriangleMesh original = minus(read_input(options.original, options.original_input, NonFinite::Keep), offset);
   const double read_seconds = reading.seconds();
   const std::size_t original_faces = original.face_count();
   stop_if_interrupted();
@@ -122,7 +131,9 @@ int run_verify(const Options& options) {
   const Verification found = verify(options, hull, std::move(original));
   const double seconds = verifying.seconds();
   Outputs outputs;
-  outputs.add_report(options.report, report_of(options, found, seconds));
+  nlohmann::json report = report_of(options, found, seconds);
+  report["offset"] = numbers;
+  outputs.add_report(options.report, report);
   outputs.commit();
   print_summary(options, found, seconds);
   say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(face_count(hull), "face", "faces"),
@@ -134,12 +145,14 @@ int run_verify(const Options& options) {
 
 void add_verify(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand(
-      "verify",
-      "Decides exactly whether a hull encloses a mesh, and exits with code 1 if it does not. It shares no code with "
-      "the "
-      "construction of hulls. Two mesh files are compared; a .phull file is a proof, which is replayed. Of an original "
-      "that is not closed, every triangle must be covered.");
+  CLI::App& command = *app.add_subcommand("verify",
+                                          "Decides exactly whether a hull encloses a mesh, and exits with code 1 if it "
+                                          "does not. It shares no code with the "
+                                          "construction of hulls. Two mesh files are compared; a .phull file is a "
+                                          "proof, which is replayed. The solid of the "
+                                          "mesh must be enclosed, and every triangle covered. Of a mesh that is not "
+                                          "closed, only the latter is asked. A hull "
+                                          "whose faces look inwards is refused.");
   command.add_option("hull", options->hull, std::string("Mesh or .phull file. ") + kMeshFiles)
       ->required()
       ->type_name("HULL");
@@ -148,16 +161,22 @@ void add_verify(CLI::App& app, Run& run) {
       ->type_name("ORIGINAL");
   add_format_option(command, options->original_input);
   add_unit_options(command, options->original_input, "ORIGINAL (the same as `prohull build` was given for it)");
+  command
+      .add_option("--offset", options->offset,
+                  "Subtract these three numbers from the coordinates of ORIGINAL, after --unit or --scale: the offset "
+                  "that `prohull build --recenter` has told.")
+      ->type_name("X,Y,Z");
   add_choice(command, "--side", options->side, hull_side_names(),
              "Side on which the hull lies. With inner it is decided whether ORIGINAL encloses HULL. A .phull file "
              "knows its side.");
-  command.add_flag("--every-triangle", options->every_triangle,
-                   "Also of a closed original, every triangle must be covered, even those of folds and of parts that "
-                   "are inside out, which bound no part of the solid.");
+  command.add_flag("--solid-only", options->solid_only,
+                   "Ask only for the solid that a closed mesh bounds. Triangles of folds and of parts that are inside "
+                   "out bound no part of it, and may stick out.");
   add_report_option(command, options->report);
   add_examples(command, {"prohull verify hull.stl horse.ply", "prohull verify horse.phull horse.ply",
                          "prohull verify occluder.obj rock.obj --side inner", "prohull verify hull.stl soup.stl",
-                         "prohull verify arm_collision.stl arm.stl --unit mm"});
+                         "prohull verify arm_collision.stl arm.stl --unit mm",
+                         "prohull verify house.glb house_utm.ply --offset 500010,5400000,0"});
   command.callback([options, &run] {
     options->hull_input.format = options->original_input.format;  // one of them may be standard input
     run = [options] { return run_verify(*options); };

@@ -40,9 +40,15 @@ struct HullBounds {
   bool any() const { return *this != HullBounds{}; }
   bool operator==(const HullBounds&) const = default;
 
-  /// Whether the hull keeps all three bounds. The distance from `original` is proven (distance_bounds). Volumes are
-  /// computed in double precision and compared with `volume`. Throws as distance_bounds does.
-  bool hold(const TriangleMesh& hull, const TriangleMesh& original, double volume, const Progress& progress = {}) const;
+  /// The greatest of the three quotients of what the hull has and its bound: at most 1 if it keeps all bounds. The
+  /// distance from `original` is proven (distance_bounds). Volumes are computed in double precision and compared with
+  /// `volume`. Throws as distance_bounds does.
+  double excess(const TriangleMesh& hull, const TriangleMesh& original, double volume,
+                const Progress& progress = {}) const;
+  bool hold(const TriangleMesh& hull, const TriangleMesh& original, double volume,
+            const Progress& progress = {}) const {
+    return excess(hull, original, volume, progress) <= 1;
+  }
 };
 
 }  // namespace prohull

@@ -70,14 +70,15 @@ bool is_closed(const TriangleMesh& mesh);
 /// time is nearly linear in the number of faces of both. Throws InputError if there is no triangle, if a coordinate is
 /// not finite (drop such triangles first, and say so), or if `outer` is empty or not closed; Cancelled.
 ///
-///     const bool proven = is_closed(original) ? verify_enclosure(original, hull).encloses
-///                                             : verify_cover(original, hull).encloses;
+///     const bool proven = verify_cover(triangles, hull).encloses &&
+///                         (!is_closed(triangles) || verify_enclosure(triangles, hull).encloses);  // as verify_hull
 EnclosureReport verify_cover(const TriangleMesh& triangles, const TriangleMesh& outer,
                              const EnclosureOptions& options = {});
 
-/// Turns a mesh outwards: as a whole if its volume is negative, and then each component whose volume is negative and
-/// which lies outside of all others, where it cannot be a cavity. Components are connected by edges. Hulls are built
-/// from meshes that are turned like this, and verified against them. Exact. Throws InputError if the mesh is empty or
+/// Turns a mesh outwards: as a whole if its volume is negative, and then each component of negative volume that lies
+/// outside of all components that face outwards and crosses none of them; it may touch them. One that lies inside is a
+/// cavity, and one that crosses cuts a hole; both stay. Components are connected by edges. Hulls are built from meshes
+/// that are turned like this, and verified against them. Exact. Throws InputError if the mesh is empty or
 /// not finite.
 TriangleMesh turned_outwards(TriangleMesh mesh);
 

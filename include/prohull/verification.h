@@ -14,9 +14,10 @@
 namespace prohull {
 
 struct VerificationOptions {
-  /// A closed original bounds a solid, which the hull must enclose. With this option the hull must also cover every
-  /// single triangle, even those of folds and of inside-out parts, which bound no part of the solid. Outer hulls only.
-  bool every_triangle = false;
+  /// Only the solid must be enclosed that a closed original bounds; of an inner hull, only the solid that the hull
+  /// bounds. Triangles of folds and of parts that are inside out bound no part of the solid. By default they must be
+  /// covered too; with this option they may stick out.
+  bool solid_only = false;
   std::size_t max_offenders = 5;
   Progress progress = {};  ///< stage "verify"
 };
@@ -29,41 +30,52 @@ struct Verification {
   std::string_view proof;
   HullSide side = HullSide::Outer;
   bool original_closed = false;
-  bool every_triangle = false;  ///< every triangle had to be covered: it was asked for, or the original is not closed
+  bool every_triangle = false;  ///< every triangle had to be covered: unless solid_only allows less
 
-  std::string why_not;     ///< the first step of a replay that fails; empty if it holds
+  std::string why_not;     ///< why the verdict is no; empty if it is yes
   std::size_t splits = 0;  ///< vertex splits replayed
   std::size_t signs = 0;   ///< signs of orient3d that the replay decided exactly
 
-  std::size_t faces_outside = 0;       ///< faces of the inner mesh of which a part lies outside of the outer one; exact
-  std::vector<Offender> worst;         ///< the farthest of these, farthest first
-  std::size_t cavities = 0;            ///< as in EnclosureReport
-  std::size_t self_intersections = 0;  ///< pairs of faces of the hull that intersect; of a progressive hull its base
-  std::size_t turned_hull_faces = 0, turned_original_faces = 0;  ///< faces that face inwards and count as turned
-  double hull_volume = 0;
+  std::size_t faces_outside = 0;  ///< faces of the inner mesh of which a part lies outside of the outer one; exact
+  std::vector<Offender> worst;    ///< the farthest of these, farthest first
+  std::size_t cavities = 0;       ///< as in EnclosureReport
+  /// Faces of the inner mesh that bound no part of its solid, as in folds. Of a progressive hull only the base mesh is
+  /// known to cover them.
+  std::size_t faces_beside_solid = 0;
+  std::size_t self_intersections = 0;     ///< pairs of faces of the hull that intersect; of a progressive hull its base
+  std::size_t inverted_hull_faces = 0;    ///< faces of the hull, or of components of it, that is inside out
+  std::size_t turned_original_faces = 0;  ///< faces of the original that look inwards and count as turned
+  double hull_volume = std::numeric_limits<double>::quiet_NaN();      ///< NaN if a replay fails
   double original_volume = std::numeric_limits<double>::quiet_NaN();  ///< NaN if the original is not closed
   double void_ratio = std::numeric_limits<double>::quiet_NaN();       ///< hull_volume / original_volume - 1
   /// Sentences for the user: what was left out of the original, and units that seem to differ.
   std::vector<std::string> notes;
 };
 
-/// Decides whether `hull` encloses `original` (HullSide::Inner: whether `original` encloses `hull`), by the proof that
-/// fits: of a closed original the solid must be enclosed (verify_enclosure), of any other one every triangle must be
-/// covered (verify_cover). Faces of the original that are not finite are left out; components of closed meshes that are
-/// inside out count as turned (turned_outwards). `notes` tell of both, and of meshes whose sizes differ as if their
-/// units did. Guaranteed: the verdict is exact, as that of the functions named.
+/// Decides whether `hull` encloses `original` (HullSide::Inner: whether `original` encloses `hull`). Guaranteed: the
+/// verdict is exact. What it means:
 ///
-/// Throws InputError if a mesh is empty, if the hull is not closed or not finite, and for an inner hull if the original
-/// is not closed or `every_triangle` is asked for; Cancelled.
+///   closed original   the hull encloses its solid (verify_enclosure) and covers every triangle of it (verify_cover)
+///   any other one     the hull covers every triangle of it
+///   inner hull        the original encloses the solid of the hull, and its solid covers every triangle of the hull
+///
+/// Faces of the original that are not finite are left out, and components of a closed original that are inside out
+/// count as turned (turned_outwards); `notes` tell of both, and of meshes whose sizes differ as if their units did. A
+/// hull that is inside out, as a whole or in such a component, is refused: the verdict is no.
+///
+/// Throws InputError if a mesh is empty, if the hull is not closed or not finite, if a coordinate is larger than 1e100,
+/// and for an inner hull if the original is not closed; Cancelled.
 ///
 ///     const Verification found = verify_hull(read_mesh("hull.stl"), read_mesh("part.stl"));
 ///     if (!found.encloses && !found.worst.empty()) show(found.worst[0].point);
 Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSide side = HullSide::Outer,
                          const VerificationOptions& options = {});
 
-/// The same for every level of a progressive hull, which is its own proof (verify_replay): its finest level must be the
-/// original, or, if that is not closed, cover its triangles. Of an original that is not closed the finest level is what
-/// covers the triangles.
+/// The same for a progressive hull, which is its own proof (verify_replay): every level encloses the solid of the
+/// original, which must be the finest level. If the hull says that its finest level is not the input (FinestLevel),
+/// that level must enclose the solid of the original instead. Every triangle is asked of the base mesh; `notes` tell if
+/// the finest level itself leaves some of them uncovered. If the original is not closed, the finest level must cover
+/// its triangles; then every level does.
 Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, const VerificationOptions& options = {});
 
 }  // namespace prohull

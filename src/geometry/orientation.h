@@ -15,8 +15,8 @@ int volume_sign(std::span<const Triangle> faces);
 enum class Facing : std::uint8_t {
   Outwards,   ///< its volume is not negative
   Cavity,     ///< negative volume, inside the components that face outwards
-  InsideOut,  ///< negative volume, outside of them: to be turned
-  Unclear,    ///< negative volume, partly inside and partly outside
+  InsideOut,  ///< negative volume, outside of them, at most touching them: to be turned
+  Unclear,    ///< negative volume, and crosses them, or all of its corners lie on them: neither turned nor a cavity
 };
 
 struct Orientation {
@@ -24,7 +24,8 @@ struct Orientation {
   std::vector<Facing> components;  ///< how each faces once that is done
 };
 
-/// `component` has the number, below `components`, of each face's component. Exact.
+/// `component` has the number, below `components`, of each face's component. Exact, but for faces of negative
+/// components with all three corners on the surface of others: a point of the face, rounded, says where they lie.
 Orientation orientation(std::vector<Triangle> faces, std::span<const std::uint32_t> component, std::size_t components);
 
 }  // namespace prohull

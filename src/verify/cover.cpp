@@ -6,14 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/interior_contact.h"
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
 #include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
-#include "verify/contact.h"
 #include "verify/offenders.h"
 #include "verify/self_intersection.h"
+#include "verify/solids.h"
 #include "verify/subdivision.h"
 #include "verify/surface.h"
 #include "verify/winding.h"
@@ -52,17 +53,19 @@ bool cuts(const TriangleContact& c) { return c.interior == Contact::Crossing || 
 /// Which parts of the faces of a surface lie in C.
 class CoveredFaces {
  public:
-  explicit CoveredFaces(const Surface& surface)
+  CoveredFaces(const Surface& surface, ProgressMeter& meter)
       : surface_(surface),
+        meter_(meter),
         meets_(surface.faces.size()),
         sheets_(surface.faces.size()),
         all_(surface.faces.size(), Answer::NotAsked) {
-    const auto pairs = verify::self_intersections(surface);
+    const auto pairs = verify::self_intersections(surface, meter);
     for (const auto& [f, g] : pairs) meets_[f].push_back(g), meets_[g].push_back(f);
     self_intersections_ = pairs.size();
   }
 
   std::size_t self_intersections() const { return self_intersections_; }
+  bool meets_others(FaceIndex f) const { return !meets_[f].empty(); }
 
   /// All of the face.
   bool contain(FaceIndex f) {
@@ -117,11 +120,13 @@ class CoveredFaces {
   std::vector<Cell> pieces_of(FaceIndex f) const {
     std::vector<Triangle> cutters;
     for (const FaceIndex g : meets_[f])
-      if (cuts(contact(surface_.faces[f], surface_.axis[f], surface_.faces[g]))) cutters.push_back(surface_.faces[g]);
-    return subdivide(surface_.faces[f], surface_.axis[f], cutters);
+      if (cuts(interior_contact(surface_.faces[f], surface_.axis[f], surface_.faces[g])))
+        cutters.push_back(surface_.faces[g]);
+    return subdivide(surface_.faces[f], surface_.axis[f], cutters, meter_);
   }
 
   bool borders(FaceIndex f, const Cell& piece) {
+    meter_.go_on();
     SurfacePoint p(surface_.faces[f], surface_.axis[f], piece, random_);
     return winding_beside(surface_, p, piece, random_).is_cover();
   }
@@ -139,6 +144,7 @@ class CoveredFaces {
   }
 
   const Surface& surface_;
+  ProgressMeter& meter_;
   std::vector<std::vector<FaceIndex>> meets_;
   Clusters sheets_;                               // of faces that have the same regions beside them
   std::vector<Answer> all_;                       // by representative
@@ -197,9 +203,9 @@ class CoverVerifier {
   CoverVerifier(const TriangleMesh& mesh, const TriangleMesh& outer, const EnclosureOptions& options)
       : mesh_(mesh),
         outer_(outer, "outer"),
-        covered_(outer_),
         options_(options),
         counter_(options.progress, "verify", mesh.face_count()),
+        covered_(outer_, counter_.meter()),
         number_(numbered_by_position(mesh.positions)),
         groups_(mesh.vertex_count()),
         is_clear_(mesh.vertex_count()) {}
@@ -242,7 +248,7 @@ class CoverVerifier {
     cutters_.clear();
     holders_.clear();
     for (const FaceIndex h : near_) {
-      const TriangleContact c = contact(t, axis, outer_.faces[h]);
+      const TriangleContact c = interior_contact(t, axis, outer_.faces[h]);
       if (c.interior == Contact::None) continue;
       is_met = true;
       if (cuts(c)) cutters_.push_back(outer_.faces[h]);
@@ -288,7 +294,8 @@ class CoverVerifier {
 
   void check_cells(FaceId f, const Triangle& t, int axis) {
     std::vector<Vec3> uncovered;
-    for (const Cell& cell : subdivide(t, axis, cutters_)) {
+    for (const Cell& cell : subdivide(t, axis, cutters_, counter_.meter())) {
+      counter_.meter().go_on();
       SurfacePoint p(t, axis, cell, random_);
       if (winding_beside(outer_, p, cell, random_).is_cover()) continue;
       uncovered.push_back(p.rounded());
@@ -379,9 +386,9 @@ class CoverVerifier {
 
   const TriangleMesh& mesh_;
   const Surface outer_;
-  CoveredFaces covered_;
   const EnclosureOptions& options_;
   ProgressCounter counter_;
+  CoveredFaces covered_;
   const std::vector<std::uint32_t> number_;  // of the vertices, by position
   Clusters groups_;                          // of clear vertices, which are in one region of H
   std::vector<bool> is_clear_;               // by number: H does not touch a triangle that has the vertex
@@ -394,6 +401,25 @@ class CoverVerifier {
 };
 
 }  // namespace
+
+std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const TriangleMesh& mesh, const Progress& progress) {
+  ProgressCounter counter(progress, "verify", surface.faces.size());
+  CoveredFaces covered(surface, counter.meter());
+  // To find out takes a cut for each pair; from some number on it is faster to ask whether the hull covers them.
+  constexpr std::size_t kMostPairs = 1000;
+  const bool are_few = covered.self_intersections() <= kMostPairs;
+  PerFace<char> bounds_it(mesh.face_count(), 0);
+  for (FaceIndex f = 0; f < surface.faces.size(); ++f) {
+    counter.next();
+    bounds_it[surface.source[f]] = (are_few || !covered.meets_others(f)) && covered.contain(f);
+  }
+  std::vector<FaceId> result;
+  for (const FaceId f : mesh.triangles.ids())
+    if (!bounds_it[f]) result.push_back(f);
+  counter.finish();
+  return result;
+}
+
 }  // namespace verify
 
 EnclosureReport verify_cover(const TriangleMesh& triangles, const TriangleMesh& outer,

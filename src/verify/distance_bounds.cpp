@@ -7,33 +7,13 @@
 #include <vector>
 
 #include "geometry/bvh.h"
+#include "geometry/closest_point.h"
 #include "parallel/progress_meter.h"
 #include "prohull/error.h"
 #include "verify/distance.h"
 
 namespace prohull {
 namespace {
-
-/// A point of t close to p, the closest but for rounding (Ericson, Real-Time Collision Detection, 5.1.5).
-Vec3 closest_point(const Vec3& p, const Triangle& t) {
-  const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a, bp = p - t.b, cp = p - t.c;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
-               d6 = dot(ac, cp);
-  // Fractions in [0, 1], whatever rounding did: what is returned is a point of the triangle.
-  const auto fraction = [](double part, double rest) {
-    const double whole = part + rest;
-    return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0;
-  };
-  if (d1 <= 0 && d2 <= 0) return t.a;
-  if (d3 >= 0 && d4 <= d3) return t.b;
-  if (d6 >= 0 && d5 <= d6) return t.c;
-  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return t.a + ab * fraction(d1, -d3);
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return t.a + ac * fraction(d2, -d6);
-  if (va <= 0 && d4 >= d3 && d5 >= d6) return t.b + (t.c - t.b) * fraction(d4 - d3, d5 - d6);
-  const double v = fraction(vb, va + vc), w = std::min(fraction(vc, va + vb), 1 - v);
-  return t.a + ab * v + ac * w;
-}
 
 /// Part of a face of `from`, and how far it is from `to` at most.
 struct Cell {
@@ -146,11 +126,18 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
   return Search(from, to, options).run();
 }
 
-bool HullBounds::hold(const TriangleMesh& hull, const TriangleMesh& original, double volume,
-                      const Progress& progress) const {
+double HullBounds::excess(const TriangleMesh& hull, const TriangleMesh& original, double volume,
+                          const Progress& progress) const {
   const double added = std::abs(signed_volume(hull) - volume);
-  if (added > max_added_volume || (std::isfinite(max_void_ratio) && !(added <= max_void_ratio * volume))) return false;
-  return !std::isfinite(max_distance) || distance_bounds(hull, original, {.progress = progress}).upper <= max_distance;
+  // A bound of 0 is kept by nothing but 0.
+  const auto quotient = [](double value, double bound) {
+    return value > bound ? value / bound : bound > 0 ? value / bound : 0;
+  };
+  double most = quotient(added, max_added_volume);
+  if (std::isfinite(max_void_ratio)) most = std::max(most, quotient(added, max_void_ratio * volume));
+  if (std::isfinite(max_distance))
+    most = std::max(most, quotient(distance_bounds(hull, original, {.progress = progress}).upper, max_distance));
+  return most;
 }
 
 }  // namespace prohull

@@ -5,11 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/interior_contact.h"
 #include "parallel/progress_meter.h"
 #include "prohull/error.h"
-#include "verify/contact.h"
 #include "verify/offenders.h"
 #include "verify/self_intersection.h"
+#include "verify/solids.h"
 #include "verify/subdivision.h"
 #include "verify/surface.h"
 #include "verify/winding.h"
@@ -42,8 +43,8 @@ struct Sides {
 
 class Verifier {
  public:
-  Verifier(const TriangleMesh& inner, const TriangleMesh& outer, const EnclosureOptions& options)
-      : inner_(inner, "inner"), outer_(outer, "outer"), options_(options), meter_(options.progress, "verify") {}
+  Verifier(const Surface& inner, const Surface& outer, const EnclosureOptions& options)
+      : inner_(inner), outer_(outer), options_(options), meter_(options.progress, "verify") {}
 
   EnclosureReport report() {
     check_inner_faces();
@@ -66,7 +67,7 @@ class Verifier {
     std::uint8_t edges = 0;
 
     void add(const Triangle& t, int axis, const Triangle& other) {
-      const TriangleContact c = contact(t, axis, other);
+      const TriangleContact c = interior_contact(t, axis, other);
       edges |= c.edges;
       touches_interior |= c.interior != Contact::None;
       if (c.interior == Contact::Crossing || c.interior == Contact::Covering) cutters.push_back(other);
@@ -108,18 +109,23 @@ class Verifier {
   /// Looks for a point beside face f of O where w_H < 1 and w_O >= 1; `cutters` are the faces of H that cut it.
   void check_inner_face(FaceIndex f, std::vector<Triangle> cutters) {
     const Triangle& t = inner_.faces[f];
-    std::vector<Cell> cells = subdivide(t, inner_.axis[f], cutters);
+    std::vector<Cell> cells = subdivide(t, inner_.axis[f], cutters, meter_);
     std::vector<Sample> suspects = uncovered_samples(f, cells);
-    if (suspects.empty()) return;
+    if (suspects.empty() || find_outside(f, suspects)) return;
     // Only where O intersects itself, w_O can differ between the points of a piece.
     const Neighbours near = neighbours(inner_, f, inner_, f);
-    if (!near.cutters.empty()) {
-      cutters.insert(cutters.end(), near.cutters.begin(), near.cutters.end());
-      cells = subdivide(t, inner_.axis[f], cutters);
-      suspects = uncovered_samples(f, cells);
-    }
+    if (near.cutters.empty()) return;
+    cutters.insert(cutters.end(), near.cutters.begin(), near.cutters.end());
+    cells = subdivide(t, inner_.axis[f], cutters, meter_);
+    suspects = uncovered_samples(f, cells);
+    find_outside(f, suspects);
+  }
+
+  /// Whether one of the samples lies beside a point where w_H < 1 and w_O >= 1. Adds the farthest to the offenders.
+  bool find_outside(FaceIndex f, std::vector<Sample>& suspects) {
     std::optional<Offender> farthest;
     for (Sample& s : suspects) {
+      meter_.go_on();
       const WindingBeside w = winding_beside(inner_, s.point, *s.cell, random_);
       if ((s.uncovered.outside && w.outside >= 1) || (s.uncovered.inside && w.inside >= 1)) {
         const Offender offender = farthest_of(f, s);
@@ -127,11 +133,13 @@ class Verifier {
       }
     }
     if (farthest) offenders_.push_back(*farthest);
+    return farthest.has_value();
   }
 
   std::vector<Sample> uncovered_samples(FaceIndex f, const std::vector<Cell>& cells) {
     std::vector<Sample> result;
     for (const Cell& cell : cells) {
+      meter_.go_on();
       Sample s = uncovered_sample(inner_, f, cell);
       if (s.uncovered.any()) result.push_back(std::move(s));
     }
@@ -147,7 +155,7 @@ class Verifier {
 
   /// Looks for pieces of H beside which w_H < 1, in the midst of O.
   void check_outer_faces() {
-    const auto pairs = self_intersections(outer_);
+    const auto pairs = self_intersections(outer_, meter_);
     report_.self_intersections = pairs.size();
     std::vector<std::vector<FaceIndex>> meets(outer_.faces.size());
     for (const auto& [f, g] : pairs) meets[f].push_back(g), meets[g].push_back(f);
@@ -156,8 +164,12 @@ class Verifier {
       if (f % 64 == 0) meter_.at(0.8 + 0.2 * double(f) / double(outer_.faces.size()));
       Neighbours near;
       for (const FaceIndex g : meets[f]) near.add(outer_.faces[f], outer_.axis[f], outer_.faces[g]);
-      for (const Cell& cell : subdivide(outer_.faces[f], outer_.axis[f], near.cutters))
-        if (bounds_a_hole(f, cell)) bounds_hole[f] = 1;
+      for (const Cell& cell : subdivide(outer_.faces[f], outer_.axis[f], near.cutters, meter_)) {
+        meter_.go_on();
+        if (!bounds_a_hole(f, cell)) continue;
+        bounds_hole[f] = 1;
+        break;
+      }
     }
     Clusters clusters(outer_.faces.size());
     join_along_edges(outer_, clusters, [&](const FaceEdge& e) { return bounds_hole[e.face] != 0; });
@@ -206,7 +218,7 @@ class Verifier {
     return farthest(inner_.source[f], points, outer_);
   }
 
-  const Surface inner_, outer_;
+  const Surface &inner_, &outer_;
   const EnclosureOptions& options_;
   ProgressMeter meter_;
   std::mt19937 random_;  // the verdict does not depend on it
@@ -215,11 +227,16 @@ class Verifier {
 };
 
 }  // namespace
+
+EnclosureReport verify_enclosure(const Surface& inner, const Surface& outer, const EnclosureOptions& options) {
+  return Verifier(inner, outer, options).report();
+}
+
 }  // namespace verify
 
 EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& outer,
                                  const EnclosureOptions& options) {
-  return verify::Verifier(inner, outer, options).report();
+  return verify::verify_enclosure(verify::Surface(inner, "inner"), verify::Surface(outer, "outer"), options);
 }
 
 }  // namespace prohull

@@ -69,8 +69,9 @@ class PairSearch {
 
   /// visit(f, g) once for each pair that meets, in any order.
   template <class Visit>
-  void visit_meeting(Visit visit) {
+  void visit_meeting(ProgressMeter& meter, Visit visit) {
     for (std::uint32_t leaf = 0; leaf < levels_[0].size(); ++leaf) {
+      meter.go_on();
       find_leaves_from(leaf);
       for (std::uint32_t lane = 0; lane < kWidth && kWidth * leaf + lane < face_at_.size(); ++lane) {
         const std::uint32_t f = face_at_[kWidth * leaf + lane];
@@ -149,14 +150,22 @@ class PairSearch {
 
 }  // namespace
 
-std::vector<std::pair<FaceIndex, FaceIndex>> self_intersections(const Surface& surface) {
+std::vector<std::pair<FaceIndex, FaceIndex>> self_intersections(const Surface& surface, ProgressMeter& meter) {
   std::vector<std::pair<FaceIndex, FaceIndex>> pairs;
   const auto triangle_of = [&](FaceIndex f) -> const Triangle& { return surface.faces[f]; };
   if (surface.faces.empty()) return pairs;
-  PairSearch(static_cast<FaceIndex>(surface.faces.size()), triangle_of).visit_meeting([&](FaceIndex f, FaceIndex g) {
-    pairs.emplace_back(f, g);
-  });
+  PairSearch(static_cast<FaceIndex>(surface.faces.size()), triangle_of)
+      .visit_meeting(meter, [&](FaceIndex f, FaceIndex g) { pairs.emplace_back(f, g); });
   std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::size_t count_self_intersections(const TriangleMesh& mesh, ProgressMeter& meter) {
+  require_usable(mesh, "given");
+  std::size_t pairs = 0;
+  const auto triangle_of = [&](std::uint32_t f) { return mesh.triangle(FaceId{f}); };
+  PairSearch(static_cast<std::uint32_t>(mesh.face_count()), triangle_of)
+      .visit_meeting(meter, [&](std::uint32_t, std::uint32_t) { ++pairs; });
   return pairs;
 }
 
@@ -165,12 +174,8 @@ std::vector<std::pair<FaceIndex, FaceIndex>> self_intersections(const Surface& s
 namespace prohull {
 
 std::size_t count_self_intersections(const TriangleMesh& mesh) {
-  verify::require_usable(mesh, "given");
-  std::size_t pairs = 0;
-  const auto triangle_of = [&](std::uint32_t f) { return mesh.triangle(FaceId{f}); };
-  verify::PairSearch(static_cast<std::uint32_t>(mesh.face_count()), triangle_of)
-      .visit_meeting([&](std::uint32_t, std::uint32_t) { ++pairs; });
-  return pairs;
+  ProgressMeter silent({}, "verify");
+  return verify::count_self_intersections(mesh, silent);
 }
 
 }  // namespace prohull

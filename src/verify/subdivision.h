@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "parallel/progress_meter.h"
 #include "prohull/geometry.h"
 #include "verify/exact.h"
 
@@ -23,9 +24,10 @@ Cell whole_cell(const Triangle& t, int axis);
 std::array<Number, 3> lifted(const Triangle& t, int axis, const PlanePoint& p);
 
 /// Cuts t, which has an area along `axis`, into convex cells of which no interior meets any of the `cutters` in a
-/// segment, or the edge of a coplanar one. Cutters must meet the interior of t (see contact).
+/// segment, or the edge of a coplanar one. Cutters must meet the interior of t (see interior_contact).
 /// A binary space partition by the cutters' own segments: only cells that a segment passes are cut by its line. Exact;
-/// every corner is the meeting point of two lines of the input, so that numbers do not grow with the depth.
-std::vector<Cell> subdivide(const Triangle& t, int axis, std::span<const Triangle> cutters);
+/// every corner is the meeting point of two lines of the input, so that numbers do not grow with the depth. Asks
+/// `meter` whether to go on after each cut.
+std::vector<Cell> subdivide(const Triangle& t, int axis, std::span<const Triangle> cutters, ProgressMeter& meter);
 
 }  // namespace prohull::verify

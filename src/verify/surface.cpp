@@ -89,6 +89,11 @@ void require_usable(const TriangleMesh& mesh, std::string_view name) {
     }
 }
 
+void require_closed(const TriangleMesh& mesh, std::string_view name) {
+  require_usable(mesh, name);
+  require_closed(mesh, numbered_by_position(mesh.positions), name);
+}
+
 Surface::Surface(const TriangleMesh& mesh, std::string_view name) {
   require_usable(mesh, name);
   const auto number = numbered_by_position(mesh.positions);

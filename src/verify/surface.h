@@ -30,6 +30,9 @@ struct Surface {
 /// finite.
 void require_usable(const TriangleMesh& mesh, std::string_view name);
 
+/// The same if the mesh is not closed.
+void require_closed(const TriangleMesh& mesh, std::string_view name);
+
 /// For each vertex the first one, in lexicographic order, at its position; 0.0 and -0.0 are the same position.
 /// Positions that are not finite belong to no face, and have no number.
 std::vector<std::uint32_t> numbered_by_position(const PerVertex<Vec3>& positions);

@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "base/text.h"
+#include "geometry/usable_size.h"
 #include "parallel/progress_meter.h"
 #include "prohull/error.h"
 #include "prohull/replay.h"
+#include "verify/self_intersection.h"
+#include "verify/solids.h"
+#include "verify/surface.h"
 
 namespace prohull {
 namespace {
@@ -44,111 +49,202 @@ void note_units(const Box& hull, const Box& original, std::vector<std::string>& 
                                   what));
 }
 
-Box box_of(const ProgressiveHull& hull) {
+/// Of what faces refer to; throws InputError if it is too large to verify.
+Box usable_box(const TriangleMesh& mesh, std::string_view name) {
+  verify::require_usable(mesh, name);
   Box box;
-  for (const Vec3& p : hull.positions()) box.extend(p);
+  for (const auto& corners : mesh.triangles)
+    for (const VertexId v : corners) box.extend(mesh.positions[v]);
+  require_usable_reach(box, fmt::format("coordinates of the {}", name));
   return box;
 }
 
-/// The mesh as turned_outwards turns it. Counts the faces that this turns.
-TriangleMesh turned(const TriangleMesh& mesh, std::string_view name, std::size_t& count,
-                    std::vector<std::string>& notes) {
-  TriangleMesh result = turned_outwards(mesh);
-  for (const FaceId f : mesh.triangles.ids()) count += result.triangles[f] != mesh.triangles[f];
-  if (count > 0)
-    notes.push_back(fmt::format("{} of the {} {} inwards and {} as turned", counted(count, "face", "faces"), name,
-                                count == 1 ? "faces" : "face", count == 1 ? "counts" : "count"));
-  return result;
+/// The replay judges positions that are not finite.
+Box usable_box(const ProgressiveHull& hull) {
+  Box box;
+  for (const Vec3& p : hull.positions())
+    if (is_finite(p)) box.extend(p);
+  require_usable_reach(box, "coordinates of the hull");
+  return box;
 }
 
-/// Steps of one verification, each of which has its share of the progress.
-class Steps {
- public:
-  Steps(std::size_t count, const VerificationOptions& options)
-      : count_(static_cast<double>(count)), options_(options), meter_(options.progress, "verify") {}
+std::size_t turned_faces(const TriangleMesh& mesh, const TriangleMesh& turned) {
+  std::size_t count = 0;
+  for (const FaceId f : mesh.triangles.ids()) count += turned.triangles[f] != mesh.triangles[f];
+  return count;
+}
 
-  EnclosureOptions next() {
-    const double from = done_++;
-    return {.max_offenders = options_.max_offenders, .progress = meter_.part(from / count_, (from + 1) / count_)};
+/// One verification, step by step. Each step has its share of the progress.
+class Judge {
+ public:
+  Judge(TriangleMesh& original, HullSide side, const VerificationOptions& options, std::size_t steps)
+      : original_(original), options_(options), meter_(options.progress, "verify"), steps_(steps) {
+    found.side = side;
+    if (const std::size_t dropped = drop_non_finite_faces(original))
+      found.notes.push_back(fmt::format("{} of the original {} not finite and {} left out",
+                                        counted(dropped, "face", "faces"), dropped == 1 ? "is" : "are",
+                                        dropped == 1 ? "is" : "are"));
+    original_box = usable_box(original, "original");
+    found.original_closed = is_closed(original);
+    if (!is_outer() && !found.original_closed)
+      throw InputError(Defect::OpenEdge,
+                       "the original is not closed: it has no inside that could enclose an inner hull");
+    found.every_triangle = !options.solid_only || !found.original_closed;
+    if (found.original_closed)
+      turn_original();
+    else
+      found.notes.emplace_back(
+          "the original is not closed: it has no volume, and every triangle of it must be covered");
   }
+
+  bool is_outer() const { return found.side == HullSide::Outer; }
+
+  EnclosureOptions next_step() {
+    const double from = static_cast<double>(done_++), steps = static_cast<double>(steps_);
+    return {.max_offenders = options_.max_offenders, .progress = meter_.part(from / steps, (from + 1) / steps)};
+  }
+
+  /// Hulls are not turned, but refused: who uses one believes that it looks outwards.
+  bool refuses_inverted(const TriangleMesh& hull) {
+    verify::require_closed(hull, "hull");
+    found.inverted_hull_faces = turned_faces(hull, turned_outwards(hull));
+    if (found.inverted_hull_faces == 0) return false;
+    found.encloses = false;
+    found.why_not = found.inverted_hull_faces == hull.face_count()
+                        ? "all faces of the hull look inwards; turn it (trimesh: mesh.invert()) if that is meant"
+                        : fmt::format(
+                              "{} of the hull {} inwards, in whole components; turn these (trimesh: "
+                              "mesh.fix_normals(multibody=True)) if that is meant",
+                              counted(found.inverted_hull_faces, "face", "faces"),
+                              found.inverted_hull_faces == 1 ? "looks" : "look");
+    return true;
+  }
+
+  void enclose_solid(const TriangleMesh& hull) {
+    const verify::Surface hull_surface(hull, "hull");
+    const verify::Surface& original = original_surface();
+    if (is_outer())
+      take(verify::verify_enclosure(original, hull_surface, next_step()),
+           "a part of the solid that the original bounds lies outside of the hull");
+    else
+      take(verify::verify_enclosure(hull_surface, original, next_step()),
+           "a part of the solid that the hull bounds lies outside of the original");
+  }
+
+  /// Of an original that is not closed.
+  void cover_all(const TriangleMesh& hull) {
+    take(verify_cover(original_, hull, next_step()), "triangles of the original lie outside of the hull, or in part");
+  }
+
+  /// Where solids are enclosed, triangles that bound them are covered: what is left are the others.
+  void cover_the_rest(const TriangleMesh& hull) {
+    const TriangleMesh& inner = is_outer() ? original_ : hull;
+    const std::vector<FaceId> rest =
+        is_outer() ? verify::faces_beside_the_solid(original_surface(), inner, next_step().progress)
+                   : verify::faces_beside_the_solid(verify::Surface(inner, "hull"), inner, next_step().progress);
+    const EnclosureOptions how = next_step();
+    found.faces_beside_solid = rest.size();
+    if (rest.empty()) return;
+    TriangleMesh triangles{inner.positions, {}};
+    for (const FaceId f : rest) triangles.triangles.push_back(inner.triangles[f]);
+    EnclosureReport report = verify_cover(triangles, is_outer() ? hull : original_, how);
+    for (Offender& o : report.worst) o.face = rest[index(o.face)];
+    take(std::move(report), is_outer() ? "triangles of folds of the original, or of parts that are inside out, lie "
+                                         "outside of the hull; its solid is enclosed"
+                                       : "triangles of folds of the hull, or of parts that are inside out, lie outside "
+                                         "of the original; its solid is enclosed");
+  }
+
+  void measure(const TriangleMesh& hull) {
+    found.hull_volume = signed_volume(hull);
+    found.void_ratio = found.hull_volume / found.original_volume - 1;
+    found.self_intersections = verify::count_self_intersections(hull, meter_);
+    meter_.at(1);
+  }
+
+  Verification found;
+  Box original_box;
 
  private:
-  const double count_;
-  double done_ = 0;
+  void turn_original() {
+    const TriangleMesh turned = turned_outwards(original_);
+    found.turned_original_faces = turned_faces(original_, turned);
+    original_ = turned;
+    found.original_volume = signed_volume(original_);
+    if (const std::size_t count = found.turned_original_faces)
+      found.notes.push_back(fmt::format("{} of the original {} inwards and {} as turned",
+                                        counted(count, "face", "faces"), count == 1 ? "looks" : "look",
+                                        count == 1 ? "counts" : "count"));
+  }
+
+  void take(EnclosureReport report, std::string_view why_not) {
+    found.encloses = report.encloses;
+    if (!report.encloses) found.why_not = why_not;
+    found.faces_outside = report.faces_outside;
+    found.worst = std::move(report.worst);
+    found.cavities += report.cavities;
+  }
+
+  const verify::Surface& original_surface() {
+    if (!original_surface_) original_surface_.emplace(original_, "original");
+    return *original_surface_;
+  }
+
+  TriangleMesh& original_;
+  std::optional<verify::Surface> original_surface_;
   const VerificationOptions& options_;
   ProgressMeter meter_;
+  const std::size_t steps_;
+  std::size_t done_ = 0;
 };
-
-/// Everything that does not depend on the hull.
-Verification begin(TriangleMesh& original, HullSide side, const VerificationOptions& options) {
-  Verification found;
-  found.side = side;
-  if (const std::size_t dropped = drop_non_finite_faces(original))
-    found.notes.push_back(fmt::format("{} of the original {} not finite and {} left out",
-                                      counted(dropped, "face", "faces"), dropped == 1 ? "is" : "are",
-                                      dropped == 1 ? "is" : "are"));
-  found.original_closed = is_closed(original);
-  if (side == HullSide::Inner && options.every_triangle)
-    throw InputError(Defect::InvalidOption, "every triangle is asked for, but only an outer hull can cover triangles");
-  if (side == HullSide::Inner && !found.original_closed)
-    throw InputError(Defect::OpenEdge, "the original is not closed: it has no inside that could enclose an inner hull");
-  found.every_triangle = options.every_triangle || !found.original_closed;
-  if (found.original_closed) {
-    original = turned(original, "original", found.turned_original_faces, found.notes);
-    found.original_volume = signed_volume(original);
-  } else {
-    found.notes.emplace_back("the original is not closed: it has no volume, and every triangle of it must be covered");
-  }
-  return found;
-}
-
-void take(EnclosureReport report, Verification& found) {
-  found.encloses = report.encloses;
-  found.faces_outside = report.faces_outside;
-  found.worst = std::move(report.worst);
-  found.cavities += report.cavities;
-}
-
-void measure(const TriangleMesh& hull, Verification& found) {
-  found.hull_volume = signed_volume(hull);
-  found.void_ratio = found.hull_volume / found.original_volume - 1;
-  found.self_intersections = count_self_intersections(hull);
-}
 
 }  // namespace
 
-Verification verify_hull(const TriangleMesh& given_hull, TriangleMesh original, HullSide side,
+Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSide side,
                          const VerificationOptions& options) {
-  Verification found = begin(original, side, options);
+  Judge judge(original, side, options, 3);
+  Verification& found = judge.found;
   found.proof = found.original_closed ? "enclosure" : "coverage";
-  note_units(bounding_box(given_hull), bounding_box(original), found.notes);
-  const TriangleMesh hull = turned(given_hull, "hull", found.turned_hull_faces, found.notes);
-  Steps steps(found.original_closed && found.every_triangle ? 2 : 1, options);
-  found.encloses = true;
-  if (found.original_closed)
-    take(side == HullSide::Outer ? verify_enclosure(original, hull, steps.next())
-                                 : verify_enclosure(hull, original, steps.next()),
-         found);
-  if (found.every_triangle && found.encloses) take(verify_cover(original, hull, steps.next()), found);
-  measure(hull, found);
-  return found;
+  note_units(usable_box(hull, "hull"), judge.original_box, found.notes);
+  if (!judge.refuses_inverted(hull)) {
+    if (found.original_closed)
+      judge.enclose_solid(hull);
+    else
+      judge.cover_all(hull);
+    if (found.original_closed && found.encloses && found.every_triangle) judge.cover_the_rest(hull);
+  }
+  judge.measure(hull);
+  return std::move(judge.found);
 }
 
 Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, const VerificationOptions& options) {
-  Verification found = begin(original, hull.side(), options);
+  const bool is_of_input = hull.finest_level() == FinestLevel::Input;
+  Judge judge(original, hull.side(), options, is_of_input ? 3 : 4);
+  Verification& found = judge.found;
   found.proof = "replay";
-  note_units(box_of(hull), bounding_box(original), found.notes);
-  const TriangleMesh finest = found.every_triangle ? hull.original() : TriangleMesh{};
-  Steps steps(found.every_triangle ? 2 : 1, options);
-  ReplayReport replay = verify_replay(hull, found.original_closed ? original : finest, steps.next().progress);
+  note_units(usable_box(hull), judge.original_box, found.notes);
+  const bool is_finest = found.original_closed && is_of_input;  // the original has to be the finest level
+  const TriangleMesh finest = is_finest ? TriangleMesh{} : hull.original();
+  ReplayReport replay = verify_replay(hull, is_finest ? original : finest, judge.next_step().progress);
   found.encloses = replay.holds;
   found.why_not = std::move(replay.why_not);
   found.splits = replay.splits;
   found.signs = replay.signs;
-  if (!replay.holds) return found;
-  if (found.every_triangle) take(verify_cover(original, finest, steps.next()), found);
-  measure(hull.base(), found);
-  return found;
+  if (!replay.holds) return std::move(judge.found);
+  const TriangleMesh base = hull.base();
+  if (!found.original_closed) {
+    judge.cover_all(finest);
+  } else if (!judge.refuses_inverted(base)) {
+    if (!is_finest) judge.enclose_solid(finest);
+    if (found.encloses && found.every_triangle) judge.cover_the_rest(base);
+    if (const std::size_t beside = found.faces_beside_solid; beside > 0 && found.encloses && judge.is_outer())
+      found.notes.push_back(
+          fmt::format("{} of the original bound{} no part of its solid, as in folds: the base mesh "
+                      "covers {}, finer levels may not",
+                      counted(beside, "face", "faces"), beside == 1 ? "s" : "", beside == 1 ? "it" : "them"));
+  }
+  judge.measure(base);
+  return std::move(judge.found);
 }
 
 }  // namespace prohull

@@ -51,15 +51,24 @@ ExactPoint::ExactPoint(std::array<Number, 3> coordinates) : exact_(std::move(coo
 
 ExactPoint::ExactPoint(const Vec3& p) : ExactPoint({Number(p.x), Number(p.y), Number(p.z)}) {}
 
-int ExactPoint::turn(int axis, const Vec3& a, const Vec3& b) const {
+std::array<int, 3> ExactPoint::turns(int axis, const Triangle& h) const {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const std::array<Vec3, 3> corner{h.a, h.b, h.c};
+  std::array<std::optional<int>, 3> certain;
   {
     const CGAL::Protect_FPU_rounding<true> upwards;
-    if (const auto sign =
-            certain_sign(turn_determinant<Interval>(a[u], a[v], b[u], b[v], approximate_[u], approximate_[v])))
-      return *sign;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 &a = corner[i], &b = corner[(i + 1) % 3];
+      certain[i] = certain_sign(turn_determinant<Interval>(a[u], a[v], b[u], b[v], approximate_[u], approximate_[v]));
+    }
   }
-  return int(CGAL::sign(turn_determinant<Number>(a[u], a[v], b[u], b[v], exact_[u], exact_[v])));
+  std::array<int, 3> result;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &a = corner[i], &b = corner[(i + 1) % 3];
+    result[i] = certain[i] ? *certain[i]
+                           : int(CGAL::sign(turn_determinant<Number>(a[u], a[v], b[u], b[v], exact_[u], exact_[v])));
+  }
+  return result;
 }
 
 Side ExactPoint::side(const Triangle& h) const {
@@ -76,15 +85,14 @@ int winding_at(const Surface& surface, const ExactPoint& p) {
     return !(box.min.x > p.upper(0) || box.max.x < p.lower(0) || box.min.y > p.upper(1) || box.max.y < p.lower(1) ||
              box.max.z < p.lower(2));
   };
-  const auto turn = [&](const Vec3& a, const Vec3& b) {
-    const int exact = p.turn(2, a, b);
-    return exact != 0 ? exact : turn_of_moved(a, b);
-  };
   int winding = 0;
   surface.bvh.visit(on_the_way, [&](FaceIndex f) {
     const Triangle& h = surface.faces[f];
-    const int first = turn(h.a, h.b);
-    if (first == 0 || turn(h.b, h.c) != first || turn(h.c, h.a) != first) return;
+    auto [first, second, third] = p.turns(2, h);
+    if (first == 0) first = turn_of_moved(h.a, h.b);
+    if (second == 0) second = turn_of_moved(h.b, h.c);
+    if (third == 0) third = turn_of_moved(h.c, h.a);
+    if (first == 0 || second != first || third != first) return;
     const bool is_beyond = std::min({h.a.z, h.b.z, h.c.z}) > p.upper(2) || (p.side(h) == Side::Inside) == (first > 0);
     if (is_beyond) winding += first;
   });
@@ -106,10 +114,8 @@ std::optional<WindingBeside> winding_beside(const Surface& surface, const Surfac
   };
   surface.bvh.visit(on_the_way, [&](FaceIndex f) {
     const Triangle& h = surface.faces[f];
-    const int first = p.turn(h.a, h.b), second = p.turn(h.b, h.c);
-    if (first * second < 0) return;
-    const int third = p.turn(h.c, h.a);
-    if (first * third < 0 || second * third < 0) return;
+    const auto [first, second, third] = p.turns(h);
+    if (first * second < 0 || first * third < 0 || second * third < 0) return;
     if (first == 0 || second == 0 || third == 0) {
       ambiguous = true;
       return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <random>
 
@@ -21,8 +22,8 @@ class ExactPoint {
   double upper(int coordinate) const { return approximate_[coordinate].sup(); }
   Vec3 rounded() const { return verify::rounded(exact_); }
 
-  /// turn(axis, a, b, this), exact.
-  int turn(int axis, const Vec3& a, const Vec3& b) const;
+  /// The turn from each corner of h to the next to this point, seen along the axis; exact.
+  std::array<int, 3> turns(int axis, const Triangle& h) const;
   /// The side of the plane of h, exact.
   Side side(const Triangle& h) const;
 
@@ -46,7 +47,7 @@ class SurfacePoint {
   double upper(int coordinate) const { return point_.upper(coordinate); }
   Vec3 rounded() const { return point_.rounded(); }
 
-  int turn(const Vec3& a, const Vec3& b) const { return point_.turn(axis_, a, b); }
+  std::array<int, 3> turns(const Triangle& h) const { return point_.turns(axis_, h); }
   /// The side of the plane of h, exact.
   Side side(const Triangle& h) const;
 

@@ -3,13 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
+#include "geometry/triangle_predicates.h"
 #include "meshes.h"
+#include "progress.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
 #include "prohull/sample.h"
+#include "random.h"
 
 namespace prohull {
 namespace {
@@ -34,12 +39,22 @@ bool says(const Verification& found, std::string_view words) {
   return false;
 }
 
-TEST(VerifyHull, OfAClosedOriginalTheSolidMustBeEnclosed) {
+/// A box with a spike that was pushed in through it and out of the other side: there its faces look inwards, and bound
+/// nothing. Only the tip, at z = -2, sticks out.
+TriangleMesh box_with_a_spike_inside_out() {
+  TriangleMesh mesh = subdivided(kSmall);
+  for (const VertexId v : mesh.positions.ids())
+    if (mesh.positions[v] == Vec3{0.5, 0.5, 1}) mesh.positions[v].z = -2;
+  return mesh;
+}
+
+TEST(VerifyHull, OfAClosedOriginalTheSolidMustBeEnclosedAndEveryTriangleCovered) {
   const Verification found = verify_hull(kLarge, kSmall);
   EXPECT_TRUE(found.encloses);
   EXPECT_EQ(found.proof, "enclosure");
   EXPECT_TRUE(found.original_closed);
-  EXPECT_FALSE(found.every_triangle);
+  EXPECT_TRUE(found.every_triangle);
+  EXPECT_TRUE(found.why_not.empty());
   EXPECT_DOUBLE_EQ(found.hull_volume, 27);
   EXPECT_DOUBLE_EQ(found.original_volume, 1);
   EXPECT_DOUBLE_EQ(found.void_ratio, 26);
@@ -48,6 +63,42 @@ TEST(VerifyHull, OfAClosedOriginalTheSolidMustBeEnclosed) {
   EXPECT_FALSE(reversed.encloses);
   EXPECT_EQ(reversed.faces_outside, 12u);
   EXPECT_FALSE(reversed.worst.empty());
+  EXPECT_FALSE(reversed.why_not.empty());
+}
+
+TEST(VerifyHull, SaysNoToAFoldThatSticksOut) {
+  const TriangleMesh original = box_with_a_spike_inside_out();
+  const Verification found = verify_hull(kLarge, original);
+  EXPECT_FALSE(found.encloses);
+  EXPECT_NE(found.why_not.find("folds"), std::string::npos) << found.why_not;
+  ASSERT_FALSE(found.worst.empty());
+  EXPECT_DOUBLE_EQ(found.worst[0].distance, 1);
+  const Triangle t = original.triangle(found.worst[0].face);
+  EXPECT_TRUE(std::min({t.a.z, t.b.z, t.c.z}) == -2) << "the face has its number in the original";
+  const Verification solid = verify_hull(kLarge, original, HullSide::Outer, {.solid_only = true});
+  EXPECT_TRUE(solid.encloses) << solid.why_not;
+  EXPECT_FALSE(solid.every_triangle);
+  EXPECT_TRUE(verify_hull(box({-1, -1, -2}, {2, 2, 2}), original).encloses);
+}
+
+TEST(VerifyHull, SaysNoToFacesWithoutAreaThatStickOut) {
+  TriangleMesh original = together(kSmall, make({{1, 1, 1}, {9, 9, 9}, {5, 5, 5}}, {{0, 1, 2}, {2, 1, 0}}));
+  EXPECT_FALSE(verify_hull(kLarge, original).encloses);
+  EXPECT_TRUE(verify_hull(kLarge, original, HullSide::Outer, {.solid_only = true}).encloses);
+}
+
+TEST(VerifyHull, SaysNoToAShellThatCoversTheTrianglesOnly) {
+  const TriangleMesh shell = together(kLarge, inside_out(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));
+  EXPECT_FALSE(verify_hull(shell, kSmall).encloses);
+}
+
+TEST(VerifyHull, SaysYesToCavitiesAndToPartsThatOverlap) {
+  const TriangleMesh hollow = together(kSmall, inside_out(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));
+  EXPECT_TRUE(verify_hull(kLarge, hollow).encloses);
+  EXPECT_TRUE(verify_hull(hollow, hollow).encloses);
+  const TriangleMesh overlapping = together(kSmall, moved(kSmall, {0.5, 0.5, 0.5}));
+  EXPECT_TRUE(verify_hull(kLarge, overlapping).encloses);
+  EXPECT_TRUE(verify_hull(overlapping, overlapping).encloses);
 }
 
 TEST(VerifyHull, OfAnOpenOriginalEveryTriangleMustBeCovered) {
@@ -64,20 +115,13 @@ TEST(VerifyHull, OfAnOpenOriginalEveryTriangleMustBeCovered) {
   EXPECT_EQ(stray.faces_outside, 1u);
 }
 
-TEST(VerifyHull, ThatEncloseASolidMayLeaveATriangleOfItUncovered) {
-  // The inner tetrahedron faces inwards and lies far outside, so that the solid does not count it after the other,
-  // equal one that faces outwards: together they wind around nothing.
+TEST(VerifyHull, AsksForTrianglesThatTogetherBoundNothing) {
   const TriangleMesh away = tetrahedron({9, 9, 9}, {10, 9, 9}, {9, 10, 9}, {9, 9, 10});
   const TriangleMesh original = together(together(kSmall, away), inside_out(away));
-  const Verification solid = verify_hull(kLarge, original);
-  const Verification all = verify_hull(kLarge, original, HullSide::Outer, {.every_triangle = true});
-  EXPECT_EQ(all.proof, "enclosure");
-  EXPECT_TRUE(all.every_triangle);
-  EXPECT_FALSE(all.encloses);
-  EXPECT_GT(all.faces_outside, 0u);
-  EXPECT_TRUE(all.original_closed);
-  EXPECT_GE(all.faces_outside, solid.faces_outside);
-  EXPECT_TRUE(verify_hull(kLarge, kSmall, HullSide::Outer, {.every_triangle = true}).encloses);
+  const Verification found = verify_hull(kLarge, original);
+  EXPECT_FALSE(found.encloses);
+  EXPECT_EQ(found.faces_outside, 8u);
+  EXPECT_TRUE(verify_hull(kLarge, original, HullSide::Outer, {.solid_only = true}).encloses);
 }
 
 TEST(VerifyHull, OfAnInnerHullTheOriginalMustEncloseIt) {
@@ -90,7 +134,16 @@ TEST(VerifyHull, OfAnInnerHullTheOriginalMustEncloseIt) {
 
 TEST(VerifyHull, RefusesWhatAnInnerHullCannotProve) {
   EXPECT_THROW(verify_hull(kSmall, without_a_face(kLarge), HullSide::Inner), InputError);
-  EXPECT_THROW(verify_hull(kSmall, kLarge, HullSide::Inner, {.every_triangle = true}), InputError);
+}
+
+TEST(VerifyHull, OfAnInnerHullEveryTriangleMustLieInTheSolid) {
+  const TriangleMesh hull = box_with_a_spike_inside_out();
+  const Verification found = verify_hull(hull, kLarge, HullSide::Inner);
+  EXPECT_FALSE(found.encloses);
+  EXPECT_NE(found.why_not.find("folds of the hull"), std::string::npos) << found.why_not;
+  EXPECT_GT(found.faces_outside, 0u);
+  EXPECT_TRUE(verify_hull(hull, kLarge, HullSide::Inner, {.solid_only = true}).encloses);
+  EXPECT_TRUE(verify_hull(hull, box({-1, -1, -2}, {2, 2, 2}), HullSide::Inner).encloses);
 }
 
 TEST(VerifyHull, ReplaysAProgressiveHull) {
@@ -110,8 +163,58 @@ TEST(VerifyHull, ReplaysAProgressiveHull) {
   EXPECT_FALSE(foreign.why_not.empty());
   const Verification stray = verify_hull(hull, with_a_stray_triangle(mesh));
   EXPECT_FALSE(stray.encloses);
-  EXPECT_TRUE(stray.why_not.empty());
+  EXPECT_FALSE(std::isnan(stray.hull_volume)) << "the replay holds";
   EXPECT_EQ(stray.faces_outside, 1u);
+}
+
+TEST(VerifyHull, OfAProgressiveHullTheBaseMeshMustCoverEveryTriangle) {
+  const TriangleMesh mesh = box_with_a_spike_inside_out();
+  const ProgressiveHull hull = build_hull(mesh, {.target_faces = 1000}).hull;  // no collapse: the spike sticks out
+  const Verification found = verify_hull(hull, mesh);
+  EXPECT_FALSE(found.encloses);
+  EXPECT_GT(found.faces_outside, 0u);
+  EXPECT_FALSE(std::isnan(found.hull_volume)) << "the replay holds";
+  EXPECT_TRUE(verify_hull(hull, mesh, {.solid_only = true}).encloses);
+}
+
+TEST(VerifyHull, TellsThatFinerLevelsMayLeaveAFoldUncovered) {
+  TriangleMesh mesh = sphere(3);
+  const auto [u, v, w] = mesh.triangles[FaceId{0}];
+  mesh.positions[v] = mesh.positions[v] + (mesh.positions[w] - mesh.positions[v]) * 1.5;
+  const ProgressiveHull hull = build_hull(mesh, {.target_faces = 30}).hull;
+  const Verification found = verify_hull(hull, mesh);
+  EXPECT_TRUE(found.encloses) << found.why_not;
+  EXPECT_GT(found.faces_beside_solid, 0u);
+  EXPECT_TRUE(says(found, "the base mesh covers"));
+  EXPECT_FALSE(verify_hull(hull.original(), mesh).encloses);
+}
+
+TEST(VerifyHull, OfAFinestLevelThatWasMadeOfTheOriginalThatLevelMustEncloseIt) {
+  const TriangleMesh rock = make_sample("asteroid", 500), around = scaled(sphere(3), 3);
+  const ProgressiveHull hull = build_hull(around, {.target_faces = 100}).hull;
+  EXPECT_FALSE(verify_hull(hull, rock).encloses) << "it does not say that its finest level is another mesh";
+  const ProgressiveHull wrap = hull.with_finest_level(FinestLevel::Wrap);
+  const Verification found = verify_hull(wrap, rock);
+  EXPECT_TRUE(found.encloses) << found.why_not;
+  EXPECT_EQ(found.proof, "replay");
+  EXPECT_GT(found.splits, 0u);
+  EXPECT_DOUBLE_EQ(found.original_volume, signed_volume(rock));
+
+  const Verification outside = verify_hull(wrap, moved(rock, {3, 0, 0}));
+  EXPECT_FALSE(outside.encloses);
+  EXPECT_GT(outside.faces_outside, 0u);
+  EXPECT_FALSE(verify_hull(wrap, scaled(sphere(2), 3.01)).encloses);
+  EXPECT_FALSE(verify_hull(wrap, together(rock, inside_out(moved(octahedron(), {4, 0, 0})))).encloses);
+}
+
+TEST(VerifyHull, OfLevelsThatDoNotEncloseEachOtherItBelievesNoFinestLevel) {
+  const TriangleMesh around = scaled(sphere(3), 3);
+  const ProgressiveHull hull = build_hull(around, {.target_faces = 100}).hull;
+  PerVertex<Vec3> positions = hull.positions();
+  positions[hull.made_vertex(hull.splits().size() - 1)] = {0, 0, 0};
+  const ProgressiveHull dented(hull.side(), hull.original_vertex_count(), std::move(positions), hull.base_corners(),
+                               hull.splits());
+  EXPECT_FALSE(verify_hull(dented.with_finest_level(FinestLevel::Wrap), octahedron()).encloses);
 }
 
 TEST(VerifyHull, ReplaysAnInnerHullByItsOwnSide) {
@@ -136,9 +239,63 @@ TEST(VerifyHull, TurnsMeshesThatAreInsideOutAndSaysSo) {
   const Verification found = verify_hull(kLarge, inside_out(kSmall));
   EXPECT_TRUE(found.encloses);
   EXPECT_EQ(found.turned_original_faces, 12u);
-  EXPECT_EQ(found.turned_hull_faces, 0u);
-  EXPECT_TRUE(says(found, "12 faces of the original face inwards"));
-  EXPECT_EQ(verify_hull(inside_out(kLarge), kSmall).turned_hull_faces, 12u);
+  EXPECT_EQ(found.inverted_hull_faces, 0u);
+  EXPECT_TRUE(says(found, "12 faces of the original look inwards"));
+}
+
+TEST(VerifyHull, RefusesAHullThatIsInsideOut) {
+  const Verification all = verify_hull(inside_out(kLarge), kSmall);
+  EXPECT_FALSE(all.encloses);
+  EXPECT_EQ(all.inverted_hull_faces, 12u);
+  EXPECT_NE(all.why_not.find("all faces of the hull look inwards"), std::string::npos) << all.why_not;
+  const Verification one = verify_hull(together(kLarge, inside_out(moved(kSmall, {9, 9, 9}))), kSmall);
+  EXPECT_FALSE(one.encloses);
+  EXPECT_EQ(one.inverted_hull_faces, 12u);
+  EXPECT_NE(one.why_not.find("12 faces of the hull look inwards"), std::string::npos) << one.why_not;
+  EXPECT_FALSE(verify_hull(inside_out(kSmall), kLarge, HullSide::Inner).encloses);
+  EXPECT_THROW(verify_hull(inside_out(without_a_face(kLarge)), kSmall), InputError);
+}
+
+TEST(VerifyHull, DoesNotTurnAPartThatCrossesAnother) {
+  const TriangleMesh cube = box({-1, -1, -1}, {1, 1, 1}), bar = inside_out(box({-0.5, -0.5, -1.5}, {0.5, 0.5, 1.5}));
+  const TriangleMesh in_the_hole = box({-0.25, -0.25, -0.25}, {0.25, 0.25, 0.25});
+  const Verification found = verify_hull(together(cube, bar), in_the_hole);
+  EXPECT_FALSE(found.encloses) << "the bar is a hole";
+  EXPECT_EQ(found.inverted_hull_faces, 0u);
+  EXPECT_EQ(verify_hull(kLarge, together(cube, bar)).turned_original_faces, 0u);
+}
+
+TEST(VerifyHull, RefusesCoordinatesThatOverflow) {
+  EXPECT_THROW(verify_hull(scaled(kLarge, 1e101), kSmall), InputError);
+  EXPECT_THROW(verify_hull(kLarge, scaled(kSmall, 1e101)), InputError);
+  EXPECT_TRUE(verify_hull(scaled(kLarge, 1e99), scaled(kSmall, 1e99)).encloses);
+}
+
+/// What is said of a convex hull by the planes of its faces alone.
+bool is_inside_of_all_planes(const TriangleMesh& hull, const TriangleMesh& original) {
+  for (const FaceId f : hull.triangles.ids())
+    for (const Vec3& p : original.positions)
+      if (side(hull.triangle(f), p) == Side::Outside) return false;
+  return true;
+}
+
+TEST(VerifyHull, IsRightAboutATetrahedronOfWhichAVertexWasMovedFarOut) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> factor(0.8, 2), exponent(0, 80), drift(-9, 9);
+  int yes = 0, no = 0;
+  for (int i = 0; i < 400; ++i) {
+    TriangleMesh hull = tetrahedron({-3, -4, -2}, {5, 0, -2}, {-3, 4, -2}, {0, 0, 5});
+    for (Vec3& p : hull.positions) p = p * factor(random);
+    const TriangleMesh original = i % 2 ? scaled(octahedron(), 0.5) : hull;
+    Vec3& far = hull.positions[VertexId(std::uint32_t(i) / 2 % 4)];
+    far = (far + Vec3{drift(random), drift(random), drift(random)}) * std::pow(10, exponent(random));
+    if (signed_volume(hull) <= 0) continue;
+    const bool encloses = is_inside_of_all_planes(hull, original);
+    EXPECT_EQ(verify_hull(hull, original).encloses, encloses) << "tetrahedron " << i;
+    (encloses ? yes : no) += 1;
+  }
+  EXPECT_GT(yes, 20);
+  EXPECT_GT(no, 20);
 }
 
 TEST(VerifyHull, TellsOfSizesThatDifferAsUnitsDo) {
@@ -165,10 +322,19 @@ TEST(VerifyHull, TellsProgressThatNeverRunsBackAndCanBeCancelled) {
     return true;
   };
   const TriangleMesh mesh = make_sample("asteroid", 2000);
-  EXPECT_TRUE(verify_hull(mesh, mesh, HullSide::Outer, {.every_triangle = true, .progress = watch}).encloses);
+  EXPECT_TRUE(verify_hull(mesh, mesh, HullSide::Outer, {.progress = watch}).encloses);
   EXPECT_EQ(last, 1);
   EXPECT_THROW(verify_hull(mesh, mesh, HullSide::Outer, {.progress = [](std::string_view, double) { return false; }}),
                Cancelled);
+}
+
+TEST(VerifyHull, AsksWhetherToGoOnWhileOneFaceIsCutByMany) {
+  const UnthrottledProgress every_call;
+  int asked = 0;
+  const auto count = [&](std::string_view, double) { return ++asked > 0; };
+  verify_hull(sphere(3), tetrahedron({-9, -9, 0}, {9, -9, 0}, {0, 9, 0}, {0, 0, 9}), HullSide::Outer,
+              {.progress = count});
+  EXPECT_GT(asked, 200) << "the four faces alone would be told of a few times";
 }
 
 }  // namespace

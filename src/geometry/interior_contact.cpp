@@ -1,4 +1,4 @@
-#include "verify/contact.h"
+#include "geometry/interior_contact.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "geometry/triangle_predicates.h"
 
-namespace prohull::verify {
+namespace prohull {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
@@ -78,7 +78,7 @@ TriangleContact coplanar_contact(const Corners& t, int axis, const Corners& h) {
 
 }  // namespace
 
-TriangleContact contact(const Triangle& t, int axis, const Triangle& h) {
+TriangleContact interior_contact(const Triangle& t, int axis, const Triangle& h) {
   const Corners t_corners{t.a, t.b, t.c}, h_corners{h.a, h.b, h.c};
   const Sides h_sides(t, h_corners);
   if (h_sides.is_apart()) return {};
@@ -93,4 +93,4 @@ TriangleContact contact(const Triangle& t, int axis, const Triangle& h) {
   return {Contact::Crossing, 0};
 }
 
-}  // namespace prohull::verify
+}  // namespace prohull

@@ -4,7 +4,7 @@
 
 #include "prohull/geometry.h"
 
-namespace prohull::verify {
+namespace prohull {
 
 /// How a triangle h meets the interior of a triangle t.
 enum class Contact : std::uint8_t {
@@ -21,6 +21,6 @@ struct TriangleContact {
 };
 
 /// Both triangles have an area, t one along `axis`. Exact.
-TriangleContact contact(const Triangle& t, int axis, const Triangle& h);
+TriangleContact interior_contact(const Triangle& t, int axis, const Triangle& h);
 
-}  // namespace prohull::verify
+}  // namespace prohull

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "prohull/enclosure.h"
+#include "verify/surface.h"
+
+namespace prohull::verify {
+
+/// verify_enclosure of two meshes.
+EnclosureReport verify_enclosure(const Surface& inner, const Surface& outer, const EnclosureOptions& options);
+
+/// The faces of a mesh that lie, in part, outside of the closure of what it winds around at least once: those of folds
+/// and of components that are inside out; and those without area. Whatever encloses the mesh covers all others
+/// (verify_enclosure, verify_cover). Exact; but where more than 1,000 pairs of faces intersect, all of these are there.
+std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const TriangleMesh& mesh, const Progress& progress);
+
+}  // namespace prohull::verify
