@@ -20,6 +20,17 @@ enum class HullSide {
 /// "outer", "inner"
 Names<HullSide> hull_side_names();
 
+/// What the original mesh of a progressive hull, its finest level, is in terms of the input that the hull encloses.
+enum class FinestLevel {
+  Input,       ///< the input itself, or nothing is known: of build_hull, and of files that do not say it
+  Repaired,    ///< the input after repairs
+  ConvexHull,  ///< the convex hull of the input
+  Wrap,        ///< a wrap of the input (wrap.h)
+};
+
+/// "input", "repaired", "convex-hull", "wrap"
+Names<FinestLevel> finest_level_names();
+
 /// A mesh at every resolution, from a coarse base mesh up to the original mesh (P&T 2, Hoppe 1996). It is immutable;
 /// any number of threads may share one. Guaranteed: every level is a closed 2-manifold. Every level encloses the next
 /// finer one (HullSide::Inner: is enclosed by it) in the sense of winding numbers. The finest level is the original
@@ -35,6 +46,7 @@ class ProgressiveHull {
   static constexpr VertexId kAbsent{0xffffffff};
 
   HullSide side() const { return side_; }
+  FinestLevel finest_level() const { return finest_level_; }
   std::size_t original_face_count() const { return base_corners_.size() / 3; }
   std::size_t base_face_count() const { return original_face_count() - 2 * splits_.size(); }
   std::size_t original_vertex_count() const { return original_vertices_; }
@@ -47,6 +59,9 @@ class ProgressiveHull {
   /// The same record with level(faces) as its base mesh: vertices and faces keep their numbers.
   ProgressiveHull with_base(std::size_t faces) const;
 
+  /// The same record, which says what its finest level is.
+  ProgressiveHull with_finest_level(FinestLevel finest_level) const;
+
   const PerVertex<Vec3>& positions() const { return positions_; }
   const std::vector<VertexId>& base_corners() const { return base_corners_; }
   /// In the order of the collapses: splits()[i] replaces vertex made_vertex(i). Refinement starts with the last one.
@@ -57,6 +72,7 @@ class ProgressiveHull {
 
  private:
   HullSide side_;
+  FinestLevel finest_level_ = FinestLevel::Input;
   std::size_t original_vertices_;
   PerVertex<Vec3> positions_;
   std::vector<VertexId> base_corners_;

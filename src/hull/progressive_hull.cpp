@@ -16,6 +16,15 @@ Names<HullSide> hull_side_names() {
   return kNames;
 }
 
+Names<FinestLevel> finest_level_names() {
+  static constexpr std::array<std::pair<std::string_view, FinestLevel>, 4> kNames{
+      {{"input", FinestLevel::Input},
+       {"repaired", FinestLevel::Repaired},
+       {"convex-hull", FinestLevel::ConvexHull},
+       {"wrap", FinestLevel::Wrap}}};
+  return kNames;
+}
+
 ProgressiveHull::ProgressiveHull(HullSide side, std::size_t original_vertices, PerVertex<Vec3> positions,
                                  std::vector<VertexId> base_corners, std::vector<VertexSplit> splits)
     : side_(side),
@@ -59,9 +68,17 @@ ProgressiveHull ProgressiveHull::with_base(std::size_t faces) const {
   for (std::uint32_t f = 0; f < mesh.face_id_count(); ++f)
     for (const VertexId v : mesh.corners(FaceId(f))) corners.push_back(v);
   const auto vertices = static_cast<std::ptrdiff_t>(original_vertices_ + left);
-  return ProgressiveHull(side_, original_vertices_,
-                         PerVertex<Vec3>(std::vector<Vec3>(positions_.begin(), positions_.begin() + vertices)),
-                         std::move(corners), {splits_.begin(), splits_.begin() + static_cast<std::ptrdiff_t>(left)});
+  ProgressiveHull coarser(side_, original_vertices_,
+                          PerVertex<Vec3>(std::vector<Vec3>(positions_.begin(), positions_.begin() + vertices)),
+                          std::move(corners), {splits_.begin(), splits_.begin() + static_cast<std::ptrdiff_t>(left)});
+  coarser.finest_level_ = finest_level_;
+  return coarser;
+}
+
+ProgressiveHull ProgressiveHull::with_finest_level(FinestLevel finest_level) const {
+  ProgressiveHull hull = *this;
+  hull.finest_level_ = finest_level;
+  return hull;
 }
 
 namespace {

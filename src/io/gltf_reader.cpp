@@ -4,6 +4,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -151,8 +152,18 @@ class GltfReader {
       const std::size_t offset = binary_ || text.size() != content_size_ ? kGlbHeader + kChunkHeader : 0;
       fail(file_, {Place::Unit::Byte, offset + std::max<std::size_t>(error.byte, 1) - 1},
            "what should be JSON is not; the file is truncated or no glTF");
+    } catch (const Json::out_of_range&) {
+      fail_in("the JSON", "it has a number beyond the range of a double (1.8e308)");
     }
     if (!json_.is_object()) fail_in("the JSON", "not an object; the file is no glTF");
+  }
+
+  /// A value of an object, null if it has none of that name. Not a copy, as Json::value would make, which overflows the
+  /// stack where values are nested a hundred thousand deep.
+  static const Json& value(const Json& object, const char* name) {
+    static const Json null;
+    const auto found = object.find(name);
+    return found == object.end() ? null : *found;
   }
 
   /// The array of the document with that name, empty if there is none.
@@ -200,9 +211,9 @@ class GltfReader {
   // --- document ---
 
   void check_version() const {
-    const auto asset = json_.find("asset");
-    const bool has = asset != json_.end() && asset->is_object() && asset->value("version", Json()).is_string();
-    const std::string version = has ? asset->at("version").get<std::string>() : "";
+    const Json& asset = value(json_, "asset");
+    const bool has = asset.is_object() && value(asset, "version").is_string();
+    const std::string version = has ? value(asset, "version").get<std::string>() : "";
     if (!version.starts_with("2."))
       fail_in("asset", has ? fmt::format("it has version {} of glTF, and only 2 is read; export as glTF 2.0",
                                          prohull::quoted(version))
@@ -303,7 +314,7 @@ class GltfReader {
 
   void add_mesh(std::size_t number, const Affine& place) {
     const Json& mesh = item("meshes", number, "mesh of a node");
-    std::vector<std::pair<std::size_t, std::size_t>> first_vertex_of;  // primitives may share their positions
+    std::map<std::size_t, std::size_t> first_vertex_of;  // of accessors: primitives may share their positions
     const Json& primitives = array(mesh, "primitives", fmt::format("meshes {}", number));
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       const std::string where = fmt::format("meshes {}, primitive {}", number, i);
@@ -315,12 +326,8 @@ class GltfReader {
       if (mode < kTriangles) continue;  // points and lines
       const std::size_t accessor = position_accessor(primitive, where);
       const std::size_t vertices = required_count(item("accessors", accessor, where), "count", where);
-      auto known = std::find_if(first_vertex_of.begin(), first_vertex_of.end(),
-                                [&](const auto& entry) { return entry.first == accessor; });
-      if (known == first_vertex_of.end()) {
-        known = first_vertex_of.insert(known, {accessor, builder_.vertex_count()});
-        add_vertices(accessor, place);
-      }
+      const auto [known, is_new] = first_vertex_of.try_emplace(accessor, builder_.vertex_count());
+      if (is_new) add_vertices(accessor, place);
       std::vector<std::int64_t> corners = corners_of(primitive, vertices, where);
       for (std::int64_t& corner : corners) corner += static_cast<std::int64_t>(known->second);
       check_growth(corners.size() * sizeof(std::uint32_t));
@@ -414,11 +421,11 @@ class GltfReader {
     return static_cast<ComponentType>(type);
   }
 
-  static bool is_normalized(const Json& accessor) { return accessor.value("normalized", Json()) == true; }
+  static bool is_normalized(const Json& accessor) { return value(accessor, "normalized") == true; }
 
   Elements elements(std::size_t number, const char* type, const std::string& where) const {
     const Json& accessor = item("accessors", number, where);
-    if (accessor.value("type", Json()) != type) fail_in(where, fmt::format("its type is not {}", type));
+    if (value(accessor, "type") != type) fail_in(where, fmt::format("its type is not {}", type));
     if (!accessor.contains("bufferView")) fail_in(where, "it has no bufferView, that is, no data");
     return elements_in(accessor, component_type(accessor, where), std::string_view(type) == "VEC3" ? 3 : 1,
                        required_count(accessor, "count", where), is_normalized(accessor), where);

@@ -12,8 +12,9 @@
 #include "prohull/error.h"
 
 // Layout (docs/phull.md): 8 bytes of magic, u32 version, then one zstd frame with its checksum. All numbers are
-// little-endian. The frame holds u32 side, u64 original vertices, u64 original faces, u64 splits, then arrays:
-// positions (3 doubles each), base corners (u32), and one array each of the splits' o, d, l, r, od, do (u32).
+// little-endian. The frame holds u16 side, u16 finest level, u64 original vertices, u64 original faces, u64 splits,
+// then arrays: positions (3 doubles each), base corners (u32), and one array each of the splits' o, d, l, r, od, do
+// (u32).
 
 namespace prohull {
 namespace {
@@ -67,7 +68,8 @@ std::string encoded(const ProgressiveHull& hull) {
   Encoder out;
   out.reserve(kPayloadHeaderSize + 24 * hull.positions().size() + 4 * hull.base_corners().size() +
               24 * hull.splits().size());
-  out.integer(static_cast<std::uint32_t>(hull.side()));
+  out.integer(static_cast<std::uint16_t>(hull.side()));
+  out.integer(static_cast<std::uint16_t>(hull.finest_level()));
   out.integer(std::uint64_t{hull.original_vertex_count()});
   out.integer(std::uint64_t{hull.original_face_count()});
   out.integer(std::uint64_t{hull.splits().size()});
@@ -89,11 +91,12 @@ std::string encoded(const ProgressiveHull& hull) {
 ProgressiveHull decoded(std::string_view payload, const std::filesystem::path& name) {
   if (payload.size() < kPayloadHeaderSize) malformed(name, "the hull's header is incomplete");
   Decoder in(payload);
-  const auto side = in.integer<std::uint32_t>();
+  const auto side = in.integer<std::uint16_t>(), finest_level = in.integer<std::uint16_t>();
   const auto vertices = in.integer<std::uint64_t>(), faces = in.integer<std::uint64_t>(),
              splits = in.integer<std::uint64_t>();
   constexpr std::uint64_t kMost = 0xfffffffe;
-  if (side > 1 || vertices > kMost || splits > kMost || vertices + splits > kMost || faces > kMost / 3)
+  if (side > 1 || finest_level > 3 || vertices > kMost || splits > kMost || vertices + splits > kMost ||
+      faces > kMost / 3)
     malformed(name, "the hull's header is impossible");
   if (in.remaining() != 24 * (vertices + splits) + 12 * faces + 24 * splits)
     malformed(name, fmt::format("it has {} bytes for {} vertices, {} faces and {} splits, which do not agree",
@@ -112,7 +115,7 @@ ProgressiveHull decoded(std::string_view payload, const std::filesystem::path& n
 
   ProgressiveHull hull(HullSide(side), vertices, std::move(positions), std::move(corners), std::move(records));
   if (const auto defect = first_defect(hull)) malformed(name, *defect);
-  return hull;
+  return hull.with_finest_level(FinestLevel(finest_level));
 }
 
 // Real hulls shrink to a half or a third; whatever grows a thousandfold is made to exhaust memory.

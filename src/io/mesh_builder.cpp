@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "io/triangulate_polygon.h"
+#include "mesh/triangulate_polygon.h"
 
 namespace prohull {
 namespace {

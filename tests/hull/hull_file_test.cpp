@@ -153,6 +153,17 @@ TEST(HullFile, OtherFilesAndNewerVersionsAreRefused) {
   EXPECT_THROW(save_hull("/nonexistent/test.phull", small_hull()), InputError);
 }
 
+TEST(HullFile, SaysWhatItsFinestLevelIs) {
+  const ProgressiveHull hull = small_hull();
+  EXPECT_EQ(load_hull(file_of(hull), "x").finest_level(), FinestLevel::Input);
+  for (const auto& [name, finest_level] : finest_level_names()) {
+    const ProgressiveHull back = load_hull(file_of(hull.with_finest_level(finest_level)), "x");
+    EXPECT_EQ(back.finest_level(), finest_level) << name;
+    EXPECT_EQ(back.with_base(20).finest_level(), finest_level) << name;
+    EXPECT_EQ(back.with_finest_level(FinestLevel::Input), hull) << name;
+  }
+}
+
 TEST(HullFile, EveryTruncationIsRefused) {
   const std::string content = file_of(small_hull());
   constexpr std::size_t kMagicSize = 8;  // less than that may be any file
@@ -213,6 +224,7 @@ TEST(HullFile, HostileCountsAreRefused) {
                                     counts(0, huge, huge, huge), counts(0, huge, 0, 1), counts(0, 1, 0, huge)})
       EXPECT_EQ(defect_of(with_payload(some)), Defect::Malformed) << huge;
   EXPECT_EQ(defect_of(with_payload(counts(2, 0, 0, 0))), Defect::Malformed) << "there are two sides";
+  EXPECT_EQ(defect_of(with_payload(counts(4 << 16, 0, 0, 0))), Defect::Malformed) << "there are four finest levels";
   EXPECT_EQ(defect_of(with_payload(counts(0xffffffff, 0, 0, 0))), Defect::Malformed);
   EXPECT_EQ(defect_of(with_payload("")), Defect::Malformed);
   // 2^64 bytes, modulo 2^64: 24 * 2^61 is 0.

@@ -284,6 +284,24 @@ TEST(Gltf, MayBeNestedDeeply) {
   EXPECT_THROW(read_mesh(brackets, "a.gltf"), InputError);
 }
 
+TEST(Gltf, MayHaveDeeplyNestedValuesOfTheWrongKind) {
+  constexpr std::size_t kDepth = 200000;
+  const std::string nested = std::string(kDepth, '[') + std::string(kDepth, ']');
+  const auto with = [&](const std::string& value) {
+    std::string text = tetrahedron_json().dump();
+    return text.replace(text.find(value), value.size(), nested);
+  };
+  expect_refused(with("\"VEC3\""), "a.gltf", "a.gltf: accessors 0: its type is not VEC3");
+  expect_refused(with("\"2.0\""), "a.gltf", "a.gltf: asset: it has no version; the file is no glTF 2.0");
+}
+
+TEST(Gltf, NumberBeyondADoubleIsAnError) {
+  const std::string text = R"({"asset":{"version":"2.0"},"x":1e999})";
+  constexpr const char* kMessage = ": the JSON: it has a number beyond the range of a double (1.8e308)";
+  expect_refused(text, "a.gltf", std::string("a.gltf") + kMessage);
+  expect_refused(glb(text, ""), "a.glb", std::string("a.glb") + kMessage);
+}
+
 TEST(Glb, ThatIsDamagedIsAnError) {
   expect_refused("hello", "a.gltf", "a.gltf: byte 0: what should be JSON is not; the file is truncated or no glTF");
   expect_refused("[]", "a.gltf", "a.gltf: the JSON: not an object; the file is no glTF");

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "io_testing.h"
 
 namespace prohull {
@@ -56,6 +58,21 @@ TEST(Off, RefusesBadIndicesAndCoordinates) {
   expect_refused("OFF\n3 1 0\n0 0 0\n1 inf 0\n", "a.off",
                  "a.off: line 4: vertex 1 has y = inf; coordinates must be finite", Defect::NonFiniteCoordinate);
   expect_refused("OFF\n3 1 0\n0 0\n1 0 0\n", "a.off", "a.off: line 3: the line ends where a coordinate was expected");
+}
+
+TEST(Off, IsNotHeldUpByHostilePolygons) {
+  std::string off = "OFF\n100000 1 0\n", face = "100000";
+  for (int i = 0; i < 100000; ++i) {
+    off += fmt::format("{} {} 0\n", i, i % 2);
+    face += fmt::format(" {}", i * 7919ll % 100000);
+  }
+  off += face;
+  try {
+    EXPECT_EQ(read_mesh(off, "a.off").face_count(), 99998u);  // not simple: a fan
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "a.off: line 100003: a polygon with 100000 corners that is too intricate to triangulate; split it");
+  }
 }
 
 }  // namespace

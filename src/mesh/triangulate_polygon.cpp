@@ -1,4 +1,4 @@
-#include "io/triangulate_polygon.h"
+#include "mesh/triangulate_polygon.h"
 
 #include <algorithm>
 #include <numeric>
