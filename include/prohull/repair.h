@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "prohull/mesh_report.h"
+#include "prohull/names.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
@@ -22,6 +23,8 @@ struct Repairs {
   std::size_t turned_faces = 0;              ///< faces of these components
   std::size_t dropped_components = 0;        ///< components dropped because they lay inside of others
   std::size_t dropped_component_faces = 0;   ///< faces of these components
+  std::size_t closed_openings = 0;           ///< openings that got a cap
+  double largest_opening = 0;                ///< the diameter of the largest of these (openings.h), in the input's unit
 
   bool any() const { return *this != Repairs{}; }
   bool operator==(const Repairs&) const = default;
@@ -44,10 +47,27 @@ struct ClosedMesh {
 /// vertex.
 ClosedMesh closed_mesh(TriangleMesh mesh);
 
+/// What is done to the openings of a surface. Those of a *sheet* are never closed, such as a leaf or a bedsheet: of a
+/// component that makes up more than half of the mesh, and that would need caps of more than three quarters of its
+/// area.
+enum class OpenShells {
+  Close,  ///< openings get caps (openings.h): what they lead into is inside
+  Keep,   ///< they stay open: only the triangles themselves are to be enclosed
+};
+
+/// "close", "keep"
+Names<OpenShells> open_shells_names();
+
+struct RepairOptions {
+  bool keep_cavities = false;  ///< keep components that lie inside of another one without touching it
+  OpenShells open_shells = OpenShells::Close;
+};
+
 /// What repaired_mesh makes of any triangles.
 struct RepairedMesh {
   TriangleMesh original;             ///< the finite triangles of the input, unchanged: a hull must cover these
-  std::optional<ClosedMesh> closed;  ///< the closed mesh, if one could be made
+  std::optional<ClosedMesh> closed;  ///< the closed mesh, if one could be made; it includes the caps
+  TriangleMesh caps;                 ///< faces across openings, which a hull has to cover as well
   /// The triangles of `original` that have no counterpart in `closed`. A hull of `closed` may leave them uncovered.
   TriangleMesh dropped;
   Repairs repairs;       ///< the repairs that were made; if `closed` is empty, those before the obstacle
@@ -55,11 +75,12 @@ struct RepairedMesh {
   MeshReport found;      ///< describes the input before the repairs
 };
 
-/// Makes a closed mesh of any triangles, if that takes no new faces. It does what closed_mesh does. It also drops
-/// triangles that are not finite and duplicates, makes neighbours agree about the outside, and separates parts that
-/// meet in a vertex only. Components that lie inside of another one without touching it are dropped too, because an
-/// outer hull of the other one covers them; `keep_cavities` keeps them. All decisions are exact. Throws InputError if
-/// no finite triangle is left, or if coordinates are too large or too close for volumes.
-RepairedMesh repaired_mesh(TriangleMesh mesh, bool keep_cavities = false);
+/// Makes a closed mesh of any triangles, if that takes no new faces but caps. It does what closed_mesh does. It also
+/// drops triangles that are not finite and duplicates, makes neighbours agree about the outside, and separates parts
+/// that meet in a vertex only. If the mesh still is not closed, its openings get caps. Components that lie inside of
+/// another one without touching it are dropped too, because an outer hull of the other one covers them. All decisions
+/// but those of the caps are exact. Throws InputError if no finite triangle is left, or if coordinates are too large or
+/// too close for volumes.
+RepairedMesh repaired_mesh(TriangleMesh mesh, const RepairOptions& options = {});
 
 }  // namespace prohull

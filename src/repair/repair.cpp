@@ -2,15 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "base/text.h"
+#include "geometry/usable_size.h"
+#include "mesh/disjoint_sets.h"
 #include "prohull/error.h"
+#include "prohull/openings.h"
 #include "prohull/repair.h"
 #include "repair/steps.h"
 
 namespace prohull {
 namespace {
+
+constexpr std::array<std::pair<std::string_view, OpenShells>, 2> kOpenShellsNames{
+    {{"close", OpenShells::Close}, {"keep", OpenShells::Keep}}};
 
 std::string why_not_closed(const MeshReport& report) {
   std::string counts;
@@ -21,13 +29,8 @@ std::string why_not_closed(const MeshReport& report) {
 }
 
 void require_usable_size(const Box& box) {
-  constexpr double kLargest = 1e100, kSmallest = 1e-100;
-  const double reach = std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x),
-                                 std::abs(box.max.y), std::abs(box.max.z)});
-  if (reach > kLargest)
-    throw InputError(
-        Defect::NonFiniteCoordinate,
-        fmt::format("coordinates reach {:g}; beyond {:g} volumes overflow: scale the mesh", reach, kLargest));
+  constexpr double kSmallest = 1e-100;
+  require_usable_reach(box, "coordinates");
   if (box.diagonal() < kSmallest)
     throw InputError(Defect::NoVolume,
                      fmt::format("the mesh is only {:g} across; below {:g} volumes vanish: scale the mesh",
@@ -68,7 +71,6 @@ void drop_nested(ClosedMesh& closed) {
 
 // The triangles of `mesh` that `other`, which has no others, has not, in either orientation.
 TriangleMesh without(const TriangleMesh& mesh, const TriangleMesh& other) {
-  if (mesh.face_count() == other.face_count()) return {};
   using Corner = std::array<double, 3>;
   const auto corners = [](const TriangleMesh& m, FaceId f) {
     const Triangle t = m.triangle(f);
@@ -86,6 +88,56 @@ TriangleMesh without(const TriangleMesh& mesh, const TriangleMesh& other) {
   return rest;
 }
 
+void try_to_close(ClosedMesh& closed, const RepairOptions& options, RepairedMesh& result) {
+  try {
+    close(closed);
+    face_outwards(closed);
+    if (!options.keep_cavities) drop_nested(closed);
+    result.dropped = without(result.original, closed.mesh);
+    result.repairs = closed.repairs;
+    result.closed = std::move(closed);
+    result.obstacle.clear();
+  } catch (const InputError& error) {
+    result.repairs = closed.repairs;
+    result.obstacle = error.what();
+  }
+}
+
+/// Twice the area vector of a closed line: twice the area, if it is planar.
+Vec3 doubled_area(const TriangleMesh& mesh, const std::vector<VertexId>& loop) {
+  const Vec3& origin = mesh.positions[loop.front()];
+  Vec3 sum;
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+    sum += cross(mesh.positions[loop[i]] - origin, mesh.positions[loop[i + 1]] - origin);
+  return sum;
+}
+
+/// All but those of a sheet.
+std::vector<Opening> openings_to_close(const TriangleMesh& mesh) {
+  constexpr double kSheet = 0.75;    // of a component's area
+  constexpr double kMainPart = 0.5;  // of the area of all: small parts are closed whatever they are
+  TriangleMesh welded = mesh;
+  Repairs ignored;
+  weld(welded, ignored);
+  DisjointSets connected(welded.vertex_count());
+  for (const auto& t : welded.triangles)
+    for (const VertexId v : {t[1], t[2]}) connected.join(index(t[0]), index(v));
+  std::vector<double> walls(welded.vertex_count()), caps(welded.vertex_count());
+  for (const FaceId f : welded.triangles.ids()) {
+    const Triangle t = welded.triangle(f);
+    walls[connected.find(index(welded.triangles[f][0]))] += norm(cross(t.b - t.a, t.c - t.a));
+  }
+  const double all = std::accumulate(walls.begin(), walls.end(), 0.0);
+  std::vector<Opening> openings = find_openings(welded);
+  const auto component = [&](const Opening& opening) { return connected.find(index(opening.loop.front())); };
+  for (const Opening& opening : openings) caps[component(opening)] += norm(doubled_area(welded, opening.loop));
+  std::erase_if(openings, [&](const Opening& opening) {
+    const double area = walls[component(opening)];
+    return area > kMainPart * all && caps[component(opening)] > kSheet * area;
+  });
+  return openings;
+}
+
 }  // namespace
 
 std::vector<std::string> describe(const Repairs& repairs) {
@@ -101,6 +153,9 @@ std::vector<std::string> describe(const Repairs& repairs) {
   say(repairs.turned_single_faces, "turned", "face that disagreed with its neighbours",
       "faces that disagreed with their neighbours");
   say(repairs.split_vertices, "split", "vertex in which two parts met", "vertices in which parts met");
+  if (repairs.closed_openings > 0)
+    phrases.push_back(fmt::format("closed {}, {}{:.4g} across", counted(repairs.closed_openings, "opening", "openings"),
+                                  repairs.closed_openings > 1 ? "the largest " : "", repairs.largest_opening));
   if (repairs.turned_components > 0)
     phrases.push_back(fmt::format("turned {} inside out ({} faces)",
                                   counted(repairs.turned_components, "component that was", "components that were"),
@@ -132,7 +187,9 @@ ClosedMesh closed_mesh(TriangleMesh mesh) {
   return closed;
 }
 
-RepairedMesh repaired_mesh(TriangleMesh mesh, bool keep_cavities) {
+Names<OpenShells> open_shells_names() { return kOpenShellsNames; }
+
+RepairedMesh repaired_mesh(TriangleMesh mesh, const RepairOptions& options) {
   require_faces(mesh);
   RepairedMesh result;
   MeshReport report = result.found = inspect(mesh);
@@ -145,17 +202,21 @@ RepairedMesh repaired_mesh(TriangleMesh mesh, bool keep_cavities) {
   require_usable_size(report.box);
   result.original = std::move(mesh);
   ClosedMesh closed{result.original, result.repairs, std::move(report)};
-  try {
-    close(closed);
-    face_outwards(closed);
-    if (!keep_cavities) drop_nested(closed);
-    result.dropped = without(result.original, closed.mesh);
-    result.repairs = closed.repairs;
-    result.closed = std::move(closed);
-  } catch (const InputError& error) {
-    result.repairs = closed.repairs;
-    result.obstacle = error.what();
-  }
+  try_to_close(closed, options, result);
+  if (result.closed || options.open_shells == OpenShells::Keep) return result;
+  const std::vector<Opening> openings = openings_to_close(result.original);
+  if (openings.empty()) return result;
+  TriangleMesh capped = with_caps(result.original, openings);
+  result.caps.positions = capped.positions;
+  for (std::uint32_t f = static_cast<std::uint32_t>(result.original.face_count()); f < capped.face_count(); ++f)
+    result.caps.triangles.push_back(capped.triangles[FaceId{f}]);
+  Repairs repairs;
+  repairs.dropped_non_finite_faces = result.found.faces - result.original.face_count();
+  repairs.closed_openings = openings.size();
+  repairs.largest_opening = openings.front().diameter;
+  closed = {std::move(capped), repairs, {}};
+  closed.report = inspect(closed.mesh);
+  try_to_close(closed, options, result);
   return result;
 }
 

@@ -128,18 +128,21 @@ void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs) {
 void weld(TriangleMesh& mesh, Repairs& repairs) {
   std::vector<VertexId> order;
   order.reserve(mesh.vertex_count());
-  for (const VertexId v : mesh.positions.ids()) order.push_back(v);
+  PerVertex<VertexId> representative(mesh.vertex_count());
+  for (const VertexId v : mesh.positions.ids()) {
+    representative[v] = v;
+    if (is_finite(mesh.positions[v])) order.push_back(v);  // NaN has no place in an order
+  }
   const auto key = [&](VertexId v) {
     const Vec3& p = mesh.positions[v];
     return std::array{p.x, p.y, p.z};
   };
   std::sort(order.begin(), order.end(),
             [&](VertexId a, VertexId b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  PerVertex<VertexId> representative(mesh.vertex_count());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
-    representative[order[i]] = same ? representative[order[i - 1]] : order[i];
-    repairs.welded_vertices += same;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (key(order[i]) != key(order[i - 1])) continue;
+    representative[order[i]] = representative[order[i - 1]];
+    ++repairs.welded_vertices;
   }
   for (auto& t : mesh.triangles)
     for (VertexId& v : t) v = representative[v];
@@ -237,8 +240,8 @@ void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs)
     if (own == Facing::Unclear)
       throw InputError(
           Defect::InconsistentOrientation,
-          fmt::format("the component of face {} is inside out, and lies partly inside and partly outside of "
-                      "others: turn it, or make it a cavity of one of them",
+          fmt::format("the component of face {} is inside out, and crosses or repeats others: turn it, or make it a "
+                      "cavity of one of them",
                       index(f)));
     if (facing.turn_all == (own == Facing::InsideOut)) continue;
     std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);

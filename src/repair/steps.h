@@ -14,7 +14,7 @@ namespace prohull {
 /// Drops the faces with a corner that is NaN or infinite.
 void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs);
 
-/// Vertices at equal positions become one, the first; -0 equals 0. Faces that then have a vertex twice go.
+/// Finite vertices at equal positions become one, the first; -0 equals 0. Faces that then have a vertex twice go.
 void weld(TriangleMesh& mesh, Repairs& repairs);
 
 /// Of faces with the same three vertices in the same cyclic order, the first stays.

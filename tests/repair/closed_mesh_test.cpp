@@ -112,6 +112,52 @@ TEST(ClosedMesh, KeepsACavity) {
   EXPECT_DOUBLE_EQ(closed.report.volume, 63);
 }
 
+TEST(ClosedMesh, TurnsAComponentThatIsInsideOutAndTouchesAnother) {
+  for (const Vec3& min : {Vec3{0.25, 0.25, 1}, Vec3{1, 0, 0}, Vec3{-0.5, 0.25, 1}}) {
+    const TriangleMesh on_it = inside_out(box(min, min + Vec3{0.5, 0.5, 0.5}));
+    const ClosedMesh closed = closed_mesh(together(box({0, 0, 0}, {1, 1, 1}), on_it));
+    EXPECT_EQ(closed.repairs.turned_components, 1u) << min.x;
+  }
+}
+
+TEST(ClosedMesh, RefusesAComponentThatIsInsideOutAndCrossesAnother) {
+  const TriangleMesh cube = box({-1, -1, -1}, {1, 1, 1});
+  // All corners of the bars lie outside of the cube, or on it. Two sides of the second bar lie in sides of the cube.
+  // Two edges of the third one pass through the diagonals of two sides of the cube.
+  for (const TriangleMesh& bar : {box({-0.5, -0.5, -1.5}, {0.5, 0.5, 1.5}), box({-1, -0.5, -1.5}, {1, 0.5, 1.5}),
+                                  box({-0.25, -0.25, -1.5}, {0.25, 0.25, 1.5})})
+    EXPECT_THROW(closed_mesh(together(cube, inside_out(bar))), InputError);
+  EXPECT_THROW(closed_mesh(together(cube, inside_out(cube))), InputError) << "it repeats the other";
+}
+
+/// Squares about the z axis, from the highest to the lowest, joined to a closed mesh.
+struct Square {
+  double half_side, z;
+};
+TriangleMesh lofted(const std::vector<Square>& squares) {
+  std::vector<Vec3> positions;
+  for (const auto& [h, z] : squares)
+    positions.insert(positions.end(), {{h, h, z}, {-h, h, z}, {-h, -h, z}, {h, -h, z}});
+  std::vector<std::array<std::uint32_t, 3>> faces{{0, 1, 2}, {0, 2, 3}};
+  for (std::uint32_t upper = 0; upper + 4 < positions.size(); upper += 4)
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t a = upper + k, b = upper + (k + 1) % 4;
+      faces.push_back({a + 4, b + 4, b});
+      faces.push_back({a + 4, b, a});
+    }
+  const auto last = static_cast<std::uint32_t>(positions.size() - 4);
+  faces.push_back({last, last + 2, last + 1});
+  faces.push_back({last, last + 3, last + 2});
+  return make(positions, faces);
+}
+
+TEST(ClosedMesh, RefusesAComponentThatIsInsideOutAndCrossesAnotherAtSharedEdges) {
+  const TriangleMesh cube = lofted({{0.5, 1}, {1, 1}, {1, -1}, {0.5, -1}});
+  const TriangleMesh bar = lofted({{0.5, 1.5}, {0.5, 1}, {0.5, -1}, {0.5, -1.5}});
+  EXPECT_NO_THROW(closed_mesh(together(cube, bar)));
+  EXPECT_THROW(closed_mesh(together(cube, inside_out(bar))), InputError);
+}
+
 TEST(ClosedMesh, KeepsTheCavityOfAMeshThatIsInsideOut) {
   const TriangleMesh hollow = together(kBox, inside_out(kSmallBox));
   const ClosedMesh closed = closed_mesh(inside_out(hollow));

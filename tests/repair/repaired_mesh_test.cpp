@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "meshes.h"
@@ -14,6 +15,15 @@ using namespace meshes;
 
 const TriangleMesh kBox = box({0, 0, 0}, {4, 4, 4});
 const TriangleMesh kSmallBox = box({1, 1, 1}, {2, 2, 2});
+
+/// Without the faces that lie at the lowest and highest z.
+TriangleMesh without_ends(const TriangleMesh& mesh) {
+  TriangleMesh result{mesh.positions, {}};
+  for (const FaceId f : mesh.triangles.ids())
+    if (const Triangle t = mesh.triangle(f); t.a.z != t.b.z || t.b.z != t.c.z)
+      result.triangles.push_back(mesh.triangles[f]);
+  return result;
+}
 
 TEST(RepairedMesh, LeavesASoundMeshAlone) {
   for (const TriangleMesh& mesh : {kBox, torus(9, 5), together(kBox, moved(kBox, {9, 0, 0}))}) {
@@ -82,7 +92,7 @@ TEST(RepairedMesh, DropsWhatLiesInsideOfOthers) {
   EXPECT_EQ(repaired.dropped.face_count(), 24u);
   EXPECT_DOUBLE_EQ(repaired.closed->report.volume, 64);
   EXPECT_EQ(repaired.original, matryoshka);
-  EXPECT_EQ(repaired_mesh(matryoshka, true).closed->mesh, matryoshka);
+  EXPECT_EQ(repaired_mesh(matryoshka, {.keep_cavities = true}).closed->mesh, matryoshka);
 }
 
 TEST(RepairedMesh, KeepsWhatOnlyTouchesOrSticksOut) {
@@ -94,11 +104,59 @@ TEST(RepairedMesh, KeepsWhatOnlyTouchesOrSticksOut) {
   }
 }
 
-TEST(RepairedMesh, TellsWhatIsLeftToDo) {
+TEST(RepairedMesh, ClosesOpenings) {
   TriangleMesh open = kBox;
   open.triangles.pop_back();
   const RepairedMesh repaired = repaired_mesh(open);
+  ASSERT_TRUE(repaired.closed) << repaired.obstacle;
+  EXPECT_EQ(repaired.original, open) << "the caps are apart";
+  EXPECT_EQ(repaired.caps.face_count(), 1u);
+  EXPECT_DOUBLE_EQ(repaired.closed->report.volume, 64);
+  EXPECT_EQ(repaired.repairs.closed_openings, 1u);
+  EXPECT_DOUBLE_EQ(repaired.repairs.largest_opening, std::sqrt(32));
+  EXPECT_EQ(describe(repaired.repairs), std::vector<std::string>{"closed 1 opening, 5.657 across"});
+}
+
+TEST(RepairedMesh, ClosesEachOpeningOfATube) {
+  const TriangleMesh tube = without_ends(box({0, 0, 0}, {1, 1, 3}));
+  const RepairedMesh repaired = repaired_mesh(tube);
+  ASSERT_TRUE(repaired.closed) << repaired.obstacle;
+  EXPECT_DOUBLE_EQ(repaired.closed->report.volume, 3);
+  EXPECT_EQ(repaired.repairs.closed_openings, 2u);
+  EXPECT_EQ(describe(repaired.repairs), std::vector<std::string>{"closed 2 openings, the largest 1.414 across"});
+}
+
+TEST(RepairedMesh, KeepsOpeningsIfAskedTo) {
+  const TriangleMesh tube = without_ends(box({0, 0, 0}, {1, 1, 3}));
+  const RepairedMesh repaired = repaired_mesh(tube, {.open_shells = OpenShells::Keep});
   EXPECT_FALSE(repaired.closed);
+  EXPECT_EQ(repaired.repairs.closed_openings, 0u);
+  EXPECT_EQ(repaired.caps.face_count(), 0u);
+}
+
+// A leaf, a bedsheet: a cap as large as the sheet itself would close nothing that anybody sees as closed.
+TEST(RepairedMesh, LeavesASheetASheet) {
+  const TriangleMesh leaf = make({{0, 0, 0}, {1, -0.5, 0.1}, {2, 0, 0}, {1, 0.5, 0.1}, {1, 0, 0}},
+                                 {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+  const RepairedMesh repaired = repaired_mesh(leaf);
+  EXPECT_FALSE(repaired.closed);
+  EXPECT_EQ(repaired.caps.face_count(), 0u);
+  EXPECT_EQ(repaired.repairs.closed_openings, 0u);
+}
+
+// A small sheet beside a part with an opening does not keep that from being closed.
+TEST(RepairedMesh, ClosesTheOpeningsOfPartsBesideASmallSheet) {
+  const TriangleMesh tube = without_ends(box({0, 0, 0}, {1, 1, 3}));
+  const TriangleMesh label = make({{5, 0, 0}, {5, 0.2, 0}, {5, 0, 0.2}}, {{0, 1, 2}});
+  EXPECT_EQ(repaired_mesh(together(tube, label)).caps.face_count(), 5u) << "the label gets a back";
+}
+
+TEST(RepairedMesh, TellsWhatIsLeftToDo) {
+  TriangleMesh open = kBox;
+  open.triangles.pop_back();
+  const RepairedMesh repaired = repaired_mesh(open, {.open_shells = OpenShells::Keep});
+  EXPECT_FALSE(repaired.closed);
+  EXPECT_EQ(repaired.caps.face_count(), 0u);
   EXPECT_EQ(repaired.original, open);
   EXPECT_EQ(repaired.obstacle, "edge 1-5 has 1 face, expected 2 (in all: 3 open edges)");
   EXPECT_FALSE(repaired_mesh(make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}})).closed)
