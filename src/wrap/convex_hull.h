@@ -1,0 +1,13 @@
+#pragma once
+
+#include "prohull/triangle_mesh.h"
+
+namespace prohull {
+
+/// The convex hull of the vertices that triangles use, exactly: a closed 2-manifold of which no vertex is outside of a
+/// face's plane. Vertices within its faces and edges are left out. No faces if all lie in a plane.
+///
+/// How it works: Quickhull (Barber, Dobkin, Huhdanpaa 1996) with exact predicates.
+TriangleMesh convex_hull(const TriangleMesh& mesh);
+
+}  // namespace prohull

@@ -1,0 +1,163 @@
+#include "prohull/wrap.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "prohull/error.h"
+#include "wrap/inside.h"
+#include "wrap/level_surface.h"
+
+namespace prohull {
+namespace {
+
+constexpr float kClearance = 0.1F;  ///< how far it is from the points that were tried, at least
+constexpr double kSampling = 0.1;   ///< distance between these points
+
+Grid grid_for(const TriangleMesh& triangles, const WrapOptions& options) {
+  const double spacing = options.spacing;
+  const double ball = std::max(options.closing, options.seal_holes / 2) / spacing;  // that goes around the triangles
+  const double margin = kInsideMargin + (ball > kLeastSeal ? ball + 4 : 0);
+  constexpr double kMostNodes = 0x1p28;
+  if (!(spacing > 0))
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("the spacing of the grid is {:g}; it must be greater than 0", spacing));
+  if (triangles.face_count() == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces: nothing to wrap");
+  for (const auto& corners : triangles.triangles)
+    if (!std::ranges::all_of(corners, [&](VertexId v) { return is_finite(triangles.positions[v]); }))
+      throw InputError(Defect::NonFiniteCoordinate, "a vertex is not finite: nothing can be wrapped");
+  const Box box = bounding_box(triangles);
+  double nodes = 1;
+  for (int axis = 0; axis < 3; ++axis) nodes *= (box.max[axis] - box.min[axis]) / spacing + 2 * margin + 2;
+  if (!(nodes <= kMostNodes))
+    throw InputError(
+        Defect::InvalidOption,
+        fmt::format("a grid with a spacing of {:g} would have {:.3g} nodes: use a greater one", spacing, nodes));
+  return Grid(box, spacing, margin);
+}
+
+/// Calls use(node 0 to 3, weight 0 to 3) with the tetrahedron of the grid in which a point lies.
+struct InTetrahedron {
+  std::array<std::size_t, 4> nodes;
+  std::array<float, 4> weights;
+
+  InTetrahedron(const Grid& grid, const Vec3& p) {
+    const std::array at{std::size_t(p.x), std::size_t(p.y), std::size_t(p.z)};
+    const Vec3 rest{p.x - double(at[0]), p.y - double(at[1]), p.z - double(at[2])};
+    std::array order{0, 1, 2};
+    std::ranges::stable_sort(order, std::greater(), [&](int axis) { return rest[axis]; });
+    const std::array<std::size_t, 3> stride{1, grid.nodes(0), grid.nodes(0) * grid.nodes(1)};
+    nodes[0] = grid.node(at[0], at[1], at[2]);
+    double before = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      nodes[i + 1] = nodes[i] + stride[std::size_t(order[i])];
+      weights[i] = float(before - rest[order[i]]);
+      before = rest[order[i]];
+    }
+    weights[3] = float(before);
+  }
+
+  float value(const std::vector<float>& values) const {
+    float sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) sum += weights[i] * values[nodes[i]];
+    return sum;
+  }
+};
+
+/// Calls use(point), in spacings, for points of the triangle that are near each other.
+template <class Use>
+void sample(const Grid& grid, const TriangleMesh& triangles, FaceId f, Use use) {
+  const Triangle t = triangles.triangle(f);
+  const Vec3 a = grid.in_spacings(t.a), u = grid.in_spacings(t.b) - a, v = grid.in_spacings(t.c) - a;
+  const int steps_u = 1 + int(norm(u) / kSampling), steps_v = 1 + int(norm(v) / kSampling);
+  for (int i = 0; i <= steps_u; ++i) {
+    const double s = double(i) / steps_u;
+    const int last = int(std::ceil((1 - s) * steps_v));
+    for (int j = 0; j <= last; ++j) use(a + u * s + v * (last == 0 ? 0 : (1 - s) * j / last));
+  }
+}
+
+/// Of all triangles.
+template <class Use>
+void sample(const Grid& grid, const TriangleMesh& triangles, ProgressMeter& meter, Use use) {
+  for (const FaceId f : triangles.triangles.ids()) {
+    if (index(f) % 1024 == 0) meter.at(0.5);
+    sample(grid, triangles, f, use);
+  }
+}
+
+/// The triangles that have nodes outside near them. The others are not on the boundary of the inside: their distances
+/// would cut into it.
+TriangleMesh without_hidden(const Grid& grid, const TriangleMesh& triangles, const Inside& inside,
+                            ProgressMeter& meter) {
+  std::vector<char> is_near_outside(grid.node_count());
+  for (std::size_t n = 0; n < grid.node_count(); ++n) {
+    if (inside.signed_distances[n] < 0) continue;
+    is_near_outside[n] = 1;
+    grid.around(n, [&](std::size_t m) { is_near_outside[m] = 1; });
+  }
+  TriangleMesh rest{triangles.positions, {}};
+  for (const FaceId f : triangles.triangles.ids()) {
+    bool is_near = false;
+    sample(grid, triangles, f, [&](const Vec3& p) {
+      for (const std::size_t n : InTetrahedron(grid, p).nodes) is_near = is_near || is_near_outside[n];
+    });
+    if (is_near) rest.triangles.push_back(triangles.triangles[f]);
+    if (index(f) % 1024 == 0) meter.at(0.5);
+  }
+  return rest;
+}
+
+}  // namespace
+
+Wrap wrap(const TriangleMesh& triangles, const WrapOptions& options) {
+  const Grid grid = grid_for(triangles, options);
+  ProgressMeter meter(options.progress, "wrap");
+  const auto level = static_cast<float>(options.offset);
+  Inside inside = find_inside(grid, triangles,
+                              {.seal = options.seal_holes / 2 / options.spacing,
+                               .seal_rooms = options.seal_rooms,
+                               .closing = options.closing / options.spacing},
+                              meter);
+  // The values are linear between the nodes, distances are not: where it matters, as along edges, they are lowered.
+  std::vector<float>& values = inside.signed_distances;
+  for (const TriangleMesh* mesh : {&triangles, &std::as_const(inside.doors)})
+    sample(grid, *mesh, meter, [&](const Vec3& p) {
+      const InTetrahedron at(grid, p);
+      const float excess = at.value(values) - (level - kClearance);
+      if (excess > 0)
+        for (const std::size_t n : at.nodes) values[n] -= excess;
+    });
+  const double spacing = options.spacing;
+  return {level_surface(grid, values, level), std::move(inside.doors), inside.largest_door * spacing,
+          inside.volume * spacing * spacing * spacing};
+}
+
+double inside_volume(const TriangleMesh& triangles, const WrapOptions& options) {
+  const Grid grid = grid_for(triangles, options);
+  ProgressMeter meter(options.progress, "wrap");
+  const double spacing = options.spacing;
+  return find_inside(grid, triangles, {}, meter).volume * spacing * spacing * spacing;
+}
+
+TriangleMesh inner_wrap(const TriangleMesh& triangles, const WrapOptions& options) {
+  const Grid grid = grid_for(triangles, options);
+  ProgressMeter meter(options.progress, "wrap");
+  const auto level = static_cast<float>(options.offset);
+  const TriangleMesh boundary = without_hidden(grid, triangles, find_inside(grid, triangles, {}, meter), meter);
+  if (boundary.face_count() == 0) return {};
+  Inside inside = find_inside(grid, boundary, {}, meter);
+  std::vector<float>& values = inside.signed_distances;
+  sample(grid, boundary, meter, [&](const Vec3& p) {
+    const InTetrahedron at(grid, p);
+    const float missing = (kClearance - level) - at.value(values);
+    if (missing > 0)
+      for (const std::size_t n : at.nodes) values[n] += missing;
+  });
+  return level_surface(grid, values, -level);
+}
+
+}  // namespace prohull
