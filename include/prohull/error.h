@@ -19,6 +19,7 @@ enum class Defect {
   NonManifoldVertex,        ///< faces around a vertex that are not one disk
   NoVolume,                 ///< closed, but encloses nothing
   NoLength,                 ///< a segment whose ends are equal, or a ray without direction
+  NoCertificate,            ///< no hull that was built could be certified
   InvalidOption,            ///< an option outside its documented range
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -48,8 +49,9 @@ enum class Refusal : std::uint8_t {
   Compactness,       ///< a face would become too thin
   NormalDeviation,   ///< a face would turn too far
   SelfIntersection,  ///< faces would meet that share nothing there
+  Overhang,          ///< the new vertex would lie too far outside of the mesh's box
 };
-constexpr std::size_t kRefusalKinds = 7;
+constexpr std::size_t kRefusalKinds = 8;
 
 /// Identifiers for reports, which stay the same in later versions: "link_condition", "valence" and so on.
 Names<Refusal> refusal_names();
@@ -79,6 +81,9 @@ struct ShapeGuards {
   double sufficient_compactness =
       0.15;  ///< a face this compact is accepted whatever the ratio is; Strategy::Lazy only; in [0, 1]
   double max_normal_deviation = std::numbers::pi / 4;  ///< a face turns by this angle at most; radians, in [0, pi/2]
+  /// How far the new vertex may lie outside of the bounding box of the mesh, at most, along each axis, relative to the
+  /// diagonal of the box; at least 0, or infinity. Not in the paper: a hull of few faces may have spikes without it.
+  double max_overhang = 0.1;
 
   bool operator==(const ShapeGuards&) const = default;
 };
@@ -88,9 +93,11 @@ ShapeGuards weaker(const ShapeGuards& a, const ShapeGuards& b);
 
 /// With HullOptions::relax_guards the guards weaken to these, one after the other, each time no legal collapse is left
 /// above the target.
-constexpr std::array<ShapeGuards, 3> kRelaxedGuards{{{12, 0.8, 0.15, std::numbers::pi / 3},
-                                                     {16, 0.5, 0.05, 89 * std::numbers::pi / 180},
-                                                     {32, 0.1, 0.01, 89 * std::numbers::pi / 180}}};
+constexpr std::array<ShapeGuards, 4> kRelaxedGuards{
+    {{12, 0.8, 0.15, std::numbers::pi / 3},
+     {16, 0.5, 0.05, 89 * std::numbers::pi / 180},
+     {32, 0.1, 0.01, 89 * std::numbers::pi / 180},
+     {32, 0.1, 0.01, 89 * std::numbers::pi / 180, std::numeric_limits<double>::infinity()}}};
 
 struct HullOptions {
   std::size_t target_faces = 2000;  ///< at least 4

@@ -37,12 +37,17 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options 
 struct MoveOptions {
   ShapeGuards guards = {};
   bool float32_coordinates = false;  ///< as in HullOptions
+  unsigned max_rounds = 12;          ///< in each, all vertices move once that may; they end when none has moved
   Progress progress = {};            ///< stage "tighten"
 };
 
 /// Moves the vertices of a hull towards the triangles that it covers without touching them, as build_tight_hull does at
 /// the end. For hulls of wraps that gains nearly as much, in a fraction of the time. The guarantees are the same.
 TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options = {});
+
+/// The same for a hull of a closed mesh, on that side of it. The hull may touch the mesh, and becomes tighter.
+TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& mesh, HullSide side,
+                                  const MoveOptions& options = {});
 
 /// Searches the coarsest tight hull of at least options.target_faces faces that `is_within` accepts, for instance one
 /// that is near enough to the mesh (HullBounds). The search is a bisection of the number of faces to 3 %. It ends at

@@ -191,15 +191,35 @@ class VertexMover {
 
 }  // namespace
 
+void check_float32_spacing(const TriangleMesh& mesh) {
+  Box box;
+  for (const FaceId f : mesh.triangles.ids())
+    if (const Triangle t = mesh.triangle(f); is_finite(t.a) && is_finite(t.b) && is_finite(t.c))
+      for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
+  if (box.is_empty()) return;
+  double most = 0;
+  for (int axis = 0; axis < 3; ++axis) most = std::max({most, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  if (constexpr double kMost = std::numeric_limits<float>::max(); most > kMost)
+    throw InputError(Defect::NonFiniteCoordinate,
+                     fmt::format("coordinates beyond {:g} do not fit the float32 of the file; write a .ply, .obj or "
+                                 ".off file, or scale the mesh",
+                                 kMost));
+  constexpr int kDigits = std::numeric_limits<float>::digits, kLeast = std::numeric_limits<float>::min_exponent;
+  const double spacing = std::ldexp(1.0, std::max(std::ilogb(most) + 1, kLeast) - kDigits);
+  const Vec3 extent = box.max - box.min;
+  const double diagonal = std::hypot(extent.x, extent.y, extent.z);
+  if (diagonal > 0 && spacing > kMaxFloat32Spacing * diagonal)
+    throw InputError(Defect::NonFiniteCoordinate,
+                     fmt::format("float32 numbers, which the file has, are {:.2g} apart at its coordinates of up to "
+                                 "{:.9g}; that is too coarse for a mesh that is {:.3g} across; move the mesh to the "
+                                 "origin (prohull build --recenter), or write a .ply, .obj or .off file, which keep "
+                                 "doubles",
+                                 spacing, most, diagonal));
+}
+
 Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side, NoRoom no_room) {
-  for (const Vec3& p : level.positions)
-    if (constexpr double kMost = std::numeric_limits<float>::max();
-        std::abs(p.x) > kMost || std::abs(p.y) > kMost || std::abs(p.z) > kMost)
-      throw InputError(Defect::NonFiniteCoordinate,
-                       fmt::format("coordinates beyond {:g} do not fit the float32 of the file; write a .ply, .obj or "
-                                   ".off file, or scale the mesh",
-                                   kMost));
   if (std::ranges::all_of(level.positions, is_float32)) return {level, 0};
+  check_float32_spacing(level);
   // An inner hull is the outer hull of the mesh turned inside out.
   Float32Hull result = VertexMover(side == HullSide::Inner ? turned(level) : level, no_room).run();
   if (side == HullSide::Inner) result.mesh = turned(std::move(result.mesh));

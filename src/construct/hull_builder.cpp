@@ -29,6 +29,7 @@ void check(const HullOptions& options) {
           "sufficient_compactness must be in [0, 1]");
   require(guards.max_normal_deviation >= 0 && guards.max_normal_deviation <= std::numbers::pi / 2,
           "max_normal_deviation must be in [0, pi/2] radians");
+  require(guards.max_overhang >= 0, "max_overhang must be at least 0");
 }
 
 // Every face with its corners 1 and 2 exchanged: o and d exchange their roles, l and r their sides.
@@ -54,7 +55,8 @@ ShapeGuards weaker(const ShapeGuards& a, const ShapeGuards& b) {
   return {.max_valence = std::max(a.max_valence, b.max_valence),
           .min_compactness_ratio = std::min(a.min_compactness_ratio, b.min_compactness_ratio),
           .sufficient_compactness = std::min(a.sufficient_compactness, b.sufficient_compactness),
-          .max_normal_deviation = std::max(a.max_normal_deviation, b.max_normal_deviation)};
+          .max_normal_deviation = std::max(a.max_normal_deviation, b.max_normal_deviation),
+          .max_overhang = std::max(a.max_overhang, b.max_overhang)};
 }
 
 HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {

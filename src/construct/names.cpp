@@ -23,7 +23,8 @@ constexpr std::array<std::pair<std::string_view, Refusal>, kRefusalKinds> kRefus
      {"certificate", Refusal::Certificate},
      {"compactness", Refusal::Compactness},
      {"normal_deviation", Refusal::NormalDeviation},
-     {"self_intersection", Refusal::SelfIntersection}}};
+     {"self_intersection", Refusal::SelfIntersection},
+     {"overhang", Refusal::Overhang}}};
 
 /// What collapsing the edge would do.
 constexpr std::string_view consequence(Refusal refusal) {
@@ -42,6 +43,8 @@ constexpr std::string_view consequence(Refusal refusal) {
       return "would turn a triangle too far";
     case Refusal::SelfIntersection:
       return "would make the hull intersect itself";
+    case Refusal::Overhang:
+      return "would make a spike";
   }
   return "";
 }

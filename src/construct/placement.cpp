@@ -69,6 +69,7 @@ double link_center_volume(const Star& star) {
 }
 
 double estimated_volume(const HalfEdgeMesh& mesh, const Star& star) {
+  if (star.link.empty()) return 0;  // two triangles back to back, which nothing may collapse
   const Vec3 &o = mesh.position(star.o), &d = mesh.position(star.d);
   Vec3 center;
   for (const VertexId v : star.link) center += mesh.position(v) - o;

@@ -21,6 +21,14 @@ double least_compactness_before(const Star& star) {
 
 }  // namespace
 
+double overhang_left(const Box& box, const Box& of, double max_overhang) {
+  const double reach = max_overhang * of.diagonal();
+  double left = reach;
+  for (int axis = 0; axis < 3; ++axis)
+    left = std::min({left, box.min[axis] - (of.min[axis] - reach), of.max[axis] + reach - box.max[axis]});
+  return std::isfinite(left) ? std::max(left, 0.0) / box.diagonal() : max_overhang;
+}
+
 std::optional<Refusal> refused_shape(const Star& star, const Vec3& apex, const HullOptions& options) {
   const double least_cosine = std::cos(options.guards.max_normal_deviation);
   double least_compactness = 1;

@@ -7,6 +7,10 @@
 
 namespace prohull {
 
+/// What is left of an overhang, relative to the diagonal of `box`, where so much relative to that of `of` is allowed:
+/// for a hull that is simplified in steps, of which each measures from the box of the step before.
+double overhang_left(const Box& box, const Box& of, double max_overhang);
+
 /// The two tests of P&T 3.1.4 on the faces that a collapse to `apex` (local) would make.
 std::optional<Refusal> refused_shape(const Star& star, const Vec3& apex, const HullOptions& options);
 

@@ -35,6 +35,8 @@ class ProgressMeter {
     cancelled_ = true;
     throw Cancelled();
   }
+  /// Asks whether to go on where a step takes long.
+  void go_on() { at(fraction_); }
   void at(std::size_t done, std::size_t all) {
     at(static_cast<double>(done) / static_cast<double>(std::max({done, all, std::size_t{1}})));
   }
@@ -67,6 +69,8 @@ class ProgressCounter {
     if (done_++ % kInterval == 0) meter_.at(done_, all_);
   }
   void finish() { meter_.at(1); }
+  /// For steps that take long.
+  ProgressMeter& meter() { return meter_; }
 
  private:
   ProgressMeter meter_;

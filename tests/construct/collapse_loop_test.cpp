@@ -17,8 +17,9 @@ using namespace meshes;
 TEST(CollapseLoop, TakesNotTheSquareOfTheFacesAroundAHub) {
   const TriangleMesh mesh = bipyramid(effort(16000, 4000));
   const HullOptions options{.target_faces = 100, .self_intersections = SelfIntersections::Allowed};
-  const UnitCube cube(bounding_box(mesh));
-  const CollapseRules rules{options, cube, 0, [](std::size_t) {}};
+  const Box box = bounding_box(mesh);
+  const UnitCube cube(box);
+  const CollapseRules rules{options, cube, box, 0, [](std::size_t) {}};
   Patch patch{.mesh = HalfEdgeMesh(mesh),
               .edges = {},
               .vertices = PerVertex<VertexFacts>(mesh.vertex_count()),

@@ -106,6 +106,38 @@ TEST(Float32Hull, OfHullsBuiltOnFloat32CoordinatesNeedsNothing) {
   EXPECT_EQ(with_float32_coordinates(base, HullSide::Outer).rounded_vertices, 0u);
 }
 
+// Map coordinates: beyond 2^22 a float32 has steps of 0.5.
+TEST(Float32Hull, RefusesWhatIsTooFarFromTheOriginForItsSize) {
+  const auto refusal_of = [](double size, const Vec3& place) -> std::string {
+    try {
+      check_float32_spacing(moved(scaled(octahedron(), size), place));
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.defect(), Defect::NonFiniteCoordinate);
+      return error.what();
+    }
+    return "";
+  };
+  const Vec3 utm{500000, 5400000, 30};
+  EXPECT_EQ(
+      refusal_of(10, utm),
+      "float32 numbers, which the file has, are 0.5 apart at its coordinates of up to 5400010; that is too coarse "
+      "for a mesh that is 34.6 across; move the mesh to the origin (prohull build --recenter), or write a .ply, "
+      ".obj or .off file, which keep doubles");
+  for (const double size : {0.1, 1.0, 100.0}) EXPECT_NE(refusal_of(size, utm), "") << size;
+  EXPECT_EQ(refusal_of(0.5001 / kMaxFloat32Spacing, utm), "");
+  for (const double size : {1e-30, 1.0, 1e30}) EXPECT_EQ(refusal_of(size, {}), "") << size;
+  EXPECT_NE(refusal_of(1e-42, {}), "") << "nearly below all float32 numbers";
+  EXPECT_NE(refusal_of(1e-200, {}), "");
+  TriangleMesh partly_finite = octahedron();
+  partly_finite.triangles.push_back(
+      {VertexId(0), VertexId(2), partly_finite.positions.push_back({1, INFINITY, 1e300})});
+  EXPECT_NO_THROW(check_float32_spacing(partly_finite));
+  TriangleMesh far = moved(octahedron(), utm + Vec3{0.1, 0.1, 0.1});
+  EXPECT_THROW(with_float32_coordinates(far, HullSide::Outer), InputError);
+  for (Vec3& p : far.positions) p = nearest_float32(p);
+  EXPECT_EQ(with_float32_coordinates(far, HullSide::Outer).mesh, far) << "nothing has to move";
+}
+
 TEST(Float32Hull, RefusesWhatAFloat32CannotHold) {
   const double largest = std::numeric_limits<float>::max();
   const auto defect_of = [](const TriangleMesh& mesh) {

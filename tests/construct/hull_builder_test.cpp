@@ -253,6 +253,17 @@ TEST(BuildHullInput, AFaceWithTheSameVertexTwiceIsRefused) {
   EXPECT_THROW(build_hull(mesh), InputError);
 }
 
+// The star of their edges is all that there is: it has no link.
+TEST(BuildHullInput, LeavesTwoTrianglesBackToBackAsTheyAre) {
+  const TriangleMesh sheet = make({{5, 0, 0}, {6, 0, 0}, {5, 1, 0}}, {{0, 1, 2}, {0, 2, 1}});
+  const TriangleMesh mesh = together(sheet, sphere(2));
+  for (const Strategy strategy : {Strategy::Lazy, Strategy::Paper1, Strategy::Paper2}) {
+    const TriangleMesh hull = build_hull(mesh, {.target_faces = 20, .strategy = strategy}).hull.base();
+    EXPECT_TRUE(verify_enclosure(mesh, hull).encloses);
+    EXPECT_LT(hull.face_count(), mesh.face_count());
+  }
+}
+
 TEST(BuildHullInput, UnusedVerticesAndFacesWithoutAreaAreKept) {
   TriangleMesh mesh = sphere(3);
   mesh.positions.push_back({9, 9, 9});
@@ -399,6 +410,39 @@ TEST(BuildHullStrategies, RefusalsAreDescribedInWords) {
   for (int i = 0; i < 1200; ++i) counts.count(Refusal::LinkCondition);
   counts.count(Refusal::Compactness);
   EXPECT_EQ(describe_refusals(counts), "1,200 would pinch the surface, 1 would make a triangle too thin");
+}
+
+/// How far the farthest vertex lies outside of the box of the mesh, along an axis, relative to the diagonal of the box.
+double overhang(const TriangleMesh& hull, const TriangleMesh& mesh) {
+  const Box box = bounding_box(mesh), around = bounding_box(hull);
+  double most = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    most = std::max({most, box.min[axis] - around.min[axis], around.max[axis] - box.max[axis]});
+  return most / box.diagonal();
+}
+
+TEST(BuildHull, MakesNoSpikes) {
+  HullOptions unguarded{.target_faces = 8, .guards = kRelaxedGuards.back()};
+  HullOptions guarded = unguarded;
+  guarded.guards.max_overhang = 0.1;
+  double most = 0;
+  for (const char* const name : {"asteroid", "bracket", "pony", "torus"}) {
+    const TriangleMesh mesh = make_sample(name, 1000);
+    EXPECT_LE(overhang(build_hull(mesh, guarded).hull.base(), mesh), 0.1) << name;
+    most = std::max(most, overhang(build_hull(mesh, unguarded).hull.base(), mesh));
+  }
+  EXPECT_GT(most, 0.1) << "without the guard there are some";
+}
+
+TEST(BuildHull, SaysThatSpikesAreInTheWay) {
+  const TriangleMesh mesh = make_sample("asteroid", 1000);
+  const HullResult result = build_hull(mesh, {.target_faces = 4, .guards = {32, 0, 0, std::numbers::pi / 2, 0}});
+  EXPECT_EQ(overhang(result.hull.base(), mesh), 0);
+  EXPECT_GT(result.blocked[Refusal::Overhang], 0u);
+}
+
+TEST(BuildHull, RefusesAnOverhangBelowZero) {
+  EXPECT_THROW(build_hull(octahedron(), {.guards = {.max_overhang = -0.1}}), InputError);
 }
 
 }  // namespace

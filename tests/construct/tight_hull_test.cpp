@@ -57,6 +57,17 @@ TEST(TightHull, OfFloat32CoordinatesHasThemAndEncloses) {
   EXPECT_TRUE(verify_enclosure(mesh, rounded.mesh).encloses);
 }
 
+// A coordinate that a float32 rounds to infinity is no number for the exact predicates: GMP divides by zero there.
+TEST(TightHull, BeyondFloat32HasFiniteCoordinates) {
+  const TriangleMesh mesh = scaled(moved(subdivided(octahedron()), {1e9, 1e9, 1e9}), 1e30);
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    const TriangleMesh tight =
+        build_tight_hull(mesh, {.target_faces = 8, .side = side, .float32_coordinates = true}).mesh;
+    EXPECT_TRUE(inspect(tight).is_closed_manifold()) << "not finite, for instance";
+    EXPECT_TRUE((side == HullSide::Outer ? verify_enclosure(mesh, tight) : verify_enclosure(tight, mesh)).encloses);
+  }
+}
+
 TEST(TightHull, IsTheSameEveryTime) {
   const TriangleMesh mesh = make_sample("knot", effort(2000, 800));
   EXPECT_EQ(build_tight_hull(mesh, {.target_faces = 200}).mesh, build_tight_hull(mesh, {.target_faces = 200}).mesh);

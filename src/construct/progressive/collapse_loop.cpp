@@ -178,11 +178,20 @@ class CollapseLoop {
       });
       if (is_flat || why) return why;
     }
-    if (const auto why = refused_shape(star_, placement.local, options_)) return why;
     apex = as_stored(star_.to_input(placement.local));
+    if (hangs_over(apex)) return Refusal::Overhang;
+    if (const auto why = refused_shape(star_, placement.local, options_)) return why;
     if (!is_finite(apex) || !is_outside(mesh_, star_, apex)) return Refusal::Certificate;
     if (guard_ && guard_->would_add_intersections(mesh_, star_, apex)) return Refusal::SelfIntersection;
     return std::nullopt;
+  }
+
+  bool hangs_over(const Vec3& p) const {
+    const Box& box = rules_.box;
+    const double reach = options_.guards.max_overhang * box.diagonal();
+    for (int axis = 0; axis < 3; ++axis)
+      if (p[axis] < box.min[axis] - reach || p[axis] > box.max[axis] + reach) return true;
+    return false;
   }
 
   void refuse(EdgeId edge, Refusal why) {

@@ -49,6 +49,7 @@ struct Patch {
 struct CollapseRules {
   const HullOptions& options;
   const UnitCube& unit_cube;
+  const Box& box;   ///< of the mesh: what the overhang is measured from
   double rounding;  ///< the most by which storing moves a coordinate, with some room
   std::function<void(std::size_t removed_faces)> tell;  ///< called now and then, from any thread; may throw Cancelled
 };

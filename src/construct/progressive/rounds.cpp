@@ -23,7 +23,7 @@ class Rounds {
         unit_cube_(bounds_),
         meter_(options.progress, "build"),
         excess_(mesh.face_count() - std::min(mesh.face_count(), options.target_faces)),
-        rules_{options_, unit_cube_, storage_rounding(bounds_, options.float32_coordinates),
+        rules_{options_, unit_cube_, bounds_, storage_rounding(bounds_, options.float32_coordinates),
                [this](std::size_t removed_faces) { meter_.at(removed_ += removed_faces, excess_); }},
         whole_(mesh, options_, unit_cube_) {}
 

@@ -1,5 +1,8 @@
 #include "construct/tight/original.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -21,6 +24,52 @@ Bvh tree_of(const TriangleMesh& mesh) {
   for (const FaceId f : mesh.triangles.ids()) boxes.push_back(box_of(mesh.triangle(f)));
   return Bvh(boxes);
 }
+
+/// Finds boxes that lie beside a tetrahedron, most of them, also where its box overlaps them.
+class Beside {
+ public:
+  explicit Beside(const Tetrahedron& t) {
+    const std::array corners{t.a, t.b, t.c, t.d};
+    for (const Vec3& p : corners) {
+      box_.extend(p);
+      largest_ = std::max({largest_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3 &p = corners[i], &q = corners[(i + 1) % 4], &r = corners[(i + 2) % 4], &inside = corners[(i + 3) % 4];
+      const Vec3 n = cross(q - p, r - p);
+      planes_[i] = dot(n, inside - p) > 0 ? -n : n;
+      offsets_[i] = dot(planes_[i], p);
+    }
+  }
+
+  bool operator()(const Box& other) const {
+    if (!other.overlaps(box_)) return true;
+    constexpr double kRounding = 1e-13;  // far more than what the sums below are wrong by
+    const Vec3 &a = other.min, &b = other.max;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3& n = planes_[i];
+      double least = -offsets_[i], size = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        least += std::min(n[axis] * a[axis], n[axis] * b[axis]);
+        size += std::abs(n[axis]) * std::max({largest_, std::abs(a[axis]), std::abs(b[axis])});
+      }
+      if (least > kRounding * size && is_certain(n)) return true;
+    }
+    return false;
+  }
+
+ private:
+  /// The normal of a needle may be rounded away.
+  bool is_certain(const Vec3& n) const {
+    const double diagonal = box_.diagonal();
+    return norm(n) > 1e-6 * diagonal * diagonal && diagonal > 1e-6 * largest_;
+  }
+
+  Box box_;
+  double largest_ = 0;
+  std::array<Vec3, 4> planes_;  ///< normals outwards
+  std::array<double, 4> offsets_{};
+};
 
 /// A point in the inside of the tetrahedron, if rounding leaves one there.
 std::optional<Vec3> point_inside(const Tetrahedron& t) {
@@ -46,10 +95,9 @@ Original Original::closed(TriangleMesh mesh, HullSide side) {
 Original Original::triangles(TriangleMesh mesh, double clearance) { return {std::move(mesh), clearance}; }
 
 bool Original::lies_outside_of(const Tetrahedron& removed) const {
-  Box box;
-  for (const Vec3& p : {removed.a, removed.b, removed.c, removed.d}) box.extend(p);
+  const Beside is_beside(removed);
   bool met = false;
-  tree_.visit([&](const Box& other) { return !met && other.overlaps(box); },
+  tree_.visit([&](const Box& box) { return !met && !is_beside(box); },
               [&](std::uint32_t f) {
                 met = met || (winding_ ? meets_interior(mesh_.triangle(FaceId{f}), removed)
                                        : may_touch(mesh_.triangle(FaceId{f}), removed));

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "construct/best_of.h"
+#include "construct/shape_guards.h"
 #include "construct/tight/tight_collapses.h"
 #include "construct/tight/tightening.h"
 #include "construct/turned.h"
@@ -51,6 +52,7 @@ TightHull build_towards(const Original& original, const TriangleMesh& mesh, cons
     set_part(level, 0, 0.3);
     if (level <= kTightCollapses) apply([&](HalfEdgeMesh& hull) { collapse_tightly(hull, original, step); });
     set_part(level, 0.3, 0.4);
+    step.guards.max_overhang = overhang_left(bounding_box(tight.mesh), bounding_box(mesh), options.guards.max_overhang);
     HullResult result = build_hull(tight.mesh, step);
     tight.refusals += result.refusals;
     tight.blocked = result.blocked;
@@ -59,7 +61,9 @@ TightHull build_towards(const Original& original, const TriangleMesh& mesh, cons
     tight.mesh = result.hull.base();
     set_part(level, 0.4, 1);
     apply([&](HalfEdgeMesh& hull) {
-      tight.moved_vertices += tighten(hull, original, {step.guards, step.float32_coordinates, step.progress});
+      tight.moved_vertices +=
+          tighten(hull, original,
+                  {.guards = step.guards, .float32_coordinates = step.float32_coordinates, .progress = step.progress});
     });
     done += level;
   }
@@ -84,6 +88,14 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options,
   return best_of(
       options, "tighten", [&](const HullOptions& one) { return build_towards(original, mesh, one); },
       [](const TightHull& result) -> const TriangleMesh& { return result.mesh; });
+}
+
+TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& mesh, HullSide side,
+                                  const MoveOptions& options) {
+  const bool inner = side == HullSide::Inner;
+  HalfEdgeMesh moving(inner ? turned(hull) : hull);
+  tighten(moving, original_of(mesh, nullptr, side), options);
+  return inner ? turned(moving.triangle_mesh()) : moving.triangle_mesh();
 }
 
 TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "construct/placement.h"
@@ -36,6 +37,14 @@ struct Removed {
 
 double depth(const HalfSpace& plane, const Vec3& p) { return dot(plane.normal, p) - plane.offset; }
 
+/// Of the points of a box.
+double greatest_depth(const HalfSpace& plane, const Box& box) {
+  double sum = -plane.offset;
+  for (int axis = 0; axis < 3; ++axis)
+    sum += std::max(plane.normal[axis] * box.min[axis], plane.normal[axis] * box.max[axis]);
+  return sum;
+}
+
 bool is_beyond(const std::array<HalfSpace, 3>& planes, const Vec3& p, double least_depth) {
   return std::ranges::all_of(planes, [&](const HalfSpace& plane) { return depth(plane, p) > least_depth; });
 }
@@ -57,8 +66,7 @@ void clip(std::vector<Vec3>& polygon, const HalfSpace& plane, double least_depth
 TightPlacement::TightPlacement(const Original& original, bool float32_coordinates)
     : original_(original),
       float32_coordinates_(float32_coordinates),
-      rounding_(storage_rounding(original.bounds(), float32_coordinates)),
-      place_(original.mesh().vertex_count(), kNotNearby) {}
+      rounding_(storage_rounding(original.bounds(), float32_coordinates)) {}
 
 Vec3 TightPlacement::as_stored(const Vec3& p) const { return float32_coordinates_ ? nearest_float32(p) : p; }
 
@@ -70,35 +78,7 @@ void TightPlacement::set(const Vec3& from, const HalfEdgeMesh& mesh, const std::
   for (const Vec3& p : link_) scale_ = std::max(scale_, norm(p - from));
   for (const Vec3& p : link_) local_.push_back(to_local(p));
   objective_ = {};
-  const Vec3 reach = Vec3{1, 1, 1} * (kReach * scale_);
-  Box box{from - reach, from + reach};
-  for (std::size_t i = 0; i < link_.size(); ++i) {
-    objective_ += cross(local_[i], local_[after(i)]);
-    box.extend(link_[i]);
-  }
-  gather_original(box);
-}
-
-void TightPlacement::gather_original(const Box& box) {
-  const TriangleMesh& mesh = original_.mesh();
-  for (const VertexId v : nearby_) place_[v] = kNotNearby;
-  nearby_.clear(), triangles_.clear(), points_.clear();
-  original_.tree().visit([&](const Box& b) { return b.overlaps(box); },
-                         [&](std::uint32_t f) {
-                           std::array<std::uint32_t, 3> points;
-                           for (int c = 0; c < 3; ++c) {
-                             const VertexId v = mesh.triangles[FaceId{f}][c];
-                             if (place_[v] == kNotNearby) {
-                               place_[v] = static_cast<std::uint32_t>(nearby_.size());
-                               nearby_.push_back(v);
-                             }
-                             points[c] = place_[v];
-                           }
-                           triangles_.push_back(points);
-                         });
-  const auto local = [&](std::size_t i) { return to_local(mesh.positions[nearby_[i]]); };
-  for (std::size_t i = 0; i < nearby_.size(); i += 2)
-    points_.push_back(both(local(i), local(std::min(i + 1, nearby_.size() - 1))));
+  for (std::size_t i = 0; i < link_.size(); ++i) objective_ += cross(local_[i], local_[after(i)]);
 }
 
 /// Up to which depth a point of the original in a removed tetrahedron counts as outside of it; local.
@@ -153,32 +133,43 @@ std::optional<Vec3> TightPlacement::deepest_point(const Vec3& apex, const Vec3& 
   const double allowed = allowed_depth();
   double deepest = allowed;
   std::optional<Vec3> point;
-  const Vec3Pair normal = both(removed.new_face.normal);
-  depths_.resize(2 * points_.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Double2 d = dot(normal, points_[i]) - removed.new_face.offset;
-    depths_[2 * i] = d[0], depths_[2 * i + 1] = d[1];
-    if (mask(d > deepest) == 0) continue;
-    for (int lane = 0; lane < 2; ++lane)
-      if (d[lane] > deepest && is_beyond(removed.others, points_[i][lane], allowed))
-        deepest = d[lane], point = points_[i][lane];
-  }
+  const auto take = [&](const Vec3& p) {
+    if (const double d = depth(removed.new_face, p); d > deepest) deepest = d, point = p;
+  };
+  const auto bound = [&](const Box& box) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const Box here{to_local(box.min), to_local(box.max)};
+    if (!here.overlaps(removed.box)) return kNone;
+    for (const HalfSpace& plane : removed.others)
+      if (greatest_depth(plane, here) <= allowed) return kNone;
+    return -greatest_depth(removed.new_face, here);
+  };
+  const auto local = [&](std::uint32_t f) {
+    const Triangle t = original_.mesh().triangle(FaceId{f});
+    return Triangle{to_local(t.a), to_local(t.b), to_local(t.c)};
+  };
+  original_.tree().least(
+      bound,
+      [&](std::uint32_t f) {
+        const Triangle t = local(f);
+        for (const Vec3& p : {t.a, t.b, t.c})
+          if (is_beyond(removed.others, p, allowed)) take(p);
+        return -deepest;
+      },
+      -allowed);
   if (point) return point;
-  for (const auto& corners : triangles_) {
-    if (std::ranges::none_of(corners, [&](std::uint32_t i) { return depths_[i] > allowed; })) continue;
-    const auto at = [&](std::uint32_t i) { return points_[i / 2][static_cast<int>(i % 2)]; };
-    const Triangle t{at(corners[0]), at(corners[1]), at(corners[2])};
-    if (!removed.box.overlaps(box_of(t))) continue;
-    const auto is_apart = [&](const HalfSpace& plane) {
-      return depth(plane, t.a) <= allowed && depth(plane, t.b) <= allowed && depth(plane, t.c) <= allowed;
-    };
-    if (std::ranges::any_of(removed.others, is_apart)) continue;
-    polygon_ = {t.a, t.b, t.c};
-    clip(polygon_, removed.new_face, allowed, clipped_);
-    for (const HalfSpace& plane : removed.others) clip(polygon_, plane, allowed, clipped_);
-    for (const Vec3& p : polygon_)
-      if (const double d = depth(removed.new_face, p); polygon_.size() >= 3 && d > deepest) deepest = d, point = p;
-  }
+  original_.tree().least(
+      bound,
+      [&](std::uint32_t f) {
+        const Triangle t = local(f);
+        polygon_ = {t.a, t.b, t.c};
+        clip(polygon_, removed.new_face, allowed, clipped_);
+        for (const HalfSpace& plane : removed.others) clip(polygon_, plane, allowed, clipped_);
+        if (polygon_.size() >= 3)
+          for (const Vec3& p : polygon_) take(p);
+        return -deepest;
+      },
+      -allowed);
   return point;
 }
 

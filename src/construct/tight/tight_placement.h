@@ -6,7 +6,6 @@
 
 #include "construct/tight/original.h"
 #include "geometry/linear_program.h"
-#include "geometry/simd.h"
 #include "mesh/half_edge_mesh.h"
 #include "prohull/hull_builder.h"
 
@@ -42,13 +41,10 @@ class TightPlacement {
 
  private:
   bool keeps_enclosing(const Vec3& to) const;
-  void gather_original(const Box& box);
   std::optional<Vec3> propose(double margin);
   bool add_cuts(const Vec3& apex, double margin);
   std::optional<Vec3> deepest_point(const Vec3& apex, const Vec3& a, const Vec3& b);
   double allowed_depth() const;
-
-  static constexpr std::uint32_t kNotNearby = 0xffffffff;
 
   const Original& original_;
   const bool float32_coordinates_;
@@ -57,16 +53,10 @@ class TightPlacement {
   Vec3 from_;
   double scale_ = 1;
   std::vector<Vec3> link_, local_;
-  // Of the original, what is nearby, local: points two by two, the last twice if they are odd, and triangles of them.
-  std::vector<VertexId> nearby_;
-  PerVertex<std::uint32_t> place_;  ///< in nearby_, or kNotNearby
-  std::vector<Vec3Pair> points_;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
   Vec3 objective_;
   std::vector<HalfSpace> constraints_;
 
-  std::vector<double> depths_;  ///< scratch, as the two below
-  std::vector<Vec3> polygon_, clipped_;
+  std::vector<Vec3> polygon_, clipped_;  ///< scratch
 };
 
 template <class IsAccepted>
@@ -78,7 +68,9 @@ std::optional<Vec3> TightPlacement::first(IsAccepted&& is_accepted) {
     const auto apex = propose(margin);
     if (!apex) return std::nullopt;
     for (const double step : {1.0, 0.5, 0.25})
-      if (const Vec3 to = as_stored(from_ + *apex * (step * scale_)); is_accepted(to) && keeps_enclosing(to)) return to;
+      if (const Vec3 to = as_stored(from_ + *apex * (step * scale_));
+          is_finite(to) && is_accepted(to) && keeps_enclosing(to))
+        return to;
   }
   return std::nullopt;
 }

@@ -30,7 +30,7 @@ class Tightener {
   std::size_t run();
 
  private:
-  void move_vertices(int round);
+  void move_vertices(unsigned round);
   void flip_edges();
   bool move(VertexId v);
   bool flip(HalfEdgeId h);
@@ -38,8 +38,6 @@ class Tightener {
   std::array<VertexId, 4> corners_beside(HalfEdgeId h) const;
   bool has_good_shape(const Vec3& to) const;
   bool has_good_shape_without(const Tetrahedron& removed) const;
-
-  static constexpr int kMostRounds = 12;
 
   HalfEdgeMesh& mesh_;
   const Original& original_;
@@ -54,7 +52,7 @@ class Tightener {
 };
 
 std::size_t Tightener::run() {
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (unsigned round = 0; round < options_.max_rounds; ++round) {
     const std::size_t before = changes_;
     move_vertices(round);
     flip_edges();
@@ -63,10 +61,10 @@ std::size_t Tightener::run() {
   return moves_;
 }
 
-void Tightener::move_vertices(int round) {
+void Tightener::move_vertices(unsigned round) {
   for (const VertexId v : mesh_.positions().ids()) {
     if (!mesh_.has(v) || !waiting_[v]) continue;
-    meter_.at(round * mesh_.positions().size() + index(v), kMostRounds * mesh_.positions().size());
+    meter_.at(round * mesh_.positions().size() + index(v), options_.max_rounds * mesh_.positions().size());
     waiting_[v] = 0;
     if (!move(v)) continue;
     ++changes_, ++moves_;
