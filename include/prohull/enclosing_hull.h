@@ -13,16 +13,25 @@
 #include "prohull/progress.h"
 #include "prohull/repair.h"
 #include "prohull/triangle_mesh.h"
-#include "prohull/wrap.h"
 
 namespace prohull {
 
 /// What may be done to triangles that are not a closed 2-manifold.
 enum class Repair {
-  Auto,  ///< repair the triangles; wrap them where they do not close, or where the hull is not what was asked for
+  Auto,  ///< repair the triangles, and take the best of several hulls
   None,  ///< do only what closed_mesh does, and refuse what is not closed then
   Wrap,  ///< wrap the triangles at once
 };
+
+/// What a hull was built from.
+enum class Source {
+  Mesh,        ///< the repaired input, its caps included
+  ConvexHull,  ///< the convex hull of the input
+  Wrap,        ///< a wrap of the input (wrap.h)
+};
+
+/// "mesh", "convex-hull", "wrap"
+Names<Source> source_names();
 
 /// "auto", "none", "wrap"
 Names<Repair> repair_names();
@@ -34,8 +43,8 @@ struct EnclosingOptions {
   bool levels = false;  ///< keep the levels of a hull of a wrap too: it then does not move towards the triangles
   Repair repair = Repair::Auto;
   bool keep_cavities = false;  ///< keep components that lie inside of others; inner hulls always do
-  double seal_holes = 0;       ///< a wrap closes openings up to this diameter, in the input's unit
-  Wrapper wrap = {};           ///< for instance alpha_wrap; without a wrapper, what is not closed is refused
+  OpenShells open_shells = OpenShells::Close;
+  double seal_holes = 0;  ///< a wrap closes openings up to this diameter, in the input's unit
   /// Stages "repair", "wrap", "build", "tighten", "search", "measure" and "verify". Some occur several times.
   Progress progress = {};
 };
@@ -48,8 +57,9 @@ struct EnclosingHull {
   std::size_t target_faces = 0;  ///< how many faces were asked for
   bool target_reached = false;   ///< the mesh has at most target_faces faces, or `bounds` allow no fewer
   bool within_bounds = true;     ///< the hull keeps `bounds`
-  double void_ratio = 0;         ///< volume of the hull / volume of the solid that it was built from - 1
-  double wrap_alpha = 0;         ///< alpha of the wrap that it was built from; 0 if built from the repaired input
+  double excess = 0;             ///< HullBounds::excess, if bounds were given; above 1 where it does not keep them
+  double void_ratio = 0;         ///< volume of the hull / EnclosingHulls::volume - 1
+  Source source = Source::Mesh;
   std::vector<std::string> notes;  ///< sentences for the user: why something is not as asked for, and what to look at
 
   std::size_t solid = 0;  ///< it was built from EnclosingHulls::solids[solid]
@@ -65,8 +75,11 @@ struct EnclosingHull {
 
 /// A closed mesh that hulls were built from.
 struct Solid {
+  Source source;
   TriangleMesh mesh;
-  double wrap_alpha = 0;  ///< alpha of the wrap; 0 if the solid is the repaired input itself
+  double wrap_spacing = 0;  ///< of the grid of a wrap, in the input's unit
+  TriangleMesh doors = {};  ///< of a wrap: faces across what it closed, which a hull has to cover as well
+  double largest_door = 0;  ///< as in Wrap
   double volume = 0;
   std::size_t self_intersections = 0;  ///< pairs of faces that intersect
 };
@@ -75,41 +88,57 @@ struct EnclosingHulls {
   RepairedMesh input;
   std::vector<Solid> solids;         ///< all that were tried, in this order
   std::vector<EnclosingHull> hulls;  ///< one for each number of faces, in the order in which they were asked for
-  double repair_seconds = 0;         ///< includes the wraps
+  /// Of what lies inside of the input. Exact, but for rounding, if it is closed and does not intersect itself;
+  /// otherwise estimated from a wrap, if one was made; of a closed input its signed volume; or that of the smallest
+  /// hull.
+  double volume = 0;
+  double repair_seconds = 0;  ///< includes the wraps
 };
 
 /// The first step of enclosing_hulls: repairs the triangles. If `closed` is empty in the result, or with Repair::Wrap,
-/// hulls would be built from wraps. Throws InputError where enclosing_hulls would refuse these triangles.
+/// hulls would be built from wraps or the convex hull. Throws InputError where enclosing_hulls would refuse these
+/// triangles.
 RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& options = {});
 
 /// Builds hulls of any triangles, one for each of `target_faces`: a hull has at most so many faces where that is
 /// possible, and encloses every finite triangle of the input, triangles without area included. (HullSide::Inner: the
 /// input, which must be closed, encloses the hull.)
 ///
-/// Guaranteed: `certified` is decided exactly, on the coordinates returned, by verify_replay, verify_enclosure or
-/// verify_cover. With options.hull.float32_coordinates these are float32 numbers.
+/// Guaranteed: `certified` is decided exactly, on the coordinates returned, by verify_hull and verify_cover. With
+/// options.hull.float32_coordinates these are float32 numbers.
 ///
 /// Throws InputError if no triangle is finite, if options are outside their range or contradict each other, and if the
-/// input is not closed and the hull is an inner one or there is no `wrap`; Cancelled.
+/// hull is an inner one and the input cannot be closed; Cancelled.
 ///
 ///   const std::size_t budgets[]{1000, 100};
-///   const EnclosingHulls made = enclosing_hulls(read_mesh("part.stl"), budgets, {.wrap = alpha_wrap});
+///   const EnclosingHulls made = enclosing_hulls(read_mesh("part.stl"), budgets);
 ///   if (made.hulls[1].certified) write_mesh("coarse.ply", made.hulls[1].mesh);
 ///
-/// How it works: solids are tried one after the other, and the first hull that is good in every respect is taken.
-///  1. The repaired input, if it is closed.
-///  2. Wraps with an alpha of 1/50, 1/20 and 1/10 of the diagonal and an offset of 1/600. At the end the vertices of
-///     such a hull move back towards the triangles, because `bounds` are measured from the triangles.
-/// A hull is good if it is certified, free of self-intersection, within the bounds, of at most target_faces faces, and
-/// of at most one and a half times the volume of the input (this last only where levels need not be kept). If no hull
-/// is good, the best is taken: what counts is the certificate first, then freedom from self-intersection, the bounds,
-/// the number of faces, and the volume.
+/// How it works: hulls are built from up to three sources, and the best is taken.
+///  1. The repaired input, with caps on its openings, if that closes it. Where few triangles are left uncovered, as
+///  those
+///     of folds, vertices of the hull are lifted over them.
+///  2. The convex hull of the input.
+///  3. Wraps, whose grid fits the number of faces. The vertices of such a hull, and of one of the convex hull, move
+///  back
+///     towards the triangles in the end.
+/// A source is left out if it cannot win: the second if the convex hull is larger than the best hull, the third if the
+/// best hull is nearly as small as the solid. What counts is the certificate first, then the number of faces, the
+/// bounds, the overhang (ShapeGuards::max_overhang), and the volume; a hull that intersects itself has to have less
+/// than ten elevenths of the void of one that does not.
 EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size_t> target_faces,
                                const EnclosingOptions& options = {});
 
+/// What `hull`, one of `made.hulls`, had to cover: the finite triangles of the input, the caps of its openings, and the
+/// doors of the wrap that the hull was built from. Distances of the hull are measured from these.
+TriangleMesh triangles_to_cover(const EnclosingHulls& made, const EnclosingHull& hull);
+
+/// What the finest level of `hull`, one of `made.hulls`, is: for ProgressiveHull::with_finest_level.
+FinestLevel finest_level(const EnclosingHulls& made, const EnclosingHull& hull);
+
 /// Builds one hull, as enclosing_hulls does for one number of faces.
 ///
-///   const EnclosingHull hull = enclosing_hull(read_mesh("part.stl"), 500, {.wrap = alpha_wrap});
+///   const EnclosingHull hull = enclosing_hull(read_mesh("part.stl"), 500);
 ///   if (hull.certified) write_mesh("hull.ply", hull.mesh);
 EnclosingHull enclosing_hull(TriangleMesh triangles, std::size_t target_faces, const EnclosingOptions& options = {});
 

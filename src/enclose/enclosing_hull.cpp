@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "base/text.h"
+#include "construct/lifting.h"
+#include "construct/shape_guards.h"
 #include "geometry/float32.h"
 #include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
@@ -17,35 +19,37 @@
 #include "prohull/float32_hull.h"
 #include "prohull/replay.h"
 #include "prohull/tight_hull.h"
+#include "prohull/verification.h"
+#include "prohull/wrap.h"
+#include "wrap/convex_hull.h"
 
 namespace prohull {
 namespace {
 
-// A fiftieth is close to the triangles, but may have handles where they have holes; how far each gets: docs/repair.md.
-constexpr double kWrapAlphas[]{1.0 / 50, 1.0 / 20, 1.0 / 10};  // of the diagonal
-constexpr double kWrapOffset = 1.0 / 600;
+/// The grid is as fine as the faces can carry, about.
+struct WrapKind {
+  double nodes_per_edge;   ///< of a face of the hull
+  double offset, closing;  ///< as in WrapOptions, in spacings
+};
+// Handles and gaps take faces, so that hulls swell that have few: the second wraps have less of them. Of sheets, the
+// later ones are smooth.
+constexpr WrapKind kWrapsOfSolids[]{{3.5, 0.3, 1.5}, {6, 0.9, 4}, {3.5, 0.3, 8}};
+constexpr WrapKind kWrapsOfSoups[]{{3.5, 0.3, 1.5}, {6, 0.9, 4}};
+constexpr WrapKind kWrapsOfSheets[]{{3.5, 0.3, 1.5}, {7, 0.9, 4}, {9, 0.5, 4}};
 
 constexpr std::array<std::pair<std::string_view, Repair>, 3> kRepairNames{
     {{"auto", Repair::Auto}, {"none", Repair::None}, {"wrap", Repair::Wrap}}};
 
+constexpr std::array<std::pair<std::string_view, Source>, 3> kSourceNames{
+    {{"mesh", Source::Mesh}, {"convex-hull", Source::ConvexHull}, {"wrap", Source::Wrap}}};
+
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// The corners of a face, those of the longest edge first.
-std::array<VertexId, 3> longest_edge_first(const TriangleMesh& mesh, FaceId f) {
-  auto corners = mesh.triangles[f];
-  const auto length = [&](std::size_t i) {
-    return squared_norm(mesh.positions[corners[(i + 1) % 3]] - mesh.positions[corners[i]]);
-  };
-  const std::size_t longest = std::ranges::max(std::array<std::size_t, 3>{0, 1, 2}, {}, length);
-  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(longest), corners.end());
-  return corners;
-}
-
-/// As long as v, which is not zero, or nearly.
-Vec3 perpendicular(const Vec3& v) {
-  const Vec3 axis = std::abs(v.x) < 0.6 * norm(v) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 across = cross(v, axis);
-  return across * (norm(v) / norm(across));
+void add(TriangleMesh& mesh, const TriangleMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
+  for (const Vec3& p : other.positions) mesh.positions.push_back(p);
+  for (const auto& [a, b, c] : other.triangles)
+    mesh.triangles.push_back({VertexId{first + index(a)}, VertexId{first + index(b)}, VertexId{first + index(c)}});
 }
 
 class Ladder {
@@ -56,17 +60,44 @@ class Ladder {
     ProgressMeter(options_.progress, "repair").at(0);
     made_.input = prepared_for_hulls(std::move(triangles), options);
     diagonal_ = bounding_box(made_.input.original).diagonal();
+    if (made_.input.closed && options_.repair != Repair::Wrap) {
+      const ClosedMesh& closed = *made_.input.closed;
+      add_solid({.source = Source::Mesh, .mesh = closed.mesh});
+      is_volume_exact_ = made_.solids[0].self_intersections == 0;
+      made_.volume = closed.report.volume;
+      constexpr std::size_t kMostPairs = 10'000;
+      if (const std::size_t pairs = made_.solids[0].self_intersections; !is_outer() && pairs > kMostPairs)
+        throw InputError(Defect::NoVolume,
+                         fmt::format("{} pairs of its faces intersect, too many to prove what lies inside of it; unite "
+                                     "its parts first, for instance by Blender's voxel remesh",
+                                     grouped(pairs)));
+    }
+    if (made_.input.closed) is_original_closed_ = is_closed(made_.input.original);
+    if (options_.repair == Repair::None) return;
+    to_cover_ = made_.input.original;
+    add(to_cover_, made_.input.caps);
+    if (made_.input.closed && !is_volume_exact_ && is_outer()) {  // parts that overlap would count twice
+      constexpr double kPerDiagonal = 100;
+      const double volume =
+          inside_volume(made_.input.closed->mesh, {.spacing = diagonal_ / kPerDiagonal, .progress = options_.progress});
+      if (volume > 0) made_.volume = volume;
+    }
   }
 
   EnclosingHulls climb() {
     for (const std::size_t faces : target_faces_) {
+      notes_.clear();
       made_.hulls.push_back(hull_of(faces));
       made_.hulls.back().notes = notes_;
     }
+    for (EnclosingHull& hull : made_.hulls)
+      if (made_.volume > 0) hull.void_ratio = signed_volume(hull.mesh) / made_.volume - 1;
     return std::move(made_);
   }
 
  private:
+  static constexpr unsigned kMostRounds = 6;
+
   struct Attempt {
     EnclosingHull hull;
     bool is_storable;  ///< with the float32 coordinates asked for; a note says why not
@@ -86,115 +117,193 @@ class Ladder {
   };
 
   bool is_outer() const { return options_.hull.side == HullSide::Outer; }
-  bool may_wrap() const { return is_outer() && options_.repair != Repair::None && options_.wrap; }
+  bool is_free() const { return is_outer() && options_.repair != Repair::None; }
 
   EnclosingHull hull_of(std::size_t target_faces);
-  void make_solid(std::size_t rung);
-  TriangleMesh to_be_wrapped(double offset) const;
-  void add_wrap(double alpha);
-  void note_open_shell(const Solid& wrap);
+  bool is_worth_the_convex_hull(const std::optional<EnclosingHull>& best);
+  bool is_worth_the_mesh() const;
+  std::span<const WrapKind> wraps() const;
+  bool is_worth_a_wrap(const std::optional<EnclosingHull>& best, std::size_t tried) const;
+  std::size_t add_solid(Solid solid);
+  std::optional<std::size_t> wrap_with(const WrapKind& kind, std::size_t target_faces);
+  bool is_better(const EnclosingHull& a, const EnclosingHull& b) const;
+  void note_solid(const Solid& solid);
   void note_why_not(const EnclosingHull& hull);
   void note(std::string text);
   std::string described(const Solid& solid) const;
   Attempt build(std::size_t solid, std::size_t target_faces);
   EnclosingHull build_levels(std::size_t solid, std::size_t target_faces);
-  TriangleMesh placed(const TriangleMesh& level, std::size_t solid) const;
+  EnclosingHull build_in_steps(std::size_t solid, std::size_t target_faces);
+  TriangleMesh placed(const TriangleMesh& level, std::size_t solid, unsigned max_rounds = kMostRounds) const;
+  bool is_moved_closely(std::size_t solid) const;
   EnclosingHull build_tight(std::size_t solid, std::size_t target_faces);
+  const TriangleMesh& to_cover(std::size_t solid) const;
   void certify(EnclosingHull& hull) const;
+  bool is_proven(EnclosingHull& hull) const;
+  bool encloses_mesh(EnclosingHull& hull) const;
+  bool lift_over(EnclosingHull& hull, const TriangleMesh& outside, std::vector<Offender> offenders) const;
   bool covers(const TriangleMesh& hull, const TriangleMesh& triangles) const;
   std::optional<Float32Hull> as_stored(const TriangleMesh& hull, std::size_t solid);
-  bool is_within(const TriangleMesh& hull, std::size_t solid) const;
+  double excess_of(const TriangleMesh& hull, std::size_t solid) const;
   bool is_within_as_stored(const TriangleMesh& hull, std::size_t solid);
   bool is_as_asked(const EnclosingHull& hull) const;
-  bool is_loose(const EnclosingHull& hull) const;
+  double weighed_volume(const EnclosingHull& hull) const;
+  double void_of(const EnclosingHull& hull) const { return signed_volume(hull.mesh) / made_.volume - 1; }
   HullOptions hull_options(std::size_t target_faces) const;
 
   const EnclosingOptions& options_;
   const std::span<const std::size_t> target_faces_;
   const std::size_t fewest_faces_;
   EnclosingHulls made_;
-  std::vector<std::string> notes_;                 ///< on all hulls so far
-  double diagonal_;                                ///< of the input
+  TriangleMesh to_cover_;                 ///< the input and its caps
+  std::vector<TriangleMesh> with_doors_;  ///< of each solid that has doors: the same and these
+  std::vector<std::string> notes_;        ///< on the hull that is being built
+  double diagonal_ = 0;                   ///< of the input
+  bool is_moved_ = false;                 ///< hulls of the mesh move towards it
+  bool is_moved_loosely_ = false;         ///< hulls do not touch the mesh
+  bool is_original_closed_ = false, is_volume_exact_ = false, has_wrap_ = false;
+  std::optional<std::size_t> convex_hull_;         ///< its solid
+  bool has_no_convex_hull_ = false;                ///< all lies in a plane
   std::vector<std::optional<HullResult>> levels_;  ///< of each solid, down to fewest_faces_
-  std::size_t next_rung_ = 0;
 };
-
-// Rung 0 is the repaired input, the others are wraps; some give nothing.
-void Ladder::make_solid(std::size_t rung) {
-  if (rung == 0) {
-    if (!made_.input.closed || options_.repair == Repair::Wrap) return;
-    const ClosedMesh& closed = *made_.input.closed;
-    made_.solids.push_back({closed.mesh, 0, closed.report.volume, count_self_intersections(closed.mesh)});
-    return;
-  }
-  const double alpha = std::max(kWrapAlphas[rung - 1] * diagonal_, options_.seal_holes / 2);
-  if (made_.solids.empty() || made_.solids.back().wrap_alpha < alpha) add_wrap(alpha);
-}
-
-// What is wrapped: as wrappers may look at faces with an area only, the others get a little of it.
-TriangleMesh Ladder::to_be_wrapped(double offset) const {
-  TriangleMesh triangles = made_.input.original;
-  const double little = 1e-3 * offset;
-  for (const FaceId f : triangles.triangles.ids()) {
-    const auto [a, b, c] = longest_edge_first(triangles, f);
-    const Vec3 along = triangles.positions[b] - triangles.positions[a];
-    const Vec3 up = cross(along, triangles.positions[c] - triangles.positions[a]);
-    if (norm(up) > little * norm(along)) continue;
-    // Beside the longest edge, or the point.
-    const Vec3 beside = norm(along) > 0 ? little / norm(along) * perpendicular(along) : Vec3{little, 0, 0};
-    const VertexId d = triangles.positions.push_back(triangles.positions[a] + beside);
-    const VertexId e = norm(along) > 0 ? b : triangles.positions.push_back(triangles.positions[a] + Vec3{0, little, 0});
-    triangles.triangles.push_back({a, e, d});
-  }
-  return triangles;
-}
-
-void Ladder::add_wrap(double alpha) {
-  Timer timer(made_.repair_seconds);
-  const bool is_first = made_.solids.empty() || made_.solids.back().wrap_alpha == 0;
-  const double offset = kWrapOffset * diagonal_;
-  TriangleMesh wrap = options_.wrap(to_be_wrapped(offset), alpha, offset, options_.progress);
-  if (options_.hull.float32_coordinates)  // the offset is far greater than what that moves them
-    for (Vec3& p : wrap.positions) p = nearest_float32(p);
-  try {
-    const ClosedMesh closed = closed_mesh(std::move(wrap));
-    made_.solids.push_back({closed.mesh, alpha, closed.report.volume, count_self_intersections(closed.mesh)});
-    if (is_first) note_open_shell(made_.solids.back());
-  } catch (const InputError& error) {
-    note(fmt::format("the wrap with alpha {:.4g} is no closed 2-manifold: {}", alpha, error.what()));
-  }
-}
 
 EnclosingHull Ladder::hull_of(std::size_t target_faces) {
   std::optional<EnclosingHull> best;
-  const auto rank = [&](const EnclosingHull& hull) {
-    return std::tuple(!hull.certified, hull.self_intersections > 0, !hull.within_bounds,
-                      std::max(hull.mesh.face_count(), target_faces), signed_volume(hull.mesh));
-  };
-  const std::size_t rungs = may_wrap() ? 1 + std::size(kWrapAlphas) : 1;
-  for (std::size_t solid = 0;; ++solid) {
-    while (solid == made_.solids.size() && next_rung_ < rungs) make_solid(next_rung_++);
-    if (solid == made_.solids.size()) break;
+  const auto try_solid = [&](std::size_t solid) {
     auto [hull, is_storable] = build(solid, target_faces);
-    const bool is_good = is_as_asked(hull) && !is_loose(hull);
-    if (!is_good && is_storable && rungs > 1) note_why_not(hull);
-    if (!best || rank(hull) < rank(*best)) best = std::move(hull);
-    if (is_good) break;
+    if (!is_as_asked(hull) && is_storable && is_free()) note_why_not(hull);
+    if (!best || is_better(hull, *best)) best = std::move(hull);
+  };
+  if (is_worth_the_mesh()) try_solid(0);
+  if (!is_outer() && options_.repair != Repair::None && !options_.levels && !(options_.tight && best->certified)) {
+    constexpr double kLittleVoid = 0.1;
+    is_moved_ = true;
+    if (!is_as_asked(*best) || void_of(*best) < -kLittleVoid) try_solid(0);
+    constexpr double kMuchVoid = 0.15;
+    if (!best->certified || void_of(*best) < -kMuchVoid)
+      if (const auto solid = wrap_with({3.5, 0.3, 0}, target_faces)) try_solid(*solid);
+    is_moved_ = false;
+  }
+  if (is_free()) {
+    if (is_worth_the_convex_hull(best)) try_solid(*convex_hull_);
+    for (std::size_t i = 0; i < wraps().size() && is_worth_a_wrap(best, i); ++i)
+      if (const auto solid = wrap_with(wraps()[i], target_faces)) try_solid(*solid);
   }
   if (!best)
     throw InputError(
         made_.input.closed ? Defect::NoVolume : Defect::OpenEdge,
         fmt::format("nothing could be wrapped: {}", notes_.empty() ? made_.input.obstacle : notes_.back()));
+  if (!best->certified)
+    throw InputError(Defect::NoCertificate,
+                     fmt::format("no hull of {} faces could be certified: {}; try more faces, or "
+                                 "--repair wrap, or another format if that keeps float32 only",
+                                 target_faces, notes_.empty() ? "" : notes_.back()));
+  note_solid(made_.solids[best->solid]);
   return std::move(*best);
 }
 
-// Where handles and thin parts are in the way, the last levels of a hull swell, and one of a wrap may be smaller. Of
-// wraps coarser ones are no better on the whole.
-bool Ladder::is_loose(const EnclosingHull& hull) const {
-  constexpr double kMuch = 1.5;
-  const Solid& solid = made_.solids[hull.solid];
-  return is_outer() && solid.wrap_alpha == 0 && !options_.levels && options_.hull.refuses_self_intersections() &&
-         signed_volume(hull.mesh) > kMuch * solid.volume;
+// Also finds it.
+bool Ladder::is_worth_the_convex_hull(const std::optional<EnclosingHull>& best) {
+  constexpr double kLittleVoid = 0.02;
+  const bool is_good = best && is_as_asked(*best);
+  if (options_.levels || (is_good && (options_.keep_cavities || void_of(*best) < kLittleVoid))) return false;
+  if (!convex_hull_ && !has_no_convex_hull_) {
+    TriangleMesh convex = convex_hull(made_.input.original);
+    if (convex.face_count() > 0)
+      convex_hull_ = add_solid({.source = Source::ConvexHull, .mesh = std::move(convex)});
+    else
+      has_no_convex_hull_ = true;
+  }
+  return convex_hull_ && !(is_good && made_.solids[*convex_hull_].volume >= signed_volume(best->mesh));
+}
+
+// Where many parts overlap, its hull is several times larger than the others, if there is any.
+bool Ladder::is_worth_the_mesh() const {
+  if (made_.solids.empty() || made_.solids[0].source != Source::Mesh) return false;
+  constexpr std::size_t kMany = 120;
+  return !is_free() || options_.levels || made_.solids[0].self_intersections <= kMany;
+}
+
+// The first ones are the same: they tell whether the triangles enclose anything.
+std::span<const WrapKind> Ladder::wraps() const {
+  if (made_.input.closed) return kWrapsOfSolids;
+  return made_.volume > 0 ? std::span<const WrapKind>(kWrapsOfSoups) : kWrapsOfSheets;
+}
+
+bool Ladder::is_worth_a_wrap(const std::optional<EnclosingHull>& best, std::size_t tried) const {
+  if (!best || !best->certified || !best->target_reached || !best->within_bounds) return true;
+  if (options_.levels || (options_.keep_cavities && best->source == Source::Mesh)) return false;
+  if (made_.volume == 0) return true;
+  constexpr double kLittleVoid = 0.03, kMuchVoid = 0.12, kVeryMuchVoid = 0.3;
+  const bool is_clean = best->self_intersections == 0 || !options_.hull.refuses_self_intersections();
+  if (best->source == Source::Mesh && is_clean) return void_of(*best) > kVeryMuchVoid;
+  return void_of(*best) > (tried == 0 ? kLittleVoid : kMuchVoid);
+}
+
+std::size_t Ladder::add_solid(Solid solid) {
+  solid.volume = signed_volume(solid.mesh);
+  solid.self_intersections = solid.source == Source::Mesh ? count_self_intersections(solid.mesh) : 0;
+  with_doors_.emplace_back();
+  if (solid.doors.face_count() > 0) {
+    with_doors_.back() = to_cover_;
+    add(with_doors_.back(), solid.doors);
+  }
+  made_.solids.push_back(std::move(solid));
+  levels_.resize(made_.solids.size());
+  return made_.solids.size() - 1;
+}
+
+std::optional<std::size_t> Ladder::wrap_with(const WrapKind& kind, std::size_t target_faces) {
+  constexpr double kFewest = 25, kMost = 256;
+  Timer timer(made_.repair_seconds);
+  const double per_diagonal = std::clamp(kind.nodes_per_edge * std::sqrt(double(target_faces)), kFewest, kMost);
+  // A wrap that bounds rule out is of no use, unless all are.
+  const double near = options_.bounds.max_distance / 3, wanted = diagonal_ / per_diagonal;
+  const double spacing = std::max(near < diagonal_ / kMost ? wanted : std::min(near, wanted), options_.seal_holes / 32);
+  const bool may_leak = !made_.input.closed && options_.open_shells == OpenShells::Close;
+  const WrapOptions how{.spacing = spacing,
+                        .offset = kind.offset,
+                        .seal_holes = options_.seal_holes,
+                        .seal_rooms = may_leak,
+                        .closing = kind.closing * spacing,
+                        .progress = options_.progress};
+  Wrap made;
+  if (is_outer())
+    made = wrap(to_cover_, how);
+  else
+    made.mesh = inner_wrap(made_.input.closed->mesh, how);
+  if (options_.hull.float32_coordinates)  // the wrap is farther from the triangles than what that moves it
+    for (Vec3& p : made.mesh.positions) p = nearest_float32(p);
+  try {
+    Solid solid{.source = Source::Wrap,
+                .mesh = closed_mesh(std::move(made.mesh)).mesh,
+                .wrap_spacing = spacing,
+                .doors = std::move(made.doors),
+                .largest_door = made.largest_door};
+    const std::size_t i = add_solid(std::move(solid));
+    if (is_outer() && !made_.input.closed && !has_wrap_) made_.volume = made.inside_volume;
+    has_wrap_ = true;
+    return i;
+  } catch (const InputError& error) {
+    note(fmt::format("the wrap with a spacing of {:.4g} is no closed 2-manifold: {}", spacing, error.what()));
+    return std::nullopt;
+  }
+}
+
+bool Ladder::is_better(const EnclosingHull& a, const EnclosingHull& b) const {
+  const auto rank = [&](const EnclosingHull& hull) {
+    return std::tuple(!hull.certified, std::max(hull.excess, 1.0), std::max(hull.mesh.face_count(), hull.target_faces),
+                      hull.relaxed_guards == kRelaxedGuards.size(), weighed_volume(hull));
+  };
+  return rank(a) < rank(b);
+}
+
+double Ladder::weighed_volume(const EnclosingHull& hull) const {
+  constexpr double kOfSelfIntersections = 1.1;
+  const double volume = signed_volume(hull.mesh);
+  if (!is_outer()) return -volume;
+  const bool is_clean = hull.self_intersections == 0 || !options_.hull.refuses_self_intersections();
+  return is_clean ? volume : volume + (kOfSelfIntersections - 1) * std::max(0.0, volume - made_.volume);
 }
 
 bool Ladder::is_as_asked(const EnclosingHull& hull) const {
@@ -213,51 +322,64 @@ HullOptions Ladder::hull_options(std::size_t target_faces) const {
 std::optional<Float32Hull> Ladder::as_stored(const TriangleMesh& hull, std::size_t solid) {
   if (!options_.hull.float32_coordinates) return Float32Hull{hull, 0};
   try {
-    return with_float32_coordinates(hull, options_.hull.side);
+    // A hull of a mesh that intersects itself may have no room for its vertices. The certificate decides, and lifting
+    // may help.
+    const bool may_lift = made_.solids[solid].self_intersections > 0;
+    return with_float32_coordinates(hull, options_.hull.side, may_lift ? NoRoom::Round : NoRoom::Refuse);
   } catch (const InputError& error) {
     note(fmt::format("a hull of {} has no float32 coordinates: {}", described(made_.solids[solid]), error.what()));
     return std::nullopt;
   }
 }
 
-bool Ladder::is_within(const TriangleMesh& hull, std::size_t solid) const {
-  if (!options_.bounds.any()) return true;
-  return options_.bounds.hold(hull,
-                              made_.solids[solid].wrap_alpha > 0 ? made_.input.original : made_.input.closed->mesh,
-                              made_.solids.front().volume, options_.progress);
+double Ladder::excess_of(const TriangleMesh& hull, std::size_t solid) const {
+  const bool from_mesh = made_.solids[solid].source == Source::Mesh;
+  const double volume = made_.volume > 0 ? made_.volume : made_.solids[solid].volume;
+  return options_.bounds.excess(hull, from_mesh ? made_.solids[solid].mesh : to_cover(solid), volume,
+                                options_.progress);
 }
 
 bool Ladder::is_within_as_stored(const TriangleMesh& hull, std::size_t solid) {
   const auto file = as_stored(hull, solid);
-  return file && is_within(file->mesh, solid);
+  return file && excess_of(file->mesh, solid) <= 1;
 }
 
 Ladder::Attempt Ladder::build(std::size_t solid, std::size_t target_faces) {
   const double start = now();
-  EnclosingHull hull = options_.tight ? build_tight(solid, target_faces) : build_levels(solid, target_faces);
+  const bool solid_is_moved = made_.solids[solid].source != Source::Mesh && !options_.levels && is_outer();
+  EnclosingHull hull =
+      options_.tight && !is_moved_ ? build_tight(solid, target_faces) : build_levels(solid, target_faces);
   hull.target_faces = target_faces;
   hull.solid = solid;
-  hull.wrap_alpha = made_.solids[solid].wrap_alpha;
+  hull.source = made_.solids[solid].source;
   auto file = as_stored(hull.mesh, solid);
   if (file) hull.mesh = std::move(file->mesh), hull.rounded_vertices = file->rounded_vertices;
-  hull.void_ratio = signed_volume(hull.mesh) / made_.solids[solid].volume - 1;
-  hull.self_intersections = count_self_intersections(hull.mesh);
-  hull.within_bounds = !file || is_within(hull.mesh, solid);
   const double built = now();
   if (file) certify(hull);
+  if (!hull.certified && solid_is_moved && is_moved_closely(solid)) {
+    is_moved_loosely_ = true;
+    Attempt again = build(solid, target_faces);
+    is_moved_loosely_ = false;
+    return again;
+  }
+  hull.self_intersections = count_self_intersections(hull.mesh);
+  if (file && options_.bounds.any()) hull.excess = excess_of(hull.mesh, solid);
+  hull.within_bounds = hull.excess <= 1;
   hull.build_seconds = built - start, hull.verify_seconds = now() - built;
   return {std::move(hull), file.has_value()};
 }
 
 EnclosingHull Ladder::build_levels(std::size_t solid, std::size_t target_faces) {
-  levels_.resize(made_.solids.size());
+  const bool may_move = !options_.levels && !options_.bounds.any();
+  if (may_move && (made_.solids[solid].source != Source::Mesh || is_moved_)) return build_in_steps(solid, target_faces);
   std::optional<HullResult>& result = levels_[solid];
   if (!result) result = build_hull(made_.solids[solid].mesh, hull_options(fewest_faces_));
   EnclosingHull hull;
   std::size_t faces = target_faces;
-  if (options_.bounds.any())
+  const bool is_hopeless = options_.bounds.any() && excess_of(made_.solids[solid].mesh, solid) > 1;
+  if (options_.bounds.any() && !is_hopeless)
     faces = std::max(faces, faces_within(result->hull, [&](const TriangleMesh& level) {
-                       return is_within_as_stored(placed(level, solid), solid);
+                       return is_within_as_stored(level, solid);  // moved, it is nearer
                      }));
   const TriangleMesh level = result->hull.level(faces);
   hull.target_reached = faces > target_faces || level.face_count() <= target_faces;
@@ -269,16 +391,44 @@ EnclosingHull Ladder::build_levels(std::size_t solid, std::size_t target_faces) 
   return hull;
 }
 
-// A level of a wrap moves towards the triangles, if it need not be one of a hierarchy.
-TriangleMesh Ladder::placed(const TriangleMesh& level, std::size_t solid) const {
-  if (made_.solids[solid].wrap_alpha == 0 || options_.levels) return level;
+// A hull of a wrap or of the convex hull moves towards the triangles. Moved before it has come down to its faces, too,
+// it is up to 1 % smaller.
+EnclosingHull Ladder::build_in_steps(std::size_t solid, std::size_t target_faces) {
+  constexpr std::pair<double, unsigned> kSteps[]{{1.5, 2}, {1, kMostRounds}};
+  EnclosingHull hull;
+  hull.mesh = made_.solids[solid].mesh;
+  for (const auto& [faces, rounds] : kSteps) {
+    if (!(signed_volume(hull.mesh) > 0)) break;  // an inner hull may vanish
+    HullOptions options = hull_options(std::size_t(std::llround(faces * double(target_faces))));
+    options.guards.max_overhang =
+        overhang_left(bounding_box(hull.mesh), bounding_box(made_.input.original), options_.hull.guards.max_overhang);
+    HullResult result = build_hull(hull.mesh, options);
+    hull.mesh = placed(result.hull.base(), solid, rounds);
+    hull.target_reached = result.stopped == Stopped::TargetReached;
+    hull.refusals += result.refusals, hull.blocked = result.blocked;
+    hull.relaxed_guards = std::max(hull.relaxed_guards, result.relaxed_guards);
+  }
+  return hull;
+}
+
+// A hull that touches a closed mesh is tighter than one that keeps away from single triangles, but where the mesh
+// intersects itself it may not cover them all.
+bool Ladder::is_moved_closely(std::size_t solid) const {
+  return !is_outer() || (made_.input.closed && made_.solids[solid].doors.face_count() == 0 && !is_moved_loosely_);
+}
+
+// A level of a wrap or of the convex hull moves towards the triangles, if it need not be one of a hierarchy.
+TriangleMesh Ladder::placed(const TriangleMesh& level, std::size_t solid, unsigned max_rounds) const {
+  if ((made_.solids[solid].source == Source::Mesh && !is_moved_) || options_.levels) return level;
   const HullOptions& hull = options_.hull;
-  return moved_towards(level, made_.input.original, {hull.guards, hull.float32_coordinates, options_.progress});
+  const MoveOptions how{hull.guards, hull.float32_coordinates, max_rounds, options_.progress};
+  return is_moved_closely(solid) ? moved_towards_closed(level, made_.input.closed->mesh, hull.side, how)
+                                 : moved_towards(level, to_cover(solid), how);
 }
 
 EnclosingHull Ladder::build_tight(std::size_t solid, std::size_t target_faces) {
   const TriangleMesh& mesh = made_.solids[solid].mesh;
-  const TriangleMesh* wrapped = made_.solids[solid].wrap_alpha > 0 ? &made_.input.original : nullptr;
+  const TriangleMesh* wrapped = made_.solids[solid].source == Source::Mesh ? nullptr : &to_cover(solid);
   TightHull tight = options_.bounds.any()
                         ? build_tight_hull_within(
                               mesh, [&](const TriangleMesh& hull) { return is_within_as_stored(hull, solid); },
@@ -292,50 +442,79 @@ EnclosingHull Ladder::build_tight(std::size_t solid, std::size_t target_faces) {
   return hull;
 }
 
-bool Ladder::covers(const TriangleMesh& hull, const TriangleMesh& triangles) const {
-  if (triangles.face_count() == 0) return true;
-  const EnclosureOptions options{.max_offenders = 0, .progress = options_.progress};
-  return verify_cover(triangles, hull, options).encloses;
+const TriangleMesh& Ladder::to_cover(std::size_t solid) const {
+  return with_doors_[solid].face_count() > 0 ? with_doors_[solid] : to_cover_;
 }
 
-// The splits of a progressive hull, replayed, lead from its base mesh to the solid; where the hull is another mesh, for
-// it is tight or rounded to float32, it is compared with the solid. What repair has dropped, and faces of a solid that
-// intersects itself, which may be inside out somewhere, have to be covered one by one; so has all that was wrapped.
+bool Ladder::covers(const TriangleMesh& hull, const TriangleMesh& triangles) const {
+  if (triangles.face_count() == 0) return true;
+  return verify_cover(triangles, hull, {.max_offenders = 0, .progress = options_.progress}).encloses;
+}
+
 void Ladder::certify(EnclosingHull& hull) const {
-  const Solid& solid = made_.solids[hull.solid];
-  if (solid.wrap_alpha > 0) {
-    hull.certified = covers(hull.mesh, made_.input.original) &&
-                     (!hull.levels || verify_replay(*hull.levels, solid.mesh, options_.progress).holds);
-    if (hull.certified) hull.proof = "coverage";
-    return;
-  }
-  hull.proof = "replay";
-  hull.certified = !hull.levels || verify_replay(*hull.levels, solid.mesh, options_.progress).holds;
-  if (hull.certified && (!hull.levels || hull.mesh != hull.levels->base())) {
-    const EnclosureOptions options{.max_offenders = 0, .progress = options_.progress};
-    hull.proof = "enclosure";
-    hull.certified = is_outer() ? verify_enclosure(solid.mesh, hull.mesh, options).encloses
-                                : verify_enclosure(hull.mesh, solid.mesh, options).encloses;
-  }
-  if (hull.certified && is_outer() && options_.repair != Repair::None)
-    hull.certified = covers(hull.mesh, solid.self_intersections > 0 ? made_.input.original : made_.input.dropped);
+  hull.certified = is_proven(hull);
   if (!hull.certified) hull.proof = {};
 }
 
-// Of both sides of a sheet a wrap keeps the offset; a solid is thicker.
-void Ladder::note_open_shell(const Solid& wrap) {
-  double doubled_area = 0;
-  for (const FaceId f : wrap.mesh.triangles.ids()) {
-    const Triangle t = wrap.mesh.triangle(f);
-    doubled_area += norm(cross(t.b - t.a, t.c - t.a));
+// The splits of a progressive hull, replayed, lead from its base mesh to the solid; where the hull is another mesh, for
+// it is tight or rounded to float32, it is compared with the mesh. What repair has dropped, and the doors of a wrap,
+// have to be covered too; of what is not closed, every triangle.
+bool Ladder::is_proven(EnclosingHull& hull) const {
+  const Solid& solid = made_.solids[hull.solid];
+  const auto& closed = made_.input.closed;
+  if (solid.source != Source::Mesh && hull.levels && !verify_replay(*hull.levels, solid.mesh, options_.progress).holds)
+    return false;
+  if (!closed) {
+    hull.proof = "coverage";
+    return covers(hull.mesh, to_cover(hull.solid));
   }
-  const double thickness = 4 * wrap.volume / doubled_area;
-  constexpr double kSheet = 3;  // offsets
-  if (thickness < kSheet * kWrapOffset * diagonal_)
-    note(
-        fmt::format("the wrap is a sheet, {:.4g} thick on average: it went in through openings; --seal-holes D closes "
-                    "those up to D across",
-                    thickness));
+  return encloses_mesh(hull) && (!is_outer() || covers(hull.mesh, solid.doors));
+}
+
+bool Ladder::encloses_mesh(EnclosingHull& hull) const {
+  constexpr std::size_t kMostProtrusions = 200;
+  const Solid& solid = made_.solids[hull.solid];
+  const bool covers_dropped = !is_outer() || covers(hull.mesh, made_.input.dropped);
+  if (solid.source == Source::Mesh && hull.levels) {
+    hull.proof = "replay";
+    const VerificationOptions options{.max_offenders = 0, .progress = options_.progress};
+    if (hull.mesh == hull.levels->base() && verify_hull(*hull.levels, solid.mesh, options).encloses && covers_dropped)
+      return true;
+    if (!verify_replay(*hull.levels, solid.mesh, options_.progress).holds) return false;
+  }
+  hull.proof = "enclosure";
+  const TriangleMesh& mesh = is_original_closed_ ? made_.input.original : made_.input.closed->mesh;
+  const bool may_lift = is_outer() && solid.source == Source::Mesh && !options_.levels;
+  const VerificationOptions options{.max_offenders = may_lift ? kMostProtrusions : 0, .progress = options_.progress};
+  const auto is_proven = [&](const Verification& found) {
+    return found.encloses && (is_original_closed_ || !is_outer() || covers(hull.mesh, made_.input.dropped));
+  };
+  const Verification found = verify_hull(hull.mesh, mesh, options_.hull.side, options);
+  if (found.encloses || !may_lift || found.worst.size() < found.faces_outside) return is_proven(found);
+  TriangleMesh outside{mesh.positions, {}};
+  for (const Offender& o : found.worst) outside.triangles.push_back(mesh.triangles[o.face]);
+  return lift_over(hull, outside, found.worst) &&
+         is_proven(
+             verify_hull(hull.mesh, mesh, options_.hull.side, {.max_offenders = 0, .progress = options_.progress}));
+}
+
+// What is lifted covers what it has covered before: only the triangles that lay outside have to be looked at again.
+bool Ladder::lift_over(EnclosingHull& hull, const TriangleMesh& outside, std::vector<Offender> offenders) const {
+  constexpr int kLifts = 5;
+  hull.levels.reset();
+  for (int lifts = 0; lifts < kLifts; ++lifts) {
+    std::vector<Protrusion> protrusions;
+    for (const Offender& o : offenders) protrusions.push_back({o.point, o.distance});
+    hull.mesh = lifted_over(hull.mesh, protrusions,
+                            {.least = std::pow(10.0, lifts - 8) * diagonal_,
+                             .rings = lifts,
+                             .float32_coordinates = options_.hull.float32_coordinates});
+    EnclosureReport report =
+        verify_cover(outside, hull.mesh, {.max_offenders = offenders.size(), .progress = options_.progress});
+    if (report.encloses) return true;
+    offenders = std::move(report.worst);
+  }
+  return false;
 }
 
 void Ladder::note(std::string text) {
@@ -343,48 +522,67 @@ void Ladder::note(std::string text) {
 }
 
 std::string Ladder::described(const Solid& solid) const {
-  return solid.wrap_alpha > 0 ? fmt::format("the wrap with alpha {:.4g}", solid.wrap_alpha)
-                              : std::string("the mesh itself");
+  switch (solid.source) {
+    case Source::Mesh:
+      return "the mesh itself";
+    case Source::ConvexHull:
+      return "the convex hull";
+    default:
+      return fmt::format("the wrap with a spacing of {:.4g}", solid.wrap_spacing);
+  }
+}
+
+// Of the solid that was taken: what it closes.
+void Ladder::note_solid(const Solid& solid) {
+  if (solid.source != Source::Wrap) return;
+  if (solid.largest_door > 0)
+    note(fmt::format("the mesh is not closed: openings up to about {:.4g} across count as closed", solid.largest_door));
+  if (!made_.input.closed && made_.volume == 0) note("the triangles enclose no space: the hull is a sheet around them");
 }
 
 void Ladder::note_why_not(const EnclosingHull& hull) {
   const std::string source = described(made_.solids[hull.solid]);
   if (!hull.certified)
     note(fmt::format("a hull of {} does not cover every triangle", source));
-  else if (hull.self_intersections > 0 && options_.hull.refuses_self_intersections())
-    note(fmt::format("a hull of {} intersects itself in {} pairs of faces", source, grouped(hull.self_intersections)));
   else if (!hull.within_bounds)
     note(fmt::format("no hull of {} is within the bounds", source));
-  else if (hull.target_reached)
-    note(fmt::format("a hull of {} with {} faces has {:.1f} times the volume", source, grouped(hull.mesh.face_count()),
-                     signed_volume(hull.mesh) / made_.solids.front().volume));
-  else
+  else if (!hull.target_reached)
     note(fmt::format("no legal collapse of {} is left at {} faces: of its edges, {}", source,
                      grouped(hull.mesh.face_count()), describe_refusals(hull.blocked)));
+  else
+    note(fmt::format("a hull of {} intersects itself in {}", source,
+                     counted(hull.self_intersections, "pair of faces", "pairs of faces")));
 }
 
 }  // namespace
 
 Names<Repair> repair_names() { return kRepairNames; }
 
+Names<Source> source_names() { return kSourceNames; }
+
 RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& options) {
   if (options.repair == Repair::None) {
     ClosedMesh closed = closed_mesh(std::move(triangles));
-    RepairedMesh result{closed.mesh, std::nullopt, {}, closed.repairs, {}, closed.found};
+    RepairedMesh result;
+    result.original = closed.mesh;
+    result.repairs = closed.repairs;
+    result.found = closed.found;
     result.closed = std::move(closed);
     return result;
   }
   const bool is_outer = options.hull.side == HullSide::Outer;
-  RepairedMesh result = repaired_mesh(std::move(triangles), options.keep_cavities || !is_outer);
-  if (result.closed && options.repair != Repair::Wrap) return result;
-  const std::string why = result.closed ? "" : result.obstacle + "; ";
-  if (!is_outer) throw InputError(Defect::OpenEdge, why + "there is no inner hull of what is not closed");
-  if (!options.wrap)
-    throw InputError(Defect::OpenEdge,
-                     why +
-                         "this build cannot wrap what is not closed: build prohull where CGAL's alpha wrap is "
-                         "installed (libcgal-dev), with PROHULL_WRAP=ON");
+  RepairedMesh result = repaired_mesh(
+      std::move(triangles), {.keep_cavities = options.keep_cavities || !is_outer, .open_shells = options.open_shells});
+  if (!is_outer && !result.closed)
+    throw InputError(Defect::OpenEdge, result.obstacle + "; there is no inner hull of what is not closed");
   return result;
+}
+
+TriangleMesh triangles_to_cover(const EnclosingHulls& made, const EnclosingHull& hull) {
+  TriangleMesh all = made.input.original;
+  add(all, made.input.caps);
+  add(all, made.solids[hull.solid].doors);
+  return all;
 }
 
 EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size_t> target_faces,
@@ -394,6 +592,7 @@ EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size
     throw InputError(Defect::InvalidOption, "a tight hull has no levels: ask for one of the two");
   if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
     throw InputError(Defect::InvalidOption, "nothing is known to be inside of a wrap: inner hulls do without");
+  if (options.hull.float32_coordinates) check_float32_spacing(triangles);
   return Ladder(std::move(triangles), target_faces, options).climb();
 }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
+#include <numbers>
 
 #include "geometry/float32.h"
 #include "meshes.h"
@@ -11,6 +13,8 @@
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
 #include "prohull/sample.h"
+#include "prohull/verification.h"
+#include "wrap/convex_hull.h"
 
 namespace prohull {
 namespace {
@@ -24,13 +28,6 @@ EnclosingHull only(const EnclosingHulls& made) {
 
 EnclosingHulls hull_of(const TriangleMesh& mesh, std::size_t faces, const EnclosingOptions& options = {}) {
   return enclosing_hulls(mesh, std::array{faces}, options);
-}
-
-/// A wrapper for tests of the ladder alone: the box around all, in so many faces that it can be simplified.
-TriangleMesh box_around(const TriangleMesh& triangles, double, double offset, const Progress&) {
-  const Box around = bounding_box(triangles);
-  const Vec3 room = Vec3{1, 1, 1} * offset;
-  return subdivided(subdivided(box(around.min - room, around.max + room)));
 }
 
 TriangleMesh without_a_face(TriangleMesh mesh) {
@@ -55,12 +52,12 @@ TEST(EnclosingHull, OfOneBudgetIsTheOnlyOne) {
   EXPECT_EQ(hull.mesh, only(hull_of(mesh, 200)).mesh);
   EXPECT_TRUE(hull.certified && hull.target_reached && hull.within_bounds && hull.notes.empty());
   EXPECT_EQ(hull.void_ratio, signed_volume(hull.mesh) / signed_volume(mesh) - 1);
-  EXPECT_EQ(hull.wrap_alpha, 0);
+  EXPECT_EQ(hull.source, Source::Mesh);
 }
 
 TEST(EnclosingHull, HasALevelForEachBudgetInTheirOrder) {
   const TriangleMesh mesh = make_sample("asteroid", 2000);
-  const EnclosingHulls made = enclosing_hulls(mesh, std::array<std::size_t, 3>{400, 1000, 100});
+  const EnclosingHulls made = enclosing_hulls(mesh, std::array<std::size_t, 3>{400, 1000, 100}, {.levels = true});
   ASSERT_EQ(made.hulls.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t faces = std::array{400, 1000, 100}[i];
@@ -110,72 +107,180 @@ TEST(EnclosingHull, CoversWhatRepairHasDropped) {
   hair.triangles.push_back({VertexId(0), tip, tip});
   EXPECT_FALSE(
       verify_cover(hair, build_hull(make_sample("asteroid", 500), {.target_faces = 100}).hull.base()).encloses);
-  const EnclosingHulls around = hull_of(hair, 100, {.wrap = box_around});
+  const EnclosingHulls around = hull_of(hair, 100);
   EXPECT_EQ(around.input.dropped.face_count(), 1u);
   EXPECT_TRUE(only(around).certified);
   EXPECT_TRUE(verify_cover(hair, only(around).mesh).encloses);
 }
 
-TEST(EnclosingHull, RefusesWhatIsNotClosedWithoutAWrapper) {
-  const TriangleMesh open = without_a_face(octahedron());
-  EXPECT_THROW(hull_of(open, 100), InputError);
-  EXPECT_THROW(hull_of(open, 100, {.repair = Repair::None, .wrap = box_around}), InputError);
-  EXPECT_THROW(hull_of(open, 100, {.hull = {.side = HullSide::Inner}, .wrap = box_around}), InputError);
-  EXPECT_THROW(hull_of({}, 100, {.wrap = box_around}), InputError);
+TriangleMesh leaf() {
+  return make({{0, 0, 0}, {1, -0.5, 0.1}, {2, 0, 0}, {1, 0.5, 0.1}, {1, 0, 0}},
+              {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
 }
 
-TEST(EnclosingHull, OfAWrapMovesTowardsTheTriangles) {
-  const TriangleMesh open = without_a_face(subdivided(octahedron()));
-  const EnclosingHulls made = hull_of(open, 40, {.wrap = box_around});
+/// A ball of radius 1 with an opening some 0.6 across.
+TriangleMesh room() {
+  const TriangleMesh ball = sphere(4);
+  TriangleMesh open{ball.positions, {}};
+  for (const FaceId f : ball.triangles.ids())
+    if (ball.triangle(f).a.z < 0.95) open.triangles.push_back(ball.triangles[f]);
+  return open;
+}
+
+constexpr double kBall = 4 * std::numbers::pi / 3;
+
+TEST(EnclosingHull, RefusesWhatCannotBeDone) {
+  EXPECT_THROW(hull_of(without_a_face(octahedron()), 100, {.repair = Repair::None}), InputError);
+  EXPECT_THROW(hull_of(leaf(), 100, {.hull = {.side = HullSide::Inner}}), InputError) << "nothing is inside";
+  EXPECT_THROW(hull_of(octahedron(), 100, {.hull = {.side = HullSide::Inner}, .repair = Repair::Wrap}), InputError);
+  EXPECT_THROW(hull_of(octahedron(), 100, {.tight = true, .levels = true}), InputError);
+  EXPECT_THROW(hull_of({}, 100), InputError);
+}
+
+TEST(EnclosingHull, OfAMeshWithAnOpeningIsSolid) {
+  const EnclosingHulls made = hull_of(room(), 300);
+  const EnclosingHull hull = only(made);
+  EXPECT_TRUE(hull.certified);
+  ASSERT_TRUE(made.input.closed) << made.input.obstacle;
+  EXPECT_EQ(made.input.repairs.closed_openings, 1u);
+  EXPECT_GT(signed_volume(hull.mesh), 0.95 * kBall);
+  EXPECT_TRUE(verify_cover(made.input.caps, hull.mesh).encloses);
+  EXPECT_TRUE(verify_cover(room(), hull.mesh).encloses);
+}
+
+TEST(EnclosingHull, KeepsOpenShellsIfAskedTo) {
+  const EnclosingHulls made = hull_of(room(), 1000, {.hull = {.relax_guards = true}, .open_shells = OpenShells::Keep});
+  const EnclosingHull hull = only(made);
+  EXPECT_FALSE(made.input.closed);
+  EXPECT_TRUE(hull.certified);
+  EXPECT_EQ(hull.source, Source::Wrap);
+  EXPECT_LT(signed_volume(hull.mesh), 0.6 * kBall) << "it goes in";
+  EXPECT_GT(
+      signed_volume(only(hull_of(room(), 500,
+                                 {.hull = {.relax_guards = true}, .open_shells = OpenShells::Keep, .seal_holes = 0.8}))
+                        .mesh),
+      0.9 * kBall);
+}
+
+TEST(EnclosingHull, OfALeafIsASheetAroundIt) {
+  const EnclosingHulls made = hull_of(leaf(), 100);
   const EnclosingHull hull = only(made);
   EXPECT_TRUE(hull.certified);
   EXPECT_EQ(hull.proof, "coverage");
-  EXPECT_TRUE(verify_cover(open, hull.mesh).encloses);
   EXPECT_FALSE(made.input.closed);
   EXPECT_NE(made.input.obstacle.find("open edges"), std::string::npos) << made.input.obstacle;
-  EXPECT_LT(signed_volume(hull.mesh), 0.97 * made.solids[hull.solid].volume);
+  EXPECT_TRUE(verify_cover(leaf(), hull.mesh).encloses);
+  EXPECT_LT(signed_volume(hull.mesh), 0.2);
+}
 
-  const EnclosingHull level = only(hull_of(open, 40, {.levels = true, .wrap = box_around}));
+/// The sides of a box of side 2, each a sheet of its own, 0.1 away from the others, and with a gap of 0.4 in the last.
+TriangleMesh panels() {
+  const auto panel = [](double from_u, double to_u, int axis, double at) {
+    const auto corner = [&](double u, double v) {
+      Vec3 p;
+      p[axis] = at, p[(axis + 1) % 3] = u, p[(axis + 2) % 3] = v;
+      return p;
+    };
+    return make({corner(from_u, -0.95), corner(to_u, -0.95), corner(to_u, 0.95), corner(from_u, 0.95)},
+                {{0, 1, 2}, {0, 2, 3}});
+  };
+  TriangleMesh all = together(panel(-0.95, -0.2, 0, 1), panel(0.2, 0.95, 0, 1));
+  all = together(all, panel(-0.95, 0.95, 0, -1));
+  for (const int axis : {1, 2})
+    for (const double at : {-1.0, 1.0}) all = together(all, panel(-0.95, 0.95, axis, at));
+  return all;
+}
+
+TEST(EnclosingHull, OfARoomOfPanelsIsSolidAndCoversItsDoors) {
+  const TriangleMesh open = together(panels(), moved(octahedron(), {9, 9, 9}));  // far from convex
+  const EnclosingHulls made = hull_of(open, 300, {.hull = {.relax_guards = true}});
+  const EnclosingHull hull = only(made);
+  EXPECT_TRUE(hull.certified);
+  ASSERT_EQ(hull.source, Source::Wrap) << testing::PrintToString(hull.notes);
+  EXPECT_GT(signed_volume(hull.mesh), 8);
+  const TriangleMesh& doors = made.solids[hull.solid].doors;
+  EXPECT_TRUE(doors.face_count() == 0 || verify_cover(doors, hull.mesh).encloses);
+}
+
+TEST(EnclosingHull, OfAWrapMovesTowardsTheTriangles) {
+  const TriangleMesh knot = make_sample("knot", 2000);
+  const EnclosingHulls made = hull_of(knot, 300, {.repair = Repair::Wrap});
+  const EnclosingHull hull = only(made);
+  ASSERT_EQ(hull.source, Source::Wrap);
+  EXPECT_TRUE(hull.certified);
+  EXPECT_EQ(hull.proof, "enclosure");
+  EXPECT_TRUE(verify_enclosure(knot, hull.mesh).encloses);
+  EXPECT_GT(made.solids[hull.solid].wrap_spacing, 0);
+  EXPECT_FALSE(hull.levels);
+
+  const EnclosingHulls with_levels = hull_of(knot, 300, {.levels = true, .repair = Repair::Wrap});
+  const EnclosingHull level = only(with_levels);
   ASSERT_TRUE(level.levels) << "asked for, so they stay where they are";
   EXPECT_EQ(level.levels->base(), level.mesh);
   EXPECT_TRUE(level.certified);
+  EXPECT_LT(signed_volume(hull.mesh), signed_volume(level.mesh));
+  EXPECT_EQ(finest_level(with_levels, level), FinestLevel::Wrap);
 }
 
-TEST(EnclosingHull, OfAWrapIsNotTrusted) {
-  const auto too_small = [](const TriangleMesh&, double, double, const Progress&) {
-    return subdivided(box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}));
-  };
-  const EnclosingHull hull = only(hull_of(without_a_face(octahedron()), 40, {.wrap = too_small}));
-  EXPECT_FALSE(hull.certified);
-  const auto open = [](const TriangleMesh& mesh, double, double, const Progress&) { return mesh; };
-  EXPECT_THROW(hull_of(without_a_face(octahedron()), 40, {.wrap = open}), InputError);
+TEST(EnclosingHull, OfPartsThatCrossIsThatOfTheirUnion) {
+  const TriangleMesh crossing = together(box({0, 0, 0}, {2, 1, 1}), box({1, 0.25, 0.25}, {3, 0.75, 0.75}));
+  const EnclosingHulls made = hull_of(subdivided(subdivided(crossing)), 100, {.hull = {.relax_guards = true}});
+  EXPECT_TRUE(only(made).certified && only(made).target_reached);
+  EXPECT_TRUE(verify_cover(crossing, only(made).mesh).encloses);
+  EXPECT_LT(signed_volume(only(made).mesh), 1.2 * 2.25);
 }
 
-TEST(EnclosingHull, TriesCoarserWrapsUntilOneIsAsAsked) {
-  std::vector<double> alphas;
-  const auto wrapper = [&](const TriangleMesh& mesh, double alpha, double offset, const Progress& progress) {
-    alphas.push_back(alpha / bounding_box(mesh).diagonal());
-    // Eight boxes that cannot be one until alpha is great.
-    TriangleMesh wrap = box_around(mesh, alpha, offset, progress);
-    if (alphas.size() == 1)
-      for (int i = 1; i < 8; ++i) wrap = together(wrap, moved(octahedron(), {10.0 * i, 0, 0}));
-    return wrap;
-  };
-  const EnclosingHulls made = hull_of(without_a_face(octahedron()), 20, {.wrap = wrapper});
-  EXPECT_EQ(alphas.size(), 2u);
-  EXPECT_DOUBLE_EQ(alphas[0], 1.0 / 50);
-  EXPECT_DOUBLE_EQ(alphas[1], 1.0 / 20);
-  EXPECT_EQ(only(made).solid, 1u);
-  EXPECT_TRUE(only(made).target_reached);
-  ASSERT_EQ(only(made).notes.size(), 1u);
-  EXPECT_NE(only(made).notes[0].find("no legal collapse"), std::string::npos) << only(made).notes[0];
+TEST(EnclosingHull, OfFewFacesIsHardlyLargerThanTheConvexHull) {
+  for (const char* const name : {"torus", "asteroid", "bracket"}) {
+    const TriangleMesh mesh = make_sample(name, 2000);
+    const EnclosingHull hull = only(hull_of(mesh, 100, {.hull = {.relax_guards = true}}));
+    EXPECT_TRUE(hull.certified && hull.target_reached) << name;
+    EXPECT_LE(signed_volume(hull.mesh), 1.06 * signed_volume(convex_hull(mesh))) << name;
+  }
+}
+
+TEST(EnclosingHull, LiftsItsVerticesOverFolds) {
+  // A fold that is inside out and sticks out: it bounds no part of the solid, but is to be covered.
+  const TriangleMesh rock = make_sample("asteroid", 1000);
+  const TriangleMesh mesh = together(rock, inside_out(moved(scaled(octahedron(), 0.2), rock.positions[VertexId(5)])));
+  const EnclosingHull hull = only(hull_of(mesh, 200, {.hull = {.relax_guards = true}}));
+  EXPECT_TRUE(hull.certified);
+  EXPECT_TRUE(verify_cover(mesh, hull.mesh).encloses);
+}
+
+TEST(EnclosingHull, OnTheInnerSideLiesWithinTheUnionOfParts) {
+  const TriangleMesh crossing =
+      together(subdivided(subdivided(box({0, 0, 0}, {1, 1, 1}))), subdivided(box({0.3, 0.3, -1}, {0.7, 0.7, 2})));
+  const EnclosingHull hull = enclosing_hull(crossing, 100, {.hull = {.side = HullSide::Inner}});
+  EXPECT_TRUE(hull.certified);
+  EXPECT_TRUE(verify_hull(hull.mesh, crossing, HullSide::Inner).encloses);
+  EXPECT_GT(signed_volume(hull.mesh), 0.5) << "the solid has 1.32";
+}
+
+TEST(EnclosingHull, MissesBoundsByAsLittleAsItCan) {
+  const TriangleMesh soup = without_a_face(make_sample("asteroid", 500));
+  const EnclosingHull hull = enclosing_hull(
+      soup, 100, {.bounds = {.max_distance = 1e-9}, .repair = Repair::Wrap, .open_shells = OpenShells::Keep});
+  EXPECT_TRUE(hull.certified);
+  EXPECT_FALSE(hull.within_bounds);
+  EXPECT_GT(hull.excess, 1);
+  const EnclosingHull easy = enclosing_hull(soup, 100, {.bounds = {.max_distance = 1}});
+  EXPECT_TRUE(easy.within_bounds);
+  EXPECT_LE(easy.excess, 1);
+}
+
+TEST(EnclosingHull, SaysWhatItsFinestLevelIs) {
+  const EnclosingHulls sound = hull_of(make_sample("asteroid", 500), 100, {.levels = true});
+  EXPECT_EQ(finest_level(sound, only(sound)), FinestLevel::Input);
+  const EnclosingHulls welded = hull_of(soup(make_sample("asteroid", 500)), 100, {.levels = true});
+  EXPECT_EQ(finest_level(welded, only(welded)), FinestLevel::Repaired);
 }
 
 TEST(EnclosingHull, CanBeCancelledAnywhere) {
   const TriangleMesh open = without_a_face(make_sample("asteroid", 1000));
   const UnthrottledProgress unthrottled;
   int calls = 0;
-  EnclosingOptions options{.hull = {.threads = 1}, .wrap = box_around};
+  EnclosingOptions options{.hull = {.threads = 1}};
   options.progress = [&](std::string_view, double) { return ++calls > 0; };
   hull_of(open, 40, options);
   const int all = calls;
@@ -185,8 +290,6 @@ TEST(EnclosingHull, CanBeCancelledAnywhere) {
     EXPECT_THROW(hull_of(open, 40, options), Cancelled) << most << " of " << all;
   }
 }
-
-#ifdef PROHULL_HAS_WRAP
 
 /// Everything that is wrong with meshes.
 std::vector<std::pair<std::string, TriangleMesh>> defective_meshes() {
@@ -213,8 +316,7 @@ std::vector<std::pair<std::string, TriangleMesh>> defective_meshes() {
 TEST(EnclosingHull, CoversWhateverIsWrong) {
   for (const auto& [name, mesh] : defective_meshes())
     for (const bool float32 : {false, true}) {
-      const EnclosingHulls made =
-          hull_of(mesh, 100, {.hull = {.relax_guards = true, .float32_coordinates = float32}, .wrap = alpha_wrap});
+      const EnclosingHulls made = hull_of(mesh, 100, {.hull = {.relax_guards = true, .float32_coordinates = float32}});
       const EnclosingHull hull = only(made);
       EXPECT_TRUE(hull.certified) << name;
       EXPECT_TRUE(verify_cover(made.input.original, hull.mesh).encloses) << name;
@@ -223,29 +325,6 @@ TEST(EnclosingHull, CoversWhateverIsWrong) {
       for (const Vec3& p : hull.mesh.positions) ASSERT_TRUE(!float32 || is_float32(p)) << name;
     }
 }
-
-TEST(EnclosingHull, SealsHolesUpToTheirSize) {
-  // A ball of radius 1 with an opening some 0.6 across.
-  TriangleMesh ball = sphere(4), open{ball.positions, {}};
-  for (const FaceId f : ball.triangles.ids())
-    if (ball.triangle(f).a.z < 0.95) open.triangles.push_back(ball.triangles[f]);
-  const double solid = signed_volume(ball);
-  const auto volume = [&](double seal) {
-    return signed_volume(only(hull_of(open, 500, {.seal_holes = seal, .wrap = alpha_wrap})).mesh);
-  };
-  EXPECT_LT(volume(0), 0.5 * solid) << "the wrap goes in";
-  EXPECT_GT(volume(0.8), 0.9 * solid);
-  const EnclosingHulls shell = hull_of(open, 500, {.wrap = alpha_wrap});
-  ASSERT_FALSE(only(shell).notes.empty());
-  EXPECT_NE(only(shell).notes[0].find("--seal-holes"), std::string::npos) << only(shell).notes[0];
-}
-
-TEST(AlphaWrap, CanBeCancelled) {
-  EXPECT_THROW(alpha_wrap(make_sample("asteroid", 1000), 0.02, 0.001, [](std::string_view, double) { return false; }),
-               Cancelled);
-}
-
-#endif
 
 }  // namespace
 }  // namespace prohull
