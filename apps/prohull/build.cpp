@@ -9,8 +9,10 @@
 #include "prohull/enclosing_hull.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
+#include "prohull/float32_hull.h"
 #include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
+#include "recenter.h"
 
 namespace prohull::cli {
 
@@ -51,6 +53,7 @@ EnclosingHulls build(const TriangleMesh& mesh, const BuildOptions& options) {
   EnclosingOptions enclosing = options.enclosing;
   enclosing.progress = std::ref(line);
   try {
+    if (enclosing.hull.float32_coordinates) check_float32_spacing(mesh);
     return enclosing_hulls(mesh, options.faces, enclosing);
   } catch (const InputError& error) {
     throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
@@ -67,7 +70,8 @@ bool has_triangles_of(const TriangleMesh& file, const TriangleMesh& mesh) {
   return true;
 }
 
-Written write_certified(EnclosingHull hull, const BuildOptions& options, const std::string& suffix, Outputs& outputs) {
+Written write_certified(EnclosingHull hull, FinestLevel finest, const BuildOptions& options, const std::string& suffix,
+                        Outputs& outputs) {
   Written written;
   written.hull = std::move(hull);
   written.path = path_for(options.out, written.hull.target_faces);
@@ -78,8 +82,9 @@ Written write_certified(EnclosingHull hull, const BuildOptions& options, const s
     return has_triangles_of(read_mesh(file), written.hull.mesh);
   });
   if (written.certified)
-    outputs.add(options.hierarchy, ".phull",
-                [&](const auto& file) { return save_hull(file, *written.hull.levels), true; });
+    outputs.add(options.hierarchy, ".phull", [&](const auto& file) {
+      return save_hull(file, written.hull.levels->with_finest_level(finest)), true;
+    });
   written.write_seconds = writing.seconds();
   return written;
 }
@@ -88,12 +93,12 @@ void measure(BuildOutcome& outcome) {
   const EnclosingHulls& made = outcome.made;
   const Solid& first = made.solids.front();
   outcome.input_self_intersections =
-      first.wrap_alpha > 0 ? count_self_intersections(made.input.original) : first.self_intersections;
+      first.source == Source::Mesh ? first.self_intersections : count_self_intersections(made.input.original);
   ProgressLine line;
   for (Written& written : outcome.written) {
-    const bool wrapped = written.hull.wrap_alpha > 0;
-    written.distance = distance_bounds(written.hull.mesh, wrapped ? made.input.original : made.input.closed->mesh,
-                                       {.progress = std::ref(line)});
+    written.distance = distance_bounds(
+        written.hull.mesh, made.input.closed ? made.input.closed->mesh : triangles_to_cover(made, written.hull),
+        {.progress = std::ref(line)});
     written.quality = mesh_quality(written.hull.mesh);
   }
 }
@@ -107,9 +112,6 @@ void complete(BuildOptions& options, const std::string& suffix) {
   if (options.allow_self_intersections) hull.self_intersections = SelfIntersections::Allowed;
   if (options.no_self_intersections) hull.self_intersections = SelfIntersections::Refused;
   options.enclosing.levels = !options.hierarchy.empty();
-#ifdef PROHULL_HAS_WRAP
-  options.enclosing.wrap = alpha_wrap;
-#endif
 }
 
 int run_build(BuildOptions options) {
@@ -117,12 +119,15 @@ int run_build(BuildOptions options) {
   complete(options, suffix);
   BuildOutcome outcome;
   Stopwatch reading;
-  const TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
+  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
   outcome.read_seconds = reading.seconds();
-  outcome.made = build(mesh, options);
+  if (options.recenter) outcome.offset = recentering_offset(mesh);
+  outcome.made = build(minus(std::move(mesh), outcome.offset), options);
   Outputs outputs;
-  for (EnclosingHull& made : outcome.made.hulls)
-    outcome.written.push_back(write_certified(std::move(made), options, suffix, outputs));
+  for (EnclosingHull& made : outcome.made.hulls) {
+    const FinestLevel finest = finest_level(outcome.made, made);
+    outcome.written.push_back(write_certified(std::move(made), finest, options, suffix, outputs));
+  }
   measure(outcome);
   outputs.add_report(options.report, report_of(options, outcome));
   outputs.commit();
@@ -137,7 +142,7 @@ void add_guards(CLI::App& command, BuildOptions& options) {
   constexpr const char* kGuards = "Guards of the shape";
   command
       .add_flag("!--keep-guards", hull.relax_guards,
-                "Keep these limits. Otherwise they are relaxed in three steps where the number of faces cannot be "
+                "Keep these limits. Otherwise they are relaxed in four steps where the number of faces cannot be "
                 "reached.")
       ->group(kGuards);
   add_number(command, "--max-valence", hull.guards.max_valence, {3, 1e6},
@@ -160,6 +165,12 @@ void add_guards(CLI::App& command, BuildOptions& options) {
       ->capture_default_str()
       ->type_name("DEGREES")
       ->group(kGuards);
+  add_number(command, "--max-overhang", hull.guards.max_overhang, {0, 10},
+             "How far a new vertex may lie outside of the bounding box of the mesh, along each axis, divided by the "
+             "diagonal of the box, 0 to 10.")
+      ->capture_default_str()
+      ->type_name("RATIO")
+      ->group(kGuards);
 }
 
 void add_bounds(CLI::App& command, BuildOptions& options) {
@@ -170,8 +181,8 @@ void add_bounds(CLI::App& command, BuildOptions& options) {
              "are built to find it.")
       ->type_name("D");
   add_number(command, "--max-void", options.max_void_percent, kPositive,
-             "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh or its "
-             "wrap (an inner hull: how much less).")
+             "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, caps on "
+             "its openings included (an inner hull: how much less).")
       ->type_name("PERCENT");
   add_number(command, "--max-added-volume", bounds.max_added_volume, kPositive,
              "Largest allowed volume between hull and mesh, in the mesh's unit, cubed.")
@@ -208,6 +219,10 @@ void add_build(CLI::App& app, Run& run) {
       ->type_name("IN");
   add_format_option(command, options->input);
   add_unit_options(command, options->input, "the mesh");
+  command.add_flag("--recenter", options->recenter,
+                   "Subtract a round offset near the middle of the mesh from all coordinates, where the mesh is far "
+                   "from the origin. STL and GLB files keep too few digits there. The offset stands in the summary and "
+                   "in the report; add it to place the hull, and give it to `prohull verify --offset`.");
   add_mesh_output_options(command, options->out, options->out_format,
                           "the hull, in whose name {faces} becomes the number of faces asked for");
   add_number(
@@ -225,8 +240,12 @@ void add_build(CLI::App& app, Run& run) {
       "Also move vertices towards the mesh between collapses. Such a hull has the least void and never intersects "
       "itself, but takes 20 to 70 times as long to build.");
   add_choice(command, "--repair", enclosing.repair, repair_names(),
-             "What to do with a mesh that is not closed. auto repairs it and, where that is not enough, wraps it in a "
-             "new closed surface; none refuses it; wrap wraps any mesh at once.");
+             "What to do with a mesh that is not clean. auto repairs it, builds hulls of the mesh, of its convex hull "
+             "and of a wrap, a new closed surface around it, and takes the best; none refuses what is not closed; "
+             "wrap does without the mesh itself.");
+  add_choice(command, "--open-shells", enclosing.open_shells, open_shells_names(),
+             "What to do with openings. close gives them caps, so that what they lead into is inside; keep encloses "
+             "the triangles only, as those of a thin shell. A leaf or a bedsheet always stays a sheet.");
   command.add_flag("--keep-cavities", enclosing.keep_cavities,
                    "Keep parts of the mesh that lie inside of other parts. An outer hull encloses them also if they "
                    "are dropped; an inner hull always keeps them.");
@@ -261,6 +280,7 @@ void add_build(CLI::App& app, Run& run) {
                          "prohull build arm.stl --faces 50 --tight --max-distance 2 -o arm_collision.stl",
                          "prohull build arm.dae --faces 1000,300,100 -o arm_{faces}.stl",
                          "prohull build open_scan.obj --faces 500 --seal-holes 0.02 -o scan.glb",
+                         "prohull build house_utm.ply --recenter --faces 200 -o house.glb --report house.json",
                          "prohull build rock.obj --side inner --faces 300 -o occluder.obj",
                          "prohull build horse.ply --faces 200 -o hull.ply --hierarchy horse.phull",
                          "prohull build - --in-format stl -o - --out-format ply <part.stl >hull.ply"});

@@ -5,10 +5,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recenter.h"
+
 namespace prohull::cli {
 namespace {
 
-bool was_wrapped(const EnclosingHull& hull) { return hull.wrap_alpha > 0; }
+/// Whether the certificate is about single triangles: the mesh has no inside that could be compared.
+bool was_covered(const EnclosingHull& hull) { return hull.proof == "coverage"; }
+
+std::string source_of(const Solid& solid) {
+  switch (solid.source) {
+    case Source::Mesh:
+      return "the mesh";
+    case Source::ConvexHull:
+      return "the convex hull";
+    default:
+      return fmt::format("a wrap with a spacing of {:.4g}", solid.wrap_spacing);
+  }
+}
 
 std::size_t added_self_intersections(const BuildOutcome& outcome, const EnclosingHull& hull) {
   return hull.self_intersections - std::min(hull.self_intersections, outcome.input_self_intersections);
@@ -25,12 +39,14 @@ std::string described_self_intersections(const BuildOutcome& outcome, const Encl
 void print_input(const BuildOptions& options, const BuildOutcome& outcome) {
   say("{}: {}, {}\n", input_name(options.in), counted(outcome.made.input.found.faces, "face", "faces"),
       counted(outcome.made.input.found.components, "component", "components"));
+  if (options.recenter && outcome.offset == Vec3{})
+    say("  not recentered: the mesh is near the origin\n");
+  else if (options.recenter)
+    say("  recentered: {0} was subtracted from the coordinates; add it to place the hull (verify --offset {0})\n",
+        text_of_offset(outcome.offset));
   for (const std::string& repair : describe(outcome.made.input.repairs)) say("  {}\n", repair);
   if (!outcome.made.input.closed) say("  not closed: {}\n", outcome.made.input.obstacle);
   for (const std::string& note : outcome.written.back().hull.notes) say("  {}\n", note);
-  for (const Solid& solid : outcome.made.solids)
-    if (solid.wrap_alpha > 0)
-      say("  wrap with alpha {:.4g}: {}\n", solid.wrap_alpha, counted(solid.mesh.face_count(), "face", "faces"));
 }
 
 // What no collapse changes. A closed surface with h handles has an Euler characteristic of 2 - 2 h.
@@ -46,38 +62,44 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
   const std::size_t faces = hull.mesh.face_count();
   say("{}: {} hull of {}{}, {}, at most {:.4g} from the mesh\n", output_name(written.path),
       options.is_outer() ? "outer" : "inner", counted(faces, "face", "faces"),
-      was_wrapped(hull) ? fmt::format(", of the wrap with alpha {:.4g}", hull.wrap_alpha) : "",
-      was_wrapped(hull) ? fmt::format("volume {:.4g}", signed_volume(hull.mesh))
-                        : fmt::format("void {:.3f} %", 100 * hull.void_ratio),
+      hull.source == Source::Mesh ? "" : fmt::format(", of {}", source_of(outcome.solid(hull))),
+      outcome.made.volume > 0 ? fmt::format("void {:.3f} %", 100 * hull.void_ratio)
+                              : fmt::format("volume {:.4g}", signed_volume(hull.mesh)),
       written.distance.upper);
   say("  self-intersections: {}\n", described_self_intersections(outcome, hull));
   say("  triangles: {}\n", described(written.quality));
   if (faces == outcome.solid(hull).mesh.face_count() && faces <= hull.target_faces)
-    say("  the mesh has no more faces than were asked for: the hull is the mesh itself\n");
+    say("  {} has no more faces than were asked for: the hull is {}\n", source_of(outcome.solid(hull)),
+        hull.source == Source::Mesh ? "the mesh itself" : "simplified no further");
   if (hull.rounded_vertices > 0)
     say("  moved {} to coordinates that the file keeps\n", counted(hull.rounded_vertices, "vertex", "vertices"));
   if (hull.relaxed_guards > 0)
-    say("  shape guards relaxed to reach it: normals may turn by {:.0f} degrees, step {} of {}\n",
-        kRelaxedGuards[hull.relaxed_guards - 1].max_normal_deviation / kDegree, hull.relaxed_guards,
-        kRelaxedGuards.size());
+    say("  shape guards relaxed to reach it: normals may turn by {:.0f} degrees{}, step {} of {}\n",
+        kRelaxedGuards[hull.relaxed_guards - 1].max_normal_deviation / kDegree,
+        std::isfinite(kRelaxedGuards[hull.relaxed_guards - 1].max_overhang) ? "" : " and spikes are allowed",
+        hull.relaxed_guards, kRelaxedGuards.size());
   if (!hull.target_reached)
     say("  no legal collapse is left above the {} faces asked for: {}; of the {} edges left, {}\n",
         grouped(hull.target_faces), described_topology(hull.mesh), grouped(3 * faces / 2),
         describe_refusals(hull.blocked));
-  if (!hull.within_bounds) say("  NOT within the bounds asked for: no hull was\n");
+  if (!hull.within_bounds)
+    say("  NOT within the bounds asked for: no hull was; this one misses them by {:.3g} %\n", 100 * (hull.excess - 1));
   if (written.certified && !options.hierarchy.empty())
     say("{}: all levels from {} to {} faces\n", output_name(options.hierarchy), grouped(faces),
         grouped(outcome.solid(hull).mesh.face_count()));
+  if (const std::string finest = described_finest_level(finest_level(outcome.made, hull));
+      written.certified && !options.hierarchy.empty() && !finest.empty())
+    say("  its finest level is {}, not the input itself\n", finest);
   const bool all_finite = outcome.made.input.repairs.dropped_non_finite_faces == 0;
   if (!written.certified)
     say("  certified: NO: nothing was written; please report this mesh\n");
   else
     say("  certified: yes, the file as written {} {}the original\n",
         !options.is_outer() ? "is enclosed by"
-        : was_wrapped(hull) ? "covers"
+        : was_covered(hull) ? "covers"
                             : "encloses",
         !all_finite         ? "the finite triangles of "
-        : was_wrapped(hull) ? "every triangle of "
+        : was_covered(hull) ? "every triangle of "
                             : "");
 }
 
@@ -101,6 +123,7 @@ nlohmann::json options_report(const BuildOptions& options) {
       {"max_added_volume", finite_or_null(bounds.max_added_volume)},
       {"repair", name_of(repair_names(), options.enclosing.repair)},
       {"keep_cavities", options.enclosing.keep_cavities},
+      {"open_shells", name_of(open_shells_names(), options.enclosing.open_shells)},
       {"seal_holes", options.enclosing.seal_holes},
       {"tight", options.enclosing.tight},
       {"strategy", name_of(strategy_names(), hull.strategy)},
@@ -108,6 +131,7 @@ nlohmann::json options_report(const BuildOptions& options) {
       {"min_compactness_ratio", hull.guards.min_compactness_ratio},
       {"sufficient_compactness", hull.guards.sufficient_compactness},
       {"max_normal_deviation_degrees", options.normal_deviation_degrees},
+      {"max_overhang", hull.guards.max_overhang},
       {"self_intersections", options.enclosing.tight || hull.refuses_self_intersections() ? "refused" : "allowed"},
       {"relax_guards", hull.relax_guards},
       {"seed", hull.seed},
@@ -117,14 +141,15 @@ nlohmann::json options_report(const BuildOptions& options) {
 
 nlohmann::json hull_report(const BuildOutcome& outcome, const Written& written) {
   const EnclosingHull& hull = written.hull;
-  const bool wrapped = was_wrapped(hull);
   return {{"path", written.path.string()},
           {"target_faces", hull.target_faces},
           {"faces", hull.mesh.face_count()},
           {"vertices", hull.mesh.vertex_count()},
           {"volume", signed_volume(hull.mesh)},
-          {"void_ratio", wrapped ? nlohmann::json() : finite_or_null(hull.void_ratio)},
-          {"wrap_alpha", wrapped ? nlohmann::json(hull.wrap_alpha) : nlohmann::json()},
+          {"void_ratio", outcome.made.volume > 0 ? finite_or_null(hull.void_ratio) : nlohmann::json()},
+          {"source", name_of(source_names(), hull.source)},
+          {"wrap_spacing",
+           hull.source == Source::Wrap ? nlohmann::json(outcome.solid(hull).wrap_spacing) : nlohmann::json()},
           {"distance_bound", written.distance.upper},
           {"self_intersections", hull.self_intersections},
           {"added_self_intersections", added_self_intersections(outcome, hull)},
@@ -135,14 +160,16 @@ nlohmann::json hull_report(const BuildOutcome& outcome, const Written& written) 
           {"relaxed_guards", hull.relaxed_guards},
           {"stopped", hull.target_reached ? "target_reached" : "no_legal_collapse"},
           {"within_bounds", hull.within_bounds},
+          {"excess", finite_or_null(hull.excess)},
           {"refusals", facts_of(hull.refusals)},
           {"blocked", facts_of(hull.blocked)}};
 }
 
 std::string repair_of(const BuildOutcome& outcome) {
-  const bool wrapped =
-      std::ranges::any_of(outcome.written, [&](const Written& written) { return was_wrapped(written.hull); });
-  return wrapped ? "wrap" : outcome.made.input.repairs.any() ? "repaired" : "none";
+  const auto is_of_wrap = [](const Written& written) { return written.hull.source == Source::Wrap; };
+  return std::ranges::any_of(outcome.written, is_of_wrap) ? "wrap"
+         : outcome.made.input.repairs.any()               ? "repaired"
+                                                          : "none";
 }
 
 template <class Value>
@@ -165,8 +192,7 @@ double write_seconds(const BuildOutcome& outcome) {
 /// What the ladder looked at before it chose: docs/repair.md.
 void print_search(const BuildOutcome& outcome) {
   for (const Solid& solid : outcome.made.solids)
-    say_more("  tried {}: {}, {} of its faces intersecting\n",
-             solid.wrap_alpha > 0 ? fmt::format("a wrap with alpha {:.4g}", solid.wrap_alpha) : "the mesh itself",
+    say_more("  tried {}: {}, {} of its faces intersecting\n", source_of(solid),
              counted(solid.mesh.face_count(), "face", "faces"), counted(solid.self_intersections, "pair", "pairs"));
   for (const Written& written : outcome.written) {
     say_more("  {}: built in {:.2f} s, verified in {:.2f} s by {}\n", output_name(written.path),
@@ -194,6 +220,7 @@ nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcom
   in["repair"] = repair_of(outcome);
   in["repairs"] = describe(outcome.made.input.repairs);
   in["obstacle"] = outcome.made.input.obstacle;
+  in["offset"] = {outcome.offset.x, outcome.offset.y, outcome.offset.z};
   in["notes"] = outcome.written.back().hull.notes;
   in["self_intersections"] = outcome.input_self_intersections;
   nlohmann::json hulls = nlohmann::json::array();

@@ -16,7 +16,7 @@ struct BuildOptions {
   std::string out_format;
   double normal_deviation_degrees = 45;
   double max_void_percent = 0;  ///< 0: any
-  bool strict = false, allow_self_intersections = false, no_self_intersections = false;
+  bool recenter = false, strict = false, allow_self_intersections = false, no_self_intersections = false;
 
   bool is_outer() const { return enclosing.hull.side == HullSide::Outer; }
 };
@@ -38,6 +38,7 @@ struct BuildOutcome {
   std::size_t input_self_intersections = 0;
   std::vector<Written> written;
   double read_seconds = 0;
+  Vec3 offset;  ///< that --recenter has subtracted
 
   const Solid& solid(const EnclosingHull& hull) const { return made.solids[hull.solid]; }
 };

@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
 #include "command.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/error.h"
+#include "prohull/openings.h"
 
 namespace prohull::cli {
 namespace {
@@ -55,12 +59,25 @@ void print_report(const MeshReport& report) {
   }
 }
 
+nlohmann::json describe_openings(const TriangleMesh& mesh) {
+  constexpr std::size_t kMostNamed = 10;
+  const std::vector<Opening> openings = find_openings(mesh);
+  nlohmann::json largest = nlohmann::json::array();
+  std::string diameters;
+  for (const Opening& opening : std::span(openings).first(std::min(openings.size(), kMostNamed))) {
+    largest.push_back({{"diameter", opening.diameter}, {"edges", opening.loop.size()}});
+    diameters += fmt::format("{}{:.3g}", diameters.empty() ? "" : ", ", opening.diameter);
+  }
+  if (!openings.empty())
+    say_fact(
+        "openings", "{}: {} across{}", grouped(openings.size()), diameters,
+        openings.size() > kMostNamed ? fmt::format(", and {} smaller", grouped(openings.size() - kMostNamed)) : "");
+  return {{"count", openings.size()}, {"largest", largest}};
+}
+
 /// What build would do with the mesh, as it is without options: it takes the same first step.
 void tell_hull(const TriangleMesh& mesh, nlohmann::json& json) {
   EnclosingOptions as_built;
-#ifdef PROHULL_HAS_WRAP
-  as_built.wrap = alpha_wrap;
-#endif
   try {
     const RepairedMesh prepared = prepared_for_hulls(mesh, as_built);
     const auto repairs = describe(prepared.repairs);
@@ -69,11 +86,11 @@ void tell_hull(const TriangleMesh& mesh, nlohmann::json& json) {
     json["hull_from"] = wrapped ? "wrap" : repairs.empty() ? "mesh" : "repaired";
     json["repairs"] = repairs;
     json["obstacle"] = prepared.obstacle;
-    if (wrapped)
-      say_fact("hull possible", "yes, but outer hulls only, of a wrap around it: {}", prepared.obstacle);
-    else
-      say_fact("hull possible", "yes, {}", repairs.empty() ? "of the mesh as it is" : "after these repairs:");
-    if (wrapped) return;
+    if (wrapped) {
+      say_fact("hull possible", "yes, but outer hulls only, of a wrap or of the convex hull: {}", prepared.obstacle);
+      return;
+    }
+    say_fact("hull possible", "yes, {}", repairs.empty() ? "of the mesh as it is" : "after these repairs:");
     for (const std::string& repair : repairs) say_fact("", "{}", repair);
     const MeshReport& closed = prepared.closed->report;
     if (!repairs.empty())
@@ -100,6 +117,8 @@ nlohmann::json describe_mesh(const TriangleMesh& mesh) {
   }
   print_defects(report);
   stop_if_interrupted();
+  json["openings"] = describe_openings(mesh);
+  stop_if_interrupted();
   tell_hull(mesh, json);
   return json;
 }
@@ -110,10 +129,13 @@ nlohmann::json describe_hull(const ProgressiveHull& hull) {
   say_fact("kind", "{} progressive hull", side);
   say_fact("original", "{} faces, {} vertices, volume {:.9g}", grouped(hull.original_face_count()),
            grouped(hull.original_vertex_count()), original);
+  if (const std::string finest = described_finest_level(hull.finest_level()); !finest.empty())
+    say_fact("finest level", "{}, not the input itself", finest);
   say_fact("coarsest", "{} faces, volume {:.9g}, void {:.3f} %", grouped(hull.base_face_count()), base,
            100 * (base / original - 1));
   say_fact("splits", "{}", grouped(hull.splits().size()));
   return {{"side", side},
+          {"finest_level", name_of(finest_level_names(), hull.finest_level())},
           {"original", {{"faces", hull.original_face_count()}, {"volume", original}}},
           {"base", {{"faces", hull.base_face_count()}, {"volume", base}, {"void_ratio", base / original - 1}}},
           {"splits", hull.splits().size()}};
@@ -143,6 +165,8 @@ void add_info(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(
       "info",
       "Tells what a mesh or .phull file holds, how good its triangles are, and what `prohull build` would do with it. "
+      "Openings are holes, and the rims of open meshes; their size is the largest distance between two of their "
+      "points. "
       "The compactness of a triangle is 1 if its sides are equal and 0 if it has no area; an edge is sharp if its two "
       "faces meet at less than 135 degrees.");
   command.add_option("in", options->in, std::string("Mesh or .phull file. ") + kMeshFiles)->required()->type_name("IN");

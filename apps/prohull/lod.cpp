@@ -30,11 +30,14 @@ int extract(const Options& options) {
   outputs.add_report(options.report, {{"path", options.out.string()},
                                       {"faces", level.face_count()},
                                       {"vertices", level.vertex_count()},
-                                      {"volume", signed_volume(level)}});
+                                      {"volume", signed_volume(level)},
+                                      {"finest_level", name_of(finest_level_names(), hull.finest_level())}});
   outputs.commit();
   say("{}: {} faces of {}{}\n", output_name(options.out), grouped(level.face_count()),
       grouped(hull.original_face_count()),
       options.faces != 0 && level.face_count() > options.faces ? ", which is the coarsest level of the file" : "");
+  if (const std::string finest = described_finest_level(hull.finest_level()); !finest.empty())
+    say("  the finest level of the file is {}, not the input itself\n", finest);
   say_more("  read {:.2f} s, extracted {:.2f} s\n", read_seconds, extract_seconds);
   return kDone;
 }
@@ -46,7 +49,9 @@ void add_lod(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(
       "lod",
       "Extracts a level of a .phull file as a mesh. Every level encloses the next finer one (of an inner hull: is "
-      "enclosed by it), and the finest is the original mesh, bit for bit.");
+      "enclosed by it), and the finest is the mesh that the hull was built from, bit for bit: the input, or what was "
+      "made of it, which "
+      "is then said.");
   command
       .add_option("in", options->in,
                   "File with all levels of a hull, which `prohull build --hierarchy` wrote. With - it is "

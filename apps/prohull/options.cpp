@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "console.h"
+#include "prohull/error.h"
 
 namespace prohull::cli {
 namespace {
@@ -71,6 +72,21 @@ CLI::Validator number_in(const std::string& name, const Range& range, bool whole
         return "";
       },
       "");
+}
+
+std::vector<double> numbers_of(const std::string& text, std::size_t count, const char* what) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(Defect::InvalidOption, fmt::format("'{}' is no {}; {}", text, what, why));
+  };
+  std::vector<double> numbers;
+  for (const std::string& word : CLI::detail::split(text, ',')) {
+    const auto number = parsed<double>(word);
+    if (numbers.size() == count || !number || !std::isfinite(*number))
+      refuse(fmt::format("say {} numbers with commas between them", count));
+    numbers.push_back(*number);
+  }
+  if (numbers.size() < count) refuse(fmt::format("it has {} numbers, not {}", numbers.size(), count));
+  return numbers;
 }
 
 CLI::Validator one_of(const std::string& name, const std::vector<std::string>& words) {

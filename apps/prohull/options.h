@@ -26,6 +26,10 @@ constexpr Range kSeed{0, 0x1p64};
 /// `name` is that of the option, for the message.
 CLI::Validator number_in(const std::string& name, const Range& range, bool whole);
 
+/// The `count` finite numbers of a text, with commas between them. Throws InputError(InvalidOption) that calls it
+/// `what`.
+std::vector<double> numbers_of(const std::string& text, std::size_t count, const char* what);
+
 /// Refuses what is none of the words, and suggests the nearest.
 CLI::Validator one_of(const std::string& name, const std::vector<std::string>& words);
 

@@ -93,6 +93,12 @@ std::size_t face_count(const MeshOrHull& target) {
   return hull ? hull->original_face_count() : std::get<TriangleMesh>(target).face_count();
 }
 
+/// Of a mesh file nothing has to be said.
+FinestLevel finest_level_of(const MeshOrHull& target) {
+  const auto* const hull = std::get_if<ProgressiveHull>(&target);
+  return hull ? hull->finest_level() : FinestLevel::Input;
+}
+
 TriangleMesh mesh_of(MeshOrHull target) {
   const auto* const hull = std::get_if<ProgressiveHull>(&target);
   return hull ? hull->original() : std::get<TriangleMesh>(std::move(target));
@@ -210,6 +216,7 @@ int run_query(const Options& options) {
   Stopwatch reading;
   MeshOrHull target = read_mesh_or_hull(options.in, options.input);
   const std::size_t faces = face_count(target);
+  const FinestLevel finest_level = finest_level_of(target);
   if (faces == 0)
     throw InputError(Defect::EmptyMesh, input_name(options.in) + ": it has no faces, so that nothing can hit it");
   const Queries queries = make_queries(options, target);
@@ -226,10 +233,13 @@ int run_query(const Options& options) {
   outputs.add(options.write_segments, suffixes.write_segments,
               [&](const auto& file) { return write_segments(file, std::get<std::vector<Segment>>(queries)), true; });
   nlohmann::json json = report_of(options, outcome);
-  json["input"] = {{"path", options.in.string()}, {"faces", faces}};
+  json["input"] = {
+      {"path", options.in.string()}, {"faces", faces}, {"finest_level", name_of(finest_level_names(), finest_level)}};
   outputs.add_report(options.report, json);
   outputs.commit();
   say("{}: {}\n", input_name(options.in), counted(faces, "face", "faces"));
+  if (const std::string finest = described_finest_level(finest_level); !finest.empty())
+    say("  these are faces of {}: the finest level of the file is not the input itself\n", finest);
   if (options.random > 0) say("{} random segments, seed {}\n", grouped(options.random), options.seed);
   print_summary(options, outcome);
   say_more("  the index takes {} bytes\n", grouped(index.memory_bytes()));

@@ -76,26 +76,14 @@ std::size_t level_of(const std::string& text) {
   return faces;
 }
 
-/// Numbers separated by commas.
-template <std::size_t kCount>
-std::array<double, kCount> numbers_of(const std::string& text, const char* what) {
-  std::array<double, kCount> numbers;
-  std::size_t count = 0;
-  for (const std::string& number : CLI::detail::split(text, ','))
-    if (count == kCount || !parse(number, numbers[count]) || !std::isfinite(numbers[count++]))
-      refuse(fmt::format("'{}' is no {}; say {} numbers with commas between them", text, what, kCount));
-  if (count < kCount) refuse(fmt::format("'{}' is no {}; it has {} numbers, not {}", text, what, count, kCount));
-  return numbers;
-}
-
 Vec3 point_of(const std::string& text) {
-  const auto [x, y, z] = numbers_of<3>(text, "point");
-  return {x, y, z};
+  const std::vector<double> numbers = numbers_of(text, 3, "point");
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 Segment segment_of(const std::string& text) {
-  const auto [ax, ay, az, bx, by, bz] = numbers_of<6>(text, "segment");
-  const Segment segment{{ax, ay, az}, {bx, by, bz}};
+  const std::vector<double> numbers = numbers_of(text, 6, "segment");
+  const Segment segment{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
   if (segment.a == segment.b) refuse(fmt::format("'{}': the ends of the segment are the same", text));
   return segment;
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "arrays.h"
 #include "module.h"
@@ -61,6 +62,7 @@ EnclosingOptions options_of(const Keywords& given) {
   hull.guards.min_compactness_ratio = given.number("min_compactness_ratio");
   hull.guards.sufficient_compactness = given.number("sufficient_compactness");
   hull.guards.max_normal_deviation = given.number("max_normal_deviation_degrees") * std::numbers::pi / 180;
+  hull.guards.max_overhang = given.not_negative("max_overhang");
   hull.relax_guards = given.flag("relax_guards");
   hull.float32_coordinates = given.flag("float32_coordinates");
   hull.seed = given.get<std::uint64_t>("seed", "a whole number, at least 0");
@@ -74,9 +76,7 @@ EnclosingOptions options_of(const Keywords& given) {
   options.repair = given.choice("repair", repair_names());
   options.keep_cavities = given.flag("keep_cavities");
   options.seal_holes = given.not_negative("seal_holes");
-#ifdef PROHULL_HAS_WRAP
-  options.wrap = alpha_wrap;
-#endif
+  options.open_shells = given.choice("open_shells", open_shells_names());
   return options;
 }
 
@@ -87,55 +87,78 @@ py::dict dict_of(const RefusalCounts& counts) {
   return result;
 }
 
-/// What the hulls of one run share.
-class Sources {
+void append(TriangleMesh& mesh, const TriangleMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
+  for (const Vec3& p : other.positions) mesh.positions.push_back(p);
+  for (const auto& [a, b, c] : other.triangles)
+    mesh.triangles.push_back({VertexId{first + index(a)}, VertexId{first + index(b)}, VertexId{first + index(c)}});
+}
+
+/// What a hull is judged by; hulls of one run share it.
+class Judges {
  public:
-  explicit Sources(EnclosingHulls& made) : made_(made) {
-    if (made.input.closed) closed_ = shared(std::move(made.input.closed->mesh));
-    original_ = shared(std::move(made.input.original));
-    dropped_ = shared(std::move(made.input.dropped));
+  Judges(EnclosingHulls& made, const EnclosingOptions& options) {
+    const bool is_closed = made.input.closed.has_value();
+    const bool is_outer = options.hull.side == HullSide::Outer;
+    TriangleMesh every_triangle = made.input.original;
+    append(every_triangle, made.input.caps);
+    const SharedMesh closed = is_closed ? shared(std::move(made.input.closed->mesh)) : nullptr;
+    original_ = is_closed ? closed : shared(std::move(made.input.original));
+    for (const Solid& solid : made.solids) {
+      TriangleMesh covered = is_closed ? made.input.dropped : made.input.caps, all = every_triangle;
+      append(covered, solid.doors);
+      append(all, solid.doors);
+      covered_.push_back(is_outer ? shared(std::move(covered)) : nullptr);
+      measured_.push_back(!options.bounds.any()          ? nullptr
+                          : solid.source == Source::Mesh ? closed
+                                                         : shared(std::move(all)));
+    }
   }
 
-  SharedMesh original(const EnclosingHull& hull) const { return hull.wrap_alpha > 0 ? original_ : closed_; }
-  /// The triangles that the hull has to cover beside enclosing its original.
-  SharedMesh covered(const EnclosingHull& hull, const EnclosingOptions& options) const {
-    if (hull.wrap_alpha > 0 || options.hull.side == HullSide::Inner || options.repair == Repair::None) return nullptr;
-    return made_.solids[hull.solid].self_intersections > 0 ? original_ : dropped_;
-  }
+  /// What it encloses, or covers if it is not closed.
+  SharedMesh original() const { return original_; }
+  /// The triangles that it has to cover beside.
+  SharedMesh covered(const EnclosingHull& hull) const { return covered_[hull.solid]; }
+  /// What its distance is bounded from.
+  SharedMesh measured(const EnclosingHull& hull) const { return measured_[hull.solid]; }
 
  private:
   static SharedMesh shared(TriangleMesh mesh) {
     return mesh.face_count() > 0 ? std::make_shared<TriangleMesh>(std::move(mesh)) : nullptr;
   }
 
-  const EnclosingHulls& made_;
-  SharedMesh closed_, original_, dropped_;
+  SharedMesh original_;
+  std::vector<SharedMesh> covered_, measured_;  ///< by solid
 };
 
-std::vector<std::string> notes_of(const EnclosingHull& hull) {
+std::vector<std::string> notes_of(const EnclosingHull& hull, bool is_closed) {
   std::vector<std::string> notes = hull.notes;
   if (!hull.target_reached)
     notes.push_back("the hull has " + std::to_string(hull.mesh.face_count()) + " faces, more than the " +
                     std::to_string(hull.target_faces) + " asked for: of its edges, " + describe_refusals(hull.blocked));
   if (!hull.within_bounds) notes.push_back("the hull is not within the bounds asked for: no hull was");
-  if (hull.wrap_alpha > 0)
-    notes.push_back("the hull was built from a wrap of the mesh: void_ratio is measured against the wrap");
+  if (!is_closed) notes.push_back("the mesh is not closed: void_ratio is measured against an estimate of its volume");
   return notes;
 }
 
-py::dict facts_of(EnclosingHull hull, const Sources& sources, const EnclosingHulls& made,
+py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls& made,
                   const EnclosingOptions& options) {
+  const Solid& solid = made.solids[hull.solid];
   py::dict facts;
-  facts["original"] = sources.original(hull);
-  facts["covered"] = sources.covered(hull, options);
-  facts["volume_inside"] = made.solids[hull.solid].volume;
+  facts["original"] = judges.original();
+  facts["covered"] = judges.covered(hull);
+  facts["volume_inside"] = made.volume;
   if (options.bounds.any())
-    facts["bounds"] = py::make_tuple(made.solids.front().volume, options.bounds.max_distance,
-                                     options.bounds.max_void_ratio, options.bounds.max_added_volume);
-  facts["wrap_alpha"] = hull.wrap_alpha;
-  facts["notes"] = notes_of(hull);
-  facts["mesh"] = std::move(hull.mesh);
+    facts["bounds"] =
+        py::make_tuple(judges.measured(hull), made.volume > 0 ? made.volume : solid.volume, options.bounds.max_distance,
+                       options.bounds.max_void_ratio, options.bounds.max_added_volume);
+  facts["replay_suffices"] = solid.source == Source::Mesh && solid.self_intersections == 0;
+  facts["source"] = name_of(source_names(), hull.source);
+  facts["wrap_spacing"] = solid.wrap_spacing;
+  facts["notes"] = notes_of(hull, made.input.closed.has_value());
+  if (hull.levels) hull.levels = hull.levels->with_finest_level(finest_level(made, hull));
   facts["levels"] = std::move(hull.levels);
+  facts["mesh"] = std::move(hull.mesh);
   facts["certified"] = hull.certified;
   facts["proof"] = hull.proof;
   facts["target_faces"] = hull.target_faces;
@@ -152,9 +175,9 @@ py::dict facts_of(EnclosingHull hull, const Sources& sources, const EnclosingHul
 }
 
 py::list facts_of(EnclosingHulls made, const EnclosingOptions& options) {
-  const Sources sources(made);
+  const Judges judges(made, options);
   py::list hulls;
-  for (EnclosingHull& hull : made.hulls) hulls.append(facts_of(std::move(hull), sources, made, options));
+  for (EnclosingHull& hull : made.hulls) hulls.append(facts_of(std::move(hull), judges, made, options));
   return hulls;
 }
 
@@ -175,6 +198,8 @@ void bind_construction(py::module_& module) {
   module.attr("sides") = tuple_of(hull_side_names());
   module.attr("strategies") = tuple_of(strategy_names());
   module.attr("repairs") = tuple_of(repair_names());
+  module.attr("open_shells") = tuple_of(open_shells_names());
+  module.attr("sources") = tuple_of(source_names());
   module.attr("self_intersections") = tuple_of(self_intersections_names());
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "arrays.h"
 #include "module.h"
@@ -12,6 +13,7 @@
 #include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_report.h"
+#include "prohull/openings.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/sample.h"
 #include "watch.h"
@@ -56,9 +58,11 @@ TriangleMesh read(const std::filesystem::path& path, bool keep_non_finite, doubl
 
 py::dict facts_of(const TriangleMesh& mesh) {
   MeshReport report;
+  std::vector<Opening> openings;
   {
     const py::gil_scoped_release released;
     report = inspect(mesh);
+    openings = find_openings(mesh);
   }
   py::dict facts;
   facts["faces"] = report.faces;
@@ -70,6 +74,9 @@ py::dict facts_of(const TriangleMesh& mesh) {
   for (const DefectCount& defect : defect_counts(report))
     facts[py::str(defect.name.data(), defect.name.size())] = defect.count;
   facts["first_defect"] = report.first_defect;
+  py::list diameters;
+  for (const Opening& opening : openings) diameters.append(opening.diameter);
+  facts["openings"] = diameters;
   return facts;
 }
 
@@ -84,7 +91,8 @@ py::tuple parts_of(const SharedLevels& levels) {
                         view_of(levels, reinterpret_cast<const std::uint32_t*>(levels->base_corners().data()),
                                 {rows(levels->base_corners().size())}),
                         view_of(levels, reinterpret_cast<const std::uint32_t*>(levels->splits().data()),
-                                {rows(levels->splits().size()), kSplitFields}));
+                                {rows(levels->splits().size()), kSplitFields}),
+                        static_cast<int>(levels->finest_level()));
 }
 
 ProgressiveHull levels_of_parts(const py::tuple& parts) {
@@ -93,7 +101,7 @@ ProgressiveHull levels_of_parts(const py::tuple& parts) {
                          copied<VertexId>(parts[3].cast<Array<std::uint32_t>>()),
                          copied<VertexSplit>(parts[4].cast<Array<std::uint32_t>>()));
   if (const auto defect = first_defect(levels)) throw InputError(Defect::Malformed, "pickled hull: " + *defect);
-  return levels;
+  return levels.with_finest_level(FinestLevel(parts[5].cast<int>()));
 }
 
 }  // namespace
@@ -115,6 +123,10 @@ void bind_meshes(py::module_& module) {
 
   py::class_<ProgressiveHull, SharedLevels>(module, "Levels")
       .def_property_readonly("is_inner", [](const ProgressiveHull& levels) { return levels.side() == HullSide::Inner; })
+      .def_property_readonly("finest_level",
+                             [](const ProgressiveHull& levels) {
+                               return std::string(name_of(finest_level_names(), levels.finest_level()));
+                             })
       .def_property_readonly("base_face_count", &ProgressiveHull::base_face_count)
       .def_property_readonly("original_face_count", &ProgressiveHull::original_face_count)
       .def("level", &ProgressiveHull::level, Release())

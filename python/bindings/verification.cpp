@@ -9,7 +9,6 @@
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
-#include "prohull/replay.h"
 #include "prohull/verification.h"
 #include "watch.h"
 
@@ -35,6 +34,7 @@ py::dict facts_of(const Verification& found) {
   facts["faces_outside"] = found.faces_outside;
   facts["worst"] = worst;
   facts["cavities"] = found.cavities;
+  facts["faces_beside_solid"] = found.faces_beside_solid;
   facts["self_intersections"] = found.self_intersections;
   facts["void_ratio"] = found.void_ratio;
   facts["notes"] = found.notes;
@@ -47,31 +47,23 @@ HullSide side_called(const std::string& name) {
 }
 
 template <class Decide>
-py::dict verified(bool every_triangle, const py::object& progress, Decide decide) {
+py::dict verified(bool solid_only, const py::object& progress, Decide decide) {
   return facts_of(watched(progress, [&](Watch& watch) {
-    return decide(VerificationOptions{.every_triangle = every_triangle, .progress = watch.progress()});
+    return decide(VerificationOptions{.solid_only = solid_only, .progress = watch.progress()});
   }));
 }
 
 py::dict verified_mesh(const TriangleMesh& hull, const TriangleMesh& original, const std::string& side_name,
-                       bool every_triangle, const py::object& progress) {
+                       bool solid_only, const py::object& progress) {
   const HullSide side = side_called(side_name);
-  return verified(every_triangle, progress,
+  return verified(solid_only, progress,
                   [&](const VerificationOptions& options) { return verify_hull(hull, original, side, options); });
 }
 
-py::dict verified_levels(const ProgressiveHull& hull, const TriangleMesh& original, bool every_triangle,
+py::dict verified_levels(const ProgressiveHull& hull, const TriangleMesh& original, bool solid_only,
                          const py::object& progress) {
-  return verified(every_triangle, progress,
+  return verified(solid_only, progress,
                   [&](const VerificationOptions& options) { return verify_hull(hull, original, options); });
-}
-
-/// Why the levels prove nothing; empty if they do.
-std::string replayed(const ProgressiveHull& levels, const py::object& progress) {
-  return watched(progress, [&](Watch& watch) {
-    const ReplayReport report = verify_replay(levels, levels.original(), watch.progress());
-    return report.holds ? std::string() : report.why_not;
-  });
 }
 
 py::tuple distance(const TriangleMesh& from, const TriangleMesh& to, double relative_gap, const py::object& progress) {
@@ -81,19 +73,17 @@ py::tuple distance(const TriangleMesh& from, const TriangleMesh& to, double rela
   return py::make_tuple(bounds.lower, bounds.upper, point_of(bounds.farthest));
 }
 
-/// How it is proven that a hull, or a level of it, does what it promises; empty if it does not: it covers `original`
-/// where that was wrapped, else it encloses (inner: is enclosed by) it, and covers `covered`. `known` says that the
-/// former is known.
+/// How it is proven that a hull does what it promises, which is to pass verify_hull, and to cover `covered`; empty if
+/// it does not.
 std::string proof_of(const TriangleMesh& hull, const TriangleMesh& original, const TriangleMesh* covered,
-                     const std::string& side, bool wrapped, const std::string& known) {
+                     const std::string& side) {
   return watched(py::none(), [&](Watch& watch) -> std::string {
-    const EnclosureOptions options{.max_offenders = 0, .progress = watch.progress()};
-    if (wrapped) return verify_cover(original, hull, options).encloses ? "coverage" : "";
-    const bool outer = side_called(side) == HullSide::Outer;
-    if (known.empty() && !verify_enclosure(outer ? original : hull, outer ? hull : original, options).encloses)
+    const Verification found =
+        verify_hull(hull, original, side_called(side), {.max_offenders = 0, .progress = watch.progress()});
+    if (!found.encloses) return "";
+    if (covered && !verify_cover(*covered, hull, {.max_offenders = 0, .progress = watch.progress()}).encloses)
       return "";
-    if (covered && !verify_cover(*covered, hull, options).encloses) return "";
-    return known.empty() ? "enclosure" : known;
+    return std::string(found.proof);
   });
 }
 
@@ -117,7 +107,6 @@ void bind_verification(py::module_& module) {
   module.def("count_self_intersections", &count_self_intersections, Release());
   module.def("verify_mesh", &verified_mesh);
   module.def("verify_levels", &verified_levels);
-  module.def("replayed", &replayed);
   module.def("proof_of", &proof_of);
   module.def("is_within", &is_within);
   module.def("with_float32_coordinates", &float32_hull);

@@ -13,53 +13,59 @@ from ._files import mesh_of
 from ._hull import Hull
 from ._meshes import Mesh
 from ._prohull import InputError
-from ._types import MeshLike, Progress, Repair, Rows, SelfIntersections, Side, Strategy
+from ._types import MeshLike, OpenShells, Progress, Repair, Rows, SelfIntersections, Side, Strategy
 
 
 @overload
 def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ..., levels: bool = ...,
           max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., repair: Repair = ...,
-          keep_cavities: bool = ..., seal_holes: float = ..., float32_coordinates: bool = ..., strategy: Strategy = ...,
-          best_of: int = ..., seed: int = ..., threads: int = ..., self_intersections: SelfIntersections = ...,
-          relax_guards: bool = ..., max_valence: int = ..., min_compactness_ratio: float = ...,
-          sufficient_compactness: float = ..., max_normal_deviation_degrees: float = ...,
+          keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
+          float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
+          threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
+          max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
+          max_normal_deviation_degrees: float = ..., max_overhang: float = ...,
           progress: Optional[Progress] = ...) -> Hull: ...
 @overload
 def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ..., levels: bool = ...,
           max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., repair: Repair = ...,
-          keep_cavities: bool = ..., seal_holes: float = ..., float32_coordinates: bool = ..., strategy: Strategy = ...,
-          best_of: int = ..., seed: int = ..., threads: int = ..., self_intersections: SelfIntersections = ...,
-          relax_guards: bool = ..., max_valence: int = ..., min_compactness_ratio: float = ...,
-          sufficient_compactness: float = ..., max_normal_deviation_degrees: float = ...,
+          keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
+          float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
+          threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
+          max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
+          max_normal_deviation_degrees: float = ..., max_overhang: float = ...,
           progress: Optional[Progress] = ...) -> list[Hull]: ...
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          repair: Repair = ..., keep_cavities: bool = ..., seal_holes: float = ..., float32_coordinates: bool = ...,
-          strategy: Strategy = ..., best_of: int = ..., seed: int = ..., threads: int = ...,
-          self_intersections: SelfIntersections = ..., relax_guards: bool = ..., max_valence: int = ...,
-          min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
-          max_normal_deviation_degrees: float = ..., progress: Optional[Progress] = ...) -> Hull: ...
+          repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
+          float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
+          threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
+          max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
+          max_normal_deviation_degrees: float = ..., max_overhang: float = ...,
+          progress: Optional[Progress] = ...) -> Hull: ...
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          repair: Repair = ..., keep_cavities: bool = ..., seal_holes: float = ..., float32_coordinates: bool = ...,
-          strategy: Strategy = ..., best_of: int = ..., seed: int = ..., threads: int = ...,
-          self_intersections: SelfIntersections = ..., relax_guards: bool = ..., max_valence: int = ...,
-          min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
-          max_normal_deviation_degrees: float = ..., progress: Optional[Progress] = ...) -> list[Hull]: ...
+          repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
+          float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
+          threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
+          max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
+          max_normal_deviation_degrees: float = ..., max_overhang: float = ...,
+          progress: Optional[Progress] = ...) -> list[Hull]: ...
 def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type: ignore[misc]  # the two ways of calls
           side: Side = "outer", tight: bool = False, levels: bool = False, max_distance: float = math.inf,
           max_void_percent: float = math.inf, max_added_volume: float = math.inf, repair: Repair = "auto",
-          keep_cavities: bool = False, seal_holes: float = 0.0, float32_coordinates: bool = False,
+          keep_cavities: bool = False, open_shells: OpenShells = "close", seal_holes: float = 0.0,
+          float32_coordinates: bool = False,
           strategy: Strategy = "lazy", best_of: int = 1, seed: int = 0, threads: int = 0,
           self_intersections: SelfIntersections = "by-strategy", relax_guards: bool = True, max_valence: int = 12,
           min_compactness_ratio: float = 0.8, sufficient_compactness: float = 0.15,
-          max_normal_deviation_degrees: float = 45.0,
+          max_normal_deviation_degrees: float = 45.0, max_overhang: float = 0.1,
           progress: Optional[Progress] = None) -> Union[Hull, list[Hull]]:
     """Builds a certified hull of any triangles: build(mesh, target_faces) or build(vertices, faces, target_faces).
 
-    A mesh that is not closed is repaired, and wrapped where that is not enough (docs/repair.md).
+    A mesh that is not clean is repaired, and its openings get caps. The hull is the best one of hulls of that mesh, of
+    its convex hull and of wraps, which are new closed surfaces around it; `source` says which (docs/repair.md).
 
     Guaranteed: a hull whose `certified` is True encloses every finite triangle of the mesh (with side="inner": is
     enclosed by the mesh). This is decided exactly, on the very numbers in `vertices`. The same input gives the same
@@ -73,14 +79,17 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
     side: "outer" for a hull that encloses the mesh; "inner" for one that the mesh encloses, which must then be closed.
     tight: whether to move vertices towards the mesh between collapses. This leaves far less void, takes some twenty to
         seventy times as long, and keeps no levels.
-    levels: whether to keep levels also where the mesh has to be wrapped. Vertices then do not move back towards the
-        mesh.
+    levels: whether to keep levels whatever the source is. Vertices then do not move after the last collapse, neither
+        back towards the mesh nor over its folds.
     max_distance: largest distance of a point of the hull from the mesh, in the mesh's unit, at least 0. It is proven.
         The hull is the coarsest one, of at least target_faces faces, that keeps this bound and the next two.
     max_void_percent: largest void, in per cent of the mesh's volume, at least 0.
     max_added_volume: largest void, in cubic units, at least 0.
-    repair: "auto" repairs, and wraps where that is not enough; "none" refuses what is not closed; "wrap" wraps at once.
+    repair: "auto" repairs the mesh and takes the best source; "none" refuses what is not closed; "wrap" does without
+        the mesh itself as a source.
     keep_cavities: whether to keep components that lie inside of others. Inner hulls always keep them.
+    open_shells: "close" gives openings caps, so that what they lead into is inside; "keep" encloses the triangles only,
+        as those of a thin shell. A leaf or a bedsheet always stays a sheet.
     seal_holes: largest diameter of openings that a wrap closes, in the mesh's unit, at least 0.
     float32_coordinates: whether all coordinates shall be numbers that float32 keeps. Hull.save() makes them such for
         .stl and .glb files in any case.
@@ -90,13 +99,15 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
     threads: the largest number of threads; 0 means one for each core.
     self_intersections: "refused" refuses every collapse that would make the hull intersect itself; "allowed" is faster;
         "by-strategy" refuses them with "lazy", and allows them with the paper's two.
-    relax_guards: whether the four guards that follow give way, in three steps, where target_faces is not reached
+    relax_guards: whether the five guards that follow give way, in four steps, where target_faces is not reached
         otherwise.
     max_valence: largest number of faces around a new vertex, at least 3.
     min_compactness_ratio: smallest compactness of a triangle after a collapse, relative to before, in [0, 1].
         Compactness is 1 for an equilateral triangle, and 0 for one without area.
     sufficient_compactness: compactness that is enough whatever it was before, in [0, 1]; with "lazy" only.
     max_normal_deviation_degrees: largest angle by which a collapse may turn a face, in degrees, in [0, 90].
+    max_overhang: how far a new vertex may lie outside of the box of the mesh, along each axis, relative to the diagonal
+        of the box; at least 0.
     progress: a function that is called with the stage and a fraction in [0, 1], some 20 times a second, on the calling
         thread. The last call is ("done", 1.0). If it returns False, the build stops with KeyboardInterrupt, as for
         Ctrl-C. What it raises stops the build and reaches the caller.
@@ -110,11 +121,12 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
     given, targets = _given(mesh, faces, target_faces)
     keywords = dict(
         side=side, tight=tight, levels=levels, max_distance=max_distance, max_void_percent=max_void_percent,
-        max_added_volume=max_added_volume, repair=repair, keep_cavities=keep_cavities, seal_holes=seal_holes,
+        max_added_volume=max_added_volume, repair=repair, keep_cavities=keep_cavities,
+        open_shells=open_shells, seal_holes=seal_holes,
         float32_coordinates=float32_coordinates, strategy=strategy, best_of=best_of, seed=seed, threads=threads,
         self_intersections=self_intersections, relax_guards=relax_guards, max_valence=max_valence,
         min_compactness_ratio=min_compactness_ratio, sufficient_compactness=sufficient_compactness,
-        max_normal_deviation_degrees=max_normal_deviation_degrees)
+        max_normal_deviation_degrees=max_normal_deviation_degrees, max_overhang=max_overhang)
     try:
         made = _prohull.build(given._core, [int(n) for n in np.atleast_1d(targets)], progress, keywords)
     except InputError as error:

@@ -35,21 +35,30 @@ def read(path: Path, *, scale: float = 1.0) -> Mesh:
     return Mesh._of(_prohull.read(path, False, float(scale)))
 
 
+_FINEST = {"repaired": "the input after repairs", "convex-hull": "the convex hull of the input",
+           "wrap": "a wrap of the input"}
+
+
 def load(path: Path) -> Hull:
     """Loads the hull that Hull.save() wrote to a .phull file, with all of its levels.
 
-    The file holds the original mesh too. The proof is replayed: `certified` says whether each level encloses all finer
-    ones up to the original. If it does not, `notes` says why. Raises InputError if the file is not a sound .phull file.
-    A mesh file is read by read().
+    The file holds the original mesh too, and the hull is verified against it as verify() does: `certified` says whether
+    each level encloses all finer ones up to the original. If it does not, `notes` says why. `notes` also tells if the finest
+    level, the `original`, is not what build() was given but what it made of that. Raises InputError if the file is not
+    a sound .phull file. A mesh file is read by read().
     """
     levels = _prohull.load(path)
-    why_not = _prohull.replayed(levels, None)
     faces = levels.base_face_count
     original = levels.level(levels.original_face_count)
-    facts = dict(mesh=levels.level(0), original=original, levels=levels, wrap_alpha=0.0,
-                 certified=not why_not, proof="" if why_not else "replay", target_faces=faces, target_reached=True,
+    found = _prohull.verify_levels(levels, original, False, None)
+    proven, why_not = found["encloses"], found["why_not"]
+    finest = _FINEST.get(levels.finest_level)
+    notes = ([why_not] if why_not else []) + ([f"the finest level is {finest}, not the input itself"] if finest else [])
+    facts = dict(mesh=levels.level(0), original=original, levels=levels, source="mesh", wrap_spacing=0.0,
+                 replay_suffices=False,
+                 certified=proven, proof="replay" if proven else "", target_faces=faces, target_reached=True,
                  within_bounds=True, refusals={}, blocked={}, relaxed_guards=0, rounded_vertices=0, build_seconds=0.0,
-                 verify_seconds=0.0, repairs=[], notes=[why_not] if why_not else [])
+                 verify_seconds=0.0, repairs=[], notes=notes)
     return Hull._made(facts, "inner" if levels.is_inner else "outer")
 
 

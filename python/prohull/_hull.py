@@ -7,7 +7,7 @@ from typing import Any, Optional
 from . import _prohull
 from ._meshes import Mesh
 from ._prohull import InputError
-from ._types import Path, Proof, Side
+from ._types import Path, Proof, Side, Source
 
 
 class Hull(Mesh):
@@ -24,9 +24,10 @@ class Hull(Mesh):
     within_bounds: bool  #: whether max_distance, max_void_percent and max_added_volume hold
     refusals: dict[str, int]  #: how often collapses were refused during the construction, by reason
     blocked: dict[str, int]  #: how many of the edges that are left cannot be collapsed, by reason
-    relaxed_guards: int  #: number of steps, 0 to 3, by which the guards of the shape were relaxed in the end
+    relaxed_guards: int  #: number of steps, 0 to 4, by which the guards of the shape were relaxed in the end
     rounded_vertices: int  #: number of vertices that were moved to coordinates that float32 keeps
-    wrap_alpha: float  #: alpha of the wrap that the hull was built from, in the mesh's unit; 0 if it was not wrapped
+    source: Source  #: what the hull was built from: "mesh", the repaired mesh; "convex-hull"; or "wrap" (docs/repair.md)
+    wrap_spacing: float  #: spacing of the grid of the wrap that it was built from, in the mesh's unit; 0 for other sources
     repairs: list[str]  #: what was done to the mesh before the hull was built
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
     build_seconds: float
@@ -35,17 +36,18 @@ class Hull(Mesh):
     _levels: Optional[_prohull.Levels]
     _original: Mesh
     _covered: Optional[_prohull.Mesh]  # triangles that the hull has to cover beside enclosing its original
-    _bounds: tuple[float, ...]  # the volume that they are about, max_distance, max_void_ratio, max_added_volume
+    _bounds: tuple[Any, ...]  # mesh and volume that they are about, max_distance, max_void_ratio, max_added_volume
     _volume_inside: float  # that void is measured against
+    _replay_suffices: bool  # whether a level that encloses the solid of the original covers every triangle of it
     _distance: Optional[float]  # computed when it is asked for, and so is the next
     _self_intersections: Optional[int]
 
     @classmethod
     def _made(cls, facts: dict[str, Any], side: Side) -> "Hull":
         levels = facts.pop("levels")
-        original = Mesh._of(facts.pop("original"), None if facts["wrap_alpha"] > 0 else levels)
+        original = Mesh._of(facts.pop("original"), levels if facts["source"] == "mesh" else None)
         private = dict(_levels=levels, _original=original, _covered=facts.pop("covered", None),
-                       _bounds=facts.pop("bounds", ()),
+                       _bounds=facts.pop("bounds", ()), _replay_suffices=facts.pop("replay_suffices"),
                        _volume_inside=facts.pop("volume_inside", original.volume))
         return cls._with(facts.pop("mesh"), side=side, **private, **facts)
 
@@ -65,9 +67,10 @@ class Hull(Mesh):
 
     @property
     def original(self) -> Mesh:
-        """What the hull encloses: the mesh after repairs, or all of its finite triangles where they were wrapped.
+        """What the hull encloses: the mesh after repairs, or all of its finite triangles if it is not closed then.
 
-        Its queries also take the engines that go through the hull, "refinement" and "paper-refinement".
+        If the hull was built from it and has levels, its queries also take the engines that go through the hull,
+        "refinement" and "paper-refinement".
         """
         return self._original
 
@@ -75,7 +78,8 @@ class Hull(Mesh):
     def levels(self) -> range:
         """The numbers of faces that level() has, from the hull to the original. Empty if the hull has no levels.
 
-        A tight hull has none, nor has a hull of a wrap unless it was built with levels=True.
+        A tight hull has none. Unless it was built with levels=True, a hull has none either if its vertices were moved
+        after the last collapse: if its source is a wrap or the convex hull, or if it was lifted over folds.
         """
         if self._levels is None:
             return range(0)
@@ -88,7 +92,8 @@ class Hull(Mesh):
         own. Raises InputError if the hull has no levels.
         """
         level = self._with_levels().level(faces)
-        proof = self._proof_of(level, "replay") if self.certified else ""
+        proof = ("" if not self.certified else
+                 "replay" if self._replay_suffices and self._covered is None else self._proof_of(level))
         return self._as(level, certified=bool(proof), proof=proof, target_faces=faces,
                         target_reached=len(level.faces) <= faces, within_bounds=self._is_within_bounds(level),
                         rounded_vertices=0, refusals={}, blocked={}, relaxed_guards=0, notes=[], _levels=None)
@@ -102,7 +107,7 @@ class Hull(Mesh):
         rounded, moved = _prohull.with_float32_coordinates(self._core, self.side)
         if moved == 0:
             return self
-        proof = self._proof_of(rounded, "") if self.certified else ""
+        proof = self._proof_of(rounded) if self.certified else ""
         return self._as(rounded, certified=bool(proof), proof=proof, rounded_vertices=moved,
                         target_reached=self.target_reached, within_bounds=self._is_within_bounds(rounded))
 
@@ -131,12 +136,12 @@ class Hull(Mesh):
                              "any more; build it with float32_coordinates=True, or save it as .ply, .obj or .off")
         return rounded
 
-    def _proof_of(self, core: _prohull.Mesh, known: Proof) -> Proof:
-        """How `core` is proven in place of this hull; "replay" may be known."""
-        return _prohull.proof_of(core, self._original._core, self._covered, self.side, self.wrap_alpha > 0, known)
+    def _proof_of(self, core: _prohull.Mesh) -> Proof:
+        """How `core` is proven in place of this hull."""
+        return _prohull.proof_of(core, self._original._core, self._covered, self.side)
 
     def _is_within_bounds(self, core: _prohull.Mesh) -> bool:
-        return not self._bounds or _prohull.is_within(core, self._original._core, *self._bounds)
+        return not self._bounds or _prohull.is_within(core, *self._bounds)
 
     def _with_levels(self) -> _prohull.Levels:
         if self._levels is None:
@@ -147,9 +152,8 @@ class Hull(Mesh):
     def void_ratio(self) -> float:
         """The void, as a share of the volume of the mesh: volume of the hull / volume of the mesh - 1.
 
-        Negative for inner hulls. For a hull that was built from a wrap, the void is a share of the volume of that wrap,
-        and `notes` says so: a mesh that is not closed has no volume. It may be negative there, because the hull moves
-        back towards the mesh.
+        Negative for inner hulls. The volume of a mesh that is not closed, caps included, is estimated, and `notes` says
+        so. nan if the mesh encloses no space.
         """
         return self.volume / self._volume_inside - 1 if self._volume_inside else math.nan
 

@@ -157,7 +157,10 @@ class Mesh:
         return self._is_closed
 
     def report(self) -> dict[str, Any]:
-        """Says what the mesh is and what is wrong with it, as `prohull info` does: counts by name."""
+        """Says what the mesh is and what is wrong with it, as `prohull info` does: counts by name.
+
+        `openings` lists the diameters of all holes and rims, in the mesh's unit, the largest first.
+        """
         return self._core.report()
 
     def save(self, path: Path) -> None:
@@ -247,7 +250,7 @@ class Mesh:
             return _prohull.Index(self._core, name)
         if self._query_levels is None:
             raise InputError(f"engine={engine!r}: this engine goes through the levels of a hull; ask the `original` of a hull "
-                             "that has levels and was not wrapped")
+                             "that was built from it and has levels")
         return _prohull.Index(self._query_levels, name, options.coarsen, options.queries_per_roll_back)
 
 

@@ -28,12 +28,13 @@ class Verification:
     encloses: bool  #: the verdict, exact; of an inner hull, whether the original encloses it
     proof: Proof  #: "replay" of a .phull file, "enclosure" of closed meshes, or "coverage" of every triangle
     side: Side  #: "outer" or "inner"
-    original_closed: bool  #: whether the original bounds a solid; if it does not, every triangle must be covered
-    every_triangle: bool  #: whether every triangle had to be covered
-    why_not: str  #: the first step of a replay that fails; empty if it holds
+    original_closed: bool  #: whether the original bounds a solid; if it does not, only its triangles must be covered
+    every_triangle: bool  #: whether every triangle had to be covered, which solid_only=True does not ask of closed ones
+    why_not: str  #: why the verdict is no; empty if it is yes
     faces_outside: int  #: number of triangles of the inner mesh of which a part lies outside of the outer one; exact
     worst: list[Offender]  #: the farthest of these, farthest first
     cavities: int  #: number of hollows of the outer mesh that leave a part of the inner one uncovered
+    faces_beside_solid: int  #: number of faces of the inner mesh that bound no part of its solid, as in folds
     self_intersections: int  #: number of pairs of faces of the hull that meet beyond what they share; exact
     void_ratio: float  #: volume of the hull / volume of the original - 1; nan if the original is not closed
     notes: list[str]  #: what was left out of the original or turned, and units that seem to differ
@@ -42,32 +43,34 @@ class Verification:
         return self.encloses
 
 
-def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, every_triangle: bool = False,
+def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, solid_only: bool = False,
            progress: Optional[Progress] = None) -> Verification:
     """Decides exactly whether `hull` encloses `original`, as `prohull verify` does.
 
-    A .phull file is a proof, and is replayed. Any other hull must be closed, and is compared with the original. Of an
-    original that is not closed, every triangle must be covered. Components that are inside out count as turned, and
-    triangles of the original that are not finite are left out; `notes` tell of both.
+    A .phull file is a proof, and is replayed. Any other hull must be closed, and is compared with the original. The
+    solid of the original must be enclosed, and every triangle covered; of an original that is not closed, only the
+    latter. Components of the original that are inside out count as turned, and triangles of it that are not finite are
+    left out; `notes` tell of both. A hull that is inside out is refused: the answer is no, and `why_not` says so.
 
     hull, original: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
     side: "outer"; or "inner" to decide whether `original` encloses `hull`. Unless given, it is the side of the Hull or
         of the .phull file, and "outer" for any other mesh.
-    every_triangle: whether every triangle must be covered also of a closed original. This makes a difference where the
-        original intersects itself. Outer hulls only.
+    solid_only: whether only the solid must be enclosed that a closed original bounds (of an inner hull: that the hull
+        bounds). Triangles of folds and of parts that are inside out bound no part of it, and may then stick out.
     progress: called as build() calls it, with the stage "verify".
 
-    Raises InputError if a mesh is empty, or if it is not finite or not closed where it has to be.
+    Raises InputError if a mesh is empty, if it is not finite or not closed where it has to be, or if a coordinate is
+    larger than 1e100.
 
         assert prohull.verify("hull.stl", "part.stl")
     """
     second = mesh_of(original, keep_non_finite=True)._core
     if isinstance(hull, (str, os.PathLike)) and _prohull.is_hull_file(hull):
-        facts = _prohull.verify_levels(_prohull.load(hull), second, every_triangle, progress)
+        facts = _prohull.verify_levels(_prohull.load(hull), second, solid_only, progress)
     else:
         first = mesh_of(hull)
         own_side = first.side if isinstance(first, Hull) else "outer"
-        facts = _prohull.verify_mesh(first._core, second, side or own_side, every_triangle, progress)
+        facts = _prohull.verify_mesh(first._core, second, side or own_side, solid_only, progress)
     facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
     return Verification(**facts)
 

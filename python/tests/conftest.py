@@ -29,6 +29,16 @@ def hull(pony):
     return prohull.build(pony, target_faces=300, levels=True)
 
 
+@pytest.fixture(scope="session")
+def part_of_two(pony):
+    """A pony with a ball that crosses it."""
+    ball = prohull.sample("sphere", 300)
+    size = np.ptp(pony.vertices, axis=0).min() / 2
+    middle = (pony.vertices.min(axis=0) + pony.vertices.max(axis=0)) / 2
+    return prohull.Mesh(np.vstack([pony.vertices, middle + size * ball.vertices]),
+                        np.vstack([pony.faces, ball.faces + len(pony.vertices)]))
+
+
 @pytest.fixture
 def cube():
     """Of side 2 around the origin."""

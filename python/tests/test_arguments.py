@@ -86,3 +86,10 @@ def test_a_file_is_read_at_a_scale(tmp_path):
     np.testing.assert_array_equal(prohull.read(tmp_path / "box.ply", scale=0.5).vertices, 0.5 * mesh.vertices)
     with pytest.raises(prohull.InputError, match="greater than 0"):
         prohull.read(tmp_path / "box.ply", scale=0)
+
+
+def test_a_report_lists_openings(cube):
+    vertices, faces = cube
+    assert prohull.Mesh(vertices, faces).report()["openings"] == []
+    without_a_side = prohull.Mesh(vertices, faces[2:]).report()
+    assert without_a_side["openings"] == pytest.approx([8**0.5])

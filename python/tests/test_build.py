@@ -16,7 +16,7 @@ def test_a_hull_is_certified_and_says_how_it_came_about(pony):
     assert 0 < hull.void_ratio == hull.volume / pony.volume - 1
     assert sum(hull.refusals.values()) > 0 and set(hull.refusals) <= {
         "link_condition", "valence", "no_room_outside", "certificate", "compactness", "normal_deviation",
-        "self_intersection"}
+        "self_intersection", "overhang"}
     assert hull.self_intersections == 0
     assert prohull.verify(hull, pony)
 
@@ -61,7 +61,7 @@ def test_distance_bound_holds_and_bounds_are_kept(pony):
 
 
 def test_inner_hulls_are_enclosed(pony):
-    inner = prohull.build(pony, target_faces=500, side="inner")
+    inner = prohull.build(pony, target_faces=500, side="inner", levels=True)
     assert inner.certified and inner.side == "inner" and inner.void_ratio < 0
     assert prohull.verify(inner, pony)
     assert prohull.verify(inner.level(1000), pony, side="inner")
@@ -90,21 +90,51 @@ def test_levels_are_nested_views(hull, pony):
     assert np.array_equal(finest.vertices[finest.faces], pony.vertices[pony.faces])
 
 
-def test_what_is_not_closed_is_wrapped_or_refused(cube):
+def test_openings_are_closed_unless_they_are_to_be_kept(cube):
     vertices, faces = cube
     lidless = faces[2:]
     with pytest.raises(prohull.InputError, match="edge"):
         prohull.build(vertices, lidless, repair="none")
-    try:
-        hull = prohull.build(vertices, lidless, target_faces=200, seal_holes=1)
-    except prohull.InputError as error:
-        assert "cannot wrap" in str(error)
-        return
-    assert hull.certified and hull.proof == "coverage" and hull.wrap_alpha > 0
-    assert np.isfinite(hull.void_ratio) and "void_ratio is measured against the wrap" in hull.notes[-1]
-    assert hull.distance_bound > 0 and len(hull.levels) == 0
-    assert len(hull.original.faces) == len(lidless)
-    assert prohull.verify(hull, (vertices, lidless))
+    solid = prohull.build(vertices, lidless, target_faces=200)
+    assert solid.certified and solid.source == "mesh" and solid.repairs[-1].startswith("closed 1 opening")
+    assert solid.volume >= solid.original.volume == prohull.Mesh(vertices, faces).volume
+    shell = prohull.build(vertices, lidless, target_faces=200, open_shells="keep")
+    assert shell.certified and shell.proof == "coverage" and shell.source == "wrap" and shell.wrap_spacing > 0
+    assert "void_ratio is measured against an estimate" in shell.notes[-1]
+    assert shell.distance_bound > 0 and len(shell.levels) == 0
+    assert len(shell.original.faces) == len(lidless)
+    assert prohull.verify(shell, (vertices, lidless)) and prohull.verify(solid, (vertices, lidless))
+
+
+def test_the_best_source_is_taken(part_of_two):
+    hull = prohull.build(part_of_two, 100)
+    assert hull.certified and hull.source in ("mesh", "convex-hull", "wrap")
+    assert (hull.wrap_spacing > 0) == (hull.source == "wrap")
+    wrapped = prohull.build(part_of_two, 100, repair="wrap", levels=True)
+    assert wrapped.certified and wrapped.source != "mesh" and wrapped.proof == "enclosure"
+    assert prohull.verify(wrapped, part_of_two)
+    level = wrapped.level(200)
+    assert level.certified and level.proof == "enclosure" and prohull.verify(level, part_of_two)
+    with pytest.raises(prohull.InputError, match="built from it"):
+        wrapped.original.first_hit([0, 0, 9], [0, 0, -1], engine="refinement")
+
+
+def test_a_file_says_that_its_finest_level_is_a_wrap(part_of_two, tmp_path):
+    wrapped = prohull.build(part_of_two, 100, repair="wrap", levels=True)
+    wrapped.save(tmp_path / "wrap.phull")
+    kinds = {"wrap": "a wrap of the input", "convex-hull": "the convex hull of the input"}
+    notes = [f"the finest level is {kinds[wrapped.source]}, not the input itself"]
+    assert prohull.load(tmp_path / "wrap.phull").notes == notes
+    assert pickle.loads(pickle.dumps(prohull.load(tmp_path / "wrap.phull"))).notes == notes
+    assert prohull.verify(tmp_path / "wrap.phull", part_of_two).proof == "replay"
+    assert prohull.verify(tmp_path / "wrap.phull", part_of_two)
+
+
+def test_few_faces_make_no_spikes(pony):
+    low, high = pony.vertices.min(axis=0), pony.vertices.max(axis=0)
+    reach = 0.02 * np.linalg.norm(high - low)
+    hull = prohull.build(pony, 60, max_overhang=0.02, relax_guards=False)
+    assert hull.certified and (hull.vertices >= low - reach).all() and (hull.vertices <= high + reach).all()
 
 
 def test_notes_tell_what_is_not_as_it_was_asked_for(pony):
@@ -204,6 +234,8 @@ def test_defaults_are_those_of_the_library(pony):
     ({"max_distance": -1.0}, "max_distance=-1.0: expected a number, at least 0"),
     ({"max_void_percent": "small"}, "max_void_percent='small': expected a number"),
     ({"min_compactness_ratio": 2.0}, "compactness"),
+    ({"max_overhang": -0.1}, "max_overhang=-0.1: expected a number, at least 0"),
+    ({"open_shells": "shut"}, "open_shells='shut': expected one of close, keep"),
 ])
 def test_bad_options_are_named(cube, options, message):
     with pytest.raises(ValueError, match=message):

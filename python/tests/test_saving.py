@@ -26,7 +26,7 @@ def test_a_hull_is_saved_certified(part, tmp_path, suffix, options):
     rounded = hull.with_float32_coordinates()
     assert rounded.certified and rounded.proof == "enclosure" and rounded.rounded_vertices > 0 and rounded.within_bounds
     assert np.array_equal(written.vertices[written.faces], rounded.vertices[rounded.faces])
-    assert abs(rounded.void_ratio) > abs(hull.void_ratio) and rounded.void_ratio == pytest.approx(hull.void_ratio, rel=1e-3)
+    assert abs(rounded.void_ratio) > abs(hull.void_ratio) and rounded.void_ratio == pytest.approx(hull.void_ratio, rel=0.05)
     assert rounded.with_float32_coordinates() is rounded
 
 
@@ -43,13 +43,9 @@ def test_a_loaded_hull_is_saved_certified(part, tmp_path):
     assert prohull.verify(tmp_path / "hull.stl", part)
 
 
-def test_the_hull_of_a_wrap_is_saved_certified(part, tmp_path):
+def test_the_hull_of_an_open_shell_is_saved_certified(part, tmp_path):
     lidless = (part.vertices, part.faces[50:])
-    try:
-        hull = prohull.build(*lidless, 500)
-    except prohull.InputError as error:
-        assert "cannot wrap" in str(error)
-        return
+    hull = prohull.build(*lidless, 500, open_shells="keep")
     assert hull.certified and not is_float32(hull)
     hull.save(tmp_path / "hull.stl")
     assert prohull.verify(tmp_path / "hull.stl", lidless) and hull.with_float32_coordinates().proof == "coverage"
@@ -57,7 +53,7 @@ def test_the_hull_of_a_wrap_is_saved_certified(part, tmp_path):
 
 def test_what_cannot_be_certified_any_more_is_not_written(part, tmp_path):
     hull = prohull.build(part, 300, max_distance=1.0)
-    hull._bounds = (part.volume, hull.distance_bound / 2, np.inf, np.inf)  # as if it had been at the very bound
+    hull._bounds = (part._core, part.volume, hull.distance_bound / 2, np.inf, np.inf)  # as if it had been at the very bound
     with pytest.raises(prohull.InputError, match="hull.stl: .*not within its bounds.* float32_coordinates=True, or save it as .ply"):
         hull.save(tmp_path / "hull.stl")
     hull = prohull.build(part, 300)

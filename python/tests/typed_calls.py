@@ -15,6 +15,7 @@ one = prohull.build(v, f, 500)
 one = prohull.build(v.tolist(), [[0, 1, 2]], target_faces=500)
 one = prohull.build((v, f), 500, self_intersections="allowed", max_void_percent=3, repair="wrap", strategy="paper1")
 one = prohull.build(mesh)
+one = prohull.build(mesh, open_shells="keep", max_overhang=0.2)
 one = prohull.build(one.original, 100, progress=lambda stage, fraction: stage != "verify")
 several: list[prohull.Hull] = prohull.build("part.stl", [1000, 500])
 several = prohull.build(v, f, target_faces=(1000, 500), best_of=3)
@@ -29,6 +30,7 @@ prohull.build("part.stl", 500, "outer")  # refused
 prohull.build("part.stl", faces_target=500)  # refused
 prohull.build("part.stl", 500, side="outter")  # refused
 prohull.build("part.stl", 500, repair="magic")  # refused
+prohull.build("part.stl", 500, open_shells="shut")  # refused
 prohull.build("part.stl", 500, strategy="fast")  # refused
 prohull.build("part.stl", 500, self_intersections=True)  # refused
 prohull.build("part.stl", 500, max_distance="1 mm")  # refused

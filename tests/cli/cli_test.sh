@@ -1,8 +1,8 @@
 #!/bin/sh
-# Drives the command line as a user would: cli_test.sh PROHULL DIVISOR HAS_WRAP, with meshes of DIVISOR times fewer faces.
+# Drives the command line as a user would: cli_test.sh PROHULL DIVISOR, with meshes of DIVISOR times fewer faces.
 # Each check names what it defends; the last line counts them.
 set -u
-prohull=$1 divisor=$2 has_wrap=$3
+prohull=$1 divisor=$2
 work=$(mktemp -d)
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -76,6 +76,32 @@ awk '/^v / { printf "v %.17g %.17g %.17g\n", $2 / 1000, $3 / 1000, $4 / 1000; ne
 expect 1 "another unit" $prohull verify metres.obj rock.ply
 says out "another unit" "about 1,000 times smaller than the original"
 
+# --- at map coordinates ---
+awk '/^v / { printf "v %.17g %.17g %.17g\n", $2 + 500000.3, $3 + 5400000.7, $4 - 30; next } { print }' inner.obj >utm.obj
+expect 3 "map coordinates in float32" $prohull build utm.obj --faces 100 -o utm.stl
+says err "map coordinates in float32" "utm.obj: float32 numbers, which the file has, are 0.5 apart"
+says err "map coordinates in float32" "--recenter"
+absent utm.stl "map coordinates in float32"
+expect 0 "map coordinates in doubles" $prohull build utm.obj --faces 100 -o utm.ply
+expect 0 "recentered" $prohull build utm.obj --faces 100 --recenter -o utm.stl --hierarchy utm.phull --report utm.json
+offset=$(sed -n 's/.*verify --offset \(.*\))/\1/p' out)
+says utm.json "report: recentered" "\"offset\": ["
+for hull in utm.stl utm.phull; do
+  expect 0 "recentered, verified" $prohull verify $hull utm.obj --offset "$offset"
+  expect 1 "recentered, not moved" $prohull verify $hull utm.obj
+done
+checks=$((checks + 1))
+case $offset in 50000[01],540000[01],-[23][019]) ;; *) fail "a short offset: '$offset'" ;; esac
+expect 0 "recentered, all faces" $prohull build utm.obj --faces 1000000 --recenter -o moved.obj
+awk -v offset="$offset" 'BEGIN { split(offset, o, ",") }
+  /^v / { printf "v %.17g %.17g %.17g\n", $2 + o[1], $3 + o[2], $4 + o[3]; next } { print }' moved.obj >back.obj
+expect 0 "moved back, it encloses the mesh" $prohull verify back.obj utm.obj
+expect 0 "moved back, the mesh encloses it" $prohull verify utm.obj back.obj
+expect 2 "an offset of two numbers" $prohull verify utm.stl utm.obj --offset 1,2
+says err "an offset of two numbers" "'1,2' is no offset; it has 2 numbers, not 3"
+expect 0 "nothing to recenter" $prohull build inner.obj --faces 100 --recenter -o utm.stl
+says out "nothing to recenter" "not recentered"
+
 # --- originals that are no solid ---
 $prohull lod rock.phull --faces 20000000 -o finest.obj >/dev/null
 sed '$d' finest.obj >open.obj
@@ -85,9 +111,9 @@ says out "an open original" "the original is not closed"
 says verify.json "report: an open original" '"original_closed": false'
 expect 0 "an open original by a proof" $prohull verify rock.phull open.obj
 says out "an open original by a proof" "covers every triangle of open.obj"
-expect 0 "a closed original, every triangle" $prohull verify hull.stl rock.ply --every-triangle
-says out "a closed original, every triangle" "encloses, and covers every triangle of, rock.ply"
-expect 0 "a proof, every triangle" $prohull verify rock.phull rock.ply --every-triangle
+expect 0 "a closed original, its solid" $prohull verify hull.stl rock.ply --solid-only
+says out "a closed original, its solid" "encloses the solid of rock.ply, exactly"
+expect 0 "a proof, the solid" $prohull verify rock.phull rock.ply --solid-only
 (cat open.obj && printf 'v 9 0 0\nf 1 2 -1\n') >stray.obj
 for hull in hull.stl rock.phull; do
   expect 1 "a stray triangle" $prohull verify $hull stray.obj --report verify.json
@@ -97,7 +123,6 @@ done
 expect 3 "an inner hull of an open original" $prohull verify inner.obj open.obj --side inner
 says err "an inner hull of an open original" "not closed"
 expect 3 "an inner proof of an open original" $prohull verify inner.phull open.obj
-expect 2 "no triangles inside" $prohull verify inner.obj rock.ply --side inner --every-triangle
 
 for strategy in paper1 paper2; do
   expect 0 "$strategy" $prohull build rock.ply --strategy $strategy --faces 500 -o hull.off
@@ -112,16 +137,14 @@ says out "quality" "triangles: median compactness 0."
 says guarded.json "report: self-intersections" '"self_intersections": 0'
 says guarded.json "report: guarded by default" '"self_intersections": "refused"'
 says guarded.json "report: quality" '"dihedral_degrees": {'
-expect 0 "unguarded" $prohull build knot.ply --faces 100 -o loose.ply --allow-self-intersections --report loose.json
+expect 0 "unguarded" $prohull build knot.ply --faces 100 -o loose.ply --allow-self-intersections --repair none --report loose.json
 says out "unguarded" "pairs of faces (the mesh: 0; added: "
 says loose.json "report: unguarded" '"self_intersections": "allowed"'
 expect 0 "of a self-intersecting mesh" $prohull build loose.ply --faces 80 -o looser.ply
-if [ "$has_wrap" = 1 ]; then
-  says out "of a self-intersecting mesh" "self-intersections: none (the mesh: "
-fi
+says out "of a self-intersecting mesh" "(the mesh: "
 expect 0 "of a self-intersecting mesh, as it is" $prohull build loose.ply --faces 80 -o looser.ply --repair none
 says out "of a self-intersecting mesh, as it is" "added: 0)"
-expect 0 "paper1" $prohull build knot.ply --faces 100 --strategy paper1 -o hull.off
+expect 0 "paper1" $prohull build knot.ply --faces 100 --strategy paper1 --repair none -o hull.off
 says out "paper1 is unguarded" "added: "
 expect 0 "paper1, guarded" $prohull build knot.ply --faces 100 --strategy paper1 --no-self-intersections -o hull.off
 says out "paper1, guarded" "self-intersections: none"
@@ -418,7 +441,8 @@ printf 'OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n' >flat.off
 printf 'OFF\n4 4 0\n0 0 0\n1e200 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >huge.off
 bad "open mesh" open.off "has 1 face" "--repair none"
 bad "no volume" flat.off "no volume" "--repair none"
-bad "no inside" open.off "no inner hull" "--side inner"
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >sheet.off
+bad "no inside" sheet.off "no inner hull" "--side inner"
 bad "huge coordinates" huge.off "scale the mesh"
 bad "unknown format" hull.json "hull.json"
 head -c 5000 rock.phull >truncated.phull
@@ -441,21 +465,45 @@ absent "rock_x.stl" "several hulls, one name"
 expect 0 "void" $prohull build rock.ply --faces 4 --max-void 5 -o tight_enough.ply --report void.json
 says out "void" "void 4."
 expect 2 "negative void" $prohull build rock.ply --max-void -5 -o x.ply
-if [ "$has_wrap" = 1 ]; then
-  expect 0 "an open mesh" $prohull build open.off --faces 100 -o wrapped.stl --report wrapped.json
-  says out "an open mesh" "covers every triangle"
-  says wrapped.json "report: wrapped" '"repair": "wrap"'
-  expect 0 "its hull, verified" $prohull verify wrapped.stl open.off
-  says out "its hull, verified" "not closed"
-  expect 0 "NaN" $prohull build nan.off --faces 100 -o wrapped.off
-  says out "NaN" "dropped 3 faces with a corner that is not finite"
-  expect 0 "NaN, verified" $prohull verify wrapped.off nan.off
-  says out "NaN, verified" "3 faces of the original are not finite"
-  expect 0 "a sheet, by levels" $prohull build open.off --faces 200 -o wrapped.ply --hierarchy wrapped.phull
-  expect 0 "its levels, verified" $prohull verify wrapped.phull open.off
-else
-  bad "an open mesh" open.off "PROHULL_WRAP"
-fi
+expect 0 "an open mesh" $prohull build open.off --faces 100 -o capped.stl --hierarchy capped.phull --report capped.json
+says out "an open mesh" "closed 1 opening, 1.414 across"
+says out "an open mesh" "encloses the original"
+says out "an open mesh" "its finest level is the input after repairs, not the input itself"
+says capped.json "report: repaired" '"repair": "repaired"'
+says capped.json "report: its source" '"source": "mesh"'
+expect 0 "its hull, verified" $prohull verify capped.stl open.off
+says out "its hull, verified" "not closed"
+expect 0 "an open shell" $prohull build open.off --open-shells keep --faces 100 -o shell.stl --report shell.json
+says out "an open shell" "covers every triangle"
+says shell.json "report: its openings" '"open_shells": "keep"'
+expect 0 "an open shell, verified" $prohull verify shell.stl open.off
+expect 0 "NaN" $prohull build nan.off --faces 100 -o wrapped.off --report wrapped.json
+says out "NaN" "dropped 3 faces with a corner that is not finite"
+says wrapped.json "report: a wrap" '"repair": "wrap"'
+says wrapped.json "report: its source" '"source": "wrap"'
+expect 0 "NaN, verified" $prohull verify wrapped.off nan.off
+says out "NaN, verified" "3 faces of the original are not finite"
+expect 0 "a sheet, by levels" $prohull build sheet.off --faces 200 -o wrapped.ply --hierarchy wrapped.phull
+says out "a sheet, by levels" "its finest level is a wrap of the input, not the input itself"
+expect 0 "its levels, verified" $prohull verify wrapped.phull sheet.off
+expect 0 "its levels, described" $prohull info wrapped.phull --report wrapped.json
+says out "its levels, described" "finest level   a wrap of the input, not the input itself"
+says wrapped.json "report: finest level" '"finest_level": "wrap"'
+expect 0 "a wrap of a closed mesh, by levels" $prohull build knot.ply --repair wrap --faces 200 -o wrapped.ply --hierarchy wrapped_knot.phull
+says out "a wrap of a closed mesh, by levels" "certified: yes"
+expect 0 "its levels, verified" $prohull verify wrapped_knot.phull knot.ply
+expect 1 "its levels, of another mesh" $prohull verify wrapped_knot.phull rock.ply
+expect 0 "its levels, asked" $prohull query wrapped.phull --random 10
+says out "its levels, asked" "faces of a wrap of the input"
+expect 0 "its levels, extracted" $prohull lod wrapped.phull -o level.ply
+says out "its levels, extracted" "the finest level of the file is a wrap of the input"
+expect 0 "the input by levels" $prohull info rock.phull --report rock.json
+says rock.json "report: the input by levels" '"finest_level": "input"'
+$prohull sample pony -o pony.ply --faces 2000 >/dev/null
+expect 0 "no overhang" $prohull build pony.ply --faces 4 --max-overhang 0 --keep-guards --repair none -o x.ply --report x.json
+says x.json "report: overhang" '"max_overhang": 0.0'
+says out "no overhang" "would make a spike"
+expect 2 "a negative overhang" $prohull build pony.ply --max-overhang -1 -o x.ply
 
 $prohull sample sphere -o sphere.obj --faces 5000 >/dev/null
 awk '/^v / { printf "v %.9e %.9e %.9e\n", $2 * 3.4e38, $3 * 3.4e38, $4 * 3.4e38; next } { print }' sphere.obj >edge.obj
@@ -467,8 +515,11 @@ printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 3 1\n3 1 3 2\n3 2 3
 expect 0 "inside out" $prohull build inside_out.off -o tetrahedron.ply
 says out "inside out" "inside out"
 expect 0 "inside out, verified" $prohull verify tetrahedron.ply inside_out.off
-expect 0 "a hull that is inside out" $prohull verify inside_out.off tetrahedron.ply
-says out "a hull that is inside out" "4 faces of the hull face inwards"
+expect 1 "a hull that is inside out" $prohull verify inside_out.off tetrahedron.ply
+says out "a hull that is inside out" "all faces of the hull look inwards"
+awk 'NR > 2 && NF == 3 { print $1 "e200", $2, $3; next } { print }' inside_out.off >far.off
+expect 3 "coordinates that overflow" $prohull verify tetrahedron.ply far.off
+says err "coordinates that overflow" "coordinates of the original reach 1e+200; beyond 1e+100 volumes overflow"
 
 # --- how much is told, and where ---
 expect 0 "quiet" $prohull build rock.ply --faces 500 -o quiet.stl --quiet
@@ -544,7 +595,7 @@ expect 2 "a .phull has its unit" $prohull info rock.phull --unit mm
 
 # --- info and build agree ---
 cat >agree_unit.off <unit.off
-for mesh in rock.ply open.off nan.off inside_out.off flat.off empty.off huge.off; do
+for mesh in rock.ply open.off sheet.off nan.off inside_out.off flat.off empty.off huge.off; do
   expect 0 "info of $mesh" $prohull info $mesh
   possible=$(grep -c 'hull possible  yes' out)
   $prohull build $mesh --faces 100 -o agreed.ply >out 2>err
@@ -552,8 +603,15 @@ for mesh in rock.ply open.off nan.off inside_out.off flat.off empty.off huge.off
   checks=$((checks + 1))
   [ $got -eq $((possible ? 0 : 3)) ] || fail "info and build of $mesh: possible is $possible, build exits with $got"
 done
-[ "$has_wrap" = 1 ] && expect 0 "info of a mesh to be wrapped" $prohull info open.off &&
-  says out "info of a mesh to be wrapped" "of a wrap around it"
+expect 0 "info of a mesh to be wrapped" $prohull info sheet.off
+says out "info of a mesh to be wrapped" "of a wrap or of the convex hull"
+
+# --- openings ---
+expect 0 "info of an open mesh" $prohull info open.off --report open.json
+says out "info of an open mesh" "openings       1: "
+says open.json "report: openings" '"diameter": 1.414213'
+expect 0 "info of a closed mesh" $prohull info rock.ply --report closed.json
+says closed.json "report: no openings" '"largest": []'
 
 # --- what was mixed up ---
 expect 3 "a mesh is no .phull" $prohull lod rock.ply -o x.ply
@@ -600,11 +658,9 @@ interrupted "Ctrl-C of a query" 1 $prohull query big.ply --random 100000 --engin
 interrupted "Ctrl-C of a picture" 1 $prohull render big.ply --size 4000x3000 --samples 256 -o interrupted.png
 interrupted "Ctrl-C of a tight hull" 1 $prohull build big.ply --faces 500 --tight -o interrupted.stl --report interrupted.json
 interrupted "Ctrl-C of many queries" 1 $prohull query big.ply --random 5e7 --mode all -o interrupted.npz
-interrupted "Ctrl-C of a verification" 0.5 $prohull verify big.ply big.ply --every-triangle --report interrupted.json
+interrupted "Ctrl-C of a verification" 0.5 $prohull verify big.ply big.ply --report interrupted.json
 interrupted "Ctrl-C of a sample" 0.5 $prohull sample knot --faces 3e7 -o interrupted.stl
-if [ "$has_wrap" = 1 ]; then
-  interrupted "Ctrl-C of a wrap" 1 $prohull build big.ply --repair wrap --faces 500 -o interrupted.stl
-fi
+interrupted "Ctrl-C of a wrap" 0.5 $prohull build big.ply --repair wrap --faces 5000 -o interrupted.stl
 mkfifo pipe
 sleep 60 >pipe &  # who writes into it and never ends
 writer=$!

@@ -45,7 +45,7 @@ bash_completes "--version" --v
 bash_completes "$read_files" build ""
 bash_completes "part.stl parts" build part
 bash_completes "part.stl parts" build --faces 500 --tight part
-bash_completes "--max-added-volume --max-distance --max-normal-deviation --max-valence --max-void" build part.stl --max-
+bash_completes "--max-added-volume --max-distance --max-normal-deviation --max-overhang --max-valence --max-void" build part.stl --max-
 bash_completes "$words" build part.stl --repair ""
 bash_completes "wrap" build part.stl --repair w
 bash_completes "$words" build part.stl --repair =
