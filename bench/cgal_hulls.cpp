@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "alpha_wrap.h"
 #include "machine.h"
 #include "peers.h"
-#include "prohull/wrap.h"
 #include "surface_mesh.h"
 
 namespace prohull::bench {
@@ -24,7 +24,7 @@ std::vector<Point> points_of(const TriangleMesh& mesh) {
 
 PeerRun wrapped(const TriangleMesh& mesh, double alpha) {
   PeerRun run{};
-  run.seconds = seconds_of([&] { run.mesh = alpha_wrap(mesh, alpha, alpha / 30); });
+  run.seconds = seconds_of([&] { run.mesh = alpha_wrap(mesh, alpha, alpha / 30).value(); });
   return run;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <future>
@@ -21,6 +22,8 @@
 #include "models.h"
 #include "program.h"
 #include "prohull/error.h"
+#include "prohull/mesh_io.h"
+#include "references.h"
 #include "table.h"
 
 namespace prohull::bench {
@@ -35,7 +38,7 @@ struct Options {
   std::vector<std::filesystem::path> folders;
   std::size_t hull_faces = 500;
   unsigned jobs = 1, limit_seconds = 60;
-  std::filesystem::path out;
+  std::filesystem::path out, references;
 };
 
 enum class Verdict { Ok, Repaired, Refused, Failed };
@@ -52,6 +55,12 @@ struct Row {
   Verdict verdict = Verdict::Ok;
   std::string why = {};  ///< how it was repaired, why it was refused, or what failed
   std::optional<std::size_t> faces_in = {}, faces_out = {};
+  std::string candidate = {};           ///< what the hull was built from: "mesh", "convex-hull", "wrap 1/50"
+  double by_convex = kUnknown;          ///< volume of the hull / that of the convex hull
+  double by_sealed = kUnknown;          ///< volume of the hull / Reference::volume
+  double distance = kUnknown;           ///< proven bound of how far the hull is from the triangles / diagonal
+  double void_ratio = kUnknown;         ///< as EnclosingHull::void_ratio; where the hull with --repair none is known
+  double direct_void_ratio = kUnknown;  ///< the same of that hull
   double build_seconds = kUnknown, verify_seconds = kUnknown;
   std::size_t peak_bytes = 0;  ///< of both programs
 };
@@ -133,11 +142,21 @@ std::string misbehaviour(const ProgramEnd& built, const MeshFile& file, const st
   return "";
 }
 
+std::string candidate_of(const nlohmann::json& hull, double diagonal) {
+  const auto source = hull.at("source").get<std::string>();
+  const nlohmann::json& spacing = hull.at("wrap_spacing");
+  return spacing.is_null() ? source : fmt::format("{} 1/{:.0f}", source, diagonal / spacing.get<double>());
+}
+
 /// Says what the report of a build tells.
-void add_report(const nlohmann::json& report, Row& row) {
-  const nlohmann::json& input = report.at("input");
+void add_report(const nlohmann::json& report, const TriangleMesh& mesh, Row& row) {
+  const nlohmann::json &input = report.at("input"), &hull = report.at("hull");
   row.faces_in = input.at("faces").get<std::size_t>();
-  row.faces_out = report.at("hull").at("faces").get<std::size_t>();
+  row.faces_out = hull.at("faces").get<std::size_t>();
+  const double diagonal = bounding_box(mesh).diagonal();
+  row.candidate = candidate_of(hull, diagonal);
+  row.by_convex = hull.at("volume").get<double>() / convex_volume(mesh);
+  row.distance = hull.at("distance_bound").get<double>() / diagonal;
   const std::string repair = input.value("repair", "none");
   if (repair == "wrap") row.why = repair;
   for (const auto& phrase : input.at("repairs").get<std::vector<std::string>>())
@@ -145,7 +164,22 @@ void add_report(const nlohmann::json& report, Row& row) {
   row.verdict = repair == "none" && row.why.empty() ? Verdict::Ok : Verdict::Repaired;
 }
 
-Row swept(const MeshFile& file, const Options& options, const std::filesystem::path& folder) {
+/// Of a closed mesh with a few self-intersections, the direct hull is what all others are compared with.
+void add_direct(const nlohmann::json& report, std::vector<std::string> build, const std::filesystem::path& report_file,
+                const ProgramLimits& limits, Row& row) {
+  constexpr std::size_t kMostPairs = 100;
+  const auto pairs = report.at("input").at("self_intersections").get<std::size_t>();
+  if (pairs == 0 || pairs > kMostPairs) return;
+  build.insert(build.end(), {"--repair", "none"});
+  const ProgramEnd built = run_program(std::move(build), limits);
+  if (!built.failure.empty() || built.exit_code != kDone) return;  // as of meshes that are not closed
+  const nlohmann::json direct = nlohmann::json::parse(read_file(report_file)).at("hull");
+  row.direct_void_ratio = direct.at("void_ratio").get<double>();
+  const double volume = direct.at("volume").get<double>() / (1 + row.direct_void_ratio);
+  row.void_ratio = report.at("hull").at("volume").get<double>() / volume - 1;
+}
+
+Row swept(const MeshFile& file, const Options& options, References* references, const std::filesystem::path& folder) {
   std::filesystem::create_directory(folder);
   const std::string hull = folder / "hull.stl", report = folder / "report.json";
   const ProgramLimits limits{options.limit_seconds, kAddressBytes};
@@ -156,9 +190,10 @@ Row swept(const MeshFile& file, const Options& options, const std::filesystem::p
     return row;
   };
 
-  const ProgramEnd built = run_program({PROHULL_PROGRAM, "build", file.path, "--faces",
-                                        fmt::to_string(options.hull_faces), "-o", hull, "--report", report},
-                                       limits);
+  const std::vector<std::string> build{
+      PROHULL_PROGRAM, "build", file.path, "--faces", fmt::to_string(options.hull_faces), "-o", hull,
+      "--report",      report};
+  const ProgramEnd built = run_program(build, limits);
   row.build_seconds = built.seconds;
   row.peak_bytes = built.peak_bytes;
   if (const std::string wrong = misbehaviour(built, file, folder); !wrong.empty()) return failed("build", wrong);
@@ -167,8 +202,12 @@ Row swept(const MeshFile& file, const Options& options, const std::filesystem::p
     row.why = said(built, file);
     return row;
   }
+  nlohmann::json told;
   try {
-    add_report(nlohmann::json::parse(read_file(report)), row);
+    told = nlohmann::json::parse(read_file(report));
+    const TriangleMesh mesh = finite_part(read_mesh(file.path, {.non_finite = NonFinite::Keep}));
+    add_report(told, mesh, row);
+    if (references) row.by_sealed = told.at("hull").at("volume").get<double>() / references->of(file.name, mesh).volume;
   } catch (const nlohmann::json::exception& error) {
     return failed("report", error.what());
   }
@@ -180,11 +219,14 @@ Row swept(const MeshFile& file, const Options& options, const std::filesystem::p
   if (verified.exit_code == kAnswerIsNo) return failed("verify", "no");
   if (verified.exit_code != kDone)
     return failed("verify", fmt::format("exit code {}: {}", verified.exit_code, said(verified, file)));
+  add_direct(told, build, report, limits, row);
   return row;
 }
 
 std::vector<Row> sweep(const std::vector<MeshFile>& files, const Options& options,
                        const std::filesystem::path& folder) {
+  std::optional<References> references;
+  if (!options.references.empty()) references.emplace(options.references);
   std::vector<Row> rows(files.size());
   std::atomic<std::size_t> next = 0;
   std::vector<std::future<void>> workers;
@@ -192,7 +234,7 @@ std::vector<Row> sweep(const std::vector<MeshFile>& files, const Options& option
     workers.push_back(std::async(std::launch::async, [&] {
       for (std::size_t i = next++; i < files.size(); i = next++) {
         const std::filesystem::path own = folder / fmt::to_string(i);
-        rows[i] = swept(files[i], options, own);
+        rows[i] = swept(files[i], options, references ? &*references : nullptr, own);
         std::filesystem::remove_all(own);
         fmt::print(stderr, "{}: {} {}\n", rows[i].name, name(rows[i].verdict), rows[i].why);
       }
@@ -205,14 +247,46 @@ std::size_t count(const std::vector<Row>& rows, Verdict verdict) {
   return static_cast<std::size_t>(std::ranges::count(rows, verdict, &Row::verdict));
 }
 
-std::string build_times(const std::vector<Row>& rows) {
-  std::vector<const Row*> built;
-  for (const Row& row : rows)
-    if (row.faces_out) built.push_back(&row);
-  if (built.empty()) return "";
-  std::ranges::sort(built, {}, &Row::build_seconds);
-  return fmt::format("Time of a build, reading and certifying included: median {:.2f} s, worst {:.2f} s ({}).\n\n",
-                     built[built.size() / 2]->build_seconds, built.back()->build_seconds, built.back()->name);
+/// Median and worst of what is known of a column, over the files of which it is known.
+class Figures {
+ public:
+  template <class Value>
+  void add(const std::string& what, int digits, const std::vector<Row>& rows, Value value) {
+    std::vector<std::pair<double, const Row*>> known;
+    for (const Row& row : rows)
+      if (const double v = value(row); std::isfinite(v)) known.push_back({v, &row});
+    if (known.empty()) return;
+    std::ranges::sort(known, {}, [](const auto& entry) { return entry.first; });
+    table_.add({what, fmt::to_string(known.size()), number(known[known.size() / 2].first, digits),
+                number(known.back().first, digits), as_cell(known.back().second->name)});
+  }
+  std::string markdown() const { return table_.empty() ? "" : table_.markdown() + "\n"; }
+
+ private:
+  Table table_{{"of a hull", "files", "median", "worst", "worst file"}};
+};
+
+std::string figures(const std::vector<Row>& rows) {
+  Figures figures;
+  figures.add("volume / sealed reference", 3, rows, [](const Row& row) { return row.by_sealed; });
+  figures.add("volume / convex hull", 3, rows, [](const Row& row) { return row.by_convex; });
+  figures.add("distance / diagonal", 4, rows, [](const Row& row) { return row.distance; });
+  // Below that, as of boxes, the ratio is one of rounding errors.
+  constexpr double kLeastVoid = 1e-4;
+  figures.add("void / void of the direct hull (of at least 0.01 %)", 2, rows, [](const Row& row) {
+    return row.direct_void_ratio >= kLeastVoid ? row.void_ratio / row.direct_void_ratio : kUnknown;
+  });
+  figures.add("seconds of a build, reading and certifying included", 2, rows,
+              [](const Row& row) { return row.faces_out ? row.build_seconds : kUnknown; });
+  return figures.markdown();
+}
+
+/// A hull that has less than half of the volume of the sealed reference is a sheet around the surface.
+std::string hollow_hulls(const std::vector<Row>& rows) {
+  constexpr double kHollow = 0.5;
+  if (std::ranges::none_of(rows, [](const Row& row) { return std::isfinite(row.by_sealed); })) return "";
+  const auto hollow = std::ranges::count_if(rows, [](const Row& row) { return row.by_sealed < kHollow; });
+  return fmt::format("Hollow hulls, of less than half of the volume of the sealed reference: {}\n\n", hollow);
 }
 
 /// Without numbers, what is in parentheses, and the advice after a semicolon.
@@ -247,21 +321,27 @@ std::string reasons(const std::vector<Row>& rows, Verdict verdict) {
 std::string faces(const std::optional<std::size_t>& count) { return count ? fmt::to_string(*count) : ""; }
 
 std::string listed(const std::vector<Row>& rows) {
-  Table table({"file", "verdict", "why", "faces", "hull", "build", "verify", "memory"});
+  Table table({"file", "verdict", "why", "candidate", "faces", "hull", "volume / convex", "volume / sealed",
+               "distance / diagonal", "void", "direct void", "build", "verify", "memory"});
   constexpr double kMegabyte = 1e6;
   for (const Row& row : rows)
-    table.add({as_cell(row.name), std::string(name(row.verdict)), as_cell(row.why), faces(row.faces_in),
-               faces(row.faces_out), number(row.build_seconds, 2, " s"), number(row.verify_seconds, 2, " s"),
-               number(static_cast<double>(row.peak_bytes) / kMegabyte, 1, " MB")});
+    table.add({as_cell(row.name), std::string(name(row.verdict)), as_cell(row.why), as_cell(row.candidate),
+               faces(row.faces_in), faces(row.faces_out), number(row.by_convex, 3), number(row.by_sealed, 3),
+               number(row.distance, 4), number(100 * row.void_ratio, 2, " %"),
+               number(100 * row.direct_void_ratio, 2, " %"), number(row.build_seconds, 2, " s"),
+               number(row.verify_seconds, 2, " s"), number(static_cast<double>(row.peak_bytes) / kMegabyte, 1, " MB")});
   return table.markdown();
 }
 
 std::string csv(const std::vector<Row>& rows) {
-  Table table({"file", "verdict", "why", "faces", "hull_faces", "build_seconds", "verify_seconds", "peak_bytes"});
+  Table table({"file", "verdict", "why", "candidate", "faces", "hull_faces", "volume_by_convex", "volume_by_sealed",
+               "distance_by_diagonal", "void_percent", "direct_void_percent", "build_seconds", "verify_seconds",
+               "peak_bytes"});
   for (const Row& row : rows)
-    table.add({as_cell(row.name), std::string(name(row.verdict)), as_cell(row.why), faces(row.faces_in),
-               faces(row.faces_out), number(row.build_seconds, 3), number(row.verify_seconds, 3),
-               fmt::to_string(row.peak_bytes)});
+    table.add({as_cell(row.name), std::string(name(row.verdict)), as_cell(row.why), as_cell(row.candidate),
+               faces(row.faces_in), faces(row.faces_out), number(row.by_convex, 4), number(row.by_sealed, 4),
+               number(row.distance, 5), number(100 * row.void_ratio, 3), number(100 * row.direct_void_ratio, 3),
+               number(row.build_seconds, 3), number(row.verify_seconds, 3), fmt::to_string(row.peak_bytes)});
   return table.csv();
 }
 
@@ -276,7 +356,7 @@ int run_corpus(const Options& options) {
                                  options.hull_faces, machine(), rows.size());
   for (const Verdict verdict : {Verdict::Ok, Verdict::Repaired, Verdict::Refused, Verdict::Failed})
     text += fmt::format(", {} {}", count(rows, verdict), name(verdict));
-  text += ". " + build_times(rows);
+  text += ".\n\n" + figures(rows) + hollow_hulls(rows);
   for (const Verdict verdict : {Verdict::Failed, Verdict::Repaired, Verdict::Refused}) text += reasons(rows, verdict);
   publish(options.out, "corpus", text + listed(rows), csv(rows));
   return count(rows, Verdict::Failed) == 0 ? kDone : kAnswerIsNo;
@@ -300,6 +380,10 @@ void add_corpus(CLI::App& app, Run& run) {
       ->check(CLI::Range(1, 1000000))
       ->type_name("SECONDS")
       ->capture_default_str();
+  command
+      .add_option("--references", options->references,
+                  "Also compare volumes with sealed references. They take long, and are kept in this CSV file")
+      ->type_name("FILE");
   add_out_option(command, options->out, "corpus.md and corpus.csv");
   command.callback([options, &run] { run = [options] { return run_corpus(*options); }; });
 }

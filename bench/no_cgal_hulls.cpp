@@ -1,8 +1,12 @@
+#include "alpha_wrap.h"
 #include "cgal_self_intersections.h"
 #include "peers.h"
 
 namespace prohull::bench {
 
+std::optional<TriangleMesh> alpha_wrap(const TriangleMesh&, double, double, std::chrono::seconds) {
+  return std::nullopt;
+}
 std::optional<PeerRun> run_alpha_wrap(const TriangleMesh&, std::size_t) { return std::nullopt; }
 std::optional<PeerRun> run_convex_hull(const TriangleMesh&) { return std::nullopt; }
 std::optional<ExactFacts> exact_facts(const TriangleMesh&, const TriangleMesh&) { return std::nullopt; }

@@ -67,12 +67,14 @@ foreach(table table3 figure8 table4 trees updates query_memory correctness)
 endforeach()
 
 run(corpus --faces 50 --jobs 2 --out ${OUT})
-foreach(text ", 0 FAILED. " "| file | verdict | why |" "| sound.off | ok |" "| inside_out.off | repaired | turned 1 component"
+foreach(text ", 0 FAILED." "| file | verdict | why |" "| sound.off | ok |" "| inside_out.off | repaired | turned 1 component"
         "| truncated.stl | refused | byte")
   expect("${printed}" "${text}")
 endforeach()
 file(READ ${OUT}/corpus.csv csv)
-expect("${csv}" "file,verdict,why,faces,hull_faces,build_seconds,verify_seconds,peak_bytes\nsound.off,ok,,512,50,")
+expect("${csv}" "file,verdict,why,candidate,faces,hull_faces,volume_by_convex,volume_by_sealed,distance_by_diagonal,\
+void_percent,direct_void_percent,build_seconds,verify_seconds,peak_bytes\nsound.off,ok,,convex-hull,512,50,")
+expect("${printed}" "| distance / diagonal | ")
 
 set(folder ${OUT}/meshes/deep)
 file(MAKE_DIRECTORY ${folder})
@@ -83,3 +85,25 @@ expect("${printed}" "1 files, 0 ok, 0 repaired, 1 refused, 0 FAILED.")
 execute_process(COMMAND ${PROHULL} sample asteroid --faces 1500000 -o ${folder}/long.ply COMMAND_ERROR_IS_FATAL ANY)
 run_expecting(1 corpus --dir ${OUT}/meshes --timeout 1)
 expect("${printed}" "| meshes/deep/long.ply | FAILED | build: more than 1 s |")
+
+# References are measured once: a closed box is its own, and what the file says already is believed.
+set(folder ${OUT}/boxes)
+file(MAKE_DIRECTORY ${folder})
+set(open_box "OFF\n8 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n4 0 3 2 1\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")
+string(REPLACE "8 5 0" "8 6 0" box "${open_box}4 4 5 6 7\n")
+file(WRITE ${folder}/box.off "${box}")
+run(corpus --dir ${folder} --references ${OUT}/references.csv --out ${OUT})
+expect("${printed}" "| volume / sealed reference | 1 | 1.000 | 1.000 | boxes/box.off |")
+expect("${printed}" "of the sealed reference: 0")
+file(READ ${OUT}/references.csv csv)
+expect("${csv}" "\nboxes/box.off,12,1,yes,0,0,0,0,1.732050")
+file(WRITE ${OUT}/references.csv "file,faces,components,closed,self_intersections,capped_self_intersections,openings,\
+largest_opening,diagonal,volume,convex_volume\nboxes/box.off,12,1,yes,0,0,0,0,1.7,4,1\n")
+run(corpus --dir ${folder} --references ${OUT}/references.csv --out ${OUT})
+expect("${printed}" "| volume / sealed reference | 1 | 0.250 | 0.250 | boxes/box.off |")
+expect("${printed}" "of the sealed reference: 1")
+file(WRITE ${folder}/box.off "${open_box}")
+file(REMOVE ${OUT}/references.csv)
+run(corpus --dir ${folder} --references ${OUT}/references.csv)
+file(READ ${OUT}/references.csv csv)
+expect("${csv}" "\nboxes/box.off,10,1,capped,0,0,1,1.414213")

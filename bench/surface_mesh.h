@@ -1,9 +1,11 @@
 #pragma once
 
-#include <utility>
+#include <CGAL/Surface_mesh.h>
+
+#include <array>
+#include <cstddef>
 
 #include "prohull/triangle_mesh.h"
-#include "wrap/surface_mesh.h"
 
 namespace prohull::bench {
 
@@ -22,7 +24,18 @@ CGAL::Surface_mesh<Point> surface_mesh(const TriangleMesh& mesh) {
 template <class Point>
 TriangleMesh triangle_mesh(CGAL::Surface_mesh<Point>& surface) {
   surface.collect_garbage();
-  return prohull::triangle_mesh(std::as_const(surface));
+  TriangleMesh mesh;
+  for (const auto v : surface.vertices()) {
+    const Point& p = surface.point(v);
+    mesh.positions.push_back({p.x(), p.y(), p.z()});
+  }
+  for (const auto f : surface.faces()) {
+    std::array<VertexId, 3> corners;
+    std::size_t i = 0;
+    for (const auto v : surface.vertices_around_face(surface.halfedge(f))) corners.at(i++) = VertexId(v.idx());
+    mesh.triangles.push_back(corners);
+  }
+  return mesh;
 }
 
 }  // namespace prohull::bench
