@@ -2,13 +2,9 @@
 #   tool: the programs, with manual page and completion;  dev: what is compiled and linked against;  lib: shared libraries
 include(CMakePackageConfigHelpers)
 
-set(libraries prohull)
-if(TARGET prohull_wrap)
-  list(APPEND libraries prohull_wrap)
-endif()
-set_target_properties(${libraries} PROPERTIES
+set_target_properties(prohull PROPERTIES
   VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-install(TARGETS ${libraries} EXPORT prohullTargets
+install(TARGETS prohull EXPORT prohullTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lib NAMELINK_COMPONENT dev)
 install(DIRECTORY include/prohull DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
@@ -33,11 +29,8 @@ set(pc_private "")  # an archive does not say what it needs, so that all who lin
 if(BUILD_SHARED_LIBS)
   set(pc_private .private)
 endif()
-foreach(library ${libraries})
-  string(REPLACE _ - pc ${library}.pc)
-  configure_file(cmake/${pc}.in ${pc} @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/${pc} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
-endforeach()
+configure_file(cmake/prohull.pc.in prohull.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/prohull.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 
 if(NOT PROJECT_IS_TOP_LEVEL)
   return()
@@ -47,7 +40,6 @@ endif()
 if(BUILD_SHARED_LIBS AND NOT CMAKE_INSTALL_FULL_LIBDIR IN_LIST CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES)
   file(RELATIVE_PATH from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(prohull_cli PROPERTIES INSTALL_RPATH $ORIGIN/${from_bin})
-  set_target_properties(${libraries} PROPERTIES INSTALL_RPATH $ORIGIN)
 endif()
 install(TARGETS prohull_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tool)
 

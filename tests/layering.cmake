@@ -22,7 +22,7 @@ room(query     OWNS mesh_query refine_along                                     
                                                                                      prohull/enclosure)  # is_closed
 room(io        OWNS mesh_io hull_file query_io                                   MAY hull mesh geometry parallel base
                                                                                      prohull/mesh_query)  # the answers
-room(repair    OWNS repair                                                       MAY mesh geometry base)
+room(repair    OWNS openings repair                                              MAY mesh geometry base)
 room(construct OWNS hull_builder tight_hull float32_hull                         MAY hull mesh geometry parallel base)
 # Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges.
 room(verify    OWNS enclosure verification replay distance                       MAY geometry parallel base prohull/ids

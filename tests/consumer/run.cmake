@@ -1,7 +1,7 @@
 # Does with a small project (this folder) what docs/install.md says: it uses prohull installed and moved elsewhere, by
 # CMake and by pkg-config, and within its own tree, where the library is not built again: what the project would link is
 # linked with the one that was built.
-#   cmake -DROOT=<source tree of prohull> -DBUILD=<its build tree> -DLIBRARY=<the library in it> -DHAS_WRAP=<bool>
+#   cmake -DROOT=<source tree of prohull> -DBUILD=<its build tree> -DLIBRARY=<the library in it>
 #         -DWORK=<folder of the test> -DCOMPILER=<c++> -P run.cmake
 cmake_policy(VERSION 3.25)
 
@@ -70,13 +70,12 @@ endfunction()
 
 blocks(cmake cmake_blocks)
 list(LENGTH cmake_blocks count)
-if(NOT count EQUAL 4)
-  message(FATAL_ERROR "docs/install.md has ${count} blocks of CMake; the test knows 4")
+if(NOT count EQUAL 3)
+  message(FATAL_ERROR "docs/install.md has ${count} blocks of CMake; the test knows 3")
 endif()
 list(GET cmake_blocks 0 with_find_package)
-list(GET cmake_blocks 1 with_wrap)
-list(GET cmake_blocks 2 with_add_subdirectory)
-list(GET cmake_blocks 3 with_fetch_content)
+list(GET cmake_blocks 1 with_add_subdirectory)
+list(GET cmake_blocks 2 with_fetch_content)
 blocks(sh shell_blocks)
 list(FILTER shell_blocks INCLUDE REGEX pkg-config)
 
@@ -93,14 +92,6 @@ require_configured(package "${with_find_package}" -DCMAKE_PREFIX_PATH=${WORK}/mo
 run(${CMAKE_COMMAND} --build ${WORK}/package/build)
 run(${WORK}/package/build/mine)
 
-if(HAS_WRAP)
-  require_configured(wrap "${with_wrap}" -DCMAKE_PREFIX_PATH=${WORK}/moved)
-else()
-  configure(wrap "${with_wrap}" -DCMAKE_PREFIX_PATH=${WORK}/moved)
-  if(NOT failed OR NOT output MATCHES "built[ \n]+without[ \n]+wrap")
-    message(FATAL_ERROR "a wrap that is not there is found: ${output}")
-  endif()
-endif()
 string(REPLACE 0.1 0.2 with_another_version "${with_find_package}")
 configure(version "${with_another_version}" -DCMAKE_PREFIX_PATH=${WORK}/moved)
 if(NOT failed OR NOT output MATCHES "compatible")
