@@ -71,7 +71,7 @@ TEST(EnclosingHull, HasALevelForEachBudgetInTheirOrder) {
 }
 
 TEST(EnclosingHull, KeepsTheBoundsWithAsFewFacesAsItCan) {
-  const TriangleMesh mesh = make_sample("asteroid", 2000);
+  const TriangleMesh mesh = make_sample("asteroid", 800);
   const double volume = signed_volume(mesh);
   for (const bool tight : {false, true}) {
     EnclosingOptions options{.bounds = {.max_void_ratio = 0.05}, .tight = tight};
@@ -149,7 +149,7 @@ TEST(EnclosingHull, OfAMeshWithAnOpeningIsSolid) {
 }
 
 TEST(EnclosingHull, KeepsOpenShellsIfAskedTo) {
-  const EnclosingHulls made = hull_of(room(), 1000, {.hull = {.relax_guards = true}, .open_shells = OpenShells::Keep});
+  const EnclosingHulls made = hull_of(room(), 400, {.hull = {.relax_guards = true}, .open_shells = OpenShells::Keep});
   const EnclosingHull hull = only(made);
   EXPECT_FALSE(made.input.closed);
   EXPECT_TRUE(hull.certified);
