@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,9 +27,23 @@ struct Hit {
   bool operator==(const Hit&) const = default;
 };
 
-/// How queries are answered. All engines give the same answers, except PaperRefinement.
+/// The point of a mesh that is closest to a given one, and how far it is, in the input's unit.
+///
+/// Guaranteed: the distance from the given point to the mesh, as real numbers, is in [lower, upper]; so is `distance`,
+/// which is rounded. The bounds are some 1e-14 of the distance and the size of the face apart, or more where a face is
+/// a needle; on a vertex they are 0. Of several closest faces, as far as their upper bounds tell, it is the one with
+/// the lowest number.
+struct ClosestPoint {
+  FaceId face{};  ///< of the original mesh
+  Vec3 position;  ///< on the face, but for rounding
+  double distance = 0, lower = 0, upper = 0;
+
+  bool operator==(const ClosestPoint&) const = default;
+};
+
+/// How queries are answered. All engines give the same answers, except PaperRefinement, and Walk with one hull.
 enum class Engine {
-  Auto,  ///< the fastest engine that is exact: Bvh
+  Auto,  ///< the fastest engine that is exact: Bvh, or Filter for two hulls of a mesh of a million faces or more
   Bvh,   ///< a tree of boxes over the faces of the original mesh
   /// P&T 3.2.1 with bounds, for a ProgressiveHull: splits every vertex with something below it that the query may meet.
   Refinement,
@@ -37,10 +52,19 @@ enum class Engine {
   /// miss crossings further in, where the query passes below the hull (P&T Figure 5), and sheets without thickness.
   /// Hulls that are kept from query to query are finer, and may miss less.
   PaperRefinement,
+  /// Follows the line through the void between base hull and mesh, tetrahedron by tetrahedron (docs/queries.md), of an
+  /// outer hull, or of an outer and an inner one. With both it finds every crossing. With the outer hull alone it finds
+  /// those from which the line comes to the base mesh without crossing the mesh again. These include the first hit of
+  /// every segment or ray that starts outside of the bounding box of the base mesh, if the mesh winds around no point a
+  /// negative number of times.
+  Walk,
+  /// For an outer and an inner hull: levels of few faces decide what they can of `crosses`, and Bvh the rest. All other
+  /// queries are those of Bvh.
+  Filter,
   Brute,  ///< tests every face, exactly
 };
 
-/// "auto", "bvh", "refinement", "paper-refinement", "brute"
+/// "auto", "bvh", "refinement", "paper-refinement", "walk", "filter", "brute"
 Names<Engine> engine_names();
 
 /// What becomes of the refined hull between one query and the next (P&T 3.2.2).
@@ -71,11 +95,16 @@ struct QueryCounts {
 class QueryIndex {
  public:
   /// Takes any triangles, closed or not. Throws InputError(NonFiniteCoordinate) if a vertex of a face is not finite,
-  /// and InputError(InvalidOption) for the refinement engines, which need a hull.
+  /// and InputError(InvalidOption) for the engines that need a hull: Refinement, PaperRefinement, Walk and Filter.
   explicit QueryIndex(TriangleMesh mesh, Engine engine = Engine::Auto);
 
-  /// Throws InputError(InvalidOption) for options outside their range.
+  /// Throws InputError(InvalidOption) for options outside their range, for Walk if the hull is an inner one, and for
+  /// Filter, which needs two. Walk throws InputError(NoCertificate) if the record is not one of a hull (verify_replay).
   explicit QueryIndex(const ProgressiveHull& hull, Engine engine = Engine::Auto, const RefinementOptions& options = {});
+
+  /// Takes an outer and an inner hull of one mesh. Throws InputError(InvalidOption) if they are not that, and
+  /// InputError(NoCertificate) as above. Refinement and PaperRefinement use the outer hull.
+  QueryIndex(const ProgressiveHull& outer, const ProgressiveHull& inner, Engine engine = Engine::Auto);
 
   std::string_view engine_name() const;  ///< of the engine that answers, such as "bvh"; never "auto"
   std::size_t face_count() const;
@@ -119,6 +148,10 @@ class MeshQuery {
   std::optional<Hit> any_hit(const Segment& segment);
   std::optional<Hit> any_hit(const Ray& ray);
 
+  /// Whether there is any crossing; faster than any_hit, as it need not know where.
+  bool crosses(const Segment& segment);
+  bool crosses(const Ray& ray);
+
   /// Every crossing, in the order in which the segment or ray passes them.
   std::vector<Hit> all_hits(const Segment& segment);
   std::vector<Hit> all_hits(const Ray& ray);
@@ -130,11 +163,20 @@ class MeshQuery {
 
   /// Whether the point is inside: whether the mesh winds around it at least once. So a point in several overlapping
   /// parts is inside, and a point in a cavity is not; nothing is inside of a mesh that is inside out. Exact. A point on
-  /// the surface may count as inside or as outside, but every engine says the same; only Engine::PaperRefinement, which
-  /// may miss crossings, may be wrong.
-  /// Throws InputError(OpenEdge) if the mesh is not closed as is_closed (enclosure.h) has it, and InputError(EmptyMesh)
-  /// if it has no faces: it has no inside. The first call for an index finds that out, and takes longer.
+  /// the surface may count as inside or as outside, but every engine says the same, except Engine::PaperRefinement,
+  /// which may miss crossings and so be wrong. Throws InputError(OpenEdge) if the mesh is not closed as is_closed
+  /// (enclosure.h) has it, and InputError(EmptyMesh) if it has no faces: it has no inside. The first call for an index
+  /// finds that out, and takes longer.
   bool contains(const Vec3& point);
+
+  /// The point of the mesh that is closest to `point`; nothing if the mesh is not certainly within `max_distance`,
+  /// which is so if the upper bound is greater, or if it has no faces. All faces count, those without area too. Throws
+  /// InputError(InvalidOption) unless max_distance >= 0.
+  std::optional<ClosestPoint> closest_point(const Vec3& point,
+                                            double max_distance = std::numeric_limits<double>::infinity());
+
+  /// The same; distance and bounds are negative if the point is inside, as `contains` has it. Throws what that throws.
+  ClosestPoint signed_distance(const Vec3& point);
 
   /// What all queries so far have cost.
   QueryCounts counts() const;
@@ -179,15 +221,29 @@ HitBatch find_hits(const QueryIndex& index, std::span<const Ray> rays, HitMode m
 FaceBatch find_faces_met(const QueryIndex& index, std::span<const Triangle> triangles,
                          const BatchOptions& options = {});
 
+/// A batch of MeshQuery::crosses: for each segment or ray whether it crosses the mesh.
+std::vector<bool> crosses(const QueryIndex& index, std::span<const Segment> segments, const BatchOptions& options = {});
+std::vector<bool> crosses(const QueryIndex& index, std::span<const Ray> rays, const BatchOptions& options = {});
+
 /// A batch of MeshQuery::contains: for each point whether it is inside. Also throws what that throws.
 ///
 ///     const std::vector<bool> inside = contains(QueryIndex(mesh), points);
 std::vector<bool> contains(const QueryIndex& index, std::span<const Vec3> points, const BatchOptions& options = {});
 
+/// A batch of MeshQuery::closest_point. Also throws what that throws.
+std::vector<std::optional<ClosestPoint>> closest_points(const QueryIndex& index, std::span<const Vec3> points,
+                                                        double max_distance = std::numeric_limits<double>::infinity(),
+                                                        const BatchOptions& options = {});
+
+/// A batch of MeshQuery::signed_distance. Also throws what that throws.
+std::vector<ClosestPoint> signed_distances(const QueryIndex& index, std::span<const Vec3> points,
+                                           const BatchOptions& options = {});
+
 /// Receives the hits of consecutive queries, starting with query `first`. `counts` is left empty.
 using TakeHits = std::function<void(std::size_t first, HitBatch chunk)>;
 
-/// find_hits for batches whose hits shall not all be in memory at once. Each chunk of some hundred queries goes to
+/// find_hits for batches whose hits shall not all be in memory at once. Queries are asked as they come: for large
+/// batches at random find_hits, which may sort them, is faster. Each chunk of some hundred queries goes to
 /// `take`, which is called by several threads at a time and in any order. Returns the counts of all. What `take` throws
 /// goes on to the caller.
 QueryCounts find_hits_in_chunks(const QueryIndex& index, std::span<const Segment> segments, HitMode mode,

@@ -14,4 +14,7 @@ namespace prohull {
 /// Throws InputError(EmptyMesh) if the box is empty, InputError(NonFiniteCoordinate) if it is not finite when doubled.
 std::vector<Segment> random_segments(const Box& box, std::size_t count, std::uint64_t seed);
 
+/// Uniformly random points of the box. Guaranteed: the same arguments give the same bits. Throws as random_segments.
+std::vector<Vec3> random_points(const Box& box, std::size_t count, std::uint64_t seed);
+
 }  // namespace prohull

@@ -16,8 +16,11 @@ namespace prohull {
 // Vectors as g++ and clang have them on every processor. Each lane rounds as a scalar does: the same bits everywhere.
 using Double2 = double __attribute__((vector_size(16)));
 using Float4 = float __attribute__((vector_size(16)));
+using Float8 = float __attribute__((vector_size(32)));
+using Short8 = std::uint16_t __attribute__((vector_size(16)));
 using Truth2 = decltype(Double2{} < Double2{});  ///< of comparisons: -1 or 0
 using Truth4 = decltype(Float4{} < Float4{});
+using Truth8 = decltype(Float8{} < Float8{});
 
 inline Double2 both(double x) { return Double2{x, x}; }
 

@@ -1,32 +1,52 @@
 #include "geometry/bvh.h"
 #include "query/engine.h"
-#include "query/wide_bvh.h"
+#include "query/wide_trace.h"
 
 namespace prohull {
 namespace {
 
 class BvhWorker final : public QueryWorker {
  public:
-  explicit BvhWorker(const WideBvh& tree) : tree_(tree) {}
+  explicit BvhWorker(const WideBvh& tree) : tree_(tree), trace_(wide_traces().back().trace) {}
 
   void collect(const DirectedLine& line, HitCollector& hits) override {
-    tree_.visit(
-        line, [&] { return hits.limit(); },
-        [&](FaceId face) {
-          hits.offer(face);
-          return !hits.is_complete();
-        });
+    if (!tree_.is_empty()) trace_(tree_, line, hits);
+  }
+
+  std::optional<Hit> one_hit(const TriangleMesh& mesh, const DirectedLine& line, HitMode mode) override {
+    HitCollector hits(mesh, line, mode);
+    BvhWorker::collect(line, hits);
+    return hits.best();
+  }
+
+  void all_hits(const TriangleMesh& mesh, const DirectedLine& line, std::vector<Hit>& hits) override {
+    HitCollector found(mesh, line, HitMode::All, std::move(scratch_));
+    collect(line, found);
+    found.append_all(hits);
+    scratch_ = std::move(found).storage();
+  }
+
+  std::size_t memory_bytes() const override {
+    return sizeof(*this) + scratch_.capacity() * sizeof(HitCollector::Storage::value_type);
   }
 
   void collect(const Triangle& triangle, FaceCollector& faces) override {
-    tree_.visit(box_of(triangle), [&](FaceId face) {
+    tree_.visit(box_of(triangle), [&](FaceId face, const Triangle&) {
       faces.offer(face);
       return !faces.is_complete();
     });
   }
 
+  void collect(ClosestCollector& closest) override {
+    tree_.visit_nearest(
+        closest.point(), [&] { return closest.limit(); },
+        [&](FaceId face, const Triangle& triangle) { closest.offer(face, triangle); });
+  }
+
  private:
   const WideBvh& tree_;
+  HitCollector::Storage scratch_;
+  void (*trace_)(const WideBvh&, const DirectedLine&, HitCollector&);
 };
 
 class BvhEngine final : public QueryEngine {
@@ -34,8 +54,10 @@ class BvhEngine final : public QueryEngine {
   explicit BvhEngine(const TriangleMesh& mesh) : tree_(mesh) {}
   std::unique_ptr<QueryWorker> worker() const override { return std::make_unique<BvhWorker>(tree_); }
   std::size_t memory_bytes() const override { return sizeof(*this) + tree_.memory_bytes(); }
+  bool gains_from_order() const override { return tree_.memory_bytes() > kCache; }
 
  private:
+  static constexpr std::size_t kCache = std::size_t{1} << 22;  ///< trees of this size stay in the cache of a core
   WideBvh tree_;
 };
 

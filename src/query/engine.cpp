@@ -3,20 +3,24 @@
 #include <algorithm>
 
 #include "geometry/triangle_contact.h"
+#include "query/exact_line.h"
 
 namespace prohull {
 
 bool HitCollector::before(const Found& one, const Found& other) const {
-  const Triangle first = mesh_.triangle(one.face), second = mesh_.triangle(other.face);
-  if (crosses_before(line_, first, one.at, second, other.at)) return true;
-  return !crosses_before(line_, second, other.at, first, one.at) && one.face < other.face;
+  if (const int order = rounded_order(one.at, other.at); order != 0) return order < 0;
+  const int order = exact_order(line_, mesh_.triangle(one.face), mesh_.triangle(other.face));
+  return order != 0 ? order < 0 : one.face < other.face;
 }
 
-void HitCollector::offer(FaceId face) {
-  const Triangle triangle = mesh_.triangle(face);
-  const Crossing how = crossing(line_, triangle);
-  if (how == Crossing::None) return;
-  const Found found{face, how == Crossing::Entering, parameter(line_, triangle)};
+void HitCollector::offer(FaceId face, const Triangle& triangle) {
+  if (const int sign = pierced(line_, triangle); sign != 0) offer_pierced(face, triangle, sign);
+}
+
+void HitCollector::offer_pierced(FaceId face, const Triangle& triangle, int sign) {
+  const auto at = parameter_if_within(line_, triangle, sign);
+  if (!at || settles(sign)) return;
+  const Found found{face, sign < 0, *at};
   if (mode_ == HitMode::All) {
     all_.push_back(found);
   } else if (!best_ || (mode_ == HitMode::First && before(found, *best_))) {
@@ -31,12 +35,9 @@ Hit HitCollector::hit(const Found& found) const {
 
 std::optional<Hit> HitCollector::best() const { return best_ ? std::optional(hit(*best_)) : std::nullopt; }
 
-std::vector<Hit> HitCollector::all() {
+void HitCollector::append_all(std::vector<Hit>& hits) {
   std::ranges::sort(all_, [&](const Found& one, const Found& other) { return before(one, other); });
-  std::vector<Hit> hits;
-  hits.reserve(all_.size());
   for (const Found& found : all_) hits.push_back(hit(found));
-  return hits;
 }
 
 void FaceCollector::offer(FaceId face) {
@@ -46,6 +47,32 @@ void FaceCollector::offer(FaceId face) {
 std::vector<FaceId> FaceCollector::all() {
   std::ranges::sort(found_);
   return std::move(found_);
+}
+
+std::optional<Hit> QueryWorker::one_hit(const TriangleMesh& mesh, const DirectedLine& line, HitMode mode) {
+  HitCollector hits(mesh, line, mode);
+  collect(line, hits);
+  return hits.best();
+}
+
+void QueryWorker::all_hits(const TriangleMesh& mesh, const DirectedLine& line, std::vector<Hit>& hits) {
+  HitCollector found(mesh, line, HitMode::All);
+  collect(line, found);
+  found.append_all(hits);
+}
+
+bool QueryWorker::crosses(const TriangleMesh& mesh, const DirectedLine& line) {
+  HitCollector hits(mesh, line, HitMode::Any);
+  hits.ask_only(HitCollector::Only::Whether);
+  collect(line, hits);
+  return hits.has_any();
+}
+
+int QueryWorker::winding(const TriangleMesh& mesh, const DirectedLine& line) {
+  HitCollector hits(mesh, line, HitMode::All);
+  hits.ask_only(HitCollector::Only::Winding);
+  collect(line, hits);
+  return hits.winding();
 }
 
 }  // namespace prohull

@@ -5,34 +5,61 @@
 #include <vector>
 
 #include "prohull/mesh_query.h"
+#include "query/closest.h"
 #include "query/line.h"
 
 namespace prohull {
 
 /// Takes the faces that an engine thinks a line may cross, each at most once, decides exactly, and keeps what is asked.
 class HitCollector {
- public:
-  HitCollector(const TriangleMesh& mesh, const DirectedLine& line, HitMode mode)
-      : mesh_(mesh), line_(line), mode_(mode), limit_(line.t_end) {}
-
-  void offer(FaceId face);
-
-  /// Nothing more is of interest.
-  bool is_complete() const { return mode_ == HitMode::Any && best_; }
-  /// Crossings beyond this t are not of interest.
-  double limit() const { return limit_; }
-
-  /// The one asked for by HitMode::First or HitMode::Any.
-  std::optional<Hit> best() const;
-  /// Of HitMode::All, in the order in which the line crosses them.
-  std::vector<Hit> all();
-
- private:
   struct Found {
     FaceId face;
     bool entering;
     Parameter at;
   };
+
+ public:
+  using Storage = std::vector<Found>;
+
+  /// `storage` is of an earlier collector, so that none has to be allocated; its content does not count.
+  HitCollector(const TriangleMesh& mesh, const DirectedLine& line, HitMode mode, Storage storage = {})
+      : mesh_(mesh), line_(line), mode_(mode), limit_(line.t_end), all_(std::move(storage)) {
+    all_.clear();
+  }
+  Storage storage() && { return std::move(all_); }
+
+  const TriangleMesh& mesh() const { return mesh_; }
+
+  void offer(FaceId face) { offer(face, mesh_.triangle(face)); }
+  void offer(FaceId face, const Triangle& triangle);
+  /// Of a face that the whole line passes through, as `pierced` has it: only where it does is left to decide.
+  void offer_pierced(FaceId face, const Triangle& triangle, int sign);
+
+  /// What is asked if not the hits themselves: whether there are any, or how much more often the line leaves than
+  /// enters.
+  enum class Only { Whether, Winding };
+  void ask_only(Only only) { only_ = only; }
+  /// A crossing that is certain, as `pierced` has it: whether nothing more need be known of it.
+  bool settles(int sign) {
+    if (!only_) return false;
+    is_settled_ = true;
+    winding_ += sign;
+    return true;
+  }
+  bool has_any() const { return is_settled_ || best_; }
+  int winding() const { return winding_; }
+
+  /// Nothing more is of interest.
+  bool is_complete() const { return mode_ == HitMode::Any && has_any(); }
+  /// Crossings beyond this t are not of interest.
+  double limit() const { return limit_; }
+
+  /// The one asked for by HitMode::First or HitMode::Any.
+  std::optional<Hit> best() const;
+  /// Appends those of HitMode::All, in the order in which the line crosses them.
+  void append_all(std::vector<Hit>& hits);
+
+ private:
   bool before(const Found& one, const Found& other) const;
   Hit hit(const Found& found) const;
 
@@ -41,7 +68,10 @@ class HitCollector {
   HitMode mode_;
   double limit_;
   std::optional<Found> best_;
-  std::vector<Found> all_;
+  Storage all_;
+  std::optional<Only> only_;
+  bool is_settled_ = false;
+  int winding_ = 0;
 };
 
 /// The same for the faces that a triangle may meet.
@@ -70,6 +100,20 @@ class QueryWorker {
   virtual ~QueryWorker() = default;
   virtual void collect(const DirectedLine& line, HitCollector& hits) = 0;
   virtual void collect(const Triangle& triangle, FaceCollector& faces) = 0;
+
+  // What is asked of lines, by `collect`; an engine that knows a shorter way overrides them.
+  /// Of HitMode::First or HitMode::Any.
+  virtual std::optional<Hit> one_hit(const TriangleMesh& mesh, const DirectedLine& line, HitMode mode);
+  /// Appends every crossing, in the order in which the line passes them.
+  virtual void all_hits(const TriangleMesh& mesh, const DirectedLine& line, std::vector<Hit>& hits);
+  /// Whether there is any crossing.
+  virtual bool crosses(const TriangleMesh& mesh, const DirectedLine& line);
+  /// How much more often the line leaves than enters.
+  virtual int winding(const TriangleMesh& mesh, const DirectedLine& line);
+
+  /// Offers every face that may be within closest.limit(); by default all.
+  virtual void collect(ClosestCollector& closest) { closest.offer_all(); }
+
   /// Whatever was kept of earlier queries, counts excepted.
   virtual void forget() {}
   virtual QueryCounts counts() const { return {}; }
@@ -82,6 +126,8 @@ class QueryEngine {
   virtual ~QueryEngine() = default;
   virtual std::unique_ptr<QueryWorker> worker() const = 0;
   virtual std::size_t memory_bytes() const = 0;
+  /// Whether batches are answered faster if queries that start close together follow each other.
+  virtual bool gains_from_order() const { return false; }
 };
 
 std::unique_ptr<QueryEngine> make_brute_engine(const TriangleMesh& mesh);

@@ -1,13 +1,18 @@
 #include "query/exact_line.h"
 
 #include <CGAL/Gmpq.h>
+#include <CGAL/Mpzf.h>
 
 #include <array>
 
 namespace prohull {
 namespace {
 
+#ifdef CGAL_HAS_MPZF
+using Number = CGAL::Mpzf;  // sums and products of doubles, without allocation where exponents are not far apart
+#else
 using Number = CGAL::Gmpq;
+#endif
 using Vector = std::array<Number, 3>;
 
 Vector between(const Vec3& from, const Vec3& to) {
@@ -37,37 +42,45 @@ int sign_of_move(const Vector& gradient) {
   return 0;
 }
 
+/// The plane dot(normal, p - face.a) = 0, and the line's origin and direction against it.
 struct Plane {
-  Plane(const DirectedLine& line, const Triangle& face) : normal(prohull::normal(face)) {
-    const Number speed = dot(normal, direction(line));
-    t = dot(normal, between(line.origin, face.a)) / speed;
-    normal = scaled(normal, 1 / speed);
-  }
-  Vector normal;  ///< of the length that dot(normal, direction) = 1
-  Number t;
+  Plane(const DirectedLine& line, const Triangle& face)
+      : normal(prohull::normal(face)),
+        speed(dot(normal, direction(line))),
+        above(dot(normal, between(line.origin, face.a))) {}
+  Vector normal;
+  Number speed, above;  ///< t = above / speed
 };
+
+int sign(const Number& x) { return int(CGAL::sign(x)); }
 
 }  // namespace
 
 int exact_edge_sign(const DirectedLine& line, const Vec3& p, const Vec3& q) {
-  const Vector d = direction(line);
-  if (const int sign = int(CGAL::sign(dot(d, cross(between(line.origin, p), between(line.origin, q))))); sign != 0)
-    return sign;
-  return sign_of_move(cross(d, between(p, q)));
+  return sign(dot(direction(line), cross(between(line.origin, p), between(line.origin, q))));
 }
 
 int exact_point_sign(const Vec3& point, const Triangle& face) {
-  const Vector n = normal(face);
-  if (const int sign = int(CGAL::sign(dot(n, between(point, face.a)))); sign != 0) return sign;
-  return -sign_of_move(n);
+  return sign(dot(normal(face), between(point, face.a)));
+}
+
+int exact_minor_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, int axis) {
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  return sign((Number(b[i]) - Number(a[i])) * (Number(d[j]) - Number(c[j])) -
+              (Number(b[j]) - Number(a[j])) * (Number(d[i]) - Number(c[i])));
 }
 
 int exact_order(const DirectedLine& line, const Triangle& first, const Triangle& second) {
   const Plane one(line, first), other(line, second);
-  if (const int sign = int(CGAL::sign(one.t - other.t)); sign != 0) return sign;
-  return -sign_of_move(one.normal - other.normal);
+  const int speeds = sign(one.speed) * sign(other.speed);
+  if (const int s = sign(one.above * other.speed - other.above * one.speed); s != 0) return s * speeds;
+  // dot(normal, move) / speed is what the move takes from t.
+  return -speeds * sign_of_move(scaled(one.normal, other.speed) - scaled(other.normal, one.speed));
 }
 
-double exact_parameter(const DirectedLine& line, const Triangle& face) { return CGAL::to_double(Plane(line, face).t); }
+double exact_parameter(const DirectedLine& line, const Triangle& face) {
+  const Plane plane(line, face);
+  return CGAL::to_double(CGAL::Gmpq(plane.above) / CGAL::Gmpq(plane.speed));
+}
 
 }  // namespace prohull

@@ -1,44 +1,97 @@
 #include "query/line.h"
 
+#include "geometry/triangle_predicates.h"
 #include "query/exact_line.h"
 
 namespace prohull {
 namespace {
 
-/// The sign of dot(direction, p cross q) for the edge from p to q, of which `value` is the rounded determinant.
+/// The sign of component `axis` of (b - a) cross (d - c). Differences and products have relative errors of eps, the
+/// last difference another: together at most 4 eps of both products.
+int minor_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, int axis) {
+  const int i = axis == 2 ? 0 : axis + 1, j = axis == 0 ? 2 : axis - 1;
+  const double ui = b[i] - a[i], uj = b[j] - a[j], vi = d[i] - c[i], vj = d[j] - c[j];
+  if ((ui == 0 || vj == 0) && (uj == 0 || vi == 0)) return 0;
+  const double first = ui * vj, second = uj * vi, value = first - second,
+               error = 8 * line_filter::kEpsilon * (std::abs(first) + std::abs(second)) + 0x1p-1000;
+  if (value > error) return 1;
+  if (value < -error) return -1;
+  return exact_minor_sign(a, b, c, d, axis);
+}
+
+/// The sign of the change that the move (e, e^2, e^3) makes to something with the gradient (b - a) cross (d - c).
+int sign_of_move(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (const int sign = minor_sign(a, b, c, d, axis); sign != 0) return sign;
+  return 0;
+}
+
+/// Whether it is plain that the line, not moved and without ends, passes through p.
+bool certainly_passes(const DirectedLine& line, const Vec3& p) {
+  if (p == line.origin || p == line.end) return true;
+  const Vec3& d = line.direction;
+  return (d.x != 0) + (d.y != 0) + (d.z != 0) == 1 && (d.x != 0 || p.x == line.origin.x) &&
+         (d.y != 0 || p.y == line.origin.y) && (d.z != 0 || p.z == line.origin.z);
+}
+
+/// The sign of dot(direction, (p - o) cross (q - o)), o the moved origin, of which `value` is rounded and not moved: on
+/// which side the line passes the edge from p to q. 0 only if the line is parallel to the edge. Exact.
 int edge_sign(const DirectedLine& line, const Vec3& p, const Vec3& q, double value, double error) {
   if (value > error) return 1;
   if (value < -error) return -1;
-  return exact_edge_sign(line, p, q);
+  if (!certainly_passes(line, p) && !certainly_passes(line, q))
+    if (const int sign = exact_edge_sign(line, p, q); sign != 0) return sign;
+  return line.is_ray() ? sign_of_move(Vec3{}, line.direction, p, q) : sign_of_move(line.origin, line.end, p, q);
 }
 
+/// The side of the moved point: 1 inside of the plane of the face, -1 outside; 0 only if the face has no area. Exact.
 int point_sign(const Vec3& point, const FaceFromPoint& seen, const Triangle& face) {
   const double value = seen.side(), error = seen.side_error();
   if (value > error) return 1;
   if (value < -error) return -1;
-  return exact_point_sign(point, face);
+  if (!is_corner(face, point))
+    if (const int sign = exact_point_sign(point, face); sign != 0) return sign;
+  return -sign_of_move(face.a, face.b, face.a, face.c);
+}
+
+}  // namespace
+
+int exact_edge_side(const DirectedLine& line, const Vec3& p, const Vec3& q) { return edge_sign(line, p, q, 0, 0); }
+
+int pierced(const DirectedLine& line, const Triangle& face) {
+  const FaceFromLine seen(line, face);
+  if (seen.certainly_passed()) return 0;
+  const int sign = edge_sign(line, face.a, face.b, seen.ab, seen.error);
+  // Never all three of a line parallel to the plane: their sum is dot(direction, normal), moved or not.
+  if (sign == 0 || edge_sign(line, face.b, face.c, seen.bc, seen.error) != sign ||
+      edge_sign(line, face.c, face.a, seen.ca, seen.error) != sign)
+    return 0;
+  return sign;
+}
+
+namespace {
+
+/// Whether the line passes the plane of the face between its ends.
+bool is_within(const DirectedLine& line, const Triangle& face, int sign) {
+  return point_sign(line.origin, FaceFromPoint(line.origin, face), face) == sign &&
+         (line.is_ray() || point_sign(line.end, FaceFromPoint(line.end, face), face) != sign);
 }
 
 }  // namespace
 
 Crossing crossing(const DirectedLine& line, const Triangle& face) {
-  const FaceFromLine seen(line, face);
-  if (seen.certainly_passed()) return Crossing::None;
-  const int sign = edge_sign(line, face.a, face.b, seen.ab, seen.error);
-  // Never all three of a line parallel to the plane: their sum is dot(direction, normal), moved or not.
-  if (sign == 0 || edge_sign(line, face.b, face.c, seen.bc, seen.error) != sign ||
-      edge_sign(line, face.c, face.a, seen.ca, seen.error) != sign)
-    return Crossing::None;
-  if (point_sign(line.origin, seen, face) != sign) return Crossing::None;
-  if (!line.is_ray() && point_sign(line.end, FaceFromPoint(line.end, face), face) == sign) return Crossing::None;
+  const int sign = pierced(line, face);
+  if (sign == 0 || !is_within(line, face, sign)) return Crossing::None;
   return sign > 0 ? Crossing::Leaving : Crossing::Entering;
 }
+
+namespace {
 
 // By the normal n = u cross v of the edges u, v from corner a: t = dot(n, a - origin) / dot(n, direction), which is as
 // accurate for a small face far from the origin as for a near one. Rounding u, v, the products and the differences
 // moves a coordinate of n by at most 4.1 eps of its terms, 2 Lu Lv with L the largest entries; a product with a rounded
 // w adds 2.1 eps, the two sums 2 eps: each dot(n, w) is within 3 * 8.2 eps * 2 Lu Lv Lw.
-Parameter parameter(const DirectedLine& line, const Triangle& face) {
+Parameter rounded_parameter(const DirectedLine& line, const Triangle& face) {
   using namespace line_filter;
   const Vec3 u = face.b - face.a, v = face.c - face.a, to_face = face.a - line.origin, n = cross(u, v);
   const double above = dot(n, to_face), speed = dot(n, line.direction);
@@ -48,22 +101,34 @@ Parameter parameter(const DirectedLine& line, const Triangle& face) {
   const double t = above / speed, slowest = std::abs(speed) - speed_error;
   // |above' / speed' - above / speed| <= (|error of above| + |t| |error of speed|) / |speed'|, and the rounding of t.
   const double error =
-      slowest > 0 ? ((above_error + std::abs(t) * speed_error) / slowest + kEpsilon * std::abs(t)) * (1 + 16 * kEpsilon)
-                  : std::numeric_limits<double>::infinity();
-  // Beyond this the rounded t is not worth showing: all but parallel to the plane, or huge coordinates.
-  constexpr double kGoodEnough = 0x1p-30;
-  if (!(error < kGoodEnough * std::max(1.0, std::abs(t)))) {
-    const double exact = exact_parameter(line, face);
-    return {std::clamp(exact, 0.0, line.t_end), 2 * kEpsilon * std::abs(exact)};
-  }
-  return {std::clamp(t, 0.0, line.t_end), error};
+      slowest > 0 && slowest < std::numeric_limits<double>::infinity()
+          ? ((above_error + std::abs(t) * speed_error) / slowest + kEpsilon * std::abs(t)) * (1 + 16 * kEpsilon)
+          : std::numeric_limits<double>::infinity();
+  return {t, error};
 }
 
-bool crosses_before(const DirectedLine& line, const Triangle& first, const Parameter& at_first, const Triangle& second,
-                    const Parameter& at_second) {
-  const double difference = at_second.t - at_first.t, error = at_first.error + at_second.error;
-  if (std::abs(difference) * (1 - 4 * line_filter::kEpsilon) > error) return difference > 0;
-  return exact_order(line, first, second) < 0;
+/// What is shown of the rounded parameter.
+Parameter shown(const Parameter& rounded, const DirectedLine& line, const Triangle& face) {
+  // Beyond this the rounded t is not worth showing: all but parallel to the plane, or huge coordinates.
+  constexpr double kGoodEnough = 0x1p-30;
+  if (rounded.error < kGoodEnough * std::max(1.0, std::abs(rounded.t)))
+    return {std::clamp(rounded.t, 0.0, line.t_end), rounded.error};
+  const double exact = exact_parameter(line, face);
+  return {std::clamp(exact, 0.0, line.t_end), 2 * line_filter::kEpsilon * std::abs(exact)};
+}
+
+}  // namespace
+
+Parameter parameter(const DirectedLine& line, const Triangle& face) {
+  return shown(rounded_parameter(line, face), line, face);
+}
+
+std::optional<Parameter> parameter_if_within(const DirectedLine& line, const Triangle& face, int sign) {
+  const Parameter at = rounded_parameter(line, face);
+  const bool certainly_within = at.t > at.error && (line.is_ray() || 1 - at.t > at.error);
+  const bool certainly_not = at.t < -at.error || (!line.is_ray() && at.t - 1 > at.error);
+  if (certainly_not || (!certainly_within && !is_within(line, face, sign))) return std::nullopt;
+  return shown(at, line, face);
 }
 
 }  // namespace prohull

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "prohull/geometry.h"
 
@@ -15,6 +16,7 @@ struct DirectedLine {
       : origin(r.origin), direction(r.direction), end(r.origin), t_end(std::numeric_limits<double>::infinity()) {}
 
   bool is_ray() const { return t_end != 1; }
+  bool is_a_point() const { return end == origin && direction == Vec3{}; }
   Vec3 at(double t) const { return is_ray() ? origin + t * direction : (1 - t) * origin + t * end; }
 
   Vec3 origin;
@@ -28,16 +30,29 @@ enum class Crossing { None, Entering, Leaving };
 /// How the line, moved by (e, e^2, e^3) for an infinitesimal e, crosses the face (see MeshQuery). Exact.
 Crossing crossing(const DirectedLine& line, const Triangle& face);
 
+/// On which side the line, moved likewise, passes the edge from p to q: the sign of dot(direction, (p - o) cross (q -
+/// o)) for its origin o. 0 only if the line is parallel to the edge. Exact, and slow: for what filters leave open.
+int exact_edge_side(const DirectedLine& line, const Vec3& p, const Vec3& q);
+
+/// How the whole line, moved likewise and extended beyond both ends, passes through the face: 1 if it leaves, -1 if it
+/// enters, 0 if it does not. Exact.
+int pierced(const DirectedLine& line, const Triangle& face);
+
 /// Where the line meets the plane of a face that it crosses: the true t, unmoved, is within `error` of `t`.
 struct Parameter {
   double t, error;
 };
 Parameter parameter(const DirectedLine& line, const Triangle& face);
 
-/// Of two faces that the moved line crosses, whether it crosses `first` before `second`. Exact; neither is before the
-/// other where they lie in one plane.
-bool crosses_before(const DirectedLine& line, const Triangle& first, const Parameter& at_first, const Triangle& second,
-                    const Parameter& at_second);
+/// The parameter of a face that the whole line passes through, with `sign`, if the line does so between its ends.
+std::optional<Parameter> parameter_if_within(const DirectedLine& line, const Triangle& face, int sign);
+
+/// Which of two crossings is certainly the first: -1, 1, or 0 if that is not certain.
+inline int rounded_order(const Parameter& first, const Parameter& second) {
+  const double difference = second.t - first.t, error = first.error + second.error;
+  if (!(std::abs(difference) * (1 - 0x1p-51) > error)) return 0;
+  return difference > 0 ? -1 : 1;
+}
 
 /// False only if the line, unmoved, certainly has no point in common with the face, its corners and edges included.
 bool may_meet(const DirectedLine& line, const Triangle& face);

@@ -7,22 +7,28 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <numeric>
 
 #include "parallel/arena.h"
 #include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
+#include "query/coherent_order.h"
 #include "query/engine.h"
+#include "query/filter_engine.h"
 #include "query/refinement_engine.h"
+#include "query/walk_engine.h"
 
 namespace prohull {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Engine>, 5> kEngineNames{
+constexpr std::array<std::pair<std::string_view, Engine>, 7> kEngineNames{
     {{"auto", Engine::Auto},
      {"bvh", Engine::Bvh},
      {"refinement", Engine::Refinement},
      {"paper-refinement", Engine::PaperRefinement},
+     {"walk", Engine::Walk},
+     {"filter", Engine::Filter},
      {"brute", Engine::Brute}}};
 
 constexpr std::array<std::pair<std::string_view, HitMode>, 3> kHitModeNames{
@@ -39,6 +45,12 @@ struct QueryIndex::Shared {
   std::string_view engine_name;
   std::unique_ptr<QueryEngine> engine;  ///< refers to `mesh`
 
+  /// Around the mesh.
+  const Box& box() const {
+    std::call_once(box_is_known_, [&] { box_ = bounding_box(mesh); });
+    return box_;
+  }
+
   /// Throws InputError if the mesh is not closed.
   void require_closed() const {
     std::call_once(closed_is_known_, [&] { is_closed_ = is_closed(mesh); });
@@ -47,7 +59,8 @@ struct QueryIndex::Shared {
   }
 
  private:
-  mutable std::once_flag closed_is_known_;
+  mutable std::once_flag box_is_known_, closed_is_known_;
+  mutable Box box_;
   mutable bool is_closed_ = false;
 };
 
@@ -66,8 +79,7 @@ void require_finite(const TriangleMesh& mesh) {
 
 /// What of these classes is not for users.
 struct QueryAccess {
-  using MakeEngine = std::unique_ptr<QueryEngine> (*)(const TriangleMesh&);
-
+  template <class MakeEngine>
   static QueryIndex index(TriangleMesh mesh, std::string_view engine_name, MakeEngine make_engine) {
     require_finite(mesh);
     auto shared = std::make_shared<QueryIndex::Shared>();
@@ -77,44 +89,79 @@ struct QueryAccess {
     return QueryIndex(std::move(shared));
   }
 
-  static QueryIndex index(const ProgressiveHull& hull, Engine engine, const RefinementOptions& options) {
-    if (options.queries_per_roll_back < 1) throw InputError(Defect::InvalidOption, "queries per roll back: at least 1");
-    auto shared = std::make_shared<QueryIndex::Shared>();
-    shared->mesh = hull.original();
-    shared->engine_name = name_of(engine_names(), engine);
-    shared->engine = make_refinement_engine(
-        hull, engine == Engine::Refinement ? Refine::WhereBoundsMeet : Refine::WhereFacesMeet, options);
-    return QueryIndex(std::move(shared));
-  }
-
   static void require_closed(const QueryIndex& index) { index.shared_->require_closed(); }
+
+  /// The order in which a batch is asked; empty: as it comes.
+  template <class Primitive>
+  static std::vector<std::uint32_t> coherent_order(const QueryIndex& index, std::span<const Primitive> primitives) {
+    if (!index.shared_->engine->gains_from_order()) return {};
+    return prohull::coherent_order(primitives, index.shared_->box());
+  }
 
   /// Each chunk of a batch starts afresh, so that answers and counts are the same whatever thread had which before.
   static void start(MeshQuery& query);
+
+  template <class Primitive>
+  static void append_all(MeshQuery& query, const Primitive& primitive, std::vector<Hit>& hits);
 };
 
 namespace {
 
 bool refines(Engine engine) { return engine == Engine::Refinement || engine == Engine::PaperRefinement; }
 
+bool needs_hull(Engine engine) { return refines(engine) || engine == Engine::Walk || engine == Engine::Filter; }
+
 QueryIndex index_of(TriangleMesh mesh, Engine engine) {
-  if (refines(engine))
-    throw InputError(Defect::InvalidOption, "this engine refines a progressive hull, which a mesh is not");
+  if (needs_hull(engine))
+    throw InputError(Defect::InvalidOption, "this engine needs a progressive hull, which a mesh is not");
   if (engine == Engine::Brute)
     return QueryAccess::index(std::move(mesh), name_of(engine_names(), engine), make_brute_engine);
   return QueryAccess::index(std::move(mesh), name_of(engine_names(), Engine::Bvh), make_bvh_engine);
 }
 
+QueryIndex index_of(const ProgressiveHull& hull, Engine engine, const RefinementOptions& options) {
+  if (options.queries_per_roll_back < 1) throw InputError(Defect::InvalidOption, "queries per roll back: at least 1");
+  if (engine == Engine::Filter)
+    throw InputError(Defect::InvalidOption, "the engine filter needs an outer and an inner hull of the mesh");
+  if (engine == Engine::Walk && hull.side() != HullSide::Outer)
+    throw InputError(Defect::InvalidOption, "the engine walk needs an outer hull");
+  if (!needs_hull(engine)) return index_of(hull.original(), engine);
+  return QueryAccess::index(
+      hull.original(), name_of(engine_names(), engine), [&](const TriangleMesh& mesh) -> std::unique_ptr<QueryEngine> {
+        if (engine == Engine::Walk) return make_walk_engine(mesh, hull, nullptr);
+        const Refine refine = engine == Engine::Refinement ? Refine::WhereBoundsMeet : Refine::WhereFacesMeet;
+        return make_refinement_engine(hull, refine, options);
+      });
+}
+
+QueryIndex index_of(const ProgressiveHull& outer, const ProgressiveHull& inner, Engine engine) {
+  if (outer.side() != HullSide::Outer || inner.side() != HullSide::Inner)
+    throw InputError(Defect::InvalidOption, "of two hulls, the first must be an outer one and the second an inner one");
+  TriangleMesh original = outer.original();
+  if (original != inner.original())
+    throw InputError(Defect::InvalidOption, "the outer and the inner hull are not of the same mesh");
+  if (engine == Engine::Auto && filter_pays(original.face_count())) engine = Engine::Filter;
+  if (refines(engine)) return index_of(outer, engine, {});
+  if (!needs_hull(engine)) return index_of(std::move(original), engine);
+  return QueryAccess::index(std::move(original), name_of(engine_names(), engine), [&](const TriangleMesh& mesh) {
+    return engine == Engine::Walk ? make_walk_engine(mesh, outer, &inner) : make_filter_engine(mesh, outer, inner);
+  });
+}
+
 }  // namespace
 
-QueryIndex peer_index(TriangleMesh mesh, std::string_view name, QueryAccess::MakeEngine make_engine) {
+QueryIndex peer_index(TriangleMesh mesh, std::string_view name,
+                      std::unique_ptr<QueryEngine> (*make_engine)(const TriangleMesh&)) {
   return QueryAccess::index(std::move(mesh), name, make_engine);
 }
 
 QueryIndex::QueryIndex(TriangleMesh mesh, Engine engine) : QueryIndex(index_of(std::move(mesh), engine)) {}
 
 QueryIndex::QueryIndex(const ProgressiveHull& hull, Engine engine, const RefinementOptions& options)
-    : QueryIndex(refines(engine) ? QueryAccess::index(hull, engine, options) : index_of(hull.original(), engine)) {}
+    : QueryIndex(index_of(hull, engine, options)) {}
+
+QueryIndex::QueryIndex(const ProgressiveHull& outer, const ProgressiveHull& inner, Engine engine)
+    : QueryIndex(index_of(outer, inner, engine)) {}
 
 std::string_view QueryIndex::engine_name() const { return shared_->engine_name; }
 
@@ -129,21 +176,26 @@ std::size_t QueryIndex::memory_bytes() const {
 struct MeshQuery::State {
   explicit State(QueryIndex i) : index(std::move(i)), worker(index.shared_->engine->worker()) {}
 
-  HitCollector collected(const DirectedLine& line, HitMode mode) {
-    HitCollector hits(index.shared_->mesh, line, mode);
-    const bool is_a_point = line.end == line.origin && line.direction == Vec3{};
-    if (!is_a_point) worker->collect(line, hits);
-    return hits;
-  }
   template <class Primitive>
   std::optional<Hit> one(const Primitive& primitive, HitMode mode) {
     const DirectedLine line(primitive);
-    return collected(line, mode).best();
+    return line.is_a_point() ? std::nullopt : worker->one_hit(index.shared_->mesh, line, mode);
+  }
+  template <class Primitive>
+  void append_all(const Primitive& primitive, std::vector<Hit>& hits) {
+    const DirectedLine line(primitive);
+    if (!line.is_a_point()) worker->all_hits(index.shared_->mesh, line, hits);
   }
   template <class Primitive>
   std::vector<Hit> all(const Primitive& primitive) {
+    std::vector<Hit> hits;
+    append_all(primitive, hits);
+    return hits;
+  }
+  template <class Primitive>
+  bool crosses(const Primitive& primitive) {
     const DirectedLine line(primitive);
-    return collected(line, HitMode::All).all();
+    return !line.is_a_point() && worker->crosses(index.shared_->mesh, line);
   }
   FaceCollector collected(const Triangle& triangle, HitMode mode) {
     FaceCollector faces(index.shared_->mesh, triangle, mode);
@@ -156,6 +208,34 @@ struct MeshQuery::State {
 };
 
 void QueryAccess::start(MeshQuery& query) { query.state_->worker->forget(); }
+
+template <class Primitive>
+void QueryAccess::append_all(MeshQuery& query, const Primitive& primitive, std::vector<Hit>& hits) {
+  query.state_->append_all(primitive, hits);
+}
+
+namespace {
+
+/// Along an axis, from a point of the box.
+Ray ray_to_nearest_side(const Vec3& point, const Box& box) {
+  Ray ray{point, {-1, 0, 0}};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {box.min[axis], box.max[axis]})
+      if (const double away = std::abs(side - point[axis]); away < nearest) {
+        nearest = away;
+        ray.direction = {};
+        ray.direction[axis] = side == box.min[axis] ? -1 : 1;
+      }
+  return ray;
+}
+
+void require_distance(double max_distance) {
+  if (!(max_distance >= 0))
+    throw InputError(Defect::InvalidOption, fmt::format("max_distance={}: expected a number >= 0", max_distance));
+}
+
+}  // namespace
 
 MeshQuery::MeshQuery(QueryIndex index) : state_(std::make_unique<State>(std::move(index))) {}
 MeshQuery::~MeshQuery() = default;
@@ -170,16 +250,37 @@ std::optional<Hit> MeshQuery::any_hit(const Ray& ray) { return state_->one(ray, 
 std::vector<Hit> MeshQuery::all_hits(const Segment& segment) { return state_->all(segment); }
 std::vector<Hit> MeshQuery::all_hits(const Ray& ray) { return state_->all(ray); }
 
+bool MeshQuery::crosses(const Segment& segment) { return state_->crosses(segment); }
+bool MeshQuery::crosses(const Ray& ray) { return state_->crosses(ray); }
+
 std::vector<FaceId> MeshQuery::faces_met(const Triangle& triangle) {
   return state_->collected(triangle, HitMode::All).all();
 }
 bool MeshQuery::meets(const Triangle& triangle) { return state_->collected(triangle, HitMode::Any).any(); }
 
+// A first hit that leaves would not do in place of the winding number: of two spheres, one in the other, it enters the
+// inner one, and of one that is inside out it leaves from outside. The ray to the nearest side of the box passes few
+// faces.
 bool MeshQuery::contains(const Vec3& point) {
   QueryAccess::require_closed(state_->index);
-  int winding = 0;
-  for (const Hit& hit : all_hits(Ray{point, {1, 0, 0}})) winding += hit.entering ? -1 : 1;
-  return winding > 0;
+  const Box& box = state_->index.shared_->box();
+  if (!box.overlaps({point, point})) return false;
+  return state_->worker->winding(state_->index.shared_->mesh, DirectedLine(ray_to_nearest_side(point, box))) > 0;
+}
+
+std::optional<ClosestPoint> MeshQuery::closest_point(const Vec3& point, double max_distance) {
+  require_distance(max_distance);
+  const QueryIndex::Shared& shared = *state_->index.shared_;
+  ClosestCollector closest(shared.mesh, shared.box(), point, max_distance);
+  state_->worker->collect(closest);
+  return closest.best();
+}
+
+ClosestPoint MeshQuery::signed_distance(const Vec3& point) {
+  const bool inside = contains(point);
+  const ClosestPoint closest = closest_point(point).value();  // a closed mesh has faces
+  if (!inside) return closest;
+  return {closest.face, closest.position, 0 - closest.distance, 0 - closest.upper, 0 - closest.lower};
 }
 
 QueryCounts MeshQuery::counts() const { return state_->worker->counts(); }
@@ -201,18 +302,22 @@ struct Batch {
   QueryCounts counts;
 };
 
-constexpr std::size_t kChunk = 512;
-constexpr std::size_t kGlance = 8;  ///< queries between two looks at progress: each of them may take a while
-
-/// ask(query, primitive) -> std::vector<Answer>, or something else with begin and end; take(first, Batch<Answer>) is
-/// given the answers of each chunk.
-template <class Answer, class Primitive, class Ask, class Take>
-QueryCounts ask_in_chunks(const QueryIndex& index, std::span<const Primitive> primitives, const BatchOptions& options,
-                          Ask ask, Take take) {
+template <class Primitive>
+void require_finite(std::span<const Primitive> primitives) {
   for (std::size_t i = 0; i < primitives.size(); ++i)
     if (!is_finite(primitives[i]))
       throw InputError(Defect::NonFiniteCoordinate,
                        fmt::format("query {} has a coordinate that is not finite; remove it", i));
+}
+
+constexpr std::size_t kChunk = 512;
+constexpr std::size_t kGlance = 8;  ///< queries between two looks at progress: each of them may take a while
+
+/// ask(query, primitive, answers) appends the answers to a primitive; take(first, Batch<Answer>) is given those of each
+/// chunk.
+template <class Answer, class Primitive, class Ask, class Take>
+QueryCounts ask_in_chunks(const QueryIndex& index, std::span<const Primitive> primitives, const BatchOptions& options,
+                          Ask ask, Take take) {
   const std::size_t chunks = (primitives.size() + kChunk - 1) / kChunk;
   ProgressMeter meter(options.progress, "query");
   std::atomic<std::size_t> done = 0;
@@ -223,9 +328,9 @@ QueryCounts ask_in_chunks(const QueryIndex& index, std::span<const Primitive> pr
       QueryAccess::start(query);
       const auto chunk = primitives.subspan(c * kChunk, std::min(kChunk, primitives.size() - c * kChunk));
       Batch<Answer> batch;
+      batch.offsets.reserve(chunk.size() + 1);
       for (const Primitive& primitive : chunk) {
-        const auto answers = ask(query, primitive);
-        batch.answers.insert(batch.answers.end(), answers.begin(), answers.end());
+        ask(query, primitive, batch.answers);
         batch.offsets.push_back(batch.answers.size());
         if (batch.offsets.size() % kGlance == 0) meter.at(done, primitives.size());
       }
@@ -238,9 +343,10 @@ QueryCounts ask_in_chunks(const QueryIndex& index, std::span<const Primitive> pr
   return counts;
 }
 
+/// Of the queries in the order in which they stand.
 template <class Answer, class Primitive, class Ask>
-Batch<Answer> ask_all(const QueryIndex& index, std::span<const Primitive> primitives, const BatchOptions& options,
-                      Ask ask) {
+Batch<Answer> ask_in_turn(const QueryIndex& index, std::span<const Primitive> primitives, const BatchOptions& options,
+                          Ask ask) {
   std::vector<Batch<Answer>> chunks((primitives.size() + kChunk - 1) / kChunk);
   Batch<Answer> all;
   all.counts = ask_in_chunks<Answer>(index, primitives, options, ask, [&](std::size_t first, Batch<Answer> chunk) {
@@ -255,15 +361,43 @@ Batch<Answer> ask_all(const QueryIndex& index, std::span<const Primitive> primit
   return all;
 }
 
+/// Puts the answers to query order[0], order[1], ... in the order of the queries.
+template <class Answer>
+Batch<Answer> reordered(const Batch<Answer>& asked, std::span<const std::uint32_t> order) {
+  Batch<Answer> all;
+  all.counts = asked.counts;
+  all.offsets.resize(order.size() + 1);
+  for (std::size_t i = 0; i < order.size(); ++i) all.offsets[order[i] + 1] = asked.offsets[i + 1] - asked.offsets[i];
+  std::partial_sum(all.offsets.begin(), all.offsets.end(), all.offsets.begin());
+  all.answers.resize(asked.answers.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    std::copy(asked.answers.begin() + static_cast<std::ptrdiff_t>(asked.offsets[i]),
+              asked.answers.begin() + static_cast<std::ptrdiff_t>(asked.offsets[i + 1]),
+              all.answers.begin() + static_cast<std::ptrdiff_t>(all.offsets[order[i]]));
+  return all;
+}
+
+template <class Answer, class Primitive, class Ask>
+Batch<Answer> ask_all(const QueryIndex& index, std::span<const Primitive> primitives, const BatchOptions& options,
+                      Ask ask) {
+  require_finite(primitives);
+  const std::vector<std::uint32_t> order = QueryAccess::coherent_order(index, primitives);
+  if (order.empty()) return ask_in_turn<Answer>(index, primitives, options, ask);
+  std::vector<Primitive> sorted;
+  sorted.reserve(order.size());
+  for (const std::uint32_t i : order) sorted.push_back(primitives[i]);
+  return reordered(ask_in_turn<Answer>(index, std::span<const Primitive>(sorted), options, ask), order);
+}
+
 /// What a batch asks of each segment or ray.
 struct AskHits {
   HitMode mode;
 
   template <class Primitive>
-  std::vector<Hit> operator()(MeshQuery& query, const Primitive& primitive) const {
-    if (mode == HitMode::All) return query.all_hits(primitive);
+  void operator()(MeshQuery& query, const Primitive& primitive, std::vector<Hit>& hits) const {
+    if (mode == HitMode::All) return QueryAccess::append_all(query, primitive, hits);
     const auto hit = mode == HitMode::First ? query.first_hit(primitive) : query.any_hit(primitive);
-    return hit ? std::vector{*hit} : std::vector<Hit>{};
+    if (hit) hits.push_back(*hit);
   }
 };
 
@@ -272,6 +406,7 @@ HitBatch hit_batch(Batch<Hit> batch) { return {std::move(batch.offsets), std::mo
 template <class Primitive>
 QueryCounts take_hits_of(const QueryIndex& index, std::span<const Primitive> primitives, HitMode mode,
                          const TakeHits& take, const BatchOptions& options) {
+  require_finite(primitives);
   return ask_in_chunks<Hit>(index, primitives, options, AskHits{mode},
                             [&](std::size_t first, Batch<Hit> chunk) { take(first, hit_batch(std::move(chunk))); });
 }
@@ -299,16 +434,60 @@ QueryCounts find_hits_in_chunks(const QueryIndex& index, std::span<const Ray> ra
 
 FaceBatch find_faces_met(const QueryIndex& index, std::span<const Triangle> triangles, const BatchOptions& options) {
   auto batch = ask_all<FaceId>(index, triangles, options,
-                               [](MeshQuery& query, const Triangle& triangle) { return query.faces_met(triangle); });
+                               [](MeshQuery& query, const Triangle& triangle, std::vector<FaceId>& faces) {
+                                 const std::vector<FaceId> met = query.faces_met(triangle);
+                                 faces.insert(faces.end(), met.begin(), met.end());
+                               });
   return {std::move(batch.offsets), std::move(batch.answers), batch.counts};
+}
+
+namespace {
+
+/// ask(query, primitive) -> bool
+template <class Primitive, class Ask>
+std::vector<bool> truths(const QueryIndex& index, std::span<const Primitive> primitives, const BatchOptions& options,
+                         Ask ask) {
+  const auto batch = ask_all<char>(index, primitives, options,
+                                   [&](MeshQuery& query, const Primitive& primitive, std::vector<char>& answers) {
+                                     answers.push_back(ask(query, primitive));
+                                   });
+  return {batch.answers.begin(), batch.answers.end()};
+}
+
+}  // namespace
+
+std::vector<bool> crosses(const QueryIndex& index, std::span<const Segment> segments, const BatchOptions& options) {
+  return truths(index, segments, options, [](MeshQuery& query, const Segment& s) { return query.crosses(s); });
+}
+
+std::vector<bool> crosses(const QueryIndex& index, std::span<const Ray> rays, const BatchOptions& options) {
+  return truths(index, rays, options, [](MeshQuery& query, const Ray& ray) { return query.crosses(ray); });
 }
 
 std::vector<bool> contains(const QueryIndex& index, std::span<const Vec3> points, const BatchOptions& options) {
   QueryAccess::require_closed(index);
-  const auto batch = ask_all<char>(index, points, options, [](MeshQuery& query, const Vec3& point) {
-    return std::array{static_cast<char>(query.contains(point))};
-  });
-  return {batch.answers.begin(), batch.answers.end()};
+  return truths(index, points, options, [](MeshQuery& query, const Vec3& point) { return query.contains(point); });
+}
+
+std::vector<std::optional<ClosestPoint>> closest_points(const QueryIndex& index, std::span<const Vec3> points,
+                                                        double max_distance, const BatchOptions& options) {
+  require_distance(max_distance);
+  using Closest = std::optional<ClosestPoint>;
+  return ask_all<Closest>(index, points, options,
+                          [&](MeshQuery& query, const Vec3& point, std::vector<Closest>& answers) {
+                            answers.push_back(query.closest_point(point, max_distance));
+                          })
+      .answers;
+}
+
+std::vector<ClosestPoint> signed_distances(const QueryIndex& index, std::span<const Vec3> points,
+                                           const BatchOptions& options) {
+  QueryAccess::require_closed(index);
+  return ask_all<ClosestPoint>(index, points, options,
+                               [](MeshQuery& query, const Vec3& point, std::vector<ClosestPoint>& answers) {
+                                 answers.push_back(query.signed_distance(point));
+                               })
+      .answers;
 }
 
 }  // namespace prohull

@@ -1,128 +1,170 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
+#include <tuple>
 #include <utility>
-#include <vector>
 
 #include "geometry/simd.h"
+#include "parallel/huge_array.h"
 #include "prohull/triangle_mesh.h"
 #include "query/line.h"
 
 namespace prohull {
 
-/// What a WideBvh sees of a line: float32 planes meet float32 origins, conservatively.
-///
-/// t = (plane - origin) / direction is bounded from below at the near plane and from above at the far one by rounding
-/// the origin up or down. Difference, inverse and product then have a relative error of at most 3 eps + O(eps^2), eps =
-/// 2^-24, and the right sign; so far values times (1 + 8 eps), plus 2^-100 for products that underflow, are safe.
-/// Axes along which this does not hold, where the direction is neither 0 nor of a middling size, are left out: their
-/// origins are NaN, and NaN is never chosen.
-struct WideLine {
-  std::array<float, 3> near_origin, far_origin, inverse;
-  std::array<bool, 3> backwards;  ///< the near plane is that of the greater coordinate
-};
-
-/// A tree of float32 boxes around the faces of a mesh, four children to a node, in a frame in which the mesh is about
-/// of size 1 at the origin. Built by the surface-area heuristic with bins (Wald 2007).
+/// A tree of float32 boxes around the faces of a mesh, eight children to a node and up to eight faces to a leaf, in a
+/// frame in which the mesh lies in [-1, 1]^3. Built by the surface-area heuristic with bins (Wald 2007). A leaf has the
+/// corners of its faces too, rounded to 16 bits: what they leave open, the mesh itself decides.
 class WideBvh {
  public:
-  static constexpr int kWidth = 4;
+  static constexpr std::uint32_t kWidth = 8;
 
   explicit WideBvh(const TriangleMesh& mesh);
 
-  /// visit(face) for every face of which the box may be met by the line up to limit(), nearer boxes first.
-  /// visit returns whether to go on; limit() may shrink meanwhile.
-  template <class Limit, class Visit>
-  void visit(const DirectedLine& line, Limit limit, Visit visit) const;
+  struct alignas(64) Node {
+    Float8 plane[6];              ///< low x, y, z, high x, y, z; lane i: of the box of child i, empty if there is none
+    std::uint32_t child[kWidth];  ///< a node, a leaf as leaf_at has it, or kNoChild
+  };
+  /// In the frame, corner c of face i is at low + corner[c][..][i] / per_quantum, within kCornerError / per_quantum.
+  struct alignas(32) Leaf {
+    std::array<float, 3> low;
+    float per_quantum;    ///< a power of 2
+    Short8 corner[3][3];  ///< [corner][axis], lane i: of face i
+    std::uint32_t face[kWidth];
+    std::uint32_t first_corner;         ///< of its own, in corners_
+    std::uint8_t corner_at[3][kWidth];  ///< [corner][face], from there on
+  };
+  /// The face in lane i, not rounded.
+  Triangle triangle(const Leaf& leaf, int i) const {
+    const Vec3* const corners = corners_.begin() + leaf.first_corner;
+    return {corners[leaf.corner_at[0][i]], corners[leaf.corner_at[1][i]], corners[leaf.corner_at[2][i]]};
+  }
+  static constexpr float kCornerError = 0.5f + 0x1p-8f;
 
-  /// visit(face) for every face of which the box may overlap, until it returns false.
+  static constexpr std::uint32_t kNoChild = 0xffffffff;  ///< a leaf too, for is_leaf
+  static constexpr std::uint32_t kLeafBit = 1u << 31, kCountShift = 28, kLeafMask = (1u << kCountShift) - 1;
+  static std::uint32_t leaf_at(std::uint32_t place, std::uint32_t faces) {
+    return kLeafBit | (faces - 1) << kCountShift | place;
+  }
+  static bool is_leaf(std::uint32_t child) { return (child & kLeafBit) != 0; }
+  static std::uint32_t faces_of(std::uint32_t leaf) { return (leaf >> kCountShift & 7) + 1; }
+  const Leaf& leaf(std::uint32_t child) const { return leaves_[child & kLeafMask]; }
+  void prefetch_leaf(std::uint32_t child) const {
+    const char* const first = reinterpret_cast<const char*>(leaves_.begin() + (child & kLeafMask));
+    __builtin_prefetch(first), __builtin_prefetch(first + 64), __builtin_prefetch(first + 128);
+  }
+  void prefetch_corners(const Leaf& leaf) const {
+    const char* const first = reinterpret_cast<const char*>(corners_.begin() + leaf.first_corner);
+    __builtin_prefetch(first), __builtin_prefetch(first + 64), __builtin_prefetch(first + 128);
+  }
+  const Node& node(std::uint32_t child) const { return nodes_[child]; }
+
+  bool is_empty() const { return nodes_.size() == 0; }
+  static constexpr std::uint32_t kRoot = 0;
+  static constexpr int kMaxDepth = 96, kStackSize = (kWidth - 1) * kMaxDepth + 1;
+
+  /// visit(face, triangle) for every face of which the box may overlap, until it returns false.
   template <class Visit>
   void visit(const Box& box, Visit visit) const;
 
-  std::size_t memory_bytes() const { return nodes_.size() * sizeof(Node) + faces_.size() * sizeof(FaceId); }
+  /// visit(face, triangle) for every face of which the box may be as near to p as limit(), those of nearer boxes first.
+  /// limit() may shrink meanwhile.
+  template <class Limit, class Visit>
+  void visit_nearest(const Vec3& p, Limit limit, Visit visit) const;
+
+  /// A point of the mesh's space in the frame, but for rounding.
+  Vec3 in_frame(const Vec3& p) const { return (p - center_) * scale_; }
+  double scale() const { return scale_; }
+  /// In the frame, rounded outwards.
+  std::pair<float, float> outwards(int axis, double low, double high) const;
+
+  std::size_t memory_bytes() const { return nodes_.bytes() + leaves_.bytes() + corners_.bytes(); }
 
  private:
   friend class WideBvhBuilder;
-
-  struct alignas(64) Node {
-    Float4 low[3], high[3];                   ///< lane i: the box of child i
-    std::array<std::uint32_t, kWidth> first;  ///< a node, or the first face of a leaf in faces_
-    std::array<std::uint8_t, kWidth> faces;   ///< in a leaf; 0 for a node
-    std::uint8_t children;
-  };
-  struct Entry {
-    float near;
-    std::uint32_t first, faces;
-  };
-  static constexpr int kMaxDepth = 96, kStackSize = (kWidth - 1) * kMaxDepth + 1;
-
-  WideLine seen(const DirectedLine& line) const;
-  /// In the tree's frame, rounded outwards.
-  std::pair<float, float> outwards(int axis, double low, double high) const;
+  /// Bit i: face i of the leaf. Rounding to quanta, of both, is made up for by 2 quanta.
+  unsigned faces_that_may_overlap(std::uint32_t child, const std::array<float, 3>& low,
+                                  const std::array<float, 3>& high) const;
 
   Vec3 center_;
   double scale_ = 1;  ///< a power of 2; a point p of the mesh is at (p - center) scale
-  std::vector<Node> nodes_;
-  std::vector<FaceId> faces_;
+  HugeArray<Node> nodes_;
+  HugeArray<Leaf> leaves_;
+  HugeArray<Vec3> corners_;  ///< those of one leaf lie together, each once
 };
-
-template <class Limit, class Visit>
-void WideBvh::visit(const DirectedLine& line, Limit limit, Visit visit) const {
-  if (nodes_.empty()) return;
-  constexpr float kWiden = 1 + 8 * 0x1p-24f, kUnderflow = 0x1p-100f;
-  const WideLine seen_line = seen(line);
-  Entry stack[kStackSize];
-  int size = 0;
-  stack[size++] = {0, 0, 0};
-  while (size > 0) {
-    const Entry entry = stack[--size];
-    const float end = static_cast<float>(limit()) * kWiden + kUnderflow;
-    if (entry.near > end) continue;
-    for (std::uint32_t i = 0; i < entry.faces; ++i)
-      if (!visit(faces_[entry.first + i])) return;
-    if (entry.faces > 0) continue;
-
-    const Node& node = nodes_[entry.first];
-    Float4 from{}, to = {end, end, end, end};
-    for (int axis = 0; axis < 3; ++axis) {
-      const Float4& near_plane = seen_line.backwards[axis] ? node.high[axis] : node.low[axis];
-      const Float4& far_plane = seen_line.backwards[axis] ? node.low[axis] : node.high[axis];
-      const Float4 near = (near_plane - seen_line.near_origin[axis]) * seen_line.inverse[axis];
-      const Float4 far = (far_plane - seen_line.far_origin[axis]) * seen_line.inverse[axis];
-      from = near > from ? near : from;
-      to = far < to ? far : to;
-    }
-    const auto met = from <= to * kWiden + kUnderflow;
-    const int first = size;
-    for (int i = 0; i < node.children; ++i) {
-      if (!met[i]) continue;
-      const Entry child{from[i], node.first[i], node.faces[i]};
-      int place = size++;
-      for (; place > first && stack[place - 1].near < child.near; --place) stack[place] = stack[place - 1];
-      stack[place] = child;
-    }
-  }
-}
 
 template <class Visit>
 void WideBvh::visit(const Box& box, Visit visit) const {
-  if (nodes_.empty() || box.is_empty()) return;
-  const auto [low_x, high_x] = outwards(0, box.min.x, box.max.x);
-  const auto [low_y, high_y] = outwards(1, box.min.y, box.max.y);
-  const auto [low_z, high_z] = outwards(2, box.min.z, box.max.z);
+  if (is_empty() || box.is_empty()) return;
+  std::array<float, 3> low, high;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int a = static_cast<int>(axis);
+    std::tie(low[axis], high[axis]) = outwards(a, box.min[a], box.max[a]);
+  }
   std::uint32_t stack[kStackSize];
   int size = 0;
-  stack[size++] = 0;
+  stack[size++] = kRoot;
   while (size > 0) {
-    const Node& node = nodes_[stack[--size]];
-    const auto met = (node.low[0] <= high_x) & (node.high[0] >= low_x) & (node.low[1] <= high_y) &
-                     (node.high[1] >= low_y) & (node.low[2] <= high_z) & (node.high[2] >= low_z);
-    for (int i = 0; i < node.children; ++i) {
-      if (!met[i]) continue;
-      if (node.faces[i] == 0) stack[size++] = node.first[i];
-      for (std::uint32_t k = 0; k < node.faces[i]; ++k)
-        if (!visit(faces_[node.first[i] + k])) return;
+    const std::uint32_t child = stack[--size];
+    if (is_leaf(child)) {
+      for (unsigned met = faces_that_may_overlap(child, low, high); met != 0; met &= met - 1)
+        if (const int i = std::countr_zero(met); !visit(FaceId{leaf(child).face[i]}, triangle(leaf(child), i))) return;
+      continue;
+    }
+    const Node& n = nodes_[child];
+    const Truth8 met = (n.plane[0] <= high[0]) & (n.plane[3] >= low[0]) & (n.plane[1] <= high[1]) &
+                       (n.plane[4] >= low[1]) & (n.plane[2] <= high[2]) & (n.plane[5] >= low[2]);
+    for (std::uint32_t i = 0; i < kWidth; ++i)
+      if (met[i] && n.child[i] != kNoChild) stack[size++] = n.child[i];
+  }
+}
+
+// In the frame q = (p - center) scale is off by at most 2 eps of each of its coordinates, eps = 2^-53. Distances to
+// boxes are rounded by a relative 4 eps, which the limit makes up for, with 2^-500 for squares that underflow.
+template <class Limit, class Visit>
+void WideBvh::visit_nearest(const Vec3& p, Limit limit, Visit visit) const {
+  if (is_empty()) return;
+  struct Near {
+    double squared_distance;
+    std::uint32_t child;
+  };
+  using Lanes = double __attribute__((vector_size(kWidth * sizeof(double))));
+  constexpr double kEpsilon = 0x1p-53;
+  const Vec3 q = (p - center_) * scale_;
+  const double slack = 4 * kEpsilon * (std::abs(q.x) + std::abs(q.y) + std::abs(q.z)) + 0x1p-500;
+  Near stack[kStackSize];
+  int size = 0;
+  stack[size++] = {0, kRoot};
+  while (size > 0) {
+    const Near entry = stack[--size];
+    const double reach = limit() * scale_ * (1 + 16 * kEpsilon) + slack, squared_reach = reach * reach;
+    if (entry.squared_distance > squared_reach) continue;
+    if (is_leaf(entry.child)) {
+      const Leaf& l = leaf(entry.child);
+      for (std::uint32_t i = 0; i < faces_of(entry.child); ++i)
+        visit(FaceId{l.face[i]}, triangle(l, static_cast<int>(i)));
+      continue;
+    }
+    const Node& node = nodes_[entry.child];
+    Lanes squared_distance{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const Lanes below = __builtin_convertvector(node.plane[axis], Lanes) - q[axis];
+      const Lanes above = q[axis] - __builtin_convertvector(node.plane[axis + 3], Lanes);
+      Lanes gap = below > above ? below : above;
+      gap = gap > 0 ? gap : Lanes{};
+      squared_distance += gap * gap;
+    }
+    const int first = size;
+    for (std::uint32_t i = 0; i < kWidth; ++i) {
+      if (node.child[i] == kNoChild || squared_distance[i] > squared_reach) continue;
+      const Near child{squared_distance[i], node.child[i]};
+      int place = size++;
+      for (; place > first && stack[place - 1].squared_distance < child.squared_distance; --place)
+        stack[place] = stack[place - 1];
+      stack[place] = child;
     }
   }
 }

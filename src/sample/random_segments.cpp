@@ -23,26 +23,32 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-Vec3 point_on_side(const Box& box, unsigned side, Random& random) {
+Vec3 point_in(const Box& box, Random& random) {
   Vec3 p;
   for (int axis = 0; axis < 3; ++axis) p[axis] = box.min[axis] + random.unit() * (box.max[axis] - box.min[axis]);
+  return p;
+}
+
+Vec3 point_on_side(const Box& box, unsigned side, Random& random) {
+  Vec3 p = point_in(box, random);
   const int axis = static_cast<int>(side / 2);
   p[axis] = side % 2 == 0 ? box.min[axis] : box.max[axis];
   return p;
 }
 
 Box twice(const Box& box) {
+  if (box.is_empty()) throw InputError(Defect::EmptyMesh, "an empty box has no sides for segments to start from");
   const Vec3 center = box.center(), extent = box.max - box.min;
-  return {center - extent, center + extent};
+  const Box twice{center - extent, center + extent};
+  if (!is_finite(twice.max - twice.min))
+    throw InputError(Defect::NonFiniteCoordinate, "a box twice as large as this one overflows; scale the mesh");
+  return twice;
 }
 
 }  // namespace
 
 std::vector<Segment> random_segments(const Box& box, std::size_t count, std::uint64_t seed) {
-  if (box.is_empty()) throw InputError(Defect::EmptyMesh, "an empty box has no sides for segments to start from");
   const Box sides = twice(box);
-  if (!is_finite(sides.max - sides.min))
-    throw InputError(Defect::NonFiniteCoordinate, "a box twice as large as this one overflows; scale the mesh");
   constexpr unsigned kSides = 6;
   Random random(seed);
   std::vector<Segment> segments;
@@ -53,6 +59,14 @@ std::vector<Segment> random_segments(const Box& box, std::size_t count, std::uin
     segments.push_back({a, point_on_side(sides, to, random)});
   }
   return segments;
+}
+
+std::vector<Vec3> random_points(const Box& box, std::size_t count, std::uint64_t seed) {
+  twice(box);  // for what it throws
+  Random random(seed);
+  std::vector<Vec3> points(count);
+  for (Vec3& p : points) p = point_in(box, random);
+  return points;
 }
 
 }  // namespace prohull

@@ -8,6 +8,7 @@
 #include "dyadic_points.h"
 #include "effort.h"
 #include "query/box_line.h"
+#include "query/exact_line.h"
 #include "query/line.h"
 #include "random.h"
 
@@ -86,8 +87,10 @@ TEST_P(CrossingOnGrid, IsThatOfALineActuallyMoved) {
     if (!other) continue;
     ++orders;
     const Parameter at_other = parameter(line, second);
-    EXPECT_EQ(crosses_before(line, first, at, second, at_other), truth->t < other->t);
-    EXPECT_EQ(crosses_before(line, second, at_other, first, at), other->t < truth->t);
+    const int order = truth->t < other->t ? -1 : other->t < truth->t ? 1 : 0, rounded = rounded_order(at, at_other);
+    EXPECT_EQ(exact_order(line, first, second), order);
+    EXPECT_EQ(exact_order(line, second, first), -order);
+    EXPECT_TRUE(rounded == 0 || rounded == order);
   }
   EXPECT_GT(crossings, rounds(20000) / 100);
   EXPECT_GT(orders, rounds(20000) / 200);
@@ -109,6 +112,16 @@ TEST(Crossing, HasAnAnswerForTheGreatestAndTheLeastCoordinates) {
     box.extend(face.a), box.extend(face.b), box.extend(face.c);
     EXPECT_TRUE(may_meet(BoxLine(through), box, 1)) << size;
   }
+}
+
+// The normal times the direction overflows, and neither does by itself.
+TEST(Crossing, IsAtTheRightTWhereRoundedProductsOverflow) {
+  const double size = 1e103;
+  const Triangle face{{-size, -size, 0}, {size, -size, 0}, {0, size, 0}};
+  const DirectedLine line(Segment{{0, 0, size}, {0, 0, -3 * size}});
+  EXPECT_DOUBLE_EQ(parameter(line, face).t, 0.25);
+  ASSERT_TRUE(parameter_if_within(line, face, -1));
+  EXPECT_DOUBLE_EQ(parameter_if_within(line, face, -1)->t, 0.25);
 }
 
 TEST(Crossing, IsAtAFiniteTWhereTheLineAllButRunsInTheFace) {

@@ -63,6 +63,22 @@ TEST(RandomSegments, DependOnTheSeedAndNotOnTheCount) {
   EXPECT_TRUE(random_segments(kBox, 0, 5).empty());
 }
 
+TEST(RandomPoints, FillTheBoxEvenly) {
+  const std::vector<Vec3> points = random_points(kBox, 24000, 3);
+  Box around;
+  for (const Vec3& p : points) around.extend(p);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = kBox.max[axis] - kBox.min[axis];
+    EXPECT_GE(around.min[axis], kBox.min[axis]);
+    EXPECT_LE(around.max[axis], kBox.max[axis]);
+    EXPECT_GT(around.max[axis] - around.min[axis], 0.99 * size);
+    const auto low = std::ranges::count_if(points, [&](const Vec3& p) { return p[axis] < kBox.min[axis] + size / 4; });
+    EXPECT_NEAR(static_cast<double>(low), 6000, 300);
+  }
+  EXPECT_EQ(random_points(kBox, 10, 3)[9], points[9]);
+  EXPECT_THROW(random_points(Box{}, 1, 1), InputError);
+}
+
 TEST(RandomSegments, NeedABox) {
   EXPECT_THROW(random_segments(Box{}, 1, 1), InputError);
   EXPECT_THROW(random_segments({{0, 0, 0}, {1e308, 1, 1}}, 1, 1), InputError);

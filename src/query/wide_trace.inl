@@ -1,0 +1,121 @@
+// The way of a line through a WideBvh, for one instruction set: included by wide_trace.cpp with TARGET as the attribute
+// that allows it and mask_of as the signs of eight lanes. Lanes compute what scalars would: all instruction sets visit
+// the same faces in the same order.
+
+/// Offers the faces of a leaf that the line may cross. Whether to go on.
+TARGET bool offer_faces(const WideBvh& tree, std::uint32_t child, const WideShear& line, HitCollector& hits) {
+  const WideBvh::Leaf& leaf = tree.leaf(child);
+  tree.prefetch_corners(leaf);
+  const double per_quantum = leaf.per_quantum, low_k = leaf.low[line.k];
+  const auto slope_u = static_cast<float>(line.slope_u), slope_v = static_cast<float>(line.slope_v),
+             u0 = static_cast<float>((leaf.low[line.i] + line.slope_u * low_k + line.u0) * per_quantum),
+             v0 = static_cast<float>((leaf.low[line.j] + line.slope_v * low_k + line.v0) * per_quantum),
+             d = 2 * WideBvh::kCornerError + 0.25f + 0x1p-23f * std::max(std::abs(u0), std::abs(v0)) + static_cast<float>(line.error * per_quantum);
+  // In quanta, as WideShear has it: u and v of each corner, off by less than d.
+  Float8 u[3], v[3];
+  Float8 size = {};
+  for (int c = 0; c < 3; ++c) {
+    const Float8 p = __builtin_convertvector(leaf.corner[c][line.k], Float8);
+    u[c] = (__builtin_convertvector(leaf.corner[c][line.i], Float8) + p * slope_u) + u0;
+    v[c] = (__builtin_convertvector(leaf.corner[c][line.j], Float8) + p * slope_v) + v0;
+    const auto au = reinterpret_cast<Float8>(reinterpret_cast<Truth8>(u[c]) & 0x7fffffff),
+               av = reinterpret_cast<Float8>(reinterpret_cast<Truth8>(v[c]) & 0x7fffffff);
+    size = size > au ? size : au;
+    size = size > av ? size : av;
+  }
+  const Float8 ab = u[0] * v[1] - v[0] * u[1], bc = u[1] * v[2] - v[1] * u[2], ca = u[2] * v[0] - v[2] * u[0];
+  const Float8 error = (size + d) * (8 * d);
+  Float8 least = ab < bc ? ab : bc, most = bc < ab ? ab : bc;
+  least = ca < least ? ca : least;
+  most = ca > most ? ca : most;
+  const unsigned all = (2u << (WideBvh::faces_of(child) - 1)) - 1;
+  unsigned maybe = all & ~mask_of((least < -error) & (most > error));
+  if (maybe == 0) return true;
+  const unsigned positive = mask_of(least > error), sure = positive | mask_of(most < -error);
+  for (; maybe != 0; maybe &= maybe - 1) {
+    const int lane = std::countr_zero(maybe);
+    const FaceId face{leaf.face[lane]};
+    if ((sure >> lane & 1) == 0) {
+      hits.offer(face, tree.triangle(leaf, lane));
+    } else {
+      const Range at = line.range_of(leaf, lane, {ab[lane], bc[lane], ca[lane]}, error[lane]);
+      if (at.high < 0 || at.low > hits.limit()) continue;
+      const int sign = (positive >> lane & 1) == unsigned{line.k_forwards} ? 1 : -1;
+      const bool is_certain = at.low > 0 && at.high < hits.limit();
+      if (!is_certain || !hits.settles(sign)) hits.offer_pierced(face, tree.triangle(leaf, lane), sign);
+    }
+    if (hits.is_complete()) return false;
+  }
+  return true;
+}
+
+TARGET void trace(const WideBvh& tree, const DirectedLine& directed, HitCollector& hits) {
+  const WideLine line(tree, directed);
+  // Eight times the same, and kept in registers.
+  const Float8 near_x = Float8{} + line.near_origin[0], near_y = Float8{} + line.near_origin[1],
+               near_z = Float8{} + line.near_origin[2], far_x = Float8{} + line.far_origin[0],
+               far_y = Float8{} + line.far_origin[1], far_z = Float8{} + line.far_origin[2],
+               inverse_x = Float8{} + line.inverse[0], inverse_y = Float8{} + line.inverse[1],
+               inverse_z = Float8{} + line.inverse[2], wide_x = inverse_x * WideLine::kWiden,
+               wide_y = inverse_y * WideLine::kWiden, wide_z = inverse_z * WideLine::kWiden;
+  const std::ptrdiff_t back_x = line.backwards[0] ? 3 : 0, back_y = line.backwards[1] ? 3 : 0,
+                       back_z = line.backwards[2] ? 3 : 0;
+  struct Entry {
+    float from;
+    std::uint32_t child;
+  };
+  Entry stack[WideBvh::kStackSize];
+  int size = 0;
+  float end = WideLine::end(hits.limit());
+  std::optional<WideShear> shear;
+  std::uint32_t child = WideBvh::kRoot;
+  for (;;) {
+    while (!WideBvh::is_leaf(child)) {
+      const WideBvh::Node& node = tree.node(child);
+      const Float8* const low = node.plane;
+      const Float8 from_x = (low[back_x] - near_x) * inverse_x, to_x = (low[3 - back_x] - far_x) * wide_x,
+                   from_y = (low[1 + back_y] - near_y) * inverse_y, to_y = (low[4 - back_y] - far_y) * wide_y,
+                   from_z = (low[2 + back_z] - near_z) * inverse_z, to_z = (low[5 - back_z] - far_z) * wide_z;
+      // NaN is the second, if it is one of the two.
+      Float8 from = {}, to = from + end;
+      from = from_x > from ? from_x : from;
+      from = from_y > from ? from_y : from;
+      from = from_z > from ? from_z : from;
+      to = to_x < to ? to_x : to;
+      to = to_y < to ? to_y : to;
+      to = to_z < to ? to_z : to;
+      unsigned met = mask_of(from <= to);
+      if (met == 0) goto next;
+      int lane = std::countr_zero(met);
+      met &= met - 1;
+      if (met == 0) {
+        child = node.child[lane];
+        continue;
+      }
+      // The nearest goes on, the others wait, nearer ones on top.
+      const int first = size;
+      Entry nearest{from[lane], node.child[lane]};
+      do {
+        lane = std::countr_zero(met);
+        met &= met - 1;
+        Entry entry{from[lane], node.child[lane]};
+        if (entry.from < nearest.from) std::swap(entry, nearest);
+        if (WideBvh::is_leaf(entry.child) && entry.child != WideBvh::kNoChild) tree.prefetch_leaf(entry.child);
+        int place = size++;
+        for (; place > first && stack[place - 1].from < entry.from; --place) stack[place] = stack[place - 1];
+        stack[place] = entry;
+      } while (met != 0);
+      child = nearest.child;
+    }
+    if (child != WideBvh::kNoChild) {
+      if (!shear) shear.emplace(line);
+      if (!offer_faces(tree, child, *shear, hits)) return;
+      end = WideLine::end(hits.limit());
+    }
+  next:
+    do {
+      if (size == 0) return;
+      child = stack[--size].child;
+    } while (stack[size].from > end);
+  }
+}
