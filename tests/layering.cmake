@@ -21,7 +21,7 @@ room(hull      OWNS progressive_hull                                            
 room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base
                                                                                      prohull/enclosure)  # is_closed
 room(io        OWNS mesh_io hull_file query_io                                   MAY hull mesh geometry parallel base
-                                                                                     prohull/mesh_query)  # the answers
+                                                                                     prohull/collide prohull/mesh_query)
 room(repair    OWNS openings repair                                              MAY mesh geometry base)
 room(construct OWNS hull_builder tight_hull float32_hull                         MAY hull mesh geometry parallel base)
 # Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges.
@@ -33,6 +33,9 @@ room(sample    OWNS sample random_segments                                      
 room(wrap      OWNS wrap                                                         MAY mesh geometry parallel base)
 room(enclose   OWNS enclosing_hull                                               MAY construct repair verify wrap hull mesh
                                                                                      geometry parallel base)
+
+room(collide   OWNS collide                                                      MAY mesh geometry parallel base
+                                                                                     prohull/enclosure)  # is_closed
 
 # Outside of src/: public headers, all of them, and these folders.
 set(outside render kdop apps examples python)
