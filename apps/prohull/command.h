@@ -37,7 +37,10 @@ std::string described(const MeshQuality& quality);
 // Each adds its subcommand to the program and leaves in `run` what to do when it is chosen; run returns the exit code.
 using Run = std::function<int()>;
 void add_build(CLI::App& app, Run& run);
+void add_collide(CLI::App& app, Run& run);
 void add_completion(CLI::App& app, Run& run);
+void add_contains(CLI::App& app, Run& run);
+void add_distance(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_lod(CLI::App& app, Run& run);
 void add_manual(CLI::App& app, Run& run);

@@ -16,6 +16,9 @@ void add_commands(CLI::App& app, Run& run) {
   add_info(app, run);
   add_lod(app, run);
   add_query(app, run);
+  add_collide(app, run);
+  add_contains(app, run);
+  add_distance(app, run);
   add_render(app, run);
   add_sample(app, run);
   add_completion(app, run);

@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
-#include <thread>
+#include <optional>
 
+#include "asked_mesh.h"
 #include "command.h"
 #include "kdop/kdop_index.h"
 #include "prohull/error.h"
@@ -16,7 +17,7 @@ namespace {
 using EngineChoice = std::variant<Engine, std::string_view>;
 
 struct Options {
-  std::filesystem::path in, segments, rays, triangles, out, write_segments, report;
+  std::filesystem::path in, inner, segments, rays, triangles, out, write_segments, report;
   std::string out_format;
   InputOptions input;
   std::size_t random = 0;
@@ -24,6 +25,7 @@ struct Options {
   HitMode mode = HitMode::First;
   EngineChoice engine = Engine::Auto;
   unsigned threads = 0;
+  bool conservative = false;
 };
 
 using NamedEngine = std::pair<std::string_view, EngineChoice>;
@@ -69,10 +71,6 @@ void write(const std::filesystem::path& path, const FaceBatch& batch, const std:
 
 using Queries = std::variant<std::vector<Segment>, std::vector<Ray>, std::vector<Triangle>>;
 
-struct Seconds {
-  double read = 0, index = 0, query = 0, write = 0;
-};
-
 /// What the names of the outputs end in.
 struct Suffixes {
   std::string out, write_segments;
@@ -83,55 +81,54 @@ Suffixes check_outputs(const Options& options) {
   if (!options.out.empty()) suffixes.out = output_suffix(options.out, hit_outputs(), options.out_format);
   if (!options.write_segments.empty())
     suffixes.write_segments = output_suffix(options.write_segments, {"segments", {".npy", ".csv"}});
-  check_files({options.in, options.segments, options.rays, options.triangles},
+  check_files({options.in, options.inner, options.segments, options.rays, options.triangles},
               {options.out, options.write_segments, options.report});
   return suffixes;
 }
 
-std::size_t face_count(const MeshOrHull& target) {
-  const auto* const hull = std::get_if<ProgressiveHull>(&target);
-  return hull ? hull->original_face_count() : std::get<TriangleMesh>(target).face_count();
-}
-
-/// Of a mesh file nothing has to be said.
-FinestLevel finest_level_of(const MeshOrHull& target) {
-  const auto* const hull = std::get_if<ProgressiveHull>(&target);
-  return hull ? hull->finest_level() : FinestLevel::Input;
-}
-
-TriangleMesh mesh_of(MeshOrHull target) {
-  const auto* const hull = std::get_if<ProgressiveHull>(&target);
-  return hull ? hull->original() : std::get<TriangleMesh>(std::move(target));
-}
-
-Box box_of(const MeshOrHull& target) {
-  const auto* const mesh = std::get_if<TriangleMesh>(&target);
-  return bounding_box(mesh ? *mesh : mesh_of(target));
-}
-
-Queries make_queries(const Options& options, const MeshOrHull& target) {
+Queries make_queries(const Options& options, const AskedMesh& asked) {
   const auto name = [](const std::filesystem::path& path) { return std::filesystem::path(input_name(path)); };
   if (!options.segments.empty()) return read_segments(read_bytes(options.segments), name(options.segments));
   if (!options.rays.empty()) return read_rays(read_bytes(options.rays), name(options.rays));
   if (!options.triangles.empty()) return read_triangles(read_bytes(options.triangles), name(options.triangles));
-  return random_segments(box_of(target), options.random, options.seed);
+  return random_segments(asked.box(), options.random, options.seed);
 }
 
-QueryIndex make_index(MeshOrHull target, const Options& options) {
-  try {
-    if (const auto* const kdops = std::get_if<std::string_view>(&options.engine))
-      return kdop_index(mesh_of(std::move(target)), *kdops);
-    return std::visit(
-        [&](auto& mesh_or_hull) { return QueryIndex(std::move(mesh_or_hull), std::get<Engine>(options.engine)); },
-        target);
-  } catch (const InputError& error) {
-    throw InputError(error.defect(), input_name(options.in) + ": " + error.what());
+/// The hull of a .phull file that an option needs, and the engine, of the library, that it goes with.
+std::pair<const ProgressiveHull&, Engine> hull_for(std::string_view option, const MeshOrHull& asked,
+                                                   const EngineChoice& choice) {
+  const auto* const hull = std::get_if<ProgressiveHull>(&asked);
+  const auto* const engine = std::get_if<Engine>(&choice);
+  if (!hull) throw InputError(Defect::InvalidOption, fmt::format("{} needs a .phull file to ask", option));
+  if (!engine) throw InputError(Defect::InvalidOption, fmt::format("{} does not go with trees of k-DOPs", option));
+  return {*hull, *engine};
+}
+
+/// Sets `conservative` to the side of the hull that is asked in place of the mesh.
+QueryIndex make_index(AskedMesh& asked, const Options& options, std::optional<HullSide>& conservative) {
+  if (!options.inner.empty()) {
+    const ProgressiveHull inner = read_hull(options.inner);
+    return asked.index([&](const MeshOrHull& mesh_or_hull) {
+      const auto [outer, engine] = hull_for("--inner", mesh_or_hull, options.engine);
+      return QueryIndex(outer, inner, engine);
+    });
   }
+  if (options.conservative)
+    return asked.index([&](const MeshOrHull& mesh_or_hull) {
+      const auto [hull, engine] = hull_for("--conservative", mesh_or_hull, options.engine);
+      conservative = hull.side();
+      return QueryIndex(hull.base(), engine);
+    });
+  if (const auto* const engine = std::get_if<Engine>(&options.engine)) return asked.index(*engine);
+  return asked.index(
+      [&](MeshOrHull mesh) { return kdop_index(mesh_of(std::move(mesh)), std::get<1>(options.engine)); });
 }
 
-unsigned threads_used(const Options& options) {
-  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-  return options.threads == 0 ? cores : std::min(options.threads, cores);
+void say_conservative(HullSide side, const QueryIndex& index) {
+  say("  asked of the {} hull alone, {}: of rays, and of segments with an end outside, {}\n",
+      name_of(hull_side_names(), side), counted(index.face_count(), "face", "faces"),
+      side == HullSide::Outer ? "none that hits the mesh is missed, but some may only come near it"
+                              : "all that are hits hit the mesh too, but others may be missed");
 }
 
 bool counts_tests(const EngineChoice& engine) {
@@ -144,7 +141,7 @@ struct Outcome {
   std::size_t queries, answers, answered;  ///< hits or faces met; queries that have any
   QueryCounts counts;
   std::string_view engine;  ///< the name of the one that answered
-  Seconds seconds;
+  QuerySeconds seconds;
 
   double per_second() const { return seconds.query > 0 ? static_cast<double>(queries) / seconds.query : 0; }
   double per_query(std::size_t count) const {
@@ -165,14 +162,13 @@ void print_summary(const Options& options, const Outcome& outcome) {
   say("{}{} {}; {} of {} {}s {} ({:.2f} %)\n", out, grouped(outcome.answers),
       faces ? (one ? "face met" : "faces met") : (one ? "hit" : "hits"), grouped(outcome.answered),
       grouped(outcome.queries), outcome.noun, faces ? "meet some" : "hit", 100 * outcome.per_query(outcome.answered));
-  const unsigned threads = threads_used(options);
+  const unsigned threads = threads_used(options.threads);
   say("  engine {}, {} thread{}: {} {}s per second\n", outcome.engine, threads, threads == 1 ? "" : "s",
       grouped(static_cast<std::size_t>(outcome.per_second())), outcome.noun);
   if (counts_tests(options.engine))
     say("  {:.1f} faces tested and {:.1f} vertices split per {}\n", outcome.per_query(outcome.counts.tests),
         outcome.per_query(outcome.counts.splits), outcome.noun);
-  const Seconds& s = outcome.seconds;
-  say("  read {:.2f} s, index {:.2f} s, query {:.2f} s, write {:.2f} s\n", s.read, s.index, s.query, s.write);
+  outcome.seconds.say_them();
 }
 
 nlohmann::json report_of(const Options& options, const Outcome& outcome) {
@@ -182,12 +178,8 @@ nlohmann::json report_of(const Options& options, const Outcome& outcome) {
                          {"queries_hit", outcome.answered},
                          {"queries_per_second", outcome.per_second()},
                          {"engine", outcome.engine},
-                         {"threads", threads_used(options)},
-                         {"seconds",
-                          {{"read", outcome.seconds.read},
-                           {"index", outcome.seconds.index},
-                           {"query", outcome.seconds.query},
-                           {"write", outcome.seconds.write}}}};
+                         {"threads", threads_used(options.threads)},
+                         {"seconds", outcome.seconds.facts()}};
   if (outcome.noun != "triangle") json["mode"] = name_of(hit_mode_names(), options.mode);
   if (options.random > 0) json["seed"] = options.seed;
   if (counts_tests(options.engine)) json["tests"] = outcome.counts.tests, json["splits"] = outcome.counts.splits;
@@ -195,7 +187,7 @@ nlohmann::json report_of(const Options& options, const Outcome& outcome) {
 }
 
 template <class Query>
-Outcome answer(const Options& options, const QueryIndex& index, const std::vector<Query>& queries, Seconds seconds,
+Outcome answer(const Options& options, const QueryIndex& index, const std::vector<Query>& queries, QuerySeconds seconds,
                const std::string& suffix, Outputs& outputs) {
   Stopwatch asking;
   const auto batch = [&] {
@@ -212,19 +204,16 @@ Outcome answer(const Options& options, const QueryIndex& index, const std::vecto
 
 int run_query(const Options& options) {
   const Suffixes suffixes = check_outputs(options);
-  Seconds seconds;
+  QuerySeconds seconds;
   Stopwatch reading;
-  MeshOrHull target = read_mesh_or_hull(options.in, options.input);
-  const std::size_t faces = face_count(target);
-  const FinestLevel finest_level = finest_level_of(target);
-  if (faces == 0)
-    throw InputError(Defect::EmptyMesh, input_name(options.in) + ": it has no faces, so that nothing can hit it");
-  const Queries queries = make_queries(options, target);
+  AskedMesh asked(options.in, options.input);
+  const Queries queries = make_queries(options, asked);
   seconds.read = reading.seconds();
   stop_if_interrupted();
 
   Stopwatch indexing;
-  const QueryIndex index = make_index(std::move(target), options);
+  std::optional<HullSide> conservative;
+  const QueryIndex index = make_index(asked, options, conservative);
   seconds.index = indexing.seconds();
   stop_if_interrupted();
   Outputs outputs;
@@ -233,13 +222,13 @@ int run_query(const Options& options) {
   outputs.add(options.write_segments, suffixes.write_segments,
               [&](const auto& file) { return write_segments(file, std::get<std::vector<Segment>>(queries)), true; });
   nlohmann::json json = report_of(options, outcome);
-  json["input"] = {
-      {"path", options.in.string()}, {"faces", faces}, {"finest_level", name_of(finest_level_names(), finest_level)}};
+  json["input"] = asked.facts();
+  if (conservative)
+    json["conservative"] = {{"side", name_of(hull_side_names(), *conservative)}, {"faces", index.face_count()}};
   outputs.add_report(options.report, json);
   outputs.commit();
-  say("{}: {}\n", input_name(options.in), counted(faces, "face", "faces"));
-  if (const std::string finest = described_finest_level(finest_level); !finest.empty())
-    say("  these are faces of {}: the finest level of the file is not the input itself\n", finest);
+  asked.say_what();
+  if (conservative) say_conservative(*conservative, index);
   if (options.random > 0) say("{} random segments, seed {}\n", grouped(options.random), options.seed);
   print_summary(options, outcome);
   say_more("  the index takes {} bytes\n", grouped(index.memory_bytes()));
@@ -297,6 +286,19 @@ void add_query(CLI::App& app, Run& run) {
   add_queries(command, *options);
   add_choice(command, "--engine", options->engine, engine_choices(),
              "How the answers are found; docs/queries.md explains each. auto is the fastest that is exact.");
+  CLI::Option* const inner =
+      command
+          .add_option("--inner", options->inner,
+                      "Hierarchy of inner hulls of the same mesh, where IN is one of outer hulls. The engines walk and "
+                      "filter use both.")
+          ->type_name("INNER.phull");
+  command
+      .add_flag(
+          "--conservative", options->conservative,
+          "Ask the coarsest hull of a .phull file in place of the mesh. An outer hull misses no hit, but may report "
+          "hits that are none; an inner hull reports no hit that is none, but may miss hits. This holds for rays, "
+          "and for segments with an end outside. Hits are on faces of that hull.")
+      ->excludes(inner);
   add_threads_option(command, options->threads, "The answers are the same for any number.");
   add_report_option(command, options->report);
   add_examples(command,
@@ -304,7 +306,8 @@ void add_query(CLI::App& app, Run& run) {
                 "prohull query scan.stl --rays rays.csv --mode all -o hits.csv --threads 4",
                 "prohull query arm.obj --triangles tool.npy -o contacts.csv",
                 "prohull query part.stl --rays - -o - --out-format csv <rays.csv",
-                "prohull query horse.phull --random 1e4 --engine paper-refinement --report counts.json"});
+                "prohull query horse.phull --random 1e4 --engine paper-refinement --report counts.json",
+                "prohull query horse.phull --inner inside.phull --random 1e4 --mode all --engine walk"});
   command.callback([options, &run] { run = [options] { return run_query(*options); }; });
 }
 

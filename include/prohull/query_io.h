@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "prohull/collide.h"
 #include "prohull/geometry.h"
 #include "prohull/mesh_query.h"
 
@@ -35,6 +36,17 @@ std::vector<Ray> read_rays(std::string_view content, const std::filesystem::path
 std::vector<Triangle> read_triangles(const std::filesystem::path& path);
 std::vector<Triangle> read_triangles(std::string_view content, const std::filesystem::path& name);
 
+/// Reads poses in the same way, of an array called `poses`. Each row is one of these, which the file's first row tells:
+///   x,y,z,qw,qx,qy,qz       a translation and a quaternion of any length, its real part first; shape (n, 7)
+///   r00,r01,r02,x,r10,...   the upper three rows of a matrix; shape (n, 12) or (n, 3, 4)
+///   r00,...,0,0,0,1         a whole matrix; shape (n, 16) or (n, 4, 4)
+/// Malformed if a pose is not rigid (collide.h).
+std::vector<Pose> read_poses(const std::filesystem::path& path);
+std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name);
+/// Reads points in the same way: x,y,z, of shape (n, 3), an array called `points`.
+std::vector<Vec3> read_points(const std::filesystem::path& path);
+std::vector<Vec3> read_points(std::string_view content, const std::filesystem::path& name);
+
 enum class QueryFormat { Npy, Npz, Csv };
 
 /// The format that a file name asks for (.npy or .csv, in any case); throws InputError(UnknownFormat) for any other.
@@ -42,6 +54,9 @@ QueryFormat segments_format(const std::filesystem::path& path);
 
 /// Writes what read_segments reads, to .npy (of shape (n, 6), doubles) or .csv, as mesh_io.h does.
 void write_segments(const std::filesystem::path& path, std::span<const Segment> segments);
+
+/// Writes what read_points reads, in the same way, of shape (n, 3).
+void write_points(const std::filesystem::path& path, std::span<const Vec3> points);
 
 /// The format that a file name asks for (.npz or .csv, in any case); throws InputError(UnknownFormat) for any other.
 QueryFormat hits_format(const std::filesystem::path& path);
@@ -57,5 +72,13 @@ void write_hits(const std::filesystem::path& path, const HitBatch& batch, HitsOf
 
 /// Writes one row for each face that a triangle meets, in the same way: triangle, face.
 void write_faces_met(const std::filesystem::path& path, const FaceBatch& batch);
+
+/// Writes one row for each pair of faces that meet, in the same way: pose, face_a, face_b.
+void write_face_pairs(const std::filesystem::path& path, const FacePairBatch& batch);
+/// Writes one row for each point, in the same way: point, inside (bool).
+void write_inside(const std::filesystem::path& path, const std::vector<bool>& inside);
+
+/// Writes one row for each point, in the same way: point, distance, lower, upper, face, x, y, z.
+void write_distances(const std::filesystem::path& path, std::span<const ClosestPoint> distances);
 
 }  // namespace prohull

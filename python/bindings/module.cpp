@@ -29,5 +29,6 @@ PYBIND11_MODULE(_prohull, module) {
   prohull::python::bind_construction(module);
   prohull::python::bind_verification(module);
   prohull::python::bind_queries(module);
+  prohull::python::bind_collisions(module);
   prohull::python::bind_pictures(module);
 }

@@ -8,6 +8,7 @@ void bind_meshes(pybind11::module_& module);
 void bind_construction(pybind11::module_& module);
 void bind_verification(pybind11::module_& module);
 void bind_queries(pybind11::module_& module);
+void bind_collisions(pybind11::module_& module);
 void bind_pictures(pybind11::module_& module);
 
 }  // namespace prohull::python

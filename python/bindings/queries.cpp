@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <mutex>
@@ -102,11 +103,13 @@ py::list first_hits(const QueryIndex& index, const Array<double>& rows, bool are
 
 py::array any_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
                    const py::object& progress) {
-  py::array_t<bool> result(rows.shape(0));
-  bool* const is_hit = result.mutable_data();
-  take_hits(index, rows, are_rays, HitMode::Any, threads, progress, [&](std::size_t first, const HitBatch& chunk) {
-    for (std::size_t i = 0; i + 1 < chunk.offsets.size(); ++i) is_hit[first + i] = is_answered(chunk, i);
+  const std::vector<bool> crossed = watched(progress, [&](Watch& watch) {
+    const BatchOptions options = batch_options(watch, threads);
+    return are_rays ? crosses(index, queries_of<Ray>(rows), options)
+                    : crosses(index, queries_of<Segment>(rows), options);
   });
+  py::array_t<bool> result(rows.shape(0));
+  std::ranges::copy(crossed, result.mutable_data());
   return result;
 }
 
@@ -176,6 +179,60 @@ py::array points_inside(const QueryIndex& index, const Array<double>& points, un
   return result;
 }
 
+/// Columns of n closest points.
+class ClosestColumns {
+ public:
+  explicit ClosestColumns(std::size_t n)
+      : face_(static_cast<py::ssize_t>(n)), position_({static_cast<py::ssize_t>(n), py::ssize_t{3}}) {
+    for (py::array_t<double>& column : numbers_) column = py::array_t<double>(static_cast<py::ssize_t>(n));
+  }
+
+  void set(std::size_t row, const ClosestPoint& p) {
+    set(row, index(p.face), p.position, p.distance, p.lower, p.upper);
+  }
+  void set_none(std::size_t row) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    set(row, -1, {kNone, kNone, kNone}, kNone, kNone, kNone);
+  }
+  py::tuple all() const { return py::make_tuple(face_, position_, numbers_[0], numbers_[1], numbers_[2]); }
+
+ private:
+  void set(std::size_t row, std::int64_t face, const Vec3& position, double distance, double lower, double upper) {
+    face_.mutable_data()[row] = face;
+    for (int axis = 0; axis < 3; ++axis)
+      position_.mutable_data()[3 * row + static_cast<std::size_t>(axis)] = position[axis];
+    numbers_[0].mutable_data()[row] = distance;
+    numbers_[1].mutable_data()[row] = lower;
+    numbers_[2].mutable_data()[row] = upper;
+  }
+
+  py::array_t<std::int64_t> face_;
+  py::array_t<double> position_;
+  std::array<py::array_t<double>, 3> numbers_;  ///< distance, lower, upper
+};
+
+/// `points` of shape (n, 3).
+py::tuple points_closest(const QueryIndex& index, const Array<double>& points, double max_distance, unsigned threads,
+                         const py::object& progress) {
+  const auto found = watched(progress, [&](Watch& watch) {
+    return closest_points(index, queries_of<Vec3>(points), max_distance, batch_options(watch, threads));
+  });
+  ClosestColumns columns(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) found[i] ? columns.set(i, *found[i]) : columns.set_none(i);
+  return columns.all();
+}
+
+/// `points` of shape (n, 3).
+py::tuple points_signed(const QueryIndex& index, const Array<double>& points, unsigned threads,
+                        const py::object& progress) {
+  const auto found = watched(progress, [&](Watch& watch) {
+    return signed_distances(index, queries_of<Vec3>(points), batch_options(watch, threads));
+  });
+  ClosestColumns columns(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) columns.set(i, found[i]);
+  return columns.all();
+}
+
 }  // namespace
 
 void bind_queries(py::module_& module) {
@@ -190,11 +247,18 @@ void bind_queries(py::module_& module) {
         const py::gil_scoped_release released;
         return QueryIndex(levels, chosen, refinement_of(coarsen, per_roll_back));
       }))
+      .def(py::init([](const ProgressiveHull& outer, const ProgressiveHull& inner, const std::string& engine) {
+        const Engine chosen = engine_called(engine);
+        const py::gil_scoped_release released;
+        return QueryIndex(outer, inner, chosen);
+      }))
       .def("first_hits", &first_hits)
       .def("any_hits", &any_hits)
       .def("all_hits", &all_hits)
       .def("triangles_met", &triangles_met)
-      .def("contains", &points_inside);
+      .def("contains", &points_inside)
+      .def("closest", &points_closest)
+      .def("signed_distances", &points_signed);
   module.attr("engines") = tuple_of(engine_names());
 }
 

@@ -16,14 +16,16 @@ from pathlib import Path as _Path
 
 from . import _prohull
 from ._build import build
+from ._collide import Collider, Distances, FacePairs
 from ._files import load, read, sample
 from ._hull import Hull
-from ._meshes import AllHits, FacesMet, FirstHits, Mesh, Refinement
+from ._meshes import AllHits, ClosestPoints, FacesMet, FirstHits, Mesh, Refinement, TwoHulls
 from ._prohull import InputError
 from ._verify import Offender, Verification, distance_bounds, verify
 
-__all__ = ["AllHits", "ENGINES", "FacesMet", "FirstHits", "Hull", "InputError", "Mesh", "Offender", "Refinement",
-           "Verification", "build", "distance_bounds", "load", "read", "sample", "verify"]
+__all__ = ["AllHits", "ClosestPoints", "Collider", "Distances", "ENGINES", "FacePairs", "FacesMet", "FirstHits", "Hull",
+           "InputError", "Mesh", "Offender", "Refinement", "TwoHulls", "Verification", "build", "distance_bounds", "load",
+           "read", "sample", "verify"]
 
 #: Names of the engines of queries.
 ENGINES: tuple[str, ...] = _prohull.engines

@@ -1,5 +1,6 @@
 """Meshes, and what rays and segments hit of them."""
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union, overload
 
@@ -13,6 +14,8 @@ from ._types import EngineName, Path, Progress, Rows
 if TYPE_CHECKING:
     import open3d
     import trimesh
+
+    from ._hull import Hull
 
 
 class FirstHits(NamedTuple):
@@ -51,6 +54,19 @@ class FacesMet(NamedTuple):
     face: NDArray[np.int64]  #: (meetings,), rows of `faces`
 
 
+class ClosestPoints(NamedTuple):
+    """The points of a mesh that are closest to n points. The true distances are from `lower` to `upper`: proven.
+
+    Where the mesh is not within max_distance, face is -1 and all else is nan.
+    """
+
+    face: NDArray[np.int64]  #: (n,), rows of `faces`; of several closest faces the first
+    position: NDArray[np.float64]  #: (n, 3), on the face, rounded
+    distance: NDArray[np.float64]  #: (n,), in the mesh's unit, rounded; of signed_distance() negative inside
+    lower: NDArray[np.float64]  #: (n,)
+    upper: NDArray[np.float64]  #: (n,)
+
+
 class Refinement(NamedTuple):
     """An engine that asks a mesh through the levels of its hull, refined where a query comes near (docs/queries.md).
 
@@ -62,18 +78,30 @@ class Refinement(NamedTuple):
     queries_per_roll_back: int = 1  #: at least 1: after so many the hull is coarse again; without `coarsen`
 
 
-Engine = Union[EngineName, Refinement]
+class TwoHulls(NamedTuple):
+    """An engine that asks a mesh through an outer and an inner hull of it (docs/queries.md).
+
+    It belongs to the `original` of an outer hull with levels: outer.original.any_hit(..., engine=prohull.TwoHulls(inner)).
+    Raises InputError if the two are not hulls, with levels, of the same mesh.
+    """
+
+    inner: "Hull"
+    engine: EngineName = "auto"  #: "walk" follows lines through the void, "filter" speeds up any_hit()
+
+
+Engine = Union[EngineName, Refinement, TwoHulls]
 
 
 class Mesh:
     """Vertices and triangles, which do not change. Triangles are counter-clockwise when seen from outside.
 
     Queries (first_hit, any_hit, all_hits, faces_met, contains) take arrays and answer exactly: nothing leaks between
-    faces, and the hits on a closed mesh enter and leave in turn. The first query builds an index, which is kept. All of
+    faces, and the hits on a closed mesh enter and leave in turn. Distances (closest, signed_distance) have proven
+    bounds. The first query builds an index, which is kept. All of
     them take these arguments too:
 
-    engine: a name in prohull.ENGINES, or a Refinement. All give the same answers, except that "paper-refinement" may
-        miss some (docs/queries.md).
+    engine: a name in prohull.ENGINES, a Refinement or TwoHulls. All give the same answers, except that
+        "paper-refinement", and "walk" without an inner hull, may miss some (docs/queries.md).
     threads: the largest number of threads; 0 means one for each core. The answers do not depend on it.
     progress: called as build() calls it, with the stage "query".
 
@@ -238,20 +266,44 @@ class Mesh:
         inside = self._index(engine).contains(rows, threads, progress)
         return bool(inside[0]) if is_one else inside
 
+    def closest(self, points: Rows, *, max_distance: float = math.inf, engine: Engine = "auto", threads: int = 0,
+                progress: Optional[Progress] = None) -> ClosestPoints:
+        """Finds for each point the closest point of the mesh, and how far it is.
+
+        points: (n, 3).
+        max_distance: points of which the mesh is not certainly within this distance get no answer; saves time.
+        """
+        rows = _arrays.rows("points", points, (3,))
+        return ClosestPoints(*self._index(engine).closest(rows, max_distance, threads, progress))
+
+    def signed_distance(self, points: Rows, *, engine: Engine = "auto", threads: int = 0,
+                        progress: Optional[Progress] = None) -> ClosestPoints:
+        """closest(), with distances and bounds that are negative where contains() has the point inside.
+
+        points: (n, 3). Raises InputError if the mesh is not closed.
+        """
+        rows = _arrays.rows("points", points, (3,))
+        return ClosestPoints(*self._index(engine).signed_distances(rows, threads, progress))
+
     def _index(self, engine: Engine) -> _prohull.Index:
         if engine not in self._indices:
             self._indices[engine] = self._new_index(engine)
         return self._indices[engine]
 
     def _new_index(self, engine: Engine) -> _prohull.Index:
+        if isinstance(engine, TwoHulls):
+            return _prohull.Index(self._asked_levels(engine), engine.inner._with_levels(), engine.engine)
         options = engine if isinstance(engine, Refinement) else Refinement()
         name = ("paper-refinement" if options.paper else "refinement") if engine is options else str(engine)
-        if "refinement" not in name:
+        if "refinement" not in name and name not in ("walk", "filter"):
             return _prohull.Index(self._core, name)
+        return _prohull.Index(self._asked_levels(engine), name, options.coarsen, options.queries_per_roll_back)
+
+    def _asked_levels(self, engine: Engine) -> _prohull.Levels:
         if self._query_levels is None:
             raise InputError(f"engine={engine!r}: this engine goes through the levels of a hull; ask the `original` of a hull "
                              "that was built from it and has levels")
-        return _prohull.Index(self._query_levels, name, options.coarsen, options.queries_per_roll_back)
+        return self._query_levels
 
 
 def _lines(origins: Optional[ArrayLike], directions: Optional[ArrayLike],

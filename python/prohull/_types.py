@@ -19,7 +19,7 @@ OpenShells = Literal["close", "keep"]
 Source = Literal["mesh", "convex-hull", "wrap"]
 SelfIntersections = Literal["by-strategy", "refused", "allowed"]
 Proof = Literal["", "replay", "enclosure", "coverage"]
-EngineName = Literal["auto", "bvh", "refinement", "paper-refinement", "brute"]
+EngineName = Literal["auto", "bvh", "refinement", "paper-refinement", "walk", "filter", "brute"]
 
 
 class _BecomesArray(Protocol):

@@ -1,3 +1,5 @@
+import math
+
 import numpy as np
 import prohull
 import pytest
@@ -42,7 +44,7 @@ def test_no_queries_give_no_hits(cube):
     assert mesh.contains(np.zeros((0, 3))).shape == (0,)
 
 
-@pytest.mark.parametrize("engine", [e for e in prohull.ENGINES if e != "paper-refinement"])
+@pytest.mark.parametrize("engine", [e for e in prohull.ENGINES if e not in ("paper-refinement", "walk", "filter")])
 def test_every_engine_gives_the_same_answers(hull, rays, engine):
     mesh = hull.original
     hits, expected = mesh.all_hits(*rays, engine=engine), mesh.all_hits(*rays)
@@ -68,6 +70,23 @@ def test_refinement_options(hull, rays):
         hull.first_hit(*rays, engine="refinement")
 
 
+def test_two_hulls(hull, rays):
+    inner = prohull.build(hull.original, 200, side="inner", levels=True)
+    expected = hull.original.all_hits(*rays)
+    for engine in ("auto", "walk", "filter", "refinement"):
+        hits = hull.original.all_hits(*rays, engine=prohull.TwoHulls(inner, engine))
+        assert all(np.array_equal(ours, theirs) for ours, theirs in zip(hits, expected))
+        assert np.array_equal(hull.original.any_hit(*rays, engine=prohull.TwoHulls(inner, engine)),
+                              np.diff(expected.offsets) > 0)
+    outside = ((rays[0] < hull.vertices.min(0)) | (rays[0] > hull.vertices.max(0))).any(1)
+    walked = hull.original.first_hit(*rays, engine="walk")
+    assert np.array_equal(walked.face[outside], hull.original.first_hit(*rays).face[outside])
+    with pytest.raises(prohull.InputError, match="inner"):
+        hull.original.any_hit(*rays, engine="filter")
+    with pytest.raises(prohull.InputError, match="inner"):
+        hull.original.any_hit(*rays, engine=prohull.TwoHulls(hull))
+
+
 def test_what_a_hull_misses_the_mesh_misses(hull, pony, rays):
     assert not (pony.any_hit(*rays) & ~hull.any_hit(*rays)).any()
     assert hull.any_hit(*rays).sum() > pony.any_hit(*rays).sum() > 0
@@ -91,6 +110,36 @@ def test_contains_takes_one_point(cube):
     assert mesh.contains([0, 0, 0]) is True and mesh.contains((2, 0, 0)) is False
     assert mesh.contains(np.array([0.5, 0, 0])) is True
     assert mesh.contains([[0, 0, 0], [2, 0, 0], [0, 0, 0]]).tolist() == [True, False, True], "three points are three"
+
+
+def test_closest(cube, pony, random):
+    mesh = prohull.Mesh(*cube)
+    points = [[3, 0, 0], [0, 0, 0.75], [5, 5, 1]]
+    found = mesh.closest(points)
+    assert found.distance.tolist() == [2, 0.25, math.sqrt(32)] and found.position[0].tolist() == [1, 0, 0]
+    assert ((found.lower <= found.distance) & (found.distance <= found.upper)).all()
+    assert np.allclose(found.lower, found.upper, rtol=0, atol=1e-13)
+    signed = mesh.signed_distance(points)
+    assert signed.distance.tolist() == [2, -0.25, math.sqrt(32)] and (signed.face == found.face).all()
+    assert signed.lower[1] == -found.upper[1] and signed.upper[1] == -found.lower[1]
+    near = mesh.closest(points, max_distance=2.5)
+    assert near.face[2] == -1 and np.isnan(near.distance[2]) and np.isnan(near.position[2]).all()
+    assert near.distance[:2].tolist() == [2, 0.25]
+    assert mesh.closest(np.zeros((0, 3))).position.shape == (0, 3)
+
+    points = random().uniform(-1, 1, (300, 3))
+    away = pony.vertices[:, None] - points
+    assert (pony.closest(points).lower <= np.linalg.norm(away, axis=2).min(0)).all(), "no farther than any vertex"
+    one, all_cores = pony.signed_distance(points, threads=1), pony.signed_distance(points)
+    assert all(np.array_equal(a, b) for a, b in zip(one, all_cores))
+    assert ((one.distance < 0) == pony.contains(points)).all()
+
+    with pytest.raises(prohull.InputError, match="not closed"):
+        prohull.Mesh(cube[0], cube[1][1:]).signed_distance([[0, 0, 0]])
+    for call in (lambda: mesh.closest([0, 0]), lambda: mesh.closest([[0, 0, math.nan]]),
+                 lambda: mesh.closest([[0, 0, 0]], max_distance=-1)):
+        with pytest.raises(prohull.InputError):
+            call()
 
 
 def test_faces_met(cube):

@@ -26,7 +26,11 @@ def test_progress_is_told_on_the_calling_thread(pony):
     (lambda mesh, rays, progress: mesh.any_hit(*rays, progress=progress), {"query"}),
     (lambda mesh, rays, progress: mesh.all_hits(*rays, progress=progress), {"query"}),
     (lambda mesh, rays, progress: mesh.contains(rays[0], progress=progress), {"query"}),
+    (lambda mesh, rays, progress: mesh.closest(rays[0], progress=progress), {"query"}),
+    (lambda mesh, rays, progress: mesh.signed_distance(rays[0], progress=progress), {"query"}),
     (lambda mesh, rays, progress: mesh.faces_met(np.zeros((1000, 9)), progress=progress), {"query"}),
+    (lambda mesh, rays, progress: prohull.Collider(mesh).collides(mesh, np.tile(np.eye(4), (5000, 1, 1)), progress=progress),
+     {"collide"}),
     (lambda mesh, rays, progress: prohull.verify(mesh, mesh, progress=progress), {"verify"}),
     (lambda mesh, rays, progress: prohull.distance_bounds(mesh, mesh, progress=progress), {"measure"}),
 ])

@@ -43,8 +43,11 @@ one = prohull.build("part.stl", [500])  # refused
 
 hits: prohull.FirstHits = mesh.first_hit([0, 0, 9], [0, 0, -1], engine="bvh")
 hits = one.original.first_hit(v, -v, engine=prohull.Refinement(coarsen=True), threads=2)
+hits = one.original.first_hit(v, -v, engine=prohull.TwoHulls(one, "walk"))
 inside: bool = mesh.contains([0, 0, 0])
 each: NDArray[np.bool_] = mesh.contains([[0, 0, 0], [1, 1, 1]], progress=lambda stage, fraction: None)
+closest: prohull.ClosestPoints = mesh.closest([[0, 0, 0]], max_distance=2)
+away: NDArray[np.float64] = mesh.signed_distance(v, threads=1).distance
 facts: dict[str, Any] = mesh.report()
 level: prohull.Hull = one.level(1000)
 level.save("level.stl")
@@ -53,5 +56,6 @@ reason: str = one.proof if prohull.verify(one, "part.stl", side="outer") else on
 mesh.first_hit([0, 0, 9], [0, 0, -1], engine="magic")  # refused
 mesh.any_hit(segments=v, threads="all")  # refused
 each = mesh.contains([0, 0, 0])  # refused
+away = mesh.signed_distance(v)  # refused
 prohull.verify(one, "part.stl", side="out")  # refused
 one.reached  # refused

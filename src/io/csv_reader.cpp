@@ -78,6 +78,17 @@ class CsvReader {
 
 }  // namespace
 
+std::size_t numbers_per_line(std::string_view content, const std::string& file) {
+  TextScanner scanner(content, file, {.comments = true, .separator = separator_of(content)});
+  bool more = scanner.next_line();
+  if (more && is_line_of_names(scanner)) scanner.skip_rest_of_line(), more = scanner.next_line();
+  std::size_t numbers = 0;
+  if (more) do {
+      scanner.word(), ++numbers;
+    } while (scanner.skip_separator() || !scanner.at_line_end());
+  return numbers;
+}
+
 std::string joined(std::span<const std::string_view> names) {
   std::string text;
   for (const std::string_view name : names) text.append(text.empty() ? "" : ",").append(name);

@@ -60,7 +60,7 @@ class NpyReader {
   std::size_t place_of(std::size_t i, std::size_t j) const {
     if (!header_.fortran_order) return i * columns_.names.size() + j;
     if (header_.shape.size() == 2) return i + rows() * j;
-    const std::size_t point = j / 3, axis = j % 3, points = header_.shape[1];
+    const std::size_t point = j / columns_.per_point, axis = j % columns_.per_point, points = header_.shape[1];
     return i + rows() * (point + points * axis);
   }
 
@@ -79,12 +79,12 @@ class NpyReader {
 
   void check_shape() const {
     const std::vector<std::size_t>& shape = header_.shape;
-    const std::size_t width = columns_.names.size();
+    const std::size_t width = columns_.names.size(), per_point = columns_.per_point;
     const bool flat = shape.size() == 2 && shape[1] == width;
-    const bool points = shape.size() == 3 && shape[1] == width / 3 && shape[2] == 3;
+    const bool points = shape.size() == 3 && shape[1] == width / per_point && shape[2] == per_point;
     if (!flat && !points)
-      fail(fmt::format("its shape is {}; {} have the shape (n, {}) or (n, {}, 3), each row {}", shape_text(shape),
-                       columns_.array, width, width / 3, joined(columns_.names)));
+      fail(fmt::format("its shape is {}; {} have the shape (n, {}) or (n, {}, {}), each row {}", shape_text(shape),
+                       columns_.array, width, width / per_point, per_point, joined(columns_.names)));
   }
 
   void check_size() const {

@@ -90,6 +90,73 @@ struct Traits<Triangle> {
   static std::optional<std::string_view> why_not(const Triangle&) { return {}; }
 };
 
+/// The numbers of a pose, in one of three forms.
+struct PoseRow {
+  std::vector<std::string_view> names;
+  std::size_t per_point;
+  Pose (*pose)(std::span<const double> row);
+};
+
+Pose pose_of_matrix(std::span<const double> m) {
+  return {{Vec3{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}, {m[3], m[7], m[11]}};
+}
+
+const PoseRow& pose_row(std::size_t numbers) {
+  static const std::vector<std::string_view> affine{"r00", "r01", "r02", "x",   "r10", "r11",
+                                                    "r12", "y",   "r20", "r21", "r22", "z"};
+  static const std::vector<std::string_view> square = [] {
+    std::vector<std::string_view> names = affine;
+    names.insert(names.end(), {"0", "0", "0", "1"});
+    return names;
+  }();
+  static const PoseRow kQuaternion{{"x", "y", "z", "qw", "qx", "qy", "qz"}, 7, [](std::span<const double> n) {
+                                     return pose_of_quaternion(n[3], n[4], n[5], n[6], {n[0], n[1], n[2]});
+                                   }};
+  static const PoseRow kAffine{affine, 4, pose_of_matrix}, kSquare{square, 4, pose_of_matrix};
+  return numbers == 12 ? kAffine : numbers == 16 ? kSquare : kQuaternion;
+}
+
+/// How many numbers the first row has, as far as that can be seen without reading it.
+std::size_t numbers_per_row(std::string_view content, const std::filesystem::path& name) {
+  switch (format_of(content, name)) {
+    case QueryFormat::Npz:
+      return numbers_per_row(array_of_archive(content, name, "poses").bytes, "poses.npy");
+    case QueryFormat::Npy: {
+      std::size_t numbers = 1;
+      const std::vector<std::size_t> shape = read_npy_header(content, name.string()).shape;
+      for (std::size_t i = 1; i < shape.size(); ++i) numbers *= shape[i];
+      return numbers;
+    }
+    case QueryFormat::Csv:
+      return numbers_per_line(content, name.string());
+  }
+  return 0;
+}
+
+std::vector<Pose> read_uncompressed_poses(std::string_view content, const std::filesystem::path& name) {
+  const PoseRow& form = pose_row(numbers_per_row(content, name));
+  std::vector<Pose> poses;
+  read_uncompressed(
+      content, name, {"poses", form.names, form.per_point}, [&](std::span<const double> row, Place place) {
+        try {
+          const bool is_affine = row.size() != 16 || (row[12] == 0 && row[13] == 0 && row[14] == 0 && row[15] == 1);
+          if (!is_affine) throw InputError(Defect::Malformed, "the last row of the matrix is not 0,0,0,1");
+          poses.push_back(form.pose(row));
+          require_rigid(poses.back());
+        } catch (const InputError& error) {
+          fail(name.string(), place, error.what(), Defect::Malformed);
+        }
+      });
+  return poses;
+}
+
+template <>
+struct Traits<Vec3> {
+  static Columns columns() { return {"points", {"x", "y", "z"}}; }
+  static Vec3 query(std::span<const double> row) { return point(row, 0); }
+  static std::optional<std::string_view> why_not(const Vec3&) { return {}; }
+};
+
 template <class Query>
 std::vector<Query> read_queries(std::string_view content, const std::filesystem::path& name) {
   const Columns columns = Traits<Query>::columns();
@@ -121,11 +188,21 @@ std::vector<Ray> read_rays(std::string_view content, const std::filesystem::path
 std::vector<Triangle> read_triangles(std::string_view content, const std::filesystem::path& name) {
   return read_queries<Triangle>(content, name);
 }
+std::vector<Vec3> read_points(std::string_view content, const std::filesystem::path& name) {
+  return read_queries<Vec3>(content, name);
+}
 
+std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name) {
+  return is_gzip(content) ? read_uncompressed_poses(gunzip(content, name), name)
+                          : read_uncompressed_poses(content, name);
+}
+
+std::vector<Pose> read_poses(const std::filesystem::path& path) { return read_poses(read_file(path), path); }
 std::vector<Segment> read_segments(const std::filesystem::path& path) { return read_segments(read_file(path), path); }
 std::vector<Ray> read_rays(const std::filesystem::path& path) { return read_rays(read_file(path), path); }
 std::vector<Triangle> read_triangles(const std::filesystem::path& path) {
   return read_triangles(read_file(path), path);
 }
+std::vector<Vec3> read_points(const std::filesystem::path& path) { return read_points(read_file(path), path); }
 
 }  // namespace prohull

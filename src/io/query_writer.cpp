@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <numeric>
 
 #include "io/append.h"
 #include "io/extension.h"
@@ -53,13 +54,25 @@ std::string csv_content(const FaceBatch& batch) {
   return out;
 }
 
+std::string csv_content(const FacePairBatch& batch) {
+  std::string out = "pose,face_a,face_b\n";
+  const std::vector<std::size_t> poses = queries_of(batch.offsets);
+  for (std::size_t i = 0; i < batch.pairs.size(); ++i) {
+    append_number(out, poses[i]);
+    append_number(out += ',', index(batch.pairs[i].a));
+    append_number(out += ',', index(batch.pairs[i].b));
+    out += '\n';
+  }
+  return out;
+}
+
 /// One array for each name; each takes a value of every item.
 class NpzContent {
  public:
-  template <class Item, class ValueOf>
-  void add(std::string_view name, std::string_view type, const std::vector<Item>& items, ValueOf value_of) {
+  template <class Items, class ValueOf>
+  void add(std::string_view name, std::string_view type, const Items& items, ValueOf value_of) {
     std::string array = npy_header(type, {items.size()});
-    for (const Item& item : items) append_bytes(array, value_of(item));
+    for (const auto& item : items) append_bytes(array, value_of(item));
     zip_.add(std::string(name) + ".npy", array);
   }
   std::string finish() { return zip_.finish(); }
@@ -87,6 +100,79 @@ std::string npz_content(const FaceBatch& batch) {
   out.add("triangle", kInt64, queries_of(batch.offsets), [](std::size_t i) { return std::int64_t(i); });
   out.add("face", kInt64, batch.faces, [](FaceId face) { return std::int64_t{index(face)}; });
   return out.finish();
+}
+
+std::string npz_content(const FacePairBatch& batch) {
+  NpzContent out;
+  out.add("pose", kInt64, queries_of(batch.offsets), [](std::size_t i) { return std::int64_t(i); });
+  out.add("face_a", kInt64, batch.pairs, [](const FacePair& pair) { return std::int64_t{index(pair.a)}; });
+  out.add("face_b", kInt64, batch.pairs, [](const FacePair& pair) { return std::int64_t{index(pair.b)}; });
+  return out.finish();
+}
+
+std::string csv_content(const std::vector<bool>& inside) {
+  std::string out = "point,inside\n";
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    append_number(out, i);
+    out += inside[i] ? ",1\n" : ",0\n";
+  }
+  return out;
+}
+
+std::string csv_content(std::span<const ClosestPoint> distances) {
+  std::string out = "point,distance,lower,upper,face,x,y,z\n";
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const ClosestPoint& d = distances[i];
+    append_number(out, i);
+    for (const double value : {d.distance, d.lower, d.upper}) append_number(out += ',', value);
+    append_number(out += ',', index(d.face));
+    append_point(out += ',', d.position);
+    out += '\n';
+  }
+  return out;
+}
+
+/// 0, 1, 2, ...: each point has a row.
+std::vector<std::size_t> all_of(std::size_t count) {
+  std::vector<std::size_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return numbers;
+}
+
+std::string npz_content(const std::vector<bool>& inside) {
+  NpzContent out;
+  out.add("point", kInt64, all_of(inside.size()), [](std::size_t i) { return std::int64_t(i); });
+  out.add("inside", kBool, inside, [](bool is_inside) { return std::uint8_t{is_inside}; });
+  return out.finish();
+}
+
+std::string npz_content(std::span<const ClosestPoint> distances) {
+  NpzContent out;
+  out.add("point", kInt64, all_of(distances.size()), [](std::size_t i) { return std::int64_t(i); });
+  out.add("distance", kFloat64, distances, [](const ClosestPoint& d) { return d.distance; });
+  out.add("lower", kFloat64, distances, [](const ClosestPoint& d) { return d.lower; });
+  out.add("upper", kFloat64, distances, [](const ClosestPoint& d) { return d.upper; });
+  out.add("face", kInt64, distances, [](const ClosestPoint& d) { return std::int64_t{index(d.face)}; });
+  out.add("x", kFloat64, distances, [](const ClosestPoint& d) { return d.position.x; });
+  out.add("y", kFloat64, distances, [](const ClosestPoint& d) { return d.position.y; });
+  out.add("z", kFloat64, distances, [](const ClosestPoint& d) { return d.position.z; });
+  return out.finish();
+}
+
+std::string csv_content(std::span<const Vec3> points) {
+  std::string out = "x,y,z\n";
+  for (const Vec3& p : points) {
+    append_point(out, p);
+    out += '\n';
+  }
+  return out;
+}
+
+std::string npy_content(std::span<const Vec3> points) {
+  std::string out = npy_header(kFloat64, {points.size(), 3});
+  for (const Vec3& p : points)
+    for (const double value : {p.x, p.y, p.z}) append_bytes(out, value);
+  return out;
 }
 
 std::string csv_content(std::span<const Segment> segments) {
@@ -142,8 +228,25 @@ void write_faces_met(const std::filesystem::path& path, const FaceBatch& batch) 
   write_file(path, hits_format(path) == QueryFormat::Csv ? csv_content(batch) : npz_content(batch));
 }
 
+void write_face_pairs(const std::filesystem::path& path, const FacePairBatch& batch) {
+  write_file(path, hits_format(path) == QueryFormat::Csv ? csv_content(batch) : npz_content(batch));
+}
+
 void write_segments(const std::filesystem::path& path, std::span<const Segment> segments) {
   write_file(path, segments_format(path) == QueryFormat::Csv ? csv_content(segments) : npy_content(segments));
+}
+
+void write_points(const std::filesystem::path& path, std::span<const Vec3> points) {
+  const QueryFormat format = format_for("points", path, QueryFormat::Npy);
+  write_file(path, format == QueryFormat::Csv ? csv_content(points) : npy_content(points));
+}
+
+void write_inside(const std::filesystem::path& path, const std::vector<bool>& inside) {
+  write_file(path, hits_format(path) == QueryFormat::Csv ? csv_content(inside) : npz_content(inside));
+}
+
+void write_distances(const std::filesystem::path& path, std::span<const ClosestPoint> distances) {
+  write_file(path, hits_format(path) == QueryFormat::Csv ? csv_content(distances) : npz_content(distances));
 }
 
 }  // namespace prohull

@@ -283,8 +283,42 @@ for mode in first all; do
     says out "engine $engine" "engine $engine, "
   done
 done
+for engine in walk filter auto; do
+  expect 0 "two hulls, $engine" $prohull query rock.phull --inner inner.phull --segments random.npy --mode all -o again.csv --engine $engine
+  same "two hulls, $engine" random.csv again.csv
+done
+expect 0 "an outer hull, asked alone" $prohull query rock.phull --random 2000 --conservative --report conservative.json
+says out "an outer hull, asked alone" "none that hits the mesh is missed"
+grep -q '"side": "outer"' conservative.json || fail "the report of --conservative has no side"
+expect 0 "an inner hull, asked alone" $prohull query inner.phull --random 2000 --conservative
+says out "an inner hull, asked alone" "all that are hits hit the mesh too"
 expect 0 "info of a pipe" sh -c "cat rock.phull | $prohull info /dev/stdin"
 says out "info of a pipe" "progressive hull"
+
+# --- meshes against meshes ---
+printf 'OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n' >octahedron.off
+expect 0 "collide: free" $prohull collide octahedron.off octahedron.off --pose 5,0,0,1,0,0,0 --distance --report collide.json
+says out "it says so" "free: octahedron.off and octahedron.off, exactly"
+says out "the distance" "3 apart, proven between"
+says collide.json "report: collide" '"colliding": 0'
+expect 1 "collide: touching" $prohull collide octahedron.off octahedron.off --pose '2 0 0 1 0 0 0' -o pairs.csv
+says out "the pairs" "meet in 16 pairs of faces"
+says pairs.csv "rows of pairs" "pose,face_a,face_b"
+printf 'x,y,z,qw,qx,qy,qz\n5,0,0,1,0,0,0\n0,0,1,0,0,0,1\n' >poses.csv
+expect 1 "collide: many poses" $prohull collide octahedron.off octahedron.off --poses poses.csv --distance
+says out "how many" "1 of 2 poses collide"
+says out "the nearest" "nearest of those that are free, pose 0: 3 apart"
+expect 0 "collide: conservative" $prohull collide rock.phull rock.phull --pose 1,0,0,100,0,1,0,0,0,0,1,0 --conservative
+says out "certain" "free: rock.phull and rock.phull, for certain"
+expect 1 "collide: may" $prohull collide rock.phull rock.phull --conservative
+says out "not certain" "MAY COLLIDE"
+expect 2 "collide: no pose" $prohull collide octahedron.off octahedron.off --pose 1,2,3
+says err "what a pose is" "x,y,z,qw,qx,qy,qz"
+expect 2 "collide: a mirror" $prohull collide octahedron.off octahedron.off --pose 1,0,0,0,0,1,0,0,0,0,-1,0
+says err "rigid" "not rigid"
+printf '1,0,0,1,0,0,0\n1,0,0,0,0,0,0\n' >bad.csv
+expect 3 "collide: bad poses" $prohull collide octahedron.off octahedron.off --poses bad.csv
+says err "the line" "bad.csv: line 2"
 
 bad_query() {
   code=$1 name=$2 text=$3
@@ -295,6 +329,10 @@ bad_query() {
   [ "$(wc -l <err)" -le 2 ] || fail "$name: more than two lines"
   absent "bad_hits*" "$name"
 }
+bad_query 2 "no hierarchy to go with an inner one" "needs a .phull file" rock.ply --inner inner.phull --random 10
+bad_query 2 "two inner hulls" "the first must be an outer one" inner.phull --inner inner.phull --random 10
+bad_query 2 "a mesh, conservatively" "needs a .phull file" rock.ply --conservative --random 10
+bad_query 2 "one hull, to filter by" "an outer and an inner hull" rock.phull --engine filter --random 10
 printf '0,0,0,1,1\n' >narrow.csv
 bad_query 3 "wrong shape" "narrow.csv: line 1: there is no comma after y1" unit.off --segments narrow.csv
 printf '0,0,0,1,1,1\n0,nan,0,1,1,1\n' >nan.csv
@@ -322,6 +360,46 @@ expect 3 "hits to no folder" $prohull query unit.off --segments three.csv -o now
 expect 0 "help of query" $prohull query --help
 says out "help of query" "prohull query horse.ply"
 says out "help of query has engines" "kdop26-overlap"
+
+# --- points ---
+printf 'x,y,z\n0.25,0.25,0.25\n0.25,0.25,-2\n3,0,0\n' >points.csv
+printf 'point,inside\n0,1\n1,0\n2,0\n' >expected.csv
+expect 0 "contains" $prohull contains unit.off --points points.csv -o inside.csv --report inside.json
+same "contains" inside.csv expected.csv
+says out "contains" "inside.csv: 1 of 3 points inside (33.33 %)"
+says inside.json "report of contains" '"inside": 1'
+gzip -kf points.csv
+expect 0 "contains, piped" sh -c "$prohull contains unit.off --points - -o - --out-format csv <points.csv.gz >again.csv"
+same "contains, piped" again.csv expected.csv
+expect 0 "distance" $prohull distance unit.off --points points.csv -o distances.csv --report distances.json
+says distances.csv "distance" "point,distance,lower,upper,face,x,y,z"
+says distances.csv "distance" "1,2,1.9999"
+says distances.csv "distance" ",0,0.25,0.25,0"
+says distances.csv "distance" ",0,1,0,0"
+says out "distance" "3 points at distances from 0.144338 to 2"
+says distances.json "report of distance" '"greatest_distance": 2.0'
+expect 0 "signed distance" $prohull distance unit.off --points points.csv -o distances.csv --signed
+says distances.csv "signed distance" "0,-0.1443"
+for command in contains distance; do
+  expect 0 "$command of random points" $prohull $command rock.ply --random 3000 --write-points random.npy -o random.npz
+  says out "$command of random points" "3,000 random points, seed 1"
+  expect 0 "$command, one thread" $prohull $command rock.ply --points random.npy -o again.npz --threads 1
+  same "$command, one thread" random.npz again.npz
+  expect 0 "$command of a .phull" $prohull $command rock.phull --random 3000 -o again.npz
+  same "$command of a .phull is that of its original" random.npz again.npz
+  expect 2 "$command without points" $prohull $command unit.off -o bad_points.csv
+  says err "$command without points" "--points"
+  expect 3 "$command of no point" $prohull $command unit.off --points nan.csv -o bad_points.csv
+  says err "$command of no point" "nan.csv: line 1: "
+  expect 3 "$command of no faces" $prohull $command empty.off --points points.csv -o bad_points.csv
+  says err "$command of no faces" "empty.off: it has no faces"
+done
+sed '2s/4 4 0/4 3 0/; $d' unit.off >open.off
+expect 3 "contains of an open mesh" $prohull contains open.off --points points.csv -o bad_points.csv
+says err "contains of an open mesh" "open.off: the mesh is not closed"
+expect 3 "signed distance of an open mesh" $prohull distance open.off --points points.csv -o bad_points.csv --signed
+expect 0 "distance of an open mesh" $prohull distance open.off --points points.csv
+absent "bad_points.csv" "commands that ask points"
 
 # --- wrong usage is 2 ---
 expect 2 "no command" $prohull
@@ -401,7 +479,7 @@ expect 0 "help of the program" $prohull help
 says out "help of the program" "Commands:"
 expect 2 "help of no command" $prohull help biuld
 says err "help of no command" "did you mean 'build'?"
-for command in "" build verify info lod query render sample completion manual help; do
+for command in "" build verify info lod query contains distance collide render sample completion manual help; do
   for columns in 40 80 132; do
     expect 0 "help in $columns columns" env COLUMNS=$columns $prohull help $command
     checks=$((checks + 1))  # names of options, lists of choices and examples are as long as they are

@@ -25,6 +25,10 @@ void read(unsigned kind, std::string_view content, const char* name) {
   else if (kind == 1)
     for (const Ray& r : read_rays(content, name))
       require(is_finite(r.origin) && is_finite(r.direction) && r.direction != Vec3{});
+  else if (kind == 2)
+    for (const Pose& pose : read_poses(content, name)) require_rigid(pose);
+  else if (kind == 3)
+    for (const Vec3& p : read_points(content, name)) require(is_finite(p));
   else
     for (const Triangle& t : read_triangles(content, name)) require(is_finite(t.a) && is_finite(t.b) && is_finite(t.c));
 }
@@ -34,7 +38,7 @@ void read(unsigned kind, std::string_view content, const char* name) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view content(reinterpret_cast<const char*>(data) + 1, size - 1);
-  constexpr unsigned kKinds = 3;
+  constexpr unsigned kKinds = 5;
   try {
     read(data[0] % kKinds, content, kNames[data[0] / kKinds % kNames.size()]);
   } catch (const InputError&) {

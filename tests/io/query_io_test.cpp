@@ -206,6 +206,31 @@ TEST(QueryReader, TakesRaysAndTriangles) {
   EXPECT_THROW(read_triangles("0,0,0,1,1,1", "t.csv"), InputError);
 }
 
+TEST(QueryReader, TakesPosesOfThreeForms) {
+  const Pose quarter{{Vec3{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}, {5, 6, 7}};
+  EXPECT_EQ(read_poses("0,-1,0,5, 1,0,0,6, 0,0,1,7\n", "poses.csv"), std::vector{quarter});
+  EXPECT_EQ(read_poses("0 -1 0 5 1 0 0 6 0 0 1 7 0 0 0 1\n", "poses.csv"), std::vector{quarter});
+  const Pose half{{Vec3{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}}, {5, 6, 7}};
+  EXPECT_EQ(read_poses("x,y,z,qw,qx,qy,qz\n5,6,7,0,0,0,2\n", "poses.csv"), std::vector{half});
+  EXPECT_TRUE(read_poses("x,y,z,qw,qx,qy,qz\n", "poses.csv").empty());
+  const std::string matrix = numbers<double>({0, -1, 0, 5, 1, 0, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1});
+  EXPECT_EQ(read_poses(npy(header("<f8", "(1, 4, 4)"), matrix), "poses.npy"), std::vector{quarter});
+  EXPECT_EQ(read_poses(npy(header("<f8", "(1, 3, 4)"), matrix.substr(0, 96)), "poses.npy"), std::vector{quarter});
+}
+
+TEST(QueryReader, RefusesWhatIsNoPose) {
+  const auto refuse = [](const char* content, const char* message) {
+    expect_input_error([&] { read_poses(content, "poses.csv"); }, Defect::Malformed, message);
+  };
+  refuse("1,2,3\n", "poses.csv: line 1: there is no comma after z; each line has 7 numbers: x,y,z,qw,qx,qy,qz");
+  refuse("0,0,0,1,0,0,0\n0,0,0,0,0,0,0\n", "poses.csv: line 2: a quaternion of a pose must be finite, and not 0");
+  refuse("0,0,0,nan,0,0,0\n", "poses.csv: line 1: a quaternion of a pose must be finite, and not 0");
+  refuse("2,0,0,0,0,2,0,0,0,0,2,0\n",
+         "poses.csv: line 1: a pose is not rigid: the matrix times its transpose must be the identity within 1e-06, "
+         "without mirroring");
+  refuse("1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2\n", "poses.csv: line 1: the last row of the matrix is not 0,0,0,1");
+}
+
 TEST(CsvReader, TakesLinesAsPeopleWriteThem) {
   const std::string rows = "0,1,2,3,4,5\n10,11,12,13,14,15\n";
   expect_two_rows(rows, "s.csv");
@@ -343,6 +368,33 @@ TEST(SegmentsWriter, WritesWhatReadsBackBitForBit) {
     write_segments(folder / name, {});
     EXPECT_TRUE(read_segments(folder / name).empty());
   }
+}
+
+TEST(Points, AreReadAndWrittenAsSegmentsAre) {
+  EXPECT_EQ(read_points("x,y,z\n1,2,3\n4,5,6 # one more\n", "p.csv").size(), 2u);
+  const TemporaryFolder folder;
+  const std::vector<Vec3> points{{0.1, -0.0, 1e-300}, {1, 2, 3}};
+  for (const char* name : {"p.npy", "p.csv"}) {
+    write_points(folder / name, points);
+    EXPECT_EQ(read_points(folder / name), points) << name;
+  }
+  expect_input_error([] { read_points("1,2,3\n1,nan,3\n", "p.csv"); }, Defect::NonFiniteCoordinate,
+                     "p.csv: line 2: y is nan; expected finite numbers");
+  expect_input_error([&] { write_points(folder / "p.npz", points); }, Defect::UnknownFormat,
+                     (folder / "p.npz").string() + ": points are written to .npy or .csv; name the file like that");
+}
+
+TEST(Points, HaveAnswersInRowsAndInArrays) {
+  const TemporaryFolder folder;
+  const std::vector<ClosestPoint> distances{{FaceId{7}, {1, 2, 3}, -0.5, -0.75, -0.25}};
+  write_inside(folder / "a.csv", {true, false});
+  EXPECT_EQ(read_file(folder / "a.csv"), "point,inside\n0,1\n1,0\n");
+  write_distances(folder / "a.csv", distances);
+  EXPECT_EQ(read_file(folder / "a.csv"), "point,distance,lower,upper,face,x,y,z\n0,-0.5,-0.75,-0.25,7,1,2,3\n");
+  write_distances(folder / "a.npz", distances);
+  expect_input_error(
+      [&] { read_points(folder / "a.npz"); }, Defect::Malformed,
+      (folder / "a.npz").string() + ": none of its 8 arrays is called points; save the one you mean alone");
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+#include "asked_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "console.h"
+#include "prohull/error.h"
+
+namespace prohull::cli {
+
+AskedMesh::AskedMesh(const std::filesystem::path& path, const InputOptions& options)
+    : path_(path), mesh_or_hull_(read_mesh_or_hull(path, options)) {
+  const auto* const hull = std::get_if<ProgressiveHull>(&mesh_or_hull_);
+  faces_ = hull ? hull->original_face_count() : std::get<TriangleMesh>(mesh_or_hull_).face_count();
+  finest_level_ = hull ? hull->finest_level() : FinestLevel::Input;  // of a mesh file nothing has to be said
+  if (faces_ == 0)
+    throw InputError(Defect::EmptyMesh, input_name(path) + ": it has no faces, so that there is nothing to ask");
+}
+
+Box AskedMesh::box() const {
+  const auto* const mesh = std::get_if<TriangleMesh>(&mesh_or_hull_);
+  return bounding_box(mesh ? *mesh : mesh_of(mesh_or_hull_));
+}
+
+QueryIndex AskedMesh::index(const std::function<QueryIndex(MeshOrHull)>& make) {
+  try {
+    return make(std::move(mesh_or_hull_));
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), input_name(path_) + ": " + error.what());
+  }
+}
+
+QueryIndex AskedMesh::index(Engine engine) {
+  return index([engine](MeshOrHull asked) {
+    return std::visit([&](auto& mesh_or_hull) { return QueryIndex(std::move(mesh_or_hull), engine); }, asked);
+  });
+}
+
+nlohmann::json AskedMesh::facts() const {
+  return {{"path", path_.string()}, {"faces", faces_}, {"finest_level", name_of(finest_level_names(), finest_level_)}};
+}
+
+void AskedMesh::say_what() const {
+  say("{}: {}\n", input_name(path_), counted(faces_, "face", "faces"));
+  if (const std::string finest = described_finest_level(finest_level_); !finest.empty())
+    say("  these are faces of {}: the finest level of the file is not the input itself\n", finest);
+}
+
+TriangleMesh mesh_of(MeshOrHull mesh_or_hull) {
+  const auto* const hull = std::get_if<ProgressiveHull>(&mesh_or_hull);
+  return hull ? hull->original() : std::get<TriangleMesh>(std::move(mesh_or_hull));
+}
+
+unsigned threads_used(unsigned threads) {
+  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  return threads == 0 ? cores : std::min(threads, cores);
+}
+
+void QuerySeconds::say_them() const {
+  say("  read {:.2f} s, index {:.2f} s, query {:.2f} s, write {:.2f} s\n", read, index, query, write);
+}
+
+}  // namespace prohull::cli

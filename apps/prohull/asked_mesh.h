@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "inputs.h"
+#include "prohull/mesh_query.h"
+
+namespace prohull::cli {
+
+/// The mesh that queries are about: that of a mesh file, or the finest level of a .phull file.
+class AskedMesh {
+ public:
+  /// Throws InputError(EmptyMesh) if it has no faces.
+  AskedMesh(const std::filesystem::path& path, const InputOptions& options);
+
+  std::size_t face_count() const { return faces_; }
+  Box box() const;
+
+  /// The mesh or hull goes into the index. What `make` throws then names the file.
+  QueryIndex index(const std::function<QueryIndex(MeshOrHull)>& make);
+  QueryIndex index(Engine engine);
+
+  nlohmann::json facts() const;
+  /// The first lines of the summary.
+  void say_what() const;
+
+ private:
+  std::filesystem::path path_;
+  MeshOrHull mesh_or_hull_;
+  std::size_t faces_;
+  FinestLevel finest_level_;
+};
+
+TriangleMesh mesh_of(MeshOrHull mesh_or_hull);
+
+/// How many threads --threads is.
+unsigned threads_used(unsigned threads);
+
+/// How long the steps of a command with queries took.
+struct QuerySeconds {
+  double read = 0, index = 0, query = 0, write = 0;
+
+  nlohmann::json facts() const { return {{"read", read}, {"index", index}, {"query", query}, {"write", write}}; }
+  void say_them() const;
+};
+
+}  // namespace prohull::cli

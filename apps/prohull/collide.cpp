@@ -1,0 +1,227 @@
+#include "prohull/collide.h"
+
+#include <fmt/format.h>
+
+#include "command.h"
+#include "prohull/error.h"
+#include "prohull/query_io.h"
+
+namespace prohull::cli {
+namespace {
+
+struct Options {
+  std::filesystem::path a, b, poses, out, report;
+  std::string pose, out_format;
+  InputOptions input;
+  bool distance = false, conservative = false;
+  unsigned threads = 0;
+};
+
+const OutputKind& pair_outputs() {
+  static const OutputKind kind{"pairs of faces", {".npz", ".csv"}};
+  return kind;
+}
+
+std::vector<Pose> poses_of(const Options& options) {
+  if (!options.poses.empty())
+    return read_poses(read_bytes(options.poses), std::filesystem::path(input_name(options.poses)));
+  if (options.pose.empty()) return {Pose{}};
+  try {
+    return read_poses(std::string_view(options.pose), "--pose");
+  } catch (const InputError& error) {
+    throw InputError(Defect::InvalidOption, error.what());
+  }
+}
+
+/// A mesh, or what of a .phull file is asked.
+struct Body {
+  CollisionIndex index;
+  FinestLevel finest_level;
+};
+
+TriangleMesh outer_hull(const ProgressiveHull& levels, const std::filesystem::path& path) {
+  if (levels.side() == HullSide::Inner)
+    throw InputError(Defect::InvalidOption,
+                     input_name(path) + ": it holds inner hulls; --conservative needs outer ones");
+  return levels.base();
+}
+
+CollisionIndex index_of(const ProgressiveHull& levels, const Options& options, const std::filesystem::path& path) {
+  return CollisionIndex(options.conservative ? outer_hull(levels, path) : levels.original());
+}
+
+Body read_body(const Options& options, const std::filesystem::path& path) {
+  const MeshOrHull read = read_mesh_or_hull(path, options.input);
+  stop_if_interrupted();
+  try {
+    if (const auto* const levels = std::get_if<ProgressiveHull>(&read))
+      return {index_of(*levels, options, path), levels->finest_level()};
+    return {CollisionIndex(std::get<TriangleMesh>(read)), FinestLevel::Input};
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), input_name(path) + ": " + error.what());
+  }
+}
+
+struct Answers {
+  std::vector<bool> collide;  ///< of each pose
+  FacePairBatch pairs;        ///< if they were asked for
+  std::vector<Separation> separations;
+};
+
+Answers answer(const Options& options, const Body& a, const Body& b, const std::vector<Pose>& poses) {
+  std::vector<PosePair> pairs;
+  for (const Pose& pose : poses) pairs.push_back({{}, pose});
+  ProgressLine line;
+  const CollisionOptions how{.threads = options.threads, .progress = std::ref(line)};
+  Answers answers;
+  answers.collide =
+      options.conservative ? may_collide(a.index, b.index, pairs, how) : collide(a.index, b.index, pairs, how);
+  const bool one_collides = poses.size() == 1 && answers.collide[0] && !options.conservative;
+  if (one_collides || !options.out.empty()) answers.pairs = intersecting_faces(a.index, b.index, pairs, how);
+  if (options.distance) answers.separations = separation(a.index, b.index, pairs, how);
+  return answers;
+}
+
+std::string bounds(const Separation& s) {
+  return fmt::format("{:.9g} apart, proven between {:.17g} and {:.17g}", s.upper, s.lower, s.upper);
+}
+
+std::string verdict_of_one(const Options& options, const Answers& answers) {
+  const std::string both = fmt::format("{} and {}", input_name(options.a), input_name(options.b));
+  if (options.conservative)
+    return answers.collide[0] ? fmt::format("MAY COLLIDE: the hulls of {} meet", both)
+                              : fmt::format("free: {}, for certain", both);
+  if (!answers.collide[0]) return fmt::format("free: {}, exactly", both);
+  const std::size_t count = answers.pairs.pairs.size();
+  return count == 0 ? fmt::format("COLLIDING: {}, of which one is inside of the other", both)
+                    : fmt::format("COLLIDING: {} meet in {}", both, counted(count, "pair of faces", "pairs of faces"));
+}
+
+void print_summary(const Options& options, const Answers& answers) {
+  const std::size_t poses = answers.collide.size();
+  const auto colliding = static_cast<std::size_t>(std::ranges::count(answers.collide, true));
+  if (poses == 1) {
+    say("{}\n", verdict_of_one(options, answers));
+    if (options.distance && !answers.separations[0].collide()) say("  {}\n", bounds(answers.separations[0]));
+  } else {
+    say("{} of {} {}\n", grouped(colliding), counted(poses, "pose", "poses"),
+        options.conservative ? "may collide" : "collide");
+    if (options.distance) {
+      const auto distance = [](const Separation& s) {
+        return s.collide() ? std::numeric_limits<double>::infinity() : s.upper;
+      };
+      const auto nearest = std::ranges::min_element(answers.separations, {}, distance);
+      if (colliding < poses)
+        say("  nearest of those that are free, pose {}: {}\n", nearest - answers.separations.begin(), bounds(*nearest));
+    }
+  }
+  if (!options.out.empty())
+    say("  {}: {}\n", output_name(options.out), counted(answers.pairs.pairs.size(), "pair of faces", "pairs of faces"));
+}
+
+void print_notes(const Body& body, const std::filesystem::path& path) {
+  if (!body.index.is_solid()) say("  {} is not closed: only its faces count, not what lies inside\n", input_name(path));
+  if (const std::string finest = described_finest_level(body.finest_level); !finest.empty())
+    say("  {} stands for {}: the finest level of the file is not the input itself\n", input_name(path), finest);
+}
+
+nlohmann::json facts(const Body& body, const std::filesystem::path& path) {
+  return {{"path", path.string()},
+          {"faces", body.index.face_count()},
+          {"solid", body.index.is_solid()},
+          {"finest_level", name_of(finest_level_names(), body.finest_level)}};
+}
+
+nlohmann::json report_of(const Options& options, const Body& a, const Body& b, const Answers& answers, double seconds) {
+  nlohmann::json json = {{"a", facts(a, options.a)},
+                         {"b", facts(b, options.b)},
+                         {"conservative", options.conservative},
+                         {"poses", answers.collide.size()},
+                         {"colliding", std::ranges::count(answers.collide, true)},
+                         {"collide", answers.collide},
+                         {"seconds", seconds}};
+  if (!answers.pairs.offsets.empty()) json["face_pairs"] = answers.pairs.pairs.size();
+  if (options.distance) {
+    nlohmann::json& all = json["distances"] = nlohmann::json::array();
+    for (const Separation& s : answers.separations) {
+      all.push_back({{"lower", s.lower}, {"upper", s.upper}});
+      if (s.collide()) continue;
+      all.back()["face_a"] = index(s.face_a), all.back()["point_a"] = {s.point_a.x, s.point_a.y, s.point_a.z};
+      all.back()["face_b"] = index(s.face_b), all.back()["point_b"] = {s.point_b.x, s.point_b.y, s.point_b.z};
+    }
+  }
+  return json;
+}
+
+int run_collide(const Options& options) {
+  const std::string suffix = options.out.empty() ? "" : output_suffix(options.out, pair_outputs(), options.out_format);
+  check_files({options.a, options.b, options.poses}, {options.out, options.report});
+  const Stopwatch reading;
+  const std::vector<Pose> poses = poses_of(options);
+  const Body a = read_body(options, options.a), b = read_body(options, options.b);
+  const double read_seconds = reading.seconds();
+  const Stopwatch asking;
+  const Answers answers = answer(options, a, b, poses);
+  const double seconds = asking.seconds();
+  Outputs outputs;
+  outputs.add(options.out, suffix, [&](const auto& file) { return write_face_pairs(file, answers.pairs), true; });
+  outputs.add_report(options.report, report_of(options, a, b, answers, seconds));
+  outputs.commit();
+  print_summary(options, answers);
+  print_notes(a, options.a), print_notes(b, options.b);
+  say_more("  {} and {}; read and index {:.2f} s, answer {:.3f} s\n", counted(a.index.face_count(), "face", "faces"),
+           counted(b.index.face_count(), "face", "faces"), read_seconds, seconds);
+  return std::ranges::find(answers.collide, true) == answers.collide.end() ? kDone : kAnswerIsNo;
+}
+
+}  // namespace
+
+void add_collide(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "collide",
+      "Decides exactly whether two meshes have a point in common, and exits with code 1 if they do. Touching counts, "
+      "and "
+      "so does a closed mesh that is wholly inside of another one. B may be moved and turned, also to many poses.");
+  command.add_option("a", options->a, std::string("Mesh or .phull file. ") + kMeshFiles)->required()->type_name("A");
+  command.add_option("b", options->b, "Mesh or .phull file, which the poses move.")->required()->type_name("B");
+  add_format_option(command, options->input);
+  add_unit_options(command, options->input, "both meshes");
+  CLI::Option* const pose =
+      command
+          .add_option(
+              "--pose", options->pose,
+              "Pose of B: seven numbers x,y,z,qw,qx,qy,qz, a translation and a quaternion; or twelve, the upper "
+              "three rows of a matrix of 4 x 4. Without this option B stays where it is.")
+          ->type_name("NUMBERS");
+  command
+      .add_option("--poses", options->poses,
+                  "File of poses of B, one a row, .npy, .npz or .csv. An .npy array may also have the shape (n, 4, 4).")
+      ->excludes(pose)
+      ->type_name("FILE");
+  CLI::Option* const out =
+      command
+          .add_option("-o,--out", options->out,
+                      "File for the pairs of faces that meet, .npz or .csv: pose, face_a, face_b. With - they go to "
+                      "standard output.")
+          ->type_name("PAIRS");
+  add_out_format_option(command, options->out_format, pair_outputs());
+  CLI::Option* const distance = command.add_flag("--distance", options->distance,
+                                                 "Also find the least distance of each pose, with proven bounds.");
+  command
+      .add_flag("--conservative", options->conservative,
+                "Ask hulls alone, which is fast for large meshes: of a .phull file its base mesh, of a mesh the mesh "
+                "itself, as a hull. If they are free, all that they enclose is; if they are not, it may be free.")
+      ->excludes(out)
+      ->excludes(distance);
+  add_threads_option(command, options->threads, "The answers are the same for any number.");
+  add_report_option(command, options->report);
+  add_examples(command, {"prohull collide arm.stl wall.stl",
+                         "prohull collide arm.stl tool.stl --pose 0.1,0,0.4,1,0,0,0 --distance",
+                         "prohull collide arm.ply part.ply --poses poses.npy --report free.json",
+                         "prohull collide gear.ply gear.ply --pose 12.5,0,0,1,0,0,0 -o contacts.csv",
+                         "prohull collide arm.phull part.phull --poses poses.csv --conservative"});
+  command.callback([options, &run] { run = [options] { return run_collide(*options); }; });
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "command.h"
+#include "point_command.h"
+#include "prohull/query_io.h"
+
+namespace prohull::cli {
+namespace {
+
+const OutputKind& inside_outputs() {
+  static const OutputKind kind{"the answers", {".npz", ".csv"}};
+  return kind;
+}
+
+PointAnswers ask(const QueryIndex& index, const std::vector<Vec3>& points, const BatchOptions& batch) {
+  const std::vector<bool> inside = contains(index, points, batch);
+  const auto count = static_cast<std::size_t>(std::ranges::count(inside, true));
+  const double share = points.empty() ? 0 : static_cast<double>(count) / static_cast<double>(points.size());
+  return {
+      fmt::format("{} of {} inside ({:.2f} %)", grouped(count), counted(points.size(), "point", "points"), 100 * share),
+      {{"inside", count}},
+      [inside](const auto& file) { write_inside(file, inside); }};
+}
+
+}  // namespace
+
+void add_contains(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<PointOptions>();
+  CLI::App& command = *app.add_subcommand("contains",
+                                          "Decides which points are inside of a mesh, exactly. The mesh must be "
+                                          "closed. A point is inside if the mesh winds "
+                                          "around it at least once, so cavities are outside.");
+  add_point_options(command, *options, inside_outputs());
+  add_examples(command,
+               {"prohull contains horse.ply --random 1e6", "prohull contains part.stl --points p.npy -o in.npz",
+                "prohull contains part.stl --points - -o - --out-format csv <points.csv"});
+  command.callback([options, &run] { run = [options] { return run_points(*options, inside_outputs(), ask); }; });
+}
+
+}  // namespace prohull::cli

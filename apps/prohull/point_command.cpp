@@ -1,0 +1,107 @@
+#include "point_command.h"
+
+#include <fmt/format.h>
+
+#include "asked_mesh.h"
+#include "command.h"
+#include "prohull/error.h"
+#include "prohull/query_io.h"
+#include "prohull/random_segments.h"
+
+namespace prohull::cli {
+namespace {
+
+std::vector<Vec3> make_points(const PointOptions& options, const AskedMesh& asked) {
+  if (options.points.empty()) return random_points(asked.box(), options.random, options.seed);
+  return read_points(read_bytes(options.points), input_name(options.points));
+}
+
+PointAnswers answers_of(const PointOptions& options, const QueryIndex& index, const std::vector<Vec3>& points,
+                        const AskPoints& ask) {
+  try {
+    ProgressLine line;
+    return ask(index, points, {.threads = options.threads, .progress = std::ref(line)});
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), input_name(options.in) + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+void add_point_options(CLI::App& command, PointOptions& options, const OutputKind& answers) {
+  command.add_option("in", options.in, std::string("Mesh or .phull file to ask. ") + kMeshFiles)
+      ->required()
+      ->type_name("IN");
+  add_format_option(command, options.input);
+  add_unit_options(command, options.input, "the mesh");
+  command
+      .add_option("-o,--out", options.out,
+                  fmt::format("File for {}, .npz or .csv. With - they go to standard output. Without this option only "
+                              "the summary is printed.",
+                              answers.what))
+      ->type_name("FILE");
+  add_out_format_option(command, options.out_format, answers);
+  CLI::App& points = *command.add_option_group(
+      "Points", "One of these is required. Files are .npy, .npz or .csv, and - is standard input");
+  points.add_option("--points", options.points, "File of points, one a row: x,y,z.")->type_name("FILE");
+  CLI::Option* const random =
+      add_number(points, "--random", options.random, {1, 1e9},
+                 "Number of random points to ask. They are spread evenly over the bounding box of the mesh.");
+  points.require_option(1);
+  add_number(command, "--seed", options.seed, kSeed,
+             "Number that the random points depend on. The same seed gives the same points.")
+      ->capture_default_str()
+      ->needs(random);
+  command.add_option("--write-points", options.write_points, "File for the random points, .npy or .csv.")
+      ->needs(random)
+      ->type_name("FILE");
+  add_choice(command, "--engine", options.engine, engine_names(),
+             "How the answers are found; docs/queries.md explains each. auto is the fastest that is exact.");
+  add_threads_option(command, options.threads, "The answers are the same for any number.");
+  add_report_option(command, options.report);
+}
+
+int run_points(const PointOptions& options, const OutputKind& answers, const AskPoints& ask) {
+  const std::string suffix = options.out.empty() ? "" : output_suffix(options.out, answers, options.out_format);
+  const std::string points_suffix =
+      options.write_points.empty() ? "" : output_suffix(options.write_points, {"points", {".npy", ".csv"}});
+  check_files({options.in, options.points}, {options.out, options.write_points, options.report});
+
+  QuerySeconds seconds;
+  const Stopwatch reading;
+  AskedMesh asked(options.in, options.input);
+  const std::vector<Vec3> points = make_points(options, asked);
+  seconds.read = reading.seconds();
+  stop_if_interrupted();
+  const Stopwatch indexing;
+  const QueryIndex index = asked.index(options.engine);
+  seconds.index = indexing.seconds();
+  stop_if_interrupted();
+  const Stopwatch asking;
+  const PointAnswers found = answers_of(options, index, points, ask);
+  seconds.query = asking.seconds();
+  const Stopwatch writing;
+  Outputs outputs;
+  outputs.add(options.out, suffix, [&](const auto& file) { return found.write(file), true; });
+  seconds.write = writing.seconds();
+  outputs.add(options.write_points, points_suffix, [&](const auto& file) { return write_points(file, points), true; });
+
+  const double per_second = seconds.query > 0 ? static_cast<double>(points.size()) / seconds.query : 0;
+  const unsigned threads = threads_used(options.threads);
+  nlohmann::json report = {{"points", points.size()},       {"points_per_second", per_second},
+                           {"engine", index.engine_name()}, {"threads", threads},
+                           {"seconds", seconds.facts()},    {"input", asked.facts()}};
+  if (options.random > 0) report["seed"] = options.seed;
+  report.update(found.facts);
+  outputs.add_report(options.report, report);
+  outputs.commit();
+  asked.say_what();
+  if (options.random > 0) say("{} random points, seed {}\n", grouped(options.random), options.seed);
+  say("{}{}\n", options.out.empty() ? "" : output_name(options.out) + ": ", found.summary);
+  say("  engine {}, {}: {} points per second\n", index.engine_name(), counted(threads, "thread", "threads"),
+      grouped(static_cast<std::size_t>(per_second)));
+  seconds.say_them();
+  return kDone;
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "arrays.h"
+#include "module.h"
+#include "prohull/collide.h"
+#include "watch.h"
+
+namespace py = pybind11;
+
+namespace prohull::python {
+namespace {
+
+/// The upper three rows of a matrix of 4 x 4.
+Pose pose_of(const double* m) {
+  return {{Vec3{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}, {m[3], m[7], m[11]}};
+}
+
+/// Of two arrays of shape (n, 16).
+std::vector<PosePair> pose_pairs(const Array<double>& a, const Array<double>& b) {
+  std::vector<PosePair> pairs;
+  for (py::ssize_t i = 0; i < a.shape(0); ++i) pairs.push_back({pose_of(a.data(i, 0)), pose_of(b.data(i, 0))});
+  return pairs;
+}
+
+/// batch(options) for a Watch.
+template <class Batch>
+auto answered(unsigned threads, const py::object& progress, Batch batch) {
+  return watched(progress, [&](Watch& watch) { return batch(CollisionOptions{threads, watch.progress()}); });
+}
+
+py::array collides(const CollisionIndex& a, const CollisionIndex& b, const Array<double>& poses_a,
+                   const Array<double>& poses_b, bool conservative, unsigned threads, const py::object& progress) {
+  const std::vector<PosePair> poses = pose_pairs(poses_a, poses_b);
+  const std::vector<bool> truths = answered(threads, progress, [&](const CollisionOptions& how) {
+    return conservative ? may_collide(a, b, poses, how) : collide(a, b, poses, how);
+  });
+  py::array_t<bool> result(poses_a.shape(0));
+  std::ranges::copy(truths, result.mutable_data());
+  return result;
+}
+
+py::tuple intersecting_faces_of(const CollisionIndex& a, const CollisionIndex& b, const Array<double>& poses_a,
+                                const Array<double>& poses_b, unsigned threads, const py::object& progress) {
+  const std::vector<PosePair> poses = pose_pairs(poses_a, poses_b);
+  const FacePairBatch batch =
+      answered(threads, progress, [&](const CollisionOptions& how) { return intersecting_faces(a, b, poses, how); });
+  std::vector<std::int64_t> faces;
+  for (const FacePair& pair : batch.pairs) faces.insert(faces.end(), {index(pair.a), index(pair.b)});
+  const auto count = static_cast<py::ssize_t>(batch.pairs.size());
+  return py::make_tuple(array_of(std::vector<std::int64_t>(batch.offsets.begin(), batch.offsets.end()),
+                                 {static_cast<py::ssize_t>(batch.offsets.size())}),
+                        array_of(std::move(faces), {count, 2}));
+}
+
+/// Lower and upper bounds, points (n, 2, 3) and faces (n, 2).
+py::tuple distances(const CollisionIndex& a, const CollisionIndex& b, const Array<double>& poses_a,
+                    const Array<double>& poses_b, unsigned threads, const py::object& progress) {
+  const std::vector<PosePair> poses = pose_pairs(poses_a, poses_b);
+  const std::vector<Separation> found =
+      answered(threads, progress, [&](const CollisionOptions& how) { return separation(a, b, poses, how); });
+  std::vector<double> lower, upper, points;
+  std::vector<std::int64_t> faces;
+  for (const Separation& s : found) {
+    lower.push_back(s.lower), upper.push_back(s.upper);
+    for (const Vec3& p : {s.point_a, s.point_b}) points.insert(points.end(), {p.x, p.y, p.z});
+    faces.insert(faces.end(), {index(s.face_a), index(s.face_b)});
+  }
+  const auto n = static_cast<py::ssize_t>(found.size());
+  return py::make_tuple(array_of(std::move(lower), {n}), array_of(std::move(upper), {n}),
+                        array_of(std::move(points), {n, 2, 3}), array_of(std::move(faces), {n, 2}));
+}
+
+}  // namespace
+
+void bind_collisions(py::module_& module) {
+  py::class_<CollisionIndex>(module, "CollisionIndex")
+      .def(py::init([](const TriangleMesh& mesh, const TriangleMesh* outer, const TriangleMesh* inner) {
+        const py::gil_scoped_release released;
+        CollisionHulls hulls;
+        if (outer) hulls.outer = *outer;
+        if (inner) hulls.inner = *inner;
+        return CollisionIndex(mesh, hulls);
+      }))
+      .def_property_readonly("is_solid", &CollisionIndex::is_solid)
+      .def("collides", &collides)
+      .def("intersecting_faces", &intersecting_faces_of)
+      .def("distances", &distances);
+}
+
+}  // namespace prohull::python
