@@ -193,11 +193,13 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
     throw InputError(
         made_.input.closed ? Defect::NoVolume : Defect::OpenEdge,
         fmt::format("nothing could be wrapped: {}", notes_.empty() ? made_.input.obstacle : notes_.back()));
-  if (!best->certified)
+  if (!best->certified) {
+    if (notes_.empty()) note_why_not(*best);
     throw InputError(Defect::NoCertificate,
                      fmt::format("no hull of {} faces could be certified: {}; try more faces, or "
                                  "--repair wrap, or another format if that keeps float32 only",
-                                 target_faces, notes_.empty() ? "" : notes_.back()));
+                                 target_faces, notes_.back()));
+  }
   note_solid(made_.solids[best->solid]);
   return std::move(*best);
 }
@@ -543,7 +545,8 @@ void Ladder::note_solid(const Solid& solid) {
 void Ladder::note_why_not(const EnclosingHull& hull) {
   const std::string source = described(made_.solids[hull.solid]);
   if (!hull.certified)
-    note(fmt::format("a hull of {} does not cover every triangle", source));
+    note(fmt::format("a hull of {} {}", source,
+                     is_outer() ? "does not cover every triangle" : "is not proven to lie inside of the mesh"));
   else if (!hull.within_bounds)
     note(fmt::format("no hull of {} is within the bounds", source));
   else if (!hull.target_reached)
