@@ -35,27 +35,39 @@ class CgalTree final : public QueryPeer {
     const Kernel::Point_3 a = point(segment.a), b = point(segment.b);
     const auto found = tree_.first_intersection(Kernel::Ray_3(a, b));
     if (!found) return std::nullopt;
-    const auto* at = boost::get<Kernel::Point_3>(&found->first);
-    const Kernel::Point_3 place = at ? *at : boost::get<Kernel::Segment_3>(found->first).source();
-    const double t = (place - a) * (b - a) / (b - a).squared_length();
+    const double t = parameter(found->first, a, b);
     if (t > 1) return std::nullopt;
-    return PeerHit{FaceId(static_cast<std::uint32_t>(found->second - triangles_.begin())), t};
+    return PeerHit{face(found->second), t};
   }
 
   bool any_hit(const Segment& segment) override { return tree_.do_intersect(query(segment)); }
 
-  std::optional<std::size_t> all_hits(const Segment& segment) override {
+  std::span<const PeerHit> all_hits(const Segment& segment) override {
     found_.clear();
     tree_.all_intersections(query(segment), std::back_inserter(found_));
-    return found_.size();
+    hits_.clear();
+    for (const auto& [place, triangle] : found_)
+      hits_.push_back({face(triangle), parameter(place, point(segment.a), point(segment.b))});
+    return hits_;
   }
 
  private:
+  /// Of a point, or of the start of a segment.
+  template <class Place>
+  static double parameter(const Place& place, const Kernel::Point_3& a, const Kernel::Point_3& b) {
+    const auto* at = boost::get<Kernel::Point_3>(&place);
+    const Kernel::Point_3 where = at ? *at : boost::get<Kernel::Segment_3>(place).source();
+    return (where - a) * (b - a) / (b - a).squared_length();
+  }
+  FaceId face(Triangles::const_iterator triangle) const {
+    return FaceId(static_cast<std::uint32_t>(triangle - triangles_.begin()));
+  }
   static Kernel::Segment_3 query(const Segment& s) { return {point(s.a), point(s.b)}; }
 
   Triangles triangles_;
   Tree tree_;
   std::vector<Tree::Intersection_and_primitive_id<Kernel::Segment_3>::Type> found_;
+  std::vector<PeerHit> hits_;
 };
 
 }  // namespace

@@ -16,13 +16,18 @@ constexpr int kBadInput = 3;
 
 // Each adds its subcommand to the program and leaves in `run` what to do when it is chosen; run returns the exit code.
 using Run = std::function<int()>;
+void add_aimed(CLI::App& app, Run& run);
+void add_collide(CLI::App& app, Run& run);
 void add_construction(CLI::App& app, Run& run);
 void add_corpus(CLI::App& app, Run& run);
+void add_filters(CLI::App& app, Run& run);
 void add_intersections(CLI::App& app, Run& run);
+void add_looser(CLI::App& app, Run& run);
 void add_memory(CLI::App& app, Run& run);
 void add_peers(CLI::App& app, Run& run);
 void add_queries(CLI::App& app, Run& run);
 void add_queues(CLI::App& app, Run& run);
+void add_rays(CLI::App& app, Run& run);
 void add_scale(CLI::App& app, Run& run);
 
 // Options that several commands have.

@@ -17,7 +17,12 @@ int main(int argc, char** argv) {
   add_construction(app, run);
   add_queues(app, run);
   add_queries(app, run);
+  add_rays(app, run);
+  add_aimed(app, run);
+  add_collide(app, run);
+  add_filters(app, run);
   add_intersections(app, run);
+  add_looser(app, run);
   add_memory(app, run);
   add_peers(app, run);
   add_scale(app, run);

@@ -33,9 +33,14 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
   CLI::Option* folder = command.add_option("--models", options.folder, "Measure every mesh of this folder")
                             ->check(CLI::ExistingDirectory)
                             ->type_name("DIR");
+  CLI::Option* files = command.add_option("--mesh", options.files, "Measure these meshes")
+                           ->check(CLI::ExistingFile)
+                           ->type_name("FILE")
+                           ->excludes(folder);
   command.add_option("--samples", options.samples, "Measure these bundled meshes (see prohull sample)")
       ->delimiter(',')
       ->excludes(folder)
+      ->excludes(files)
       ->type_name("NAME,...")
       ->capture_default_str();
   command.add_option("--sample-faces", options.sample_faces, "About how many faces samples have")
@@ -43,22 +48,26 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
   command
       .add_flag("--record-sample", options.record_sample,
                 "Measure only the bundled mesh that comes after those of --models")
-      ->excludes(folder);
+      ->excludes(folder)
+      ->excludes(files);
 }
 
 std::vector<ModelSource> model_sources(const ModelOptions& options) {
   const ModelSource record_sample{"bundled_pony", {}, "pony", 20000, true};
   if (options.record_sample) return {record_sample};
   std::vector<ModelSource> sources;
+  const auto add = [&](const std::filesystem::path& path) {
+    const std::string file = path.filename().string();
+    sources.push_back({file.substr(0, file.find('.')), path});
+  };
+  for (const auto& path : options.files) add(path);
+  if (!sources.empty()) return sources;
   if (options.folder.empty()) {
     for (const std::string& sample : options.samples) sources.push_back({sample, {}, sample, options.sample_faces});
     return sources;
   }
   for (const auto& entry : std::filesystem::directory_iterator(options.folder))
-    if (const auto& path = entry.path(); entry.is_regular_file() && is_named_like_a_mesh(path)) {
-      const std::string file = path.filename().string();
-      sources.push_back({file.substr(0, file.find('.')), path});
-    }
+    if (entry.is_regular_file() && is_named_like_a_mesh(entry.path())) add(entry.path());
   std::ranges::sort(sources, {}, &ModelSource::name);
   sources.push_back(record_sample);
   return sources;

@@ -14,6 +14,7 @@ namespace prohull::bench {
 /// Which meshes to measure: those of a folder, or bundled samples, so that every user can run every table.
 struct ModelOptions {
   std::filesystem::path folder;
+  std::vector<std::filesystem::path> files = {};
   std::vector<std::string> samples{"sphere", "asteroid", "bracket", "pony"};
   std::size_t sample_faces = 50000;
   bool record_sample = false;  ///< that alone

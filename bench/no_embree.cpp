@@ -2,6 +2,6 @@
 
 namespace prohull::bench {
 
-std::unique_ptr<QueryPeer> make_embree(const TriangleMesh&, bool) { return nullptr; }
+std::unique_ptr<QueryPeer> make_embree(const TriangleMesh&, bool, unsigned) { return nullptr; }
 
 }  // namespace prohull::bench

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 
@@ -49,14 +50,20 @@ QueryModel load_model(const ModelSource& source, const QueryOptions& options) {
   return model;
 }
 
+struct NamedSection {
+  std::string_view name;
+  std::unique_ptr<QuerySection> (*make)();
+};
+constexpr std::array kSections{NamedSection{"bases", make_bases_section}, NamedSection{"kdops", make_kdops_section},
+                               NamedSection{"updates", make_updates_section},
+                               NamedSection{"memory", make_memory_section},
+                               NamedSection{"correctness", make_correctness_section}};
+
 int run_queries(QueryOptions options) {
   if (options.segments == 0) options.segments = options.models.folder.empty() ? 1000 : 10000;
   std::vector<std::unique_ptr<QuerySection>> sections;
-  sections.push_back(make_bases_section());
-  sections.push_back(make_kdops_section());
-  sections.push_back(make_updates_section());
-  sections.push_back(make_memory_section());
-  sections.push_back(make_correctness_section());
+  for (const auto& [name, make] : kSections)
+    if (options.sections.empty() || std::ranges::count(options.sections, name) > 0) sections.push_back(make());
   measure_each(options.models, [&](const ModelSource& source) {
     QueryOptions mine = options;
     if (source.is_record_sample) mine.segments = mine.checked = 1000;  // it is measured by a test
@@ -89,6 +96,12 @@ void add_queries(CLI::App& app, Run& run) {
   command.add_option("--check", options->checked, "How many segments are compared with exact brute force")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  std::vector<std::string> names;
+  for (const NamedSection& section : kSections) names.emplace_back(section.name);
+  command.add_option("--only", options->sections, "Measure only these parts [all]")
+      ->delimiter(',')
+      ->type_name("PART,...")
+      ->check(CLI::IsMember(names));
   add_rounds_option(command, options->rounds);
   command.add_option("--seed", options->seed, "Of the random segments")->capture_default_str();
   add_out_option(command, options->out, "queries.md, one CSV per table and Figure 8");

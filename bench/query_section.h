@@ -20,6 +20,7 @@ struct QueryOptions {
   std::size_t segments = 0;  ///< that are timed; 0: the paper's 10,000 for a folder of models, 1,000 for samples
   std::size_t checked = 2000;
   std::size_t rounds = 3;
+  std::vector<std::string> sections;  ///< by name; none: all
   std::uint64_t seed = 1;
   std::filesystem::path out;
 };

@@ -31,6 +31,11 @@ expect("${printed}" "${markdown}")
 
 run(queues --samples asteroid --sample-faces 2000 --faces 400 --repeat 1)
 expect("${printed}" "| model | strategy | heap | red-black tree | buckets |")
+run(looser --samples asteroid --sample-faces 2500 --segments 100 --repeat 1)
+foreach(column "| model | strategy | parameters | time | void at 2000 |" "| model | strategy | position | time |"
+        "| asteroid | paper2 | all looser |" "| asteroid | paper1 | lifted centre |")
+  expect("${printed}" "${column}")
+endforeach()
 run(memory --samples asteroid --sample-faces 2000 --faces 400)
 expect("${printed}" "| model | faces | mesh | peak | bytes per face |")
 run(intersections --samples asteroid,bracket --sample-faces 2000 --faces 400,100 --out ${OUT})
@@ -53,6 +58,10 @@ expect("${printed}" "${markdown}")
 file(READ ${OUT}/peers.csv csv)
 expect("${csv}" "mesh,mesh_faces,mesh_vertices,mesh_self_intersections,method,asked_faces,hull_faces,void_percent,")
 
+run(filters --samples asteroid --sample-faces 2000 --faces 200 --segments 100 --repeat 1 --out ${OUT})
+expect("${printed}" "| mesh | faces | segments | engine | query | ns_per_segment | found | bytes_per_face |")
+expect("${printed}" "| walk | all |")
+
 run(queries --samples asteroid --sample-faces 2000 --segments 100 --check 300 --repeat 1 --out ${OUT})
 foreach(column "| model | strategy | base | time | brute force / time |" "| model | segments that meet | paper's | 6-DOPs |"
         "| model | engine | first | any | all |" "| model | batch | between queries | time |"
@@ -65,6 +74,29 @@ foreach(table table3 figure8 table4 trees updates query_memory correctness)
   file(READ ${OUT}/${table}.csv csv)
   expect("${csv}" "\nasteroid,")
 endforeach()
+
+run(rays --samples asteroid --sample-faces 1000 --segments 64 --aimed 16 --cgal 4 --points 10 --rounds 1 --out ${OUT})
+foreach(text "| model | faces | queries | ask | number | bvh | Embree |" "| model | faces | queries | ask | bvh | Embree robust |"
+        "| model | faces | tree | build |" " | box | first | 64 |" " | vertex to vertex | all | 16 |"
+        " | points | contains | 10 |")
+  expect("${printed}" "${text}")
+endforeach()
+file(READ ${OUT}/rays.csv csv)
+expect("${csv}" "mesh,faces,set,ask,how,engine,queries,hits,query_ns\nasteroid,")
+file(READ ${OUT}/ray_trees.csv csv)
+expect("${csv}" "mesh,faces,engine,build_seconds,elapsed_seconds,bytes_per_face\nasteroid,")
+
+run(aimed --samples asteroid --sample-faces 1000 --count 8 --out ${OUT})
+foreach(variant "as it is" "rotated" "times 2^-300" "times 2^300" "far away" "slivers" "overlapping")
+  expect("${printed}" "| asteroid | ${variant} | 32 |")
+endforeach()
+file(READ ${OUT}/aimed.csv csv)
+expect("${csv}" "mesh,faces,intersects_itself,variant,set,segments,crossings,engine,wrong_first,wrong_any,wrong_all,\
+wrong_parity\nasteroid,")
+run(collide --samples asteroid --sample-faces 1000 --poses 20 --repeat 1 --out ${OUT})
+expect("${printed}" "| model | by | collide | hit | miss | mean | / prohull | other answers |")
+file(READ ${OUT}/collide.csv csv)
+expect("${csv}" "mesh,faces,by,poses,collide,hit_us,miss_us,mean_us,other_answers,build_seconds\nasteroid,")
 
 run(corpus --faces 50 --jobs 2 --out ${OUT})
 foreach(text ", 0 FAILED." "| file | verdict | why |" "| sound.off | ok |" "| inside_out.off | repaired | turned 1 component"
