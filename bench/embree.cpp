@@ -204,7 +204,8 @@ class Embree final : public QueryPeer {
     rtcIntersect1(filtering_scene_.get(), &collecting_, &query);
     std::ranges::sort(hits,
                       [](const PeerHit& a, const PeerHit& b) { return std::tie(a.t, a.face) < std::tie(b.t, b.face); });
-    hits.erase(std::ranges::unique(hits, {}, &PeerHit::face).begin(), hits.end());
+    const auto same_face = [](const PeerHit& a, const PeerHit& b) { return a.face == b.face; };
+    hits.erase(std::unique(hits.begin(), hits.end(), same_face), hits.end());
     return hits;
   }
 
