@@ -6,6 +6,8 @@
 #include <thread>
 
 #include "console.h"
+#include "options.h"
+#include "outputs.h"
 #include "prohull/error.h"
 
 namespace prohull::cli {
@@ -60,6 +62,29 @@ unsigned threads_used(unsigned threads) {
 
 void QuerySeconds::say_them() const {
   say("  read {:.2f} s, index {:.2f} s, query {:.2f} s, write {:.2f} s\n", read, index, query, write);
+}
+
+std::string RandomQueries::suffix(std::string_view noun) const {
+  return file.empty() ? "" : output_suffix(file, {noun, {".npy", ".csv"}});
+}
+
+void RandomQueries::say_what(std::string_view noun) const {
+  if (count > 0) say("{} random {}, seed {}\n", grouped(count), noun, seed);
+}
+
+void add_random_queries(CLI::App& command, CLI::App& group, RandomQueries& random, std::string_view noun,
+                        std::string_view spread) {
+  CLI::Option* const count = add_number(group, "--random", random.count, {1, 1e9},
+                                        fmt::format("Number of random {} to ask. {}", noun, spread));
+  add_number(command, "--seed", random.seed, kSeed,
+             fmt::format("Number that the random {0} depend on. The same seed gives the same {0}.", noun))
+      ->capture_default_str()
+      ->needs(count);
+  command
+      .add_option(fmt::format("--write-{}", noun), random.file,
+                  fmt::format("File for the random {}, .npy or .csv.", noun))
+      ->needs(count)
+      ->type_name("FILE");
 }
 
 }  // namespace prohull::cli

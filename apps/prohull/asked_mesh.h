@@ -1,8 +1,12 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 
 #include "inputs.h"
 #include "prohull/mesh_query.h"
@@ -34,6 +38,22 @@ class AskedMesh {
 };
 
 TriangleMesh mesh_of(MeshOrHull mesh_or_hull);
+
+/// Queries that are made at random.
+struct RandomQueries {
+  std::size_t count = 0;  ///< 0: they are read from a file
+  std::uint64_t seed = 1;
+  std::filesystem::path file;  ///< to write them to; may be empty
+
+  /// What the name of the file ends in. `noun` is "segments" or "points", here and below.
+  std::string suffix(std::string_view noun) const;
+  /// Nothing is said of queries that are read.
+  void say_what(std::string_view noun) const;
+};
+
+/// The options --random, which goes to `group`, --seed and --write-NOUN. `spread` is a sentence: where the queries lie.
+void add_random_queries(CLI::App& command, CLI::App& group, RandomQueries& random, std::string_view noun,
+                        std::string_view spread);
 
 /// How many threads --threads is.
 unsigned threads_used(unsigned threads);

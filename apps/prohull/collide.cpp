@@ -210,8 +210,9 @@ void add_collide(CLI::App& app, Run& run) {
                                                  "Also find the least distance of each pose, with proven bounds.");
   command
       .add_flag("--conservative", options->conservative,
-                "Ask hulls alone, which is fast for large meshes: of a .phull file its base mesh, of a mesh the mesh "
-                "itself, as a hull. If they are free, all that they enclose is; if they are not, it may be free.")
+                "Ask hulls in place of the meshes, which is faster. The hull of a .phull file is its base mesh; any "
+                "other file is taken as a hull itself. Hulls that are free enclose meshes that are free. Hulls that "
+                "meet may enclose meshes that are free, too.")
       ->excludes(out)
       ->excludes(distance);
   add_threads_option(command, options->threads, "The answers are the same for any number.");

@@ -12,7 +12,7 @@ namespace prohull::cli {
 namespace {
 
 std::vector<Vec3> make_points(const PointOptions& options, const AskedMesh& asked) {
-  if (options.points.empty()) return random_points(asked.box(), options.random, options.seed);
+  if (options.points.empty()) return random_points(asked.box(), options.random.count, options.random.seed);
   return read_points(read_bytes(options.points), input_name(options.points));
 }
 
@@ -44,17 +44,9 @@ void add_point_options(CLI::App& command, PointOptions& options, const OutputKin
   CLI::App& points = *command.add_option_group(
       "Points", "One of these is required. Files are .npy, .npz or .csv, and - is standard input");
   points.add_option("--points", options.points, "File of points, one a row: x,y,z.")->type_name("FILE");
-  CLI::Option* const random =
-      add_number(points, "--random", options.random, {1, 1e9},
-                 "Number of random points to ask. They are spread evenly over the bounding box of the mesh.");
+  add_random_queries(command, points, options.random, "points",
+                     "They are spread evenly over the bounding box of the mesh.");
   points.require_option(1);
-  add_number(command, "--seed", options.seed, kSeed,
-             "Number that the random points depend on. The same seed gives the same points.")
-      ->capture_default_str()
-      ->needs(random);
-  command.add_option("--write-points", options.write_points, "File for the random points, .npy or .csv.")
-      ->needs(random)
-      ->type_name("FILE");
   add_choice(command, "--engine", options.engine, engine_names(),
              "How the answers are found; docs/queries.md explains each. auto is the fastest that is exact.");
   add_threads_option(command, options.threads, "The answers are the same for any number.");
@@ -63,9 +55,8 @@ void add_point_options(CLI::App& command, PointOptions& options, const OutputKin
 
 int run_points(const PointOptions& options, const OutputKind& answers, const AskPoints& ask) {
   const std::string suffix = options.out.empty() ? "" : output_suffix(options.out, answers, options.out_format);
-  const std::string points_suffix =
-      options.write_points.empty() ? "" : output_suffix(options.write_points, {"points", {".npy", ".csv"}});
-  check_files({options.in, options.points}, {options.out, options.write_points, options.report});
+  const std::string points_suffix = options.random.suffix("points");
+  check_files({options.in, options.points}, {options.out, options.random.file, options.report});
 
   QuerySeconds seconds;
   const Stopwatch reading;
@@ -84,19 +75,19 @@ int run_points(const PointOptions& options, const OutputKind& answers, const Ask
   Outputs outputs;
   outputs.add(options.out, suffix, [&](const auto& file) { return found.write(file), true; });
   seconds.write = writing.seconds();
-  outputs.add(options.write_points, points_suffix, [&](const auto& file) { return write_points(file, points), true; });
+  outputs.add(options.random.file, points_suffix, [&](const auto& file) { return write_points(file, points), true; });
 
   const double per_second = seconds.query > 0 ? static_cast<double>(points.size()) / seconds.query : 0;
   const unsigned threads = threads_used(options.threads);
   nlohmann::json report = {{"points", points.size()},       {"points_per_second", per_second},
                            {"engine", index.engine_name()}, {"threads", threads},
                            {"seconds", seconds.facts()},    {"input", asked.facts()}};
-  if (options.random > 0) report["seed"] = options.seed;
+  if (options.random.count > 0) report["seed"] = options.random.seed;
   report.update(found.facts);
   outputs.add_report(options.report, report);
   outputs.commit();
   asked.say_what();
-  if (options.random > 0) say("{} random points, seed {}\n", grouped(options.random), options.seed);
+  options.random.say_what("points");
   say("{}{}\n", options.out.empty() ? "" : output_name(options.out) + ": ", found.summary);
   say("  engine {}, {}: {} points per second\n", index.engine_name(), counted(threads, "thread", "threads"),
       grouped(static_cast<std::size_t>(per_second)));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "asked_mesh.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "prohull/mesh_query.h"
@@ -16,11 +17,10 @@ namespace prohull::cli {
 // What the commands share that ask a mesh about points.
 
 struct PointOptions {
-  std::filesystem::path in, points, out, write_points, report;
+  std::filesystem::path in, points, out, report;
   std::string out_format;
   InputOptions input;
-  std::size_t random = 0;
-  std::uint64_t seed = 1;
+  RandomQueries random;
   Engine engine = Engine::Auto;
   unsigned threads = 0;
 };

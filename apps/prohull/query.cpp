@@ -17,11 +17,10 @@ namespace {
 using EngineChoice = std::variant<Engine, std::string_view>;
 
 struct Options {
-  std::filesystem::path in, inner, segments, rays, triangles, out, write_segments, report;
+  std::filesystem::path in, inner, segments, rays, triangles, out, report;
   std::string out_format;
   InputOptions input;
-  std::size_t random = 0;
-  std::uint64_t seed = 1;
+  RandomQueries random;
   HitMode mode = HitMode::First;
   EngineChoice engine = Engine::Auto;
   unsigned threads = 0;
@@ -73,16 +72,15 @@ using Queries = std::variant<std::vector<Segment>, std::vector<Ray>, std::vector
 
 /// What the names of the outputs end in.
 struct Suffixes {
-  std::string out, write_segments;
+  std::string out, segments;
 };
 
 Suffixes check_outputs(const Options& options) {
   Suffixes suffixes;
   if (!options.out.empty()) suffixes.out = output_suffix(options.out, hit_outputs(), options.out_format);
-  if (!options.write_segments.empty())
-    suffixes.write_segments = output_suffix(options.write_segments, {"segments", {".npy", ".csv"}});
+  suffixes.segments = options.random.suffix("segments");
   check_files({options.in, options.inner, options.segments, options.rays, options.triangles},
-              {options.out, options.write_segments, options.report});
+              {options.out, options.random.file, options.report});
   return suffixes;
 }
 
@@ -91,7 +89,7 @@ Queries make_queries(const Options& options, const AskedMesh& asked) {
   if (!options.segments.empty()) return read_segments(read_bytes(options.segments), name(options.segments));
   if (!options.rays.empty()) return read_rays(read_bytes(options.rays), name(options.rays));
   if (!options.triangles.empty()) return read_triangles(read_bytes(options.triangles), name(options.triangles));
-  return random_segments(asked.box(), options.random, options.seed);
+  return random_segments(asked.box(), options.random.count, options.random.seed);
 }
 
 /// The hull of a .phull file that an option needs, and the engine, of the library, that it goes with.
@@ -181,7 +179,7 @@ nlohmann::json report_of(const Options& options, const Outcome& outcome) {
                          {"threads", threads_used(options.threads)},
                          {"seconds", outcome.seconds.facts()}};
   if (outcome.noun != "triangle") json["mode"] = name_of(hit_mode_names(), options.mode);
-  if (options.random > 0) json["seed"] = options.seed;
+  if (options.random.count > 0) json["seed"] = options.random.seed;
   if (counts_tests(options.engine)) json["tests"] = outcome.counts.tests, json["splits"] = outcome.counts.splits;
   return json;
 }
@@ -219,7 +217,7 @@ int run_query(const Options& options) {
   Outputs outputs;
   const Outcome outcome =
       std::visit([&](const auto& q) { return answer(options, index, q, seconds, suffixes.out, outputs); }, queries);
-  outputs.add(options.write_segments, suffixes.write_segments,
+  outputs.add(options.random.file, suffixes.segments,
               [&](const auto& file) { return write_segments(file, std::get<std::vector<Segment>>(queries)), true; });
   nlohmann::json json = report_of(options, outcome);
   json["input"] = asked.facts();
@@ -229,7 +227,7 @@ int run_query(const Options& options) {
   outputs.commit();
   asked.say_what();
   if (conservative) say_conservative(*conservative, index);
-  if (options.random > 0) say("{} random segments, seed {}\n", grouped(options.random), options.seed);
+  options.random.say_what("segments");
   print_summary(options, outcome);
   say_more("  the index takes {} bytes\n", grouped(index.memory_bytes()));
   return kDone;
@@ -247,18 +245,9 @@ void add_queries(CLI::App& command, Options& options) {
           .add_option("--triangles", options.triangles,
                       "File of triangles, one a row: the three corners. They are answered by the faces that they meet.")
           ->type_name("FILE");
-  CLI::Option* const random =
-      add_number(queries, "--random", options.random, {1, 1e9},
-                 "Number of random segments to ask. Each goes from one side to another of a box twice as large as that "
-                 "of the mesh.");
+  add_random_queries(command, queries, options.random, "segments",
+                     "Each goes from one side to another of a box twice as large as that of the mesh.");
   queries.require_option(1);
-  add_number(command, "--seed", options.seed, kSeed,
-             "Number that the random segments depend on. The same seed gives the same segments.")
-      ->capture_default_str()
-      ->needs(random);
-  command.add_option("--write-segments", options.write_segments, "File for the random segments, .npy or .csv.")
-      ->needs(random)
-      ->type_name("FILE");
   add_choice(command, "--mode", options.mode, hit_mode_names(),
              "Hits to find of each segment or ray: the first one, any one (which is faster), or all.")
       ->excludes(triangles);

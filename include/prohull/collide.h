@@ -94,7 +94,7 @@ bool may_collide(const CollisionIndex& a, const Pose& pose_a, const CollisionInd
 struct FacePair {
   FaceId a{}, b{};
 
-  auto operator<=>(const FacePair&) const = default;  // NOLINT(modernize-use-nullptr): a false alarm
+  bool operator==(const FacePair&) const = default;
 };
 
 /// All pairs of faces that have a point in common; touching counts. Exact; sorted. Faces without area count as the

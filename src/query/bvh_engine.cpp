@@ -13,12 +13,6 @@ class BvhWorker final : public QueryWorker {
     if (!tree_.is_empty()) trace_(tree_, line, hits);
   }
 
-  std::optional<Hit> one_hit(const TriangleMesh& mesh, const DirectedLine& line, HitMode mode) override {
-    HitCollector hits(mesh, line, mode);
-    BvhWorker::collect(line, hits);
-    return hits.best();
-  }
-
   void all_hits(const TriangleMesh& mesh, const DirectedLine& line, std::vector<Hit>& hits) override {
     HitCollector found(mesh, line, HitMode::All, std::move(scratch_));
     collect(line, found);

@@ -31,9 +31,7 @@ class LineSieve {
         std::max(line_filter::largest_entry(frame.max - origin_), line_filter::largest_entry(frame.min - origin_)) *
         std::abs(d[k]);
     reach_ = reach, longest_ = std::abs(d[k]);
-    const double size = reach * reach;
-    error_ =
-        size > 0x1p-900 && size < 0x1p900 ? 80 * line_filter::kEpsilon * size : std::numeric_limits<double>::infinity();
+    error_ = error_bound(reach * reach);
   }
 
   struct Projected {
@@ -53,9 +51,7 @@ class LineSieve {
     const Vec3 e = q - p;
     const Projected at = projected(p);
     const double eu = dot(u_, e), ev = dot(v_, e), value = at.u * ev - at.v * eu;
-    const double size = reach_ * line_filter::largest_entry(e) * longest_;
-    const double error =
-        size > 0x1p-900 && size < 0x1p900 ? 80 * line_filter::kEpsilon * size : std::numeric_limits<double>::infinity();
+    const double error = error_bound(reach_ * line_filter::largest_entry(e) * longest_);
     return value > error ? 1 : value < -error ? -1 : 0;
   }
 
@@ -67,6 +63,12 @@ class LineSieve {
   }
 
  private:
+  /// `size`: R^2 M^2, or what stands for it. Infinite where products may underflow or overflow.
+  static double error_bound(double size) {
+    return size > 0x1p-900 && size < 0x1p900 ? 80 * line_filter::kEpsilon * size
+                                             : std::numeric_limits<double>::infinity();
+  }
+
   Vec3 origin_;
   Vec3 u_, v_;  // each with a 0, which adds no error
   double error_;

@@ -132,7 +132,7 @@ void WideBvh::visit_nearest(const Vec3& p, Limit limit, Visit visit) const {
     std::uint32_t child;
   };
   using Lanes = double __attribute__((vector_size(kWidth * sizeof(double))));
-  constexpr double kEpsilon = 0x1p-53;
+  using line_filter::kEpsilon;
   const Vec3 q = (p - center_) * scale_;
   const double slack = 4 * kEpsilon * (std::abs(q.x) + std::abs(q.y) + std::abs(q.z)) + 0x1p-500;
   Near stack[kStackSize];
