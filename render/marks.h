@@ -12,6 +12,4 @@ TriangleMesh rod(const Segment& segment, double radius);
 TriangleMesh dashes(const Segment& segment, double radius, double period);
 TriangleMesh ball(const Vec3& center, double radius);
 
-void append(TriangleMesh& mesh, const TriangleMesh& part);
-
 }  // namespace prohull::render

@@ -23,6 +23,9 @@ struct TriangleMesh {
   bool operator==(const TriangleMesh&) const = default;
 };
 
+/// Adds the vertices and triangles of `part` after those of `mesh`.
+void append(TriangleMesh& mesh, const TriangleMesh& part);
+
 /// The bounding box of the vertices that triangles use.
 Box bounding_box(const TriangleMesh& mesh);
 

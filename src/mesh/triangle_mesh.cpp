@@ -2,6 +2,13 @@
 
 namespace prohull {
 
+void append(TriangleMesh& mesh, const TriangleMesh& part) {
+  const std::uint32_t first = index(mesh.positions.next_id());
+  for (const Vec3& p : part.positions) mesh.positions.push_back(p);
+  for (const auto& [a, b, c] : part.triangles)
+    mesh.triangles.push_back({VertexId{first + index(a)}, VertexId{first + index(b)}, VertexId{first + index(c)}});
+}
+
 Box bounding_box(const TriangleMesh& mesh) {
   Box box;
   for (const auto& t : mesh.triangles)
