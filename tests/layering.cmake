@@ -1,4 +1,4 @@
-# Reads every include of include/, src/, render/, kdop/, apps/, examples/ and python/, and fails if one points against the flow.
+# Reads every include of include/, src/, render/, robot/, kdop/, apps/, examples/ and python/, and fails if one points against the flow.
 # cmake -DROOT=<repository> -P layering.cmake
 cmake_policy(VERSION 3.25)
 
@@ -23,27 +23,28 @@ room(query     OWNS mesh_query refine_along                                     
 room(io        OWNS mesh_io hull_file query_io                                   MAY hull mesh geometry parallel base
                                                                                      prohull/collide prohull/mesh_query)
 room(repair    OWNS openings repair                                              MAY mesh geometry base)
-room(construct OWNS hull_builder tight_hull float32_hull                         MAY hull mesh geometry parallel base)
+room(construct OWNS hull_builder tight_hull float32_hull padded_hull             MAY hull mesh geometry parallel base)
 # Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges.
 room(verify    OWNS enclosure verification replay distance                       MAY geometry parallel base prohull/ids
                                                                                      prohull/triangle_mesh
                                                                                      prohull/vertex_split
                                                                                      prohull/progressive_hull)
 room(sample    OWNS sample random_segments                                       MAY mesh geometry base)
-room(wrap      OWNS wrap                                                         MAY mesh geometry parallel base)
+room(wrap      OWNS convex_hull wrap                                                         MAY mesh geometry parallel base)
 room(enclose   OWNS enclosing_hull                                               MAY construct repair verify wrap hull mesh
-                                                                                     geometry parallel base)
+                                                                                     geometry parallel base prohull/collide)
 
 room(collide   OWNS collide                                                      MAY mesh geometry parallel base
                                                                                      prohull/enclosure)  # is_closed
 
 # Outside of src/: public headers, all of them, and these folders.
-set(outside render kdop apps examples python)
+set(outside render robot kdop apps examples python)
 set(may_render render)
+set(may_robot robot render)
 set(may_kdop kdop query geometry)  # an engine as those of src/query
-set(may_apps render kdop)
+set(may_apps render robot kdop)
 set(may_examples "")
-set(may_python render)
+set(may_python render robot)
 
 set(failures "")
 macro(fail)
@@ -74,7 +75,7 @@ endforeach()
 
 # --- every include follows the flow ---
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/include/*.h ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/render/*.h
-     ${ROOT}/render/*.cpp ${ROOT}/kdop/*.h ${ROOT}/kdop/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp)
+     ${ROOT}/render/*.cpp ${ROOT}/robot/*.h ${ROOT}/robot/*.cpp ${ROOT}/kdop/*.h ${ROOT}/kdop/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp)
 list(LENGTH sources count)
 if(count LESS 20)
   message(FATAL_ERROR "found only ${count} sources below ${ROOT}")

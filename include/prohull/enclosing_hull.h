@@ -39,7 +39,10 @@ Names<Repair> repair_names();
 struct EnclosingOptions {
   HullOptions hull = {};  ///< enclosing_hulls sets its target_faces and its progress
   HullBounds bounds = {};
-  bool tight = false;   ///< build tight hulls (tight_hull.h), which have no levels
+  bool tight = false;  ///< build tight hulls (tight_hull.h), which have no levels
+  /// The hull keeps at least this distance from the triangles, in the input's unit; outer hulls without levels only.
+  /// `bounds` then count from the hull before it is moved outwards.
+  double padding = 0;
   bool levels = false;  ///< keep the levels of a hull of a wrap too: it then does not move towards the triangles
   Repair repair = Repair::Auto;
   bool keep_cavities = false;  ///< keep components that lie inside of others; inner hulls always do
@@ -53,12 +56,14 @@ struct EnclosingOptions {
 struct EnclosingHull {
   TriangleMesh mesh;
   bool certified = false;        ///< enclosure is proven exactly, by code that shares nothing with the construction
-  std::string_view proof;        ///< how: "replay", "enclosure" or "coverage" (verification.h); empty if not certified
+  std::string_view proof;        ///< how: "replay", "enclosure" or "coverage" (verification.h); with padding
+                                 ///< "padding", which includes "enclosure" or "coverage"; empty if not certified
   std::size_t target_faces = 0;  ///< how many faces were asked for
   bool target_reached = false;   ///< the mesh has at most target_faces faces, or `bounds` allow no fewer
   bool within_bounds = true;     ///< the hull keeps `bounds`
   double excess = 0;             ///< HullBounds::excess, if bounds were given; above 1 where it does not keep them
-  double void_ratio = 0;         ///< volume of the hull / EnclosingHulls::volume - 1
+  double padding = 0;     ///< proven least distance from the triangles, if EnclosingOptions::padding asks for one
+  double void_ratio = 0;  ///< volume of the hull / EnclosingHulls::volume - 1
   Source source = Source::Mesh;
   std::vector<std::string> notes;  ///< sentences for the user: why something is not as asked for, and what to look at
 

@@ -27,17 +27,19 @@ struct TightHull {
 ///
 /// With `wrapped`, `mesh` is a wrap of these triangles (wrap.h). Then vertices move towards the triangles, up to a
 /// millionth of their diagonal. The hull covers the triangles without touching them; it need not enclose the wrap.
-/// HullSide::Outer only.
+/// HullSide::Outer only. With `padding`, in the input's unit, no move brings a face nearer to the triangles than that,
+/// instead of the millionth.
 ///
 ///   const TightHull hull = build_tight_hull(closed_mesh(read_mesh("arm.stl")).mesh, {.target_faces = 500});
 TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options = {},
-                           const TriangleMesh* wrapped = nullptr);
+                           const TriangleMesh* wrapped = nullptr, double padding = 0);
 
 /// For moved_towards.
 struct MoveOptions {
   ShapeGuards guards = {};
   bool float32_coordinates = false;  ///< as in HullOptions
   unsigned max_rounds = 12;          ///< in each, all vertices move once that may; they end when none has moved
+  double padding = 0;                ///< as of build_tight_hull; moved_towards only
   Progress progress = {};            ///< stage "tighten"
 };
 
@@ -59,6 +61,7 @@ TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& 
 ///   const auto is_near = [&](const TriangleMesh& hull) { return bounds.hold(hull, arm, signed_volume(arm)); };
 ///   const TightHull hull = build_tight_hull_within(arm, is_near, {.target_faces = 100});
 TightHull build_tight_hull_within(const TriangleMesh& mesh, const std::function<bool(const TriangleMesh&)>& is_within,
-                                  const HullOptions& options = {}, const TriangleMesh* wrapped = nullptr);
+                                  const HullOptions& options = {}, const TriangleMesh* wrapped = nullptr,
+                                  double padding = 0);
 
 }  // namespace prohull

@@ -9,6 +9,8 @@ struct WrapOptions {
   double spacing = 0;  ///< of the grid that it is made on, in the input's unit; greater than 0
   /// How far the wrap is from flat parts, in spacings; at least 0.3. From 0.9 on, sheets have smooth wraps.
   double offset = 0.3;
+  /// Farther from the triangles by this, in the input's unit; `offset` and padding / spacing are at most 2.7 together.
+  double padding = 0;
   double seal_holes = 0;    ///< openings up to this diameter are closed, in the input's unit
   bool seal_rooms = false;  ///< close the doors of rooms, see wrap()
   double closing = 0;       ///< fill hollows and gaps that a ball of this radius cannot enter; in the input's unit

@@ -9,9 +9,9 @@
 
 #include "collide/collision_mesh.h"
 #include "collide/tree_pair.h"
-#include "collide/triangle_distance.h"
 #include "geometry/bvh.h"
 #include "geometry/triangle_contact.h"
+#include "geometry/triangle_distance.h"
 #include "geometry/usable_size.h"
 #include "parallel/arena.h"
 #include "parallel/progress_meter.h"
@@ -89,7 +89,7 @@ class Scene {
       });
       return false;
     });
-    std::ranges::sort(pairs);
+    std::ranges::sort(pairs, {}, [](const FacePair& pair) { return std::pair(pair.a, pair.b); });
     return pairs;
   }
 

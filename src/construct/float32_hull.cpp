@@ -8,9 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "construct/placement.h"
-#include "construct/shape_guards.h"
-#include "construct/star.h"
+#include "construct/collapse_away.h"
 #include "construct/turned.h"
 #include "geometry/float32.h"
 #include "geometry/linear_program.h"
@@ -38,7 +36,7 @@ class VertexMover {
       std::erase_if(pending, [&](VertexId v) { return move_nearby(v); });
       if (pending.empty()) break;
       if (round == kRounds) {
-        std::erase_if(pending, [&](VertexId v) { return !mesh_.has(v) || move_nearby(v) || collapse_away(v); });
+        std::erase_if(pending, [&](VertexId v) { return !mesh_.has(v) || move_nearby(v) || collapse_vertex_away(v); });
         if (!pending.empty() && no_room_ == NoRoom::Refuse) refuse(pending.front(), pending.size());
         for (const VertexId v : pending) mesh_.move(v, nearest_float32(mesh_.position(v)));
         break;
@@ -155,28 +153,8 @@ class VertexMover {
     }
   }
 
-  // The collapse of an edge of v that adds the least volume, its shape within the guards if any is.
-  bool collapse_away(VertexId v) {
-    struct Choice {
-      bool misshapen;
-      double added_volume;
-      HalfEdgeId edge;
-      Vec3 apex;
-    };
-    std::optional<Choice> best;
-    const auto rank = [](const Choice& c) { return std::pair(c.misshapen, c.added_volume); };
-    for (const HalfEdgeId h : mesh_.around(v)) {
-      gather_star(mesh_, mesh_.edge(h), star_);
-      if (!satisfies_link_condition(star_)) continue;
-      measure_star(mesh_, star_);
-      const auto placement = place_outside(star_, placement_margin(star_, 4 * spacing(v)));
-      if (!placement) continue;
-      const Choice choice{refused_shape(star_, placement->local, {}).has_value(), placement->added_volume, star_.edge,
-                          nearest_float32(star_.to_input(placement->local))};
-      if (prohull::is_outside(mesh_, star_, choice.apex) && (!best || rank(choice) < rank(*best))) best = choice;
-    }
-    if (best) mesh_.collapse(best->edge, best->apex);
-    return best.has_value();
+  bool collapse_vertex_away(VertexId v) {
+    return collapse_away(mesh_, v, star_, 4 * spacing(v), [](const Vec3& p) { return nearest_float32(p); });
   }
 
   const TriangleMesh& level_;

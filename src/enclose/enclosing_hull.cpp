@@ -13,15 +13,19 @@
 #include "construct/lifting.h"
 #include "construct/shape_guards.h"
 #include "geometry/float32.h"
+#include "geometry/usable_size.h"
 #include "parallel/progress_meter.h"
+#include "prohull/collide.h"
+#include "prohull/convex_hull.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
+#include "prohull/mesh_report.h"
+#include "prohull/padded_hull.h"
 #include "prohull/replay.h"
 #include "prohull/tight_hull.h"
 #include "prohull/verification.h"
 #include "prohull/wrap.h"
-#include "wrap/convex_hull.h"
 
 namespace prohull {
 namespace {
@@ -35,6 +39,8 @@ struct WrapKind {
 // later ones are smooth.
 constexpr WrapKind kWrapsOfSolids[]{{3.5, 0.3, 1.5}, {6, 0.9, 4}, {3.5, 0.3, 8}};
 constexpr WrapKind kWrapsOfSoups[]{{3.5, 0.3, 1.5}, {6, 0.9, 4}};
+// A padding closes gaps too, and asks for a finer grid.
+constexpr WrapKind kPaddedWraps[]{{6, 0.3, 1.5}, {3.5, 0.3, 0}};
 constexpr WrapKind kWrapsOfSheets[]{{3.5, 0.3, 1.5}, {7, 0.9, 4}, {9, 0.5, 4}};
 
 constexpr std::array<std::pair<std::string_view, Repair>, 3> kRepairNames{
@@ -45,11 +51,23 @@ constexpr std::array<std::pair<std::string_view, Source>, 3> kSourceNames{
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-void add(TriangleMesh& mesh, const TriangleMesh& other) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
-  for (const Vec3& p : other.positions) mesh.positions.push_back(p);
-  for (const auto& [a, b, c] : other.triangles)
-    mesh.triangles.push_back({VertexId{first + index(a)}, VertexId{first + index(b)}, VertexId{first + index(c)}});
+double area_of(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const FaceId f : mesh.triangles.ids()) {
+    const Triangle t = mesh.triangle(f);
+    sum += norm(cross(t.b - t.a, t.c - t.a)) / 2;
+  }
+  return sum;
+}
+
+/// Of the faces alone: a closed mesh would stand for its solid, too. With a face given twice it is not closed.
+CollisionIndex surface_of(TriangleMesh mesh) {
+  for (const FaceId f : mesh.triangles.ids())
+    if (const Triangle t = mesh.triangle(f); t.a != t.b && t.b != t.c && t.c != t.a) {
+      mesh.triangles.push_back(mesh.triangles[f]);
+      break;
+    }
+  return CollisionIndex(mesh);
 }
 
 class Ladder {
@@ -73,9 +91,9 @@ class Ladder {
                                      grouped(pairs)));
     }
     if (made_.input.closed) is_original_closed_ = is_closed(made_.input.original);
-    if (options_.repair == Repair::None) return;
     to_cover_ = made_.input.original;
-    add(to_cover_, made_.input.caps);
+    append(to_cover_, made_.input.caps);
+    if (options_.repair == Repair::None) return;
     if (made_.input.closed && !is_volume_exact_ && is_outer()) {  // parts that overlap would count twice
       constexpr double kPerDiagonal = 100;
       const double volume =
@@ -117,16 +135,19 @@ class Ladder {
   };
 
   bool is_outer() const { return options_.hull.side == HullSide::Outer; }
+  bool is_padded() const { return options_.padding > 0; }
   bool is_free() const { return is_outer() && options_.repair != Repair::None; }
 
   EnclosingHull hull_of(std::size_t target_faces);
   bool is_worth_the_convex_hull(const std::optional<EnclosingHull>& best);
+  TriangleMesh padded_convex_solid(TriangleMesh convex) const;
   bool is_worth_the_mesh() const;
   std::span<const WrapKind> wraps() const;
   bool is_worth_a_wrap(const std::optional<EnclosingHull>& best, std::size_t tried) const;
   std::size_t add_solid(Solid solid);
   std::optional<std::size_t> wrap_with(const WrapKind& kind, std::size_t target_faces);
   bool is_better(const EnclosingHull& a, const EnclosingHull& b) const;
+  double aim() const;
   void note_solid(const Solid& solid);
   void note_why_not(const EnclosingHull& hull);
   void note(std::string text);
@@ -139,6 +160,9 @@ class Ladder {
   EnclosingHull build_tight(std::size_t solid, std::size_t target_faces);
   const TriangleMesh& to_cover(std::size_t solid) const;
   void certify(EnclosingHull& hull) const;
+  void certify_with_padding(EnclosingHull& hull);
+  void keep_away(EnclosingHull& hull);
+  double distance_from(const TriangleMesh& hull, std::size_t solid);
   bool is_proven(EnclosingHull& hull) const;
   bool encloses_mesh(EnclosingHull& hull) const;
   bool lift_over(EnclosingHull& hull, const TriangleMesh& outside, std::vector<Offender> offenders) const;
@@ -148,6 +172,7 @@ class Ladder {
   bool is_within_as_stored(const TriangleMesh& hull, std::size_t solid);
   bool is_as_asked(const EnclosingHull& hull) const;
   double weighed_volume(const EnclosingHull& hull) const;
+  double slack_of(const EnclosingHull& hull) const;
   double void_of(const EnclosingHull& hull) const { return signed_volume(hull.mesh) / made_.volume - 1; }
   HullOptions hull_options(std::size_t target_faces) const;
 
@@ -155,12 +180,14 @@ class Ladder {
   const std::span<const std::size_t> target_faces_;
   const std::size_t fewest_faces_;
   EnclosingHulls made_;
-  TriangleMesh to_cover_;                 ///< the input and its caps
-  std::vector<TriangleMesh> with_doors_;  ///< of each solid that has doors: the same and these
-  std::vector<std::string> notes_;        ///< on the hull that is being built
-  double diagonal_ = 0;                   ///< of the input
-  bool is_moved_ = false;                 ///< hulls of the mesh move towards it
-  bool is_moved_loosely_ = false;         ///< hulls do not touch the mesh
+  TriangleMesh to_cover_;                                ///< the input and its caps
+  std::vector<TriangleMesh> with_doors_;                 ///< of each solid that has doors: the same and these
+  std::vector<std::optional<CollisionIndex>> surfaces_;  ///< of each solid: what to keep away from, if that was asked
+  std::vector<std::string> notes_;                       ///< on the hull that is being built
+  double diagonal_ = 0;                                  ///< of the input
+  double void_before_padding_ = 0;                       ///< of the last hull of the mesh
+  bool is_moved_ = false;                                ///< hulls of the mesh move towards it
+  bool is_moved_loosely_ = false;                        ///< hulls do not touch the mesh
   bool is_original_closed_ = false, is_volume_exact_ = false, has_wrap_ = false;
   std::optional<std::size_t> convex_hull_;         ///< its solid
   bool has_no_convex_hull_ = false;                ///< all lies in a plane
@@ -208,15 +235,27 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
 bool Ladder::is_worth_the_convex_hull(const std::optional<EnclosingHull>& best) {
   constexpr double kLittleVoid = 0.02;
   const bool is_good = best && is_as_asked(*best);
-  if (options_.levels || (is_good && (options_.keep_cavities || void_of(*best) < kLittleVoid))) return false;
+  if (options_.levels || (is_good && (options_.keep_cavities || slack_of(*best) < kLittleVoid))) return false;
   if (!convex_hull_ && !has_no_convex_hull_) {
-    TriangleMesh convex = convex_hull(made_.input.original);
+    TriangleMesh convex = convex_hull(is_padded() ? to_cover_ : made_.input.original);
+    if (is_padded()) {
+      if (is_good && signed_volume(convex) + aim() * area_of(convex) >= signed_volume(best->mesh)) return false;
+      convex = padded_convex_solid(convex.face_count() > 0 ? std::move(convex) : to_cover_);
+    }
     if (convex.face_count() > 0)
       convex_hull_ = add_solid({.source = Source::ConvexHull, .mesh = std::move(convex)});
     else
       has_no_convex_hull_ = true;
   }
   return convex_hull_ && !(is_good && made_.solids[*convex_hull_].volume >= signed_volume(best->mesh));
+}
+
+// Of 96 times as many points: where that takes long, those of a hull of the convex hull.
+TriangleMesh Ladder::padded_convex_solid(TriangleMesh convex) const {
+  constexpr std::size_t kMany = 2000;
+  if (convex.face_count() > kMany && inspect(convex).is_closed_manifold())
+    convex = build_hull(convex, {.target_faces = kMany}).hull.base();
+  return padded_convex_hull(convex, aim());
 }
 
 // Where many parts overlap, its hull is several times larger than the others, if there is any.
@@ -228,6 +267,7 @@ bool Ladder::is_worth_the_mesh() const {
 
 // The first ones are the same: they tell whether the triangles enclose anything.
 std::span<const WrapKind> Ladder::wraps() const {
+  if (is_padded()) return kPaddedWraps;
   if (made_.input.closed) return kWrapsOfSolids;
   return made_.volume > 0 ? std::span<const WrapKind>(kWrapsOfSoups) : kWrapsOfSheets;
 }
@@ -238,17 +278,18 @@ bool Ladder::is_worth_a_wrap(const std::optional<EnclosingHull>& best, std::size
   if (made_.volume == 0) return true;
   constexpr double kLittleVoid = 0.03, kMuchVoid = 0.12, kVeryMuchVoid = 0.3;
   const bool is_clean = best->self_intersections == 0 || !options_.hull.refuses_self_intersections();
-  if (best->source == Source::Mesh && is_clean) return void_of(*best) > kVeryMuchVoid;
-  return void_of(*best) > (tried == 0 ? kLittleVoid : kMuchVoid);
+  if (best->source == Source::Mesh && is_clean) return slack_of(*best) > kVeryMuchVoid;
+  return slack_of(*best) > (tried == 0 ? kLittleVoid : kMuchVoid);
 }
 
 std::size_t Ladder::add_solid(Solid solid) {
   solid.volume = signed_volume(solid.mesh);
   solid.self_intersections = solid.source == Source::Mesh ? count_self_intersections(solid.mesh) : 0;
   with_doors_.emplace_back();
+  surfaces_.emplace_back();
   if (solid.doors.face_count() > 0) {
     with_doors_.back() = to_cover_;
-    add(with_doors_.back(), solid.doors);
+    append(with_doors_.back(), solid.doors);
   }
   made_.solids.push_back(std::move(solid));
   levels_.resize(made_.solids.size());
@@ -261,10 +302,13 @@ std::optional<std::size_t> Ladder::wrap_with(const WrapKind& kind, std::size_t t
   const double per_diagonal = std::clamp(kind.nodes_per_edge * std::sqrt(double(target_faces)), kFewest, kMost);
   // A wrap that bounds rule out is of no use, unless all are.
   const double near = options_.bounds.max_distance / 3, wanted = diagonal_ / per_diagonal;
-  const double spacing = std::max(near < diagonal_ / kMost ? wanted : std::min(near, wanted), options_.seal_holes / 32);
+  constexpr double kMostPadding = 2.6;  // in spacings, with the offset
+  const double spacing = std::max({near < diagonal_ / kMost ? wanted : std::min(near, wanted), options_.seal_holes / 32,
+                                   aim() / (kMostPadding - kind.offset)});
   const bool may_leak = !made_.input.closed && options_.open_shells == OpenShells::Close;
   const WrapOptions how{.spacing = spacing,
                         .offset = kind.offset,
+                        .padding = aim(),
                         .seal_holes = options_.seal_holes,
                         .seal_rooms = may_leak,
                         .closing = kind.closing * spacing,
@@ -300,6 +344,20 @@ bool Ladder::is_better(const EnclosingHull& a, const EnclosingHull& b) const {
   return rank(a) < rank(b);
 }
 
+// How much larger it is than it has to be, about. With padding, the void that a hull of the mesh had before tells, and
+// the smallest solid beside it.
+double Ladder::slack_of(const EnclosingHull& hull) const {
+  if (!is_padded()) return void_of(hull);
+  if (hull.source == Source::Mesh) return void_before_padding_;
+  double least = signed_volume(hull.mesh);
+  bool has_wrap = false;
+  for (const Solid& solid : made_.solids) {
+    if (solid.source != Source::Mesh) least = std::min(least, solid.volume);
+    has_wrap |= solid.source == Source::Wrap;
+  }
+  return has_wrap ? signed_volume(hull.mesh) / least - 1 : std::numeric_limits<double>::infinity();
+}
+
 double Ladder::weighed_volume(const EnclosingHull& hull) const {
   constexpr double kOfSelfIntersections = 1.1;
   const double volume = signed_volume(hull.mesh);
@@ -307,6 +365,9 @@ double Ladder::weighed_volume(const EnclosingHull& hull) const {
   const bool is_clean = hull.self_intersections == 0 || !options_.hull.refuses_self_intersections();
   return is_clean ? volume : volume + (kOfSelfIntersections - 1) * std::max(0.0, volume - made_.volume);
 }
+
+// The padding and a hair, for rounding; 0 without padding.
+double Ladder::aim() const { return is_padded() ? options_.padding * (1 + 1e-6) + 1e-12 * diagonal_ : 0; }
 
 bool Ladder::is_as_asked(const EnclosingHull& hull) const {
   const bool clean = hull.self_intersections == 0 || !options_.hull.refuses_self_intersections();
@@ -335,10 +396,11 @@ std::optional<Float32Hull> Ladder::as_stored(const TriangleMesh& hull, std::size
 }
 
 double Ladder::excess_of(const TriangleMesh& hull, std::size_t solid) const {
-  const bool from_mesh = made_.solids[solid].source == Source::Mesh;
-  const double volume = made_.volume > 0 ? made_.volume : made_.solids[solid].volume;
-  return options_.bounds.excess(hull, from_mesh ? made_.solids[solid].mesh : to_cover(solid), volume,
-                                options_.progress);
+  const bool from_mesh = made_.solids[solid].source == Source::Mesh, has_padding = is_padded() && !from_mesh;
+  const double volume = made_.volume > 0 && !has_padding ? made_.volume : made_.solids[solid].volume;
+  HullBounds bounds = options_.bounds;
+  if (has_padding) bounds.max_distance += options_.padding;
+  return bounds.excess(hull, from_mesh ? made_.solids[solid].mesh : to_cover(solid), volume, options_.progress);
 }
 
 bool Ladder::is_within_as_stored(const TriangleMesh& hull, std::size_t solid) {
@@ -357,7 +419,8 @@ Ladder::Attempt Ladder::build(std::size_t solid, std::size_t target_faces) {
   auto file = as_stored(hull.mesh, solid);
   if (file) hull.mesh = std::move(file->mesh), hull.rounded_vertices = file->rounded_vertices;
   const double built = now();
-  if (file) certify(hull);
+  if (file && options_.bounds.any() && is_padded()) hull.excess = excess_of(hull.mesh, solid);
+  if (file) is_padded() ? certify_with_padding(hull) : certify(hull);
   if (!hull.certified && solid_is_moved && is_moved_closely(solid)) {
     is_moved_loosely_ = true;
     Attempt again = build(solid, target_faces);
@@ -365,7 +428,7 @@ Ladder::Attempt Ladder::build(std::size_t solid, std::size_t target_faces) {
     return again;
   }
   hull.self_intersections = count_self_intersections(hull.mesh);
-  if (file && options_.bounds.any()) hull.excess = excess_of(hull.mesh, solid);
+  if (file && options_.bounds.any() && !is_padded()) hull.excess = excess_of(hull.mesh, solid);
   hull.within_bounds = hull.excess <= 1;
   hull.build_seconds = built - start, hull.verify_seconds = now() - built;
   return {std::move(hull), file.has_value()};
@@ -416,14 +479,15 @@ EnclosingHull Ladder::build_in_steps(std::size_t solid, std::size_t target_faces
 // A hull that touches a closed mesh is tighter than one that keeps away from single triangles, but where the mesh
 // intersects itself it may not cover them all.
 bool Ladder::is_moved_closely(std::size_t solid) const {
-  return !is_outer() || (made_.input.closed && made_.solids[solid].doors.face_count() == 0 && !is_moved_loosely_);
+  return !is_outer() ||
+         (!is_padded() && made_.input.closed && made_.solids[solid].doors.face_count() == 0 && !is_moved_loosely_);
 }
 
 // A level of a wrap or of the convex hull moves towards the triangles, if it need not be one of a hierarchy.
 TriangleMesh Ladder::placed(const TriangleMesh& level, std::size_t solid, unsigned max_rounds) const {
   if ((made_.solids[solid].source == Source::Mesh && !is_moved_) || options_.levels) return level;
   const HullOptions& hull = options_.hull;
-  const MoveOptions how{hull.guards, hull.float32_coordinates, max_rounds, options_.progress};
+  const MoveOptions how{hull.guards, hull.float32_coordinates, max_rounds, aim(), options_.progress};
   return is_moved_closely(solid) ? moved_towards_closed(level, made_.input.closed->mesh, hull.side, how)
                                  : moved_towards(level, to_cover(solid), how);
 }
@@ -434,8 +498,8 @@ EnclosingHull Ladder::build_tight(std::size_t solid, std::size_t target_faces) {
   TightHull tight = options_.bounds.any()
                         ? build_tight_hull_within(
                               mesh, [&](const TriangleMesh& hull) { return is_within_as_stored(hull, solid); },
-                              hull_options(target_faces), wrapped)
-                        : build_tight_hull(mesh, hull_options(target_faces), wrapped);
+                              hull_options(target_faces), wrapped, aim())
+                        : build_tight_hull(mesh, hull_options(target_faces), wrapped, aim());
   EnclosingHull hull;
   hull.mesh = std::move(tight.mesh);
   hull.target_reached = tight.stopped == Stopped::TargetReached;
@@ -486,7 +550,7 @@ bool Ladder::encloses_mesh(EnclosingHull& hull) const {
   }
   hull.proof = "enclosure";
   const TriangleMesh& mesh = is_original_closed_ ? made_.input.original : made_.input.closed->mesh;
-  const bool may_lift = is_outer() && solid.source == Source::Mesh && !options_.levels;
+  const bool may_lift = is_outer() && solid.source == Source::Mesh && !options_.levels && hull.padding == 0;
   const VerificationOptions options{.max_offenders = may_lift ? kMostProtrusions : 0, .progress = options_.progress};
   const auto is_proven = [&](const Verification& found) {
     return found.encloses && (is_original_closed_ || !is_outer() || covers(hull.mesh, made_.input.dropped));
@@ -519,6 +583,48 @@ bool Ladder::lift_over(EnclosingHull& hull, const TriangleMesh& outside, std::ve
   return false;
 }
 
+// Why the distance suffices: a point nearer to the triangles than their distance from the surface is joined to a
+// triangle by a segment that does not meet the surface. So the hull winds around it as often as around the triangle,
+// which it covers: at least once. Points inside of the triangles are enclosed.
+void Ladder::certify_with_padding(EnclosingHull& hull) {
+  if (made_.solids[hull.solid].source == Source::Mesh) {
+    certify(hull);  // also lifts it over what sticks out
+    if (!hull.certified) return;
+    void_before_padding_ = void_of(hull);
+  }
+  hull.certified = false;
+  keep_away(hull);
+  if (hull.padding < options_.padding) return;
+  hull.levels.reset();
+  certify(hull);
+  if (hull.certified) hull.proof = "padding";
+}
+
+// What is missing is added, and measured again; twice of it after the first time, as faces turn when they move.
+void Ladder::keep_away(EnclosingHull& hull) {
+  constexpr int kMostAttempts = 6;
+  const TriangleMesh before = hull.mesh;
+  double added = 0;
+  for (int i = 0;; ++i) {
+    hull.padding = distance_from(hull.mesh, hull.solid);
+    if (hull.padding >= options_.padding || (i > 0 && hull.padding == 0) || i == kMostAttempts) break;
+    added += (i == 0 ? 1 : 2) * (aim() - hull.padding);
+    hull.mesh = padded_hull(before, added, options_.hull.float32_coordinates).mesh;
+  }
+  if (added == 0 || hull.padding < options_.padding) return;
+  TriangleMesh moved =
+      moved_towards(hull.mesh, to_cover(hull.solid),
+                    {options_.hull.guards, options_.hull.float32_coordinates, kMostRounds, aim(), options_.progress});
+  if (const double distance = distance_from(moved, hull.solid); distance >= options_.padding)
+    hull.mesh = std::move(moved), hull.padding = distance;
+}
+
+double Ladder::distance_from(const TriangleMesh& hull, std::size_t solid) {
+  std::optional<CollisionIndex>& surface = surfaces_[solid];
+  if (!surface) surface = surface_of(to_cover(solid));
+  return separation(surface_of(hull), {}, *surface, {}).lower;
+}
+
 void Ladder::note(std::string text) {
   if (std::ranges::find(notes_, text) == notes_.end()) notes_.push_back(std::move(text));
 }
@@ -546,7 +652,9 @@ void Ladder::note_why_not(const EnclosingHull& hull) {
   const std::string source = described(made_.solids[hull.solid]);
   if (!hull.certified)
     note(fmt::format("a hull of {} {}", source,
-                     is_outer() ? "does not cover every triangle" : "is not proven to lie inside of the mesh"));
+                     is_padded()  ? "does not keep the padding everywhere, as in gaps narrower than twice the padding"
+                     : is_outer() ? "does not cover every triangle"
+                                  : "is not proven to lie inside of the mesh"));
   else if (!hull.within_bounds)
     note(fmt::format("no hull of {} is within the bounds", source));
   else if (!hull.target_reached)
@@ -555,6 +663,17 @@ void Ladder::note_why_not(const EnclosingHull& hull) {
   else
     note(fmt::format("a hull of {} intersects itself in {}", source,
                      counted(hull.self_intersections, "pair of faces", "pairs of faces")));
+}
+
+void require_usable_padding(const EnclosingOptions& options) {
+  const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
+  constexpr double kRoom = 64;  // for the corners of hulls, in paddings
+  const double most = options.hull.float32_coordinates ? double(std::numeric_limits<float>::max()) : kLargestCoordinate;
+  if (!(options.padding >= 0 && options.padding <= most / kRoom))
+    refuse(fmt::format("the padding is {:g}; it must be a number from 0 to {:.3g}", options.padding, most / kRoom));
+  if (options.padding > 0 && options.hull.side == HullSide::Inner)
+    refuse("an inner hull has no padding: only outer hulls move outwards");
+  if (options.padding > 0 && options.levels) refuse("a hull with padding has no levels: ask for one of the two");
 }
 
 }  // namespace
@@ -583,8 +702,8 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
 
 TriangleMesh triangles_to_cover(const EnclosingHulls& made, const EnclosingHull& hull) {
   TriangleMesh all = made.input.original;
-  add(all, made.input.caps);
-  add(all, made.solids[hull.solid].doors);
+  append(all, made.input.caps);
+  append(all, made.solids[hull.solid].doors);
   return all;
 }
 
@@ -593,6 +712,7 @@ EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size
   if (target_faces.empty()) throw InputError(Defect::InvalidOption, "no number of faces was asked for");
   if (options.tight && options.levels)
     throw InputError(Defect::InvalidOption, "a tight hull has no levels: ask for one of the two");
+  require_usable_padding(options);
   if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
     throw InputError(Defect::InvalidOption, "nothing is known to be inside of a wrap: inner hulls do without");
   if (options.hull.float32_coordinates) check_float32_spacing(triangles);

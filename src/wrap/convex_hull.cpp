@@ -1,8 +1,10 @@
-#include "wrap/convex_hull.h"
+#include "prohull/convex_hull.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -140,8 +142,59 @@ class Quickhull {
   std::uint32_t points_ = 0;
 };
 
+/// Points on the unit sphere, evenly spread: a spiral whose turns are the golden angle apart.
+std::vector<Vec3> directions(int count) {
+  const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+  std::vector<Vec3> result;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - z * z);
+    result.push_back({r * std::cos(i * golden_angle), r * std::sin(i * golden_angle), z});
+  }
+  return result;
+}
+
+/// The corners of a polyhedron around the ball of radius 1.
+std::vector<Vec3> ball_corners(int count) {
+  TriangleMesh inscribed;
+  for (const Vec3& p : directions(count)) inscribed.positions.push_back(p);
+  for (std::uint32_t i = 2; i < std::uint32_t(count); ++i)
+    inscribed.triangles.push_back({VertexId{0}, VertexId{i - 1}, VertexId{i}});
+  double radius = 1;
+  const TriangleMesh hull = convex_hull(inscribed);
+  for (const FaceId f : hull.triangles.ids()) {
+    const Triangle t = hull.triangle(f);
+    const Vec3 n = cross(t.b - t.a, t.c - t.a);
+    radius = std::min(radius, dot(n, t.a) / norm(n));
+  }
+  std::vector<Vec3> corners = directions(count);
+  for (Vec3& p : corners) p = p / radius;
+  return corners;
+}
+
+/// The convex hull of all sums of a vertex that triangles use and an offset.
+TriangleMesh convex_hull_of_sums(const TriangleMesh& mesh, const std::vector<Vec3>& offsets, double scale) {
+  PerVertex<char> is_used(mesh.vertex_count(), 0);
+  for (const auto& corners : mesh.triangles)
+    for (const VertexId v : corners) is_used[v] = 1;
+  TriangleMesh sums;
+  for (const VertexId v : mesh.positions.ids())
+    if (is_used[v])
+      for (const Vec3& offset : offsets) sums.positions.push_back(mesh.positions[v] + offset * scale);
+  for (std::uint32_t i = 2; i < sums.vertex_count(); ++i)
+    sums.triangles.push_back({VertexId{0}, VertexId{i - 1}, VertexId{i}});
+  return convex_hull(sums);
+}
+
 }  // namespace
 
 TriangleMesh convex_hull(const TriangleMesh& mesh) { return Quickhull(mesh).run(); }
+
+TriangleMesh padded_convex_hull(const TriangleMesh& mesh, double distance) {
+  constexpr int kCorners = 96, kFewCorners = 6;
+  constexpr double kThin = 0.01;  // in distances: thickness given to what is flat
+  TriangleMesh core = convex_hull(mesh);
+  if (core.face_count() == 0) core = convex_hull_of_sums(mesh, ball_corners(kFewCorners), kThin * distance);
+  return convex_hull_of_sums(core, ball_corners(kCorners), distance);
+}
 
 }  // namespace prohull

@@ -25,6 +25,13 @@ Grid grid_for(const TriangleMesh& triangles, const WrapOptions& options) {
   if (!(spacing > 0))
     throw InputError(Defect::InvalidOption,
                      fmt::format("the spacing of the grid is {:g}; it must be greater than 0", spacing));
+  constexpr double kFarthest = 2.7;  // of the distances that are known exactly
+  if (!(options.padding >= 0 && options.offset + options.padding / spacing <= kFarthest))
+    throw InputError(
+        Defect::InvalidOption,
+        fmt::format("an offset of {:g} spacings and a padding of {:g} with a spacing of {:g} are more than "
+                    "{:g} spacings",
+                    options.offset, options.padding, spacing, kFarthest));
   if (triangles.face_count() == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces: nothing to wrap");
   for (const auto& corners : triangles.triangles)
     if (!std::ranges::all_of(corners, [&](VertexId v) { return is_finite(triangles.positions[v]); }))
@@ -116,7 +123,8 @@ TriangleMesh without_hidden(const Grid& grid, const TriangleMesh& triangles, con
 Wrap wrap(const TriangleMesh& triangles, const WrapOptions& options) {
   const Grid grid = grid_for(triangles, options);
   ProgressMeter meter(options.progress, "wrap");
-  const auto level = static_cast<float>(options.offset);
+  const auto offset = static_cast<float>(options.offset);
+  const float level = offset + static_cast<float>(options.padding / options.spacing);
   Inside inside = find_inside(grid, triangles,
                               {.seal = options.seal_holes / 2 / options.spacing,
                                .seal_rooms = options.seal_rooms,
@@ -127,7 +135,7 @@ Wrap wrap(const TriangleMesh& triangles, const WrapOptions& options) {
   for (const TriangleMesh* mesh : {&triangles, &std::as_const(inside.doors)})
     sample(grid, *mesh, meter, [&](const Vec3& p) {
       const InTetrahedron at(grid, p);
-      const float excess = at.value(values) - (level - kClearance);
+      const float excess = at.value(values) - (offset - kClearance);
       if (excess > 0)
         for (const std::size_t n : at.nodes) values[n] -= excess;
     });

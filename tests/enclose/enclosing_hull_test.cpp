@@ -14,7 +14,7 @@
 #include "prohull/mesh_report.h"
 #include "prohull/sample.h"
 #include "prohull/verification.h"
-#include "wrap/convex_hull.h"
+#include "prohull/convex_hull.h"
 
 namespace prohull {
 namespace {

@@ -1,10 +1,11 @@
-#include "wrap/convex_hull.h"
+#include "prohull/convex_hull.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 #include <set>
 #include <tuple>
@@ -127,6 +128,24 @@ TEST(ConvexHull, OfRandomLatticePointsIsExact) {
     EXPECT_EQ(hull.face_count() == 0, is_flat) << "round " << round;
     if (!is_flat) expect_convex_hull(mesh, hull);
   }
+}
+
+TEST(ConvexHull, WithPaddingKeepsTheDistance) {
+  const TriangleMesh flat = make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  for (const TriangleMesh& mesh : {flat, octahedron(), sphere(2)})
+    for (const double distance : {0.01, 3.0}) {
+      const TriangleMesh hull = padded_convex_hull(mesh, distance);
+      ASSERT_GT(hull.face_count(), 0u);
+      for (const FaceId f : hull.triangles.ids()) {
+        const Triangle t = hull.triangle(f);
+        const Vec3 n = cross(t.b - t.a, t.c - t.a);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Vec3& p : mesh.positions) nearest = std::min(nearest, dot(n, t.a - p) / norm(n));
+        EXPECT_GE(nearest, distance * (1 - 1e-9));
+        EXPECT_LE(nearest, 1.06 * distance);
+      }
+    }
+  EXPECT_EQ(padded_convex_hull({}, 1).face_count(), 0u);
 }
 
 }  // namespace

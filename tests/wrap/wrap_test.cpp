@@ -160,6 +160,7 @@ TEST(Wrap, RefusesBadInput) {
   not_finite.positions[VertexId(0)].x = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(wrap(not_finite, {.spacing = 0.1}), InputError);
   EXPECT_THROW(wrap({}, {.spacing = 0.1}), InputError);
+  EXPECT_THROW(wrap(octahedron(), {.spacing = 0.1, .padding = 0.25}), InputError) << "2.7 spacings at most";
   EXPECT_THROW(wrap(octahedron(), {.spacing = 1e-6}), InputError) << "2^28 nodes at most";
   for (const double spacing : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(wrap(octahedron(), {.spacing = spacing}), InputError) << spacing;

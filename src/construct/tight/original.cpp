@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/predicates.h"
+#include "geometry/triangle_distance.h"
 
 namespace prohull {
 namespace {
@@ -71,6 +72,39 @@ class Beside {
   std::array<double, 4> offsets_{};
 };
 
+/// How far a box is from a triangle, at least, but for rounding.
+class Beyond {
+ public:
+  explicit Beyond(const Triangle& t) : corner_(t.a), box_(box_of(t)) {
+    const Vec3 n = cross(t.b - t.a, t.c - t.a);
+    const double length = norm(n);
+    if (length > 0) normal_ = n / length;
+  }
+
+  double operator()(const Box& box) const {
+    const Vec3 a = box.min - corner_, b = box.max - corner_;
+    double squared = 0, least = 0, most = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gap = std::max({0.0, box.min[axis] - box_.max[axis], box_.min[axis] - box.max[axis]});
+      squared += gap * gap;
+      least += std::min(normal_[axis] * a[axis], normal_[axis] * b[axis]);
+      most += std::max(normal_[axis] * a[axis], normal_[axis] * b[axis]);
+    }
+    return std::max({std::sqrt(squared), least, -most});
+  }
+
+  /// Whether a triangle is so far away; false for some that are.
+  bool is_certain(const Triangle& t, double distance) const {
+    constexpr double kLittleMore = 1 + 1e-9;
+    const double a = dot(normal_, t.a - corner_), b = dot(normal_, t.b - corner_), c = dot(normal_, t.c - corner_);
+    return std::max(std::min({a, b, c}), -std::max({a, b, c})) >= kLittleMore * distance;
+  }
+
+ private:
+  Vec3 corner_, normal_;
+  Box box_;
+};
+
 /// A point in the inside of the tetrahedron, if rounding leaves one there.
 std::optional<Vec3> point_inside(const Tetrahedron& t) {
   const Vec3 center = t.a * 0.25 + t.b * 0.25 + t.c * 0.25 + t.d * 0.25;
@@ -93,6 +127,25 @@ Original Original::closed(TriangleMesh mesh, HullSide side) {
 }
 
 Original Original::triangles(TriangleMesh mesh, double clearance) { return {std::move(mesh), clearance}; }
+
+Original Original::padded_triangles(TriangleMesh mesh, double padding) {
+  constexpr double kLittleMore = 1 + 1e-9;  // for what proposals have rounded
+  Original original(std::move(mesh), kLittleMore * padding);
+  original.padding_ = padding;
+  return original;
+}
+
+bool Original::keeps_padding(const Triangle& face) const {
+  if (padding_ == 0) return true;
+  bool keeps = true;
+  const Beyond beyond(face);
+  tree_.visit([&](const Box& box) { return keeps && beyond(box) < padding_; },
+              [&](std::uint32_t f) {
+                const Triangle t = mesh_.triangle(FaceId{f});
+                keeps = keeps && (beyond.is_certain(t, padding_) || triangle_distance(face, t).lower >= padding_);
+              });
+  return keeps;
+}
 
 bool Original::lies_outside_of(const Tetrahedron& removed) const {
   const Beside is_beside(removed);

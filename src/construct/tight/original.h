@@ -17,6 +17,8 @@ class Original {
   static Original closed(TriangleMesh mesh, HullSide side);
   /// Hulls keep `clearance` from triangles, about, but never touch them.
   static Original triangles(TriangleMesh mesh, double clearance);
+  /// New faces of hulls keep this distance from triangles.
+  static Original padded_triangles(TriangleMesh mesh, double padding);
 
   const Bvh& tree() const { return tree_; }  ///< over the boxes of faces
   const TriangleMesh& mesh() const { return mesh_; }
@@ -26,6 +28,10 @@ class Original {
   /// Whether the hull may give up the tetrahedron. Exact; false where that is not certain.
   bool lies_outside_of(const Tetrahedron& removed) const;
 
+  double padding() const { return padding_; }
+  /// Whether a face of the hull keeps the padding. True without one.
+  bool keeps_padding(const Triangle& face) const;
+
  private:
   Original(TriangleMesh mesh, double clearance);
 
@@ -33,6 +39,7 @@ class Original {
   Bvh tree_;
   Box bounds_;
   double clearance_;
+  double padding_ = 0;
   std::optional<WindingNumber> winding_;  ///< of a closed mesh
   int least_covered_ = 1;
 };

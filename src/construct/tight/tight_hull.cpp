@@ -70,20 +70,22 @@ TightHull build_towards(const Original& original, const TriangleMesh& mesh, cons
   return tight;
 }
 
-Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, HullSide side) {
+Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, HullSide side, double padding) {
   if (!wrapped) return Original::closed(side == HullSide::Inner ? turned(mesh) : mesh, side);
   if (side == HullSide::Inner)
     throw InputError(Defect::InvalidOption, "nothing is inside of triangles that are not closed: no inner hull");
+  if (padding > 0) return Original::padded_triangles(*wrapped, padding);
   constexpr double kClearance = 1e-6;  // of the diagonal: more than a hull moves when it is rounded to float32
   return Original::triangles(*wrapped, kClearance * bounding_box(*wrapped).diagonal());
 }
 
 }  // namespace
 
-TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped) {
+TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped,
+                           double padding) {
   if (options.self_intersections == SelfIntersections::Allowed)
     throw InputError(Defect::InvalidOption, "self-intersections cannot be allowed: a tight hull never adds any");
-  const Original original = original_of(mesh, wrapped, options.side);
+  const Original original = original_of(mesh, wrapped, options.side, padding);
   if (options.best_of <= 1) return build_towards(original, mesh, options);
   return best_of(
       options, "tighten", [&](const HullOptions& one) { return build_towards(original, mesh, one); },
@@ -94,13 +96,13 @@ TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& 
                                   const MoveOptions& options) {
   const bool inner = side == HullSide::Inner;
   HalfEdgeMesh moving(inner ? turned(hull) : hull);
-  tighten(moving, original_of(mesh, nullptr, side), options);
+  tighten(moving, original_of(mesh, nullptr, side, 0), options);
   return inner ? turned(moving.triangle_mesh()) : moving.triangle_mesh();
 }
 
 TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options) {
   HalfEdgeMesh moving(hull);
-  tighten(moving, original_of(hull, &triangles, HullSide::Outer), options);
+  tighten(moving, original_of(hull, &triangles, HullSide::Outer, options.padding), options);
   return moving.triangle_mesh();
 }
 

@@ -11,8 +11,13 @@ constexpr int kMaxTightBuilds = 11;  // with the progressive hull that it begins
 class TightSearch {
  public:
   TightSearch(const TriangleMesh& mesh, const std::function<bool(const TriangleMesh&)>& is_within,
-              const HullOptions& options, const TriangleMesh* wrapped)
-      : mesh_(mesh), is_within_(is_within), options_(options), wrapped_(wrapped), meter_(options.progress, "search") {}
+              const HullOptions& options, const TriangleMesh* wrapped, double padding)
+      : mesh_(mesh),
+        is_within_(is_within),
+        options_(options),
+        wrapped_(wrapped),
+        padding_(padding),
+        meter_(options.progress, "search") {}
 
   TightHull run() {
     const std::size_t enough = build_progressive();
@@ -52,7 +57,7 @@ class TightSearch {
 
   /// Whether the tight hull of so many faces is accepted; it is then the best.
   bool build_tight_within(std::size_t faces) {
-    TightHull hull = build_tight_hull(mesh_, next_options(faces), wrapped_);
+    TightHull hull = build_tight_hull(mesh_, next_options(faces), wrapped_, padding_);
     if (hull.mesh.face_count() > best_.mesh.face_count() || !is_within_(hull.mesh)) return false;
     best_ = std::move(hull);
     has_tight_ = true;
@@ -63,6 +68,7 @@ class TightSearch {
   const std::function<bool(const TriangleMesh&)>& is_within_;
   const HullOptions& options_;
   const TriangleMesh* wrapped_;
+  const double padding_;
   ProgressMeter meter_;
   int builds_ = 0;
   TightHull best_;
@@ -72,8 +78,8 @@ class TightSearch {
 }  // namespace
 
 TightHull build_tight_hull_within(const TriangleMesh& mesh, const std::function<bool(const TriangleMesh&)>& is_within,
-                                  const HullOptions& options, const TriangleMesh* wrapped) {
-  return TightSearch(mesh, is_within, options, wrapped).run();
+                                  const HullOptions& options, const TriangleMesh* wrapped, double padding) {
+  return TightSearch(mesh, is_within, options, wrapped, padding).run();
 }
 
 }  // namespace prohull

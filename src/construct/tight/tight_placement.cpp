@@ -131,6 +131,9 @@ bool TightPlacement::add_cuts(const Vec3& apex, double margin) {
 std::optional<Vec3> TightPlacement::deepest_point(const Vec3& apex, const Vec3& a, const Vec3& b) {
   const Removed removed(apex, a, b);
   const double allowed = allowed_depth();
+  const double padding = original_.padding() > 0 ? -allowed : 0;
+  const Vec3 margin{padding, padding, padding};
+  const Box near{removed.box.min - margin, removed.box.max + margin};
   double deepest = allowed;
   std::optional<Vec3> point;
   const auto take = [&](const Vec3& p) {
@@ -139,7 +142,7 @@ std::optional<Vec3> TightPlacement::deepest_point(const Vec3& apex, const Vec3& 
   const auto bound = [&](const Box& box) {
     constexpr double kNone = std::numeric_limits<double>::infinity();
     const Box here{to_local(box.min), to_local(box.max)};
-    if (!here.overlaps(removed.box)) return kNone;
+    if (!here.overlaps(near)) return kNone;
     for (const HalfSpace& plane : removed.others)
       if (greatest_depth(plane, here) <= allowed) return kNone;
     return -greatest_depth(removed.new_face, here);
@@ -179,6 +182,8 @@ bool TightPlacement::keeps_enclosing(const Vec3& to) const {
     if (side(from_, a, b, to) != Side::Inside) continue;  // adds, or is flat
     if (!original_.lies_outside_of({from_, a, b, to})) return false;
   }
+  for (std::size_t i = 0; i < link_.size(); ++i)
+    if (!original_.keeps_padding({to, link_[i], link_[after(i)]})) return false;
   return true;
 }
 

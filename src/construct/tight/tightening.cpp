@@ -110,6 +110,9 @@ bool Tightener::flip(HalfEdgeId h) {
   if (side(removed.a, removed.b, removed.c, removed.d) != Side::Inside || !mesh_.can_flip(h)) return false;
   if (std::max(mesh_.valence(l), mesh_.valence(r)) >= options_.guards.max_valence) return false;
   if (!has_good_shape_without(removed) || !original_.lies_outside_of(removed)) return false;
+  if (!original_.keeps_padding({removed.d, removed.c, removed.a}) ||
+      !original_.keeps_padding({removed.c, removed.d, removed.b}))
+    return false;
   if (guard_.would_add_intersections(mesh_, h)) return false;
   mesh_.flip(h);
   guard_.changed(mesh_, l);

@@ -10,4 +10,9 @@ namespace prohull {
 /// How it works: Quickhull (Barber, Dobkin, Huhdanpaa 1996) with exact predicates.
 TriangleMesh convex_hull(const TriangleMesh& mesh);
 
+/// The convex hull of all points within `distance` of the mesh, which is greater than 0, and of a few more: its faces
+/// are up to 6 % farther from the mesh. All of these points are inside, but for rounding. Never without faces, unless
+/// the mesh has none.
+TriangleMesh padded_convex_hull(const TriangleMesh& mesh, double distance);
+
 }  // namespace prohull

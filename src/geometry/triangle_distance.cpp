@@ -1,4 +1,4 @@
-#include "collide/triangle_distance.h"
+#include "geometry/triangle_distance.h"
 
 #include <algorithm>
 #include <array>

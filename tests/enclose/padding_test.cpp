@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "effort.h"
+#include "geometry/float32.h"
+#include "prohull/collide.h"
+#include "prohull/convex_hull.h"
+#include "prohull/distance.h"
+#include "prohull/enclosing_hull.h"
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
+#include "prohull/sample.h"
+#include "random.h"
+#include "soups.h"
+
+namespace prohull {
+namespace {
+
+using namespace meshes;
+
+/// How often a mesh winds around a point off its surface: the sum of the solid angles of its faces.
+double winding_number(const TriangleMesh& mesh, const Vec3& p) {
+  double sum = 0;
+  for (const FaceId f : mesh.triangles.ids()) {
+    const Triangle t = mesh.triangle(f);
+    const Vec3 a = t.a - p, b = t.b - p, c = t.c - p;
+    const double x = norm(a), y = norm(b), z = norm(c);
+    sum += std::atan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
+  }
+  return sum / (2 * std::numbers::pi);
+}
+
+/// The hull's faces without its inside: one of them comes twice, so that the mesh is not closed.
+TriangleMesh faces_alone(TriangleMesh hull) {
+  hull.triangles.push_back(hull.triangles[FaceId{0}]);
+  return hull;
+}
+
+/// By other means than those of the construction: points near the triangles are inside, and no face is.
+void expect_padding(const TriangleMesh& triangles, const EnclosingHull& hull, double padding, SoupMaker& random) {
+  ASSERT_TRUE(hull.certified);
+  EXPECT_EQ(hull.proof, "padding");
+  EXPECT_GE(hull.padding, padding);
+  EXPECT_FALSE(hull.levels);
+  const CollisionIndex surface(faces_alone(hull.mesh)), parts(soup(faces_alone(triangles)));
+  EXPECT_GE(separation(surface, {}, parts, {}).lower, padding);
+  for (int i = 0; i < rounds(100); ++i) {
+    const FaceId f{static_cast<std::uint32_t>(random.uniform(0, int(triangles.face_count()) - 1))};
+    const Triangle t = triangles.triangle(f);
+    const double u = random.real(0, 1), v = random.real(0, 1 - u);
+    const Vec3 towards{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)};
+    const Vec3 p = t.a + (t.b - t.a) * u + (t.c - t.a) * v + towards * (0.999 * padding / norm(towards));
+    ASSERT_GT(winding_number(hull.mesh, p), 0.5) << "at " << p.x << " " << p.y << " " << p.z;
+  }
+}
+
+EnclosingHull padded(const TriangleMesh& mesh, std::size_t faces, double padding, EnclosingOptions options = {}) {
+  options.hull.relax_guards = true;
+  options.padding = padding;
+  return enclosing_hull(mesh, faces, options);
+}
+
+TEST(Padding, OfACubeIsALargerCube) {
+  SoupMaker random(test_seed());
+  const TriangleMesh cube = box({0, 0, 0}, {1, 1, 1});
+  const EnclosingHull hull = padded(cube, 12, 0.25);
+  expect_padding(cube, hull, 0.25, random);
+  EXPECT_EQ(hull.mesh.face_count(), 12u);
+  for (const Vec3& p : hull.mesh.positions)
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(std::abs(p[axis] - 0.5), 0.75, 1e-6);
+}
+
+TEST(Padding, OfSamplesIsProven) {
+  SoupMaker random(test_seed());
+  for (const std::string_view name : {"asteroid", "bracket", "box", "knot", "pony", "sphere", "torus"})
+    for (const double share : {0.002, 0.05}) {
+      SCOPED_TRACE(std::string(name) + " " + std::to_string(share));
+      const TriangleMesh mesh = make_sample(name, effort<std::size_t>(800, 300));
+      const double padding = share * bounding_box(mesh).diagonal();
+      expect_padding(mesh, padded(mesh, 100, padding), padding, random);
+    }
+}
+
+TEST(Padding, OfSoupsIsProven) {
+  SoupMaker random(test_seed());
+  for (int i = 0; i < rounds(15); ++i) {
+    const Soup soup = random.soup();
+    const double padding = soup.size() * std::pow(10.0, random.real(-4, 0.5));
+    SCOPED_TRACE("soup " + std::to_string(i) + " padding " + std::to_string(padding / soup.size()));
+    // Where doubles are coarser than the padding is not tested here.
+    if (norm(bounding_box(soup.mesh).center()) > 1e6 * soup.size()) continue;
+    expect_padding(soup.mesh, padded(soup.mesh, std::size_t(random.uniform(12, 200)), padding), padding, random);
+  }
+}
+
+TEST(Padding, ClosesWhatIsNarrowerThanTwiceOfIt) {
+  SoupMaker random(test_seed());
+  const TriangleMesh ring = torus(24, 12);  // its hole is 1.2 wide
+  const TriangleMesh pair = together(box({0, 0, 0}, {1, 1, 1}), box({1.1, 0, 0}, {2, 1, 1}));
+  for (const TriangleMesh& mesh : {ring, pair})
+    for (const double padding : {0.04, 0.2, 0.7, 5.0}) {
+      SCOPED_TRACE(padding);
+      const EnclosingHull hull = padded(mesh, 200, padding);
+      expect_padding(mesh, hull, padding, random);
+      EXPECT_EQ(hull.self_intersections, 0u);
+      EXPECT_LE(signed_volume(hull.mesh), 1.1 * signed_volume(padded_convex_hull(mesh, padding)));
+    }
+}
+
+TEST(Padding, OfNeedlesAndSheetsIsProven) {
+  SoupMaker random(test_seed());
+  const TriangleMesh needle = tetrahedron({0, 0, 0}, {0, 1e-3, 0}, {0, 0, 1e-3}, {1, 0, 0});
+  const TriangleMesh triangle = make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const TriangleMesh segment = make({{0, 0, 0}, {1, 2, 3}}, {{0, 1, 1}});
+  for (const TriangleMesh& mesh : {signed_volume(needle) > 0 ? needle : inside_out(needle), triangle, segment})
+    for (const double padding : {0.01, 0.5}) {
+      SCOPED_TRACE(padding);
+      expect_padding(mesh, padded(mesh, 100, padding), padding, random);
+    }
+}
+
+TEST(Padding, HoldsForTheCoordinatesOfTheFile) {
+  SoupMaker random(test_seed());
+  const TriangleMesh mesh = make_sample("pony", effort<std::size_t>(800, 300));
+  const double diagonal = bounding_box(mesh).diagonal();
+  for (const double away : {0.0, 100.0})
+    for (const double padding : {1e-4 * diagonal, 0.02 * diagonal}) {
+      SCOPED_TRACE(std::to_string(away) + " " + std::to_string(padding));
+      const TriangleMesh there = moved(mesh, Vec3{1, -2, 3} * (away * diagonal));
+      const EnclosingHull hull = padded(there, 200, padding, {.hull = {.float32_coordinates = true}});
+      expect_padding(there, hull, padding, random);
+      EXPECT_TRUE(std::ranges::all_of(hull.mesh.positions, is_float32));
+    }
+}
+
+TEST(Padding, IsKeptByTightHullsAndWithBounds) {
+  SoupMaker random(test_seed());
+  const TriangleMesh mesh = make_sample("asteroid", 500);
+  const double diagonal = bounding_box(mesh).diagonal(), padding = 0.02 * diagonal;
+  for (const Repair repair : {Repair::Auto, Repair::Wrap}) {
+    const EnclosingHull tight = padded(mesh, 60, padding, {.tight = true, .repair = repair});
+    expect_padding(mesh, tight, padding, random);
+    EXPECT_LT(signed_volume(tight.mesh), 1.03 * signed_volume(padded(mesh, 60, padding, {.repair = repair}).mesh));
+    const EnclosingHull near =
+        padded(mesh, 20, padding, {.bounds = {.max_distance = 0.02 * diagonal}, .repair = repair});
+    expect_padding(mesh, near, padding, random);
+    EXPECT_TRUE(near.within_bounds);
+    EXPECT_LE(distance_bounds(near.mesh, mesh).upper, 2 * (padding + 0.02 * diagonal));
+  }
+}
+
+TEST(Padding, IsTheSameForAnyNumberOfThreads) {
+  const TriangleMesh mesh = make_sample("pony", effort<std::size_t>(1000, 300));
+  const TriangleMesh one = padded(mesh, 100, 0.05, {.hull = {.threads = 1}}).mesh;
+  EXPECT_EQ(padded(mesh, 100, 0.05, {.hull = {.threads = 3}}).mesh, one);
+}
+
+TEST(Padding, IsRefusedWhereItMeansNothing) {
+  EXPECT_THROW(padded(octahedron(), 100, -1), InputError);
+  EXPECT_THROW(padded(octahedron(), 100, std::numeric_limits<double>::infinity()), InputError);
+  EXPECT_THROW(padded(octahedron(), 100, 1e38, {.hull = {.float32_coordinates = true}}), InputError);
+  EXPECT_THROW(padded(octahedron(), 100, 1, {.hull = {.side = HullSide::Inner}}), InputError);
+  EXPECT_THROW(padded(octahedron(), 100, 1, {.levels = true}), InputError);
+}
+
+}  // namespace
+}  // namespace prohull
