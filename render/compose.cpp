@@ -41,7 +41,7 @@ std::vector<Surface> surfaces(const PanelPlan& plan, const Bodies& bodies, const
   const Rgb clay = *parse_color("clay");
   const Material edged{plan.color, plan.inside ? look.opacity : 1, plan.line_width};
   std::vector<Surface> result{{bodies[plan.shown], edged}};
-  if (plan.inside) result.push_back({bodies[*plan.inside], {clay}});
+  if (plan.inside) result.push_back({bodies[*plan.inside], {plan.inside_color.value_or(clay)}});
   if (plan.right) {
     for (Surface& surface : result) surface.to = kMiddle;
     result.push_back({bodies[*plan.right], {clay}, kMiddle, 1});

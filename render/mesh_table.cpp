@@ -5,7 +5,6 @@
 #include "prohull/error.h"
 
 namespace prohull::render {
-namespace {
 
 void require_drawable(const TriangleMesh& mesh, const std::filesystem::path& path) {
   if (mesh.triangles.empty()) throw InputError(Defect::EmptyMesh, path.string() + ": there are no faces to draw");
@@ -15,8 +14,6 @@ void require_drawable(const TriangleMesh& mesh, const std::filesystem::path& pat
         throw InputError(Defect::NonFiniteCoordinate,
                          fmt::format("{}: vertex {} has a coordinate that is not finite", path.string(), index(v)));
 }
-
-}  // namespace
 
 bool MeshTable::is_hull(const std::filesystem::path& path) {
   read(path);

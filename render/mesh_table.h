@@ -11,6 +11,9 @@
 
 namespace prohull::render {
 
+/// Throws InputError, with the name of the file, for a mesh without faces or with coordinates that are not finite.
+void require_drawable(const TriangleMesh& mesh, const std::filesystem::path& path);
+
 /// The meshes of a picture. Each file is read once, whatever is drawn of it. Throws InputError for files that cannot be
 /// read or drawn.
 class MeshTable {

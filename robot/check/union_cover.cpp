@@ -1,0 +1,350 @@
+#include "robot/check/union_cover.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "prohull/enclosure.h"
+#include "prohull/mesh_query.h"
+#include "robot/check/convex_pairs.h"
+
+namespace prohull::robot {
+namespace {
+
+/// Corners around the axis of the meshes that stand for curved forms, until one tells.
+constexpr std::array<std::size_t, 3> kSegments{16, 64, 256};
+/// Those of a curved part whose reach is measured.
+constexpr std::size_t kFineness = 128;
+
+TriangleMesh mesh_of(std::span<const Triangle> triangles) {
+  TriangleMesh mesh;
+  for (const Triangle& t : triangles) {
+    const VertexId a = mesh.positions.push_back(t.a), b = mesh.positions.push_back(t.b);
+    mesh.triangles.push_back({a, b, mesh.positions.push_back(t.c)});
+  }
+  return mesh;
+}
+
+template <class Keeps>
+TriangleMesh faces_that(const TriangleMesh& mesh, Keeps keeps) {
+  TriangleMesh result;
+  result.positions = mesh.positions;
+  for (const FaceId f : mesh.triangles.ids())
+    if (keeps(f)) result.triangles.push_back(mesh.triangles[f]);
+  return result;
+}
+
+/// Corners in an order that equal triangles have in common.
+using TriangleKey = std::array<double, 9>;
+TriangleKey key_of(const Triangle& t) {
+  std::array<std::array<double, 3>, 3> corners;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3& p = i == 0 ? t.a : i == 1 ? t.b : t.c;
+    corners[i] = {p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 becomes 0
+  }
+  std::sort(corners.begin(), corners.end());
+  TriangleKey key;
+  for (int i = 0; i < 9; ++i) key[i] = corners[i / 3][i % 3];
+  return key;
+}
+
+TriangleMesh without_equals(const TriangleMesh& mesh, const TriangleMesh& others) {
+  std::vector<TriangleKey> keys;
+  for (const FaceId f : others.triangles.ids()) keys.push_back(key_of(others.triangle(f)));
+  std::sort(keys.begin(), keys.end());
+  return faces_that(mesh,
+                    [&](FaceId f) { return !std::binary_search(keys.begin(), keys.end(), key_of(mesh.triangle(f))); });
+}
+
+bool lies_in_one(const Triangle& t, std::span<const CurvedForm> forms) {
+  return std::any_of(forms.begin(), forms.end(), [&](const CurvedForm& form) {
+    return form.contains(t.a) && form.contains(t.b) && form.contains(t.c);
+  });
+}
+
+/// The pieces that bound solids, but the tangled ones, as one mesh. No winding is negative: the sum is at least 1 where
+/// one of them is.
+TriangleMesh solid_mesh(const Pieces& pieces, Curved curved, std::size_t segments) {
+  TriangleMesh mesh = pieces.solids;
+  for (const CurvedForm& form : pieces.curved) append(mesh, form.mesh(curved, segments));
+  return mesh;
+}
+
+/// All faces that the mesh does not cover.
+std::vector<Offender> offenders(const TriangleMesh& faces, const TriangleMesh& solid, const Progress& progress) {
+  if (faces.face_count() == 0) return {};
+  if (solid.face_count() > 0)
+    return verify_cover(faces, solid, {.max_offenders = faces.face_count(), .progress = progress}).worst;
+  std::vector<Offender> all;
+  for (const FaceId f : faces.triangles.ids()) all.push_back({f, faces.triangle(f).a, 0});
+  return all;
+}
+
+/// Which faces neither the mesh nor a tangled piece covers by itself. For faces that are points, that is exact.
+PerFace<char> are_outside(const TriangleMesh& faces, const TriangleMesh& solid,
+                          const std::vector<TriangleMesh>& tangled, const Progress& progress) {
+  PerFace<char> outside(faces.face_count(), 1);
+  const auto drop_covered = [&](const TriangleMesh& piece) {
+    PerFace<char> sticks_out(faces.face_count(), 0);
+    for (const Offender& offender : offenders(faces, piece, progress)) sticks_out[offender.face] = 1;
+    for (const FaceId f : faces.triangles.ids()) outside[f] = outside[f] != 0 && sticks_out[f] != 0;
+  };
+  drop_covered(solid);
+  for (const TriangleMesh& piece : tangled) drop_covered(piece);
+  return outside;
+}
+
+TriangleMesh uncovered(const TriangleMesh& faces, const Pieces& pieces, Curved curved, std::size_t segments,
+                       const Progress& progress) {
+  const TriangleMesh rest = faces_that(faces, [&](FaceId f) { return !lies_in_one(faces.triangle(f), pieces.curved); });
+  const auto outside = are_outside(rest, solid_mesh(pieces, curved, segments), pieces.tangled, progress);
+  return faces_that(rest, [&](FaceId f) { return outside[f] != 0; });
+}
+
+/// Those with a corner that lies in no solid piece. Exact.
+TriangleMesh with_corner_outside(const TriangleMesh& faces, const Pieces& pieces, const Progress& progress) {
+  std::vector<Triangle> corners;
+  std::vector<FaceId> owners;
+  for (const FaceId f : faces.triangles.ids()) {
+    const Triangle t = faces.triangle(f);
+    for (const Vec3& p : {t.a, t.b, t.c}) {
+      if (lies_in_one({p, p, p}, pieces.curved)) continue;
+      corners.push_back({p, p, p});
+      owners.push_back(f);
+    }
+  }
+  const auto outside = are_outside(mesh_of(corners), pieces.solids, pieces.tangled, progress);
+  PerFace<char> keeps(faces.face_count(), 0);
+  for (const FaceId corner : outside.ids())
+    if (outside[corner] != 0) keeps[owners[index(corner)]] = 1;
+  return faces_that(faces, [&](FaceId f) { return keeps[f] != 0; });
+}
+
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
+
+template <class Number>
+Number determinant(const Triangle& t, const Vec3& p) {
+  std::array<std::array<Number, 3>, 3> m;
+  for (int i = 0; i < 3; ++i)
+    m[i] = {Number(t.b[i]) - Number(t.a[i]), Number(t.c[i]) - Number(t.a[i]), Number(p[i]) - Number(t.a[i])};
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[1][0] * (m[0][1] * m[2][2] - m[0][2] * m[2][1]) +
+         m[2][0] * (m[0][1] * m[1][2] - m[0][2] * m[1][1]);
+}
+
+/// Whether p lies in the plane of the triangle; also if that has no area. Exact. Differences are at most twice the
+/// largest coordinate; in the determinant, six products of three, less than 20 roundings go into each.
+bool lies_in_plane(const Vec3& p, const Triangle& t) {
+  double largest = 0;
+  for (const Vec3& q : {t.a, t.b, t.c, p})
+    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(q[axis]));
+  if (std::abs(determinant<double>(t, p)) > 0x1p-40 * largest * largest * largest + 1e-300) return false;
+  return determinant<Rational>(t, p) == 0;
+}
+
+/// Whether one of the faces, which all leave the solid pieces, leaves the triangles, too: these cover some of a face
+/// only if they lie in its plane. Not all are asked, as many faces may lie in a plane with many triangles.
+bool one_leaves(const TriangleMesh& faces, const TriangleMesh& triangles) {
+  constexpr std::uint32_t kMostFaces = 100;
+  for (const FaceId f : faces.triangles.ids()) {
+    if (index(f) == kMostFaces) break;
+    const Triangle face = faces.triangle(f);
+    const auto lies_in = [&](const std::array<VertexId, 3>& corners) {
+      return std::all_of(corners.begin(), corners.end(),
+                         [&](VertexId v) { return lies_in_plane(triangles.positions[v], face); });
+    };
+    if (std::none_of(triangles.triangles.begin(), triangles.triangles.end(), lies_in)) return true;
+  }
+  return false;
+}
+
+/// How far faces reach out of the union of the pieces.
+///
+/// Faces are cut into cells, as by distance_bounds, the one with the greatest bound first. Cells that the union covers
+/// are dropped, so that nothing counts that is deep inside. The distance to a triangle, or to a curved form, is a
+/// convex function: no point of a cell is farther from the union than the farthest corner is from a face or form near
+/// it.
+class Reach {
+ public:
+  Reach(const TriangleMesh& faces, const Pieces& pieces, const Progress& progress)
+      : pieces_(pieces),
+        progress_(progress),
+        solid_(solid_mesh(pieces, Curved::Within, kSegments[0])),
+        surface_(surface()),
+        query_(QueryIndex(surface_)),
+        pairs_(pieces.solids, progress) {
+    double largest = 0;
+    for (const TriangleMesh* mesh : {&surface_, &faces})
+      for (const Vec3& p : mesh->positions)
+        for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(p[axis]));
+    for (const CurvedForm& form : pieces.curved) largest = std::max(largest, form.largest_coordinate());
+    // Offenders are rounded; cells are cut at rounded midpoints, at most some hundred times one after another; the
+    // bounds of distances to curved forms are some 2^-46 of their size apart.
+    rounding_ = 0x1p-42 * largest;
+    add(faces);
+  }
+
+  DistanceBounds run() {
+    while (is_wide() && seen_ < kMostCells) add(mesh_of(halves()));
+    reach_.upper = std::max(cells_.empty() ? 0 : cells_.top().upper, reach_.lower) + rounding_;
+    reach_.lower = std::max(0.0, reach_.lower - rounding_);
+    return reach_;
+  }
+
+ private:
+  static constexpr std::size_t kMostCells = 200'000;
+  static constexpr double kRelativeGap = 0.01;
+
+  struct Cell {
+    Triangle triangle;
+    double upper;
+    bool operator<(const Cell& other) const { return upper < other.upper; }
+  };
+
+  TriangleMesh surface() const {
+    TriangleMesh result = pieces_.solids;
+    append(result, pieces_.triangles);
+    return result;
+  }
+
+  bool is_wide() const { return !cells_.empty() && cells_.top().upper > (1 + kRelativeGap) * reach_.lower + rounding_; }
+
+  void add(const TriangleMesh& faces) {
+    const std::vector<Offender> found = offenders(faces, solid_, progress_);
+    std::vector<Triangle> cells, points;
+    for (const Offender& offender : found) {
+      cells.push_back(faces.triangle(offender.face));
+      points.push_back({offender.point, offender.point, offender.point});
+    }
+    const auto cell_leaves = leaves_tangled(cells), point_leaves = leaves_tangled(points);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (cell_leaves[i] == 0) continue;
+      const Triangle& t = cells[i];
+      if (point_leaves[i] != 0) look_at(found[i].point);
+      if (solid_.face_count() == 0 && pieces_.tangled.empty()) look_at(t.b), look_at(t.c);
+      cells_.push({t, upper_bound(t)});
+      ++seen_;
+    }
+  }
+
+  std::vector<char> leaves_tangled(const std::vector<Triangle>& triangles) const {
+    if (pieces_.tangled.empty()) return std::vector<char>(triangles.size(), 1);
+    const auto outside = are_outside(mesh_of(triangles), {}, pieces_.tangled, progress_);
+    return {outside.begin(), outside.end()};
+  }
+
+  /// A point that is outside of the union, or on the border of what is; or in a curved piece.
+  void look_at(const Vec3& p) {
+    const auto closest = query_.closest_point(p);
+    double distance = closest ? closest->lower : std::numeric_limits<double>::infinity();
+    for (const CurvedForm& form : pieces_.curved) distance = std::min(distance, form.distance(p).lower);
+    if (distance > reach_.lower) reach_.lower = distance, reach_.farthest = p;
+  }
+
+  double upper_bound(const Triangle& t) {
+    double upper = std::numeric_limits<double>::infinity();
+    for (const CurvedForm& form : pieces_.curved)
+      upper = std::min(upper, std::max({form.distance(t.a).upper, form.distance(t.b).upper, form.distance(t.c).upper}));
+    if (surface_.face_count() == 0) return upper;
+    std::vector<Triangle> near;
+    for (const Vec3& p : {t.a, t.b, t.c}) {
+      const FaceId face = query_.closest_point(p)->face;
+      near.push_back(surface_.triangle(face));
+      if (index(face) < pieces_.solids.face_count()) upper = std::min(upper, pairs_.distance_at_most(face, t));
+    }
+    return std::min(upper, distance_bounds(mesh_of({&t, 1}), mesh_of(near), {.max_cells = 1}).upper);
+  }
+
+  std::vector<Triangle> halves() {
+    // To ask whether cells are covered takes the time of some, and more where the pieces have many faces.
+    const std::size_t at_once = std::max<std::size_t>(1024, solid_.face_count() / 4);
+    std::vector<Triangle> result;
+    for (std::size_t i = 0; i < at_once && is_wide(); ++i) {
+      add_halves(cells_.top().triangle, result);
+      cells_.pop();
+    }
+    return result;
+  }
+
+  static void add_halves(const Triangle& t, std::vector<Triangle>& result) {
+    const double ab = squared_norm(t.b - t.a), bc = squared_norm(t.c - t.b), ca = squared_norm(t.a - t.c);
+    const auto [a, b, c] = ab >= bc && ab >= ca ? t : bc >= ca ? Triangle{t.b, t.c, t.a} : Triangle{t.c, t.a, t.b};
+    const Vec3 middle = a * 0.5 + b * 0.5;
+    result.push_back({a, middle, c});
+    result.push_back({middle, b, c});
+  }
+
+  const Pieces& pieces_;
+  const Progress& progress_;
+  const TriangleMesh solid_, surface_;
+  MeshQuery query_;
+  ConvexPairs pairs_;
+  double rounding_ = 0;
+  std::priority_queue<Cell> cells_;
+  std::size_t seen_ = 0;
+  DistanceBounds reach_;
+};
+
+PartCover cover_flat(const TriangleMesh& faces, const Pieces& pieces, const Progress& progress) {
+  PartCover result{Covers::Unknown, without_equals(faces, pieces.triangles), {}};
+  TriangleMesh leaving;  // the solid pieces
+  for (const std::size_t segments : kSegments) {
+    result.outside = uncovered(result.outside, pieces, Curved::Within, segments, progress);
+    if (result.outside.face_count() == 0) return {};
+    leaving = with_corner_outside(result.outside, pieces, progress);
+    // Several pieces may cover a face together, and sums of windings do not tell that of tangled ones.
+    if (leaving.face_count() == 0 && pieces.tangled.empty())
+      leaving = uncovered(result.outside, pieces, Curved::Around, segments, progress);
+    if (leaving.face_count() == 0) continue;
+    if (!pieces.curved.empty())
+      result.outside = uncovered(result.outside, pieces, Curved::Within, kSegments[1], progress);
+    break;
+  }
+  result.reach = Reach(result.outside, pieces, progress).run();
+  if (result.reach.lower > 0 || one_leaves(leaving, pieces.triangles)) result.covers = Covers::No;
+  return result;
+}
+
+/// Faces around the form to prove that it is covered, and faces within it to prove that it is not.
+PartCover cover_curved(const CurvedForm& form, const Pieces& pieces, const Progress& progress) {
+  if (std::find(pieces.curved.begin(), pieces.curved.end(), form) != pieces.curved.end()) return {};
+  PartCover result{Covers::Unknown, {}, {}};
+  for (const std::size_t segments : kSegments) {
+    result.outside = uncovered(form.mesh(Curved::Around, segments), pieces, Curved::Within, segments, progress);
+    if (result.outside.face_count() == 0) return {};
+    const TriangleMesh within = form.mesh(Curved::Within, segments);
+    if (!pieces.tangled.empty() || uncovered(within, pieces, Curved::Around, segments, progress).face_count() == 0)
+      continue;
+    result.covers = Covers::No;
+    break;
+  }
+  result.reach = Reach(form.mesh(Curved::Within, kFineness), pieces, progress).run();
+  result.reach.upper = Reach(form.mesh(Curved::Around, kFineness), pieces, progress).run().upper;
+  if (result.reach.lower > 0) result.covers = Covers::No;
+  return result;
+}
+
+}  // namespace
+
+/// Inside out, the mesh winds at least once around such points. A box far away, of greater volume, sees to it that it
+/// does not count as turned.
+bool is_tangled(const TriangleMesh& mesh, const Progress& progress) {
+  const Box box = bounding_box(mesh);
+  const double size = box.diagonal() * (2 + std::cbrt(static_cast<double>(mesh.face_count())));
+  const TriangleMesh far = placed(Pose{.translation = box.max + Vec3{size, size, size}},
+                                  form_mesh(BoxForm{{size, size, size}}, Curved::Around));
+  TriangleMesh turned = mesh;
+  for (auto& corners : turned.triangles) std::swap(corners[1], corners[2]);
+  append(turned, far);
+  return !verify_enclosure(turned, far, {.progress = progress}).encloses;
+}
+
+PartCover cover(const Part& part, const Pieces& pieces, const Progress& progress) {
+  return part.curved ? cover_curved(*part.curved, pieces, progress) : cover_flat(part.flat, pieces, progress);
+}
+
+}  // namespace prohull::robot

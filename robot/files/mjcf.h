@@ -1,0 +1,25 @@
+#pragma once
+
+#include "robot/files/packages.h"
+#include "robot/files/robot_file.h"
+#include "robot/files/xml.h"
+
+namespace prohull::robot {
+
+/// The robot of a document whose root is <mujoco>. Throws as read_robot does.
+///
+/// Geoms that collide, by contype, conaffinity or <contact>, are collision geometry, and the others are visual. A body
+/// without others has its geoms as both. Where there is more than one body in the world, it becomes a link "world".
+/// Left out, with a note: geoms of the world, <replicate>, <composite>, <flexcomp>, <attach>, and <equality> but for
+/// joints that follow others in a straight line. <include> is an error.
+RobotFile read_mjcf(const XmlDocument& document, const Packages& packages);
+
+/// As with_collisions. The hull of a body takes the place, the name and the contact parameters of its first geom that
+/// collides; the others that collide are removed, and what named them names the hull. Where these geoms are the visual
+/// geometry as well, they stay and stop colliding. MuJoCo collides with the convex hull of a mesh: that encloses the
+/// mesh, so the robot stays covered, but it is fatter than the hull that was certified. Throws
+/// InputError(InvalidOption) for a hull that MuJoCo cannot read: neither .stl nor .obj, or with a URI.
+std::string mjcf_with_collisions(const RobotFile& file, const XmlDocument& document,
+                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder);
+
+}  // namespace prohull::robot

@@ -1,0 +1,420 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "prohull/error.h"
+#include "robot/files/mjcf.h"
+#include "robot/files/mjcf_model.h"
+#include "robot/files/xml_lines.h"
+#include "robot/transform.h"
+
+namespace fs = std::filesystem;
+
+namespace prohull::robot {
+namespace {
+
+using Attribute = std::pair<std::string, std::string>;
+
+// What says the shape and the place of a geom.
+constexpr std::array<std::string_view, 14> kShapeAttributes{
+    "type", "size",  "mesh",   "hfield", "fitscale",  "fromto",     "pos",
+    "quat", "euler", "xyaxes", "zaxis",  "axisangle", "fluidshape", "shellinertia"};
+constexpr std::array<std::string_view, 7> kPoseAttributes{"fromto", "pos",   "quat",     "euler",
+                                                          "xyaxes", "zaxis", "axisangle"};
+
+bool is_shape_attribute(std::string_view name) {
+  return std::ranges::find(kShapeAttributes, name) != kShapeAttributes.end();
+}
+
+/// The unit quaternion w, x, y, z of a rotation, by the largest of the four.
+std::array<double, 4> quaternion_of(const Pose& pose) {
+  const auto& r = pose.rotation;
+  const std::array<double, 4> squares{1 + r[0].x + r[1].y + r[2].z, 1 + r[0].x - r[1].y - r[2].z,
+                                      1 - r[0].x + r[1].y - r[2].z, 1 - r[0].x - r[1].y + r[2].z};
+  const auto largest = static_cast<std::size_t>(std::ranges::max_element(squares) - squares.begin());
+  const double yz = r[2].y - r[1].z, zx = r[0].z - r[2].x, xy = r[1].x - r[0].y;  // 4 w times x, y, z
+  const double x_y = r[1].x + r[0].y, x_z = r[0].z + r[2].x, y_z = r[2].y + r[1].z;
+  const std::array<std::array<double, 4>, 4> rows{
+      {{squares[0], yz, zx, xy}, {yz, squares[1], x_y, x_z}, {zx, x_y, squares[2], y_z}, {xy, x_z, y_z, squares[3]}}};
+  std::array<double, 4> q = rows[largest];
+  const double length = 2 * std::sqrt(squares[largest]);
+  for (double& part : q) part /= length;
+  return q;
+}
+
+/// The pose as pos and quat, where they are not those of a geom that says nothing.
+std::vector<Attribute> attributes_of(const Pose& pose) {
+  std::vector<Attribute> result;
+  const Vec3& t = pose.translation;
+  if (t != Vec3{}) result.emplace_back("pos", fmt::format("{} {} {}", t.x, t.y, t.z));
+  if (pose.rotation == Pose{}.rotation) return result;
+  const std::array<double, 4> q = quaternion_of(pose);
+  result.emplace_back("quat", fmt::format("{} {} {} {}", q[0], q[1], q[2], q[3]));
+  return result;
+}
+
+class MjcfWriter {
+ public:
+  MjcfWriter(const RobotFile& file, const XmlDocument& document, const fs::path& folder)
+      : file_(file),
+        document_(document),
+        folder_(fs::absolute(folder)),
+        packages_(file.path, {}),
+        model_(document),
+        line_end_(line_end(document)) {
+    for (const auto& [name, mesh] : model_.meshes()) mesh_names_.insert(name);
+    collect_geom_names(document.root());
+  }
+
+  std::string write(std::span<const NewCollision> collisions) {
+    for (const NewCollision& collision : collisions)
+      if (collision.link < model_.bodies().size()) replace(collision);
+    rename_references(document_.root());
+    add_assets();
+    rewrite_files();
+    inserted_.insert(inserted_.end(), edits_.begin(), edits_.end());
+    return edited_text(document_, std::move(inserted_));
+  }
+
+ private:
+  // Geoms
+
+  void replace(const NewCollision& collision) {
+    const MjcfBody& body = model_.bodies().at(collision.link);
+    const auto& from = collision.from == Geometry::Visual ? body.visual : body.colliding;
+    const bool keeps_places = body.visual_collides || collision.from == Geometry::Collision;
+    std::vector<MjcfElement> old = body.colliding;
+    if (keeps_places)
+      std::erase_if(old, [&](const MjcfElement& geom) {
+        return std::ranges::any_of(collision.kept, [&](std::size_t i) { return from.at(i).element == geom.element; });
+      });
+    const MjcfElement* const model_geom = old.empty() ? nullptr : &old[0];
+    std::vector<NewGeom> added;
+    if (!collision.hull.empty()) added.push_back(hull_geom(collision, body, from, model_geom));
+    if (!keeps_places)
+      for (const std::size_t kept : collision.kept) added.push_back(kept_geom(from.at(kept), body, model_geom));
+    take_names(added, old, body);
+    if (body.visual_collides)
+      show_only(old, added);
+    else
+      remove(old, added);
+    for (const NewGeom& geom : added) insert(geom, body);
+  }
+
+  /// A geom that is written.
+  struct NewGeom {
+    const XmlElement* beside = nullptr;  ///< the geom that it stands after; none: at the end of the body
+    const XmlElement* home = nullptr;    ///< the <body> or <frame> that it is in
+    std::string child_class;             ///< that applies there
+    std::vector<Attribute> attributes;   ///< without the name
+    std::string name;
+  };
+
+  NewGeom hull_geom(const NewCollision& collision, const MjcfBody& body, const std::vector<MjcfElement>& from,
+                    const MjcfElement* like) {
+    NewGeom geom{nullptr, body.element, body.child_class, {}, ""};
+    std::vector<Attribute> shape{{"type", "mesh"}, {"mesh", add_mesh(collision, body)}};
+    if (collision.same_origin_as) {
+      const MjcfElement& same = from.at(*collision.same_origin_as);
+      geom.beside = same.element, geom.home = same.home;
+      const auto& known = shapes(file_.robot.links.at(collision.link), collision.from);
+      append(shape, pose_attributes(same, known.at(*collision.same_origin_as).origin));
+    }
+    geom.attributes = with_shape(like, geom, std::move(shape), body);
+    return geom;
+  }
+
+  NewGeom kept_geom(const MjcfElement& visual, const MjcfBody& body, const MjcfElement* like) {
+    NewGeom geom{visual.element, visual.home, body.child_class, {}, ""};
+    std::vector<Attribute> shape;
+    for (const std::string_view key : kShapeAttributes)
+      if (const std::string* value = model_.value(visual, key)) shape.emplace_back(key, *value);
+    geom.attributes = with_shape(like, geom, std::move(shape), body);
+    return geom;
+  }
+
+  static void append(std::vector<Attribute>& to, std::vector<Attribute> more) {
+    std::ranges::move(more, std::back_inserter(to));
+  }
+
+  /// The words of the file if they mean just this pose, else numbers.
+  std::vector<Attribute> pose_attributes(const MjcfElement& geom, const Pose& origin) const {
+    const Pose said = mjcf_pose(model_, geom);
+    const Pose in_body = geom.frame == Pose{} ? said : composed(geom.frame, said);
+    if (in_body != origin || model_.value(geom, "fromto"))
+      return attributes_of(geom.frame == Pose{} ? origin : composed(inverse(geom.frame), origin));
+    std::vector<Attribute> words;
+    for (const std::string_view key : kPoseAttributes)
+      if (const std::string* value = model_.value(geom, key)) words.emplace_back(key, *value);
+    return words;
+  }
+
+  /// The attributes of the geom that is replaced, with another shape. Without such a geom: one that collides, in the
+  /// group that viewers hide, and that adds no mass.
+  std::vector<Attribute> with_shape(const MjcfElement* like, const NewGeom& geom, std::vector<Attribute> shape,
+                                    const MjcfBody& body) const {
+    const std::string place_class = class_at(geom.home, body);
+    if (class_has_pose(model_.main_class())) add_missing_pose(shape);
+    std::vector<Attribute> result;
+    if (!like) {
+      if (place_class.empty() || class_has_pose(place_class)) result.emplace_back("class", model_.main_class());
+      append(result, {{"contype", "1"}, {"conaffinity", "1"}, {"group", "3"}, {"mass", "0"}});
+      append(result, std::move(shape));
+      return result;
+    }
+    const bool flat = class_has_pose(like->class_name);
+    const std::string& name = flat ? model_.main_class() : like->class_name;
+    if (name != place_class || like->element->attribute("class")) result.emplace_back("class", name);
+    if (flat) append(result, inherited(*like));
+    for (const auto& [key, value] : like->element->attributes)
+      if (is_copied(key, body)) result.emplace_back(key, value);
+    if (body.visual_collides) result.emplace_back("mass", "0");  // the geom that is seen keeps its mass
+    append(result, std::move(shape));
+    return result;
+  }
+
+  /// Says what is the same without a word, against a class that says something else.
+  static void add_missing_pose(std::vector<Attribute>& shape) {
+    const auto says = [&](std::string_view key) {
+      return std::ranges::any_of(shape, [&](const Attribute& it) { return it.first == key; });
+    };
+    if (!says("pos")) shape.emplace_back("pos", "0 0 0");
+    if (std::ranges::none_of(kMjcfOrientations, says)) shape.emplace_back("quat", "1 0 0 0");
+  }
+
+  static bool is_copied(std::string_view key, const MjcfBody& body) {
+    if (body.visual_collides && (key == "mass" || key == "density")) return false;
+    return !is_shape_attribute(key) && key != "name" && key != "class";
+  }
+
+  /// What the class of a geom says, and the geom does not, but for its shape.
+  std::vector<Attribute> inherited(const MjcfElement& geom) const {
+    std::vector<Attribute> result;
+    for (const auto& [key, value] : model_.defaults(geom.class_name, "geom"))
+      if (!is_shape_attribute(key) && key != "class" && !geom.element->attribute(key)) result.emplace_back(key, value);
+    return result;
+  }
+
+  /// A pose that a class sets would move the hull.
+  bool class_has_pose(const std::string& name) const {
+    const MjcfModel::Attributes& defaults = model_.defaults(name, "geom");
+    return std::ranges::any_of(kPoseAttributes, [&](std::string_view key) { return defaults.contains(key); });
+  }
+
+  /// The class that applies in a <body> or <frame> without being named.
+  std::string class_at(const XmlElement* home, const MjcfBody& body) const {
+    for (const auto* geoms : {&body.visual, &body.colliding})
+      for (const MjcfElement& geom : *geoms)
+        if (geom.home == home && !geom.element->attribute("class")) return geom.class_name;
+    return home == body.element ? body.child_class : "";
+  }
+
+  /// What names a geom that the hull stands for names the hull, which takes the name of the first one if it has any.
+  void take_names(std::vector<NewGeom>& added, const std::vector<MjcfElement>& old, const MjcfBody& body) {
+    if (added.empty() || old.empty()) return;
+    const std::string* const first = old[0].element->attribute("name");
+    if (first) added[0].name = *first;
+    for (const MjcfElement& geom : old) {
+      const std::string* const name = geom.element->attribute("name");
+      if (!name) continue;
+      if (added[0].name.empty()) added[0].name = unique(body.name + "_hull", geom_names_);
+      renamed_[*name] = added[0].name;
+    }
+  }
+
+  /// Geoms that were both stay to be seen.
+  void show_only(const std::vector<MjcfElement>& old, const std::vector<NewGeom>& added) {
+    for (const MjcfElement& geom : old) {
+      const std::string* const name = geom.element->attribute("name");
+      if (name && !added.empty() && *name == added[0].name)
+        edits_.push_back({attribute_span(document_, *geom.element, "name"), ""});
+      for (const std::string_view key : {"contype", "conaffinity"}) set(*geom.element, key, "0");
+    }
+  }
+
+  void set(const XmlElement& element, std::string_view key, const std::string& value) {
+    if (element.attribute(key)) return edits_.push_back({value_span(document_, element, key), value});
+    const std::size_t at = element.start_tag.end - (element.is_empty_tag() ? 2 : 1);
+    std::size_t end = at;
+    while (std::string_view(" \t\r\n").find(document_.text()[end - 1]) != std::string_view::npos) --end;
+    edits_.push_back({{end, end}, fmt::format(" {}=\"{}\"", key, value)});
+  }
+
+  /// Removes geoms. The first new one takes the place of the first old one in the same <body> or <frame>.
+  void remove(const std::vector<MjcfElement>& old, std::vector<NewGeom>& added) {
+    bool is_placed = added.empty();
+    for (const MjcfElement& geom : old)
+      if (!is_placed && added[0].home == geom.home) {
+        edits_.push_back({geom.element->whole, text_of(added[0])});
+        is_placed = true;
+        added.erase(added.begin());
+      } else {
+        edits_.push_back({lines_of(document_, *geom.element), ""});
+      }
+  }
+
+  static std::string text_of(const NewGeom& geom) {
+    std::string text = "<geom";
+    if (!geom.name.empty()) text += fmt::format(" name=\"{}\"", xml_escaped(geom.name));
+    for (const auto& [key, value] : geom.attributes) text += fmt::format(" {}=\"{}\"", key, xml_escaped(value));
+    return text + "/>";
+  }
+
+  void insert(const NewGeom& geom, const MjcfBody& body) {
+    const XmlElement* const beside = geom.beside ? geom.beside : last_direct_geom(body);
+    const XmlElement& after = beside ? *beside : *body.element->children.back();
+    const std::string line = line_end_ + std::string(document_.indentation(after));
+    inserted_.push_back({{after.whole.end, after.whole.end}, line + text_of(geom)});
+  }
+
+  static const XmlElement* last_direct_geom(const MjcfBody& body) {
+    const XmlElement* last = nullptr;
+    for (const XmlElement* child : body.element->children)
+      if (child->name == "geom") last = child;
+    return last;
+  }
+
+  // Names
+
+  static std::string unique(const std::string& base, std::set<std::string>& names) {
+    std::string name = base;
+    for (int i = 2; !names.insert(name).second; ++i) name = fmt::format("{}_{}", base, i);
+    return name;
+  }
+
+  void collect_geom_names(const XmlElement& element) {
+    const std::string* const name = element.name == "geom" ? element.attribute("name") : nullptr;
+    if (name) geom_names_.insert(*name);
+    for (const XmlElement* child : element.children) collect_geom_names(*child);
+  }
+
+  void rename_references(const XmlElement& element) {
+    const std::string* const type = element.attribute("objtype");
+    for (const std::string_view key : {"geom", "geom1", "geom2", "objname"}) {
+      const std::string* const name = element.attribute(key);
+      if (!name || (key == "objname" && (!type || *type != "geom"))) continue;
+      const auto found = renamed_.find(*name);
+      if (found != renamed_.end() && found->second != *name)
+        edits_.push_back({value_span(document_, element, key), xml_escaped(found->second)});
+    }
+    for (const XmlElement* child : element.children) rename_references(*child);
+  }
+
+  // Assets
+
+  std::string add_mesh(const NewCollision& collision, const MjcfBody& body) {
+    const std::string extension = fs::path(collision.hull).extension().string();
+    if (extension != ".stl" && extension != ".obj")
+      throw InputError(Defect::InvalidOption, fmt::format("{}: MuJoCo reads no {} files; write the hulls as stl or obj",
+                                                          document_.file(), extension));
+    if (collision.hull.find("://") != std::string::npos)
+      throw InputError(Defect::InvalidOption,
+                       fmt::format("{}: MuJoCo reads paths, but no URIs such as {}", document_.file(), collision.hull));
+    if (model_.defaults(model_.main_class(), "geom").contains("fromto"))
+      throw InputError(Defect::Malformed, fmt::format("{}: the main <default> sets fromto for all geoms, which no mesh "
+                                                      "can have",
+                                                      document_.file()));
+    std::string name = unique(body.name + "_hull", mesh_names_);
+    const fs::path file = fs::absolute(folder_ / collision.hull).lexically_normal();
+    const fs::path from = (folder_ / model_.compiler().mesh_folder).lexically_normal();
+    const fs::path relative = file.lexically_relative(from);
+    assets_.push_back(fmt::format("<mesh name=\"{}\" file=\"{}\"{}/>", xml_escaped(name),
+                                  xml_escaped((relative.empty() ? file : relative).generic_string()), plain_mesh()));
+    return name;
+  }
+
+  /// What default classes say about meshes must not change a hull.
+  std::string plain_mesh() const {
+    static const std::array<std::pair<std::string_view, std::string_view>, 4> plain{
+        {{"scale", "1 1 1"}, {"refpos", "0 0 0"}, {"refquat", "1 0 0 0"}, {"maxhullvert", "-1"}}};
+    std::string text;
+    for (const auto& [key, value] : plain)
+      if (model_.defaults(model_.main_class(), "mesh").contains(key)) text += fmt::format(" {}=\"{}\"", key, value);
+    return text;
+  }
+
+  void add_assets() {
+    if (assets_.empty()) return;
+    const XmlElement* section = nullptr;
+    for (const XmlElement* child : document_.root().children)
+      if (child->name == "asset" && !child->is_empty_tag()) section = child;
+    if (!section) return create_assets();
+    const XmlElement* const last = section->children.empty() ? nullptr : section->children.back();
+    const std::size_t at = last ? last->whole.end : section->start_tag.end;
+    const std::string indent(last ? document_.indentation(*last) : std::string(document_.indentation(*section)) + "  ");
+    std::string text;
+    for (const std::string& asset : assets_) text.append(line_end_).append(indent).append(asset);
+    edits_.push_back({{at, at}, text});
+  }
+
+  void create_assets() {
+    const XmlElement& world = *document_.root().child("worldbody");
+    const std::string indent(document_.indentation(world));
+    std::string text = "<asset>";
+    for (const std::string& asset : assets_) text.append(line_end_).append(indent).append("  ").append(asset);
+    text.append(line_end_).append(indent).append("</asset>").append(line_end_).append(indent);
+    edits_.push_back({{world.whole.begin, world.whole.begin}, text});
+  }
+
+  // Files
+
+  struct MovedFile {
+    const XmlElement* asset = nullptr;
+    std::string key, said, moved;
+  };
+
+  void rewrite_files() {
+    std::vector<MovedFile> files;
+    for (const XmlElement* section : document_.root().children)
+      if (section->name == "asset")
+        for (const XmlElement* asset : section->children) add_files(*asset, files);
+    // Hulls and files that were moved have paths, which MuJoCo must not strip.
+    const bool needs_paths = !assets_.empty() || std::ranges::any_of(files, [&](const MovedFile& file) {
+      return file.moved != model_.file_name(file.said);
+    });
+    if (needs_paths) keep_paths();
+    for (const MovedFile& file : files)
+      if (file.moved != (needs_paths ? file.said : model_.file_name(file.said)))
+        edits_.push_back({value_span(document_, *file.asset, file.key), xml_escaped(file.moved)});
+  }
+
+  void keep_paths() {
+    for (const XmlElement* section : document_.root().children)
+      if (section->name == "compiler" && section->attribute("strippath")) set(*section, "strippath", "false");
+  }
+
+  void add_files(const XmlElement& asset, std::vector<MovedFile>& files) const {
+    const fs::path place = asset.name == "model"     ? fs::path()
+                           : asset.name == "texture" ? model_.compiler().texture_folder
+                                                     : model_.compiler().mesh_folder;
+    for (const auto& [key, value] : asset.attributes) {
+      if (!key.starts_with("file")) continue;
+      const MeshFile found = packages_.find(model_.file_name(value), {1, 1, 1}, place);
+      if (!found.path.empty()) files.push_back({&asset, key, value, packages_.uri_from(folder_ / place, found)});
+    }
+  }
+
+  const RobotFile& file_;
+  const XmlDocument& document_;
+  const fs::path folder_;
+  const Packages packages_;
+  const MjcfModel model_;
+  const std::string line_end_;
+  std::set<std::string> mesh_names_, geom_names_;
+  std::map<std::string, std::string> renamed_;  // geoms that a hull stands for: its name
+  std::vector<std::string> assets_;
+  std::vector<XmlEdit> inserted_, edits_;
+};
+
+}  // namespace
+
+std::string mjcf_with_collisions(const RobotFile& file, const XmlDocument& document,
+                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder) {
+  return MjcfWriter(file, document, folder).write(collisions);
+}
+
+}  // namespace prohull::robot

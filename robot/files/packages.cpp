@@ -1,0 +1,255 @@
+#include "robot/files/packages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include "prohull/error.h"
+#include "robot/files/xml.h"
+
+namespace fs = std::filesystem;
+
+namespace prohull::robot {
+namespace {
+
+constexpr std::size_t kMostPlacesInMessages = 6;
+constexpr std::uintmax_t kMostPackageXml = std::uintmax_t{1} << 20;  // bytes
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+/// Absolute and without "..", but with the links that it goes through. A folder loses its slash at the end.
+fs::path tidied(const fs::path& path) {
+  fs::path tidy = fs::absolute(path).lexically_normal();
+  return tidy.has_filename() || !tidy.has_relative_path() ? tidy : tidy.parent_path();
+}
+
+std::vector<fs::path> paths_of_environment(const char* variable) {
+  const char* const value = std::getenv(variable);
+  std::vector<fs::path> paths;
+  for (std::string_view rest = value ? value : ""; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    if (end > 0) paths.push_back(tidied(rest.substr(0, end)));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return paths;
+}
+
+/// The name that the package.xml of a folder says; "" without a readable one.
+std::string declared_name(const fs::path& folder) {
+  const fs::path path = folder / "package.xml";
+  std::error_code error;
+  if (!is_file(path) || fs::file_size(path, error) > kMostPackageXml) return "";
+  std::ifstream stream(path, std::ios::binary);
+  try {
+    const XmlDocument document({std::istreambuf_iterator<char>(stream), {}}, path.string());
+    const XmlElement* const name = document.root().child("name");
+    if (!name) return "";
+    const std::size_t begin = name->content.find_first_not_of(" \t\r\n");
+    return begin == std::string::npos
+               ? ""
+               : name->content.substr(begin, name->content.find_last_not_of(" \t\r\n") + 1 - begin);
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+bool is_package(const fs::path& folder, const std::string& name) {
+  return is_folder(folder) && (folder.filename() == name || declared_name(folder) == name);
+}
+
+std::vector<fs::path> folders_in(const fs::path& parent) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator entry(parent, error), end; !error && entry != end; entry.increment(error))
+    if (is_folder(entry->path())) folders.push_back(entry->path());
+  std::ranges::sort(folders);
+  return folders;
+}
+
+/// Folders without repetition, in the order in which they were added.
+class Found {
+ public:
+  void add(const fs::path& folder) {
+    if (std::ranges::find(folders_, folder) == folders_.end()) folders_.push_back(folder);
+  }
+  void add_if_folder(const fs::path& folder) {
+    if (is_folder(folder)) add(folder);
+  }
+  std::vector<fs::path> folders() && { return std::move(folders_); }
+
+ private:
+  std::vector<fs::path> folders_;
+};
+
+/// At a package path, in it, and one level deeper.
+void find_at(const fs::path& place, const std::string& name, Found& found) {
+  if (is_package(place, name)) found.add(place);
+  found.add_if_folder(place / name);
+  for (const fs::path& folder : folders_in(place)) {
+    if (declared_name(folder) == name) found.add(folder);
+    found.add_if_folder(folder / name);
+  }
+}
+
+/// Among the folders above a file and their neighbours. A neighbour that only its package.xml calls so is looked for
+/// beside packages.
+void find_above(const fs::path& lowest, const std::string& name, Found& found) {
+  for (fs::path folder = lowest;; folder = folder.parent_path()) {
+    if (is_package(folder, name)) found.add(folder);
+    found.add_if_folder(folder / name);
+    if (folder == folder.parent_path()) return;
+    if (!is_file(folder / "package.xml")) continue;
+    for (const fs::path& neighbour : folders_in(folder.parent_path()))
+      if (declared_name(neighbour) == name) found.add(neighbour);
+  }
+}
+
+std::optional<char> byte_of_hex(std::string_view digits) {
+  unsigned value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+  if (digits.size() != 2 || error != std::errc() || end != digits.data() + 2 || value == 0) return std::nullopt;
+  return static_cast<char>(value);
+}
+
+std::string percent_decoded(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = text[i] == '%' ? byte_of_hex(text.substr(i + 1, 2)) : std::nullopt;
+    decoded += byte.value_or(text[i]);
+    if (byte) i += 2;
+  }
+  return decoded;
+}
+
+/// The file that a path names as it is written, or with its %20 decoded.
+std::optional<fs::path> file_at(const fs::path& folder, std::string_view path) {
+  for (const fs::path& candidate : {fs::path(path), fs::path(percent_decoded(path))})
+    if (const fs::path file = tidied(folder / candidate); is_file(file)) return file;
+  return std::nullopt;
+}
+
+/// Whether a relative path leads out of the folder that it begins in.
+bool leads_out(std::string_view path) {
+  const fs::path normal = fs::path(percent_decoded(path)).lexically_normal();
+  return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
+}
+
+std::string_view without_slashes(std::string_view path) {
+  path.remove_prefix(std::min(path.find_first_not_of('/'), path.size()));
+  return path;
+}
+
+std::string why_not_at(const fs::path& path) {
+  return is_folder(path) ? fmt::format("{} is a folder", path.string())
+                         : fmt::format("there is no file {}", path.string());
+}
+
+/// "/home/robot/x" of "file:///home/robot/x", "file://localhost/home/robot/x" and "file:/home/robot/x".
+std::optional<std::string_view> path_of_file_uri(std::string_view rest) {
+  if (rest.starts_with("//localhost/")) rest.remove_prefix(std::string_view("//localhost").size());
+  if (rest.starts_with("//") && !rest.starts_with("///")) return std::nullopt;
+  return rest;
+}
+
+/// "package" of "package://arm/link.stl"; "" of a path.
+std::string_view scheme_of(std::string_view uri) {
+  const std::size_t end = uri.find("://");
+  if (end == uri.npos) return uri.starts_with("file:/") ? "file" : "";
+  return uri.substr(0, end).find('/') == uri.npos ? uri.substr(0, end) : "";
+}
+
+}  // namespace
+
+Packages::Packages(const fs::path& robot, const FileOptions& options)
+    : folder_(tidied(robot).parent_path()), prefixes_(paths_of_environment("AMENT_PREFIX_PATH")) {
+  for (const fs::path& path : options.package_paths) package_paths_.push_back(tidied(path));
+  for (const char* variable : {"ROS_PACKAGE_PATH", "GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH"})
+    std::ranges::move(paths_of_environment(variable), std::back_inserter(environment_paths_));
+}
+
+const std::vector<fs::path>& Packages::folders_of(const std::string& package) const {
+  if (const auto known = known_.find(package); known != known_.end()) return known->second;
+  Found found;
+  for (const fs::path& place : package_paths_) find_at(place, package, found);
+  find_above(folder_, package, found);
+  for (const fs::path& place : environment_paths_) find_at(place, package, found);
+  for (const fs::path& prefix : prefixes_) found.add_if_folder(prefix / "share" / package);
+  return known_[package] = std::move(found).folders();
+}
+
+std::string Packages::looked_in() const {
+  std::vector<std::string> places;
+  for (const fs::path& path : package_paths_)
+    places.push_back(path.string() + (is_folder(path) ? "" : " (which is no folder)"));
+  places.push_back(fmt::format("{} and the folders above it", folder_.string()));
+  for (const fs::path& path : environment_paths_) places.push_back(path.string());
+  for (const fs::path& prefix : prefixes_) places.push_back((prefix / "share").string());
+  const std::size_t shown = std::min(places.size(), kMostPlacesInMessages);
+  std::string text = fmt::format("{}", fmt::join(places.begin(), places.begin() + std::ptrdiff_t(shown), ", "));
+  if (shown < places.size()) text += fmt::format(", and {} more", places.size() - shown);
+  return text;
+}
+
+void Packages::find_in_package(std::string_view inside, std::string_view scheme, MeshFile& mesh) const {
+  const std::size_t slash = std::min(inside.find('/'), inside.size());
+  const std::string name = percent_decoded(inside.substr(0, slash));
+  const std::string_view path = without_slashes(inside.substr(slash));
+  if (name.empty() || name == "." || name == ".." || path.empty())
+    return void(mesh.why_not = fmt::format("expected {}://PACKAGE/FILE", scheme));
+  if (leads_out(path)) return void(mesh.why_not = fmt::format("its path leads out of the package {}", name));
+  const std::vector<fs::path>& folders = folders_of(name);
+  for (const fs::path& folder : folders)
+    if (auto file = file_at(folder, path)) return void(mesh.path = *std::move(file));
+  mesh.why_not = folders.empty() ? fmt::format(
+                                       "there is no package {} in {}; name the folder that holds it by "
+                                       "--package-path",
+                                       name, looked_in())
+                                 : fmt::format("{}; name another folder that holds the package {} by --package-path",
+                                               why_not_at(folders.front() / path), name);
+}
+
+MeshFile Packages::find(std::string uri, const Vec3& scale, const fs::path& folder) const {
+  MeshFile mesh;
+  mesh.uri = std::move(uri), mesh.scale = scale;
+  const std::string_view text = mesh.uri, scheme = scheme_of(text);
+  if (scheme == "package" || scheme == "model") {
+    find_in_package(text.substr(scheme.size() + 3), scheme, mesh);
+    return mesh;
+  }
+  const auto path = scheme == "file" ? path_of_file_uri(text.substr(5)) : text;
+  if (scheme == "http" || scheme == "https")
+    mesh.why_not = "files are not fetched from the net; download it and name the copy";
+  else if (!scheme.empty() && scheme != "file")
+    mesh.why_not = fmt::format("{}:// is not known; package://, model://, file:/// and paths are", scheme);
+  else if (!path)
+    mesh.why_not = "it names a host; three slashes have to follow file:";
+  else if (auto file = file_at(folder_ / folder, *path))
+    mesh.path = *std::move(file);
+  else
+    mesh.why_not = why_not_at(tidied(folder_ / folder / fs::path(*path)));
+  return mesh;
+}
+
+std::string Packages::uri_from(const fs::path& folder, const MeshFile& mesh) const {
+  if (mesh.path.empty() || !scheme_of(mesh.uri).empty() || fs::path(mesh.uri).is_absolute()) return mesh.uri;
+  std::error_code error;
+  const auto found = file_at(folder, mesh.uri);
+  if (found && fs::equivalent(*found, mesh.path, error)) return mesh.uri;
+  const fs::path relative = fs::relative(mesh.path, folder, error);
+  return error || relative.empty() ? mesh.path.string() : relative.generic_string();
+}
+
+}  // namespace prohull::robot

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "robot/files/robot_file.h"
+#include "robot/model.h"
+
+namespace prohull::robot {
+
+/// Where the files are that a robot names. Remembers where packages are: an object serves one thread at a time.
+class Packages {
+ public:
+  /// `robot` is the path of the robot's file.
+  Packages(const std::filesystem::path& robot, const FileOptions& options);
+
+  /// Fills `path`, or `why_not`, of a mesh from its `uri`: package://NAME/..., model://NAME/..., file:///..., or a path
+  /// that is relative to `folder`, which is relative to the robot's file. %20 may stand for a blank, and so on.
+  ///
+  /// A package is a folder that is called NAME, or whose package.xml says <name>NAME</name>. It is looked for, in this
+  /// order: at each package path, in it, and one level deeper; among the folders above the robot's file and their
+  /// neighbours; likewise at the folders of ROS_PACKAGE_PATH, GZ_SIM_RESOURCE_PATH and GAZEBO_MODEL_PATH; in share/ of
+  /// the folders of AMENT_PREFIX_PATH. Of several folders, the first one counts that has the file. A file outside of
+  /// the package that the URI names (by "..") is not found.
+  MeshFile find(std::string uri, const Vec3& scale, const std::filesystem::path& folder = {}) const;
+
+  /// The URI that a robot in `folder` has to name in place of `uri` to find the same file. A relative path that finds
+  /// another file from there, or none, becomes a path relative to `folder`. Every other URI stays as it is.
+  std::string uri_from(const std::filesystem::path& folder, const MeshFile& mesh) const;
+
+ private:
+  const std::vector<std::filesystem::path>& folders_of(const std::string& package) const;
+  std::string looked_in() const;
+  void find_in_package(std::string_view inside, std::string_view scheme, MeshFile& mesh) const;
+
+  std::filesystem::path folder_;  // of the robot's file
+  std::vector<std::filesystem::path> package_paths_, environment_paths_, prefixes_;
+  mutable std::map<std::string, std::vector<std::filesystem::path>> known_;
+};
+
+}  // namespace prohull::robot

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "prohull/names.h"
+#include "robot/model.h"
+
+namespace prohull::robot {
+
+enum class RobotFormat { Urdf, Sdf, Mjcf };
+
+/// "urdf", "sdf", "mjcf"
+Names<RobotFormat> robot_format_names();
+
+struct FileOptions {
+  /// Folders in which packages are looked for, before the folders above the robot's file and those that the environment
+  /// variables ROS_PACKAGE_PATH and AMENT_PREFIX_PATH name.
+  std::vector<std::filesystem::path> package_paths;
+};
+
+/// A robot, and the text that it was read from.
+struct RobotFile {
+  Robot robot;
+  RobotFormat format = RobotFormat::Urdf;
+  std::filesystem::path path;
+  std::string text;                ///< of the file; of a xacro file what the program xacro made of it
+  std::vector<std::string> notes;  ///< sentences for the user: what was not read
+};
+
+/// Reads URDF, SDF or MJCF; the content tells which. A .xacro file is expanded by the program xacro.
+///
+/// Throws InputError with the file and the line: CannotRead; Malformed for text that is no XML or no robot: entities
+/// that the document declares itself, loops of joints, links that do not exist, names that occur twice, numbers that
+/// are none; UnknownFormat for USD, other formats, and for xacro where the program xacro is not installed. A mesh that
+/// is not found is no error here: MeshFile::why_not.
+RobotFile read_robot(const std::filesystem::path& path, const FileOptions& options = {});
+
+/// The same of text. `path` stands in messages, and relative mesh files are looked for beside it.
+RobotFile read_robot(std::string text, const std::filesystem::path& path, const FileOptions& options = {});
+
+/// What takes the place of all collision elements of a link.
+struct NewCollision {
+  std::size_t link = 0;              ///< in Robot::links
+  Geometry from = Geometry::Visual;  ///< which shapes of the link `same_origin_as` and `kept` count
+  std::string hull;                  ///< URI of the hull's mesh file, for the format of the robot; empty: no hull
+  std::optional<std::size_t> same_origin_as;  ///< the shape whose origin the hull has; none: it is in the link's frame
+  std::vector<std::size_t> kept;              ///< shapes that become collision elements as they are
+};
+
+/// The text with new collision elements; `collisions` names no link twice. Every byte outside of the collision elements
+/// of these links stays as it is, except that URIs of mesh and texture files which only resolve beside the old file
+/// become paths that resolve from `folder`, where the text is going to be written. Throws InputError(Malformed) if what
+/// is new has letters beyond ASCII, and the document declares an encoding other than UTF-8.
+std::string with_collisions(const RobotFile& file, std::span<const NewCollision> collisions,
+                            const std::filesystem::path& folder);
+
+}  // namespace prohull::robot

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "robot/files/packages.h"
+#include "robot/files/robot_file.h"
+#include "robot/files/xml.h"
+
+namespace prohull::robot {
+
+/// The robot of a document whose root is <sdf>: its first model, with the models nested in it, whose links are called
+/// MODEL::LINK. Throws as read_robot does.
+///
+/// Universal and revolute2 joints are two joints in a row, the second one called NAME_axis2. Left out, with a note:
+/// further models, what is included, joints that close a loop. Screw and gearbox joints are read as fixed, with a note.
+/// Links that no joint connects hang on a link "world", which is added.
+RobotFile read_sdf(const XmlDocument& document, const Packages& packages);
+
+/// As with_collisions. The first <collision> of a link keeps its name and what else is in it, and gets a <pose> and a
+/// <geometry>; the others are removed, but for those that are kept. New ones are called LINK_hull.
+std::string sdf_with_collisions(const RobotFile& file, const XmlDocument& document,
+                                std::span<const NewCollision> collisions, const std::filesystem::path& folder);
+
+}  // namespace prohull::robot

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "robot/files/xml.h"
+
+namespace prohull::robot {
+
+/// The models of a document, in its worlds too.
+std::vector<const XmlElement*> sdf_models(const XmlDocument& document);
+
+/// The model that is read: the first one. Throws InputError(Malformed) if there is none.
+const XmlElement& sdf_model(const XmlDocument& document);
+
+/// The links of that model by their names in Robot::links.
+std::map<std::string, const XmlElement*> sdf_links(const XmlDocument& document);
+
+}  // namespace prohull::robot

@@ -1,0 +1,209 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "prohull/error.h"
+#include "robot/files/urdf.h"
+#include "robot/files/xml_lines.h"
+
+namespace prohull::robot {
+namespace {
+
+constexpr std::string_view tag_of(Geometry which) { return which == Geometry::Visual ? "visual" : "collision"; }
+
+/// A collision element that is to be written. Its parts are bytes of XML.
+struct Piece {
+  std::string origin;    ///< empty: none
+  std::string form;      ///< the child of <geometry>; empty: `geometry` is given
+  std::string geometry;  ///< with <geometry> and </geometry>
+
+  std::string whole_geometry() const { return form.empty() ? geometry : "<geometry>" + form + "</geometry>"; }
+};
+
+class UrdfWriter {
+ public:
+  UrdfWriter(const RobotFile& file, const XmlDocument& document, std::filesystem::path folder)
+      : robot_(file.robot),
+        document_(document),
+        packages_(file.path, {}),
+        folder_(std::move(folder)),
+        links_(document.root().children_called("link")),
+        newline_(line_end(document)) {}
+
+  std::string write(std::span<const NewCollision> collisions) {
+    std::vector<bool> is_replaced(links_.size());
+    for (const NewCollision& collision : collisions) {
+      replace(collision);
+      is_replaced[collision.link] = true;
+    }
+    for (std::size_t link = 0; link < links_.size(); ++link) {
+      relocate_all(link, Geometry::Visual);
+      if (!is_replaced[link]) relocate_all(link, Geometry::Collision);
+    }
+    relocate_textures();
+    return edited_text(document_, std::move(edits_));
+  }
+
+ private:
+  using Elements = std::vector<const XmlElement*>;
+
+  void replace(const NewCollision& collision) {
+    const Elements old = links_[collision.link]->children_called("collision");
+    if (collision.from == Geometry::Collision) return replace_among(collision, old);
+    std::vector<Piece> pieces;
+    if (!collision.hull.empty()) pieces.push_back(hull_piece(collision));
+    for (const std::size_t shape : collision.kept) pieces.push_back(copied(collision.link, collision.from, shape));
+    write_pieces(collision.link, pieces, old);
+  }
+
+  /// Kept collision elements stay where they are; the hull takes the place of the first other one.
+  void replace_among(const NewCollision& collision, const Elements& old) {
+    std::vector<Piece> pieces;
+    if (!collision.hull.empty()) pieces.push_back(hull_piece(collision));
+    Elements others;
+    for (std::size_t i = 0; i < old.size(); ++i) {
+      if (std::ranges::find(collision.kept, i) == collision.kept.end())
+        others.push_back(old[i]);
+      else
+        relocate(robot_.links[collision.link].collision[i], *old[i]);
+    }
+    write_pieces(collision.link, pieces, others);
+  }
+
+  // What is to be written
+
+  Piece hull_piece(const NewCollision& collision) const {
+    Piece piece;
+    piece.form = fmt::format("<mesh filename=\"{}\"/>", xml_escaped(collision.hull));
+    if (collision.same_origin_as)
+      piece.origin = origin_of(*element_of(collision.link, collision.from, *collision.same_origin_as));
+    return piece;
+  }
+
+  Piece copied(std::size_t link, Geometry from, std::size_t shape) const {
+    const XmlElement& element = *element_of(link, from, shape);
+    const Span geometry = element.child("geometry")->whole;
+    std::string bytes(document_[geometry]);
+    if (auto edit = relocation(shapes(robot_.links[link], from)[shape], element)) {
+      edit->replaced.begin -= geometry.begin, edit->replaced.end -= geometry.begin;
+      bytes = with_edits(bytes, {*std::move(edit)});
+    }
+    return {origin_of(element), "", std::move(bytes)};
+  }
+
+  const XmlElement* element_of(std::size_t link, Geometry from, std::size_t shape) const {
+    return links_[link]->children_called(tag_of(from))[shape];
+  }
+
+  std::string origin_of(const XmlElement& shape) const {
+    const XmlElement* const origin = shape.child("origin");
+    return origin ? std::string(document_[origin->whole]) : "";
+  }
+
+  // Where it is written
+
+  void write_pieces(std::size_t link, std::span<const Piece> pieces, const Elements& old) {
+    const std::size_t reused = std::min<std::size_t>(old.empty() ? 0 : 1, pieces.size());
+    if (reused == 1) rewrite(*old[0], pieces[0]);
+    if (reused < pieces.size()) {
+      const XmlElement& neighbour = reused == 1 ? *old[0] : last_shape(link);
+      for (const Piece& piece : pieces.subspan(reused)) insert_after(neighbour, new_element(neighbour, piece));
+    }
+    for (std::size_t i = reused; i < old.size(); ++i) remove(*old[i]);
+  }
+
+  const XmlElement& last_shape(std::size_t link) const {
+    const Elements visual = links_[link]->children_called("visual");
+    const Elements shapes = visual.empty() ? links_[link]->children_called("collision") : visual;
+    if (shapes.empty())
+      throw InputError(Defect::InvalidOption, fmt::format("link '{}' has no geometry", robot_.links[link].name));
+    return *shapes.back();
+  }
+
+  void rewrite(const XmlElement& collision, const Piece& piece) {
+    const XmlElement& geometry = *collision.child("geometry");
+    const XmlElement* const origin = collision.child("origin");
+    if (!origin && !piece.origin.empty())
+      edits_.push_back({{geometry.whole.begin, geometry.whole.begin}, piece.origin + break_before(geometry)});
+    if (origin && !piece.origin.empty()) edits_.push_back({origin->whole, piece.origin});
+    if (origin && piece.origin.empty()) remove(*origin);
+    if (!piece.form.empty() && geometry.children.size() == 1)
+      edits_.push_back({geometry.children[0]->whole, piece.form});
+    else
+      edits_.push_back({geometry.whole, piece.whole_geometry()});
+  }
+
+  std::string new_element(const XmlElement& neighbour, const Piece& piece) const {
+    const std::string inner_break = break_before(*neighbour.child("geometry"));
+    const std::string last_break = inner_break.empty() ? "" : break_before(neighbour);
+    const std::string origin = piece.origin.empty() ? "" : inner_break + piece.origin;
+    return "<collision>" + origin + inner_break + piece.whole_geometry() + last_break + "</collision>";
+  }
+
+  void insert_after(const XmlElement& element, const std::string& inserted) {
+    edits_.push_back({{element.whole.end, element.whole.end}, break_before(element) + inserted});
+  }
+
+  /// The end of line and the blanks that stand before an element, if nothing else does.
+  std::string break_before(const XmlElement& element) const {
+    return begins_line(document_, element) ? newline_ + std::string(document_.indentation(element)) : "";
+  }
+
+  void remove(const XmlElement& element) { edits_.push_back({lines_of(document_, element), ""}); }
+
+  // Relative paths
+
+  std::optional<XmlEdit> relocation(const Shape& shape, const XmlElement& element) const {
+    if (!shape.mesh()) return std::nullopt;
+    std::string uri = packages_.uri_from(folder_, *shape.mesh());
+    if (uri == shape.mesh()->uri) return std::nullopt;
+    const XmlElement& mesh = *element.child("geometry")->children.front();
+    return XmlEdit{value_span(document_, mesh, "filename"), xml_escaped(uri)};
+  }
+
+  void relocate(const Shape& shape, const XmlElement& element) {
+    if (auto edit = relocation(shape, element)) edits_.push_back(*std::move(edit));
+  }
+
+  void relocate_all(std::size_t link, Geometry which) {
+    const Elements elements = links_[link]->children_called(tag_of(which));
+    for (std::size_t i = 0; i < elements.size(); ++i) relocate(shapes(robot_.links[link], which)[i], *elements[i]);
+  }
+
+  /// Of all materials, which stand beside the links and in their visual elements.
+  void relocate_textures() {
+    relocate_textures_in(document_.root());
+    for (const XmlElement* link : links_)
+      for (const XmlElement* visual : link->children_called("visual")) relocate_textures_in(*visual);
+  }
+
+  void relocate_textures_in(const XmlElement& parent) {
+    for (const XmlElement* material : parent.children_called("material"))
+      for (const XmlElement* texture : material->children_called("texture"))
+        if (const std::string* const uri = texture->attribute("filename")) relocate_texture(*texture, *uri);
+  }
+
+  void relocate_texture(const XmlElement& texture, const std::string& uri) {
+    std::string moved = packages_.uri_from(folder_, packages_.find(uri, {1, 1, 1}));
+    if (moved != uri) edits_.push_back({value_span(document_, texture, "filename"), xml_escaped(moved)});
+  }
+
+  const Robot& robot_;
+  const XmlDocument& document_;
+  Packages packages_;
+  std::filesystem::path folder_;
+  Elements links_;
+  std::string newline_;
+  std::vector<XmlEdit> edits_;
+};
+
+}  // namespace
+
+std::string urdf_with_collisions(const RobotFile& file, const XmlDocument& document,
+                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder) {
+  return UrdfWriter(file, document, folder).write(collisions);
+}
+
+}  // namespace prohull::robot

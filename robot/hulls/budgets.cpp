@@ -1,0 +1,161 @@
+#include "robot/hulls/budgets.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "prohull/error.h"
+#include "prohull/mesh_io.h"
+
+namespace prohull::robot {
+namespace {
+
+/// Reads one file; its errors name the line.
+class BudgetReader {
+ public:
+  BudgetReader(const std::string& name, const Robot& robot, LinkHullOptions& options)
+      : name_(name), robot_(robot), options_(options) {}
+
+  void read(const YAML::Node& file) {
+    if (file.IsNull()) return;
+    require_keys(file, {"default", "links"});
+    if (file["default"]) read_budget(file["default"], options_.budget);
+    const YAML::Node links = file["links"];
+    if (!links || links.IsNull()) return;
+    if (!links.IsMap()) refuse(links, "links: expected the name of a link and its budget on each line");
+    for (const auto& link : links) read_link(link.first, link.second);
+  }
+
+ private:
+  [[noreturn]] void refuse(const YAML::Node& node, const std::string& what) const {
+    throw InputError(Defect::Malformed, fmt::format("{}: line {}: {}", name_, node.Mark().line + 1, what));
+  }
+
+  void require_keys(const YAML::Node& map, const std::set<std::string>& known) const {
+    if (!map.IsMap()) refuse(map, fmt::format("expected {}", fmt::join(known, ", ")));
+    for (const auto& entry : map)
+      if (!known.contains(entry.first.as<std::string>()))
+        refuse(entry.first,
+               fmt::format("'{}' is not known; expected {}", entry.first.as<std::string>(), fmt::join(known, ", ")));
+  }
+
+  void read_link(const YAML::Node& key, const YAML::Node& node) const {
+    const auto link = value<std::string>(key, "the name of a link");
+    if (std::ranges::find(robot_.links, link, &Link::name) == robot_.links.end())
+      refuse(key, fmt::format("{} has no link '{}'; a file of --write-budgets has all links", robot_.name, link));
+    const auto [budget, is_new] = options_.budgets.try_emplace(link, options_.budget);
+    if (!is_new) refuse(key, fmt::format("the link {} occurs twice", link));
+    if (!node.IsNull()) read_budget(node, budget->second);
+  }
+
+  void read_budget(const YAML::Node& node, Budget& budget) const {
+    require_keys(node, {"faces", "max_distance", "padding", "skip"});
+    if (node["faces"]) budget.faces = faces(node["faces"]);
+    if (node["max_distance"]) budget.max_distance = length(node["max_distance"], "max_distance");
+    if (node["padding"]) budget.padding = length(node["padding"], "padding");
+    if (node["skip"]) budget.skip = value<bool>(node["skip"], "true or false");
+  }
+
+  template <class Value>
+  Value value(const YAML::Node& node, const char* expected) const {
+    try {
+      return node.as<Value>();
+    } catch (const YAML::Exception&) {
+      refuse(node, fmt::format("'{}': expected {}", node.IsScalar() ? node.Scalar() : "...", expected));
+    }
+  }
+
+  double length(const YAML::Node& node, const std::string& what) const {
+    try {
+      return length_of(value<std::string>(node, "a length, such as 2mm"), what);
+    } catch (const InputError& error) {
+      if (error.defect() != Defect::InvalidOption) throw;
+      refuse(node, error.what());
+    }
+  }
+
+  std::size_t face_count(const YAML::Node& node) const {
+    const auto count = value<long long>(node, "a number of faces");
+    if (count < 4 || count > 1'000'000'000) refuse(node, fmt::format("'{}': expected at least 4 faces", count));
+    return static_cast<std::size_t>(count);
+  }
+
+  /// One number for each set of hulls. Every set has a hull of each link.
+  std::vector<std::size_t> faces(const YAML::Node& node) const {
+    std::vector<std::size_t> counts;
+    if (node.IsSequence())
+      for (const YAML::Node& count : node) counts.push_back(face_count(count));
+    else
+      counts.push_back(face_count(node));
+    if (counts.size() != options_.budget.faces.size())
+      refuse(node, fmt::format("{} numbers of faces, but {} sets of hulls are asked for", counts.size(),
+                               options_.budget.faces.size()));
+    return counts;
+  }
+
+  const std::string& name_;
+  const Robot& robot_;
+  LinkHullOptions& options_;
+};
+
+std::string in_millimetres(double length) { return fmt::format("{:.6g}mm", length * 1000); }
+
+/// "{faces: [500], padding: 5mm}"
+std::string text_of(const Budget& budget) {
+  std::string text = fmt::format("{{faces: [{}]", fmt::join(budget.faces, ", "));
+  if (budget.max_distance > 0) text += ", max_distance: " + in_millimetres(budget.max_distance);
+  if (budget.padding > 0) text += ", padding: " + in_millimetres(budget.padding);
+  if (budget.skip) text += ", skip: true";
+  return text + "}";
+}
+
+/// A name as YAML writes a string in double quotes.
+std::string quoted(const std::string& name) {
+  YAML::Emitter out;
+  out << YAML::DoubleQuoted << name;
+  return out.c_str();
+}
+
+}  // namespace
+
+void read_budgets(std::string_view text, const std::string& name, const Robot& robot, LinkHullOptions& options) {
+  try {
+    BudgetReader(name, robot, options).read(YAML::Load(std::string(text)));
+  } catch (const YAML::Exception& error) {
+    throw InputError(Defect::Malformed, fmt::format("{}: line {}: no YAML: {}", name, error.mark.line + 1, error.msg));
+  }
+}
+
+std::string budgets_text(const Robot& robot, const LinkHullOptions& options) {
+  std::string text =
+      "# Budgets of hulls. Of each link: faces, max_distance, padding (lengths with a unit: mm, cm, m, in), and\n"
+      "# skip: true to leave its collision elements as they are. What is left out is as under default.\n";
+  text += fmt::format("default: {}\nlinks:\n", text_of(options.budget));
+  for (const Link& link : robot.links) {
+    if (shapes(link, options.from).empty() && !options.budgets.contains(link.name)) continue;
+    text += fmt::format("  {}: {}\n", quoted(link.name), text_of(options.budget_of(link.name)));
+  }
+  return text;
+}
+
+double length_of(std::string_view text, const std::string& what) {
+  double length = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), length);
+  std::string_view unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
+  while (unit.starts_with(' ')) unit.remove_prefix(1);
+  double metres = unit.empty() ? 1 : 0;
+  for (const auto& [name, size] : length_units())
+    if (name == unit) metres = size;
+  if (error != std::errc() || metres == 0 || !(length >= 0) || !std::isfinite(length * metres))
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("{}: '{}' is no length; say a number in metres, or one with a unit, as 2mm, 0.2cm, "
+                                 "0.002m or 0.08in",
+                                 what, text));
+  return length * metres;
+}
+
+}  // namespace prohull::robot

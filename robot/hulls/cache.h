@@ -1,0 +1,57 @@
+#pragma once
+
+#include <xxhash.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "robot/hulls/link_hulls.h"
+
+namespace prohull::robot {
+
+/// A short text that tells contents apart: 128 bits, not safe against those who look for two of the same.
+class Fingerprint {
+ public:
+  Fingerprint();
+  /// What is added in one call is kept apart from what is added in the next.
+  void add(std::string_view bytes);
+  void add(double number);
+  void add(std::size_t number);
+  void add(const Pose& pose);
+  void add(const TriangleMesh& mesh);
+  /// The content of a file. All files that cannot be read count as the same.
+  void add_file(const std::filesystem::path& path);
+  std::string text() const;  ///< 32 hexadecimal digits
+
+ private:
+  std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
+};
+
+/// The fingerprint of the program, or of the Python module, that this code is a part of: another version may make other
+/// hulls.
+const std::string& program_fingerprint();
+
+/// What the hulls of a link are made from, and how.
+std::string key_of(const Link& link, const Budget& budget, const LinkHullOptions& options);
+
+/// A folder that keeps the hulls of links by what they were made from.
+class HullCache {
+ public:
+  /// An empty path: nothing is kept.
+  explicit HullCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// What keep() has kept under the key, if the file is whole. Without LinkHulls::link, frame, triangles and
+  /// primitives, which the caller knows.
+  std::optional<LinkHulls> find(std::string_view key) const;
+  /// If it cannot be written, the next run is slower, and nothing else. Hulls that were not found for 90 days are
+  /// removed, and what earlier runs have left unfinished.
+  void keep(std::string_view key, const LinkHulls& hulls) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace prohull::robot

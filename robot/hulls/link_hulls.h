@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "prohull/distance.h"
+#include "prohull/enclosing_hull.h"
+#include "prohull/progress.h"
+#include "robot/files/robot_file.h"
+#include "robot/link_triangles.h"
+
+namespace prohull::robot {
+
+/// What is asked of the hull of a link. Lengths are in metres.
+struct Budget {
+  std::vector<std::size_t> faces{500};  ///< one hull for each number
+  double max_distance = 0;              ///< as HullBounds::max_distance; 0: no bound
+  double padding = 0;                   ///< the hull keeps at least this distance from the geometry
+  bool skip = false;                    ///< leave the collision elements of this link as they are
+
+  bool operator==(const Budget&) const = default;
+};
+
+struct LinkHullOptions {
+  Geometry from = Geometry::Visual;
+  Budget budget;                          ///< of every link without one of its own
+  std::map<std::string, Budget> budgets;  ///< by the name of the link
+  bool tight = false;
+  bool skip_missing = false;    ///< leave links alone whose meshes are not found, in place of throwing
+  std::string format = "stl";   ///< of the hulls' files: "stl", "obj" or "glb"
+  std::filesystem::path cache;  ///< a folder for hulls by content and options; empty: none
+  unsigned threads = 0;         ///< 0: one for each core
+  /// The stage is the name of the link that was finished last; the fraction is that of all links.
+  Progress progress = {};
+
+  /// The link's own budget, or else that of every link.
+  const Budget& budget_of(const std::string& link) const;
+};
+
+/// A hull of the meshes of a link.
+struct LinkHull {
+  std::size_t target_faces = 0;
+  TriangleMesh mesh;  ///< in LinkHulls::frame, with the coordinates that the file keeps
+  bool certified = false;
+  std::string proof;  ///< as EnclosingHull::proof; with padding "padding"
+  bool target_reached = false, within_bounds = true;
+  std::string source;  ///< "mesh", "convex-hull" or "wrap": what it was built from
+  double volume = 0;
+  DistanceBounds distance;  ///< from the triangles
+  double padding = 0;       ///< proven least distance from the triangles; 0 if none was asked for
+  std::size_t self_intersections = 0;
+  std::vector<std::string> notes;
+};
+
+enum class LinkStatus {
+  Hulled,      ///< it has hulls
+  Primitives,  ///< its geometry has no meshes: the primitives themselves become the collision elements
+  Skipped,     ///< as the budget, or skip_missing, asked
+  Unread,      ///< a shape of it cannot be read here (OtherForm): its collision elements stay as they are
+  Empty,       ///< it has no geometry to enclose
+};
+std::string_view name_of(LinkStatus status);  ///< "hulled", "primitives", "skipped", "unread", "empty"
+
+struct LinkHulls {
+  std::size_t link = 0;
+  LinkStatus status = LinkStatus::Empty;
+  std::string why;                      ///< why it was skipped, or what is not read
+  Frame frame;                          ///< of the meshes among the shapes, and of `triangles` and the hulls
+  TriangleMesh triangles;               ///< of the meshes among the shapes: what the hulls enclose
+  std::vector<std::size_t> primitives;  ///< shapes that are kept beside the hull
+  std::vector<LinkHull> hulls;          ///< one for each number of faces; empty unless Hulled
+  double sealed_volume = 0;             ///< EnclosingHulls::volume: of what lies inside of the triangles
+  double convex_volume = 0;             ///< of their convex hull
+  std::vector<std::string> repairs;     ///< sentences: what was repaired, which openings were closed
+  double seconds = 0;
+  bool from_cache = false;
+};
+
+/// Hulls of all links, in the order of Robot::links. Links are worked on side by side; the result is the same for any
+/// number of threads.
+///
+/// Guaranteed: as enclosing_hulls; `certified` was decided on the coordinates of `mesh`.
+/// Throws InputError: CannotRead that lists every mesh which was not found, unless skip_missing; InvalidOption for a
+/// budget of a link that does not exist; Cancelled.
+std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& options = {});
+
+}  // namespace prohull::robot

@@ -1,0 +1,164 @@
+#include "robot/hulls/write_robot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <fstream>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "prohull/error.h"
+#include "prohull/mesh_io.h"
+#include "robot/files/xml.h"
+
+namespace prohull::robot {
+namespace {
+
+using std::filesystem::path;
+
+void write_text(const path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out)
+    throw InputError(Defect::CannotWrite,
+                     fmt::format("{}: cannot write: {}", file.string(), std::generic_category().message(errno)));
+}
+
+bool is_package_name(const std::string& name) {
+  const auto is_known = [](unsigned char c) { return std::islower(c) || std::isdigit(c) || c == '_' || c == '-'; };
+  return std::islower(static_cast<unsigned char>(name[0])) && std::ranges::all_of(name, is_known);
+}
+
+std::string package_xml(const std::string& package, const std::string& robot) {
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n<package format=\"3\">\n  <name>{}</name>\n  <version>0.1.0</version>\n"
+      "  <description>{} with certified collision meshes</description>\n"
+      "  <maintainer email=\"maintainer@example.com\">maintainer</maintainer>\n  <license>see the original</license>\n"
+      "  <buildtool_depend>ament_cmake</buildtool_depend>\n"
+      "  <export>\n    <build_type>ament_cmake</build_type>\n  </export>\n</package>\n",
+      package, xml_escaped(robot));
+}
+
+/// Installs what is in the folder, as description packages of ROS 2 do.
+std::string package_cmake(const std::string& package) {
+  return fmt::format(
+      "cmake_minimum_required(VERSION 3.8)\nproject({} NONE)\nfind_package(ament_cmake REQUIRED)\n"
+      "install(DIRECTORY . DESTINATION share/${{PROJECT_NAME}})\nament_package()\n",
+      package);
+}
+
+/// Names of files for links, distinct also where upper and lower case are the same. File systems take 255 bytes, which
+/// leaves room for what is added.
+class FileNames {
+ public:
+  std::string of(const std::string& link) {
+    std::string name;
+    for (const char c : link)
+      name += std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.' ? c : '_';
+    if (name.empty() || name[0] == '.') name.insert(0, 1, '_');
+    if (name.size() > kLongest) name.resize(kLongest);
+    std::string distinct = name;
+    for (int i = 2; !taken_.insert(lower(distinct)).second; ++i) distinct = fmt::format("{}_{}", name, i);
+    return distinct;
+  }
+
+ private:
+  static constexpr std::size_t kLongest = 100;
+
+  static std::string lower(std::string name) {
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    return name;
+  }
+
+  std::set<std::string> taken_;
+};
+
+/// The robot with one set of hulls.
+class RobotSet {
+ public:
+  RobotSet(const RobotFile& file, const WriteOptions& options, std::size_t set, std::string suffix)
+      : file_(file), options_(options), set_(set), suffix_(std::move(suffix)) {}
+
+  void add(const LinkHulls& link) {
+    NewCollision collision;
+    collision.link = link.link, collision.from = options_.from, collision.kept = link.primitives;
+    if (link.status == LinkStatus::Hulled && link.hulls[set_].certified) {
+      const path mesh = path("meshes") / ("collision" + suffix_) /
+                        (names_.of(file_.robot.links[link.link].name) + "." + options_.format);
+      files_.push_back({mesh, [&hull = link.hulls[set_].mesh](const path& target) { write_mesh(target, hull); }});
+      collision.hull = options_.package.empty() ? mesh.generic_string()
+                                                : "package://" + options_.package + "/" + mesh.generic_string();
+      collision.same_origin_as = link.frame.same_origin_as;
+    } else if (link.status != LinkStatus::Primitives) {
+      return;
+    }
+    collisions_.push_back(std::move(collision));
+  }
+
+  std::vector<OutputFile> files(const path& folder) {
+    const path name = fmt::format("{}{}{}", robot_stem(file_), suffix_, extension());
+    std::string text = with_collisions(file_, collisions_, folder);
+    files_.push_back({name, [text = std::move(text)](const path& target) { write_text(target, text); }});
+    return std::move(files_);
+  }
+
+ private:
+  std::string extension() const {
+    const std::string own = file_.path.extension().string();
+    return own.empty() || own == ".xacro" ? fmt::format(".{}", prohull::name_of(robot_format_names(), file_.format))
+                                          : own;
+  }
+
+  const RobotFile& file_;
+  const WriteOptions& options_;
+  const std::size_t set_;
+  const std::string suffix_;
+  FileNames names_;
+  std::vector<NewCollision> collisions_;
+  std::vector<OutputFile> files_;
+};
+
+}  // namespace
+
+std::string robot_stem(const RobotFile& file) {
+  const path own = file.path.stem();
+  return file.path.extension() == ".xacro" && own.has_extension() ? own.stem().string() : own.string();
+}
+
+void check_options(const RobotFile& file, const WriteOptions& options) {
+  if (!options.package.empty() && !is_package_name(options.package))
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("'{}' is no name of a package: it begins with a lower-case letter, and has lower-case "
+                                 "letters, digits, _ and - only",
+                                 options.package));
+  if (file.format != RobotFormat::Mjcf) return;
+  if (options.format == "glb")
+    throw InputError(Defect::InvalidOption, "MuJoCo does not read GLB files; choose stl or obj as the format");
+  if (!options.package.empty())
+    throw InputError(Defect::InvalidOption, "MuJoCo does not know packages; leave the name of the package out");
+}
+
+std::vector<OutputFile> output_files(const RobotFile& file, std::span<const LinkHulls> links, const path& folder,
+                                     const WriteOptions& options) {
+  check_options(file, options);
+  std::vector<OutputFile> files;
+  for (std::size_t set = 0; set < options.faces.size(); ++set) {
+    RobotSet robot(file, options, set, set == 0 ? "" : fmt::format("_{}", options.faces[set]));
+    for (const LinkHulls& link : links) robot.add(link);
+    for (OutputFile& written : robot.files(folder)) files.push_back(std::move(written));
+  }
+  if (!options.package.empty()) {
+    const auto add = [&](const char* name, std::string text) {
+      files.push_back({name, [text = std::move(text)](const path& target) { write_text(target, text); }});
+    };
+    add("package.xml", package_xml(options.package, file.robot.name));
+    add("CMakeLists.txt", package_cmake(options.package));
+  }
+  return files;
+}
+
+}  // namespace prohull::robot

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "prohull/collide.h"
+
+namespace prohull::robot {
+
+// A robot as its file describes it, whichever format that has. Lengths are in metres, angles in radians.
+
+struct MeshFile {
+  std::string uri;                  ///< as the file says it
+  std::filesystem::path path = {};  ///< where it is; empty if it was not found
+  std::string why_not = {};         ///< if it was not found: where it was looked for
+  Vec3 scale{1, 1, 1};              ///< of the coordinates in the mesh file
+};
+struct BoxForm {
+  Vec3 size;  ///< full lengths of the sides
+};
+struct SphereForm {
+  double radius = 0;
+};
+/// About the z axis; the origin is its middle.
+struct CylinderForm {
+  double radius = 0, length = 0;
+};
+/// About the z axis; the origin is its middle. `length` is that of the cylinder between the two half spheres.
+struct CapsuleForm {
+  double radius = 0, length = 0;
+};
+/// What is not read here, such as a plane or a height field.
+struct OtherForm {
+  std::string what;  ///< "heightmap"
+};
+using Form = std::variant<MeshFile, BoxForm, SphereForm, CylinderForm, CapsuleForm, OtherForm>;
+
+/// A piece of the geometry of a link.
+struct Shape {
+  Form form;
+  Pose origin = {};       ///< in the frame of the link
+  std::string name = {};  ///< may be empty
+  std::size_t line = 0;   ///< of its element in the file
+
+  const MeshFile* mesh() const { return std::get_if<MeshFile>(&form); }
+};
+
+struct Link {
+  std::string name;
+  std::vector<Shape> visual = {}, collision = {};
+  std::size_t line = 0;
+};
+
+enum class JointType { Fixed, Revolute, Continuous, Prismatic, Ball, Planar, Floating };
+
+/// The joint follows another one: position = multiplier * position of the other + offset.
+struct Mimic {
+  std::size_t joint = 0;  ///< in Robot::joints
+  double multiplier = 1, offset = 0;
+};
+
+/// How a link moves against its parent. In the frame of the parent, the frame of the child is at
+///   origin * translation(anchor) * motion(axis, position) * translation(-anchor).
+/// A link with several joints (MJCF) has them in a row: the origin of the second is the identity, and its parent frame
+/// is where the first has moved the child.
+struct Joint {
+  std::string name;
+  JointType type = JointType::Fixed;
+  std::size_t parent = 0, child = 0;  ///< in Robot::links; equal parents and children stand one after the other
+  Pose origin = {};
+  Vec3 anchor = {};    ///< in the frame of the child
+  Vec3 axis{1, 0, 0};  ///< in the frame of the child, of length 1
+  /// Radians, or metres of a prismatic joint; infinite where the file sets no limit.
+  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+  std::optional<Mimic> mimic = {};
+  std::size_t line = 0;
+};
+
+/// Guaranteed by read_robot: the names of links are distinct and not empty, the joints form a forest, and every number
+/// is finite but for the limits of joints.
+struct Robot {
+  std::string name;
+  std::vector<Link> links = {};
+  std::vector<Joint> joints = {};  ///< those of a parent come before those of its children
+};
+
+/// Which geometry of a link.
+enum class Geometry { Visual, Collision };
+
+inline const std::vector<Shape>& shapes(const Link& link, Geometry which) {
+  return which == Geometry::Visual ? link.visual : link.collision;
+}
+
+}  // namespace prohull::robot

@@ -1,0 +1,521 @@
+#include "robot/motion/motion.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <thread>
+
+#include "prohull/error.h"
+#include "robot/transform.h"
+
+namespace prohull::robot {
+namespace {
+
+/// A well mixed function of its argument, the same everywhere (splitmix64).
+std::uint64_t scrambled(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
+
+/// Uniform in [0, 1).
+double unit_random(std::uint64_t seed, std::uint64_t number, std::uint64_t joint) {
+  return static_cast<double>(scrambled(scrambled(scrambled(seed) + number) + joint) >> 11) * 0x1p-53;
+}
+
+double random_turn(const Joint& joint, double unit) {
+  if (std::isfinite(joint.lower) && std::isfinite(joint.upper)) return std::lerp(joint.lower, joint.upper, unit);
+  const double turn = 2 * std::numbers::pi * unit;
+  if (std::isfinite(joint.lower)) return joint.lower + turn;
+  if (std::isfinite(joint.upper)) return joint.upper - turn;
+  return turn - std::numbers::pi;
+}
+
+bool is_limited_slide(const Joint& joint) {
+  constexpr double kFar = 1000;  // metres: such limits mean none, and would leave poses without digits
+  return std::abs(joint.lower) <= kFar && std::abs(joint.upper) <= kFar;
+}
+
+double random_shift(const Joint& joint, double unit) {
+  return is_limited_slide(joint) ? std::lerp(joint.lower, joint.upper, unit)
+                                 : std::min(std::max(0.0, joint.lower), joint.upper);
+}
+
+double random_position(const Joint& joint, double unit) {
+  switch (joint.type) {
+    case JointType::Continuous:
+      return std::numbers::pi * (2 * unit - 1);
+    case JointType::Revolute:
+      return random_turn(joint, unit);
+    case JointType::Prismatic:
+      return random_shift(joint, unit);
+    case JointType::Fixed:
+    case JointType::Ball:
+    case JointType::Planar:
+    case JointType::Floating:
+      break;
+  }
+  return 0;
+}
+
+/// Sets the positions of all joints that mimic. Chains may be long, so none is followed twice, and not by recursion.
+void follow(const Robot& robot, std::vector<double>& positions) {
+  enum class State { Open, OnChain, Known };
+  std::vector<State> states(robot.joints.size(), State::Open);
+  std::vector<std::size_t> chain;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    std::size_t end = j;
+    for (; states[end] == State::Open && robot.joints[end].mimic; end = robot.joints[end].mimic->joint) {
+      states[end] = State::OnChain;
+      chain.push_back(end);
+    }
+    const bool is_circle = states[end] == State::OnChain;
+    for (; !chain.empty(); chain.pop_back()) {
+      const Mimic& mimic = *robot.joints[chain.back()].mimic;
+      if (!is_circle) positions[chain.back()] = mimic.multiplier * positions[mimic.joint] + mimic.offset;
+      states[chain.back()] = State::Known;
+    }
+  }
+}
+
+Pose motion_of(const Joint& joint, double position) {
+  switch (joint.type) {
+    case JointType::Revolute:
+    case JointType::Continuous:
+      return rotation_about(joint.axis, position);
+    case JointType::Prismatic:
+      return translation_by(joint.axis * position);
+    case JointType::Fixed:
+    case JointType::Ball:
+    case JointType::Planar:
+    case JointType::Floating:
+      break;
+  }
+  return {};
+}
+
+/// Where the child is in the frame of the joint's parent.
+Pose pose_of(const Joint& joint, double position) {
+  const Pose turned = composed(motion_of(joint, position), translation_by(-joint.anchor));
+  return composed(joint.origin, composed(translation_by(joint.anchor), turned));
+}
+
+/// Whether the joint moves the same child on, after the one that stands before it.
+bool continues_row(const Robot& robot, std::size_t joint) {
+  return joint > 0 && robot.joints[joint - 1].child == robot.joints[joint].child;
+}
+
+/// Whether random positions reach all that the joint can do, apart from what it follows.
+bool is_sampled(const Joint& joint) {
+  switch (joint.type) {
+    case JointType::Fixed:
+    case JointType::Revolute:
+    case JointType::Continuous:
+      return true;
+    case JointType::Prismatic:
+      return joint.mimic || is_limited_slide(joint);
+    case JointType::Ball:
+    case JointType::Planar:
+    case JointType::Floating:
+      break;
+  }
+  return false;
+}
+
+/// Which joints random positions move as they can move. As in `follow`, chains may be long.
+std::vector<bool> sampled_joints(const Robot& robot) {
+  std::vector<bool> sampled(robot.joints.size()), is_known(robot.joints.size());
+  std::vector<std::size_t> chain;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    std::size_t end = j;
+    for (; !is_known[end]; end = robot.joints[end].mimic->joint) {
+      is_known[end] = true;
+      sampled[end] = is_sampled(robot.joints[end]);
+      chain.push_back(end);
+      if (!robot.joints[end].mimic) break;
+    }
+    for (; !chain.empty(); chain.pop_back())
+      if (const auto& mimic = robot.joints[chain.back()].mimic)
+        sampled[chain.back()] = sampled[chain.back()] && sampled[mimic->joint];
+  }
+  return sampled;
+}
+
+/// Numbers of links. Two have the same one if all joints between them are among those that `connects` names; links of
+/// different trees never have.
+std::vector<std::size_t> connected_groups(const Robot& robot, const std::vector<bool>& connects) {
+  std::vector<std::size_t> groups(robot.links.size());
+  for (std::size_t link = 0; link < groups.size(); ++link) groups[link] = link;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {  // those of the parent come first
+    const Joint& joint = robot.joints[j];
+    const bool was_connected = !continues_row(robot, j) || groups[joint.child] == groups[joint.parent];
+    groups[joint.child] = connects[j] && was_connected ? groups[joint.parent] : joint.child;
+  }
+  return groups;
+}
+
+std::vector<bool> fixed_joints(const Robot& robot) {
+  std::vector<bool> fixed;
+  for (const Joint& joint : robot.joints) fixed.push_back(joint.type == JointType::Fixed);
+  return fixed;
+}
+
+struct Ball {
+  Vec3 center;
+  double radius = 0;
+};
+
+/// Around all vertices.
+Ball ball_around(const std::array<const TriangleMesh*, 3>& meshes) {
+  Box box;
+  for (const TriangleMesh* mesh : meshes) box.extend(bounding_box(*mesh));
+  Ball ball{box.center()};
+  for (const TriangleMesh* mesh : meshes)
+    for (const auto& corners : mesh->triangles)
+      for (const VertexId v : corners) ball.radius = std::max(ball.radius, norm(mesh->positions[v] - ball.center));
+  return ball;
+}
+
+TriangleMesh with_finite_faces(TriangleMesh mesh) {
+  const auto is_broken = [&](const std::array<VertexId, 3>& corners) {
+    return std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return !is_finite(mesh.positions[v]); });
+  };
+  PerFace<std::array<VertexId, 3>> kept;
+  for (const auto& corners : mesh.triangles)
+    if (!is_broken(corners)) kept.push_back(corners);
+  mesh.triangles = std::move(kept);
+  return mesh;
+}
+
+/// A link in the three geometries that are compared.
+struct Body {
+  CollisionIndex visual, hull, convex;
+  Ball ball;
+  bool has_hull = false;  // of its own
+};
+
+const TriangleMesh& first_with_faces(const TriangleMesh& a, const TriangleMesh& b, const TriangleMesh& c) {
+  return a.face_count() > 0 ? a : b.face_count() > 0 ? b : c;
+}
+
+std::optional<Body> body_of(const Bodies& bodies, std::size_t link) {
+  const auto mesh_of = [&](const std::vector<TriangleMesh>& meshes) {
+    return link < meshes.size() ? with_finite_faces(meshes[link]) : TriangleMesh();
+  };
+  const TriangleMesh visual = mesh_of(bodies.visual), hull = mesh_of(bodies.hull), convex = mesh_of(bodies.convex);
+  const TriangleMesh& as_visual = first_with_faces(visual, hull, convex);
+  const TriangleMesh& as_hull = first_with_faces(hull, visual, convex);
+  const TriangleMesh& as_convex = first_with_faces(convex, hull, visual);
+  if (as_visual.face_count() == 0) return {};
+  return Body{CollisionIndex(as_visual), CollisionIndex(as_hull), CollisionIndex(as_convex),
+              ball_around({&as_visual, &as_hull, &as_convex}), hull.face_count() > 0};
+}
+
+/// Whether rounding cannot make the two meet, `b` being where `pose` puts it.
+bool are_apart(const Ball& a, const Ball& b, const Pose& pose) {
+  constexpr double kRounding = 1e-12;  // far above what the few operations here and in `placed` lose
+  const double slack = kRounding * (norm(a.center) + norm(b.center) + norm(pose.translation) + a.radius + b.radius);
+  return !(norm(placed(pose, b.center) - a.center) <= a.radius + b.radius + slack);  // true where a pose is not finite
+}
+
+/// Closed meshes are asked so that "no" holds for all that they enclose.
+bool enclosures_meet(const CollisionIndex& a, const CollisionIndex& b, const Pose& pose) {
+  return a.is_solid() && b.is_solid() ? may_collide(a, {}, b, pose) : collide(a, {}, b, pose);
+}
+
+/// Pairs that are compared meet in a configuration, by some of the geometries.
+struct Contact {
+  std::size_t pair = 0;
+  bool visual = false, hull = false, convex = false;
+};
+
+/// Two bodies that are close to each other, the second where the pose puts it in the frame of the first.
+struct Check {
+  std::size_t pair = 0;
+  const Body *a = nullptr, *b = nullptr;
+  Pose pose;
+};
+
+bool visual_meets(const Check& c) { return collide(c.a->visual, {}, c.b->visual, c.pose); }
+bool hull_meets(const Check& c) { return enclosures_meet(c.a->hull, c.b->hull, c.pose); }
+bool convex_meets(const Check& c) { return enclosures_meet(c.a->convex, c.b->convex, c.pose); }
+
+/// What the joints say about pairs of links.
+class JointPaths {
+ public:
+  explicit JointPaths(const Robot& robot)
+      : rigid_group_(connected_groups(robot, fixed_joints(robot))),
+        sampled_group_(connected_groups(robot, sampled_joints(robot))),
+        hangs_on_(robot.links.size()) {
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) hang(robot, j);
+  }
+
+  bool are_adjacent(std::size_t a, std::size_t b) const {
+    return rigid_group_[a] == rigid_group_[b] || hangs_on_[a] == b || hangs_on_[b] == a;
+  }
+  /// Whether random positions move them as they can move.
+  bool are_sampled(std::size_t a, std::size_t b) const { return sampled_group_[a] == sampled_group_[b]; }
+
+ private:
+  /// Joints of parents come first, so those of the parent are known.
+  void hang(const Robot& robot, std::size_t j) {
+    const Joint& joint = robot.joints[j];
+    const Link& parent = robot.links[joint.parent];
+    const bool was_free = continues_row(robot, j) && !hangs_on_[joint.child];
+    if (was_free || joint.type == JointType::Floating || joint.type == JointType::Planar)
+      hangs_on_[joint.child].reset();
+    else
+      hangs_on_[joint.child] =
+          parent.visual.empty() && parent.collision.empty() ? hangs_on_[joint.parent] : joint.parent;
+  }
+
+  std::vector<std::size_t> rigid_group_;              // the same number: only fixed joints connect them
+  std::vector<std::size_t> sampled_group_;            // the same number: only sampled joints connect them
+  std::vector<std::optional<std::size_t>> hangs_on_;  // the next link with geometry on the way to the root
+};
+
+/// Tells a Progress on the thread that made it, at most 50 times a second; any thread may call.
+class Meter {
+ public:
+  Meter(const Progress& progress, std::size_t all) : progress_(progress), all_(all) {}
+
+  /// One more is done. Throws Cancelled on every thread once the Progress has returned false.
+  void next() {
+    ++done_;
+    ask();
+  }
+
+  /// The same, and nothing more is done.
+  void ask() {
+    if (cancelled_) throw Cancelled();
+    if (!progress_ || std::this_thread::get_id() != caller_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told_ < std::chrono::milliseconds(20)) return;
+    told_ = now;
+    if (progress_("move", static_cast<double>(done_) / static_cast<double>(all_))) return;
+    cancelled_ = true;
+    throw Cancelled();
+  }
+
+ private:
+  const Progress& progress_;
+  const std::size_t all_;
+  const std::thread::id caller_ = std::this_thread::get_id();
+  std::chrono::steady_clock::time_point told_;
+  std::atomic<std::size_t> done_ = 0;
+  std::atomic<bool> cancelled_ = false;
+};
+
+/// In microseconds, in the fastest of three runs, as other programs may slow one down.
+double mean_time(const std::vector<Check>& checks, bool (*meets)(const Check&), Meter& meter) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::size_t kAtOnce = 16;  // checks between two questions, which are not timed
+  Clock::duration least = Clock::duration::max();
+  for (int run = 0; run < 3; ++run) {
+    Clock::duration all{0};
+    for (std::size_t first = 0; first < checks.size(); first += kAtOnce) {
+      meter.ask();
+      const auto start = Clock::now();
+      for (std::size_t i = first; i < std::min(first + kAtOnce, checks.size()); ++i) meets(checks[i]);
+      all += Clock::now() - start;
+    }
+    least = std::min(least, all);
+  }
+  return checks.empty() ? 0
+                        : std::chrono::duration<double, std::micro>(least).count() / static_cast<double>(checks.size());
+}
+
+class Motion {
+ public:
+  Motion(const Robot& robot, const Bodies& bodies, const MotionOptions& options) : robot_(robot), options_(options) {
+    for (std::size_t link = 0; link < robot.links.size(); ++link) bodies_.push_back(body_of(bodies, link));
+    const JointPaths paths(robot);
+    for (std::size_t a = 0; a < bodies_.size(); ++a)
+      for (std::size_t b = a + 1; b < bodies_.size(); ++b)
+        if (bodies_[a] && bodies_[b]) add_pair(a, b, paths);
+  }
+
+  MotionResult run() {
+    Meter meter(options_.progress, options_.configurations);
+    std::vector<std::vector<Contact>> contacts(options_.configurations);
+    arena().execute([&] {
+      oneapi::tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t k) {
+        contacts[k] = contacts_in(k);
+        meter.next();
+      });
+    });
+    MotionResult result = result_of(contacts);
+    const std::vector<Check> timed = first_checks(meter);
+    result.visual_us = mean_time(timed, visual_meets, meter);
+    result.hull_us = mean_time(timed, hull_meets, meter);
+    return result;
+  }
+
+ private:
+  void add_pair(std::size_t a, std::size_t b, const JointPaths& paths) {
+    MotionPair pair{a, b};
+    if (have_hulls(pair) && paths.are_adjacent(a, b)) pair.kind = PairKind::Adjacent;
+    pairs_.push_back(pair);
+    is_known_.push_back(have_hulls(pair) && paths.are_sampled(a, b));
+  }
+
+  bool have_hulls(const MotionPair& pair) const { return bodies_[pair.a]->has_hull && bodies_[pair.b]->has_hull; }
+
+  oneapi::tbb::task_arena arena() const {
+    const int cores = oneapi::tbb::this_task_arena::max_concurrency();
+    return oneapi::tbb::task_arena(options_.threads == 0 ? cores : static_cast<int>(std::min(options_.threads, 1024U)));
+  }
+
+  /// Of the pairs whose bounding spheres meet.
+  std::vector<Check> checks_in(std::size_t configuration) const {
+    const std::vector<Pose> poses = link_poses(robot_, random_positions(robot_, options_.seed, configuration));
+    std::vector<Check> checks;
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const MotionPair& pair = pairs_[p];
+      if (pair.kind == PairKind::Adjacent) continue;
+      const Check check{p, &*bodies_[pair.a], &*bodies_[pair.b], composed(inverse(poses[pair.a]), poses[pair.b])};
+      if (!are_apart(check.a->ball, check.b->ball, check.pose)) checks.push_back(check);
+    }
+    return checks;
+  }
+
+  std::vector<Contact> contacts_in(std::size_t configuration) const {
+    std::vector<Contact> contacts;
+    for (const Check& check : checks_in(configuration)) {
+      const Contact contact{check.pair, visual_meets(check), hull_meets(check), convex_meets(check)};
+      if (contact.visual || contact.hull || contact.convex) contacts.push_back(contact);
+    }
+    return contacts;
+  }
+
+  /// Those whose time is measured.
+  std::vector<Check> first_checks(Meter& meter) const {
+    constexpr std::size_t kChecks = 1000;
+    std::vector<Check> first;
+    for (std::size_t k = 0; k < options_.configurations && first.size() < kChecks; ++k) {
+      meter.ask();
+      for (const Check& check : checks_in(k))
+        if (first.size() < kChecks) first.push_back(check);
+    }
+    return first;
+  }
+
+  MotionResult result_of(const std::vector<std::vector<Contact>>& contacts) {
+    for (const auto& in_configuration : contacts)
+      for (const Contact& contact : in_configuration) count(pairs_[contact.pair], contact);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (is_known_[p] && pairs_[p].kind != PairKind::Adjacent) pairs_[p].kind = kind_of(pairs_[p]);
+    MotionResult result{.configurations = options_.configurations, .seed = options_.seed, .pairs = pairs_};
+    for (const auto& in_configuration : contacts) count(result, in_configuration);
+    return result;
+  }
+
+  void count(MotionPair& pair, const Contact& contact) const {
+    pair.visual += contact.visual;
+    pair.hull += contact.hull;
+    pair.convex += contact.convex;
+    pair.false_hull += contact.hull && !contact.visual;
+    pair.false_convex += contact.convex && !contact.visual;
+    pair.missed += contact.visual && !contact.hull && have_hulls(pair);
+  }
+
+  PairKind kind_of(const MotionPair& pair) const {
+    if (options_.configurations == 0) return PairKind::Sometimes;
+    const std::size_t hits = std::max(pair.hull, pair.visual);  // more by the visual geometry: a failed certificate
+    if (hits == 0) return PairKind::Never;
+    return 20 * hits >= 19 * options_.configurations ? PairKind::Always : PairKind::Sometimes;
+  }
+
+  /// Whether any pair that can be free collides in this configuration.
+  void count(MotionResult& result, const std::vector<Contact>& contacts) const {
+    Contact any;
+    for (const Contact& contact : contacts) {
+      if (!is_known_[contact.pair] || result.pairs[contact.pair].kind == PairKind::Always) continue;
+      any.visual |= contact.visual;
+      any.hull |= contact.hull;
+      any.convex |= contact.convex;
+    }
+    result.visual_configurations += any.visual;
+    result.hull_configurations += any.hull;
+    result.convex_configurations += any.convex;
+  }
+
+  const Robot& robot_;
+  const MotionOptions& options_;
+  std::vector<std::optional<Body>> bodies_;  // of each link
+  std::vector<MotionPair> pairs_;
+  std::vector<bool> is_known_;  // of each pair: the counts tell its kind
+};
+
+std::size_t sum(const std::vector<MotionPair>& pairs, std::size_t MotionPair::*count) {
+  std::size_t total = 0;
+  for (const MotionPair& pair : pairs) total += pair.*count;
+  return total;
+}
+
+}  // namespace
+
+std::vector<Pose> link_poses(const Robot& robot, std::span<const double> positions) {
+  std::vector<double> all(positions.begin(), positions.end());
+  all.resize(robot.joints.size());
+  follow(robot, all);
+  std::vector<Pose> poses(robot.links.size());
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const Joint& joint = robot.joints[j];
+    const std::size_t before = continues_row(robot, j) ? joint.child : joint.parent;
+    poses[joint.child] = composed(poses[before], pose_of(joint, all[j]));
+  }
+  return poses;
+}
+
+std::vector<double> rest_positions(const Robot& robot) {
+  std::vector<double> positions;
+  for (const Joint& joint : robot.joints) {
+    const bool allowed = joint.lower <= 0 && 0 <= joint.upper;
+    positions.push_back(allowed ? 0 : std::midpoint(joint.lower, joint.upper));
+    if (!std::isfinite(positions.back())) positions.back() = 0;
+  }
+  return positions;
+}
+
+std::vector<double> random_positions(const Robot& robot, std::uint64_t seed, std::uint64_t number) {
+  std::vector<double> positions(robot.joints.size());
+  for (std::size_t j = 0; j < positions.size(); ++j)
+    positions[j] = random_position(robot.joints[j], unit_random(seed, number, j));
+  follow(robot, positions);
+  return positions;
+}
+
+std::string_view name_of(PairKind kind) {
+  switch (kind) {
+    case PairKind::Adjacent:
+      return "adjacent";
+    case PairKind::Always:
+      return "always";
+    case PairKind::Never:
+      return "never";
+    case PairKind::Sometimes:
+      break;
+  }
+  return "sometimes";
+}
+
+std::size_t MotionResult::false_hull() const { return sum(pairs, &MotionPair::false_hull); }
+std::size_t MotionResult::false_convex() const { return sum(pairs, &MotionPair::false_convex); }
+std::size_t MotionResult::missed() const { return sum(pairs, &MotionPair::missed); }
+
+MotionResult check_motion(const Robot& robot, const Bodies& bodies, const MotionOptions& options) {
+  return Motion(robot, bodies, options).run();
+}
+
+}  // namespace prohull::robot

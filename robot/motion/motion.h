@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "prohull/progress.h"
+#include "robot/model.h"
+
+namespace prohull::robot {
+
+/// Where each link is, in the frame of the root that it hangs on, for the positions of all joints. The position of a
+/// joint that mimics is multiplier * position of the other + offset, whatever `positions` says. Joints that mimic each
+/// other in a circle keep their positions. A ball, planar or floating joint stays at rest.
+std::vector<Pose> link_poses(const Robot& robot, std::span<const double> positions);
+
+/// Positions of all joints for pictures: 0, or the middle of the limits of a joint that cannot be at 0.
+std::vector<double> rest_positions(const Robot& robot);
+
+/// Random positions of all joints, evenly within their limits; `number` counts the configurations. A continuous joint,
+/// or a revolute one without limits, makes one turn. A prismatic joint stays at 0, or at the limit closest to 0, if a
+/// limit is missing or beyond 1 km. Joints that mimic follow, beyond their own limits too. The same seed and number
+/// give the same positions.
+std::vector<double> random_positions(const Robot& robot, std::uint64_t seed, std::uint64_t number);
+
+/// The bodies that are compared, of each link, in the frame of the link; empty where a link has none. A link that has
+/// some of the three uses those in place of the others: no hull, and its visual geometry stands for it; no visual
+/// geometry, and its hull does. But pairs of a link without a hull are of the kind Sometimes.
+struct Bodies {
+  std::vector<TriangleMesh> visual;  ///< what is really there
+  std::vector<TriangleMesh> hull;    ///< our hulls with the primitives that are kept
+  std::vector<TriangleMesh> convex;  ///< the convex hulls
+};
+
+struct MotionOptions {
+  std::size_t configurations = 2000;
+  std::uint64_t seed = 1;
+  unsigned threads = 0;
+  Progress progress = {};  ///< stage "move"
+};
+
+enum class PairKind {
+  /// Fixed joints connect them, or one hangs on the other by a joint, or by joints with only links between them that
+  /// have no shapes in Robot::links. Floating and planar joints do not make links adjacent.
+  Adjacent,
+  Always,  ///< they collide in 95 % of the configurations or more, as the hulls say
+  Never,   ///< they collide in none, as the hulls and the visual geometry say
+  /// All others, and pairs about which nothing is known: if a joint between them stays at rest (a ball, planar or
+  /// floating joint, a prismatic one without limits, and those that follow one of these), if no joints connect them, or
+  /// if one has no hull.
+  Sometimes,
+};
+std::string_view name_of(PairKind kind);  ///< "adjacent", "always", "never", "sometimes"
+
+/// In how many configurations a pair of links collides.
+struct MotionPair {
+  std::size_t a = 0, b = 0;  ///< links, a < b
+  PairKind kind = PairKind::Sometimes;
+  std::size_t visual = 0, hull = 0, convex = 0;
+  std::size_t false_hull = 0, false_convex = 0;  ///< the hulls collide, but the visual geometry does not
+  /// The visual geometry collides, but the hulls do not: a failed certificate. 0 if one of the links has no hull.
+  std::size_t missed = 0;
+};
+
+struct MotionResult {
+  std::size_t configurations = 0;
+  std::uint64_t seed = 0;
+  std::vector<MotionPair> pairs;  ///< of links with geometry, sorted; adjacent ones have no counts
+  /// The mean time of a check of one pair in one configuration, in microseconds, on one thread: of the first 1000 pairs
+  /// whose bounding spheres meet, in the fastest of three runs.
+  double visual_us = 0, hull_us = 0;
+  /// In how many configurations any pair collides that is neither adjacent nor in collision always, and about which
+  /// something is known.
+  std::size_t visual_configurations = 0, hull_configurations = 0, convex_configurations = 0;
+
+  std::size_t false_hull() const;  ///< sums over the pairs
+  std::size_t false_convex() const;
+  std::size_t missed() const;
+};
+
+/// Moves the robot at random and counts which pairs of links collide. The counts are the same for any number of
+/// threads. Bodies are asked as `collide` does; hulls and convex hulls that are closed as `may_collide` does, whose
+/// "no" is certain. Faces with coordinates that are not finite are left out. Throws Cancelled.
+MotionResult check_motion(const Robot& robot, const Bodies& bodies, const MotionOptions& options = {});
+
+/// The pairs that need not be checked, as an SRDF file that MoveIt reads: those that are adjacent, never or always in
+/// collision.
+std::string srdf_of(const Robot& robot, const MotionResult& motion);
+
+}  // namespace prohull::robot

@@ -1,0 +1,136 @@
+#include "robot/report/pictures.h"
+
+#include <memory>
+#include <numbers>
+
+#include "prohull/error.h"
+#include "render/draw.h"
+#include "render/marks.h"
+
+namespace prohull::robot {
+namespace {
+
+using render::Rgb;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// The finite triangles, and the vertices that they use.
+TriangleMesh drawable(const TriangleMesh& mesh) {
+  TriangleMesh result;
+  PerVertex<std::optional<VertexId>> place(mesh.vertex_count());
+  for (const auto& corners : mesh.triangles) {
+    std::array<VertexId, 3> kept{};
+    if (!std::ranges::all_of(corners, [&](VertexId v) { return is_finite(mesh.positions[v]); })) continue;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      auto& known = place[corners[k]];
+      if (!known) known = result.positions.push_back(mesh.positions[corners[k]]);
+      kept[k] = *known;
+    }
+    result.triangles.push_back(kept);
+  }
+  return result;
+}
+
+/// Where all pictures of a thing are drawn: its box, the side from which it is seen, and the camera.
+class Stage {
+ public:
+  Stage(std::span<const Picture> pictures, const PictureOptions& options)
+      : placed_(box_of(pictures)), camera_(camera(pictures, options)) {}
+
+  const render::Placement& placed() const { return placed_; }
+  const render::Camera& camera() const { return camera_; }
+
+ private:
+  static Box box_of(std::span<const Picture> pictures) {
+    Box box;
+    for (const Picture& picture : pictures)
+      for (const TriangleMesh* mesh : {&picture.inside, &picture.around}) box.extend(bounding_box(*mesh));
+    return box;
+  }
+
+  /// A quarter turn at a time, so that parts stand to the viewer as they do in other pictures.
+  render::View view(std::span<const Picture> pictures) const {
+    render::View best;
+    const auto marked = std::ranges::find_if(pictures, [](const Picture& p) { return p.marked.has_value(); });
+    if (marked == pictures.end()) return best;
+    const Vec3 target = placed_(*marked->marked);
+    for (const double turn : {90., 180., 270.}) {
+      render::View view;
+      view.azimuth += turn * kDegree;
+      if (dot(target, render::ViewAxes(view).back) > dot(target, render::ViewAxes(best).back)) best = view;
+    }
+    return best;
+  }
+
+  render::Camera camera(std::span<const Picture> pictures, const PictureOptions& options) const {
+    std::vector<Vec3> points;
+    for (const Picture& picture : pictures)
+      for (const TriangleMesh* mesh : {&picture.inside, &picture.around})
+        for (const Vec3& p : mesh->positions) points.push_back(placed_(p));
+    return {view(pictures), points, options.width, options.height};
+  }
+
+  render::Placement placed_;
+  render::Camera camera_;
+};
+
+void add(render::Scene& scene, TriangleMesh mesh, double crease_angle, const render::Material& material) {
+  if (mesh.face_count() > 0)
+    scene.surfaces.push_back({std::make_shared<const render::Body>(std::move(mesh), crease_angle), material});
+}
+
+render::Scene scene_of(const Picture& picture, const render::Placement& placed, bool lines) {
+  constexpr double kSmooth = 40 * kDegree, kFlat = 0, kBallRadius = 0.018;
+  const Rgb grey = *render::parse_color("grey"), red = *render::parse_color("red");
+  const Rgb shell = *render::parse_color(picture.shell == Shell::Hull ? "blue" : "orange");
+  render::Scene scene;
+  add(scene, placed(picture.inside), kSmooth, {.color = grey});
+  add(scene, placed(picture.around), kFlat, {.color = shell, .opacity = 0.3, .line_width = lines ? 0.6 : 0});
+  if (picture.marked)
+    add(scene, render::ball(placed(*picture.marked), kBallRadius), kSmooth, {.color = red, .through = 0.4});
+  return scene;
+}
+
+std::string drawn(const Picture& picture, const Stage& stage, const PictureOptions& options, const Progress& progress) {
+  if (picture.inside.face_count() + picture.around.face_count() == 0) return {};
+  constexpr int kSamples = 2;
+  const std::vector<render::Panel> panels{
+      {scene_of(picture, stage.placed(), options.lines), stage.camera(), {0, 0, options.width, options.height}}};
+  return encode_small_png(render::draw(
+      options.width, options.height, panels,
+      {.samples = kSamples, .background = {}, .threads = static_cast<int>(options.threads), .progress = progress}));
+}
+
+std::vector<Picture> drawable(std::span<const Picture> pictures) {
+  std::vector<Picture> result;
+  for (const Picture& p : pictures) {
+    result.push_back({drawable(p.inside), drawable(p.around), p.shell, p.marked});
+    if (p.marked && !is_finite(*p.marked)) result.back().marked.reset();
+  }
+  return result;
+}
+
+/// That of one of several pictures.
+Progress part_of(const Progress& progress, std::size_t picture, std::size_t count) {
+  if (!progress) return {};
+  return [&progress, picture, count](std::string_view, double fraction) {
+    return progress("draw", (static_cast<double>(picture) + fraction) / static_cast<double>(count));
+  };
+}
+
+}  // namespace
+
+std::vector<std::string> draw_pictures(std::span<const Picture> pictures, const PictureOptions& options) {
+  const std::vector<Picture> shown = drawable(pictures);
+  std::vector<std::string> files(shown.size());
+  try {
+    const Stage stage(shown, options);
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      files[i] = drawn(shown[i], stage, options, part_of(options.progress, i, shown.size()));
+  } catch (const InputError&) {
+    // Nothing of any extent. What could not be drawn is missing, which is no reason to lose a report.
+  }
+  return files;
+}
+
+}  // namespace prohull::robot

@@ -1,0 +1,244 @@
+#include "robot/report/report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "robot/files/xml.h"
+#include "robot/report/report_facts.h"
+
+namespace prohull::robot {
+namespace {
+
+using Json = nlohmann::json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(); }
+Json point(const Vec3& p) { return {number(p.x), number(p.y), number(p.z)}; }
+
+Json texts(const std::vector<std::string>& sentences) {
+  Json list = Json::array();
+  for (const std::string& sentence : sentences) list.push_back(clean_text(sentence));
+  return list;
+}
+
+Json distance(const DistanceBounds& bounds) {
+  return {{"at_least", number(bounds.lower)}, {"at_most", number(bounds.upper)}, {"farthest", point(bounds.farthest)}};
+}
+
+Json facts_of(const LinkHull& hull, const LinkHulls& link) {
+  return {{"target_faces", hull.target_faces},
+          {"faces", hull.mesh.face_count()},
+          {"certified", hull.certified},
+          {"proof", hull.proof.empty() ? Json() : Json(hull.proof)},
+          {"target_reached", hull.target_reached},
+          {"within_bounds", hull.within_bounds},
+          {"source", hull.source},
+          {"volume", number(hull.volume)},
+          {"volume_ratio", number(ratio(hull.volume, link.sealed_volume))},
+          {"convex_ratio", number(ratio(hull.volume, link.convex_volume))},
+          {"distance", distance(hull.distance)},
+          {"padding", number(hull.padding)},
+          {"self_intersections", hull.self_intersections},
+          {"notes", texts(hull.notes)}};
+}
+
+void add_hulls(const LinkHulls& link, Json& facts) {
+  facts["status"] = name_of(link.status);
+  facts["why"] = link.why.empty() ? Json() : Json(clean_text(link.why));
+  facts["faces"] = link.triangles.face_count();
+  facts["sealed_volume"] = number(link.sealed_volume);
+  facts["convex_volume"] = number(link.convex_volume);
+  facts["kept_primitives"] = link.primitives.size();
+  facts["repairs"] = texts(link.repairs);
+  facts["seconds"] = number(link.seconds);
+  facts["from_cache"] = link.from_cache;
+  facts["hulls"] = Json::array();
+  for (const LinkHull& hull : link.hulls) facts["hulls"].push_back(facts_of(hull, link));
+}
+
+Json facts_of(const LinkCheck& check, double allow) {
+  Json facts{{"verdict", name_of(check.verdict)},
+             {"passes", passes(check, allow)},
+             {"visual_faces", check.visual_faces},
+             {"collision_faces", check.collision_faces},
+             {"pieces", check.pieces},
+             {"notes", texts(check.notes)}};
+  if (!was_measured(check)) return facts;
+  facts["sticks_out"] = {{"at_least", number(check.sticks_out_at_least)},
+                         {"at_most", number(check.sticks_out_at_most)}};
+  facts["worst_point"] = check.sticks_out_at_least > 0 ? point(check.worst_point) : Json();
+  facts["faces_outside"] = check.faces_outside;
+  facts["visual_volume"] = number(check.visual_volume);
+  facts["collision_volume"] = number(check.collision_volume);
+  facts["convex_volume"] = number(check.convex_volume);
+  facts["volume_ratio"] = number(ratio(check.collision_volume, check.visual_volume));
+  facts["convex_ratio"] = number(ratio(check.collision_volume, check.convex_volume));
+  facts["distance"] = distance(check.fat);
+  facts["mean_distance"] = number(check.mean_fat);
+  return facts;
+}
+
+Json links_of(const ReportInput& input) {
+  Json links = Json::array();
+  const std::vector<Mark> marks = marks_of(input);
+  for (std::size_t i = 0; i < input.file.robot.links.size(); ++i) {
+    Json facts{{"name", clean_text(input.file.robot.links[i].name)}, {"needs_a_look", Json::array()}};
+    if (const LinkHulls* const hulls = hulls_of(input, i)) add_hulls(*hulls, facts);
+    if (const LinkCheck* const check = check_of(input, i)) facts["shipped"] = facts_of(*check, input.allow);
+    for (const Mark& mark : marks)
+      if (mark.link == i) facts["needs_a_look"].push_back(mark.text);
+    links.push_back(std::move(facts));
+  }
+  return links;
+}
+
+Json facts_of(const MotionPair& pair, const Robot& robot) {
+  return {{"links", {clean_text(robot.links[pair.a].name), clean_text(robot.links[pair.b].name)}},
+          {"kind", name_of(pair.kind)},
+          {"visual", pair.visual},
+          {"hull", pair.hull},
+          {"convex", pair.convex},
+          {"false_hull", pair.false_hull},
+          {"false_convex", pair.false_convex},
+          {"missed", pair.missed}};
+}
+
+Json facts_of(const MotionResult& motion, const Robot& robot) {
+  Json pairs = Json::array();
+  for (const MotionPair& pair : motion.pairs) pairs.push_back(facts_of(pair, robot));
+  return {{"configurations", motion.configurations},
+          {"seed", motion.seed},
+          {"pairs", pairs},
+          {"false_hull", motion.false_hull()},
+          {"false_convex", motion.false_convex()},
+          {"missed", motion.missed()},
+          {"configurations_in_collision",
+           {{"visual", motion.visual_configurations},
+            {"hull", motion.hull_configurations},
+            {"convex", motion.convex_configurations}}},
+          {"microseconds", {{"visual", number(motion.visual_us)}, {"hull", number(motion.hull_us)}}}};
+}
+
+Json facts_of(const Totals& totals) {
+  return {{"links", totals.links},
+          {"hulled", totals.hulled},
+          {"certified", totals.certified},
+          {"primitives", totals.primitives},
+          {"skipped", totals.skipped},
+          {"empty", totals.empty},
+          {"faces_before", totals.faces_before},
+          {"faces_after", totals.faces_after},
+          {"median_volume_ratio", number(totals.volume_ratio)},
+          {"median_convex_ratio", number(totals.convex_ratio)},
+          {"checked", totals.checked},
+          {"passed", totals.passed},
+          {"median_shipped_volume_ratio", number(totals.shipped_ratio)},
+          {"sticks_out",
+           {{"at_least", number(totals.sticks_out_at_least)}, {"at_most", number(totals.sticks_out_at_most)}}},
+          {"failures", totals.failures},
+          {"looks", totals.looks}};
+}
+
+/// <testcase>, with what happened within.
+std::string test_case(const std::string& robot, const std::string& link, const std::string& time,
+                      const std::string& outcome) {
+  return fmt::format("    <testcase classname=\"{}\" name=\"{}\"{}{}\n", xml_escaped(robot),
+                     xml_escaped(clean_text(link)), time,
+                     outcome.empty() ? "/>" : fmt::format(">\n{}    </testcase>", outcome));
+}
+
+std::string element(std::string_view tag, std::string_view type, const std::string& message,
+                    const std::vector<std::string>& notes = {}) {
+  std::string text;
+  for (const std::string& note : notes) text += clean_text(note) + "\n";
+  return fmt::format("      <{0}{1} message=\"{2}\">{3}</{0}>\n", tag,
+                     type.empty() ? "" : fmt::format(" type=\"{}\"", type), xml_escaped(message), xml_escaped(text));
+}
+
+/// The test cases of one kind, and their counts.
+struct Suite {
+  std::string name, cases;
+  std::size_t tests = 0, failures = 0, errors = 0, skipped = 0;
+  double seconds = 0;
+
+  void add(const std::string& robot, const std::string& link, std::optional<double> time, const std::string& outcome) {
+    const auto is = [&](std::string_view tag) { return outcome.find(fmt::format("<{} ", tag)) < outcome.find('>'); };
+    ++tests, failures += is("failure"), errors += is("error"), skipped += is("skipped");
+    seconds += time.value_or(0);
+    cases += test_case(robot, link, time ? fmt::format(" time=\"{:.3f}\"", *time) : "", outcome);
+  }
+  std::string counts() const {
+    return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\"", tests, failures,
+                       errors, skipped, seconds);
+  }
+  std::string text() const {
+    return fmt::format("  <testsuite name=\"{}\" {}>\n{}  </testsuite>\n", xml_escaped(name), counts(), cases);
+  }
+};
+
+std::string place_text(const Vec3& p) { return fmt::format(" at ({:.6g}, {:.6g}, {:.6g}) m", p.x, p.y, p.z); }
+
+std::string outcome_of(const LinkCheck& check, double allow) {
+  if (check.verdict == CheckVerdict::NoVisual) return element("skipped", "", "there is no visual geometry to cover");
+  if (passes(check, allow)) return {};
+  std::string message = fmt::format("the shipped collision geometry {}", verdict_text(check));
+  if (check.sticks_out_at_least > 0) message += place_text(check.worst_point);
+  return element(check.verdict == CheckVerdict::Missing ? "error" : "failure", name_of(check.verdict), message,
+                 check.notes);
+}
+
+std::string outcome_of(const LinkHulls& hulls) {
+  if (hulls.status != LinkStatus::Hulled) return element("skipped", "", "no hull was asked for or needed");
+  if (is_certified(hulls)) return {};
+  std::vector<std::string> notes;
+  for (const LinkHull& hull : hulls.hulls) notes.insert(notes.end(), hull.notes.begin(), hull.notes.end());
+  return element("failure", "not-certified", "a hull is not certified: it may not enclose the link", notes);
+}
+
+std::vector<Suite> suites_of(const ReportInput& input) {
+  const Robot& robot = input.file.robot;
+  const std::string name = clean_text(robot.name);
+  std::vector<Suite> suites;
+  if (!input.hulls.empty()) suites.push_back({name + ": hulls", {}});
+  for (const LinkHulls& hulls : input.hulls) {
+    suites.back().add(name, robot.links[hulls.link].name, hulls.seconds, outcome_of(hulls));
+  }
+  if (!input.shipped.empty()) suites.push_back({name + ": shipped collision geometry", {}});
+  for (const LinkCheck& check : input.shipped)
+    suites.back().add(name, robot.links[check.link].name, std::nullopt, outcome_of(check, input.allow));
+  return suites;
+}
+
+}  // namespace
+
+Json report_json(const ReportInput& input) {
+  Json findings = Json::array();
+  for (const Finding& finding : findings_of(input)) findings.push_back(finding.text);
+  return {{"robot", clean_text(input.file.robot.name)},
+          {"file", clean_text(input.file.path.generic_string())},
+          {"format", prohull::name_of(robot_format_names(), input.file.format)},
+          {"version", clean_text(input.version)},
+          {"from", input.from == Geometry::Visual ? "visual" : "collision"},
+          {"allow", number(input.allow)},
+          {"seconds", number(input.seconds)},
+          {"findings", findings},
+          {"notes", texts(input.file.notes)},
+          {"links", links_of(input)},
+          {"motion", input.motion ? facts_of(*input.motion, input.file.robot) : Json()},
+          {"totals", facts_of(totals_of(input))}};
+}
+
+std::string report_junit(const ReportInput& input) {
+  Suite all{clean_text(input.file.robot.name), {}};
+  for (const Suite& suite : suites_of(input)) {
+    all.tests += suite.tests, all.failures += suite.failures;
+    all.errors += suite.errors, all.skipped += suite.skipped;
+    all.seconds += suite.seconds;
+    all.cases += suite.text();
+  }
+  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{}\" {}>\n{}</testsuites>\n",
+                     xml_escaped(all.name), all.counts(), all.cases);
+}
+
+}  // namespace prohull::robot

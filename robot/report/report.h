@@ -1,0 +1,45 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "robot/check/check.h"
+#include "robot/files/robot_file.h"
+#include "robot/hulls/link_hulls.h"
+#include "robot/motion/motion.h"
+
+namespace prohull::robot {
+
+/// All that is known about a robot, as far as it was asked for. The vectors are empty, or have an entry for each link.
+struct ReportInput {
+  const RobotFile& file;
+  std::vector<LinkHulls> hulls;
+  std::vector<LinkCheck> shipped;  ///< what the file shipped with, against its visual geometry
+  std::optional<MotionResult> motion;
+  double allow = 0;                  ///< as of `passes`
+  double seconds = 0;                ///< of the whole run
+  std::string version;               ///< of the program
+  Geometry from = Geometry::Visual;  ///< LinkHullOptions::from
+};
+
+/// Facts as numbers, texts and lists; docs/guides/robots.md lists the keys. Lengths are in metres. What is not known is
+/// null. Texts are UTF-8: bytes of the robot's file that are not become U+FFFD.
+nlohmann::json report_json(const ReportInput& input);
+
+/// The hulls and the checks as JUnit XML, for the test reports of a CI: one test case for each link. A hull that is not
+/// certified is a failure, and so is a check that does not pass with `allow`; one that was not made is an error.
+std::string report_junit(const ReportInput& input);
+
+struct PageOptions {
+  bool pictures = true;
+  unsigned threads = 0;
+  Progress progress = {};  ///< stage "draw"
+};
+
+/// One page of HTML without any other file: pictures, tables, marks on what needs a look. Texts of the robot's file are
+/// shown, never interpreted. Throws Cancelled.
+std::string report_html(const ReportInput& input, const PageOptions& options = {});
+
+}  // namespace prohull::robot

@@ -1,0 +1,303 @@
+#include "robot/report/report_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace prohull::robot {
+namespace {
+
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
+
+/// How many bytes the character at the front has; 0 if there is none that may be shown.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return (first >= 0x20 && first != 0x7f) || std::string_view("\t\n\r").find(text[0]) != text.npos;
+  if (first < 0xc0 || first >= 0xf8) return 0;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  std::uint32_t code = first & (0x7fu >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0u) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3fu);
+  }
+  constexpr std::array<std::uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xd800 && code < 0xe000, control = code < 0xa0;
+  const bool no_character = (code & 0xfffe) == 0xfffe || code > 0x10ffff;
+  return code < kLeast[length] || surrogate || control || no_character ? 0 : length;
+}
+
+double rounded_to(double value, int decimals, Rounded rounded) {
+  const double scale = std::pow(10., decimals), scaled = value * scale, nearest = std::round(scaled);
+  constexpr double kRounding = 1e-9;  // of the product, which is not shown
+  if (rounded == Rounded::Nearest || std::abs(scaled - nearest) <= kRounding * nearest) return nearest / scale;
+  return (rounded == Rounded::Up ? std::ceil(scaled) : std::floor(scaled)) / scale;
+}
+
+struct Unit {
+  double metres;
+  std::string_view name;
+};
+
+Unit unit_of(double metres) {
+  if (metres >= 1) return {1, "m"};
+  if (metres >= 1e-5 || metres == 0) return {1e-3, "mm"};
+  return {1e-6, "µm"};
+}
+
+std::string number_in(const Unit& unit, double metres, Rounded rounded) {
+  const double value = metres / unit.metres;
+  if (!(value > 0)) return "0";
+  const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(value))), 0, 12);
+  return fmt::format("{:.{}f}", rounded_to(value, decimals, rounded), decimals);
+}
+
+std::string sentence_of_hull(const LinkHull& hull, std::string_view what) {
+  return fmt::format("The hull with {} {}", counted(hull.mesh.face_count(), "face"), what);
+}
+
+void mark_hull(std::size_t link, const LinkHulls& link_hulls, const LinkHull& hull, std::vector<Mark>& marks) {
+  constexpr double kFat = 1.1;
+  const auto add = [&](Severity severity, std::string_view what) {
+    marks.push_back({link, severity, sentence_of_hull(hull, what)});
+  };
+  if (!hull.certified) add(Severity::Failure, "is not certified: it may not enclose the link.");
+  if (!hull.target_reached)
+    add(Severity::Look, fmt::format("has more faces than the {} asked for.", count_text(hull.target_faces)));
+  if (!hull.within_bounds) add(Severity::Look, "does not keep the bound of the distance.");
+  if (const auto fat = ratio(hull.volume, link_hulls.sealed_volume); fat && *fat > kFat)
+    add(Severity::Look, fmt::format("has {} the volume of the original.", ratio_text(fat)));
+  if (hull.self_intersections > 0)
+    add(Severity::Look,
+        fmt::format("intersects itself: {}.", counted(hull.self_intersections, "pair of faces", "pairs of faces")));
+}
+
+void mark_check(const ReportInput& input, const LinkCheck& check, std::vector<Mark>& marks) {
+  if (!passes(check, input.allow))
+    // New hulls mend what was shipped.
+    marks.push_back({check.link, input.hulls.empty() ? Severity::Failure : Severity::Look,
+                     fmt::format("The shipped collision geometry {}.", verdict_text(check))});
+}
+
+void mark_motion(const ReportInput& input, std::size_t link, std::vector<Mark>& marks) {
+  if (!input.motion) return;
+  const auto& links = input.file.robot.links;
+  for (const MotionPair& pair : input.motion->pairs)
+    if (pair.missed > 0 && pair.a == link)
+      marks.push_back({link, Severity::Failure,
+                       fmt::format("In {} its hull misses a collision with {}: a failed certificate.",
+                                   counted(pair.missed, "configuration"), clean_text(links[pair.b].name))});
+}
+
+std::string sum_up_hulls(const Totals& totals, std::string_view geometry) {
+  const std::string hulled = counted(totals.hulled, "link");
+  if (totals.certified < totals.hulled)
+    return fmt::format("{} of {} with hulls {} not certified.", totals.hulled - totals.certified, hulled,
+                       totals.hulled - totals.certified == 1 ? "is" : "are");
+  if (totals.hulled == 1)
+    return fmt::format("The hull of the one link is certified: no point of its {} lies outside.", geometry);
+  return fmt::format("All {} {}are certified: no point of their {} lies outside of its hull.", hulled,
+                     totals.hulled == totals.links ? "" : "with hulls ", geometry);
+}
+
+Finding finding_of_checks(const Totals& totals) {
+  if (totals.passed == totals.checked)
+    return {true, fmt::format("The shipped collision geometry covers the visual geometry of {}.",
+                              totals.checked == 1 ? "the one link" : fmt::format("all {} links", totals.checked))};
+  std::string text = fmt::format("The shipped collision geometry fails for {} of {}", totals.checked - totals.passed,
+                                 counted(totals.checked, "link"));
+  if (totals.sticks_out_at_most > 0)
+    text += fmt::format("; what sticks out farthest does so by {}",
+                        range_text(totals.sticks_out_at_least, totals.sticks_out_at_most));
+  return {false, text + "."};
+}
+
+Finding finding_of_motion(const MotionResult& motion) {
+  const std::string moved = counted(motion.configurations, "random configuration");
+  if (motion.missed() > 0)
+    return {false, fmt::format("In {}, the hulls miss {} of the visual geometry: failed certificates.", moved,
+                               counted(motion.missed(), "collision"))};
+  return {true, fmt::format("In {}, the hulls miss no collision of the visual geometry. They report {}; the convex "
+                            "hulls report {}.",
+                            moved, counted(motion.false_hull(), "false collision"), count_text(motion.false_convex()))};
+}
+
+void count_hulls(const LinkHulls& hulls, Totals& totals) {
+  totals.primitives += hulls.status == LinkStatus::Primitives;
+  totals.skipped += hulls.status == LinkStatus::Skipped || hulls.status == LinkStatus::Unread;
+  totals.empty += hulls.status == LinkStatus::Empty;
+  const LinkHull* const first = first_hull(hulls);
+  if (!first) return;
+  ++totals.hulled;
+  totals.certified += is_certified(hulls);
+  totals.faces_before += hulls.triangles.face_count();
+  totals.faces_after += first->mesh.face_count();
+}
+
+void count_check(const LinkCheck& check, double allow, Totals& totals) {
+  if (check.verdict == CheckVerdict::NoVisual) return;
+  ++totals.checked;
+  if (passes(check, allow)) {
+    ++totals.passed;
+    return;
+  }
+  totals.sticks_out_at_least = std::max(totals.sticks_out_at_least, check.sticks_out_at_least);
+  totals.sticks_out_at_most = std::max(totals.sticks_out_at_most, check.sticks_out_at_most);
+}
+
+/// The first hulls' volumes by that of something else.
+std::optional<double> median_ratio(const ReportInput& input, double LinkHulls::*of) {
+  std::vector<double> ratios;
+  for (const LinkHulls& hulls : input.hulls)
+    if (const LinkHull* const first = first_hull(hulls))
+      if (const auto r = ratio(first->volume, hulls.*of)) ratios.push_back(*r);
+  return median(std::move(ratios));
+}
+
+std::optional<double> median_shipped_ratio(const ReportInput& input) {
+  std::vector<double> ratios;
+  for (const LinkCheck& check : input.shipped)
+    if (const auto r = ratio(check.collision_volume, check.visual_volume); r && was_measured(check))
+      ratios.push_back(*r);
+  return median(std::move(ratios));
+}
+
+template <class Entry>
+const Entry* entry_of(const std::vector<Entry>& entries, std::size_t link) {
+  const auto found = std::ranges::find(entries, link, &Entry::link);
+  return found == entries.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string clean_text(std::string_view text) {
+  std::string clean;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    clean += length > 0 ? text.substr(0, length) : kReplacement;
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return clean;
+}
+
+std::string length_text(double metres, Rounded rounded) {
+  if (!std::isfinite(metres)) return "unbounded";
+  const Unit unit = unit_of(metres);
+  return fmt::format("{} {}", number_in(unit, metres, rounded), unit.name);
+}
+
+std::string range_text(double at_least, double at_most) {
+  if (!std::isfinite(at_most)) return fmt::format("at least {}", length_text(at_least, Rounded::Down));
+  const Unit unit = unit_of(at_most);
+  const std::string least = number_in(unit, at_least, Rounded::Down), most = number_in(unit, at_most, Rounded::Up);
+  return least == most ? fmt::format("{} {}", most, unit.name) : fmt::format("{} to {} {}", least, most, unit.name);
+}
+
+std::string count_text(std::size_t count) {
+  if (count < 1000) return fmt::format("{}", count);
+  return fmt::format("{},{:03}", count_text(count / 1000), count % 1000);
+}
+
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+  if (count == 1) return fmt::format("1 {}", one);
+  return many.empty() ? fmt::format("{} {}s", count_text(count), one) : fmt::format("{} {}", count_text(count), many);
+}
+
+std::string ratio_text(std::optional<double> ratio) { return ratio ? fmt::format("{:.2f} ×", *ratio) : "–"; }
+
+std::optional<double> ratio(double value, double of) {
+  const bool known = std::isfinite(value) && std::isfinite(of) && value > 0 && of > 0 && std::isfinite(value / of);
+  return known ? std::optional(value / of) : std::nullopt;
+}
+
+std::optional<double> median(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::ranges::sort(values);
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+const LinkHull* first_hull(const LinkHulls& hulls) {
+  return hulls.status == LinkStatus::Hulled && !hulls.hulls.empty() ? &hulls.hulls.front() : nullptr;
+}
+
+const LinkHulls* hulls_of(const ReportInput& input, std::size_t link) { return entry_of(input.hulls, link); }
+const LinkCheck* check_of(const ReportInput& input, std::size_t link) { return entry_of(input.shipped, link); }
+
+bool is_certified(const LinkHulls& hulls) {
+  return first_hull(hulls) && std::ranges::all_of(hulls.hulls, &LinkHull::certified);
+}
+
+bool was_measured(const LinkCheck& check) {
+  return check.verdict == CheckVerdict::Covered || check.verdict == CheckVerdict::Leaks ||
+         check.verdict == CheckVerdict::Undecided;
+}
+
+std::string verdict_text(const LinkCheck& check) {
+  switch (check.verdict) {
+    case CheckVerdict::Covered:
+      return "covers the visual geometry";
+    case CheckVerdict::Leaks:
+      return fmt::format("leaks: the link sticks out by {}",
+                         range_text(check.sticks_out_at_least, check.sticks_out_at_most));
+    case CheckVerdict::Undecided:
+      return fmt::format("is not decided: the link sticks out by at most {}",
+                         length_text(check.sticks_out_at_most, Rounded::Up));
+    case CheckVerdict::NoCollision:
+      return "is missing: nothing covers the link";
+    case CheckVerdict::NoVisual:
+      return "has nothing to cover";
+    case CheckVerdict::Missing:
+      return "could not be checked; the notes say why";
+  }
+  return {};
+}
+
+std::vector<Mark> marks_of(const ReportInput& input) {
+  std::vector<Mark> marks;
+  for (std::size_t link = 0; link < input.file.robot.links.size(); ++link) {
+    const auto begin = static_cast<std::ptrdiff_t>(marks.size());
+    if (const LinkHulls* const hulls = hulls_of(input, link)) {
+      for (const LinkHull& hull : hulls->hulls) mark_hull(link, *hulls, hull, marks);
+      if (hulls->status == LinkStatus::Skipped)
+        marks.push_back({link, Severity::Look, fmt::format("It was skipped: {}", clean_text(hulls->why))});
+      if (hulls->status == LinkStatus::Unread)
+        marks.push_back({link, Severity::Failure, fmt::format("It has no hull: {}", clean_text(hulls->why))});
+    }
+    if (const LinkCheck* const check = check_of(input, link)) mark_check(input, *check, marks);
+    mark_motion(input, link, marks);
+    std::stable_sort(marks.begin() + begin, marks.end(),
+                     [](const Mark& a, const Mark& b) { return a.severity < b.severity; });
+  }
+  return marks;
+}
+
+Totals totals_of(const ReportInput& input) {
+  Totals totals;
+  totals.links = input.file.robot.links.size();
+  for (const LinkHulls& hulls : input.hulls) count_hulls(hulls, totals);
+  for (const LinkCheck& check : input.shipped) count_check(check, input.allow, totals);
+  totals.volume_ratio = median_ratio(input, &LinkHulls::sealed_volume);
+  totals.convex_ratio = median_ratio(input, &LinkHulls::convex_volume);
+  totals.shipped_ratio = median_shipped_ratio(input);
+  for (const Mark& mark : marks_of(input)) ++(mark.severity == Severity::Failure ? totals.failures : totals.looks);
+  return totals;
+}
+
+std::vector<Finding> findings_of(const ReportInput& input) {
+  const Totals totals = totals_of(input);
+  const bool visual = input.from == Geometry::Visual;
+  std::vector<Finding> findings;
+  if (totals.hulled > 0)
+    findings.push_back(
+        {totals.certified == totals.hulled, sum_up_hulls(totals, visual ? "visual meshes" : "collision meshes")});
+  if (totals.checked > 0) findings.push_back(finding_of_checks(totals));
+  if (input.motion) findings.push_back(finding_of_motion(*input.motion));
+  if (findings.empty()) findings.push_back({true, "No link has meshes: there was nothing to do."});
+  return findings;
+}
+
+}  // namespace prohull::robot

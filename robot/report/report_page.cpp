@@ -1,0 +1,706 @@
+#include "robot/report/report_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "prohull/error.h"
+#include "robot/files/xml.h"
+#include "robot/motion/bodies.h"
+#include "robot/report/pictures.h"
+#include "robot/report/report_facts.h"
+
+namespace prohull::robot {
+namespace {
+
+constexpr std::string_view kDash = "–";
+constexpr std::string_view kGrey = "#d9d6d1", kBlue = "#7db4ea", kOrange = "#f09a4e", kRed = "#d4483b";  // of pictures
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) {
+      return i + k < bytes.size() ? std::uint32_t{static_cast<unsigned char>(bytes[i + k])} : 0;
+    };
+    const std::uint32_t bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Pictures
+
+struct CardPictures {
+  std::vector<std::string> hulls;  // one for each hull; empty where there is none
+  std::string shipped;
+};
+
+struct PagePictures {
+  std::string robot;
+  std::vector<CardPictures> cards;  // one for each link
+};
+
+TriangleMesh in_link(const LinkHulls& hulls, const TriangleMesh& mesh) {
+  return hulls.frame.in_link == Pose{} ? mesh : placed(hulls.frame.in_link, mesh);
+}
+
+/// What stands for the boxes, cylinders and so on of a link, in the frame of the link.
+TriangleMesh primitives_of(const Link& link, Geometry from) {
+  TriangleMesh mesh;
+  for (const Shape& shape : shapes(link, from))
+    if (!shape.mesh() && !std::holds_alternative<OtherForm>(shape.form))
+      append(mesh, placed(shape.origin, form_mesh(shape.form, Curved::Around)));
+  return mesh;
+}
+
+/// The geometry of a link, and what is around it, in the frame of the link.
+Picture picture_of_link(const ReportInput& input, std::size_t link) {
+  Picture picture;
+  const LinkHulls* const hulls = hulls_of(input, link);
+  const LinkCheck* const check = check_of(input, link);
+  if (hulls && first_hull(*hulls)) {
+    picture.inside = in_link(*hulls, hulls->triangles);
+    picture.around = in_link(*hulls, first_hull(*hulls)->mesh);
+  } else if (check) {
+    picture.inside = check->visual;
+    if (!hulls) picture.around = check->collision;
+  }
+  if (hulls) append(picture.inside, primitives_of(input.file.robot.links[link], input.from));
+  return picture;
+}
+
+Picture picture_of_robot(const ReportInput& input) {
+  const Robot& robot = input.file.robot;
+  std::vector<TriangleMesh> inside, around;
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    Picture link = picture_of_link(input, i);
+    inside.push_back(std::move(link.inside));
+    around.push_back(std::move(link.around));
+  }
+  return {at_rest(robot, inside), at_rest(robot, around), input.hulls.empty() ? Shell::Shipped : Shell::Hull, {}};
+}
+
+/// The pictures of a card: its hulls, then what was shipped.
+std::vector<Picture> pictures_of_card(const ReportInput& input, std::size_t link) {
+  std::vector<Picture> pictures;
+  if (const LinkHulls* const hulls = hulls_of(input, link))
+    for (const LinkHull& hull : hulls->hulls)
+      pictures.push_back({in_link(*hulls, hulls->triangles), in_link(*hulls, hull.mesh), Shell::Hull, {}});
+  if (const LinkCheck* const check = check_of(input, link); check && check->collision.face_count() > 0) {
+    const bool leaks = check->sticks_out_at_least > 0;
+    pictures.push_back(
+        {check->visual, check->collision, Shell::Shipped, leaks ? std::optional(check->worst_point) : std::nullopt});
+  }
+  return pictures;
+}
+
+/// Draws in `steps` steps and tells how many of them are done.
+class Drawing {
+ public:
+  Drawing(std::size_t steps, const Progress& progress) : steps_(steps), progress_(progress) {}
+
+  std::vector<std::string> step(const std::vector<Picture>& pictures, PictureOptions options) {
+    if (progress_) options.progress = [this](std::string_view, double fraction) { return tell(fraction); };
+    std::vector<std::string> files = draw_pictures(pictures, options);
+    if (!tell(1)) throw Cancelled();
+    ++done_;
+    return files;
+  }
+
+ private:
+  bool tell(double fraction) const {
+    return !progress_ || progress_("draw", (static_cast<double>(done_) + fraction) / static_cast<double>(steps_));
+  }
+
+  std::size_t steps_, done_ = 0;
+  const Progress& progress_;
+};
+
+PagePictures drawn_pictures(const ReportInput& input, const PageOptions& options) {
+  constexpr int kWide = 880, kHigh = 660;
+  PagePictures result;
+  result.cards.resize(input.file.robot.links.size());
+  if (!options.pictures) return result;
+  Drawing drawing(1 + result.cards.size(), options.progress);
+  result.robot = drawing
+                     .step({picture_of_robot(input)},
+                           {.width = kWide, .height = kHigh, .lines = false, .threads = options.threads})
+                     .front();
+  for (std::size_t i = 0; i < result.cards.size(); ++i) {
+    std::vector<std::string> files = drawing.step(pictures_of_card(input, i), {.threads = options.threads});
+    const LinkHulls* const hulls = hulls_of(input, i);
+    if (files.size() > (hulls ? hulls->hulls.size() : 0)) {
+      result.cards[i].shipped = std::move(files.back());
+      files.pop_back();
+    }
+    result.cards[i].hulls = std::move(files);
+  }
+  return result;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Elements
+
+/// Texts of the robot are escaped before they come here.
+std::string figure(const std::string& png, std::string_view alt, std::string_view caption, const PictureOptions& size) {
+  if (png.empty()) return {};
+  return fmt::format(
+      "<figure><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">"
+      "<figcaption>{}</figcaption></figure>\n",
+      base64(png), size.width, size.height, alt, caption);
+}
+
+std::string list(std::string_view title, const std::vector<std::string>& sentences) {
+  if (sentences.empty()) return {};
+  std::string items;
+  for (const std::string& sentence : sentences) items += fmt::format("<li>{}</li>", html_escaped(sentence));
+  return fmt::format("<h4>{}</h4>\n<ul class=\"notes\">{}</ul>\n", title, items);
+}
+
+/// A cell of a table; what is good or bad has a class of that name.
+struct Cell {
+  Cell(std::string shown, std::string_view of_class = {}) : text(std::move(shown)), kind(of_class) {}
+  Cell(const char* shown) : text(shown) {}
+  std::string text;
+  std::string_view kind;
+};
+
+std::string row(const std::string& head, const std::vector<Cell>& cells) {
+  std::string text = fmt::format("<tr><th scope=\"row\">{}</th>", head);
+  for (const Cell& cell : cells)
+    text += cell.kind.empty() ? fmt::format("<td>{}</td>", cell.text)
+                              : fmt::format("<td class=\"{}\">{}</td>", cell.kind, cell.text);
+  return text + "</tr>\n";
+}
+
+std::string table(std::string_view caption, const std::vector<std::string>& heads, const std::string& rows) {
+  std::string columns;
+  for (const std::string& head : heads)
+    columns += head.empty() ? "<td></td>" : fmt::format("<th scope=\"col\">{}</th>", head);
+  return fmt::format("<div class=\"wide\"><table>{}<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
+                     caption.empty() ? "" : fmt::format("<caption>{}</caption>", caption), columns, rows);
+}
+
+std::string name_of_link(const ReportInput& input, std::size_t link) {
+  return html_escaped(input.file.robot.links[link].name);
+}
+
+/// Of a link without any geometry there is nothing more to say than the table does.
+bool has_card(const ReportInput& input, std::size_t link) {
+  const LinkHulls* const hulls = hulls_of(input, link);
+  const LinkCheck* const check = check_of(input, link);
+  return (hulls && hulls->status != LinkStatus::Empty) || (check && check->verdict != CheckVerdict::NoVisual);
+}
+
+std::string link_to(const ReportInput& input, std::size_t link) {
+  if (!has_card(input, link)) return name_of_link(input, link);
+  return fmt::format("<a href=\"#link-{}\">{}</a>", link, name_of_link(input, link));
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// The top of the page
+
+std::string findings(const ReportInput& input) {
+  std::string items;
+  for (const Finding& finding : findings_of(input))
+    items += fmt::format("<li class=\"{}\"><b>{}</b><span>{}</span></li>\n", finding.good ? "good" : "bad",
+                         finding.good ? "✓" : "✕", html_escaped(finding.text));
+  return fmt::format("<ul class=\"findings\">\n{}</ul>\n", items);
+}
+
+std::string head(const ReportInput& input) {
+  std::string format(prohull::name_of(robot_format_names(), input.file.format));
+  std::ranges::transform(format, format.begin(), [](char c) { return 'a' <= c && c <= 'z' ? c - 'a' + 'A' : c; });
+  return fmt::format(
+      "<header>\n<p class=\"eyebrow\">Collision geometry report</p>\n<h1>{}</h1>\n"
+      "<p class=\"muted\">{} · {} · {} · prohull {} · {:.1f} s</p>\n{}</header>\n",
+      html_escaped(input.file.robot.name), html_escaped(input.file.path.filename().string()), format,
+      counted(input.file.robot.links.size(), "link"), html_escaped(input.version), input.seconds, findings(input));
+}
+
+std::string tile(const std::string& number, const std::string& words) {
+  return fmt::format("<div class=\"card tile\"><b>{}</b><span>{}</span></div>\n", number, words);
+}
+
+std::string false_collisions_tile(const MotionResult& motion) {
+  const std::size_t ours = motion.false_hull(), convex = motion.false_convex();
+  if (convex == 0) return tile(count_text(ours), "false collisions; the convex hulls have none");
+  const double change = 100 * (static_cast<double>(ours) / static_cast<double>(convex) - 1);
+  return tile(
+      fmt::format("{}{:.0f} %", change < 0 ? "−" : "+", std::abs(change)),
+      fmt::format("false collisions: {}, where the convex hulls have {}", count_text(ours), count_text(convex)));
+}
+
+std::string tiles(const ReportInput& input) {
+  const Totals totals = totals_of(input);
+  std::string text;
+  if (totals.hulled > 0) {
+    text += tile(fmt::format("{} of {}", totals.certified, totals.hulled), "links with hulls are certified");
+    text += tile(fmt::format("{} → {}", count_text(totals.faces_before), count_text(totals.faces_after)),
+                 "faces of the geometry, and of its hulls");
+    text += tile(ratio_text(totals.volume_ratio), "hull volume / original volume (median)");
+    text += tile(ratio_text(totals.convex_ratio), "hull volume / convex hull volume (median)");
+  }
+  if (input.motion) text += false_collisions_tile(*input.motion);
+  if (totals.checked > 0)
+    text += tile(fmt::format("{} of {}", totals.passed, totals.checked), "links pass the check of what was shipped");
+  if (totals.checked > 0 && input.hulls.empty()) {
+    text += tile(range_text(totals.sticks_out_at_least, totals.sticks_out_at_most),
+                 "by which the visual geometry sticks out farthest");
+    text += tile(ratio_text(totals.shipped_ratio), "shipped volume / original volume (median)");
+  }
+  return text;
+}
+
+std::string chip(std::string_view color, std::string_view words) {
+  return fmt::format("<span class=\"chip\" style=\"--chip:{}\">{}</span>", color, words);
+}
+
+std::string legend(const ReportInput& input) {
+  const std::string geometry = chip(kGrey, input.from == Geometry::Visual ? "visual geometry" : "geometry");
+  return fmt::format("<span class=\"legend\">{}{}</span>", geometry,
+                     input.hulls.empty() ? chip(kOrange, "shipped collision geometry") : chip(kBlue, "hulls"));
+}
+
+std::string overview(const ReportInput& input, const std::string& png) {
+  const std::string picture =
+      figure(png, fmt::format("The robot {} inside of its collision geometry", html_escaped(input.file.robot.name)),
+             legend(input), {.width = 880, .height = 660});
+  return fmt::format("<div class=\"overview{}\">\n{}<div class=\"tiles\">\n{}</div>\n</div>\n",
+                     picture.empty() ? " plain" : "",
+                     picture.empty() ? "" : fmt::format("<div class=\"card\">{}</div>\n", picture), tiles(input));
+}
+
+std::string marks(const ReportInput& input) {
+  std::string items;
+  for (const Mark& mark : marks_of(input)) {
+    const bool failure = mark.severity == Severity::Failure;
+    items += fmt::format("<li class=\"{}\"><b>{}</b><span>{}: {}</span></li>\n", failure ? "bad" : "look",
+                         failure ? "✕ Failure" : "! Look", link_to(input, mark.link), html_escaped(mark.text));
+  }
+  if (items.empty()) items = "<li class=\"good\"><b>✓</b><span>Nothing.</span></li>\n";
+  return fmt::format("<section>\n<h2>What needs a look</h2>\n<ul class=\"marks\">\n{}</ul>\n{}</section>\n", items,
+                     list("What was not read of the file", input.file.notes));
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Links
+
+Cell certificate(const LinkHull& hull) {
+  return hull.certified ? Cell("✓ certified", "good") : Cell("✕ not certified", "bad");
+}
+
+Cell verdict(const LinkCheck& check, double allow) {
+  const bool good = passes(check, allow);
+  switch (check.verdict) {
+    case CheckVerdict::Covered:
+      return {"✓ covered", "good"};
+    case CheckVerdict::Leaks:
+      return good ? Cell("✓ leaks as allowed", "good") : Cell("✕ leaks", "bad");
+    case CheckVerdict::Undecided:
+      return good ? Cell("✓ touches", "good") : Cell("! undecided", "look");
+    case CheckVerdict::NoCollision:
+      return {"✕ none", "bad"};
+    case CheckVerdict::NoVisual:
+      return "no visual";
+    case CheckVerdict::Missing:
+      return {"✕ not checked", "bad"};
+  }
+  return "";
+}
+
+std::string sticks_out(const LinkCheck& check) {
+  if (!was_measured(check)) return std::string(kDash);
+  return range_text(check.sticks_out_at_least, check.sticks_out_at_most);
+}
+
+std::string words_for(LinkStatus status) {
+  switch (status) {
+    case LinkStatus::Hulled:
+      return "";
+    case LinkStatus::Primitives:
+      return "keeps its primitives";
+    case LinkStatus::Skipped:
+      return "skipped";
+    case LinkStatus::Unread:
+      return "not read";
+    case LinkStatus::Empty:
+      return "no geometry";
+  }
+  return {};
+}
+
+std::vector<Cell> hull_cells(const LinkHulls* hulls) {
+  const LinkHull* const hull = hulls ? first_hull(*hulls) : nullptr;
+  if (!hull) return {hulls ? words_for(hulls->status) : std::string(kDash), "", "", "", "", ""};
+  return {is_certified(*hulls) ? Cell("✓ certified", "good") : Cell("✕ not certified", "bad"),
+          count_text(hulls->triangles.face_count()),
+          count_text(hull->mesh.face_count()),
+          ratio_text(ratio(hull->volume, hulls->sealed_volume)),
+          ratio_text(ratio(hull->volume, hulls->convex_volume)),
+          length_text(hull->distance.upper, Rounded::Up)};
+}
+
+void append_cells(std::vector<Cell>& cells, std::vector<Cell> more) {
+  std::ranges::move(more, std::back_inserter(cells));
+}
+
+std::string links_table(const ReportInput& input) {
+  std::vector<std::string> heads{"Link"};
+  if (!input.hulls.empty())
+    for (const char* head : {"Hull", "Faces before", "Faces after", "Volume&nbsp;/ original",
+                             "Volume&nbsp;/ convex&nbsp;hull", "Distance at&nbsp;most"})
+      heads.emplace_back(head);
+  if (!input.shipped.empty())
+    for (const char* head : {"Shipped", "Sticks out by", "Shipped volume&nbsp;/ original"}) heads.emplace_back(head);
+  std::string rows;
+  for (std::size_t i = 0; i < input.file.robot.links.size(); ++i) {
+    std::vector<Cell> cells;
+    if (!input.hulls.empty()) append_cells(cells, hull_cells(hulls_of(input, i)));
+    if (const LinkCheck* const check = check_of(input, i))
+      append_cells(cells, {verdict(*check, input.allow), sticks_out(*check),
+                           ratio_text(ratio(check->collision_volume, check->visual_volume))});
+    rows += row(link_to(input, i), cells);
+  }
+  return fmt::format("<section>\n<h2>Links</h2>\n<div class=\"card list\">\n{}</div>\n</section>\n",
+                     table("", heads, rows));
+}
+
+std::string built_from(const LinkHull& hull) {
+  if (hull.source == "mesh") return "the repaired mesh";
+  if (hull.source == "convex-hull") return "the convex hull";
+  if (hull.source == "wrap") return "a wrap";
+  return html_escaped(hull.source);
+}
+
+/// The facts about a link: a column for each hull, and one for what was shipped.
+class FactsTable {
+ public:
+  FactsTable(const LinkHulls* hulls, const LinkCheck* check, double allow)
+      : hulls_(hulls), check_(check && was_measured(*check) ? check : nullptr), allow_(allow) {}
+
+  std::string text() const {
+    std::vector<std::string> heads{""};
+    if (hulls_)
+      for (const LinkHull& hull : hulls_->hulls)
+        heads.push_back(hulls_->hulls.size() == 1 ? "Hull" : fmt::format("Hull of {}", count_text(hull.target_faces)));
+    if (check_) heads.emplace_back("Shipped");
+    return heads.size() == 1 ? "" : fmt::format("<div class=\"facts\">{}</div>\n", table("", heads, rows()));
+  }
+
+ private:
+  template <class OfHull, class OfCheck>
+  std::string line(const std::string& head, OfHull of_hull, OfCheck of_check) const {
+    std::vector<Cell> cells;
+    if (hulls_)
+      for (const LinkHull& hull : hulls_->hulls) cells.emplace_back(of_hull(hull));
+    if (check_) cells.emplace_back(of_check(*check_));
+    return row(head, cells);
+  }
+
+  /// A line about hulls only.
+  template <class OfHull>
+  std::string hull_line(const std::string& head, OfHull of_hull) const {
+    if (!hulls_ || hulls_->hulls.empty()) return {};
+    return line(head, of_hull, [](const LinkCheck&) { return Cell(std::string(kDash)); });
+  }
+
+  bool any_padding() const {
+    return hulls_ && std::ranges::any_of(hulls_->hulls, [](const LinkHull& hull) { return hull.padding > 0; });
+  }
+
+  std::string rows() const { return enclosure_rows() + size_rows() + distance_rows() + proof_rows(); }
+
+  std::string enclosure_rows() const {
+    std::string text =
+        line("Encloses the geometry", certificate, [&](const LinkCheck& c) { return verdict(c, allow_); });
+    if (check_)
+      text += line(
+          "Geometry sticks out by", [](const LinkHull& hull) { return Cell(hull.certified ? "0 mm" : "?"); },
+          [](const LinkCheck& c) { return Cell(sticks_out(c)); });
+    return text;
+  }
+
+  std::string size_rows() const {
+    std::string text = line(
+        "Faces", [](const LinkHull& hull) { return Cell(count_text(hull.mesh.face_count())); },
+        [](const LinkCheck& c) {
+          return Cell(c.pieces > 1 ? fmt::format("{} in {}", count_text(c.collision_faces), counted(c.pieces, "piece"))
+                                   : count_text(c.collision_faces));
+        });
+    text += line(
+        "Volume / original",
+        [&](const LinkHull& hull) { return Cell(ratio_text(ratio(hull.volume, hulls_->sealed_volume))); },
+        [](const LinkCheck& c) { return Cell(ratio_text(ratio(c.collision_volume, c.visual_volume))); });
+    text += line(
+        "Volume / convex hull",
+        [&](const LinkHull& hull) { return Cell(ratio_text(ratio(hull.volume, hulls_->convex_volume))); },
+        [](const LinkCheck& c) { return Cell(ratio_text(ratio(c.collision_volume, c.convex_volume))); });
+    return text;
+  }
+
+  std::string distance_rows() const {
+    std::string text = line(
+        "Greatest distance from the geometry",
+        [](const LinkHull& hull) { return Cell(range_text(hull.distance.lower, hull.distance.upper)); },
+        [](const LinkCheck& c) { return Cell(range_text(c.fat.lower, c.fat.upper)); });
+    if (check_)
+      text += line(
+          "Mean distance from the geometry", [](const LinkHull&) { return Cell(std::string(kDash)); },
+          [](const LinkCheck& c) { return Cell(length_text(c.mean_fat)); });
+    if (any_padding())
+      text += hull_line("Padding, proven", [](const LinkHull& hull) {
+        return Cell(fmt::format("at least {}", length_text(hull.padding, Rounded::Down)));
+      });
+    return text;
+  }
+
+  std::string proof_rows() const {
+    std::string text = hull_line("Proof", [](const LinkHull& hull) {
+      return Cell(hull.proof.empty() ? std::string(kDash) : html_escaped(hull.proof));
+    });
+    text += hull_line("Built from", [](const LinkHull& hull) { return Cell(built_from(hull)); });
+    return text;
+  }
+
+  const LinkHulls* hulls_;
+  const LinkCheck* check_;
+  double allow_;
+};
+
+std::string pictures(const ReportInput& input, std::size_t link, const CardPictures& drawn) {
+  const std::string name = name_of_link(input, link);
+  std::string figures;
+  for (std::size_t k = 0; k < drawn.hulls.size(); ++k) {
+    const LinkHull& hull = hulls_of(input, link)->hulls[k];
+    const std::string faces = counted(hull.mesh.face_count(), "face");
+    figures += figure(drawn.hulls[k], fmt::format("{} inside of its translucent hull with {}", name, faces),
+                      chip(kBlue, fmt::format("Hull, {}", faces)), {});
+  }
+  if (!drawn.shipped.empty()) {
+    const LinkCheck& check = *check_of(input, link);
+    const bool leaks = check.sticks_out_at_least > 0;
+    figures += figure(drawn.shipped,
+                      fmt::format("{} and its shipped collision geometry, translucent{}", name,
+                                  leaks ? "; a red ball marks where the link sticks out farthest" : ""),
+                      fmt::format("<span class=\"legend\">{}{}</span>",
+                                  chip(kOrange, fmt::format("Shipped, {}", counted(check.collision_faces, "face"))),
+                                  leaks ? chip(kRed, "sticks out farthest") : ""),
+                      {});
+  }
+  return figures.empty() ? "" : fmt::format("<div class=\"pictures\">\n{}</div>\n", figures);
+}
+
+std::size_t count_pictures(const CardPictures& drawn) {
+  const auto missing = static_cast<std::size_t>(std::ranges::count(drawn.hulls, ""));
+  return drawn.hulls.size() - missing + (drawn.shipped.empty() ? 0 : 1);
+}
+
+std::vector<std::string> notes_of(const LinkHulls* hulls, const LinkCheck* check) {
+  std::vector<std::string> notes;
+  const auto add = [&](const std::vector<std::string>& more) {
+    for (const std::string& note : more)
+      if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+  };
+  if (hulls)
+    for (const LinkHull& hull : hulls->hulls) add(hull.notes);
+  if (check) add(check->notes);
+  return notes;
+}
+
+std::string facts_line(const LinkHulls& hulls) {
+  std::string text;
+  if (first_hull(hulls))
+    text = fmt::format("The geometry has {}. ", counted(hulls.triangles.face_count(), "face"));
+  else if (hulls.status == LinkStatus::Primitives)
+    text = "Its primitives become the collision elements. ";
+  if (!hulls.hulls.empty() && !hulls.primitives.empty())
+    text += fmt::format("{} beside the hull. ",
+                        counted(hulls.primitives.size(), "primitive is kept", "primitives are kept"));
+  if (hulls.from_cache)
+    text += "The hulls come from the cache.";
+  else if (first_hull(hulls))
+    text += fmt::format("Its hulls took {:.1f} s.", hulls.seconds);
+  return text.empty() ? "" : fmt::format("<p class=\"muted small\">{}</p>\n", text);
+}
+
+std::string badge(const ReportInput& input, std::size_t link) {
+  const LinkHulls* const hulls = hulls_of(input, link);
+  if (hulls && first_hull(*hulls))
+    return is_certified(*hulls) ? "<span class=\"badge good\">✓ certified</span>"
+                                : "<span class=\"badge bad\">✕ not certified</span>";
+  if (hulls) return fmt::format("<span class=\"badge muted\">{}</span>", words_for(hulls->status));
+  const Cell cell = verdict(*check_of(input, link), input.allow);
+  return fmt::format("<span class=\"badge {}\">{}</span>", cell.kind, cell.text);
+}
+
+std::string card(const ReportInput& input, std::size_t link, const CardPictures& drawn) {
+  const LinkHulls* const hulls = hulls_of(input, link);
+  const LinkCheck* const check = check_of(input, link);
+  if (!has_card(input, link)) return {};
+  std::string text = fmt::format("<article class=\"card\" id=\"link-{}\">\n<div class=\"title\"><h3>{}</h3>{}</div>\n",
+                                 link, name_of_link(input, link), badge(input, link));
+  if (hulls) text += facts_line(*hulls);
+  if (hulls && !hulls->why.empty()) text += fmt::format("<p>{}</p>\n", html_escaped(hulls->why));
+  if (check && !was_measured(*check) && check->verdict != CheckVerdict::NoVisual)
+    text += fmt::format("<p>The shipped collision geometry {}.</p>\n", verdict_text(*check));
+  text += fmt::format("<div class=\"body{}\">\n{}{}</div>\n", count_pictures(drawn) == 1 ? " one" : "",
+                      pictures(input, link, drawn), FactsTable(hulls, check, input.allow).text());
+  if (hulls) text += list("Repairs", hulls->repairs);
+  text += list("Notes", notes_of(hulls, check));
+  return text + "</article>\n";
+}
+
+std::string cards(const ReportInput& input, const PagePictures& drawn) {
+  std::string text;
+  for (std::size_t i = 0; i < drawn.cards.size(); ++i) text += card(input, i, drawn.cards[i]);
+  return fmt::format("<section>\n<h2>Each link</h2>\n{}</section>\n", text);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Motion
+
+Cell missed_cell(std::size_t missed) {
+  return missed == 0 ? Cell("✓ 0", "good") : Cell(fmt::format("✕ {}", count_text(missed)), "bad");
+}
+
+std::size_t sum(const MotionResult& motion, std::size_t MotionPair::*count) {
+  std::size_t total = 0;
+  for (const MotionPair& pair : motion.pairs) total += pair.*count;
+  return total;
+}
+
+std::string time_text(double microseconds) {
+  return microseconds > 0 && std::isfinite(microseconds) ? fmt::format("{:.1f} µs", microseconds) : std::string(kDash);
+}
+
+std::string motion_summary(const MotionResult& m) {
+  const std::string rows =
+      row("Visual geometry", {count_text(m.visual_configurations), count_text(sum(m, &MotionPair::visual)),
+                              std::string(kDash), std::string(kDash), time_text(m.visual_us)}) +
+      row("Convex hulls", {count_text(m.convex_configurations), count_text(sum(m, &MotionPair::convex)),
+                           count_text(m.false_convex()), std::string(kDash), std::string(kDash)}) +
+      row("Hulls", {count_text(m.hull_configurations), count_text(sum(m, &MotionPair::hull)),
+                    count_text(m.false_hull()), missed_cell(m.missed()), time_text(m.hull_us)});
+  return table("",
+               {"Checked with", "Configurations in collision", "Pairs in collision", "False collisions",
+                "Missed collisions", "Time per check of a pair"},
+               rows);
+}
+
+std::vector<MotionPair> pairs_worth_showing(const MotionResult& motion) {
+  std::vector<MotionPair> shown;
+  std::ranges::copy_if(motion.pairs, std::back_inserter(shown), [](const MotionPair& p) {
+    return p.kind != PairKind::Adjacent && p.visual + p.hull + p.convex + p.missed > 0;
+  });
+  std::ranges::stable_sort(shown, [](const MotionPair& a, const MotionPair& b) {
+    return std::pair(a.missed, a.false_convex) > std::pair(b.missed, b.false_convex);
+  });
+  return shown;
+}
+
+std::string motion_pairs(const ReportInput& input) {
+  std::string rows;
+  for (const MotionPair& pair : pairs_worth_showing(*input.motion))
+    rows += row(fmt::format("{} – {}", link_to(input, pair.a), link_to(input, pair.b)),
+                {count_text(pair.visual), count_text(pair.false_convex), count_text(pair.false_hull),
+                 missed_cell(pair.missed)});
+  if (rows.empty()) return "<p>No pair collides in any configuration.</p>\n";
+  return table("Pairs of links that collide in some configuration",
+               {"Pair", "Visual geometry collides", "False, convex hulls", "False, hulls", "Missed"}, rows);
+}
+
+std::string motion_kinds(const MotionResult& motion) {
+  const auto count = [&](PairKind kind) {
+    return count_text(static_cast<std::size_t>(std::ranges::count(motion.pairs, kind, &MotionPair::kind)));
+  };
+  return fmt::format(
+      "<p class=\"muted small\">Pairs that need no check: {} adjacent, {} that always collide, {} that "
+      "never do.</p>\n",
+      count(PairKind::Adjacent), count(PairKind::Always), count(PairKind::Never));
+}
+
+std::string motion_section(const ReportInput& input) {
+  if (!input.motion) return {};
+  return fmt::format(
+      "<section>\n<h2>In motion</h2>\n<div class=\"card\">\n<p>{} of the joints within their limits (seed {}). "
+      "In each, every pair of links that are not adjacent was checked with the visual geometry, with the convex hulls, "
+      "and with the hulls of this report.</p>\n{}{}</div>\n<div class=\"card\">\n{}</div>\n</section>\n",
+      counted(input.motion->configurations, "random configuration"), input.motion->seed, motion_summary(*input.motion),
+      motion_kinds(*input.motion), motion_pairs(input));
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// The end of the page
+
+struct Word {
+  std::string_view word, meaning;
+};
+
+std::string words(const ReportInput& input) {
+  std::vector<Word> shown;
+  if (!input.hulls.empty())
+    shown = {{"Hull", "A closed mesh of few faces around the geometry of a link."},
+             {"Certified",
+              "An exact test, which shares no code with the construction, has shown that no point of the "
+              "geometry lies outside of the hull. There is no tolerance."},
+             {"Proof",
+              "How that was shown: <i>replay</i> follows each step of the construction, <i>enclosure</i> compares two "
+              "closed meshes, <i>coverage</i> shows that the hull covers each triangle, and <i>padding</i> that it "
+              "keeps its distance besides."},
+             {"Repair",
+              "A change of the geometry before a hull was built, such as a cap on an opening. The hull "
+              "encloses the triangles of the file all the same."}};
+  shown.push_back({"Volume / original",
+                   "The volume of the hull by that of the sealed original: the geometry of the "
+                   "file with its openings closed. What it is above 1 is the void."});
+  shown.push_back({"Void",
+                   "The space between a hull and the geometry within it. The less there is, the fewer false "
+                   "collisions."});
+  shown.push_back({"Volume / convex hull",
+                   "The volume by that of the smallest convex body around the geometry, which "
+                   "is a common collision mesh."});
+  shown.push_back({"Greatest distance",
+                   "How far a point of the collision geometry is from the geometry of the link at "
+                   "most. The bounds are proven."});
+  if (!input.shipped.empty()) {
+    shown.push_back({"Shipped", "The collision geometry that came with the file of the robot."});
+    shown.push_back({"Leaks",
+                     "Some point of the visual geometry lies outside of the collision geometry: exactly "
+                     "there, a collision is not noticed."});
+  }
+  if (input.motion) {
+    shown.push_back({"False collision", "Two hulls collide, but the visual geometry within them does not."});
+    shown.push_back({"Missed collision",
+                     "The visual geometry collides, but the hulls do not. Certified hulls miss "
+                     "none."});
+  }
+  std::string text;
+  for (const Word& word : shown) text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", word.word, word.meaning);
+  return fmt::format("<section>\n<h2>Words</h2>\n<div class=\"card\"><dl class=\"words\">\n{}</dl></div>\n</section>\n",
+                     text);
+}
+
+}  // namespace
+
+std::string html_escaped(std::string_view text) { return xml_escaped(clean_text(text)); }
+
+std::string report_html(const ReportInput& input, const PageOptions& options) {
+  const PagePictures drawn = drawn_pictures(input, options);
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>{0}: collision geometry report</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n"
+      "{2}{3}{4}{5}{6}{7}{8}<footer>Made by prohull {9}. Lengths of bounds are rounded to the safe side.</footer>\n"
+      "</main>\n</body>\n</html>\n",
+      html_escaped(input.file.robot.name), page_style(), head(input), overview(input, drawn.robot), marks(input),
+      links_table(input), motion_section(input), cards(input, drawn), words(input), html_escaped(input.version));
+}
+
+}  // namespace prohull::robot

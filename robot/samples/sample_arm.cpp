@@ -1,0 +1,348 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "robot/samples/sample_parts.h"
+
+// The arm is a chain of links that stand on a joint and hold the next one beside them, on a housing, and of links that
+// hang on such a housing with a hub and rise to the next joint. Every second one rises on the other side.
+//
+//      |  | tube              seen along x; the joints' axes are
+//    __|  |__    hanging      vertical and horizontal in turn
+//   |  hub   |
+//   |________|
+//        ________
+//   |   | housing|
+//   |___|__    __|   standing
+//          |  | tube
+
+namespace prohull::robot {
+namespace {
+
+constexpr double kQuarterTurn = std::numbers::pi / 2;
+constexpr double kBaseHeight = 0.15;
+constexpr double kGap = 0.001;  // between links
+constexpr double kBoltHeight = 0.0016;
+
+struct Standing {
+  double tube, housing;  // radii
+  double height;         // of the housing's axis
+  double reach, back;    // of the housing, to the next link and away from it
+  double side;           // 1 or -1: the next link is there, along y
+};
+struct Hanging {
+  double hub;          // radius
+  double middle;       // of the hub, where the tube rises
+  double length;       // of the tube
+  double first, last;  // radii of the tube
+  double shift;        // of the tube's end, along z
+  double side;         // of the link before
+};
+
+constexpr std::array<Standing, 3> kStanding{{{0.058, 0.062, 0.105, 0.070, 0.062, 1},
+                                             {0.047, 0.051, 0.088, 0.058, 0.052, -1},
+                                             {0.039, 0.043, 0.076, 0.049, 0.045, 1}}};
+constexpr std::array<Hanging, 3> kHanging{{{0.062, 0.064, 0.290, 0.054, 0.047, 0, 1},
+                                           {0.051, 0.053, 0.270, 0.043, 0.039, -0.026, -1},
+                                           {0.043, 0.046, 0.090, 0.037, 0.036, 0, 1}}};
+
+/// A lid with bolts on it.
+TriangleMesh cover(double radius, const Detail& detail) {
+  const bool is_over_bolts = detail.is_around;
+  const double height = 0.009 + (is_over_bolts ? kBoltHeight + 0.0004 : 0);
+  TriangleMesh lid = disk(radius, height, 0, 0.006, detail, Ends::OpenBottom);
+  if (!detail.is_export) return lid;
+  const Detail small{.segments = detail.segments / 4};
+  return together({lid, at({0, 0, height}, {}, in_circle(bolt(0.0042, kBoltHeight, small), 6, 0.68 * radius)),
+                   at({0, 0, height}, {},
+                      turned({{{0.30 * radius, 0, 0}},
+                              {{0.30 * radius, 0, 0.0008}},
+                              {{0.26 * radius, 0, 0.0008}},
+                              {{0.26 * radius, 0, 0}}},
+                             detail, Ends::Open))});
+}
+
+/// A ring at the end of a tube.
+TriangleMesh collar(double radius, double height, const Detail& detail) {
+  return disk(radius, height, 0.003, 0.003, detail);
+}
+
+/// A cylinder with a groove near its bottom, where the next link begins.
+TriangleMesh drum(double radius, double length, const Detail& detail) {
+  const double from = 0.013, to = 0.016, groove = radius - 0.0025;
+  if (!detail.is_export) return disk(radius, length, 0.003, 0.2 * radius, detail);
+  return turned({{{0.5 * radius, 0, 0}},
+                 {{radius, 0, 0}, 0.003},
+                 {{radius, 0, from}},
+                 {{groove, 0, from}},
+                 {{groove, 0, to}},
+                 {{radius, 0, to}},
+                 {{radius, 0, length}, 0.2 * radius},
+                 {{0.5 * radius, 0, length}}},
+                detail);
+}
+
+TriangleMesh standing(const Standing& s, const Detail& detail) {
+  const double upper = 0.94 * s.housing;
+  const TriangleMesh tube = turned({{{0.5 * s.tube, 0, kGap}},
+                                    {{s.tube, 0, kGap}},
+                                    {{s.tube, 0, 0.3 * s.height}, 0.08},
+                                    {{upper, 0, s.height}},
+                                    {{0.5 * upper, 0, s.height}}},
+                                   detail, Ends::OpenTop);
+  const Vec3 back{s.side * kQuarterTurn, 0, 0};  // turns z away from the next link
+  return together({at({0, 0, kGap}, {}, collar(1.06 * s.tube, 0.016, detail)), tube,
+                   at({0, s.side * (s.reach - kGap), s.height}, back, drum(s.housing, s.reach + s.back, detail)),
+                   at({0, -s.side * s.back, s.height}, back, cover(0.76 * s.housing, detail))});
+}
+
+TriangleMesh short_tube(const Hanging& h, const Detail& detail) {
+  return swept({{{0, 0, 0}}, {{0, 0, h.length - kGap}}}, h.first, h.last, detail, Ends::OpenBottom);
+}
+
+TriangleMesh long_tube(const Hanging& h, const Detail& detail) {
+  const double waist = 0.84 * h.last;
+  return turned({{{0.5 * h.first, 0, 0}},
+                 {{h.first, 0, 0}},
+                 {{h.first, 0, 1.1 * h.hub}, 0.05},
+                 {{waist, 0, 0.45 * h.length}, 0.2},
+                 {{waist, 0, 0.72 * h.length}, 0.08},
+                 {{h.last, 0, h.length - 0.03}, 0.03},
+                 {{h.last, 0, h.length - kGap}},
+                 {{0.5 * h.last, 0, h.length - kGap}}},
+                detail, Ends::OpenBottom);
+}
+
+TriangleMesh bent_tube(const Hanging& h, const Detail& detail) {
+  const double y = h.side * h.shift;
+  return swept(
+      {{{0, 0, 0}}, {{0, 0, 0.4 * h.length}, 0.12}, {{0, y, 0.72 * h.length}, 0.12}, {{0, y, h.length - kGap}}},
+      h.first, h.last, detail, Ends::OpenBottom);
+}
+
+/// A hose with two clamps along a bent tube.
+TriangleMesh hose(const Hanging& h, const Detail& detail) {
+  const double y = h.side * h.shift, top = h.length - 0.012;
+  const double lower = h.first + 0.006, upper = h.last + 0.006;
+  const Detail thin{.segments = detail.segments / 3, .is_around = detail.is_around, .is_export = detail.is_export};
+  const TriangleMesh clamp = rounded_box({0.022, 0.020, 0.012}, 0.004, 0.002, thin);
+  return together({swept({{{0.75 * h.hub, 0, 0.02}},
+                          {{lower, 0, 1.3 * h.hub}, 0.04},
+                          {{lower, 0, 0.4 * h.length}, 0.10},
+                          {{upper, y, 0.74 * h.length}, 0.10},
+                          {{upper, y, top - 0.02}, 0.012},
+                          {{0.6 * h.last, y, top}}},
+                         0.005, 0.005, thin),
+                   at({lower - 0.004, 0, 0.34 * h.length}, {}, clamp),
+                   at({upper - 0.004, y, 0.82 * h.length}, {}, inside_out(clamp))});
+}
+
+TriangleMesh hanging_without_cover(const Hanging& h, const Detail& detail) {
+  const Vec3 upwards{h.side * kQuarterTurn, 0, 0};  // turns z to where the tube rises
+  TriangleMesh rising = h.shift != 0           ? together({bent_tube(h, detail), hose(h, detail)})
+                        : h.length < 3 * h.hub ? short_tube(h, detail)
+                                               : long_tube(h, detail);
+  append(rising, at({0, h.side * h.shift, h.length - 0.017 - kGap}, {}, collar(1.06 * h.last, 0.017, detail)));
+  return together(
+      {at({0, 0, kGap}, {}, drum(h.hub, 2 * h.middle - kGap, detail)), at({0, 0, h.middle}, upwards, rising)});
+}
+
+Vec3 cover_place(const Hanging& h) { return {0, 0, 2 * h.middle}; }
+
+TriangleMesh hanging(const Hanging& h, const Detail& detail) {
+  return together({hanging_without_cover(h, detail), at(cover_place(h), {}, cover(0.76 * h.hub, detail))});
+}
+
+/// Two plugs on a box.
+TriangleMesh connectors(const Detail& detail) {
+  const Vec3 backwards{0, -kQuarterTurn, 0};
+  std::vector<TriangleMesh> parts{at({-0.066, 0, 0.028}, {}, rounded_box({0.05, 0.076, 0.056}, 0.008, 0.004, detail))};
+  for (const double y : {-0.018, 0.018})
+    parts.push_back(at({-0.091, y, 0.056}, backwards, disk(0.011, 0.012, 0, 0.002, detail, Ends::OpenBottom)));
+  return together(parts);
+}
+
+TriangleMesh base(const Detail& detail) {
+  const double top = kStanding[0].tube;
+  std::vector<TriangleMesh> parts{disk(0.098, 0.014, 0.001, 0.004, detail),
+                                  turned({{{0.04, 0, 0.01}},
+                                          {{0.080, 0, 0.01}},
+                                          {{0.080, 0, 0.05}, 0.05},
+                                          {{top + 0.004, 0, 0.105}, 0.05},
+                                          {{top + 0.004, 0, 0.128}},
+                                          {{0.5 * top, 0, 0.128}}},
+                                         detail, Ends::Open),
+                                  at({0, 0, 0.128}, {}, collar(1.06 * top, kBaseHeight - 0.128, detail)),
+                                  connectors(detail)};
+  if (detail.is_export)
+    parts.push_back(
+        at({0, 0, 0.014}, {}, in_circle(bolt(0.006, 0.0018, {.segments = 24}), 6, 0.088, kQuarterTurn / 3)));
+  return together(parts);
+}
+
+TriangleMesh tool_flange(const Detail& detail) {
+  const double wide = kHanging[2].last, narrow = 0.0315;
+  return together(
+      {at({0, 0, kGap}, {}, drum(wide, 0.034, detail)),
+       at({0, 0, 0.03}, {},
+          turned({{{0.010, 0, 0}},
+                  {{narrow, 0, 0}},
+                  {{narrow, 0, 0.016}, 0.001},
+                  {{0.016, 0, 0.016}},
+                  {{0.016, 0, 0.010}},
+                  {{0.006, 0, 0.010}}},
+                 detail, Ends::OpenBottom)),
+       at({0, 0, 0.046}, {}, in_circle(bolt(0.003, 0.0015, {.segments = 24}), 4, 0.025)),
+       at({0, 0, 0.04}, {}, inside_out(in_circle(disk(0.003, 0.008, 0, 0.001, {.segments = 24}), 1, 0.025, 0.4)))});
+}
+
+std::vector<std::pair<std::string, TriangleMesh>> meshes() {
+  const Detail fine, coarse{.segments = 20, .is_export = false}, less_coarse{.segments = 28, .is_export = false},
+      around{.segments = 12, .is_around = true, .is_export = false},
+      finer_around{.segments = 40, .is_around = true, .is_export = false};
+  return {
+      {"meshes/visual/base.stl", base(fine)},
+      {"meshes/visual/link1.stl", standing(kStanding[0], fine)},
+      {"meshes/visual/link2.stl", hanging_without_cover(kHanging[0], fine)},
+      {"meshes/visual/link2_cover.stl", cover(0.76 * kHanging[0].hub, fine)},
+      {"meshes/visual/link3.stl", standing(kStanding[1], fine)},
+      {"meshes/visual/link4.stl", hanging(kHanging[1], fine)},
+      {"meshes/visual/link5.stl", standing(kStanding[2], fine)},
+      {"meshes/visual/link6.stl", hanging(kHanging[2], fine)},
+      {"meshes/visual/link7.stl", tool_flange(fine)},
+      {"meshes/collision/base.stl", base(coarse)},
+      {"meshes/collision/link1.stl", standing(kStanding[0], coarse)},
+      {"meshes/collision/link2.stl", loose_convex_hull(hanging(kHanging[0], finer_around))},
+      {"meshes/collision/link4.stl", hanging(kHanging[1], coarse)},
+      {"meshes/collision/link5.stl", standing(kStanding[2], less_coarse)},
+      {"meshes/collision/link6.stl", hanging(kHanging[2], around)},
+  };
+}
+
+constexpr const char* kHead = R"(<?xml version="1.0"?>
+<!-- A robot arm of seven joints, about 1.1 m long. At 0 all joints are where the arm waits. -->
+<robot name="sample_arm">
+  <material name="shell">
+    <color rgba="0.92 0.93 0.94 1"/>
+  </material>
+  <material name="trim">
+    <color rgba="0.16 0.38 0.62 1"/>
+  </material>
+
+)";
+
+constexpr const char* kTail = R"(  <!-- For the simulator; nothing else reads it. -->
+  <gazebo reference="link7">
+    <mu1>0.6</mu1>
+    <selfCollide>true</selfCollide>
+  </gazebo>
+</robot>
+)";
+
+std::string visual(const std::string& mesh, const std::string& material, const std::string& origin = "") {
+  return fmt::format(R"(    <visual>
+{}      <geometry>
+        <mesh filename="meshes/visual/{}.stl"/>
+      </geometry>
+      <material name="{}"/>
+    </visual>
+)",
+                     origin, mesh, material);
+}
+
+std::string collision(const std::string& geometry, const std::string& origin = "") {
+  return fmt::format(R"(    <collision>
+{}      <geometry>
+        {}
+      </geometry>
+    </collision>
+)",
+                     origin, geometry);
+}
+
+std::string collision_mesh(const std::string& name) {
+  return collision(fmt::format(R"(<mesh filename="meshes/collision/{}.stl"/>)", name));
+}
+
+std::string origin(const Vec3& xyz, const Vec3& rpy = {}) {
+  return fmt::format("      <origin xyz=\"{:.6g} {:.6g} {:.6g}\" rpy=\"{:.10g} {:.10g} {:.10g}\"/>\n", xyz.x, xyz.y,
+                     xyz.z, rpy.x, rpy.y, rpy.z);
+}
+
+std::string link(const std::string& name, const std::string& elements) {
+  return fmt::format("  <link name=\"{}\">\n{}  </link>\n", name, elements);
+}
+
+/// Two boxes: one around the tube, one around the housing and its cover.
+std::string two_boxes(const Standing& s) {
+  const auto box = [](const Vec3& center, const Vec3& size) {
+    return collision(fmt::format(R"(<box size="{:.4f} {:.4f} {:.4f}"/>)", size.x, size.y, size.z), origin(center));
+  };
+  const double wide = 2.14 * s.tube, high = 2 * s.housing + 0.002;
+  const double back = s.back + 0.012;
+  return box({0, 0, s.height / 2}, {wide, wide, s.height}) +
+         box({0, s.side * (s.reach - back) / 2, s.height}, {high, s.reach + back, high});
+}
+
+std::string links() {
+  const Standing& third = kStanding[1];
+  const Hanging& second = kHanging[0];
+  return link("base_link",
+              visual("base", "shell") + collision_mesh("base") + inertial(3.2, {-0.01, 0, 0.06}, {0.18, 0.16, 0.15})) +
+         link("link1",
+              visual("link1", "shell") + collision_mesh("link1") + inertial(2.6, {0, 0.01, 0.07}, {0.12, 0.14, 0.16})) +
+         link("link2", visual("link2", "shell") + visual("link2_cover", "trim", origin(cover_place(second))) +
+                           collision_mesh("link2") + inertial(3.1, {0, -0.12, 0.064}, {0.11, 0.34, 0.12})) +
+         "  <!-- Two boxes are enough here. -->\n" +
+         link("link3",
+              visual("link3", "shell") + two_boxes(third) + inertial(1.7, {0, -0.01, 0.06}, {0.1, 0.12, 0.13})) +
+         link("link4",
+              visual("link4", "shell") + collision_mesh("link4") + inertial(1.9, {0, 0.1, 0.04}, {0.09, 0.3, 0.1})) +
+         link("link5",
+              visual("link5", "shell") + collision_mesh("link5") + inertial(1.1, {0, 0.01, 0.05}, {0.08, 0.1, 0.11})) +
+         link("link6", visual("link6", "shell") + collision_mesh("link6") +
+                           inertial(0.9, {0, -0.03, 0.046}, {0.08, 0.13, 0.09})) +
+         link("link7", visual("link7", "trim") +
+                           collision(R"(<cylinder radius="0.0375" length="0.049"/>)", origin({0, 0, 0.0245})) +
+                           inertial(0.3, {0, 0, 0.02}, {0.07, 0.07, 0.045}));
+}
+
+/// How far a joint moves, and how fast and strong it is.
+struct Limits {
+  double lower, upper, effort, velocity;
+};
+
+std::string joint(std::size_t number, const Vec3& xyz, const Vec3& rpy, double axis, const Limits& limits) {
+  return fmt::format(R"(  <joint name="joint{0}" type="revolute">
+    <parent link="{1}"/>
+    <child link="link{0}"/>
+{2}    <axis xyz="0 0 {3}"/>
+    <limit lower="{4}" upper="{5}" effort="{6}" velocity="{7}"/>
+  </joint>
+)",
+                     number, number == 1 ? "base_link" : fmt::format("link{}", number - 1), origin(xyz, rpy), axis,
+                     limits.lower, limits.upper, limits.effort, limits.velocity);
+}
+
+std::string joint_on(std::size_t number, const Standing& s, double lean, const Limits& limits) {
+  return joint(number, {0, s.side * s.reach, s.height}, {-s.side * kQuarterTurn, lean, 0}, s.side, limits);
+}
+
+std::string joint_on(std::size_t number, const Hanging& h, const Limits& limits) {
+  return joint(number, {0, -h.side * h.length, h.middle + h.shift}, {h.side * kQuarterTurn, 0, 0}, 1, limits);
+}
+
+std::string joints() {
+  return joint(1, {0, 0, kBaseHeight}, {}, 1, {-2.9, 2.9, 180, 2}) +
+         joint_on(2, kStanding[0], -0.35, {-1.85, 2.55, 180, 2}) + joint_on(3, kHanging[0], {-2.9, 2.9, 90, 2.5}) +
+         joint_on(4, kStanding[1], 1.75, {-4.5, 1, 90, 2.5}) + joint_on(5, kHanging[1], {-2.9, 2.9, 40, 3.1}) +
+         joint_on(6, kStanding[2], 1.55, {-4.1, 1, 40, 3.1}) + joint_on(7, kHanging[2], {-3.05, 3.05, 40, 3.1});
+}
+
+}  // namespace
+
+SampleRobot make_sample_arm() { return {kHead + links() + "\n" + joints() + kTail, meshes()}; }
+
+}  // namespace prohull::robot

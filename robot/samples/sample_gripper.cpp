@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "robot/samples/sample_parts.h"
+
+// Each finger is held by two bars of equal length, the driver and the follower, so that it moves without turning. The
+// gripper opens along x. Its meshes are in millimetres, as many are; the URDF file scales them.
+//
+//          finger                  seen along y
+//     D____|
+//     |    B
+//     |    |  driver: A to B       L: from A to B, and from C to D
+//     C    |  follower: C to D
+//    ______A____
+//       palm
+
+namespace prohull::robot {
+namespace {
+
+constexpr double kQuarterTurn = std::numbers::pi / 2;
+constexpr Vec3 kA{30, 0, 92}, kC{12, 0, 104}, kL{45, 0, 35};
+constexpr Vec3 kD = {kC.x - kA.x, 0, kC.z - kA.z};  // in the frame of the finger, whose origin is B
+
+/// A plate in x and z, whose middle is at y.
+TriangleMesh upright(const Vec3& middle, double thickness, double pitch, const TriangleMesh& plate) {
+  return at({middle.x, middle.y + thickness / 2, middle.z}, {kQuarterTurn, pitch, 0}, plate);
+}
+
+/// Along y, about its middle.
+TriangleMesh pin(const Vec3& middle, double radius, double length, const Detail& detail) {
+  return at({middle.x, middle.y + length / 2, middle.z}, {kQuarterTurn, 0, 0}, disk(radius, length, 0.6, 0.6, detail));
+}
+
+TriangleMesh palm() {
+  const Detail fine{.segments = 72}, small{.segments = 36};
+  std::vector<TriangleMesh> parts{disk(37.5, 10, 0.5, 1.5, fine),
+                                  at({0, 0, 9}, {}, disk(31, 14, 0, 2, fine, Ends::OpenBottom)),
+                                  at({0, 0, 20}, {}, rounded_box({96, 58, 66}, 12, 5, fine)),
+                                  at({-48, 0, 40}, {0, -kQuarterTurn, 0}, disk(9, 12, 0, 3, small, Ends::OpenBottom))};
+  const std::vector<Corner> cheek{{{-43, -16, 0}, 3}, {{43, -16, 0}, 3}, {{39, 8, 0}, 8},
+                                  {{20, 22, 0}, 8},   {{-20, 22, 0}, 8}, {{-39, 8, 0}, 8}};
+  for (const double y : {-22., 22.}) parts.push_back(upright({0, y, 92}, 8, 0, plate(cheek, 8, 1, fine)));
+  for (const double x : {-1., 1.}) {
+    parts.push_back(pin({x * kA.x, 0, kA.z}, 4, 55, small));
+    parts.push_back(pin({x * kC.x, 0, kC.z}, 3, 55, small));
+  }
+  const TriangleMesh screws =
+      together({in_circle(bolt(2.5, 1.4, small), 2, 29, 0.5), in_circle(bolt(2.5, 1.4, small), 2, 29, -0.5)});
+  const TriangleMesh lid = together({rounded_box({62, 40, 3}, 6, 1, fine), at({0, 0, 3}, {}, screws)});
+  for (const double side : {-1., 1.})
+    parts.push_back(at({0, side * 29, 52}, {-side * kQuarterTurn, 0, 0}, side > 0 ? lid : inside_out(lid)));
+  return together(parts);
+}
+
+/// Two plates from the origin to L, and what they turn about.
+TriangleMesh bars(double width, double thickness, double apart, double boss, const Detail& detail) {
+  const double half = width / 2, end = norm(kL) + half, pitch = -std::atan2(kL.z, kL.x);
+  const TriangleMesh bar = plate({{{-half, -half, 0}, 0.98 * half},
+                                  {{end, -half, 0}, 0.98 * half},
+                                  {{end, half, 0}, 0.98 * half},
+                                  {{-half, half, 0}, 0.98 * half}},
+                                 thickness, 1, detail);
+  const double length = apart + thickness + 1;
+  return together({upright({0, apart / 2, 0}, thickness, pitch, bar),
+                   upright({0, -apart / 2, 0}, thickness, pitch, bar), pin({}, boss, length, detail),
+                   pin(kL, boss, length, detail)});
+}
+
+TriangleMesh driver(const Detail& detail) { return bars(18, 5, 28, 7, detail); }
+TriangleMesh follower(const Detail& detail) { return bars(12, 4, 16, 4, detail); }
+
+TriangleMesh finger(const Detail& detail) {
+  const Vec3 middle{-18, 0, 16};  // sees the whole outline
+  const std::vector<Corner> outline{{{26, -24, 0}, 6}, {{28, -10, 0}, 6}, {{6, 8, 0}, 8},    {{0, 54, 0}, 4},
+                                    {{-10, 58, 0}, 3}, {{-15, 53, 0}, 2}, {{-15, 10, 0}, 6}, {{-9, -3, 0}, 4},
+                                    {{-5, -14, 0}, 5}, {{10, -24, 0}, 5}};
+  return together(
+      {upright(middle, 20, 0, plate(outline, 20, 1.5, detail)), pin({}, 5, 25, detail), pin(kD, 4, 24, detail)});
+}
+
+/// In its own frame: on z = 0, grips along z.
+TriangleMesh pad(const Detail& detail) {
+  std::vector<TriangleMesh> parts{rounded_box({40, 20, 2}, 2, 0.5, detail)};
+  for (int rib = 0; rib < 8; ++rib)
+    parts.push_back(at({-17.5 + 5 * rib, 0, 1.5}, {}, rounded_box({3, 19, 1.5}, 0.8, 0.5, detail)));
+  return together(parts);
+}
+
+std::vector<std::pair<std::string, TriangleMesh>> meshes() {
+  const Detail flat{.segments = 48}, coarse{.segments = 16, .is_export = false};
+  return {{"meshes/visual/palm.stl", palm()},
+          {"meshes/visual/driver.stl", driver(flat)},
+          {"meshes/visual/follower.stl", follower(flat)},
+          {"meshes/visual/finger.stl", finger(flat)},
+          {"meshes/visual/pad.stl", pad({.segments = 24})},
+          {"meshes/collision/palm.stl", loose_convex_hull(palm())},
+          {"meshes/collision/driver.stl", driver(coarse)},
+          {"meshes/collision/finger.stl", loose_convex_hull(finger(coarse))}};
+}
+
+std::string mesh(const std::string& path, const char* scale = "0.001 0.001 0.001") {
+  return fmt::format(R"(<mesh filename="meshes/{}.stl" scale="{}"/>)", path, scale);
+}
+
+std::string geometry(const char* tag, const std::string& form, const std::string& more = "") {
+  return fmt::format("    <{0}>\n{2}      <geometry>\n        {1}\n      </geometry>\n    </{0}>\n", tag, form, more);
+}
+
+std::string link(const std::string& name, const std::string& elements) {
+  return fmt::format("  <link name=\"{}\">\n{}  </link>\n", name, elements);
+}
+
+std::string bar_box() {
+  const Vec3 middle = kL * 0.0005;
+  return geometry("collision", fmt::format(R"(<box size="{:.4f} 0.021 0.0124"/>)", norm(kL) * 0.001 + 0.0126),
+                  fmt::format("      <origin xyz=\"{:.6g} 0 {:.6g}\" rpy=\"0 {:.6g} 0\"/>\n", middle.x, middle.z,
+                              -std::atan2(kL.z, kL.x)));
+}
+
+std::string finger_links(const std::string& side, const char* scale) {
+  return link(side + "_driver", geometry("visual", mesh("visual/driver")) +
+                                    geometry("collision", mesh("collision/driver")) +
+                                    inertial(0.06, {0.022, 0, 0.018}, {0.05, 0.03, 0.04})) +
+         link(side + "_follower", geometry("visual", mesh("visual/follower")) + bar_box() +
+                                      inertial(0.03, {0.022, 0, 0.018}, {0.05, 0.02, 0.04})) +
+         link(side + "_finger", geometry("visual", mesh("visual/finger", scale)) +
+                                    geometry("collision", mesh("collision/finger", scale)) +
+                                    inertial(0.05, {-0.018, 0, 0.03}, {0.02, 0.02, 0.08})) +
+         link(side + "_pad", geometry("visual", mesh("visual/pad")) +
+                                 geometry("collision", R"(<box size="0.0404 0.0204 0.0034"/>)",
+                                          "      <origin xyz=\"0 0 0.0015\" rpy=\"0 0 0\"/>\n") +
+                                 inertial(0.01, {0, 0, 0.001}, {0.04, 0.02, 0.003}));
+}
+
+std::string joint(const std::string& name, const std::string& parent, const std::string& child, const Vec3& at,
+                  double yaw, const std::string& mimic) {
+  return fmt::format(R"(  <joint name="{}" type="revolute">
+    <parent link="{}"/>
+    <child link="{}"/>
+    <origin xyz="{:.6g} {:.6g} {:.6g}" rpy="0 0 {:.10g}"/>
+    <axis xyz="0 -1 0"/>
+    <limit lower="{}" upper="{}" effort="40" velocity="2"/>
+{}  </joint>
+)",
+                     name, parent, child, at.x * 0.001, at.y * 0.001, at.z * 0.001, yaw,
+                     mimic.find('-') == std::string::npos ? "0" : "-0.8",
+                     mimic.find('-') == std::string::npos ? "0.8" : "0", mimic);
+}
+
+std::string mimic(int multiplier) {
+  return fmt::format("    <mimic joint=\"left_driver_joint\" multiplier=\"{}\" offset=\"0\"/>\n", multiplier);
+}
+
+std::string finger_joints(const std::string& side, double direction, double yaw, const std::string& driver_mimic) {
+  const auto on_palm = [&](const Vec3& p) { return Vec3{direction * p.x, 0, p.z}; };
+  return joint(side + "_driver_joint", "palm", side + "_driver", on_palm(kA), yaw, driver_mimic) +
+         joint(side + "_follower_joint", "palm", side + "_follower", on_palm(kC), yaw, mimic(1)) +
+         joint(side + "_finger_joint", side + "_driver", side + "_finger", kL, 0, mimic(-1)) +
+         fmt::format(R"(  <joint name="{0}_pad_joint" type="fixed">
+    <parent link="{0}_finger"/>
+    <child link="{0}_pad"/>
+    <origin xyz="-0.033 0 0.048" rpy="0 {1:.10g} 0"/>
+  </joint>
+)",
+                     side, -kQuarterTurn);
+}
+
+}  // namespace
+
+SampleRobot make_sample_gripper() {
+  return {
+      fmt::format(R"(<?xml version="1.0"?>
+<!-- A gripper that opens 72 mm wide. All joints follow left_driver_joint: 0 is open, 0.8 is closed. -->
+<robot name="sample_gripper">
+{}{}  <!-- The right finger is the left one, mirrored. -->
+{}
+{}{}  <gazebo>
+    <static>false</static>
+  </gazebo>
+</robot>
+)",
+                  link("palm", geometry("visual", mesh("visual/palm")) + geometry("collision", mesh("collision/palm")) +
+                                   inertial(0.65, {0, 0, 0.055}, {0.1, 0.06, 0.11})),
+                  finger_links("left", "0.001 0.001 0.001"), finger_links("right", "0.001 -0.001 0.001"),
+                  finger_joints("left", 1, 0, ""), finger_joints("right", -1, std::numbers::pi, mimic(1))),
+      meshes()};
+}
+
+}  // namespace prohull::robot

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "prohull/collide.h"
+
+namespace prohull::robot {
+
+/// The rotation that takes the x, y and z axis to these, then the translation.
+Pose of_columns(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& translation = {});
+
+/// First `inner`, then `outer`: the pose in the outer frame of what `inner` places in a frame that `outer` places.
+Pose composed(const Pose& outer, const Pose& inner);
+Pose inverse(const Pose& pose);
+
+/// Roll, pitch and yaw in radians, about the fixed axes x, y and z, in this order: as URDF and SDF say it.
+Pose pose_of_rpy(const Vec3& rpy, const Vec3& translation = {});
+
+/// About an axis of any length but 0 through the origin, by `angle` radians.
+Pose rotation_about(const Vec3& axis, double angle);
+
+Pose translation_by(const Vec3& offset);
+
+}  // namespace prohull::robot

@@ -1,0 +1,85 @@
+#include "robot/hulls/budgets.h"
+
+#include <gtest/gtest.h>
+
+#include "prohull/error.h"
+#include "robot_testing.h"
+
+namespace prohull::robot {
+namespace {
+
+const Robot kRobot{.name = "crane",
+                   .links = {{.name = "base link"}, {.name = "arm"}, {.name = "forearm"}, {.name = "tool0"}}};
+
+LinkHullOptions read(std::string_view text, std::size_t sets = 1, const Robot& robot = kRobot) {
+  LinkHullOptions options;
+  options.budget.faces.assign(sets, 500);
+  read_budgets(text, "budgets.yaml", robot, options);
+  return options;
+}
+
+std::string message_of(std::string_view text) {
+  return refusal_of([&] { read(text); });
+}
+
+TEST(Budgets, OfALinkBeginWithTheDefault) {
+  const LinkHullOptions options = read(
+      "default: {faces: 300, padding: 5mm}\n"
+      "links:\n"
+      "  forearm: {max_distance: 0.1in}\n"
+      "  tool0: {skip: true}\n"
+      "  'base link':\n");
+  EXPECT_EQ(options.budget, (Budget{.faces = {300}, .padding = 0.005}));
+  EXPECT_EQ(options.budgets.at("forearm"), (Budget{.faces = {300}, .max_distance = 0.1 * 0.0254, .padding = 0.005}));
+  EXPECT_TRUE(options.budgets.at("tool0").skip);
+  EXPECT_EQ(options.budgets.at("base link"), options.budget);
+  EXPECT_EQ(read("").budget, Budget{});
+}
+
+TEST(Budgets, HaveANumberOfFacesForEachSet) {
+  EXPECT_EQ(read("default: {faces: [800, 100]}", 2).budget.faces, (std::vector<std::size_t>{800, 100}));
+  EXPECT_EQ(message_of("links:\n  arm: {faces: [800, 100]}"),
+            "budgets.yaml: line 2: 2 numbers of faces, but 1 sets of hulls are asked for");
+}
+
+TEST(Budgets, RefuseWhatTheyDoNotKnowWithItsLine) {
+  EXPECT_EQ(message_of("links:\n  arm: {face: 3}"),
+            "budgets.yaml: line 2: 'face' is not known; expected faces, max_distance, padding, skip");
+  EXPECT_EQ(message_of("limits: 3"), "budgets.yaml: line 1: 'limits' is not known; expected default, links");
+  EXPECT_NE(message_of("default: {faces: many}").find("line 1: 'many': expected a number of faces"), std::string::npos);
+  EXPECT_NE(message_of("default: {faces: 3}").find("at least 4"), std::string::npos);
+  EXPECT_NE(message_of("default: {faces: [500], padding: 5 miles}").find("is no length"), std::string::npos);
+  EXPECT_NE(message_of("default: {padding: -1mm}").find("is no length"), std::string::npos);
+  EXPECT_NE(message_of("default: {skip: maybe}").find("true or false"), std::string::npos);
+  EXPECT_NE(message_of("- a\n- b").find("expected default, links"), std::string::npos);
+  EXPECT_NE(message_of("links: [arm]").find("line 1"), std::string::npos);
+  EXPECT_NE(message_of("links:\n  arm: {}\n  arm: {}").find("line 3: the link arm occurs twice"), std::string::npos);
+  EXPECT_NE(message_of("links:\n  arm: {}\n  elbow: {}").find("budgets.yaml: line 3: crane has no link 'elbow'"),
+            std::string::npos);
+  EXPECT_NE(message_of("links:\n  [arm]: {}").find("line 2: '...': expected the name of a link"), std::string::npos);
+  EXPECT_NE(message_of("default: {faces: [500").find("no YAML"), std::string::npos);
+}
+
+TEST(Budgets, AreReadAsTheyWereWritten) {
+  Robot robot{.name = "r", .links = {{.name = "arm: \"1\"\n"}, {.name = "empty"}}};
+  robot.links[0].visual.resize(1);
+  LinkHullOptions options;
+  options.budget = {.faces = {500, 80}, .max_distance = 0.002, .padding = 0.0005};
+  const std::string text = budgets_text(robot, options);
+  EXPECT_EQ(text.find("empty"), std::string::npos);
+  const LinkHullOptions again = read(text, 2, robot);
+  EXPECT_EQ(again.budget, options.budget);
+  ASSERT_EQ(again.budgets.size(), 1U);
+  EXPECT_EQ(again.budgets.at(robot.links[0].name), options.budget);
+}
+
+TEST(LengthOf, TakesUnits) {
+  EXPECT_EQ(length_of("0.5", "--allow"), 0.5);
+  EXPECT_EQ(length_of("5mm", "--allow"), 5 * 0.001);
+  EXPECT_EQ(length_of("2 cm", "--allow"), 2 * 0.01);
+  for (const char* bad : {"", "mm", "5mmm", "nan", "inf", "-1", "1e400", "5mm "})
+    EXPECT_THROW(length_of(bad, "--allow"), InputError) << bad;
+}
+
+}  // namespace
+}  // namespace prohull::robot

@@ -1,0 +1,322 @@
+#include "robot/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "prohull/error.h"
+#include "prohull/sample.h"
+#include "robot/files/xml.h"
+#include "robot/report/pictures.h"
+#include "robot/report/report_facts.h"
+#include "robot/report/report_page.h"
+
+namespace prohull::robot {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+
+RobotFile robot_of(const std::vector<std::string>& names) {
+  RobotFile file;
+  file.path = "arm.urdf";
+  file.robot.name = "arm";
+  for (const std::string& name : names) {
+    file.robot.links.emplace_back();
+    file.robot.links.back().name = name;
+  }
+  return file;
+}
+
+TriangleMesh scaled(TriangleMesh mesh, double factor) {
+  for (Vec3& p : mesh.positions) p = factor * p;
+  return mesh;
+}
+
+LinkHulls certified_hulls(std::size_t link) {
+  LinkHulls hulls;
+  hulls.link = link, hulls.status = LinkStatus::Hulled;
+  hulls.triangles = make_sample("sphere", 300);
+  hulls.sealed_volume = 4.0, hulls.convex_volume = 8.0;
+  LinkHull hull;
+  hull.target_faces = 100;
+  hull.mesh = scaled(make_sample("sphere", 100), 1.2);
+  hull.certified = hull.target_reached = true;
+  hull.proof = "coverage", hull.source = "mesh";
+  hull.volume = 4.2;
+  hulls.hulls.push_back(hull);
+  return hulls;
+}
+
+LinkCheck check_with(std::size_t link, CheckVerdict verdict) {
+  LinkCheck check;
+  check.link = link, check.verdict = verdict;
+  if (verdict == CheckVerdict::Leaks) check.sticks_out_at_least = 0.81e-3, check.sticks_out_at_most = 0.83e-3;
+  if (verdict == CheckVerdict::Undecided) check.sticks_out_at_most = 0.83e-3;
+  return check;
+}
+
+ReportInput input_of(const RobotFile& file) {
+  return {.file = file, .hulls = {}, .shipped = {}, .motion = {}, .allow = 0, .seconds = 1.5, .version = "1.2.3"};
+}
+
+/// A robot of which each link has another verdict.
+ReportInput all_verdicts(const RobotFile& file) {
+  ReportInput input = input_of(file);
+  for (std::size_t i = 0; i < 6; ++i) input.shipped.push_back(check_with(i, CheckVerdict(i)));
+  return input;
+}
+
+bool has(const std::string& text, std::string_view part) { return text.find(part) != text.npos; }
+
+std::size_t count(const std::string& text, std::string_view part) {
+  std::size_t found = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; at += part.size()) ++found;
+  return found;
+}
+
+TEST(ReportFacts, ABoundStaysOneWhenItIsRounded) {
+  EXPECT_EQ(length_text(0.00082341), "0.823 mm");
+  EXPECT_EQ(length_text(0.00082341, Rounded::Up), "0.824 mm");
+  EXPECT_EQ(length_text(0.00082391, Rounded::Down), "0.823 mm");
+  EXPECT_EQ(length_text(0.00083, Rounded::Up), "0.830 mm");
+  EXPECT_EQ(length_text(0.0123456), "12.3 mm");
+  EXPECT_EQ(length_text(1.2345), "1.23 m");
+  EXPECT_EQ(length_text(4.2e-6), "4.20 µm");
+  EXPECT_EQ(length_text(0), "0 mm");
+  EXPECT_EQ(length_text(kInfinity), "unbounded");
+  EXPECT_EQ(range_text(0.00081, 0.00083), "0.810 to 0.830 mm");
+  EXPECT_EQ(range_text(0.00081, 0.00081), "0.810 mm");
+}
+
+TEST(ReportFacts, CountsHaveSeparatorsAndPlurals) {
+  EXPECT_EQ(count_text(999), "999");
+  EXPECT_EQ(count_text(1000), "1,000");
+  EXPECT_EQ(count_text(12003004), "12,003,004");
+  EXPECT_EQ(counted(1, "link"), "1 link");
+  EXPECT_EQ(counted(0, "link"), "0 links");
+}
+
+TEST(ReportFacts, CleanTextIsUtf8WithoutControlCharacters) {
+  const std::string mark = "\xEF\xBF\xBD";
+  EXPECT_EQ(clean_text("gr\xC3\xBC\xC3\x9F \xF0\x9F\xA4\x96"), "gr\xC3\xBC\xC3\x9F \xF0\x9F\xA4\x96");
+  EXPECT_EQ(clean_text("gr\xFC\xDF"), "gr" + mark + mark);
+  EXPECT_EQ(clean_text(std::string_view("a\0b\x1b\x7f", 5)), "a" + mark + "b" + mark + mark);
+  EXPECT_EQ(clean_text("\xC0\xAF"), mark + mark) << "an overlong slash";
+  EXPECT_EQ(clean_text("\xED\xA0\x80"), mark + mark + mark) << "a surrogate";
+  EXPECT_EQ(clean_text("\xE2\x82"), mark + mark) << "cut off";
+  EXPECT_EQ(clean_text("\xF8\x88\x80\x80\x80").size(), 5 * mark.size());
+}
+
+TEST(ReportFacts, AHullThatIsNotCertifiedIsAFailureAndALargeOneNeedsALook) {
+  const RobotFile file = robot_of({"a", "b"});
+  ReportInput input = input_of(file);
+  input.hulls = {certified_hulls(0), certified_hulls(1)};
+  EXPECT_TRUE(marks_of(input).empty());
+  EXPECT_TRUE(findings_of(input).front().good);
+
+  input.hulls[0].hulls[0].volume = 4.8;
+  input.hulls[1].hulls[0].certified = false;
+  const std::vector<Mark> marks = marks_of(input);
+  ASSERT_EQ(marks.size(), 2);
+  EXPECT_EQ(marks[0].severity, Severity::Look);
+  EXPECT_EQ(marks[1].severity, Severity::Failure);
+  EXPECT_FALSE(findings_of(input).front().good);
+  EXPECT_EQ(totals_of(input).certified, 1);
+}
+
+TEST(ReportFacts, AMissedCollisionIsAFailure) {
+  const RobotFile file = robot_of({"a", "b"});
+  ReportInput input = input_of(file);
+  input.motion.emplace();
+  input.motion->pairs.push_back({.b = 1, .visual = 3, .hull = 2, .missed = 1});
+  EXPECT_EQ(totals_of(input).failures, 1);
+  EXPECT_FALSE(findings_of(input).back().good);
+  EXPECT_TRUE(has(report_html(input, {.pictures = false}), "✕ 1"));
+}
+
+TEST(ReportJson, HasAnEntryForEachLinkAndNoNumberThatIsNone) {
+  const RobotFile file = robot_of({"a", "b"});
+  ReportInput input = input_of(file);
+  input.hulls = {certified_hulls(0), {}};
+  input.hulls[1].link = 1;
+  input.hulls[0].sealed_volume = kNan;
+  input.hulls[0].hulls[0].distance.upper = kInfinity;
+  input.shipped = {check_with(0, CheckVerdict::Leaks), check_with(1, CheckVerdict::NoVisual)};
+  input.shipped[0].worst_point = {kNan, 0, 1};
+  const nlohmann::json report = nlohmann::json::parse(report_json(input).dump());
+  ASSERT_EQ(report["links"].size(), 2);
+  EXPECT_EQ(report["links"][0]["status"], "hulled");
+  EXPECT_TRUE(report["links"][0]["sealed_volume"].is_null());
+  EXPECT_TRUE(report["links"][0]["hulls"][0]["volume_ratio"].is_null());
+  EXPECT_TRUE(report["links"][0]["hulls"][0]["distance"]["at_most"].is_null());
+  EXPECT_EQ(report["links"][0]["shipped"]["verdict"], "leaks");
+  EXPECT_TRUE(report["links"][0]["shipped"]["worst_point"][0].is_null());
+  EXPECT_FALSE(report["links"][1]["shipped"].contains("sticks_out")) << "nothing was measured";
+  EXPECT_EQ(report["totals"]["certified"], 1);
+  EXPECT_NEAR(report["totals"]["median_convex_ratio"].get<double>(), 4.2 / 8, 1e-12);
+}
+
+TEST(ReportJson, CanBeWrittenWhateverBytesTheRobotHas) {
+  RobotFile file = robot_of({"\xFF\xFE", "a\x01"});
+  file.robot.name = "\xC3", file.notes = {"\x80"};
+  file.path = "\xFF.urdf";
+  EXPECT_NO_THROW((void)report_json(input_of(file)).dump());
+}
+
+TEST(ReportJunit, HasACaseForEachLinkAndAFailureForEachThatDoesNotPass) {
+  const RobotFile file = robot_of({"covered", "leaks", "undecided", "bare", "frame", "lost"});
+  const std::string text = report_junit(all_verdicts(file));
+  const XmlDocument document(text, "report.xml");
+  const XmlElement& suites = document.root();
+  EXPECT_EQ(suites.name, "testsuites");
+  EXPECT_EQ(*suites.attribute("failures"), "3");
+  EXPECT_EQ(*suites.attribute("errors"), "1");
+  EXPECT_EQ(*suites.attribute("skipped"), "1");
+  ASSERT_EQ(suites.children.size(), 1);
+  const auto& cases = suites.children[0]->children;
+  ASSERT_EQ(cases.size(), 6);
+  EXPECT_TRUE(cases[0]->children.empty());
+  for (const std::size_t failed : {1u, 2u, 3u}) {
+    ASSERT_TRUE(cases[failed]->child("failure")) << failed;
+    EXPECT_EQ(*cases[failed]->child("failure")->attribute("type"), name_of(CheckVerdict(failed)));
+  }
+  EXPECT_TRUE(has(*cases[1]->child("failure")->attribute("message"), "0.810 to 0.830 mm"));
+  EXPECT_TRUE(cases[4]->child("skipped"));
+  ASSERT_TRUE(cases[5]->child("error"));
+  EXPECT_EQ(*cases[5]->child("error")->attribute("type"), "missing");
+}
+
+TEST(ReportJunit, WhatIsAllowedPasses) {
+  const RobotFile file = robot_of({"covered", "leaks", "undecided", "bare", "frame", "lost"});
+  ReportInput input = all_verdicts(file);
+  input.allow = 1e-3;
+  EXPECT_EQ(count(report_junit(input), "<failure"), 1) << "what has no collision geometry";
+  EXPECT_EQ(count(report_junit(input), "<error "), 1) << "what has no file";
+}
+
+TEST(ReportJunit, AHullThatIsNotCertifiedFails) {
+  const RobotFile file = robot_of({"a"});
+  ReportInput input = input_of(file);
+  input.hulls = {certified_hulls(0)};
+  EXPECT_EQ(count(report_junit(input), "<failure"), 0);
+  input.hulls[0].hulls[0].certified = false;
+  EXPECT_EQ(count(report_junit(input), "<failure"), 1);
+}
+
+TEST(ReportJunit, CountsWhatWasNotCheckedAsErrors) {
+  const RobotFile file = robot_of({"lost", "leaks"});
+  ReportInput input = input_of(file);
+  input.shipped = {check_with(0, CheckVerdict::Missing), check_with(1, CheckVerdict::Leaks)};
+  const std::string junit = report_junit(input);
+  EXPECT_EQ(count(junit, "<error "), 1);
+  EXPECT_EQ(count(junit, "<failure "), 1);
+  EXPECT_EQ(count(junit, " failures=\"1\" errors=\"1\" skipped=\"0\""), 2) << "of the robot and of the suite";
+}
+
+TEST(ReportJunit, IsXmlWhateverBytesTheRobotHas) {
+  RobotFile file = robot_of({"<a> & \"b\" 'c' \xFF\x01"});
+  file.robot.name = "]]>\xFF";
+  ReportInput input = input_of(file);
+  input.shipped = {check_with(0, CheckVerdict::Leaks)};
+  input.shipped[0].notes = {"</failure> & \x02"};
+  const XmlDocument document(report_junit(input), "report.xml");
+  EXPECT_EQ(*document.root().children[0]->children[0]->attribute("name"), "<a> & \"b\" 'c' \xEF\xBF\xBD\xEF\xBF\xBD");
+}
+
+TEST(ReportPage, IsOneFileThatLoadsNothingAndTellsItsProgress) {
+  const RobotFile file = robot_of({"covered", "leaks", "undecided", "bare", "frame", "lost"});
+  ReportInput input = all_verdicts(file);
+  input.shipped[1].visual = make_sample("sphere", 100), input.shipped[1].collision = make_sample("box", 12);
+  double last = 0;
+  const Progress forward = [&](std::string_view stage, double fraction) {
+    EXPECT_EQ(stage, "draw");
+    EXPECT_GE(fraction, last);
+    last = fraction;
+    return true;
+  };
+  const std::string page = report_html(input, {.threads = 1, .progress = forward});
+  EXPECT_EQ(count(page, "<img"), 2) << "the robot, and the link that has meshes";
+  EXPECT_EQ(count(page, "src="), 2);
+  EXPECT_EQ(count(page, " src=\"data:image/png;base64,iVBORw0KGgo"), 2);
+  EXPECT_EQ(count(page, " alt=\""), 2);
+  EXPECT_TRUE(has(page, "sticks out farthest"));
+  for (const std::string_view loads : {"<script", "<link", "http:", "https:", "url(", "@import"})
+    EXPECT_FALSE(has(page, loads)) << loads;
+  EXPECT_DOUBLE_EQ(last, 1);
+}
+
+TEST(ReportPage, ShowsTextsOfTheRobotAndInterpretsNone) {
+  const std::string evil = "<script>alert('x')</script> & \"q\" \xFF";
+  RobotFile file = robot_of({evil, evil});
+  file.robot.name = evil, file.notes = {evil}, file.path = evil;
+  ReportInput input = input_of(file);
+  input.hulls = {certified_hulls(0), {}};
+  input.hulls[0].repairs = {evil}, input.hulls[0].hulls[0].notes = {evil};
+  input.hulls[0].hulls[0].proof = input.hulls[0].hulls[0].source = evil;
+  input.hulls[1].link = 1, input.hulls[1].status = LinkStatus::Skipped, input.hulls[1].why = evil;
+  input.shipped = {check_with(0, CheckVerdict::Leaks)};
+  input.shipped[0].notes = {evil};
+  input.version = evil;
+  input.motion.emplace();
+  input.motion->pairs.push_back({.b = 1, .visual = 3, .missed = 1});
+  const std::string page = report_html(input, {.pictures = false});
+  EXPECT_FALSE(has(page, "<script"));
+  EXPECT_FALSE(has(page, "\xFF"));
+  EXPECT_TRUE(has(page, "&lt;script&gt;alert(&apos;x&apos;)&lt;/script&gt; &amp; &quot;q&quot; \xEF\xBF\xBD"));
+}
+
+TEST(ReportPage, LinksLeadToCardsThatExist) {
+  const RobotFile file = robot_of({"covered", "leaks", "undecided", "bare", "frame", "lost"});
+  const std::string page = report_html(all_verdicts(file), {.pictures = false});
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::string id = "link-" + std::to_string(i);
+    EXPECT_EQ(has(page, "href=\"#" + id + "\""), has(page, "id=\"" + id + "\"")) << id;
+  }
+  EXPECT_FALSE(has(page, "id=\"link-4\"")) << "it has no geometry";
+}
+
+TEST(ReportPage, StopsWhenAsked) {
+  const RobotFile file = robot_of({"a"});
+  ReportInput input = input_of(file);
+  input.hulls = {certified_hulls(0)};
+  EXPECT_THROW((void)report_html(input, {.progress = [](std::string_view, double) { return false; }}), Cancelled);
+}
+
+TEST(Pictures, NothingToDrawIsAnEmptyPicture) {
+  TriangleMesh point;
+  point.positions = {{1, 2, 3}};
+  point.triangles.push_back({});
+  TriangleMesh lost = point;
+  lost.positions[VertexId{}].x = kNan;
+  const std::vector<Picture> pictures{{}, {lost, {}, Shell::Hull, {}}, {point, lost, Shell::Shipped, {}}};
+  for (const Picture& picture : pictures) EXPECT_EQ(draw_pictures({&picture, 1}), std::vector<std::string>{""});
+  EXPECT_TRUE(draw_pictures({}).empty());
+}
+
+TEST(Pictures, TrianglesThatAreNotFiniteAreLeftOut) {
+  const PictureOptions small{.width = 48, .height = 36};
+  Picture whole{make_sample("sphere", 100), make_sample("box", 12), Shell::Shipped, {}};
+  const std::string clean = draw_pictures({&whole, 1}, small).front();
+  ASSERT_TRUE(clean.starts_with("\x89PNG"));
+  const VertexId lost = whole.inside.positions.push_back({kNan, 0, kInfinity});
+  whole.inside.triangles.push_back({VertexId{0}, VertexId{1}, lost});
+  whole.marked = Vec3{kNan, 0, 0};
+  EXPECT_EQ(draw_pictures({&whole, 1}, small).front(), clean);
+}
+
+TEST(Pictures, AreTheSameForAnyNumberOfThreads) {
+  const Picture picture{make_sample("sphere", 100), make_sample("box", 12), Shell::Hull, Vec3{1, 0, 0}};
+  EXPECT_EQ(draw_pictures({&picture, 1}, {.width = 96, .height = 72, .threads = 1}),
+            draw_pictures({&picture, 1}, {.width = 96, .height = 72, .threads = 4}));
+}
+
+TEST(Pictures, AMarkedPointIsSeen) {
+  const PictureOptions small{.width = 48, .height = 36};
+  Picture picture{make_sample("sphere", 100), {}, Shell::Shipped, {}};
+  const std::string plain = draw_pictures({&picture, 1}, small).front();
+  picture.marked = Vec3{0, 1, 0};  // behind, as long as the view does not turn
+  EXPECT_NE(draw_pictures({&picture, 1}, small).front(), plain);
+}
+
+}  // namespace
+}  // namespace prohull::robot

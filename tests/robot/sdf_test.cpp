@@ -1,0 +1,409 @@
+#include "robot/files/sdf.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "prohull/error.h"
+#include "robot/transform.h"
+#include "robot_testing.h"
+
+namespace prohull::robot {
+namespace {
+
+RobotFile read(const std::string& text, const std::filesystem::path& path = "arm.sdf") {
+  return read_sdf(XmlDocument(text, path.string()), Packages(path, {}));
+}
+
+std::string in_model(const std::string& content, const std::string& version = "1.9") {
+  return "<sdf version='" + version + "'>\n<model name='m'>\n" + content + "</model>\n</sdf>\n";
+}
+
+std::string message_of(const std::string& text) {
+  return refusal_of([&] { read(text); });
+}
+
+std::string write(const std::string& text, const std::vector<NewCollision>& collisions,
+                  const std::filesystem::path& path = "arm.sdf", const std::filesystem::path& folder = ".") {
+  const XmlDocument document(text, path.string());
+  return sdf_with_collisions(read_sdf(document, Packages(path, {})), document, collisions, folder);
+}
+
+NewCollision hull_of(std::size_t link, std::optional<std::size_t> same_origin_as = {},
+                     std::vector<std::size_t> kept = {}) {
+  NewCollision collision;
+  collision.link = link, collision.hull = "hulls/a&b.stl", collision.same_origin_as = same_origin_as;
+  collision.kept = std::move(kept);
+  return collision;
+}
+
+void expect_near(const Vec3& a, const Vec3& b) {
+  EXPECT_NEAR(a.x, b.x, 1e-12);
+  EXPECT_NEAR(a.y, b.y, 1e-12);
+  EXPECT_NEAR(a.z, b.z, 1e-12);
+}
+
+const std::string kBox = "<geometry><box><size>1 2 3</size></box></geometry>";
+
+TEST(Sdf, ReadsShapes) {
+  const RobotFile file = read(in_model(
+      "<link name='a'><visual name='v'><pose>1 2 3 0 0 0</pose>"
+      "<geometry><mesh><uri> meshes/a.stl </uri><scale>1 2 -3</scale></mesh></geometry></visual>"
+      "<collision name='c'>" +
+      kBox +
+      "</collision><collision name='s'><geometry><sphere><radius>2</radius></sphere></geometry></collision>"
+      "<collision name='y'><geometry><cylinder><radius>2</radius><length>5</length></cylinder></geometry></collision>"
+      "<collision name='k'><geometry><capsule><radius>2</radius><length>5</length></capsule></geometry></collision>"
+      "<collision name='e'><geometry><empty/></geometry></collision>"
+      "<collision name='p'><geometry><plane><normal>0 0 1</normal></plane></geometry></collision></link>"));
+  EXPECT_EQ(file.robot.name, "m");
+  EXPECT_EQ(file.format, RobotFormat::Sdf);
+  ASSERT_EQ(file.robot.links.size(), 1U);
+  const Link& link = file.robot.links[0];
+  EXPECT_EQ(link.line, 3U);
+  ASSERT_EQ(link.visual.size(), 1U);
+  EXPECT_EQ(link.visual[0].name, "v");
+  EXPECT_EQ(link.visual[0].mesh()->uri, "meshes/a.stl");
+  EXPECT_EQ(link.visual[0].mesh()->scale, (Vec3{1, 2, -3}));
+  EXPECT_EQ(link.visual[0].origin, translation_by({1, 2, 3}));
+  ASSERT_EQ(link.collision.size(), 5U);  // <empty> is none
+  EXPECT_EQ(std::get<BoxForm>(link.collision[0].form).size, (Vec3{1, 2, 3}));
+  EXPECT_EQ(std::get<SphereForm>(link.collision[1].form).radius, 2);
+  EXPECT_EQ(std::get<CylinderForm>(link.collision[2].form).length, 5);
+  EXPECT_EQ(std::get<CapsuleForm>(link.collision[3].form).length, 5);
+  EXPECT_EQ(std::get<OtherForm>(link.collision[4].form).what, "plane");
+}
+
+TEST(Sdf, ReadsPosesInEachNotation) {
+  const std::string link = "<link name='a'><visual name='v'>POSE" + kBox + "</visual></link>";
+  const auto pose = [&](const std::string& text) {
+    std::string content = link;
+    return read(in_model(content.replace(content.find("POSE"), 4, text))).robot.links[0].visual[0].origin;
+  };
+  EXPECT_EQ(pose(""), Pose{});
+  EXPECT_EQ(pose("<pose/>"), Pose{});
+  const double half = std::sqrt(0.5);
+  for (const std::string& quarter :
+       {std::string("<pose>1 0 0 0 0 1.5707963267948966</pose>"),
+        std::string("<pose degrees='true'>1 0 0 0 0 90</pose>"),
+        "<pose rotation_format='quat_xyzw'>1 0 0 0 0 " + std::to_string(half) + " " + std::to_string(half) + "</pose>"})
+    expect_near(placed(pose(quarter), {1, 0, 5}), {1, 1, 5});
+  // Roll about x first, yaw about z last.
+  expect_near(placed(pose("<pose degrees='1'>0 0 0 90 0 90</pose>"), {0, 1, 0}), {0, 0, 1});
+  expect_near(placed(pose("<pose degrees='1'>0 0 0 90 0 90</pose>"), {0, 0, 1}), {1, 0, 0});
+}
+
+TEST(Sdf, PosesMayBeRelativeToOtherFrames) {
+  const RobotFile file =
+      read(in_model("<link name='a'><pose>1 0 0 0 0 0</pose></link>"
+                    "<link name='b'><pose relative_to='j'>0 0 1 0 0 0</pose>"
+                    "<visual name='v'><pose relative_to='f'>0 1 0 0 0 0</pose>" +
+                    kBox +
+                    "</visual></link>"
+                    "<frame name='f' attached_to='a'><pose degrees='true'>0 0 0 0 0 90</pose></frame>"
+                    "<joint name='j' type='fixed'><pose relative_to='a'>0 2 0 0 0 "
+                    "0</pose><parent>f</parent><child>b</child></joint>"));
+  const Robot& robot = file.robot;
+  ASSERT_EQ(robot.joints.size(), 1U);
+  EXPECT_EQ(robot.joints[0].parent, 0U);  // f is attached to a
+  expect_near(robot.joints[0].origin.translation, {0, 2, 1});
+  // f is at (1, 0, 0) and turned: (0, 1, 0) there is (0, 0, 0) in the model; b is at (1, 2, 1).
+  expect_near(robot.links[1].visual[0].origin.translation, {-1, -2, -1});
+}
+
+TEST(Sdf, ReadsJointsWithAnchorAndAxisInTheChild) {
+  const std::string links =
+      "<link name='a'/><link name='b'><pose degrees='true'>0 0 1 0 0 90</pose></link><link name='c'/>";
+  const auto joint = [&](const std::string& axis, const std::string& version = "1.9") {
+    return read(in_model(links +
+                             "<joint name='j' type='revolute'><pose>1 0 0 0 0 0</pose><parent>a</parent>"
+                             "<child>b</child><axis>" +
+                             axis +
+                             "<limit><lower>-1</lower><upper>2</upper></limit></axis></joint>"
+                             "<joint name='k' type='fixed'><parent>b</parent><child>c</child></joint>",
+                         version))
+        .robot.joints[0];
+  };
+  const Joint plain = joint("<xyz>2 0 0</xyz>");
+  EXPECT_EQ(plain.type, JointType::Revolute);
+  EXPECT_EQ(plain.lower, -1);
+  EXPECT_EQ(plain.upper, 2);
+  expect_near(plain.origin.translation, {0, 0, 1});
+  expect_near(plain.anchor, {1, 0, 0});
+  expect_near(plain.axis, {1, 0, 0});
+  expect_near(joint("<xyz expressed_in='__model__'>1 0 0</xyz>").axis, {0, -1, 0});
+  expect_near(joint("<xyz>1 0 0</xyz><use_parent_model_frame>1</use_parent_model_frame>", "1.6").axis, {0, -1, 0});
+  expect_near(joint("<xyz>1 0 0</xyz>", "1.6").axis, {1, 0, 0});
+  expect_near(joint("<xyz>1 0 0</xyz>", "1.4").axis, {0, -1, 0});  // SDF 1.4 had no other frame
+}
+
+TEST(Sdf, ReadsTheKindsOfJoints) {
+  const auto joints = [](const std::string& type, const std::string& limit = "") {
+    return read(in_model("<link name='a'/><link name='b'/><joint name='j' type='" + type +
+                         "'><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz>" + limit +
+                         "</axis><axis2><xyz>0 1 0</xyz></axis2></joint>"))
+        .robot.joints;
+  };
+  EXPECT_EQ(joints("revolute")[0].type, JointType::Continuous);
+  EXPECT_EQ(joints("revolute", "<limit><lower>-1e16</lower><upper>inf</upper></limit>")[0].type, JointType::Continuous);
+  EXPECT_EQ(joints("revolute", "<limit><lower>-inf</lower><upper>1</upper></limit>")[0].lower, -HUGE_VAL);
+  EXPECT_EQ(joints("prismatic")[0].type, JointType::Prismatic);
+  EXPECT_EQ(joints("ball")[0].type, JointType::Ball);
+  EXPECT_EQ(joints("screw")[0].type, JointType::Fixed);
+  const std::vector<Joint> two = joints("universal");
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_EQ(two[0].axis, (Vec3{1, 0, 0}));
+  EXPECT_EQ(two[1].axis, (Vec3{0, 1, 0}));
+  EXPECT_EQ(two[1].name, "j_axis2");
+  EXPECT_EQ(two[1].origin, Pose{});
+}
+
+TEST(Sdf, ReadsJointsThatMimic) {
+  const RobotFile file = read(in_model(
+      "<link name='a'/><link name='b'/><link name='c'/>"
+      "<joint name='k' type='revolute'><parent>b</parent><child>c</child><axis><xyz>0 0 1</xyz><mimic joint='j'>"
+      "<multiplier>2</multiplier><offset>1</offset><reference>0.25</reference></mimic></axis></joint>"
+      "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>",
+      "1.11"));
+  ASSERT_EQ(file.robot.joints.size(), 2U);
+  EXPECT_EQ(file.robot.joints[0].name, "j");  // the parent's joint comes first
+  const Mimic mimic = file.robot.joints[1].mimic.value();
+  EXPECT_EQ(mimic.joint, 0U);
+  EXPECT_EQ(mimic.multiplier, 2);
+  EXPECT_EQ(mimic.offset, 0.5);  // 2 (q - 0.25) + 1
+}
+
+TEST(Sdf, ReadsNestedModels) {
+  const RobotFile file = read(in_model(
+      "<link name='a'/>"
+      "<model name='hand' placement_frame='palm'><pose>5 0 0 0 0 0</pose>"
+      "<link name='palm'><pose>0 1 0 0 0 0</pose></link><link name='tip'><pose relative_to='palm'>0 0 1 0 0 0</pose>"
+      "</link><joint name='j' type='fixed'><parent>palm</parent><child>tip</child></joint></model>"
+      "<joint name='k' type='fixed'><parent>a</parent><child>hand::palm</child></joint>"));
+  const Robot& robot = file.robot;
+  ASSERT_EQ(robot.links.size(), 3U);
+  EXPECT_EQ(robot.links[1].name, "hand::palm");
+  ASSERT_EQ(robot.joints.size(), 2U);
+  expect_near(robot.joints[0].origin.translation, {5, 0, 0});
+  EXPECT_EQ(robot.joints[1].name, "hand::j");
+  expect_near(robot.joints[1].origin.translation, {0, 0, 1});
+}
+
+TEST(Sdf, MakesAForestOfAnyJoints) {
+  const std::string loop =
+      "<link name='a'/><link name='b'/><link name='c'/>"
+      "<joint name='w' type='fixed'><parent>world</parent><child>a</child></joint>"
+      "<joint name='ab' type='ball'><parent>a</parent><child>b</child></joint>"
+      "<joint name='bc' type='ball'><parent>b</parent><child>c</child></joint>"
+      "<joint name='ca' type='ball'><parent>c</parent><child>a</child></joint>";
+  const RobotFile file = read(in_model(loop));
+  ASSERT_EQ(file.robot.links.size(), 3U);  // joints to the world are left out
+  ASSERT_EQ(file.robot.joints.size(), 2U);
+  EXPECT_EQ(file.robot.joints[1].name, "bc");
+  ASSERT_EQ(file.notes.size(), 1U);
+  EXPECT_NE(file.notes[0].find("'ca'"), std::string::npos);
+}
+
+TEST(Sdf, TurnsAJointWhoseChildHangsAlready) {
+  // a -> b <- c: the joint from c to b is read as one from b to c that turns the other way.
+  const Robot robot =
+      read(in_model("<link name='a'/><link name='b'/><link name='c'><pose>0 3 0 0 0 0</pose></link>"
+                    "<joint name='ab' type='fixed'><parent>a</parent><child>b</child></joint>"
+                    "<joint name='cb' type='revolute'><pose>1 0 0 0 0 0</pose><parent>c</parent><child>b</child>"
+                    "<axis><xyz>0 0 1</xyz></axis></joint>"))
+          .robot;
+  ASSERT_EQ(robot.joints.size(), 2U);
+  const Joint& joint = robot.joints[1];
+  EXPECT_EQ(joint.parent, 1U);
+  EXPECT_EQ(joint.child, 2U);
+  expect_near(joint.origin.translation, {0, 3, 0});
+  expect_near(joint.anchor, {1, -3, 0});
+  expect_near(joint.axis, {0, 0, -1});
+}
+
+TEST(Sdf, PlacesLinksThatNothingJoins) {
+  const Robot robot = read(in_model("<link name='a'/><link name='b'><pose>0 3 0 0 0 0</pose></link>")).robot;
+  ASSERT_EQ(robot.links.size(), 3U);
+  EXPECT_EQ(robot.links[2].name, "world");
+  ASSERT_EQ(robot.joints.size(), 2U);
+  EXPECT_EQ(robot.joints[1].type, JointType::Floating);
+  EXPECT_EQ(robot.joints[1].parent, 2U);
+  expect_near(robot.joints[1].origin.translation, {0, 3, 0});
+}
+
+TEST(Sdf, ReadsTheFirstModelOfAWorldAndSaysSo) {
+  const RobotFile file = read(
+      "<sdf version='1.9'><world name='w'><include><uri>model://sun</uri></include><model name='m'><link name='a'/>"
+      "<include><uri>model://hand</uri></include></model><model name='n'><link name='b'/></model></world></sdf>");
+  EXPECT_EQ(file.robot.links[0].name, "a");
+  ASSERT_EQ(file.notes.size(), 2U);
+  EXPECT_NE(file.notes[0].find("2 models"), std::string::npos);
+  EXPECT_NE(file.notes[1].find("model://hand"), std::string::npos);
+}
+
+TEST(Sdf, RefusesWithTheLine) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"<link name='a'/>\n<link name='a'/>", "line 4: there is a second <link> called 'a', the first is in line 3"},
+      {"<link name='world'/>", "line 3"},
+      {"<link/>", "line 3: <link> has no name"},
+      {"", "no <link>"},
+      {"<link name='a'/>\n<joint name='j' type='fixed'><parent>a</parent><child>b</child></joint>", "names 'b'"},
+      {"<link name='a'/>\n<joint name='j' type='fixed'><child>a</child></joint>", "no <parent>"},
+      {"<link name='a'/>\n<joint name='j' type='fixed'><parent>a</parent><child>a</child></joint>", "with itself"},
+      {"<link name='a'/><link name='b'/><joint name='j' type='x'><parent>a</parent><child>b</child></joint>", "'x'"},
+      {"<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent>a</parent><child>b</child></joint>",
+       "no <axis>"},
+      {"<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent>a</parent><child>b</child>"
+       "<axis><xyz>0 0 0</xyz></axis></joint>",
+       "length 0"},
+      {"<link name='a'><pose relative_to='b'/></link><link name='b'><pose relative_to='a'/></link>",
+       "relative to itself"},
+      {"<link name='a'><pose relative_to='x'/></link>", "names 'x'"},
+      {"<link name='a'><pose>0 0 nan 0 0 0</pose></link>", "'nan'"},
+      {"<link name='a'><pose>0 0 0</pose></link>", "3 numbers, expected 6"},
+      {"<link name='a'><pose>1e50 0 0 0 0 0</pose></link>", "too large"},
+      {"<link name='a'><pose rotation_format='quat_xyzw'>0 0 0 0 0 0 0</pose></link>", "length 0"},
+      {"<link name='a'/><frame name='f' attached_to='g'/><frame name='g' attached_to='f'/>", "relative to itself"},
+      {"<link name='a'><visual name='v'><geometry><box><size>1 0 1</size></box></geometry></visual></link>",
+       "more than 0"},
+      {"<link name='a'><visual name='v'><geometry><mesh/></geometry></visual></link>", "no <uri>"},
+      {"<link name='a'><visual name='v'/></link>", "no <geometry>"},
+      {"<link name='a'><visual name='v'><geometry/></visual></link>", "no shape"},
+      {"<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent>a</parent><child>b</child>"
+       "<axis><mimic joint='j'/></axis></joint>",
+       "mimics itself"},
+  };
+  for (const auto& [content, expected] : cases) {
+    const std::string message = message_of(in_model(content));
+    EXPECT_TRUE(message.starts_with("arm.sdf: line ")) << content << ": " << message;
+    EXPECT_NE(message.find(expected), std::string::npos) << content << ": " << message;
+  }
+  EXPECT_NE(message_of("<sdf version='1.9'/>").find("no <model>"), std::string::npos);
+}
+
+TEST(Sdf, ReadsManyLinksQuickly) {
+  std::string content = "<link name='l0'/>";
+  for (int i = 1; i < 20'000; ++i) {
+    const std::string name = std::to_string(i), before = std::to_string(i - 1);
+    content += "<link name='l" + name + "'><pose relative_to='l" + before + "'>1 0 0 0 0 0</pose></link>" +
+               "<joint name='j" + name + "' type='fixed'><parent>l" + before + "</parent><child>l" + name +
+               "</child></joint>\n";
+  }
+  const Robot robot = read(in_model(content)).robot;
+  ASSERT_EQ(robot.joints.size(), 19'999U);
+  EXPECT_EQ(robot.joints.back().origin, translation_by({1, 0, 0}));
+}
+
+TEST(SdfWithCollisions, ChangesTheFirstCollisionAndRemovesTheOthers) {
+  const std::string text =
+      "<?xml version='1.0'?>\r\n<!-- kept -->\r\n<sdf version='1.9'>\r\n  <model name='m'>\r\n"
+      "    <link name='a'>\r\n"
+      "      <visual name='v'>\r\n        <pose relative_to='a' degrees='true'>1 2 3  0 0 90</pose>\r\n        " +
+      kBox +
+      "\r\n      </visual>\r\n"
+      "      <collision name='c'>\r\n"
+      "        <laser_retro>1</laser_retro>\r\n"
+      "        <pose>9 9 9 0 0 0</pose>\r\n"
+      "        <geometry><sphere><radius>1</radius></sphere></geometry>\r\n"
+      "        <surface><x:y xmlns:x='z'><![CDATA[ <a> ]]></x:y></surface>\r\n"
+      "      </collision>\r\n"
+      "      <!-- second -->\r\n"
+      "      <collision name='d'>\r\n        " +
+      kBox +
+      "\r\n      </collision>\r\n"
+      "      <unknown a = \"1\" />\r\n"
+      "    </link>\r\n  </model>\r\n</sdf>\r\n";
+  const std::string expected =
+      "<?xml version='1.0'?>\r\n<!-- kept -->\r\n<sdf version='1.9'>\r\n  <model name='m'>\r\n"
+      "    <link name='a'>\r\n"
+      "      <visual name='v'>\r\n        <pose relative_to='a' degrees='true'>1 2 3  0 0 90</pose>\r\n        " +
+      kBox +
+      "\r\n      </visual>\r\n"
+      "      <collision name='c'>\r\n"
+      "        <laser_retro>1</laser_retro>\r\n"
+      "        <pose relative_to='a' degrees='true'>1 2 3  0 0 90</pose>\r\n"
+      "        <geometry>\r\n          <mesh>\r\n            <uri>hulls/a&amp;b.stl</uri>\r\n          </mesh>\r\n"
+      "        </geometry>\r\n"
+      "        <surface><x:y xmlns:x='z'><![CDATA[ <a> ]]></x:y></surface>\r\n"
+      "      </collision>\r\n"
+      "      <!-- second -->\r\n"
+      "      <unknown a = \"1\" />\r\n"
+      "    </link>\r\n  </model>\r\n</sdf>\r\n";
+  EXPECT_EQ(write(text, {hull_of(0, 0)}), expected);
+  EXPECT_EQ(write(text, {}), text);
+  // In the frame of the link, the pose goes.
+  EXPECT_EQ(write(text, {hull_of(0)}).find("9 9 9"), std::string::npos);
+}
+
+TEST(SdfWithCollisions, ReadsBackWithTheNewCollisions) {
+  const std::string text =
+      in_model("  <link name='a'>\n    <visual name='v'>\n      <pose>1 2 3 0 0 0</pose>\n      " + kBox +
+               "\n    </visual>\n    <visual name='e'><geometry><empty/></geometry></visual>\n"
+               "    <visual name='w'>\n      <geometry>\n        <mesh><uri>a.stl</uri></mesh>\n      </geometry>\n"
+               "    </visual>\n    <sensor name='a_hull' type='contact'/>\n  </link>\n  <link name='b'/>\n");
+  const std::string result = write(text, {hull_of(0, 1, {0})});
+  const Link link = read(result).robot.links[0];
+  EXPECT_EQ(link.visual.size(), 2U);
+  ASSERT_EQ(link.collision.size(), 2U);
+  EXPECT_EQ(link.collision[0].mesh()->uri, "hulls/a&b.stl");
+  EXPECT_EQ(link.collision[0].origin, Pose{});
+  EXPECT_EQ(link.collision[0].name, "a_hull_2");  // a_hull is a sensor
+  EXPECT_EQ(link.collision[1].name, "a_hull_3");
+  EXPECT_EQ(std::get<BoxForm>(link.collision[1].form).size, (Vec3{1, 2, 3}));
+  EXPECT_EQ(link.collision[1].origin, translation_by({1, 2, 3}));
+}
+
+TEST(SdfWithCollisions, CollisionElementsThatAreKeptStayWhereTheyAre) {
+  const std::string box = "<collision name='c'>" + kBox + "<max_contacts>3</max_contacts></collision>";
+  NewCollision collision = hull_of(0, {}, {0});
+  collision.from = Geometry::Collision;
+  const std::string result = write(in_model("<link name='a'>" + box +
+                                            "<collision name='d'><geometry><mesh><uri>a.stl</uri></mesh></geometry>"
+                                            "</collision></link>"),
+                                   {collision});
+  EXPECT_NE(result.find(box), std::string::npos);
+  const Link link = read(result).robot.links[0];
+  ASSERT_EQ(link.collision.size(), 2U);
+  EXPECT_EQ(link.collision[1].name, "d");
+  EXPECT_EQ(link.collision[1].mesh()->uri, "hulls/a&b.stl");
+}
+
+TEST(SdfWithCollisions, WorksWithoutLines) {
+  const std::string text =
+      "<sdf version='1.9'><model name='m'><link name='a'><visual name='v'><pose>1 0 0 0 0 0</pose>" + kBox +
+      "</visual><collision name='c'>" + kBox + "</collision><collision name='d'>" + kBox +
+      "</collision></link></model></sdf>";
+  const std::string result = write(text, {hull_of(0, 0, {0})});
+  const Link link = read(result).robot.links[0];
+  ASSERT_EQ(link.collision.size(), 2U);
+  EXPECT_EQ(link.collision[0].origin, translation_by({1, 0, 0}));
+  EXPECT_EQ(link.collision[1].origin, translation_by({1, 0, 0}));
+}
+
+TEST(SdfWithCollisions, RelativePathsStillFindTheirFiles) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "prohull_sdf_test";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder / "in" / "meshes");
+  std::filesystem::create_directories(folder / "out");
+  std::ofstream(folder / "in" / "meshes" / "a b.stl") << "x";
+  const std::string mesh = "<geometry><mesh><uri>meshes/a b.stl</uri></mesh></geometry>";
+  const std::string text =
+      in_model("<link name='a'>\n<visual name='v'>" + mesh + "</visual>\n<collision name='c'>" + mesh +
+               "</collision>\n</link>\n<link name='b'><visual name='v'>" + mesh + "</visual></link>");
+  const RobotFile moved =
+      read(write(text, {hull_of(0)}, folder / "in" / "arm.sdf", folder / "out"), folder / "out" / "arm.sdf");
+  for (const std::size_t link : {0U, 1U})
+    EXPECT_EQ(moved.robot.links[link].visual[0].mesh()->path.filename(), "a b.stl");
+  EXPECT_EQ(moved.robot.links[0].collision[0].mesh()->uri, "hulls/a&b.stl");
+  // A copy of a shape finds its file, too.
+  NewCollision kept = hull_of(1, {}, {0});
+  const RobotFile copied =
+      read(write(text, {kept}, folder / "in" / "arm.sdf", folder / "out"), folder / "out" / "arm.sdf");
+  EXPECT_EQ(copied.robot.links[1].collision[1].mesh()->path.filename(), "a b.stl");
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace prohull::robot

@@ -1,0 +1,124 @@
+#include "robot/hulls/write_robot.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
+#include "prohull/sample.h"
+#include "robot_folder.h"
+
+namespace prohull::robot {
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_all(const std::vector<OutputFile>& files, const std::filesystem::path& folder) {
+  for (const OutputFile& file : files) {
+    std::filesystem::create_directories((folder / file.path).parent_path());
+    file.write(folder / file.path);
+  }
+}
+
+class WriteRobotTest : public testing::Test {
+ protected:
+  WriteRobotTest() {
+    folder_.add("torus.ply", make_sample("torus", 600));
+    std::ofstream(folder_.path() / "arm.urdf") << kArm;
+    file_ = read_robot(folder_.path() / "arm.urdf");
+    options_.budget.faces = {200, 60};
+    hulls_ = link_hulls(file_.robot, options_);
+    how_.faces = options_.budget.faces;
+  }
+
+  static constexpr const char* kArm =
+      "<?xml version=\"1.0\"?>\n"
+      "<robot name=\"arm\">\n"
+      "  <!-- kept as it is -->\n"
+      "  <link name=\"a/b\">\n"
+      "    <visual>\n"
+      "      <origin xyz=\"0 0 1\"/>\n"
+      "      <geometry><mesh filename=\"torus.ply\" scale=\"2 2 2\"/></geometry>\n"
+      "    </visual>\n"
+      "    <collision>\n"
+      "      <geometry><box size=\"1 1 1\"/></geometry>\n"
+      "    </collision>\n"
+      "  </link>\n"
+      "  <link name=\"A_B\"/>\n"
+      "  <joint name=\"j\" type=\"fixed\"><parent link=\"a/b\"/><child link=\"A_B\"/></joint>\n"
+      "</robot>\n";
+
+  RobotFolder folder_;
+  RobotFile file_;
+  LinkHullOptions options_;
+  std::vector<LinkHulls> hulls_;
+  WriteOptions how_;
+};
+
+TEST_F(WriteRobotTest, WritesARobotForEachNumberOfFaces) {
+  const std::filesystem::path out = folder_.path() / "out";
+  write_all(output_files(file_, hulls_, out, how_), out);
+  for (const auto& [name, mesh, faces] : {std::tuple{"arm.urdf", "meshes/collision/a_b.stl", 200U},
+                                          std::tuple{"arm_60.urdf", "meshes/collision_60/a_b.stl", 60U}}) {
+    const RobotFile again = read_robot(out / name);
+    ASSERT_EQ(again.robot.links[0].collision.size(), 1U);
+    const Shape& shape = again.robot.links[0].collision[0];
+    ASSERT_TRUE(shape.mesh());
+    EXPECT_EQ(shape.mesh()->uri, mesh);
+    EXPECT_EQ(shape.mesh()->scale, (Vec3{1, 1, 1}));  // which the hull has already
+    EXPECT_EQ(shape.origin, again.robot.links[0].visual[0].origin);
+    EXPECT_FALSE(again.robot.links[0].visual[0].mesh()->path.empty()) << "the visual mesh is beside the old file";
+    const TriangleMesh hull = read_mesh(shape.mesh()->path);
+    EXPECT_LE(hull.face_count(), faces);
+    EXPECT_TRUE(verify_cover(mesh_triangles(*again.robot.links[0].visual[0].mesh()), hull).encloses);
+    EXPECT_NE(content(out / name).find("<!-- kept as it is -->"), std::string::npos);
+  }
+  EXPECT_EQ(content(folder_.path() / "arm.urdf"), kArm);
+}
+
+TEST_F(WriteRobotTest, WritesAPackageThatIsFound) {
+  const std::filesystem::path out = folder_.path() / "arm_safe";
+  how_.package = "arm_safe";
+  write_all(output_files(file_, hulls_, out, how_), out);
+  EXPECT_NE(content(out / "package.xml").find("<name>arm_safe</name>"), std::string::npos);
+  const RobotFile again = read_robot(out / "arm.urdf");
+  EXPECT_EQ(again.robot.links[0].collision[0].mesh()->uri, "package://arm_safe/meshes/collision/a_b.stl");
+  EXPECT_FALSE(again.robot.links[0].collision[0].mesh()->path.empty());
+  for (const char* bad : {"Arm", "9arm", "arm safe", "../arm", "arm/x"}) {
+    how_.package = bad;
+    EXPECT_THROW(output_files(file_, hulls_, out, how_), InputError) << bad;
+  }
+}
+
+TEST_F(WriteRobotTest, KeepsLongNamesShortAndDistinct) {
+  const std::string name(300, 'x');
+  const std::string visual = "<visual><geometry><mesh filename=\"torus.ply\"/></geometry></visual></link>";
+  std::ofstream(folder_.path() / "long.urdf")
+      << "<robot name=\"long\"><link name=\"" << name << "1\">" << visual << "<link name=\"" << name << "2\">" << visual
+      << "<joint name=\"j\" type=\"fixed\"><parent link=\"" << name << "1\"/><child link=\"" << name
+      << "2\"/></joint></robot>";
+  const RobotFile robot = read_robot(folder_.path() / "long.urdf");
+  const std::filesystem::path out = folder_.path() / "out", meshes = out / "meshes" / "collision";
+  std::vector<LinkHulls> hulls{hulls_[0], hulls_[0]};
+  hulls[1].link = 1;
+  write_all(output_files(robot, hulls, out, how_), out);
+  EXPECT_TRUE(exists(meshes / (std::string(100, 'x') + ".stl")));
+  EXPECT_TRUE(exists(meshes / (std::string(100, 'x') + "_2.stl")));
+}
+
+TEST_F(WriteRobotTest, KeepsTheCollisionElementsOfALinkWithoutACertificate) {
+  for (LinkHull& hull : hulls_[0].hulls) hull.certified = false;
+  const std::filesystem::path out = folder_.path() / "out";
+  write_all(output_files(file_, hulls_, out, how_), out);
+  const RobotFile again = read_robot(out / "arm.urdf");
+  EXPECT_FALSE(again.robot.links[0].collision[0].mesh());
+  EXPECT_FALSE(std::filesystem::exists(out / "meshes"));
+}
+
+}  // namespace
+}  // namespace prohull::robot
