@@ -11,7 +11,9 @@ namespace prohull::cli {
 namespace {
 
 /// Whether the certificate is about single triangles: the mesh has no inside that could be compared.
-bool was_covered(const EnclosingHull& hull) { return hull.proof == "coverage"; }
+bool was_covered(const BuildOutcome& outcome, const EnclosingHull& hull) {
+  return hull.proof == "coverage" || (hull.proof == "padding" && !outcome.made.input.closed);
+}
 
 std::string source_of(const Solid& solid) {
   switch (solid.source) {
@@ -90,17 +92,21 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
   if (const std::string finest = described_finest_level(finest_level(outcome.made, hull));
       written.certified && !options.hierarchy.empty() && !finest.empty())
     say("  its finest level is {}, not the input itself\n", finest);
+  const bool is_cover = was_covered(outcome, hull);
   const bool all_finite = outcome.made.input.repairs.dropped_non_finite_faces == 0;
   if (!written.certified)
     say("  certified: NO: nothing was written; please report this mesh\n");
   else
     say("  certified: yes, the file as written {} {}the original\n",
         !options.is_outer() ? "is enclosed by"
-        : was_covered(hull) ? "covers"
+        : is_cover          ? "covers"
                             : "encloses",
-        !all_finite         ? "the finite triangles of "
-        : was_covered(hull) ? "every triangle of "
-                            : "");
+        !all_finite ? "the finite triangles of "
+        : is_cover  ? "every triangle of "
+                    : "");
+  if (written.certified && hull.padding > 0)
+    say("  padding: the least distance from the mesh is at least {:.6g}, proven; all points within it are inside\n",
+        hull.padding);
 }
 
 nlohmann::json finite_or_null(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
@@ -121,6 +127,7 @@ nlohmann::json options_report(const BuildOptions& options) {
       {"max_distance", finite_or_null(bounds.max_distance)},
       {"max_void_percent", options.max_void_percent > 0 ? nlohmann::json(options.max_void_percent) : nlohmann::json()},
       {"max_added_volume", finite_or_null(bounds.max_added_volume)},
+      {"padding", options.enclosing.padding},
       {"repair", name_of(repair_names(), options.enclosing.repair)},
       {"keep_cavities", options.enclosing.keep_cavities},
       {"open_shells", name_of(open_shells_names(), options.enclosing.open_shells)},
@@ -157,6 +164,7 @@ nlohmann::json hull_report(const BuildOutcome& outcome, const Written& written) 
           {"rounded_vertices", hull.rounded_vertices},
           {"certified", written.certified},
           {"proof", std::string(hull.proof)},
+          {"padding", hull.padding},
           {"relaxed_guards", hull.relaxed_guards},
           {"stopped", hull.target_reached ? "target_reached" : "no_legal_collapse"},
           {"within_bounds", hull.within_bounds},

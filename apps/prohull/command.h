@@ -47,6 +47,7 @@ void add_manual(CLI::App& app, Run& run);
 void add_query(CLI::App& app, Run& run);
 void add_render(CLI::App& app, Run& run);
 void add_sample(CLI::App& app, Run& run);
+void add_urdf(CLI::App& app, Run& run);
 void add_verify(CLI::App& app, Run& run);
 
 }  // namespace prohull::cli

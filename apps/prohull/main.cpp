@@ -19,6 +19,7 @@ void add_commands(CLI::App& app, Run& run) {
   add_collide(app, run);
   add_contains(app, run);
   add_distance(app, run);
+  add_urdf(app, run);
   add_render(app, run);
   add_sample(app, run);
   add_completion(app, run);

@@ -121,6 +121,14 @@ void add_report_option(CLI::App& command, std::filesystem::path& path) {
       ->type_name("FILE.json");
 }
 
+void add_package_path_option(CLI::App& command, std::vector<std::filesystem::path>& folders) {
+  command
+      .add_option("--package-path", folders,
+                  "Folder in which packages of package:// are looked for. May be given several times.")
+      ->allow_extra_args(false)
+      ->type_name("DIR");
+}
+
 void add_examples(CLI::App& command, const std::vector<std::string>& examples) {
   std::string text = "Examples:\n";
   for (const std::string& example : examples) text += "  " + example + "\n";

@@ -67,6 +67,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& names, Value& valu
 /// `note` says what the threads do not change.
 void add_threads_option(CLI::App& command, unsigned& threads, const std::string& note);
 void add_report_option(CLI::App& command, std::filesystem::path& path);
+void add_package_path_option(CLI::App& command, std::vector<std::filesystem::path>& folders);
 void add_examples(CLI::App& command, const std::vector<std::string>& examples);
 
 /// The word that someone most likely meant, or none if all are far from it.

@@ -25,7 +25,7 @@ using std::filesystem::path;
 
 /// Held while outputs appear, and for good by the thread that ends the program.
 std::mutex g_mutex;
-std::vector<path> g_temporaries;
+std::vector<path> g_temporaries, g_folders;
 
 [[noreturn]] void fail_to_write(const path& target, const std::string& why) {
   throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write: {}", target.string(), why));
@@ -60,7 +60,13 @@ void remove_all_of(const path& temporary) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(temporary.parent_path(), ignored))
     if (entry.path().filename().string().starts_with(temporary.filename().string()))
-      std::filesystem::remove(entry.path(), ignored);
+      std::filesystem::remove_all(entry.path(), ignored);
+}
+
+/// Those that are empty, the deepest first.
+void remove_folders(const std::vector<path>& folders) {
+  std::error_code ignored;
+  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) std::filesystem::remove(*folder, ignored);
 }
 
 class Descriptor {
@@ -128,6 +134,18 @@ Outputs::~Outputs() {
     remove_all_of(pending.temporary);
     std::erase(g_temporaries, pending.temporary);
   }
+  remove_folders(folders_);
+  for (const path& folder : folders_) std::erase(g_folders, folder);
+}
+
+void Outputs::add_folder(const path& folder) {
+  std::error_code error;
+  if (folder.empty() || std::filesystem::is_directory(folder, error)) return;
+  add_folder(folder.parent_path());
+  const std::lock_guard lock(g_mutex);
+  std::filesystem::create_directory(folder, error);
+  if (error) fail_to_write(folder, error.message());
+  folders_.push_back(folder), g_folders.push_back(folder);
 }
 
 bool Outputs::add(const path& target, const std::string& suffix, const std::function<bool(const path&)>& write) {
@@ -186,6 +204,7 @@ void Outputs::commit() {
 void remove_unfinished_outputs() {
   g_mutex.lock();
   for (const path& temporary : g_temporaries) remove_all_of(temporary);
+  remove_folders(g_folders);
 }
 
 bool is_standard_stream(const path& file) { return file == "-"; }

@@ -28,6 +28,9 @@ class Outputs {
   /// A report as JSON, to which the version of the program is added.
   void add_report(const std::filesystem::path& target, nlohmann::json report);
 
+  /// Makes a folder, and those above it, where it is not there. If the outputs do not appear, what was made vanishes.
+  void add_folder(const std::filesystem::path& folder);
+
   /// Lets all of them appear. Throws Cancelled if the user has interrupted, InputError(CannotWrite).
   void commit();
 
@@ -36,6 +39,7 @@ class Outputs {
     std::filesystem::path target, temporary;
   };
   std::vector<Pending> pending_;
+  std::vector<std::filesystem::path> folders_;
 };
 
 /// Removes what was not committed, for a program that ends without unwinding. No output can be committed after that.

@@ -12,6 +12,8 @@
 #include "render/compose.h"
 #include "render/draw.h"
 #include "render/mesh_table.h"
+#include "robot/files/robot_file.h"
+#include "robot/motion/bodies.h"
 
 namespace prohull::cli {
 namespace {
@@ -34,6 +36,7 @@ struct Options {
   int samples = 4;
   unsigned threads = 0;
   InputOptions input;
+  robot::FileOptions robots;
 };
 
 constexpr std::string_view kOriginal = "original", kNone = "none", kTransparent = "transparent";
@@ -95,7 +98,21 @@ std::optional<Value> for_panel(const std::vector<Value>& values, std::size_t i) 
   return values[values.size() == 1 ? 0 : i];
 }
 
-/// A panel for each mesh, and for each level that is asked for of each .phull file.
+bool is_robot(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 5> kSuffixes{".urdf", ".xacro", ".sdf", ".mjcf", ".xml"};
+  return std::ranges::find(kSuffixes, path.extension().string()) != kSuffixes.end();
+}
+
+/// The geometry of all links, posed as in the report of a robot. Throws InputError that names `path`.
+TriangleMesh robot_mesh(const robot::Robot& robot, robot::Geometry which, const std::filesystem::path& path) {
+  std::vector<TriangleMesh> links;
+  for (const robot::Link& link : robot.links) links.push_back(robot::link_triangles(shapes(link, which), {}));
+  TriangleMesh whole = robot::at_rest(robot, links);
+  if (whole.face_count() > 0) render::require_drawable(whole, path);
+  return whole;
+}
+
+/// A panel for each mesh, for each robot, and for each level that is asked for of each .phull file.
 class Planner {
  public:
   Planner(const Options& options, MeshTable& table) : options_(options), table_(table) {
@@ -119,13 +136,13 @@ class Planner {
     once_or_for_each("--line-width", options_.line_widths.size());
     once_or_for_each("--zoom", options_.zooms.size());
     once_or_for_each("--center", options_.centers.size());
-    const auto is_hull = [&](const auto& path) { return table_.is_hull(path); };
+    const auto is_hull = [&](const auto& path) { return !is_robot(path) && table_.is_hull(path); };
     if (!options_.faces.empty() && std::ranges::none_of(options_.in, is_hull))
       refuse("--faces is for .phull files; a mesh file has one level only");
   }
 
   std::vector<std::size_t> levels(const std::filesystem::path& path) {
-    if (!table_.is_hull(path)) return {MeshTable::kFinest};
+    if (is_robot(path) || !table_.is_hull(path)) return {MeshTable::kFinest};
     if (options_.faces.empty()) return {0};
     std::vector<std::size_t> levels;
     for (const std::string& text : options_.faces) levels.push_back(level_of(text));
@@ -133,8 +150,8 @@ class Planner {
   }
 
   void add(const std::filesystem::path& path, std::size_t level) {
-    const std::size_t i = plans_.size();
     PanelPlan plan;
+    if (is_robot(path)) return add_robot(path, std::move(plan));
     plan.inside = companion(options_.over, path);
     plan.right = companion(options_.split, path);
     if (options_.refine) {
@@ -143,13 +160,38 @@ class Planner {
       plan.shown = table_.add(path, level);
       if (!options_.segment.empty()) plan.segment = crossings(plan.inside.value_or(plan.shown));
     }
-    const bool is_hull = plan.inside || plan.right || level != MeshTable::kFinest;
+    add(std::move(plan), plan.inside || plan.right || level != MeshTable::kFinest);
+  }
+
+  void add(PanelPlan plan, bool is_hull) {
+    const std::size_t i = plans_.size();
     plan.color = color_of(for_panel(options_.colors, i).value_or(is_hull ? "blue" : "clay"));
     if (options_.wireframe) plan.line_width = for_panel(options_.line_widths, i).value_or(1);
     plan.zoom = for_panel(options_.zooms, i).value_or(1);
     if (const auto center = for_panel(options_.centers, i); center && *center != kNone) plan.center = point_of(*center);
     plans_.push_back(std::move(plan));
     stop_if_interrupted();
+  }
+
+  /// The visual geometry within the collision geometry; or what there is of the two.
+  void add_robot(const std::filesystem::path& path, PanelPlan plan) {
+    const auto is_asked = [&](const auto& names) { return for_panel(names, plans_.size()).value_or("none") != kNone; };
+    if (options_.refine || is_asked(options_.over) || is_asked(options_.split))
+      refuse(
+          fmt::format("{}: a robot is drawn within its own collision geometry; leave out --refine, and say --over "
+                      "none or --split none of its panel",
+                      path.string()));
+    const robot::Robot robot = robot::read_robot(path, options_.robots).robot;
+    TriangleMesh visual = robot_mesh(robot, robot::Geometry::Visual, path);
+    TriangleMesh collision = robot_mesh(robot, robot::Geometry::Collision, path);
+    const bool has_collision = collision.face_count() > 0;
+    if (has_collision && visual.face_count() > 0) plan.inside = table_.add(std::move(visual));
+    plan.inside_color = render::parse_color("grey");
+    plan.shown = table_.add(std::move(has_collision ? collision : visual));
+    if (table_.meshes()[plan.shown].face_count() == 0)
+      throw InputError(Defect::EmptyMesh, path.string() + ": the robot has no geometry to draw");
+    if (!options_.segment.empty()) plan.segment = crossings(plan.inside.value_or(plan.shown));
+    add(std::move(plan), has_collision);
   }
 
   void add_refined(const std::filesystem::path& path, std::size_t level, PanelPlan& plan) {
@@ -379,14 +421,19 @@ void add_view_options(CLI::App& command, Options& options) {
 void add_render(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand(
-      "render", "Draws meshes and hulls as a PNG picture. Each mesh has a panel of its own, side by side.");
-  command.add_option("in", options->in, std::string("Meshes or .phull files to draw. ") + kMeshFiles)
+      "render", "Draws meshes, hulls and robots as a PNG picture. Each of them has a panel of its own, side by side.");
+  command
+      .add_option("in", options->in,
+                  std::string("Meshes, .phull files or robots (.urdf, .xacro, .sdf, .mjcf, .xml) to draw. Robots are "
+                              "drawn within their collision geometry. ") +
+                      kMeshFiles)
       ->required()
       ->type_name("IN");
   command.add_option("-o,--out", options->out, "File for the picture, .png. With - it goes to standard output.")
       ->required()
       ->type_name("OUT.png");
   add_format_option(command, options->input);
+  add_package_path_option(command, options->robots.package_paths);
   command.add_option("--size", options->size, "Size of the picture, in pixels.")
       ->capture_default_str()
       ->type_name("WIDTHxHEIGHT");
@@ -405,6 +452,7 @@ void add_render(CLI::App& app, Run& run) {
                 "prohull render hull.ply --over horse.ply --wireframe -o both.png",
                 "prohull render hull.stl --split horse.ply --wireframe -o halves.png",
                 "prohull render horse.phull --faces original,2000,200 --wireframe -o levels.png --size 1200x400",
+                "prohull render arm.urdf arm_safe/arm.urdf --color orange --color blue -o arm.png",
                 "prohull render pump.stl -o pump.png --up y --azimuth 120 --background transparent"});
   command.callback([options, &run] { run = [options] { return run_render(*options); }; });
 }

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "command.h"
+#include "prohull/error.h"
 #include "prohull/mesh_io.h"
+#include "robot/samples/sample_robots.h"
 
 namespace prohull::cli {
 namespace {
@@ -12,7 +17,13 @@ struct Options {
   std::string name, out_format;
   std::filesystem::path out;
   std::size_t faces = 20000;
+  bool has_faces = false;  // they were given
 };
+
+bool is_robot(const std::string& name) {
+  const auto robots = robot::sample_robots();
+  return std::any_of(robots.begin(), robots.end(), [&](const auto& robot) { return robot.name == name; });
+}
 
 /// What a file of float32 keeps; one shape is as good a sample as the other.
 void round_to_float32(TriangleMesh& mesh) {
@@ -20,7 +31,7 @@ void round_to_float32(TriangleMesh& mesh) {
     for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(static_cast<float>(p[axis]));
 }
 
-int make(const Options& options) {
+int make_mesh(const Options& options) {
   const Stopwatch watch;
   const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
   check_files({}, {options.out});
@@ -34,28 +45,107 @@ int make(const Options& options) {
   return kDone;
 }
 
+/// Before any work. Throws InputError.
+void check_robot_options(const Options& options) {
+  if (options.has_faces)
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("--faces is for meshes; the robot {} has meshes of its own sizes; "
+                                 "leave --faces out",
+                                 options.name));
+  if (is_standard_stream(options.out) || !options.out_format.empty())
+    throw InputError(
+        Defect::InvalidOption,
+        fmt::format("the robot {0} is a folder of files; name the folder, as in -o {0}, without --out-format",
+                    options.name));
+}
+
+/// Throws InputError(CannotWrite) for what is there, unless it is an empty folder. The current one is refused too: the
+/// shell would stay in the folder that is replaced.
+void require_new_folder(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder)) return check_files({}, {folder});
+  if (std::filesystem::is_directory(folder) && std::filesystem::is_empty(folder) &&
+      !std::filesystem::equivalent(folder, "."))
+    return;
+  throw InputError(Defect::CannotWrite,
+                   fmt::format("{}: cannot write: it is there and is no empty folder elsewhere; name a new folder",
+                               folder.string()));
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw InputError(Defect::CannotWrite, file.string() + ": cannot write; is the disk full?");
+}
+
+void write_robot(const std::filesystem::path& folder, const std::string& name, const robot::SampleRobot& robot) {
+  std::filesystem::create_directory(folder);
+  write_text(folder / (name + ".urdf"), robot.urdf);
+  for (const auto& [path, mesh] : robot.meshes) {
+    stop_if_interrupted();
+    std::filesystem::create_directories((folder / path).parent_path());
+    write_mesh(folder / path, mesh);
+  }
+}
+
+int make_robot(const Options& options) {
+  const Stopwatch watch;
+  check_robot_options(options);
+  const std::filesystem::path folder = options.out.has_filename() ? options.out : options.out.parent_path();
+  require_new_folder(folder);
+  const robot::SampleRobot robot = robot::make_sample_robot(options.name);
+  Outputs outputs;
+  outputs.add(folder, "", [&](const auto& unfinished) { return write_robot(unfinished, options.name, robot), true; });
+  outputs.commit();
+  std::size_t faces = 0;
+  for (const auto& [path, mesh] : robot.meshes) faces += mesh.face_count();
+  say("{}: {} with {} of {}\n", (folder / (options.name + ".urdf")).string(), options.name,
+      counted(robot.meshes.size(), "mesh", "meshes"), counted(faces, "face", "faces"));
+  say_more("  made and written in {:.2f} s\n", watch.seconds());
+  return kDone;
+}
+
+int make(const Options& options) { return is_robot(options.name) ? make_robot(options) : make_mesh(options); }
+
 }  // namespace
 
 void add_sample(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("sample", "Makes one of the bundled meshes, to try other commands with.");
-  std::string list;
+  CLI::App& command =
+      *app.add_subcommand("sample", "Makes one of the bundled meshes or robots, to try other commands with.");
+  std::string meshes, robots;
   std::vector<std::string> words;
-  for (const SampleInfo& sample : samples()) {
-    list += fmt::format("\n  {:<10} {}", sample.name, sample.description);
-    words.emplace_back(sample.name);
-  }
-  command.add_option("name", options->name, "The mesh to make:" + list)
+  const auto add = [&words](std::string& list, std::string_view name, std::string_view description) {
+    list += fmt::format("\n  {:<12} {}", name, description);
+    words.emplace_back(name);
+  };
+  for (const SampleInfo& sample : samples()) add(meshes, sample.name, sample.description);
+  for (const robot::SampleRobotInfo& sample : robot::sample_robots()) add(robots, sample.name, sample.description);
+  command
+      .add_option("name", options->name,
+                  "The mesh to make:" + meshes + "\nor the robot, a URDF file and its meshes:" + robots)
       ->required()
       ->transform(one_of("NAME", words))
       ->type_name(CLI::detail::join(words, "|"));
-  add_mesh_output_options(command, options->out, options->out_format, "the mesh");
-  add_number(command, "--faces", options->faces, {4, 1e9},
-             "Number of faces, which the mesh has within 20 % where its shape allows.")
-      ->capture_default_str();
+  command
+      .add_option(
+          "-o,--out", options->out,
+          fmt::format("File for the mesh. Its name ends in {}, which tells the format. With - it goes to standard "
+                      "output. For a robot: a new folder.",
+                      alternatives(mesh_outputs().suffixes)))
+      ->required()
+      ->type_name("OUT");
+  add_out_format_option(command, options->out_format, mesh_outputs());
+  const CLI::Option* const faces =
+      add_number(command, "--faces", options->faces, {4, 1e9},
+                 "Number of faces, which the mesh has within 20 % where its shape allows. Not with robots.")
+          ->capture_default_str();
   add_examples(command, {"prohull sample asteroid -o asteroid.ply --faces 1e5",
-                         "prohull sample knot -o - --out-format stl | prohull info -"});
-  command.callback([options, &run] { run = [options] { return make(*options); }; });
+                         "prohull sample knot -o - --out-format stl | prohull info -", "prohull sample arm -o arm"});
+  command.callback([options, faces, &run] {
+    options->has_faces = faces->count() > 0;
+    run = [options] { return make(*options); };
+  });
 }
 
 }  // namespace prohull::cli

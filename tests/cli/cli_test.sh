@@ -3,39 +3,11 @@
 # Each check names what it defends; the last line counts them.
 set -u
 prohull=$1 divisor=$2
+. "$(dirname "$0")/checks.sh"
 work=$(mktemp -d)
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 cd "$work" || exit 1
-checks=0
-failures=0
 engines="bvh kdop6 kdop14 kdop18 kdop26 kdop6-overlap kdop14-overlap kdop18-overlap kdop26-overlap brute"
-
-fail() {
-  failures=$((failures + 1))
-  echo "FAILED: $1"
-  sed 's/^/    /' out err
-}
-
-# expect EXIT_CODE NAME COMMAND...: runs it, its output in the files out and err
-expect() {
-  code=$1 name=$2
-  shift 2
-  checks=$((checks + 1))
-  "$@" >out 2>err
-  got=$?
-  [ $got -eq "$code" ] || fail "$name: exit code $got, expected $code"
-}
-
-# says FILE NAME TEXT: the last command's out or err holds the text
-says() {
-  checks=$((checks + 1))
-  grep -qF -- "$3" "$1" || fail "$2: no '$3' in its $1"
-}
-
-absent() {
-  checks=$((checks + 1))
-  [ -z "$(ls $1 2>/dev/null)" ] || fail "$2: $1 is there"
-}
 
 # --- the main job ---
 expect 0 "sample" $prohull sample asteroid -o rock.ply --faces $((20000 / divisor))
@@ -167,6 +139,23 @@ gzip -kf rock.ply
 expect 0 "gzip" $prohull build rock.ply.gz --faces 500 -o from_gzip.stl
 cmp -s from_gzip.stl hull.stl || fail "the same hull from a gzipped file"
 
+# --- robots ---
+for robot in arm gripper mobile-base; do
+  expect 0 "sample $robot" $prohull sample $robot -o robots-$robot/
+  says out "sample $robot" "robots-$robot/$robot.urdf: $robot with "
+  expect 0 "a mesh of $robot" $prohull info "$(find robots-$robot -name '*.stl' | sort | head -n 1)"
+done
+expect 3 "a folder that is in use" $prohull sample gripper -o robots-arm
+says err "a folder that is in use" "robots-arm: cannot write: it is there and is no empty folder elsewhere; name a new folder"
+absent "robots-arm/gripper.urdf" "a folder that is in use"
+expect 2 "a robot with --faces" $prohull sample arm --faces 100 -o robots-faces
+says err "a robot with --faces" "leave --faces out"
+expect 2 "a robot to standard output" $prohull sample arm -o -
+says err "a robot to standard output" "name the folder, as in -o arm"
+expect 3 "a robot in no folder" $prohull sample arm -o nowhere/arm
+absent "robots-faces" "a robot that was refused"
+absent ".robots-*" "unfinished robots"
+
 # --- GLB and scenes ---
 expect 0 "build GLB" $prohull build rock.ply --faces 500 -o hull.glb --hierarchy from_glb.phull
 says out "build GLB" "certified: yes, the file as written encloses the original"
@@ -226,6 +215,19 @@ expect 0 "refined along a segment" $prohull render rock.phull --segment 3,0.1,0.
 says refined.json "crossings" '"found": ['
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 1\n3 0 1 2\n' >triangle.off
 expect 0 "an open mesh" $prohull render triangle.off --size 16x16 -o open.png
+$prohull sample gripper -o drawn >/dev/null
+expect 0 "a robot beside a mesh" $prohull render drawn/gripper.urdf rock.ply --color orange --size 160x80 -o robot.png \
+  --report robot.json
+is_png robot.png "a robot beside a mesh" 000000a0 00000050
+says robot.json "a robot within its collision geometry" '"faces_inside": '
+expect 3 "a robot that is none" sh -c "echo '<a/>' >none.urdf; $prohull render none.urdf -o none.png"
+for option in "--over rock.ply" "--split rock.ply" "--refine --segment 3,0,0,-3,0,0"; do
+  expect 2 "a robot $option" $prohull render drawn/gripper.urdf $option -o none.png
+  says err "a robot $option" "within its own collision geometry"
+done
+expect 2 "levels of a robot" $prohull render drawn/gripper.urdf --faces 100 -o none.png
+says err "levels of a robot" ".phull"
+absent "none.png" "no picture of a robot"
 expect 0 "from a pipe" sh -c "cat rock.ply | $prohull render /dev/stdin --size 16x16 -o pipe.png"
 
 # --- what cannot be reached ---
@@ -749,5 +751,4 @@ for command in "info pipe" "build pipe -o interrupted.stl" "lod pipe -o interrup
 done
 kill $writer
 
-echo "$((checks - failures)) passed, $failures failed"
-[ $failures -eq 0 ]
+count_checks

@@ -1,0 +1,221 @@
+#include "robot_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "console.h"
+
+namespace prohull::cli {
+namespace {
+
+using namespace prohull::robot;
+
+std::string millimetres(double length) { return fmt::format("{:.3g} mm", 1000 * length); }
+
+/// Columns as wide as their widest cell; the first is aligned to the left.
+class Table {
+ public:
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+
+  std::string text() const {
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows_)
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        if (i == widths.size()) widths.push_back(0);
+        widths[i] = std::max(widths[i], row[i].size());
+      }
+    std::string text;
+    for (const auto& row : rows_) {
+      std::string line = "  ";
+      for (std::size_t i = 0; i < row.size(); ++i)
+        line += i == 0 ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("  {:>{}}", row[i], widths[i]);
+      text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    return text;
+  }
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+std::string ratio(double a, double b) { return b > 0 ? fmt::format("{:.2f}", a / b) : "-"; }
+
+void add_hulls(Table& table, const Link& link, const LinkHulls& made) {
+  for (const LinkHull& hull : made.hulls)
+    table.add({link.name, grouped(made.triangles.face_count()), grouped(hull.mesh.face_count()),
+               ratio(hull.volume, made.sealed_volume), ratio(hull.volume, made.convex_volume),
+               millimetres(hull.distance.upper), hull.certified ? "yes" : "NO"});
+  if (made.status == LinkStatus::Primitives) table.add({link.name, "primitives, kept"});
+  if (!made.why.empty()) table.add({link.name, "left as it is"});
+}
+
+std::string notes_text(const std::string& link, const LinkHull& hull, bool has_others) {
+  const std::string which = has_others ? fmt::format("{}, {} faces", link, hull.target_faces) : link;
+  std::string text;
+  if (!hull.within_bounds)
+    text += fmt::format("  {}: NOT within the distance asked for: {}\n", which, millimetres(hull.distance.upper));
+  for (const std::string& note : hull.notes) text += fmt::format("  {}: {}\n", which, note);
+  return text;
+}
+
+std::string hulls_text(const ReportInput& facts) {
+  Table table;
+  table.add({"link", "faces", "hull", "/ part", "/ convex", "distance", "certified"});
+  for (const LinkHulls& made : facts.hulls) add_hulls(table, facts.file.robot.links[made.link], made);
+  std::string text = table.text();
+  for (const LinkHulls& made : facts.hulls) {
+    const std::string& name = facts.file.robot.links[made.link].name;
+    if (!made.why.empty()) text += fmt::format("  {}: left as it is: {}\n", name, made.why);
+    for (const LinkHull& hull : made.hulls) text += notes_text(name, hull, made.hulls.size() > 1);
+  }
+  return text;
+}
+
+std::string shipped_text(const ReportInput& facts) {
+  std::size_t covered = 0, leaks = 0, bare = 0;
+  const LinkCheck* worst = nullptr;
+  for (const LinkCheck& check : facts.shipped) {
+    covered += check.verdict == CheckVerdict::Covered, bare += check.verdict == CheckVerdict::NoCollision;
+    if (check.verdict != CheckVerdict::Leaks) continue;
+    ++leaks;
+    if (!worst || check.sticks_out_at_least > worst->sticks_out_at_least) worst = &check;
+  }
+  if (covered + leaks + bare == 0) return "";
+  std::string text = fmt::format("  shipped collision geometry: {} covered", counted(covered, "link", "links"));
+  if (bare > 0) text += fmt::format(", {} without any", bare);
+  if (worst)
+    text += fmt::format(", {} leaking; the worst is {}, by {}", leaks, facts.file.robot.links[worst->link].name,
+                        millimetres(worst->sticks_out_at_least));
+  return text + "\n";
+}
+
+std::string motion_text(const MotionResult& motion) {
+  return fmt::format("  motion: {} configurations; false collisions {} with these hulls, {} with convex hulls; {}\n",
+                     grouped(motion.configurations), grouped(motion.false_hull()), grouped(motion.false_convex()),
+                     motion.missed() == 0 ? "none missed" : fmt::format("{} MISSED", grouped(motion.missed())));
+}
+
+std::string described(const Form& form) {
+  static constexpr const char* kNames[] = {"mesh", "box", "sphere", "cylinder", "capsule", "other"};
+  return kNames[form.index()];
+}
+
+/// "forearm.stl, box"
+std::string described(std::span<const Shape> all) {
+  std::string text;
+  for (const Shape& shape : all) {
+    const MeshFile* const mesh = shape.mesh();
+    text += text.empty() ? "" : ", ";
+    text += !mesh ? described(shape.form) : mesh->path.empty() ? mesh->why_not : mesh->path.filename().string();
+  }
+  return text.empty() ? "no geometry" : text;
+}
+
+/// What a run would do with a link.
+std::string plan_of(const Link& link, const LinkHullOptions& options) {
+  const Budget& budget = options.budget_of(link.name);
+  const std::vector<Shape>& all = shapes(link, options.from);
+  const auto has = [&](const auto& is_so) { return std::ranges::any_of(all, is_so); };
+  const auto is_missing = [](const Shape& shape) { return shape.mesh() && shape.mesh()->path.empty(); };
+  if (all.empty()) return "nothing to do";
+  if (budget.skip || has([](const Shape& shape) { return std::holds_alternative<OtherForm>(shape.form); }))
+    return "left as it is";
+  if (has(is_missing)) return options.skip_missing ? "left as it is" : "an error, as its mesh is missing";
+  if (budget.padding == 0 && !has([](const Shape& shape) { return shape.mesh() != nullptr; }))
+    return "primitives, kept";
+  std::string text = fmt::format("a hull of {} faces", fmt::join(budget.faces, " and "));
+  if (budget.max_distance > 0) text += fmt::format(", within {}", millimetres(budget.max_distance));
+  if (budget.padding > 0) text += fmt::format(", with a padding of {}", millimetres(budget.padding));
+  return text;
+}
+
+std::string verdict_text(const LinkCheck& check, double allow) {
+  switch (check.verdict) {
+    case CheckVerdict::Covered:
+      return "covered";
+    case CheckVerdict::Leaks:
+      return passes(check, allow) ? "within the allowance" : "LEAKS";
+    case CheckVerdict::Undecided:
+      if (check.sticks_out_at_most <= allow) return "within the allowance";
+      return passes(check, allow) ? "covered, but for rounding" : "UNDECIDED";
+    case CheckVerdict::NoCollision:
+      return "NO COLLISION GEOMETRY";
+    case CheckVerdict::NoVisual:
+      return "no visual geometry";
+    case CheckVerdict::Missing:
+      return "NOT CHECKED";
+  }
+  return "";
+}
+
+bool has_measures(const LinkCheck& check) {
+  return check.verdict == CheckVerdict::Covered || check.verdict == CheckVerdict::Leaks ||
+         check.verdict == CheckVerdict::Undecided;
+}
+
+void say_notes(const RobotFile& file, const LinkCheck& check) {
+  const std::string& name = file.robot.links[check.link].name;
+  if (check.sticks_out_at_least > 0)
+    say("  {}: sticks out farthest at ({:.5g}, {:.5g}, {:.5g}), in the frame of the link\n", name, check.worst_point.x,
+        check.worst_point.y, check.worst_point.z);
+  for (const std::string& note : check.notes) say("  {}: {}\n", name, note);
+}
+
+}  // namespace
+
+bool is_certified(const LinkHulls& link) { return std::ranges::all_of(link.hulls, &LinkHull::certified); }
+
+void say_robot(const RobotFile& file) {
+  const Robot& robot = file.robot;
+  say("{}: {}, {}, {}\n", file.path.string(), robot.name, counted(robot.links.size(), "link", "links"),
+      counted(robot.joints.size(), "joint", "joints"));
+  for (const std::string& note : file.notes) say("  {}\n", note);
+}
+
+void say_plan(const RobotFile& file, const LinkHullOptions& options) {
+  for (const Link& link : file.robot.links)
+    say("  {}: {}: {}\n", link.name, described(shapes(link, options.from)), plan_of(link, options));
+  say("nothing was written: --dry-run\n");
+}
+
+void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double allow) {
+  Table table;
+  table.add({"link", "sticks out", "/ part", "/ convex", "farthest", "verdict"});
+  for (const LinkCheck& check : checks) {
+    const std::string& name = file.robot.links[check.link].name;
+    if (has_measures(check))
+      table.add({name, check.verdict == CheckVerdict::Covered ? "0" : millimetres(check.sticks_out_at_least),
+                 ratio(check.collision_volume, check.visual_volume), ratio(check.collision_volume, check.convex_volume),
+                 millimetres(check.fat.upper), verdict_text(check, allow)});
+    else
+      table.add({name, "", "", "", "", verdict_text(check, allow)});
+  }
+  say("{}", table.text());
+  for (const LinkCheck& check : checks) say_notes(file, check);
+  const auto failed = std::ranges::count_if(checks, [&](const LinkCheck& check) { return !passes(check, allow); });
+  const bool rounds = std::ranges::count(checks, CheckVerdict::Undecided, &LinkCheck::verdict) > 0;
+  if (failed == 0)
+    say("yes: the collision geometry covers the visual geometry of every link{}\n",
+        allow > 0 ? ", or lets it stick out by at most " + millimetres(allow)
+        : rounds  ? ", but for rounding"
+                  : ", exactly");
+  else
+    say("NO: {} of {} not covered; `prohull urdf {} -o DIR` makes collision meshes that cover them\n", failed,
+        counted(checks.size(), "link is", "links are"), file.path.string());
+}
+
+std::string robot_summary(const std::filesystem::path& folder, const ReportInput& facts) {
+  std::size_t hulls = 0, certified = 0;
+  for (const LinkHulls& link : facts.hulls)
+    for (const LinkHull& hull : link.hulls) ++hulls, certified += hull.certified;
+  std::string text = hulls_text(facts) + shipped_text(facts);
+  if (facts.motion) text += motion_text(*facts.motion);
+  text += fmt::format("{}: the robot with its hulls, and report.html; {} of {} certified\n", folder.string(), certified,
+                      counted(hulls, "hull is", "hulls are"));
+  return text;
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "robot/check/check.h"
+#include "robot/files/robot_file.h"
+#include "robot/hulls/link_hulls.h"
+#include "robot/report/report.h"
+
+namespace prohull::cli {
+
+// What `prohull urdf` tells its user. Lengths are told in millimetres.
+
+/// What was read.
+void say_robot(const robot::RobotFile& file);
+
+/// What a run would do with each link.
+void say_plan(const robot::RobotFile& file, const robot::LinkHullOptions& options);
+
+/// How the shipped collision geometry lies to the visual one.
+void say_check(const robot::RobotFile& file, std::span<const robot::LinkCheck> checks, double allow);
+
+/// What was made into the folder.
+std::string robot_summary(const std::filesystem::path& folder, const robot::ReportInput& facts);
+
+/// Whether all hulls of a link are certified; true of a link without any.
+bool is_certified(const robot::LinkHulls& link);
+
+}  // namespace prohull::cli

@@ -1,0 +1,318 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "command.h"
+#include "prohull/error.h"
+#include "robot/check/check.h"
+#include "robot/files/robot_file.h"
+#include "robot/hulls/budgets.h"
+#include "robot/hulls/cache.h"
+#include "robot/hulls/write_robot.h"
+#include "robot/motion/bodies.h"
+#include "robot/motion/motion.h"
+#include "robot/report/report.h"
+#include "robot_folder.h"
+#include "robot_summary.h"
+
+namespace prohull::cli {
+namespace {
+
+using namespace prohull::robot;
+using std::filesystem::path;
+
+struct Options {
+  path in, out, budgets, write_budgets, cache, report, junit, html;
+  FileOptions file;
+  LinkHullOptions hulls;
+  std::string max_distance = "0", padding = "0", allow = "0", package;
+  bool check = false, dry_run = false, no_cache = false, no_pictures = false;
+  MotionOptions motion{.configurations = 1000};
+  unsigned threads = 0;
+};
+
+Names<Geometry> geometry_names() {
+  static constexpr std::pair<std::string_view, Geometry> kNames[] = {{"visual", Geometry::Visual},
+                                                                     {"collision", Geometry::Collision}};
+  return kNames;
+}
+
+[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
+
+path default_cache() {
+  if (const char* const folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) return path(folder) / "prohull";
+  if (const char* const home = std::getenv("HOME"); home && *home) return path(home) / ".cache" / "prohull";
+  return {};
+}
+
+void complete(Options& options) {
+  Budget& budget = options.hulls.budget;
+  budget.max_distance = length_of(options.max_distance, "--max-distance");
+  budget.padding = length_of(options.padding, "--padding");
+  if (!options.no_cache) options.hulls.cache = options.cache.empty() ? default_cache() : options.cache;
+  options.hulls.threads = options.motion.threads = options.threads;
+}
+
+/// Tells how the shipped collision geometry lies to the visual one.
+int run_check(const Options& options, const RobotFile& file) {
+  const Stopwatch watch;
+  const double allow = length_of(options.allow, "--allow");
+  check_files({options.in}, {options.report, options.junit, options.html});
+  ReportInput facts{.file = file, .hulls = {}, .shipped = {}, .motion = {}, .allow = allow, .version = PROHULL_VERSION};
+  {
+    ProgressLine line;
+    facts.shipped = check_links(file.robot, {.threads = options.threads, .progress = std::ref(line)});
+  }
+  facts.seconds = watch.seconds();
+  Outputs outputs;
+  outputs.add_report(options.report, report_json(facts));
+  if (!options.junit.empty()) outputs.add(options.junit, report_junit(facts));
+  if (!options.html.empty()) {
+    ProgressLine line;
+    outputs.add(options.html, report_html(facts, {.threads = options.threads, .progress = std::ref(line)}));
+  }
+  outputs.commit();
+  say_check(file, facts.shipped, allow);
+  const bool all = std::ranges::all_of(facts.shipped, [&](const LinkCheck& check) { return passes(check, allow); });
+  return all ? kDone : kAnswerIsNo;
+}
+
+int run_write_budgets(const Options& options, const RobotFile& file) {
+  check_files({options.in, options.budgets}, {options.write_budgets});
+  Outputs outputs;
+  outputs.add(options.write_budgets, budgets_text(file.robot, options.hulls));
+  outputs.commit();
+  say("{}: budgets of {}; change them, and give the file to --budgets\n", output_name(options.write_budgets),
+      counted(file.robot.links.size(), "link", "links"));
+  return kDone;
+}
+
+/// Equal for two runs that make the same files.
+std::string run_key(const Options& options, const RobotFile& file) {
+  Fingerprint key;
+  key.add(file.text);
+  key.add(std::filesystem::absolute(options.in).string());  // relative paths of the robot depend on both
+  key.add(std::filesystem::absolute(options.out).string());
+  for (const Link& link : file.robot.links) {
+    const Budget& budget = options.hulls.budget_of(link.name);
+    for (const Geometry which : {Geometry::Visual, Geometry::Collision}) {
+      LinkHullOptions same = options.hulls;
+      same.from = which;
+      key.add(key_of(link, budget, same));
+      for (const Shape& shape : shapes(link, which))
+        if (const MeshFile* const mesh = shape.mesh()) key.add(mesh->path.string());
+    }
+    key.add(std::size_t(budget.skip));
+  }
+  key.add(std::size_t(options.hulls.from)), key.add(std::size_t(options.hulls.skip_missing)), key.add(options.package);
+  key.add(std::size_t(options.no_pictures)), key.add(options.motion.configurations);
+  key.add(std::size_t(options.motion.seed));
+  return key.text();
+}
+
+/// All that a run finds out, before anything is written.
+ReportInput make(const Options& options, const RobotFile& file, const Stopwatch& watch) {
+  ReportInput made{
+      .file = file, .hulls = {}, .shipped = {}, .motion = {}, .version = PROHULL_VERSION, .from = options.hulls.from};
+  ProgressLine line;
+  const Progress progress = std::ref(line);
+  LinkHullOptions hulls = options.hulls;
+  hulls.progress = progress;
+  made.hulls = link_hulls(file.robot, hulls);
+  made.shipped = check_links(file.robot, {.threads = options.threads, .progress = progress});
+  if (options.motion.configurations > 0 && !file.robot.joints.empty()) {
+    MotionOptions motion = options.motion;
+    motion.progress = progress;
+    made.motion = check_motion(file.robot, bodies_of(file.robot, made.hulls, options.hulls.from), motion);
+  }
+  made.seconds = watch.seconds();
+  return made;
+}
+
+void write(const Options& options, const WriteOptions& how, const ReportInput& facts, RobotFolder& folder) {
+  for (const OutputFile& output : output_files(facts.file, facts.hulls, folder.get(), how))
+    folder.add(output.path, output.write);
+  if (facts.motion) folder.add(robot_stem(facts.file) + ".srdf", srdf_of(facts.file.robot, *facts.motion));
+  ProgressLine line;
+  const PageOptions page{.pictures = !options.no_pictures, .threads = options.threads, .progress = std::ref(line)};
+  folder.add("report.html", report_html(facts, page));
+}
+
+bool is_as_asked(const LinkHulls& link) {
+  return link.status != LinkStatus::Unread && is_certified(link) &&
+         std::ranges::all_of(link.hulls, &LinkHull::within_bounds);
+}
+
+int run_build(const Options& options, const RobotFile& file) {
+  const Stopwatch watch;
+  if (options.out.empty())
+    refuse("say by -o which folder the robot goes to; or use --check, --dry-run or --write-budgets");
+  RobotFolder folder(options.out);
+  const WriteOptions how{.faces = options.hulls.budget.faces,
+                         .from = options.hulls.from,
+                         .format = options.hulls.format,
+                         .package = options.package};
+  check_options(file, how);
+  const std::string key = run_key(options, file);
+  if (const auto earlier = folder.earlier_run(key)) {
+    say("{}{}: up to date; nothing has changed since the last run\n", (*earlier)["summary"].get<std::string>(),
+        options.out.string());
+    return (*earlier)["exit_code"];
+  }
+  const ReportInput facts = make(options, file, watch);
+  const std::string summary = robot_summary(options.out, facts);
+  const bool is_done = std::ranges::all_of(facts.hulls, is_as_asked) && (!facts.motion || facts.motion->missed() == 0);
+  write(options, how, facts, folder);
+  folder.commit(report_json(facts), key, summary, is_done ? kDone : kAnswerIsNo);
+  say("{}  {:.1f} s\n", summary, watch.seconds());
+  return is_done ? kDone : kAnswerIsNo;
+}
+
+int run_urdf(Options options) {
+  complete(options);
+  const RobotFile file = read_robot(options.in, options.file);
+  if (!options.budgets.empty())
+    read_budgets(read_bytes(options.budgets), input_name(options.budgets), file.robot, options.hulls);
+  say_robot(file);
+  if (!options.write_budgets.empty()) return run_write_budgets(options, file);
+  if (options.check) return run_check(options, file);
+  if (options.dry_run) return say_plan(file, options.hulls), kDone;
+  return run_build(options, file);
+}
+
+/// Returns --write-budgets.
+CLI::Option* add_budgets(CLI::App& command, Options& options) {
+  constexpr const char* kBudgets = "Budgets";
+  add_number(command, "--faces", options.hulls.budget.faces, {4, 1e9},
+             "Number of faces of each hull, at least 4. Several numbers, as in 500,100, make a robot each.")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->type_name("N[,N...]")
+      ->group(kBudgets);
+  command
+      .add_option("--max-distance", options.max_distance,
+                  "Largest allowed distance of any point of a hull from the geometry, in metres or with a unit: 2mm. "
+                  "Hulls then have the fewest faces that keep it, but at least --faces. Padding does not count. The "
+                  "exit code is 1 if a hull cannot keep it.")
+      ->type_name("LENGTH")
+      ->group(kBudgets);
+  command
+      .add_option("--padding", options.padding,
+                  "Least distance that the hulls keep from the geometry, in metres or with a unit: 5mm.")
+      ->type_name("LENGTH")
+      ->group(kBudgets);
+  command
+      .add_option("--budgets", options.budgets,
+                  "YAML file with faces, max_distance, padding and skip for each link; see --write-budgets.")
+      ->type_name("FILE.yaml")
+      ->group(kBudgets);
+  return command
+      .add_option("--write-budgets", options.write_budgets,
+                  "Write a file for --budgets with all links of the robot, as a start, and do nothing else.")
+      ->type_name("FILE.yaml")
+      ->group(kBudgets);
+}
+
+/// Returns --check.
+CLI::Option* add_check(CLI::App& command, Options& options) {
+  constexpr const char* kCheck = "Check what the robot ships with";
+  CLI::Option* const check =
+      command
+          .add_flag("--check", options.check,
+                    "Decide for each link whether its own collision geometry covers its visual geometry, exactly. "
+                    "Nothing is built. The exit code is 1 if a link leaks.")
+          ->group(kCheck);
+  command
+      .add_option("--allow", options.allow,
+                  "How far the visual geometry may stick out, in metres or with a unit: 0.5mm.")
+      ->needs(check)
+      ->type_name("LENGTH")
+      ->group(kCheck);
+  command.add_option("--junit", options.junit, "Also write the verdicts as JUnit XML, which CI services show.")
+      ->needs(check)
+      ->type_name("FILE.xml")
+      ->group(kCheck);
+  command.add_option("--html", options.html, "Also write a page with pictures.")
+      ->needs(check)
+      ->type_name("FILE.html")
+      ->group(kCheck);
+  command.add_option("--report", options.report, "Also write what was found as JSON.")
+      ->needs(check)
+      ->type_name("FILE.json")
+      ->group(kCheck);
+  return check;
+}
+
+void add_motion(CLI::App& command, Options& options) {
+  constexpr const char* kMotion = "Motion";
+  add_number(command, "--configurations", options.motion.configurations, {0, 1e7},
+             "Number of random positions of all joints in which pairs of links are compared: how often hulls collide "
+             "where the geometry does not. With 0 this is left out.")
+      ->capture_default_str()
+      ->group(kMotion);
+  add_number(command, "--seed", options.motion.seed, kSeed, "Number that the positions depend on.")
+      ->capture_default_str()
+      ->group(kMotion);
+}
+
+}  // namespace
+
+void add_urdf(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "urdf",
+      "Gives every link of a robot a certified collision mesh. Reads URDF, SDF and MJCF, and writes a copy of the "
+      "robot with its meshes, a report with pictures, and the pairs of links that need no check. With --check, it "
+      "decides whether the collision geometry that the robot ships with covers the robot. The exit code is 1 if a "
+      "link is not covered.");
+  command
+      .add_option("in", options->in,
+                  "Robot: URDF, SDF or MJCF. A .xacro file is expanded by the program xacro, if that is installed.")
+      ->required()
+      ->type_name("ROBOT");
+  CLI::Option* const out =
+      command
+          .add_option("-o,--out", options->out,
+                      "Folder for the robot and its hulls. It is made if it is not there. A folder with files that "
+                      "this command has not written is refused.")
+          ->type_name("DIR");
+  add_package_path_option(command, options->file.package_paths);
+  add_choice(command, "--from", options->hulls.from, geometry_names(), "Geometry of each link that the hulls enclose.");
+  command.add_option("--format", options->hulls.format, "Format of the hulls.")
+      ->transform(one_of("--format", {"stl", "obj", "glb"}))
+      ->type_name("stl|obj|glb")
+      ->capture_default_str();
+  command
+      .add_option("--package", options->package,
+                  "Make the folder a ROS package of this name: with package.xml, and hulls named by package:// URIs.")
+      ->type_name("NAME");
+  command.add_flag("--tight", options->hulls.tight, "Build tight hulls: least volume, but some 20 times as slow.");
+  command.add_flag("--skip-missing", options->hulls.skip_missing,
+                   "Leave links whose mesh files are not found as they are. Otherwise missing files are an error.");
+  CLI::Option* const dry_run =
+      command.add_flag("--dry-run", options->dry_run, "Say what would be done with each link, and write nothing.");
+  command.add_flag("--no-pictures", options->no_pictures, "Write the report without pictures, which is faster.");
+  command
+      .add_option(
+          "--cache", options->cache,
+          "Folder that keeps hulls for the next run. Otherwise this is prohull in the user's folder for caches.")
+      ->type_name("DIR");
+  command.add_flag("--no-cache", options->no_cache, "Build all hulls anew, and keep none.");
+  add_threads_option(command, options->threads, "The result is the same for any number.");
+  CLI::Option* const write_budgets = add_budgets(command, *options);
+  add_motion(command, *options);
+  CLI::Option* const check = add_check(command, *options);
+  check->excludes(out)->excludes(dry_run)->excludes(write_budgets);
+  write_budgets->excludes(out)->excludes(dry_run);
+  add_examples(
+      command,
+      {"prohull urdf arm.urdf -o arm_safe", "prohull urdf arm.urdf -o arm_safe --faces 500,100 --padding 5mm",
+       "prohull urdf arm.urdf -o arm_safe --package arm_safe --package-path ~/ws/src",
+       "prohull urdf arm.urdf --write-budgets budgets.yaml", "prohull urdf arm.urdf -o arm_safe --budgets budgets.yaml",
+       "prohull urdf arm.urdf --check --allow 0.5mm --junit leaks.xml",
+       "prohull urdf model.sdf -o model_safe --format obj"});
+  command.callback([options, &run] { run = [options] { return run_urdf(*options); }; });
+}
+
+}  // namespace prohull::cli

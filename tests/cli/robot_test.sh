@@ -1,0 +1,155 @@
+#!/bin/sh
+# Drives `prohull urdf` as a user would: robot_test.sh PROHULL
+# Each check names what it defends; the last line counts them.
+set -u
+prohull=$1
+. "$(dirname "$0")/checks.sh"
+work=$(mktemp -d)
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export XDG_CACHE_HOME="$work/caches"
+# --- a robot of three links, the collision mesh of which is too small for the first ---
+mkdir -p robot/meshes
+$prohull sample bracket --faces 600 -o robot/meshes/bracket.stl >/dev/null
+$prohull sample bracket --faces 200 -o robot/meshes/coarse.stl >/dev/null
+$prohull sample knot --faces 600 -o robot/meshes/knot.ply >/dev/null
+cat >robot/robot.urdf <<'URDF'
+<?xml version="1.0"?>
+<!-- a <robot> for tests -->
+<robot name="three">
+	<link name="base">
+		<visual><geometry><mesh filename="meshes/bracket.stl" scale="0.1 0.1 0.1"/></geometry></visual>
+		<collision><geometry><mesh filename="meshes/bracket.stl" scale="0.09 0.1 0.1"/></geometry></collision>
+	</link>
+	<link name="arm/&lt;1&gt;">
+		<visual>
+			<origin xyz="0 0 0.1" rpy="0.1 0.2 0.3"/>
+			<geometry><mesh filename="meshes/knot.ply" scale="0.1 0.1 0.1"/></geometry>
+		</visual>
+	</link>
+	<link name="wheel">
+		<visual><geometry><cylinder radius="0.1" length="0.05"/></geometry></visual>
+		<collision><geometry><cylinder radius="0.1" length="0.05"/></geometry></collision>
+	</link>
+	<joint name="lift" type="prismatic">
+		<parent link="base"/><child link="arm/&lt;1&gt;"/><axis xyz="0 0 1"/>
+		<limit lower="0" upper="0.5" effort="1" velocity="1"/>
+	</joint>
+	<joint name="turn" type="continuous"><parent link="arm/&lt;1&gt;"/><child link="wheel"/></joint>
+	<unknown tag="kept"/>
+</robot>
+URDF
+cp -r robot before
+urdf="$prohull urdf robot/robot.urdf"
+
+# --- what it ships with ---
+expect 1 "check" $urdf --check --junit junit.xml --report check.json
+says out "check: a leak" "LEAKS"
+says out "check: what to do" "prohull urdf robot/robot.urdf -o DIR"
+says junit.xml "check: JUnit" "<failure"
+says check.json "check: JSON" '"verdict": "leaks"'
+expect 1 "check with too little allowed" $urdf --check --allow 0.01mm
+expect 2 "--allow without --check" $urdf --allow 1mm -o none
+expect 2 "--allow is a length" $urdf --check --allow 1lb
+says err "--allow is a length" "'1lb' is no length"
+
+# --- the main job ---
+small="--faces 200,60 --configurations 20 --no-pictures"
+expect 0 "dry run" $urdf -o made $small --dry-run
+says out "dry run" "a hull of 200 and 60 faces"
+absent made "dry run"
+expect 0 "build" $urdf -o made/deep $small
+says out "build" "4 of 4 hulls are certified"
+says out "build: motion" "20 configurations"
+is "build leaves the input alone" diff -r robot before
+for file in robot.urdf robot_60.urdf robot.srdf report.html report.json meshes/collision/base.stl \
+  meshes/collision_60/arm__1_.stl; do
+  is "build writes $file" test -s made/deep/$file
+done
+says made/deep/robot.urdf "untouched bytes stay" '<!-- a <robot> for tests -->'
+says made/deep/robot.urdf "untouched bytes stay" '<unknown tag="kept"/>'
+says made/deep/robot.urdf "the origin is copied" '<origin xyz="0 0 0.1" rpy="0.1 0.2 0.3"/>'
+says made/deep/report.html "texts are shown, not interpreted" 'arm/&lt;1&gt;'
+expect 0 "a robot with hulls passes the check" $prohull urdf made/deep/robot.urdf --check
+says out "a robot with hulls passes the check" "yes: the collision geometry covers"
+expect 0 "the coarse one too" $prohull urdf made/deep/robot_60.urdf --check
+absent "made/deep/.[a-z]* made/deep/meshes/*/.[a-z]*" "unfinished files"
+
+expect 0 "a second run" $urdf -o made/deep $small
+says out "a second run" "up to date"
+expect 0 "without the coarse set" $urdf -o made/deep --faces 200 --configurations 20 --no-pictures
+absent "made/deep/robot_60.urdf made/deep/meshes/collision_60" "files of an earlier run"
+expect 0 "with the coarse set again" $urdf -o made/deep $small
+mv made/deep made/deeper
+expect 0 "a moved folder" $urdf -o made/deeper $small
+says made/deeper/report.json "a moved folder is made again" '"from_cache": true'
+mv made/deeper made/deep
+expect 0 "the folder is back" $urdf -o made/deep $small
+echo '{"run": 3}' >made/deep/report.json
+expect 2 "a damaged report.json" $urdf -o made/deep $small
+says err "a damaged report.json" "choose a new folder"
+rm -r made/deep
+expect 0 "made once more" $urdf -o made/deep $small
+rm made/deep/meshes/collision/base.stl
+expect 0 "a lost file" $urdf -o made/deep $small
+is "a lost file comes again" test -s made/deep/meshes/collision/base.stl
+says made/deep/report.json "its hull comes from the cache" '"from_cache": true'
+expect 0 "one thread" $urdf -o one $small --no-cache --threads 1
+is "one thread makes the same hulls" diff -r one/meshes made/deep/meshes
+expect 0 "OBJ and a package" $urdf -o three_safe $small --format obj --package three_safe
+says three_safe/robot.urdf "a package" 'package://three_safe/meshes/collision/base.obj'
+expect 0 "a package is found" $prohull urdf three_safe/robot.urdf --check
+
+expect 0 "budgets to begin with" $urdf --write-budgets budgets.yaml --faces 150
+sed -i 's/"base": .*/"base": {faces: [80], padding: 2mm}/' budgets.yaml
+expect 0 "budgets" $urdf -o budgeted --budgets budgets.yaml --faces 150 --configurations 0 --no-pictures
+says budgeted/report.json "budgets: faces" '"target_faces": 80'
+says budgeted/report.json "budgets: padding" '"proof": "padding"'
+absent budgeted/robot.srdf "without configurations"
+
+# --- what is refused, and leaves nothing ---
+expect 2 "no folder" $urdf
+says err "no folder" "-o"
+expect 2 "the robot's own folder" $urdf -o robot
+says err "the robot's own folder" "could be overwritten"
+expect 2 "a folder with meshes" $urdf -o robot/meshes
+is "what is refused leaves the input alone" diff -r robot before
+expect 2 "--check with -o" $urdf --check -o none
+expect 2 "--dry-run with --write-budgets" $urdf --dry-run --write-budgets budgets2.yaml
+sed 's/<cylinder radius="0.1" length="0.05"/<ellipsoid size="1 1 1"/' robot/robot.urdf >robot/ellipsoid.urdf
+expect 1 "a shape that is not read" $prohull urdf robot/ellipsoid.urdf -o ellipsoid $small
+says out "a shape that is not read" "wheel: left as it is: its geometry of type ellipsoid is not read"
+says ellipsoid/ellipsoid.urdf "a shape that is not read stays" '<collision><geometry><ellipsoid'
+rm robot/ellipsoid.urdf
+expect 0 "a distance" $urdf -o near --faces 20 --max-distance 0.1mm --configurations 0 --no-pictures
+says near/report.json "a distance is kept" '"within_bounds": true'
+expect 2 "a file as folder" $urdf -o budgets.yaml
+expect 2 "a name of a package" $urdf -o none --package "My Robot"
+expect 3 "no robot" $prohull urdf nowhere.urdf -o none
+rm before/meshes/knot.ply
+expect 3 "a missing mesh" $prohull urdf before/robot.urdf -o none
+says err "a missing mesh" "--skip-missing"
+says err "a missing mesh" "knot.ply"
+absent none "what is refused leaves nothing"
+expect 0 "a missing mesh is skipped" $prohull urdf before/robot.urdf -o skipped --skip-missing $small
+says out "a missing mesh is skipped" "left as it is"
+printf '<!DOCTYPE r [<!ENTITY a "aaaa">]><robot name="&a;"/>' >bomb.urdf
+expect 3 "entities" $prohull urdf bomb.urdf --check
+says err "entities" "bomb.urdf: line 1: "
+mkdir closed && chmod 555 closed
+if [ ! -w closed ]; then
+  expect 3 "a folder that takes no files" $urdf -o closed/out $small
+fi
+
+# --- Ctrl-C ---
+$prohull sample knot --faces 300000 -o robot/meshes/knot.ply >/dev/null
+$urdf -o interrupted --faces 500 --no-cache >out 2>err &
+sleep 1
+kill -INT $!
+wait $!
+code=$?
+is "Ctrl-C: exit code $code" test $code -eq 130
+says err "Ctrl-C" "interrupted"
+absent "interrupted .interrupted*" "Ctrl-C"
+
+count_checks
