@@ -71,6 +71,7 @@ EnclosingOptions options_of(const Keywords& given) {
   options.bounds.max_distance = given.not_negative("max_distance");
   options.bounds.max_void_ratio = given.not_negative("max_void_percent") / 100;
   options.bounds.max_added_volume = given.not_negative("max_added_volume");
+  options.padding = given.not_negative("padding");
   options.tight = given.flag("tight");
   options.levels = given.flag("levels");
   options.repair = given.choice("repair", repair_names());
@@ -85,13 +86,6 @@ py::dict dict_of(const RefusalCounts& counts) {
   for (const auto& [name, refusal] : refusal_names())
     if (counts[refusal] > 0) result[py::cast(name)] = counts[refusal];
   return result;
-}
-
-void append(TriangleMesh& mesh, const TriangleMesh& other) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
-  for (const Vec3& p : other.positions) mesh.positions.push_back(p);
-  for (const auto& [a, b, c] : other.triangles)
-    mesh.triangles.push_back({VertexId{first + index(a)}, VertexId{first + index(b)}, VertexId{first + index(c)}});
 }
 
 /// What a hull is judged by; hulls of one run share it.
@@ -148,7 +142,7 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
   facts["original"] = judges.original();
   facts["covered"] = judges.covered(hull);
   facts["volume_inside"] = made.volume;
-  if (options.bounds.any())
+  if (options.bounds.any() && options.padding == 0)
     facts["bounds"] =
         py::make_tuple(judges.measured(hull), made.volume > 0 ? made.volume : solid.volume, options.bounds.max_distance,
                        options.bounds.max_void_ratio, options.bounds.max_added_volume);
@@ -161,6 +155,8 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
   facts["mesh"] = std::move(hull.mesh);
   facts["certified"] = hull.certified;
   facts["proof"] = hull.proof;
+  facts["padding"] = hull.padding;
+  facts["padding_asked"] = options.padding;
   facts["target_faces"] = hull.target_faces;
   facts["target_reached"] = hull.target_reached;
   facts["within_bounds"] = hull.within_bounds;

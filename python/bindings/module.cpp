@@ -31,4 +31,5 @@ PYBIND11_MODULE(_prohull, module) {
   prohull::python::bind_queries(module);
   prohull::python::bind_collisions(module);
   prohull::python::bind_pictures(module);
+  prohull::python::bind_robots(module);
 }

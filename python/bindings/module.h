@@ -10,5 +10,6 @@ void bind_verification(pybind11::module_& module);
 void bind_queries(pybind11::module_& module);
 void bind_collisions(pybind11::module_& module);
 void bind_pictures(pybind11::module_& module);
+void bind_robots(pybind11::module_& module);
 
 }  // namespace prohull::python

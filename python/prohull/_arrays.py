@@ -1,6 +1,8 @@
 """What callers hand over becomes arrays that the extension module takes as they are."""
 
+import numbers
 import os
+import sys
 from typing import Any, Optional
 
 import numpy as np
@@ -18,6 +20,30 @@ def _numbers(name: str, values: ArrayLike) -> NDArray[Any]:
     if array.dtype.kind not in "fiu" and array.size > 0:
         raise InputError(f"{name}: an array of {array.dtype}; expected floating point numbers or integers")
     return array
+
+
+def face_counts(name: str, counts: Any) -> NDArray[Any]:
+    """One number of faces, or several of them."""
+    array = np.asarray(counts)
+    if array.dtype.kind not in "iu" or array.ndim > 1 or array.size == 0 or array.min() < 4:
+        raise InputError(f"{name}={counts!r}: expected a whole number of at least 4, or several of them")
+    return array
+
+
+def count(name: str, value: Any, bits: int = 32) -> int:
+    """A whole number, at least 0, that has no more than these bits."""
+    is_whole = isinstance(value, numbers.Integral)
+    if not is_whole or not 0 <= value < 1 << bits:
+        raise InputError(f"{name}={value!r}: expected a whole number, at least 0")
+    return int(value)
+
+
+def not_negative(name: str, value: Any) -> float:
+    """A finite number, at least 0."""
+    is_number = isinstance(value, numbers.Real)
+    if not is_number or not 0 <= value <= sys.float_info.max:
+        raise InputError(f"{name}={value!r}: expected a number, at least 0")
+    return float(value)
 
 
 def rows(name: str, values: ArrayLike, *shapes: tuple[int, ...]) -> NDArray[np.float64]:

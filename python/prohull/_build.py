@@ -18,8 +18,8 @@ from ._types import MeshLike, OpenShells, Progress, Repair, Rows, SelfIntersecti
 
 @overload
 def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ..., levels: bool = ...,
-          max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., repair: Repair = ...,
-          keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
+          max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: float = ...,
+          repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
@@ -27,8 +27,8 @@ def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tigh
           progress: Optional[Progress] = ...) -> Hull: ...
 @overload
 def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ..., levels: bool = ...,
-          max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., repair: Repair = ...,
-          keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
+          max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: float = ...,
+          repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
@@ -37,7 +37,8 @@ def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., t
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
+          padding: float = ..., repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ...,
+          seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
@@ -46,7 +47,8 @@ def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Sid
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
+          padding: float = ..., repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ...,
+          seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
@@ -54,7 +56,8 @@ def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: 
           progress: Optional[Progress] = ...) -> list[Hull]: ...
 def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type: ignore[misc]  # the two ways of calls
           side: Side = "outer", tight: bool = False, levels: bool = False, max_distance: float = math.inf,
-          max_void_percent: float = math.inf, max_added_volume: float = math.inf, repair: Repair = "auto",
+          max_void_percent: float = math.inf, max_added_volume: float = math.inf, padding: float = 0.0,
+          repair: Repair = "auto",
           keep_cavities: bool = False, open_shells: OpenShells = "close", seal_holes: float = 0.0,
           float32_coordinates: bool = False,
           strategy: Strategy = "lazy", best_of: int = 1, seed: int = 0, threads: int = 0,
@@ -85,6 +88,8 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
         The hull is the coarsest one, of at least target_faces faces, that keeps this bound and the next two.
     max_void_percent: largest void, in per cent of the mesh's volume, at least 0.
     max_added_volume: largest void, in cubic units, at least 0.
+    padding: least distance that the hull keeps from the mesh, in the mesh's unit, at least 0. It is proven: all points
+        that near are inside of the hull. The bounds above then count from there. For outer hulls without levels only.
     repair: "auto" repairs the mesh and takes the best source; "none" refuses what is not closed; "wrap" does without
         the mesh itself as a source.
     keep_cavities: whether to keep components that lie inside of others. Inner hulls always keep them.
@@ -121,7 +126,7 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
     given, targets = _given(mesh, faces, target_faces)
     keywords = dict(
         side=side, tight=tight, levels=levels, max_distance=max_distance, max_void_percent=max_void_percent,
-        max_added_volume=max_added_volume, repair=repair, keep_cavities=keep_cavities,
+        max_added_volume=max_added_volume, padding=padding, repair=repair, keep_cavities=keep_cavities,
         open_shells=open_shells, seal_holes=seal_holes,
         float32_coordinates=float32_coordinates, strategy=strategy, best_of=best_of, seed=seed, threads=threads,
         self_intersections=self_intersections, relax_guards=relax_guards, max_valence=max_valence,
@@ -155,7 +160,4 @@ def _given(mesh: Any, faces: Any, target_faces: Any) -> tuple[Mesh, NDArray[Any]
 
 
 def _targets(target_faces: Any) -> NDArray[Any]:
-    targets = np.asarray(2000 if target_faces is None else target_faces)
-    if targets.dtype.kind not in "iu" or targets.ndim > 1 or targets.size == 0 or targets.min() < 4:
-        raise InputError(f"target_faces={target_faces!r}: expected a whole number of at least 4, or several of them")
-    return targets
+    return _arrays.face_counts("target_faces", 2000 if target_faces is None else target_faces)

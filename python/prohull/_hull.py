@@ -4,6 +4,8 @@ import math
 import os
 from typing import Any, Optional
 
+import numpy as np
+
 from . import _prohull
 from ._meshes import Mesh
 from ._prohull import InputError
@@ -17,7 +19,8 @@ class Hull(Mesh):
     """
 
     certified: bool  #: whether it is proven, exactly, by code that shares nothing with the construction
-    proof: Proof  #: how it was proven: "replay", "enclosure" or "coverage" (docs/repair.md); empty if it was not
+    proof: Proof  #: how it was proven: "replay", "enclosure", "coverage" or "padding" (docs/repair.md); empty if not
+    padding: float  #: least distance from the triangles of the mesh, proven, if build() was asked for a padding; else 0
     side: Side  #: "outer" if the hull encloses its original, "inner" if it is enclosed by it
     target_faces: int  #: number of faces that was asked for; of a loaded hull its own
     target_reached: bool  #: whether the hull has at most target_faces faces, or the bounds allow no fewer
@@ -37,6 +40,7 @@ class Hull(Mesh):
     _original: Mesh
     _covered: Optional[_prohull.Mesh]  # triangles that the hull has to cover beside enclosing its original
     _bounds: tuple[Any, ...]  # mesh and volume that they are about, max_distance, max_void_ratio, max_added_volume
+    _padding_asked: float
     _volume_inside: float  # that void is measured against
     _replay_suffices: bool  # whether a level that encloses the solid of the original covers every triangle of it
     _distance: Optional[float]  # computed when it is asked for, and so is the next
@@ -47,7 +51,7 @@ class Hull(Mesh):
         levels = facts.pop("levels")
         original = Mesh._of(facts.pop("original"), levels if facts["source"] == "mesh" else None)
         private = dict(_levels=levels, _original=original, _covered=facts.pop("covered", None),
-                       _bounds=facts.pop("bounds", ()), _replay_suffices=facts.pop("replay_suffices"),
+                       _bounds=facts.pop("bounds", ()), _padding_asked=facts.pop("padding_asked", 0.0), _replay_suffices=facts.pop("replay_suffices"),
                        _volume_inside=facts.pop("volume_inside", original.volume))
         return cls._with(facts.pop("mesh"), side=side, **private, **facts)
 
@@ -108,7 +112,10 @@ class Hull(Mesh):
         if moved == 0:
             return self
         proof = self._proof_of(rounded) if self.certified else ""
-        return self._as(rounded, certified=bool(proof), proof=proof, rounded_vertices=moved,
+        padding = self.padding and self._least_distance(rounded)
+        if self._padding_asked > 0:
+            proof = "padding" if proof and padding >= self._padding_asked else ""
+        return self._as(rounded, certified=bool(proof), proof=proof, padding=padding, rounded_vertices=moved,
                         target_reached=self.target_reached, within_bounds=self._is_within_bounds(rounded))
 
     def save(self, path: Path) -> None:
@@ -139,6 +146,16 @@ class Hull(Mesh):
     def _proof_of(self, core: _prohull.Mesh) -> Proof:
         """How `core` is proven in place of this hull."""
         return _prohull.proof_of(core, self._original._core, self._covered, self.side)
+
+    def _least_distance(self, core: _prohull.Mesh) -> float:
+        """That of the surface of `core` from what it covers: proven. A closed mesh would stand for its solid, too; with
+        a face given twice it is not closed."""
+        surface = _prohull.CollisionIndex(
+            _prohull.Mesh(core.vertices, np.vstack([core.faces, core.faces[:1]]).astype(np.int64)), None, None)
+        here = np.eye(4).reshape(1, 16)
+        parts = [mesh for mesh in (self._original._core, self._covered) if mesh is not None]
+        return min(float(surface.distances(_prohull.CollisionIndex(mesh, None, None), here, here, 0, None)[0][0])
+                   for mesh in parts)
 
     def _is_within_bounds(self, core: _prohull.Mesh) -> bool:
         return not self._bounds or _prohull.is_within(core, *self._bounds)

@@ -18,7 +18,7 @@ Repair = Literal["auto", "none", "wrap"]
 OpenShells = Literal["close", "keep"]
 Source = Literal["mesh", "convex-hull", "wrap"]
 SelfIntersections = Literal["by-strategy", "refused", "allowed"]
-Proof = Literal["", "replay", "enclosure", "coverage"]
+Proof = Literal["", "replay", "enclosure", "coverage", "padding"]
 EngineName = Literal["auto", "bvh", "refinement", "paper-refinement", "walk", "filter", "brute"]
 
 

@@ -2,6 +2,7 @@
 
     client = distributed.Client("scheduler:8786")
     rows = prohull.dask.build_folder(client, "meshes", "hulls", 500)
+    rows = prohull.dask.build_robots(client, ["arm.urdf", "gripper.urdf"], "safe", padding=0.005)
     hits = prohull.dask.query(client, hull.original, segments)
 
 The workers need prohull, and must see the same files by the same paths as the caller. What a worker had under way when
@@ -36,12 +37,12 @@ except ImportError as error:
 
 import prohull
 
-from . import AllHits, FirstHits, InputError, Mesh, _arrays
+from . import AllHits, FirstHits, InputError, Mesh, _arrays, robot
 from ._files import mesh_of
 from ._meshes import Engine
 from ._types import MeshLike, Path
 
-__all__ = ["Row", "build_folder", "query", "show"]
+__all__ = ["RobotRow", "Row", "build_folder", "build_robots", "query", "show"]
 
 #: What Hull.save() writes.
 Suffix = Literal[".ply", ".obj", ".off", ".stl", ".glb", ".phull"]
@@ -111,16 +112,62 @@ def build_folder(client: "distributed.Client", meshes: Union[Path, Sequence[Mesh
         if row:
             rows[i] = row if row is job else row._replace(status="kept")
     told.add(len(rows), sum(row.status != "kept" for row in rows.values()))
-    for alone in (False, True):  # what was lost with its worker again: something beside it may have killed that
-        todo = {i: job for i, job in enumerate(jobs) if i not in rows}
-        limit = (lambda: 1) if alone else functools.partial(_limit, client)
-        with contextlib.closing(_completed(client, _build, todo, limit)) as completed:
-            for i, future in completed:
-                if alone or not _is_killed(future):
-                    rows[i] = _row(jobs[i].name, future)
-                    told.add(1, rows[i].status != "built")
+    todo = {i: job for i, job in enumerate(jobs) if i not in rows}
+    rows.update(_all_rows(client, _build, todo, Row, told))
     in_order = [rows[i] for i in range(len(jobs))]
     _write(out / "report.csv", _csv(in_order))
+    return in_order
+
+
+class RobotRow(NamedTuple):
+    """What became of one robot. robots.csv has such a row for each."""
+
+    name: str  #: name of the robot's file without its suffix, or its key
+    status: Literal["built", "refused", "failed"]  #: "refused" for an InputError, "failed" for anything else
+    file: str = ""  #: path of the robot that was written; empty if there is none
+    links: int = 0  #: number of links with hulls
+    hulls: int = 0  #: number of hulls, all certified
+    faces: int = 0  #: number of faces of all hulls
+    seconds: float = 0.0
+    message: str = ""  #: why there is no robot; or the notes of hulls
+
+
+def build_robots(client: "distributed.Client", files: Union[Sequence[Path], Mapping[str, Path]], out: Path,
+                 faces: Union[int, Sequence[int]] = 500, *, package_paths: Sequence[Path] = (),
+                 progress: Optional[Progress] = show, **options: Any) -> list[RobotRow]:
+    """Builds certified hulls of many robots, each into a folder of `out`, and writes to robots.csv what became of each.
+
+    Guaranteed: there is a row for each robot, in the order given, whatever happens to robots and workers. A robot is
+    written only if all of its hulls are certified. Hulls of an earlier run are kept in the folder `cache`.
+
+    client: of a cluster whose workers see all files by the same paths.
+    files: paths of robots whose names without suffix are distinct; or a dictionary of paths by name.
+    out: a folder, which is made if it is not there. The robot NAME goes to the folder NAME of it.
+    faces: as of prohull.robot.Robot.hulls(); so are `options`. Unless given, `threads` is 1, and `cache` is a folder of
+        that name within `out`.
+    package_paths: as of prohull.robot.Robot.load().
+    progress: see Progress; None for none. If it returns False, KeyboardInterrupt is raised.
+
+    Raises InputError if names are not distinct or lead out of `out`; TypeError for an option that hulls() does not
+    have; OSError if `out` cannot be written.
+    """
+    out = pathlib.Path(out).resolve()
+    known = inspect.signature(robot.Robot.hulls).parameters.values()
+    if unknown := options.keys() - {p.name for p in known if p.kind is p.KEYWORD_ONLY and p.name != "progress"}:
+        raise TypeError(f"build_robots() got options that hulls() does not have: {', '.join(sorted(unknown))}")
+    options = {"faces": faces, "threads": 1, "cache": str(out / "cache"), **options}
+    for name in ("budgets", "cache"):  # workers may have other working directories
+        if options.get(name) is not None:
+            options[name] = os.path.abspath(options[name])
+    packages = [os.path.abspath(path) for path in package_paths]
+    jobs = {i: _RobotJob(name, os.path.abspath(path), str(out / name), packages, options)
+            for i, (name, path) in enumerate(_robots_by_name(files).items())}
+    out.mkdir(parents=True, exist_ok=True)
+    told = _Told(progress, len(jobs))
+    told.add(0)
+    rows = _all_rows(client, _build_robot, jobs, RobotRow, told)
+    in_order = [rows[i] for i in range(len(jobs))]
+    _write(out / "robots.csv", _csv(in_order, RobotRow))
     return in_order
 
 
@@ -170,6 +217,26 @@ def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kin
             answers[start] = future.result()
             told.add(len(chunks[start]))
     return _together(kind, [answers[start] for start in chunks])
+
+
+class _RobotJob(NamedTuple):
+    name: str
+    path: str
+    folder: str
+    package_paths: list[str]
+    options: dict[str, Any]
+
+
+def _robots_by_name(files: Any) -> dict[str, Any]:
+    pairs = list(files.items() if isinstance(files, Mapping) else ((pathlib.Path(path).stem, path) for path in files))
+    named: dict[str, Any] = {}
+    for name, path in pairs:
+        if name in named:
+            raise InputError(f"{path}: another robot is called {name} as well; give them by distinct names")
+        if name in ("", ".", "..", "cache", "robots.csv") or pathlib.PurePath(name).name != name:
+            raise InputError(f"{name!r}: no name for a folder of a robot")
+        named[name] = path
+    return named
 
 
 class _Job(NamedTuple):
@@ -244,10 +311,10 @@ def _jobs(named: dict[str, Any], out: pathlib.Path, suffix: str, options: dict[s
     return jobs
 
 
-def _row_of_error(name: str, error: Exception) -> Row:
+def _row_of_error(name: str, error: BaseException, row: Any = Row) -> Any:
     if isinstance(error, InputError):
-        return Row(name, "refused", message=str(error))
-    return Row(name, "failed", message=f"{type(error).__name__}: {error}")
+        return row(name, "refused", message=str(error))
+    return row(name, "failed", message=f"{type(error).__name__}: {error}")
 
 
 def _state(path: str) -> dict[str, int]:
@@ -299,6 +366,21 @@ def _built(job: _Job) -> Row:
     record = {"made_from": job.made_from, "hull": _state(job.target), "row": row._asdict()}
     _write(pathlib.Path(job.target + ".json"), json.dumps(record, indent=1) + "\n")  # only now it counts
     return row
+
+
+def _build_robot(job: _RobotJob) -> RobotRow:
+    start = time.perf_counter()
+    try:
+        hulls = robot.Robot.load(job.path, job.package_paths).hulls(**job.options)
+        made = [hull for link in hulls for hull in link.hulls]
+        notes = "; ".join(f"{link.name}: {note}" for link in hulls for hull in link.hulls for note in hull.notes)
+        if not hulls.certified:
+            return RobotRow(job.name, "failed", message=f"not certified: {notes}")
+        file = next(path for path in hulls.save(job.folder) if os.path.dirname(path) == job.folder)
+        return RobotRow(job.name, "built", file, sum(bool(link.hulls) for link in hulls), len(made),
+                        sum(len(hull.mesh.faces) for hull in made), round(time.perf_counter() - start, 3), notes)
+    except Exception as error:  # whatever it is, the other robots are to be built
+        return _row_of_error(job.name, error, RobotRow)
 
 
 def _held(mesh: Mesh) -> Mesh:
@@ -356,13 +438,28 @@ def _is_killed(future: "distributed.Future") -> bool:
     return future.status == "error" and isinstance(future.exception(), distributed.KilledWorker)
 
 
-def _row(name: str, future: "distributed.Future") -> Row:
+def _row(name: str, future: "distributed.Future", row: Any) -> Any:
     if _is_killed(future):
-        return Row(name, "failed",
+        return row(name, "failed",
                    message="KilledWorker: every worker that built it died, as by a crash or for want of memory")
     if future.status == "error":
-        return _row_of_error(name, future.exception())
+        return _row_of_error(name, future.exception(), row)
     return future.result()
+
+
+def _all_rows(client: "distributed.Client", build: Callable[..., Any], jobs: Mapping[int, Any], row: Any,
+              told: "_Told") -> dict[int, Any]:
+    """What build(job) returns for each of the jobs, or a row that says why it did not."""
+    rows: dict[int, Any] = {}
+    for alone in (False, True):  # what was lost with its worker again: something beside it may have killed that
+        todo = {i: job for i, job in jobs.items() if i not in rows}
+        limit = (lambda: 1) if alone else functools.partial(_limit, client)
+        with contextlib.closing(_completed(client, build, todo, limit)) as completed:
+            for i, future in completed:
+                if alone or not _is_killed(future):
+                    rows[i] = _row(jobs[i].name, future, row)
+                    told.add(1, rows[i].status != "built")
+    return rows
 
 
 class _Told:
@@ -395,10 +492,10 @@ def _together(kind: str, answers: list[Any]) -> Any:
     return AllHits(np.concatenate([*offsets, begins[-1:]]), *map(np.concatenate, list(zip(*answers))[1:]))
 
 
-def _csv(rows: list[Row]) -> str:
+def _csv(rows: Sequence[Any], row: Any = Row) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(Row._fields)
+    writer.writerow(row._fields)
     writer.writerows(rows)
     return text.getvalue()
 

@@ -60,6 +60,22 @@ def test_distance_bound_holds_and_bounds_are_kept(pony):
     assert near.within_bounds and near.distance_bound <= upper / 4 and len(near.faces) > 500
 
 
+def test_padding_is_proven_and_kept_by_files(pony, tmp_path):
+    padding = 0.02 * float(np.linalg.norm(np.ptp(pony.vertices, axis=0)))
+    hull = prohull.build(pony, 200, padding=padding)
+    assert hull.certified and hull.proof == "padding" and hull.padding >= padding and not hull.levels
+    assert prohull.verify(hull, pony)
+    faces = np.vstack([hull.faces, hull.faces[:1]])  # not closed: its surface alone
+    surface = prohull.Collider((hull.vertices, faces))
+    assert surface.distances(pony).lower[0] >= padding
+    stored = prohull.build(pony, 200, padding=padding, float32_coordinates=True)
+    assert stored.proof == "padding" and stored.padding >= padding and stored.with_float32_coordinates() is stored
+    stored.save(tmp_path / "hull.stl")
+    rounded = hull.with_float32_coordinates()
+    assert rounded.certified == (rounded.padding >= padding) and rounded.padding == pytest.approx(hull.padding, rel=1e-4)
+    assert prohull.build(pony, 200).padding == 0
+
+
 def test_inner_hulls_are_enclosed(pony):
     inner = prohull.build(pony, target_faces=500, side="inner", levels=True)
     assert inner.certified and inner.side == "inner" and inner.void_ratio < 0

@@ -162,6 +162,38 @@ def test_a_mesh_that_kills_is_a_row(client, folder, tmp_path):
 
 
 @needs_dask
+def test_a_fleet_of_robots(client, tmp_path):
+    prohull.sample("pony", 800).save(tmp_path / "part.ply")
+    link = '<robot name="r"><link name="l"><visual><geometry><mesh filename="part.ply"/></geometry></visual></link></robot>'
+    (tmp_path / "good.urdf").write_text(link)
+    (tmp_path / "bad.urdf").write_text(link.replace("part", "none"))
+    out = tmp_path / "out"
+    for _ in range(2):
+        good, bad = prohull.dask.build_robots(client, [tmp_path / "good.urdf", tmp_path / "bad.urdf"], out, 100,
+                                              padding=0.01, progress=None)
+        assert (good.status, good.links, good.hulls, bad.status) == ("built", 1, 1, "refused") and "none.ply" in bad.message
+        assert prohull.robot.Robot.load(good.file).check().passes
+    with open(out / "robots.csv", newline="") as file:
+        assert [row["name"] for row in csv.DictReader(file)] == ["good", "bad"]
+    with pytest.raises(prohull.InputError, match="another robot is called good"):
+        prohull.dask.build_robots(client, [tmp_path / "good.urdf", tmp_path / "good.sdf"], out)
+    with pytest.raises(TypeError, match="paddin"):
+        prohull.dask.build_robots(client, [], out, paddin=1)
+
+
+@needs_dask
+def test_robots_are_where_their_rows_say(client, tmp_path, monkeypatch):
+    prohull.sample("pony", 800).save(tmp_path / "part.ply")
+    (tmp_path / "bare").write_text(  # the robot that is written has a suffix
+        '<robot name="r"><link name="l"><visual><geometry><mesh filename="part.ply"/></geometry></visual></link></robot>')
+    (tmp_path / "budgets.yaml").write_text("links:\n  l: {faces: 60}\n")
+    monkeypatch.chdir(tmp_path)  # where no worker is
+    row, = prohull.dask.build_robots(client, ["bare"], "out", 100, budgets="budgets.yaml", cache="kept", progress=None)
+    assert row.status == "built" and row.file == str(tmp_path / "out" / "bare" / "bare.urdf") and row.faces <= 60
+    assert prohull.robot.Robot.load(row.file).check().passes and any((tmp_path / "kept").iterdir())
+
+
+@needs_dask
 def test_meshes_may_be_objects(client, cube, tmp_path):
     solid = prohull.Mesh(*cube)
     rows = prohull.dask.build_folder(client, [cube, solid, (cube[0], cube[1][:3, :2])], tmp_path, suffix=".ply",

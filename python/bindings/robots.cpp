@@ -1,0 +1,308 @@
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "module.h"
+#include "prohull/error.h"
+#include "robot/check/check.h"
+#include "robot/files/robot_file.h"
+#include "robot/hulls/budgets.h"
+#include "robot/hulls/link_hulls.h"
+#include "robot/hulls/write_robot.h"
+#include "robot/motion/bodies.h"
+#include "robot/motion/motion.h"
+#include "robot/report/pictures.h"
+#include "robot/report/report.h"
+#include "watch.h"
+
+namespace py = pybind11;
+
+namespace prohull::python {
+namespace {
+
+using namespace prohull::robot;
+
+using SharedFile = std::shared_ptr<RobotFile>;
+
+SharedMesh shared(TriangleMesh mesh) { return std::make_shared<TriangleMesh>(std::move(mesh)); }
+
+/// Matrices of 4 x 4.
+py::array matrices(const std::vector<Pose>& poses) {
+  std::vector<double> values;
+  for (const Pose& pose : poses) {
+    for (int i = 0; i < 3; ++i) {
+      const Vec3& row = pose.rotation[std::size_t(i)];
+      values.insert(values.end(), {row.x, row.y, row.z, pose.translation[i]});
+    }
+    values.insert(values.end(), {0, 0, 0, 1});
+  }
+  return array_of(std::move(values), {static_cast<py::ssize_t>(poses.size()), 4, 4});
+}
+
+py::object matrix(const Pose& pose) { return matrices({pose})[py::int_(0)]; }
+
+Geometry geometry_called(const std::string& name) {
+  if (name == "visual") return Geometry::Visual;
+  if (name == "collision") return Geometry::Collision;
+  throw InputError(Defect::InvalidOption, "geometry '" + name + "': expected visual or collision");
+}
+
+const char* name_of_type(JointType type) {
+  constexpr std::array kNames{"fixed", "revolute", "continuous", "prismatic", "ball", "planar", "floating"};
+  return kNames[std::size_t(type)];
+}
+
+SharedFile read(const std::filesystem::path& path, std::vector<std::filesystem::path> package_paths) {
+  return watched(py::none(), [&](Watch&) {
+    return std::make_shared<RobotFile>(read_robot(path, {.package_paths = std::move(package_paths)}));
+  });
+}
+
+py::list joints_of(const RobotFile& file) {
+  py::list joints;
+  for (const Joint& joint : file.robot.joints) {
+    py::dict facts;
+    facts["name"] = joint.name;
+    facts["type"] = name_of_type(joint.type);
+    facts["parent"] = file.robot.links[joint.parent].name;
+    facts["child"] = file.robot.links[joint.child].name;
+    facts["origin"] = matrix(joint.origin);
+    facts["axis"] = py::make_tuple(joint.axis.x, joint.axis.y, joint.axis.z);
+    facts["lower"] = joint.lower;
+    facts["upper"] = joint.upper;
+    facts["mimics"] = joint.mimic ? py::object(py::str(file.robot.joints[joint.mimic->joint].name)) : py::none();
+    joints.append(facts);
+  }
+  return joints;
+}
+
+std::vector<std::string> link_names(const RobotFile& file) {
+  std::vector<std::string> names;
+  for (const Link& link : file.robot.links) names.push_back(link.name);
+  return names;
+}
+
+SharedMesh link_mesh(const RobotFile& file, std::size_t link, const std::string& which) {
+  return watched(py::none(), [&](Watch&) {
+    return shared(link_triangles(shapes(file.robot.links.at(link), geometry_called(which)), Frame{}));
+  });
+}
+
+py::array poses_of(const RobotFile& file, const std::vector<double>& positions) {
+  return matrices(link_poses(file.robot, positions));
+}
+
+/// Hulls of a robot, and what they were made with.
+struct RobotHulls {
+  SharedFile file;
+  LinkHullOptions options;
+  std::vector<LinkHulls> links;
+};
+
+LinkHullOptions options_of(const Robot& robot, const py::dict& given) {
+  LinkHullOptions options;
+  options.from = geometry_called(given["from"].cast<std::string>());
+  options.budget.faces = given["faces"].cast<std::vector<std::size_t>>();
+  options.budget.max_distance = given["max_distance"].cast<double>();
+  options.budget.padding = given["padding"].cast<double>();
+  options.format = given["format"].cast<std::string>();
+  options.tight = given["tight"].cast<bool>();
+  options.skip_missing = given["skip_missing"].cast<bool>();
+  options.threads = given["threads"].cast<unsigned>();
+  if (!given["cache"].is_none()) options.cache = given["cache"].cast<std::filesystem::path>();
+  if (!given["budgets"].is_none())
+    read_budgets(given["budgets"].cast<std::string>(), given["budgets_name"].cast<std::string>(), robot, options);
+  return options;
+}
+
+std::shared_ptr<RobotHulls> hulls_of(const SharedFile& file, const py::dict& given, const py::object& progress) {
+  auto made = std::make_shared<RobotHulls>(RobotHulls{file, options_of(file->robot, given), {}});
+  watched(progress, [&](Watch& watch) {
+    LinkHullOptions options = made->options;
+    options.progress = watch.progress();
+    made->links = link_hulls(file->robot, options);
+    return 0;
+  });
+  return made;
+}
+
+py::dict facts_of(const LinkHull& hull, const LinkHulls& link) {
+  py::dict facts;
+  facts["target_faces"] = hull.target_faces;
+  facts["mesh"] = shared(hull.mesh);
+  facts["origin"] = matrix(link.frame.in_link);
+  facts["certified"] = hull.certified;
+  facts["proof"] = hull.proof;
+  facts["target_reached"] = hull.target_reached;
+  facts["within_bounds"] = hull.within_bounds;
+  facts["source"] = hull.source;
+  facts["volume_ratio"] = link.sealed_volume > 0 ? hull.volume / link.sealed_volume : NAN;
+  facts["distance_bound"] = hull.distance.upper;
+  facts["padding"] = hull.padding;
+  facts["self_intersections"] = hull.self_intersections;
+  facts["notes"] = hull.notes;
+  return facts;
+}
+
+py::list facts_of(const RobotHulls& hulls) {
+  py::list links;
+  for (const LinkHulls& link : hulls.links) {
+    py::list sets;
+    for (const LinkHull& hull : link.hulls) sets.append(facts_of(hull, link));
+    py::dict facts;
+    facts["name"] = hulls.file->robot.links[link.link].name;
+    facts["status"] = std::string(name_of(link.status));
+    facts["why"] = link.why;
+    facts["hulls"] = sets;
+    facts["repairs"] = link.repairs;
+    facts["seconds"] = link.seconds;
+    facts["from_cache"] = link.from_cache;
+    links.append(facts);
+  }
+  return links;
+}
+
+/// (path, a function that writes the file to a path) of each file.
+py::list files_of(const std::shared_ptr<RobotHulls>& hulls, const std::filesystem::path& folder,
+                  const std::string& format, const std::string& package) {
+  const WriteOptions how{
+      .faces = hulls->options.budget.faces, .from = hulls->options.from, .format = format, .package = package};
+  py::list files;
+  for (const OutputFile& file : output_files(*hulls->file, hulls->links, folder, how))
+    files.append(
+        py::make_tuple(file.path, py::cpp_function([hulls, write = file.write](const std::filesystem::path& to) {
+                         const py::gil_scoped_release released;
+                         write(to);
+                       })));
+  return files;
+}
+
+std::vector<LinkCheck> checks_of(const SharedFile& file, unsigned threads, const py::object& progress) {
+  return watched(progress, [&](Watch& watch) {
+    return check_links(file->robot, {.threads = threads, .progress = watch.progress()});
+  });
+}
+
+py::dict facts_of(const RobotFile& file, const LinkCheck& check, double allow) {
+  py::dict facts;
+  facts["name"] = file.robot.links[check.link].name;
+  facts["verdict"] = std::string(name_of(check.verdict));
+  facts["passes"] = passes(check, allow);
+  facts["sticks_out_at_least"] = check.sticks_out_at_least;
+  facts["sticks_out_at_most"] = check.sticks_out_at_most;
+  facts["worst_point"] = py::make_tuple(check.worst_point.x, check.worst_point.y, check.worst_point.z);
+  facts["faces_outside"] = check.faces_outside;
+  facts["volume_ratio"] = check.visual_volume > 0 ? check.collision_volume / check.visual_volume : NAN;
+  facts["distance_bound"] = check.fat.upper;
+  facts["mean_distance"] = check.mean_fat;
+  facts["notes"] = check.notes;
+  return facts;
+}
+
+struct RobotChecks {
+  std::vector<LinkCheck> links;
+};
+
+/// The checks themselves for reports, and their facts.
+py::tuple check_of(const SharedFile& file, double allow, unsigned threads, const py::object& progress) {
+  auto checks = std::make_shared<RobotChecks>(RobotChecks{checks_of(file, threads, progress)});
+  py::list facts;
+  for (const LinkCheck& check : checks->links) facts.append(facts_of(*file, check, allow));
+  return py::make_tuple(checks, facts);
+}
+
+py::tuple motion_of(const RobotHulls& hulls, std::size_t configurations, std::uint64_t seed, unsigned threads,
+                    const py::object& progress) {
+  const Robot& robot = hulls.file->robot;
+  const auto motion = watched(progress, [&](Watch& watch) {
+    return std::make_shared<MotionResult>(check_motion(
+        robot, bodies_of(robot, hulls.links, hulls.options.from),
+        {.configurations = configurations, .seed = seed, .threads = threads, .progress = watch.progress()}));
+  });
+  py::list pairs;
+  for (const MotionPair& pair : motion->pairs)
+    pairs.append(py::make_tuple(robot.links[pair.a].name, robot.links[pair.b].name, std::string(name_of(pair.kind)),
+                                pair.visual, pair.hull, pair.convex, pair.false_hull, pair.false_convex, pair.missed));
+  return py::make_tuple(motion, pairs, srdf_of(robot, *motion));
+}
+
+std::string html_of(const RobotHulls& hulls, const RobotChecks* shipped, double allow, const MotionResult* motion,
+                    unsigned threads, const py::object& progress) {
+  ReportInput input{.file = *hulls.file,
+                    .hulls = hulls.links,
+                    .shipped = {},
+                    .motion = {},
+                    .allow = allow,
+                    .version = PROHULL_VERSION,
+                    .from = hulls.options.from};
+  if (shipped) input.shipped = shipped->links;
+  if (motion) input.motion = *motion;
+  return watched(progress,
+                 [&](Watch& watch) { return report_html(input, {.threads = threads, .progress = watch.progress()}); });
+}
+
+void add(TriangleMesh& mesh, TriangleMesh part, const Pose& pose) { append(mesh, placed(pose, std::move(part))); }
+
+/// The robot in a pose: its geometry, within its hulls if there are any.
+py::bytes picture_of(const RobotFile& file, const RobotHulls* hulls, const std::vector<double>& positions, int width,
+                     int height) {
+  return watched(py::none(), [&](Watch& watch) {
+    const Robot& robot = file.robot;
+    const std::vector<Pose> poses = link_poses(robot, positions);
+    Picture picture;
+    for (std::size_t i = 0; i < robot.links.size(); ++i) {
+      if (hulls) {
+        const LinkHulls& link = hulls->links[i];
+        const Pose at = poses[i];
+        add(picture.inside, placed(link.frame.in_link, link.triangles), at);
+        if (!link.hulls.empty()) add(picture.around, placed(link.frame.in_link, link.hulls[0].mesh), at);
+      } else {
+        std::vector<Shape> found;
+        for (const Shape& shape : robot.links[i].visual)
+          if (!shape.mesh() || !shape.mesh()->path.empty()) found.push_back(shape);
+        add(picture.inside, link_triangles(found, Frame{}), poses[i]);
+      }
+    }
+    return draw_pictures({&picture, 1}, {.width = width, .height = height, .progress = watch.progress()})[0];
+  });
+}
+
+}  // namespace
+
+void bind_robots(py::module_& module) {
+  py::class_<RobotFile, SharedFile>(module, "Robot")
+      .def_property_readonly("name", [](const RobotFile& file) { return file.robot.name; })
+      .def_property_readonly("notes", [](const RobotFile& file) { return file.notes; })
+      .def_property_readonly("link_names", &link_names)
+      .def_property_readonly("joints", &joints_of)
+      .def("link_mesh", &link_mesh)
+      .def("poses", &poses_of)
+      .def("hulls", &hulls_of)
+      .def("check", &check_of)
+      .def("picture", [](const RobotFile& file, const std::vector<double>& positions, int width, int height) {
+        return picture_of(file, nullptr, positions, width, height);
+      });
+  py::class_<RobotHulls, std::shared_ptr<RobotHulls>>(module, "RobotHulls")
+      .def_property_readonly("links", [](const RobotHulls& hulls) { return facts_of(hulls); })
+      .def("files", &files_of)
+      .def("motion", &motion_of)
+      .def("report_html", &html_of)
+      .def("picture", [](const RobotHulls& hulls, const std::vector<double>& positions, int width, int height) {
+        return picture_of(*hulls.file, &hulls, positions, width, height);
+      });
+  py::class_<RobotChecks, std::shared_ptr<RobotChecks>>(module, "RobotChecks");
+  py::class_<MotionResult, std::shared_ptr<MotionResult>>(module, "RobotMotion");
+  module.def("read_robot", &read);
+}
+
+}  // namespace prohull::python

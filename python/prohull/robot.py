@@ -1,0 +1,376 @@
+"""Robots: certified collision meshes of all links, and checks of those that a robot ships with (docs/guides/robots.md).
+
+    robot = prohull.robot.Robot.load("arm.urdf")
+    hulls = robot.hulls(500, padding=0.005)
+    hulls.save("arm_safe")
+
+Reads URDF, SDF and MJCF, and expands xacro where the program xacro is installed. Lengths are in metres, angles in
+radians. What is wrong with a file is raised as InputError, with the file and the line.
+"""
+
+import os
+import pathlib
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Literal, NamedTuple, Optional, Union, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays, _prohull
+from ._meshes import Mesh
+from ._prohull import InputError
+from ._types import Path, Progress, Proof, Source
+
+__all__ = ["Check", "Hulls", "Joint", "Link", "LinkCheck", "LinkHull", "LinkHulls", "Motion", "MotionPair", "Robot"]
+
+Geometry = Literal["visual", "collision"]
+Format = Literal["stl", "obj", "glb"]
+JointType = Literal["fixed", "revolute", "continuous", "prismatic", "ball", "planar", "floating"]
+Status = Literal["hulled", "primitives", "skipped", "unread", "empty"]
+Verdict = Literal["covered", "leaks", "undecided", "no-collision", "no-visual", "missing"]
+PairKind = Literal["adjacent", "always", "never", "sometimes"]
+
+#: Positions of joints: by name, the others at 0; or of all joints in their order.
+Positions = Union[Mapping[str, float], Sequence[float], NDArray[Any]]
+
+
+class Link:
+    """A link of a robot."""
+
+    name: str
+
+    def __init__(self, robot: _prohull.Robot, number: int, name: str) -> None:
+        self._robot, self._number, self.name = robot, number, name
+
+    @property
+    def visual(self) -> Mesh:
+        """The triangles of the visual geometry, in the frame of the link. Curved forms as meshes around them.
+
+        Raises InputError if a mesh file is not found or cannot be read.
+        """
+        return Mesh._of(self._robot.link_mesh(self._number, "visual"))
+
+    @property
+    def collision(self) -> Mesh:
+        """The triangles of the collision geometry that the robot ships with, in the frame of the link.
+
+        Raises InputError as `visual` does.
+        """
+        return Mesh._of(self._robot.link_mesh(self._number, "collision"))
+
+    def __repr__(self) -> str:
+        return f"<prohull.robot.Link: {self.name}>"
+
+
+class Joint(NamedTuple):
+    """A joint between two links."""
+
+    name: str
+    type: JointType
+    parent: str  #: name of a link
+    child: str  #: name of a link
+    origin: NDArray[np.float64]  #: (4, 4), the frame of the child in that of the parent, at position 0
+    axis: tuple[float, float, float]  #: in the frame of the child
+    lower: float  #: least position; -inf without a limit
+    upper: float  #: greatest position; inf without a limit
+    mimics: Optional[str]  #: name of the joint that it follows
+
+
+class LinkHull(NamedTuple):
+    """A hull of a link."""
+
+    target_faces: int  #: number of faces that was asked for
+    mesh: Mesh  #: with the coordinates that the file keeps
+    origin: NDArray[np.float64]  #: (4, 4), the frame of the mesh in that of the link
+    certified: bool  #: whether it is proven, exactly, that the hull encloses the geometry
+    proof: Proof  #: how it is proven
+    target_reached: bool  #: whether the hull has at most target_faces faces, or max_distance allows no fewer
+    within_bounds: bool  #: whether max_distance holds
+    source: Source  #: what it was built from
+    volume_ratio: float  #: its volume / the volume inside of the geometry; nan if that encloses no space
+    distance_bound: float  #: no point of the hull is farther than this from the geometry: proven
+    padding: float  #: least distance from the geometry, proven, if a padding was asked for; else 0
+    self_intersections: int  #: pairs of its faces that intersect
+    notes: list[str]  #: what is not as it was asked for, and what is worth a look
+
+
+class LinkHulls(NamedTuple):
+    """What was made of a link."""
+
+    name: str
+    status: Status  #: "hulled"; "primitives" are kept as they are; "skipped"; "unread" shapes; "empty" without geometry
+    why: str  #: why it was skipped, or what is not read
+    hulls: list[LinkHull]  #: one for each number of faces; empty unless the status is "hulled"
+    repairs: list[str]  #: what was done to the geometry before hulls were built
+    seconds: float
+    from_cache: bool
+
+
+class LinkCheck(NamedTuple):
+    """How the collision geometry that a link ships with lies to its visual geometry."""
+
+    name: str
+    verdict: Verdict  #: exact; "undecided" where the two touch on a curved surface
+    passes: bool  #: whether the link is as it should be: covered, nothing to cover, or sticking out by at most `allow`
+    sticks_out_at_least: float  #: proven: some point of the visual geometry is that far outside
+    sticks_out_at_most: float  #: proven: none is farther outside
+    worst_point: tuple[float, float, float]  #: such a point, in the frame of the link
+    faces_outside: int  #: number of faces of the visual geometry that are not covered
+    volume_ratio: float  #: volume of the collision geometry / volume inside of the visual geometry; may be nan
+    distance_bound: float  #: no point of the collision geometry is farther than this from the visual one: proven
+    mean_distance: float  #: the mean of these distances, estimated
+    notes: list[str]
+
+
+class Check:
+    """What Robot.check() has found. As a truth value: whether every link passes."""
+
+    links: list[LinkCheck]  #: in the order of Robot.links
+    allow: float
+
+    def __init__(self, core: _prohull.RobotChecks, links: list[LinkCheck], allow: float) -> None:
+        self._core, self.links, self.allow = core, links, allow
+
+    @property
+    def passes(self) -> bool:
+        """Whether every link passes."""
+        return all(link.passes for link in self.links)
+
+    def __bool__(self) -> bool:
+        return self.passes
+
+    def __getitem__(self, name: str) -> LinkCheck:
+        return {link.name: link for link in self.links}[name]
+
+    def __repr__(self) -> str:
+        failed = [link.name for link in self.links if not link.passes]
+        result = f"{', '.join(failed)} fail" if failed else "all pass"
+        return f"<prohull.robot.Check: {len(self.links)} links, {result}>"
+
+
+class MotionPair(NamedTuple):
+    """In how many configurations a pair of links collides."""
+
+    a: str
+    b: str
+    kind: PairKind
+    visual: int
+    hull: int
+    convex: int
+    false_hull: int  #: the hulls collide, but the visual geometry does not
+    false_convex: int  #: the convex hulls collide, but the visual geometry does not
+    missed: int  #: the visual geometry collides, but the hulls do not: must be 0
+
+
+class Motion:
+    """What Hulls.motion() has found."""
+
+    pairs: list[MotionPair]
+    srdf: str  #: the pairs that need not be checked, as a file that MoveIt reads
+
+    def __init__(self, core: _prohull.RobotMotion, pairs: list[MotionPair], srdf: str) -> None:
+        self._core, self.pairs, self.srdf = core, pairs, srdf
+
+    @property
+    def missed(self) -> int:
+        """Collisions that the hulls have missed: 0, or a certificate is wrong."""
+        return sum(pair.missed for pair in self.pairs)
+
+    @property
+    def false_hull(self) -> int:
+        """Collisions of hulls where the visual geometry does not collide."""
+        return sum(pair.false_hull for pair in self.pairs)
+
+    @property
+    def false_convex(self) -> int:
+        """Collisions of convex hulls where the visual geometry does not collide."""
+        return sum(pair.false_convex for pair in self.pairs)
+
+    def __repr__(self) -> str:
+        return (f"<prohull.robot.Motion: {len(self.pairs)} pairs, false collisions: {self.false_hull} of hulls, "
+                f"{self.false_convex} of convex hulls; {self.missed} missed>")
+
+
+class Hulls:
+    """Hulls of all links of a robot, as Robot.hulls() makes them. Notebooks show the robot inside of its hulls."""
+
+    robot: "Robot"
+    links: list[LinkHulls]  #: in the order of Robot.links
+
+    def __init__(self, robot: "Robot", core: _prohull.RobotHulls, format: Format) -> None:
+        self.robot, self._core, self._format = robot, core, format
+        self.links = [_link_hulls(facts) for facts in core.links]
+
+    @property
+    def certified(self) -> bool:
+        """Whether every hull is certified."""
+        return all(hull.certified for link in self.links for hull in link.hulls)
+
+    def __getitem__(self, name: str) -> LinkHulls:
+        return {link.name: link for link in self.links}[name]
+
+    def __iter__(self) -> Iterator[LinkHulls]:
+        return iter(self.links)
+
+    def save(self, folder: Path, *, package: Optional[str] = None) -> list[str]:
+        """Writes a robot whose collision elements name the hulls, with the hulls beside it. Returns the paths.
+
+        folder: is made if it is not there. Each file appears whole or not at all.
+        package: make the folder a ROS package of this name.
+
+        Raises InputError if the folder is that of the robot itself, and for a name that ROS does not take.
+        """
+        out = pathlib.Path(folder)
+        if out.resolve() == pathlib.Path(self.robot.path).resolve().parent:
+            raise InputError(f"{out}: the robot itself is in this folder, and would be overwritten; choose another one")
+        written = []
+        for name, write in self._core.files(out, self._format, package or ""):
+            target = out / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryDirectory(dir=target.parent) as beside:
+                whole = pathlib.Path(beside) / target.name
+                write(whole)
+                os.replace(whole, target)
+            written.append(str(target))
+        return written
+
+    def motion(self, configurations: int = 1000, *, seed: int = 1, threads: int = 0,
+               progress: Optional[Progress] = None) -> Motion:
+        """Moves the robot at random and counts which pairs of links collide: the geometry, hulls and convex hulls.
+
+        configurations: number of random positions of all joints, within their limits.
+        seed: other numbers give other positions.
+        threads, progress: as of Robot.hulls(). The counts do not depend on threads.
+        """
+        core, pairs, srdf = self._core.motion(
+            _arrays.count("configurations", configurations), _arrays.count("seed", seed, bits=64),
+            _arrays.count("threads", threads), progress)
+        return Motion(core, [MotionPair(*pair) for pair in pairs], srdf)
+
+    def report_html(self, path: Path, *, check: Optional[Check] = None, motion: Optional[Motion] = None,
+                    threads: int = 0, progress: Optional[Progress] = None) -> None:
+        """Writes a page with pictures and tables to a file.
+
+        check, motion: what check() and motion() have returned, to be on the page too.
+        """
+        checks, allow = (None, 0.0) if check is None else (check._core, check.allow)
+        page = self._core.report_html(checks, allow, None if motion is None else motion._core,
+                                      _arrays.count("threads", threads), progress)
+        pathlib.Path(path).write_text(page, encoding="utf-8")
+
+    def picture(self, positions: Positions = (), width: int = 560, height: int = 420) -> bytes:
+        """Draws the robot inside of its first hulls. Returns the content of a .png file."""
+        return self._core.picture(self.robot._positions(positions), width, height)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        return self.picture() or None
+
+    def __repr__(self) -> str:
+        count = sum(len(link.hulls) for link in self.links)
+        return (f"<prohull.robot.Hulls: {self.robot.name}, {count} hulls, "
+                f"{'all certified' if self.certified else 'NOT ALL CERTIFIED'}>")
+
+
+class Robot:
+    """A robot as its file describes it. Notebooks show its visual geometry."""
+
+    path: str  #: of the file
+    name: str
+    links: list[Link]
+    joints: list[Joint]  #: those of a parent come before those of its children
+    notes: list[str]  #: what of the file was not read
+
+    def __init__(self, core: _prohull.Robot, path: str) -> None:
+        self._core, self.path, self.name, self.notes = core, path, core.name, core.notes
+        self.links = [Link(core, i, name) for i, name in enumerate(core.link_names)]
+        self.joints = [Joint(**facts) for facts in core.joints]
+
+    @classmethod
+    def load(cls, path: Path, package_paths: Sequence[Path] = ()) -> "Robot":
+        """Reads URDF, SDF or MJCF. A mesh file that is missing is told when it is needed.
+
+        package_paths: folders in which packages are looked for, before those above the file and those of ROS.
+
+        Raises InputError for what cannot be read, or is no robot.
+        """
+        return cls(_prohull.read_robot(path, list(package_paths)), os.fspath(path))
+
+    def poses(self, positions: Positions = ()) -> NDArray[np.float64]:
+        """(links, 4, 4): where each link is, in the frame of the root, for positions of the joints."""
+        return self._core.poses(self._positions(positions))
+
+    def hulls(self, faces: Union[int, Sequence[int]] = 500, *, padding: float = 0, max_distance: Optional[float] = None,
+              tight: bool = False, budgets: Optional[Path] = None, cache: Optional[Path] = None,
+              from_: Geometry = "visual", format: Format = "stl", skip_missing: bool = False, threads: int = 0,
+              progress: Optional[Progress] = None) -> Hulls:
+        """Builds certified hulls of all links that have meshes. Links are worked on side by side.
+
+        faces: the largest number of faces of each hull, at least 4; several numbers make a hull each.
+        padding: least distance that hulls keep from the geometry, proven.
+        max_distance: largest distance of a point of a hull from the geometry, proven; greater than 0. None: no bound.
+        tight: whether to build tight hulls, which takes some twenty times as long.
+        budgets: a YAML file with faces, max_distance, padding and skip for single links.
+        cache: a folder that keeps hulls for the next time.
+        from_: the geometry that the hulls enclose, "visual" or "collision".
+        format: of the hulls' files, "stl", "obj" or "glb"; hulls for stl and glb have float32 coordinates.
+        skip_missing: whether to leave links alone whose meshes are not found.
+        threads: the largest number of threads; 0 means one for each core. The hulls do not depend on it.
+        progress: called as build() calls it, with the name of the link that was finished last.
+
+        Raises InputError for mesh files that are not found or cannot be read, and for options that are not as above.
+        """
+        for name, value, choices in (("from_", from_, Geometry), ("format", format, Format)):
+            if value not in get_args(choices):
+                raise InputError(f"{name}={value!r}: expected one of {', '.join(get_args(choices))}")
+        counts = np.atleast_1d(_arrays.face_counts("faces", faces))
+        distance = 0.0 if max_distance is None else _arrays.not_negative("max_distance", max_distance)
+        if max_distance is not None and distance == 0:
+            raise InputError(f"max_distance={max_distance!r}: expected a number greater than 0, or None for no bound")
+        given = {"faces": counts.tolist(), "padding": _arrays.not_negative("padding", padding),
+                 "max_distance": distance, "tight": bool(tight), "cache": cache, "from": from_, "format": format,
+                 "skip_missing": bool(skip_missing), "threads": _arrays.count("threads", threads),
+                 "budgets": None if budgets is None else pathlib.Path(budgets).read_text(encoding="utf-8"),
+                 "budgets_name": "" if budgets is None else os.fspath(budgets)}
+        return Hulls(self, self._core.hulls(given, progress), format)
+
+    def check(self, allow: float = 0, *, threads: int = 0, progress: Optional[Progress] = None) -> Check:
+        """Decides whether the collision geometry that the robot ships with covers its visual geometry, exactly.
+
+        allow: how far the visual geometry may stick out.
+        """
+        allow = _arrays.not_negative("allow", allow)
+        core, links = self._core.check(allow, _arrays.count("threads", threads), progress)
+        return Check(core, [LinkCheck(**facts) for facts in links], allow)
+
+    def picture(self, positions: Positions = (), width: int = 560, height: int = 420) -> bytes:
+        """Draws the visual geometry; meshes that are missing are left out. Returns the content of a .png file."""
+        return self._core.picture(self._positions(positions), width, height)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        return self.picture() or None
+
+    def __repr__(self) -> str:
+        return f"<prohull.robot.Robot: {self.name}, {len(self.links)} links, {len(self.joints)} joints>"
+
+    def _positions(self, positions: Positions) -> list[float]:
+        """Of all joints."""
+        if isinstance(positions, Mapping):
+            names = [joint.name for joint in self.joints]
+            if unknown := [name for name in positions if name not in names]:
+                raise InputError(f"positions: {self.name} has no joint {unknown[0]!r}; it has {', '.join(names)}")
+            return [float(positions.get(name, 0)) for name in names]
+        values = [float(x) for x in positions] or [0.0] * len(self.joints)
+        if len(values) != len(self.joints):
+            raise InputError(f"positions: {len(values)} numbers for {len(self.joints)} joints")
+        return values
+
+
+def _link_hulls(facts: dict[str, Any]) -> LinkHulls:
+    facts["hulls"] = [_link_hull(hull) for hull in facts["hulls"]]
+    return LinkHulls(**facts)
+
+
+def _link_hull(facts: dict[str, Any]) -> LinkHull:
+    facts["mesh"] = Mesh._of(facts["mesh"])
+    return LinkHull(**facts)

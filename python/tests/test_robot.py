@@ -1,0 +1,159 @@
+import math
+
+import numpy as np
+import prohull
+import prohull.robot
+import pytest
+
+URDF = """<?xml version="1.0"?>
+<robot name="crane">
+  <link name="base">
+    <visual><geometry><mesh filename="base.ply"/></geometry></visual>
+    <collision><geometry><box size="0.01 0.01 0.01"/></geometry></collision>
+  </link>
+  <link name="arm">
+    <visual><origin xyz="0 0 1"/><geometry><mesh filename="arm.ply" scale="0.5 0.5 0.5"/></geometry></visual>
+    <collision><geometry><box size="90 90 90"/></geometry></collision>
+  </link>
+  <link name="tool"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
+  <joint name="turn" type="revolute">
+    <parent link="base"/><child link="arm"/><origin xyz="0 0 5"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="2" effort="1" velocity="1"/>
+  </joint>
+  <joint name="hold" type="fixed"><parent link="arm"/><child link="tool"/></joint>
+</robot>
+"""
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("crane")
+    prohull.sample("torus", 800).save(folder / "base.ply")
+    prohull.sample("pony", 1500).save(folder / "arm.ply")
+    (folder / "crane.urdf").write_text(URDF)
+    return folder / "crane.urdf"
+
+
+@pytest.fixture(scope="module")
+def robot(path):
+    return prohull.robot.Robot.load(path)
+
+
+@pytest.fixture(scope="module")
+def hulls(robot):
+    return robot.hulls([200, 100], padding=0.01)
+
+
+def test_a_robot_has_links_and_joints(robot):
+    assert robot.name == "crane" and [link.name for link in robot.links] == ["base", "arm", "tool"]
+    turn, hold = robot.joints
+    assert (turn.name, turn.type, turn.parent, turn.child) == ("turn", "revolute", "base", "arm")
+    assert (turn.lower, turn.upper, turn.axis) == (-1, 2, (0, 0, 1)) and turn.origin[2, 3] == 5 and hold.type == "fixed"
+    pony = prohull.read(str(robot.path).replace("crane.urdf", "arm.ply"))
+    assert np.allclose(np.ptp(robot.links[1].visual.vertices, axis=0), np.ptp(pony.vertices, axis=0) / 2)
+    assert robot.links[0].collision.volume == pytest.approx(1e-6)
+
+
+def test_poses_follow_the_joints(robot):
+    for positions in ({"turn": math.pi / 2}, [math.pi / 2, 0]):
+        poses = robot.poses(positions)
+        assert poses.shape == (3, 4, 4)
+        assert np.allclose(poses[1] @ [1, 0, 0, 1], [0, 1, 5, 1]) and np.allclose(poses[2], poses[1])
+    assert np.array_equal(robot.poses()[0], np.eye(4))
+    with pytest.raises(prohull.InputError, match="no joint 'twist'"):
+        robot.poses({"twist": 1})
+    with pytest.raises(prohull.InputError, match="1 numbers for 2 joints"):
+        robot.poses([1])
+
+
+def test_hulls_are_certified_in_the_frame_that_they_tell(robot, hulls):
+    assert hulls.certified and [link.status for link in hulls] == ["hulled"] * 3  # also a ball gets a padding
+    for link in robot.links[:2]:
+        for hull, faces in zip(hulls[link.name].hulls, (200, 100)):
+            assert len(hull.mesh.faces) <= faces == hull.target_faces
+            assert hull.proof == "padding" and hull.padding >= 0.01 and hull.volume_ratio > 1
+            in_link = hull.mesh.vertices @ hull.origin[:3, :3].T + hull.origin[:3, 3]
+            assert prohull.Mesh(in_link, hull.mesh.faces).contains(link.visual.vertices).all()
+    with pytest.raises(KeyError):
+        hulls["head"]
+
+
+def test_a_saved_robot_passes_its_check(robot, hulls, tmp_path):
+    shipped = robot.check()
+    assert not shipped and not shipped.passes
+    assert [link.verdict for link in shipped.links] == ["leaks", "covered", "no-collision"]
+    assert shipped["base"].sticks_out_at_least > 0.1 and not shipped["base"].passes
+    written = hulls.save(tmp_path / "safe", package="crane_safe")
+    assert (tmp_path / "safe" / "package.xml").exists() and all((tmp_path / "safe").as_posix() in name for name in written)
+    safe = prohull.robot.Robot.load(tmp_path / "safe" / "crane.urdf", [tmp_path / "safe"])
+    assert safe.check().passes
+    hulls.report_html(tmp_path / "report.html", check=shipped, motion=hulls.motion(20))
+    assert "crane" in (tmp_path / "report.html").read_text(encoding="utf-8")
+    with pytest.raises(prohull.InputError, match="would be overwritten"):
+        hulls.save(path_of(robot))
+
+
+def path_of(robot):
+    return str(robot.path).replace("crane.urdf", "")
+
+
+def test_motion_misses_nothing(hulls):
+    motion = hulls.motion(50, seed=3)
+    assert motion.missed == 0 and "disable_collisions" in motion.srdf
+    assert motion.pairs == hulls.motion(50, seed=3, threads=1).pairs
+
+
+def test_pictures(robot, hulls):
+    for shown in (robot, hulls):
+        assert shown._repr_png_().startswith(b"\x89PNG") and "crane" in repr(shown)
+
+
+def test_what_is_wrong_is_told(path, robot, tmp_path):
+    (tmp_path / "none.urdf").write_text(URDF)
+    broken = prohull.robot.Robot.load(tmp_path / "none.urdf")
+    with pytest.raises(prohull.InputError, match="mesh files were not found"):
+        broken.hulls()
+    assert [link.status for link in broken.hulls(skip_missing=True)] == ["skipped", "skipped", "primitives"]
+    with pytest.raises(prohull.InputError, match="base.ply"):
+        broken.links[0].visual
+    with pytest.raises(prohull.InputError):
+        prohull.robot.Robot.load(tmp_path / "nothing.urdf")
+
+
+@pytest.mark.parametrize("options, message", [
+    ({"faces": 3}, "faces=3: expected a whole number of at least 4"),
+    ({"faces": 30.7}, "faces=30.7: expected a whole number"),
+    ({"faces": "x"}, "faces='x': expected a whole number"),
+    ({"faces": None}, "faces=None: expected a whole number"),
+    ({"faces": []}, "expected a whole number"),
+    ({"max_distance": -1}, "max_distance=-1: expected a number"),
+    ({"max_distance": math.nan}, "max_distance=nan: expected a number"),
+    ({"max_distance": 0}, "max_distance=0: expected a number greater than 0, or None"),
+    ({"max_distance": "2mm"}, "max_distance='2mm': expected a number"),
+    ({"padding": -0.1}, "padding=-0.1: expected a number, at least 0"),
+    ({"padding": math.inf}, "padding=inf: expected a number"),
+    ({"padding": 10**400}, "expected a number"),
+    ({"threads": -1}, "threads=-1: expected a whole number, at least 0"),
+    ({"threads": 1.5}, "threads=1.5: expected a whole number"),
+    ({"format": "fbx"}, "format='fbx': expected one of stl, obj, glb"),
+    ({"from_": "inertial"}, "from_='inertial': expected one of visual, collision"),
+])
+def test_wrong_options_are_named(robot, options, message):
+    with pytest.raises(prohull.InputError, match=message):
+        robot.hulls(**options)
+
+
+def test_wrong_options_of_checks_and_motion_are_named(robot, hulls):
+    for allow in (-1, math.nan, "1mm"):
+        with pytest.raises(prohull.InputError, match="allow=.*: expected a number, at least 0"):
+            robot.check(allow)
+    for options in ({"configurations": -5}, {"configurations": 2.5}, {"seed": -1}, {"threads": 1 << 40}):
+        with pytest.raises(prohull.InputError, match=f"{next(iter(options))}=.*: expected a whole number"):
+            hulls.motion(**options)
+    assert robot.hulls(np.int32(100), padding=np.float32(0.25)).certified
+
+
+def test_a_budget_of_no_link_is_told_with_its_line(robot, tmp_path):
+    (tmp_path / "budgets.yaml").write_text("links:\n  base: {}\n  head: {skip: true}\n")
+    with pytest.raises(prohull.InputError, match="budgets.yaml: line 3: crane has no link 'head'"):
+        robot.hulls(budgets=tmp_path / "budgets.yaml")
