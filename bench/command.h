@@ -22,12 +22,14 @@ void add_construction(CLI::App& app, Run& run);
 void add_corpus(CLI::App& app, Run& run);
 void add_filters(CLI::App& app, Run& run);
 void add_intersections(CLI::App& app, Run& run);
+void add_leaks(CLI::App& app, Run& run);
 void add_looser(CLI::App& app, Run& run);
 void add_memory(CLI::App& app, Run& run);
 void add_peers(CLI::App& app, Run& run);
 void add_queries(CLI::App& app, Run& run);
 void add_queues(CLI::App& app, Run& run);
 void add_rays(CLI::App& app, Run& run);
+void add_robots(CLI::App& app, Run& run);
 void add_scale(CLI::App& app, Run& run);
 
 // Options that several commands have.

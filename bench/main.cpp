@@ -22,11 +22,13 @@ int main(int argc, char** argv) {
   add_collide(app, run);
   add_filters(app, run);
   add_intersections(app, run);
+  add_leaks(app, run);
   add_looser(app, run);
   add_memory(app, run);
   add_peers(app, run);
   add_scale(app, run);
   add_corpus(app, run);
+  add_robots(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

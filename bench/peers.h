@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "prohull/triangle_mesh.h"
 
@@ -29,6 +30,15 @@ std::optional<PeerRun> run_meshoptimizer(const TriangleMesh& mesh, std::size_t f
 std::optional<PeerRun> run_alpha_wrap(const TriangleMesh& mesh, std::size_t faces);
 /// CGAL's convex hull, whose faces cannot be chosen.
 std::optional<PeerRun> run_convex_hull(const TriangleMesh& mesh);
+
+/// Points that lie outside of a closed mesh, as CGAL's packages of exact predicates say; they share no code with ours.
+struct PointsOutside {
+  std::size_t count = 0;  ///< by the parity of crossings
+  double farthest = 0;    ///< from the mesh, rounded
+};
+
+/// Nothing if it was not built, or if `hull` is not a closed 2-manifold.
+std::optional<PointsOutside> points_outside(std::span<const Vec3> points, const TriangleMesh& hull);
 
 /// What CGAL's packages of exact predicates say about a hull; they share no code with ours.
 struct ExactFacts {
