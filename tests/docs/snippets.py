@@ -8,7 +8,8 @@ Of README.md, CONTRIBUTING.md and all pages below docs/, or of the given ones, e
     text      what the block before it prints
     cpp       stands in one of examples/, which are tests of their own, between "// docs: NAME" and "// docs: end"
     cmake     stands in docs/install.md, of which the test `consumer` runs all, but for the version
-    xml       is well-formed
+    xml       is well-formed, and so is
+    yaml      where PyYAML is installed
     sh        installs or builds: not run here, and no line of it begins with prohull
 
 Lines shown must be printed, in this order, numbers aside; more may be printed. --write puts the numbers that are
@@ -62,7 +63,7 @@ class Page:
 
     def check(self):
         kinds = dict(console=self.console, python=self.python, text=self.shown, cpp=self.cpp, cmake=self.cmake,
-                     xml=self.xml, sh=self.sh)
+                     xml=self.xml, yaml=self.yaml, sh=self.sh)
         blocks = list(FENCED.finditer(self.text))
         if self.text.count("```") != 2 * len(blocks):
             raise Wrong("has a fenced block that is indented or not closed")
@@ -128,6 +129,14 @@ class Page:
     def xml(self, code, _):
         xml.etree.ElementTree.fromstring(code)
 
+    def yaml(self, code, _):
+        try:
+            import yaml
+        except ModuleNotFoundError:
+            return print(f"{self.path}: its YAML is not read: PyYAML is not installed")
+        if not isinstance(yaml.safe_load(code), dict):
+            raise Wrong(f"has YAML without keys:\n{code}")
+
     def sh(self, code, _):
         if re.search(r"^prohull ", code, re.MULTILINE):
             raise Wrong(f"has sh that can be run, so make it console:\n{code}")
@@ -142,6 +151,7 @@ def check(page, write):
     """Whether it holds; says why not."""
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
+        os.environ["XDG_CACHE_HOME"] = f"{folder}/.cache"
         try:
             run("prohull sample bracket --faces 3000 -o part.stl")
             page.check()
