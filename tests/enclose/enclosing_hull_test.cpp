@@ -9,12 +9,12 @@
 #include "geometry/float32.h"
 #include "meshes.h"
 #include "progress.h"
+#include "prohull/convex_hull.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
 #include "prohull/sample.h"
 #include "prohull/verification.h"
-#include "prohull/convex_hull.h"
 
 namespace prohull {
 namespace {
