@@ -76,6 +76,7 @@ TEST(Padding, OfACubeIsALargerCube) {
 }
 
 TEST(Padding, OfSamplesIsProven) {
+  if (kTestsAreSlow) GTEST_SKIP() << "takes minutes under sanitizers; the other tests run the same code";
   SoupMaker random(test_seed());
   for (const std::string_view name : {"asteroid", "bracket", "box", "knot", "pony", "sphere", "torus"})
     for (const double share : {0.002, 0.05}) {
@@ -125,6 +126,7 @@ TEST(Padding, OfNeedlesAndSheetsIsProven) {
 }
 
 TEST(Padding, HoldsForTheCoordinatesOfTheFile) {
+  if (kTestsAreSlow) GTEST_SKIP() << "takes minutes under sanitizers; the other tests run the same code";
   SoupMaker random(test_seed());
   const TriangleMesh mesh = make_sample("pony", effort<std::size_t>(800, 300));
   const double diagonal = bounding_box(mesh).diagonal();
@@ -139,6 +141,7 @@ TEST(Padding, HoldsForTheCoordinatesOfTheFile) {
 }
 
 TEST(Padding, IsKeptByTightHullsAndWithBounds) {
+  if (kTestsAreSlow) GTEST_SKIP() << "takes minutes under sanitizers; the other tests run the same code";
   SoupMaker random(test_seed());
   const TriangleMesh mesh = make_sample("asteroid", 500);
   const double diagonal = bounding_box(mesh).diagonal(), padding = 0.02 * diagonal;
