@@ -424,7 +424,9 @@ TEST_F(Check, BoundsHoldWhereSamplesAre) {
     leaking += most > 0;
   }
   EXPECT_GT(leaking, 0);
-  if (!kTestsAreSlow) EXPECT_LT(leaking, kRounds);  // of a few rounds, all may leak
+  if (!kTestsAreSlow) {  // of a few rounds, all may leak
+    EXPECT_LT(leaking, kRounds);
+  }
 }
 
 // The numbers are those of docs; CGAL finds the same farthest points where it takes the collision mesh.
