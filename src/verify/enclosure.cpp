@@ -8,6 +8,7 @@
 #include "geometry/interior_contact.h"
 #include "parallel/progress_meter.h"
 #include "prohull/error.h"
+#include "verify/holes.h"
 #include "verify/offenders.h"
 #include "verify/self_intersection.h"
 #include "verify/solids.h"
@@ -24,7 +25,7 @@
 //       X is found.
 //   (2) X lies beside none. Then its boundary lies on H alone, and is made of whole pieces of faces of H as H cuts
 //       itself: where O crosses such a piece or covers a part of it, on the side of X, X would lie beside O; and where
-//       O only touches it from the other side, X goes on. check_outer_faces evaluates one point of each piece: X is
+//       O only touches it from the other side, X goes on. find_holes evaluates one point of each piece: X is
 //       found. A point that lies on O needs no answer: its piece does not bound X.
 //
 // What is found is a point beside which w_O >= 1 and w_H < 1, evaluated exactly; so what is rejected does not enclose.
@@ -48,7 +49,9 @@ class Verifier {
 
   EnclosureReport report() {
     check_inner_faces();
-    check_outer_faces();
+    const Holes holes = find_holes();
+    report_.self_intersections = holes.self_intersections;
+    report_.cavities = holes.count;
     report_.faces_outside = offenders_.size();
     report_.worst = worst_of(std::move(offenders_), options_.max_offenders);
     report_.encloses = report_.faces_outside == 0 && report_.cavities == 0;
@@ -57,6 +60,48 @@ class Verifier {
     if (inner_.volume != 0) report_.void_ratio = (outer_.volume - inner_.volume) / inner_.volume;
     meter_.at(1);
     return report_;
+  }
+
+  /// Looks for pieces of H beside which w_H < 1, in the midst of O.
+  Holes find_holes() {
+    const auto pairs = self_intersections(outer_, meter_);
+    std::vector<std::vector<FaceIndex>> meets(outer_.faces.size());
+    for (const auto& [f, g] : pairs) meets[f].push_back(g), meets[g].push_back(f);
+    Holes holes = find_holes([&](FaceIndex f) {
+      Neighbours near;
+      for (const FaceIndex g : meets[f]) near.add(outer_.faces[f], outer_.axis[f], outer_.faces[g]);
+      return subdivide(outer_.faces[f], outer_.axis[f], near.cutters, meter_);
+    });
+    holes.self_intersections = pairs.size();
+    return holes;
+  }
+
+  /// The same with pieces of each face that are given.
+  template <class CellsOf>
+  Holes find_holes(CellsOf cells_of) {
+    Holes holes;
+    std::vector<std::uint8_t> bounds_hole(outer_.faces.size());
+    for (FaceIndex f = 0; f < outer_.faces.size(); ++f) {
+      if (f % 64 == 0) meter_.at(0.8 + 0.2 * double(f) / double(outer_.faces.size()));
+      for (const Cell& cell : cells_of(f)) {
+        meter_.go_on();
+        const auto point = beside_a_hole(f, cell);
+        if (!point) continue;
+        holes.point = *point;
+        bounds_hole[f] = 1;
+        break;
+      }
+    }
+    Clusters clusters(outer_.faces.size());
+    join_along_edges(outer_, clusters, [&](const FaceEdge& e) { return bounds_hole[e.face] != 0; });
+    for (FaceIndex f = 0; f < outer_.faces.size(); ++f)
+      if (bounds_hole[f] && clusters.representative(f) == f) ++holes.count;
+    return holes;
+  }
+
+  /// All pieces of face f as H cuts it.
+  std::vector<Cell> pieces_of(FaceIndex f) {
+    return subdivide(outer_.faces[f], outer_.axis[f], neighbours(outer_, f, outer_, f).cutters, meter_);
   }
 
  private:
@@ -153,36 +198,14 @@ class Verifier {
     return s;
   }
 
-  /// Looks for pieces of H beside which w_H < 1, in the midst of O.
-  void check_outer_faces() {
-    const auto pairs = self_intersections(outer_, meter_);
-    report_.self_intersections = pairs.size();
-    std::vector<std::vector<FaceIndex>> meets(outer_.faces.size());
-    for (const auto& [f, g] : pairs) meets[f].push_back(g), meets[g].push_back(f);
-    std::vector<std::uint8_t> bounds_hole(outer_.faces.size());
-    for (FaceIndex f = 0; f < outer_.faces.size(); ++f) {
-      if (f % 64 == 0) meter_.at(0.8 + 0.2 * double(f) / double(outer_.faces.size()));
-      Neighbours near;
-      for (const FaceIndex g : meets[f]) near.add(outer_.faces[f], outer_.axis[f], outer_.faces[g]);
-      for (const Cell& cell : subdivide(outer_.faces[f], outer_.axis[f], near.cutters, meter_)) {
-        meter_.go_on();
-        if (!bounds_a_hole(f, cell)) continue;
-        bounds_hole[f] = 1;
-        break;
-      }
-    }
-    Clusters clusters(outer_.faces.size());
-    join_along_edges(outer_, clusters, [&](const FaceEdge& e) { return bounds_hole[e.face] != 0; });
-    for (FaceIndex f = 0; f < outer_.faces.size(); ++f)
-      if (bounds_hole[f] && clusters.representative(f) == f) ++report_.cavities;
-  }
-
-  bool bounds_a_hole(FaceIndex f, const Cell& cell) {
+  /// A point of the piece of face f, if a side of it lies in the midst of O and w_H < 1 there.
+  std::optional<Vec3> beside_a_hole(FaceIndex f, const Cell& cell) {
     SurfacePoint p(outer_.faces[f], outer_.axis[f], cell, random_);
-    const WindingBeside inner = winding_beside(inner_, p, cell, random_);
-    if (inner.covered || inner.inside < 1) return false;
+    if (!winding_beside(inner_, p, cell, random_).is_cover()) return std::nullopt;
     const WindingBeside outer = winding_beside(outer_, p, cell, random_);
-    return outer.inside < 1 || outer.outside < 1;
+    const WindingBeside inner = winding_beside(inner_, p, cell, random_);  // p may have moved
+    if ((outer.outside < 1 && inner.outside >= 1) || (outer.inside < 1 && inner.inside >= 1)) return p.rounded();
+    return std::nullopt;
   }
 
   /// How other faces of `of` meet face f of `on`; `itself` is left out.
@@ -230,6 +253,15 @@ class Verifier {
 
 EnclosureReport verify_enclosure(const Surface& inner, const Surface& outer, const EnclosureOptions& options) {
   return Verifier(inner, outer, options).report();
+}
+
+Holes find_holes(const Surface& inner, const Surface& outer, const OpenCells& open_cells, const Progress& progress) {
+  const EnclosureOptions options{.progress = progress};
+  Verifier verifier(inner, outer, options);
+  return verifier.find_holes([&](FaceIndex f) {
+    auto cells = open_cells(f);
+    return cells ? *cells : verifier.pieces_of(f);
+  });
 }
 
 }  // namespace verify

@@ -10,6 +10,13 @@ namespace prohull::verify {
 /// verify_enclosure of two meshes.
 EnclosureReport verify_enclosure(const Surface& inner, const Surface& outer, const EnclosureOptions& options);
 
+/// What `outer` leaves open in the midst of `inner`.
+struct Holes {
+  std::size_t count = 0;               ///< connected parts of `outer` that bound holes
+  Vec3 point;                          ///< beside one, rounded
+  std::size_t self_intersections = 0;  ///< of `outer`, if they were looked for
+};
+
 /// The faces of a mesh that lie, in part, outside of the closure of what it winds around at least once: those of folds
 /// and of components that are inside out; and those without area. Whatever encloses the mesh covers all others
 /// (verify_enclosure, verify_cover). Exact; but where more than 1,000 pairs of faces intersect, all of these are there.

@@ -12,23 +12,13 @@
 #include "parallel/progress_meter.h"
 #include "prohull/error.h"
 #include "prohull/replay.h"
+#include "verify/original.h"
 #include "verify/self_intersection.h"
 #include "verify/solids.h"
 #include "verify/surface.h"
 
 namespace prohull {
 namespace {
-
-std::size_t drop_non_finite_faces(TriangleMesh& mesh) {
-  const std::size_t before = mesh.face_count();
-  PerFace<std::array<VertexId, 3>> finite;
-  finite.reserve(before);
-  for (const auto& corners : mesh.triangles)
-    if (std::ranges::all_of(corners, [&](VertexId v) { return is_finite(mesh.positions[v]); }))
-      finite.push_back(corners);
-  mesh.triangles = std::move(finite);
-  return before - mesh.face_count();
-}
 
 /// Two units between which people forget to convert.
 struct UnitPair {
@@ -49,16 +39,6 @@ void note_units(const Box& hull, const Box& original, std::vector<std::string>& 
                                   what));
 }
 
-/// Of what faces refer to; throws InputError if it is too large to verify.
-Box usable_box(const TriangleMesh& mesh, std::string_view name) {
-  verify::require_usable(mesh, name);
-  Box box;
-  for (const auto& corners : mesh.triangles)
-    for (const VertexId v : corners) box.extend(mesh.positions[v]);
-  require_usable_reach(box, fmt::format("coordinates of the {}", name));
-  return box;
-}
-
 /// The replay judges positions that are not finite.
 Box usable_box(const ProgressiveHull& hull) {
   Box box;
@@ -68,33 +48,21 @@ Box usable_box(const ProgressiveHull& hull) {
   return box;
 }
 
-std::size_t turned_faces(const TriangleMesh& mesh, const TriangleMesh& turned) {
-  std::size_t count = 0;
-  for (const FaceId f : mesh.triangles.ids()) count += turned.triangles[f] != mesh.triangles[f];
-  return count;
-}
-
 /// One verification, step by step. Each step has its share of the progress.
 class Judge {
  public:
   Judge(TriangleMesh& original, HullSide side, const VerificationOptions& options, std::size_t steps)
       : original_(original), options_(options), meter_(options.progress, "verify"), steps_(steps) {
     found.side = side;
-    if (const std::size_t dropped = drop_non_finite_faces(original))
-      found.notes.push_back(fmt::format("{} of the original {} not finite and {} left out",
-                                        counted(dropped, "face", "faces"), dropped == 1 ? "is" : "are",
-                                        dropped == 1 ? "is" : "are"));
-    original_box = usable_box(original, "original");
-    found.original_closed = is_closed(original);
+    const verify::PreparedOriginal prepared = verify::prepare_original(original, found.notes);
+    original_box = prepared.box;
+    found.original_closed = prepared.closed;
+    found.turned_original_faces = prepared.turned_faces;
+    found.original_volume = prepared.volume;
     if (!is_outer() && !found.original_closed)
       throw InputError(Defect::OpenEdge,
                        "the original is not closed: it has no inside that could enclose an inner hull");
     found.every_triangle = !options.solid_only || !found.original_closed;
-    if (found.original_closed)
-      turn_original();
-    else
-      found.notes.emplace_back(
-          "the original is not closed: it has no volume, and every triangle of it must be covered");
   }
 
   bool is_outer() const { return found.side == HullSide::Outer; }
@@ -107,7 +75,7 @@ class Judge {
   /// Hulls are not turned, but refused: who uses one believes that it looks outwards.
   bool refuses_inverted(const TriangleMesh& hull) {
     verify::require_closed(hull, "hull");
-    found.inverted_hull_faces = turned_faces(hull, turned_outwards(hull));
+    found.inverted_hull_faces = verify::turned_faces(hull, turned_outwards(hull));
     if (found.inverted_hull_faces == 0) return false;
     found.encloses = false;
     found.why_not = found.inverted_hull_faces == hull.face_count()
@@ -166,17 +134,6 @@ class Judge {
   Box original_box;
 
  private:
-  void turn_original() {
-    const TriangleMesh turned = turned_outwards(original_);
-    found.turned_original_faces = turned_faces(original_, turned);
-    original_ = turned;
-    found.original_volume = signed_volume(original_);
-    if (const std::size_t count = found.turned_original_faces)
-      found.notes.push_back(fmt::format("{} of the original {} inwards and {} as turned",
-                                        counted(count, "face", "faces"), count == 1 ? "looks" : "look",
-                                        count == 1 ? "counts" : "count"));
-  }
-
   void take(EnclosureReport report, std::string_view why_not) {
     found.encloses = report.encloses;
     if (!report.encloses) found.why_not = why_not;
@@ -205,7 +162,7 @@ Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSi
   Judge judge(original, side, options, 3);
   Verification& found = judge.found;
   found.proof = found.original_closed ? "enclosure" : "coverage";
-  note_units(usable_box(hull, "hull"), judge.original_box, found.notes);
+  note_units(verify::usable_box(hull, "hull"), judge.original_box, found.notes);
   if (!judge.refuses_inverted(hull)) {
     if (found.original_closed)
       judge.enclose_solid(hull);

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "prohull/distance.h"
+#include "prohull/shapes.h"
+#include "prohull/triangle_mesh.h"
+#include "prohull/verification.h"
+
+namespace prohull {
+
+/// What verify_union has found. Volumes and distances are in the input's unit.
+struct UnionVerification {
+  bool covers = false;            ///< the verdict, exact
+  bool original_closed = false;   ///< only then the inside is asked for
+  std::string why_not;            ///< why the verdict is no; empty if it is yes
+  std::size_t faces_outside = 0;  ///< triangles of the original of which a part lies outside of all pieces; exact
+  std::vector<Offender> worst;    ///< the farthest of these, farthest first
+  std::size_t holes = 0;          ///< connected parts of the union's surface that leave a hole in the solid
+  std::size_t turned_pieces = 0;  ///< pieces that were inside out and count as turned
+  double union_volume = std::numeric_limits<double>::quiet_NaN();     ///< overlaps count once; rounded
+  double original_volume = std::numeric_limits<double>::quiet_NaN();  ///< NaN if the original is not closed
+  double void_ratio = std::numeric_limits<double>::quiet_NaN();       ///< union_volume / original_volume - 1
+  std::vector<std::string> notes;                                     ///< sentences for the user
+};
+
+/// Decides whether the union of pieces covers every triangle of the original and, if that is closed, its inside.
+/// Guaranteed: the verdict is exact. Pieces may touch, share walls and overlap. They need not be convex, but most of
+/// the work is faster where they are. With options.solid_only only the solid of a closed original must be covered.
+///
+/// Throws InputError if there is no piece, if a piece is not closed, not finite or not a solid (the message has its
+/// number, from 1 on), if the original is empty; Cancelled. A piece that looks inwards counts as turned, and triangles
+/// of the original that are not finite are left out; `turned_pieces` and `notes` tell. The volume is NaN if a piece is
+/// not convex.
+///
+///     const UnionVerification found = verify_union(pieces, read_mesh("part.stl"));
+///     if (!found.covers) std::cout << found.why_not;
+UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMesh original,
+                               const VerificationOptions& options = {});
+
+/// The same for balls. Every triangle must be covered and, if `inside`, the solid of a closed original; with
+/// options.solid_only that solid alone. `holes` is at most 1: the search for one ends at the first.
+/// Guaranteed: yes is exact, for the balls with the doubles given. No is exact as well, but where the balls leave less
+/// than about 1e-9 of the diagonal to spare, or where the decision would take more than a million parts of one triangle
+/// or four million cubes of the inside; `notes` tell of such a no. Balls may touch corners of the original, and each
+/// other in the middles of edges, with nothing to spare.
+UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh original, bool inside,
+                               const VerificationOptions& options = {});
+
+/// How far the union reaches out of `original`: bounds of the greatest distance from a point of the pieces' surfaces to
+/// the triangles. Points inside of the solid of a closed original count as 0. If the original is not closed, points of
+/// the union's surface count, and none within other pieces. As distance_bounds, it does not look into cavities that the
+/// union fills. The search ends when the bounds differ by options.relative_gap, or by 1e-4 of the diagonal.
+/// Throws InputError if the original is empty or not finite; Cancelled.
+DistanceBounds union_reach(std::span<const TriangleMesh> pieces, const TriangleMesh& original,
+                           const DistanceOptions& options = {});
+DistanceBounds union_reach(std::span<const Ball> balls, const TriangleMesh& original,
+                           const DistanceOptions& options = {});
+
+/// Of the union; overlaps count once. Rounded: correct to about 1e-6 of it. Pieces are convex, closed and outwards.
+double union_volume(std::span<const TriangleMesh> pieces);
+double union_volume(std::span<const Ball> balls);
+
+}  // namespace prohull

@@ -1,0 +1,66 @@
+#include "verify/original.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/text.h"
+#include "geometry/usable_size.h"
+#include "prohull/enclosure.h"
+#include "verify/surface.h"
+
+namespace prohull::verify {
+namespace {
+
+std::size_t drop_non_finite_faces(TriangleMesh& mesh) {
+  const std::size_t before = mesh.face_count();
+  PerFace<std::array<VertexId, 3>> finite;
+  finite.reserve(before);
+  for (const auto& corners : mesh.triangles)
+    if (std::ranges::all_of(corners, [&](VertexId v) { return is_finite(mesh.positions[v]); }))
+      finite.push_back(corners);
+  mesh.triangles = std::move(finite);
+  return before - mesh.face_count();
+}
+
+}  // namespace
+
+Box usable_box(const TriangleMesh& mesh, std::string_view name) {
+  require_usable(mesh, name);
+  Box box;
+  for (const auto& corners : mesh.triangles)
+    for (const VertexId v : corners) box.extend(mesh.positions[v]);
+  require_usable_reach(box, fmt::format("coordinates of the {}", name));
+  return box;
+}
+
+std::size_t turned_faces(const TriangleMesh& mesh, const TriangleMesh& turned) {
+  std::size_t count = 0;
+  for (const FaceId f : mesh.triangles.ids()) count += turned.triangles[f] != mesh.triangles[f];
+  return count;
+}
+
+PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& notes) {
+  if (const std::size_t dropped = drop_non_finite_faces(mesh))
+    notes.push_back(fmt::format("{} of the original {} not finite and {} left out", counted(dropped, "face", "faces"),
+                                dropped == 1 ? "is" : "are", dropped == 1 ? "is" : "are"));
+  PreparedOriginal result;
+  result.box = usable_box(mesh, "original");
+  result.closed = is_closed(mesh);
+  if (!result.closed) {
+    notes.emplace_back("the original is not closed: it has no volume, and every triangle of it must be covered");
+    return result;
+  }
+  TriangleMesh turned = turned_outwards(mesh);
+  result.turned_faces = turned_faces(mesh, turned);
+  mesh = std::move(turned);
+  result.volume = signed_volume(mesh);
+  if (const std::size_t count = result.turned_faces)
+    notes.push_back(fmt::format("{} of the original {} inwards and {} as turned", counted(count, "face", "faces"),
+                                count == 1 ? "looks" : "look", count == 1 ? "counts" : "count"));
+  return result;
+}
+
+}  // namespace prohull::verify

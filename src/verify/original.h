@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "prohull/triangle_mesh.h"
+
+namespace prohull::verify {
+
+/// What is known of an original once it is prepared.
+struct PreparedOriginal {
+  Box box;
+  bool closed = false;
+  std::size_t turned_faces = 0;                              ///< that looked inwards
+  double volume = std::numeric_limits<double>::quiet_NaN();  ///< NaN if it is not closed
+};
+
+/// Leaves out faces that are not finite and turns a closed mesh outwards; `notes` tell of both. Throws InputError if
+/// the mesh is empty or too large to verify.
+PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& notes);
+
+/// The box of what faces refer to. Throws InputError, with `name` in the message, if the mesh is empty, not finite or
+/// too large to verify.
+Box usable_box(const TriangleMesh& mesh, std::string_view name);
+
+/// How many faces differ.
+std::size_t turned_faces(const TriangleMesh& mesh, const TriangleMesh& turned);
+
+}  // namespace prohull::verify

@@ -1,0 +1,493 @@
+#include <CGAL/Gmpq.h>
+#include <CGAL/Interval_nt.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+#include "geometry/bvh.h"
+#include "geometry/triangle_contact.h"
+#include "geometry/triangle_predicates.h"
+#include "geometry/usable_size.h"
+#include "parallel/progress_meter.h"
+#include "prohull/error.h"
+#include "prohull/union_verification.h"
+#include "verify/exact.h"
+#include "verify/offenders.h"
+#include "verify/original.h"
+#include "verify/surface.h"
+#include "verify/winding.h"
+
+// A ball is convex: a triangle of which one ball holds all corners is covered, and any other is cut in two at the
+// middle of its longest side. A point that no ball holds is an answer, too. Middles of middles have fractions as
+// weights whose denominators are powers of 2: doubles hold these weights without rounding, so that every answer is
+// exact.
+//
+// The inside is cut into cubes in the same way. A cube that one ball holds is covered, and one outside of the solid is
+// not asked. Where the surface passes through a cube, a ball need only hold the part of the solid there. That part lies
+// within the convex hull of the triangles, clipped by the cube, and of the corners of the cube inside of the solid:
+// each extreme point of it is a corner of the cube or lies on a triangle. Corners of the cubes are multiples of a power
+// of 2 that doubles hold without rounding.
+
+namespace prohull {
+namespace verify {
+namespace {
+
+/// What this part of the diagonal holds is not cut further.
+constexpr double kSmallest = 1e-10;
+constexpr std::size_t kFewFaces = 64;  ///< in a cube; where there are more, it is cut
+/// Of a triangle, and of all cubes together: some seconds.
+constexpr std::size_t kMostParts = 1'000'000, kMostCubes = 4'000'000;
+
+using BallIndex = std::uint32_t;
+using BallSet = std::vector<BallIndex>;  // sorted
+
+template <class Field>
+Field squared_distance(const std::array<Field, 3>& p, const Vec3& q) {
+  const Field x = p[0] - Field(q.x), y = p[1] - Field(q.y), z = p[2] - Field(q.z);
+  return x * x + y * y + z * z;
+}
+
+/// The sum of the corners of t, each times its weight.
+template <class Field>
+std::array<Field, 3> weighted(const Triangle& t, const Vec3& weights) {
+  std::array<Field, 3> p;
+  for (int i = 0; i < 3; ++i)
+    p[i] = Field(t.a[i]) * Field(weights.x) + Field(t.b[i]) * Field(weights.y) + Field(t.c[i]) * Field(weights.z);
+  return p;
+}
+
+/// Whether the ball holds the point of t with these weights. Exact.
+bool holds(const Ball& ball, const Triangle& t, const Vec3& weights) {
+  {
+    const CGAL::Protect_FPU_rounding<true> upwards;
+    const Interval radius(ball.radius);
+    const Interval room = radius * radius - squared_distance(weighted<Interval>(t, weights), ball.center);
+    if (room.inf() >= 0) return true;
+    if (room.sup() < 0) return false;
+  }
+  const CGAL::Gmpq radius(ball.radius);
+  return radius * radius >= squared_distance(weighted<CGAL::Gmpq>(t, weights), ball.center);
+}
+
+bool holds(const Ball& ball, const Vec3& p) { return holds(ball, {p, p, p}, {1, 0, 0}); }
+
+/// Never smaller than the ball.
+Box box_around(const Ball& ball) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box box;
+  for (int i = 0; i < 3; ++i) {
+    box.min[i] = std::nextafter(ball.center[i] - ball.radius, -kInfinity);
+    box.max[i] = std::nextafter(ball.center[i] + ball.radius, kInfinity);
+  }
+  return box;
+}
+
+class Balls {
+ public:
+  explicit Balls(std::span<const Ball> balls) : balls_(balls) {
+    for (const Ball& ball : balls) boxes_.push_back(box_around(ball));
+    bvh_ = Bvh(boxes_);
+  }
+
+  const Ball& operator[](BallIndex i) const { return balls_[i]; }
+
+  BallSet near(const Box& box) const {
+    BallSet result;
+    bvh_.visit([&](const Box& other) { return other.overlaps(box); }, [&](BallIndex i) { result.push_back(i); });
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+  BallSet near(const Box& box, const BallSet& among) const {
+    BallSet result;
+    for (const BallIndex i : among)
+      if (boxes_[i].overlaps(box)) result.push_back(i);
+    return result;
+  }
+
+  /// From p to the nearest ball; 0 in a ball; rounded.
+  double distance(const Vec3& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Ball& ball : balls_) least = std::min(least, norm(p - ball.center) - ball.radius);
+    return std::max(least, 0.0);
+  }
+
+ private:
+  std::span<const Ball> balls_;
+  std::vector<Box> boxes_;
+  Bvh bvh_;
+};
+
+bool have_common(const BallSet& a, const BallSet& b, const BallSet& c) {
+  return std::any_of(a.begin(), a.end(), [&](BallIndex i) {
+    return std::binary_search(b.begin(), b.end(), i) && std::binary_search(c.begin(), c.end(), i);
+  });
+}
+
+/// One triangle that no ball holds alone.
+class TriangleCutter {
+ public:
+  struct Corner {
+    Vec3 weights, position;  ///< the position is rounded
+    BallSet holders;
+  };
+
+  TriangleCutter(const Triangle& t, const Balls& balls, double smallest, ProgressMeter& meter)
+      : triangle_(t), balls_(balls), near_(balls.near(box_of(t))), smallest_(smallest), meter_(meter) {}
+
+  /// A point that no ball holds, or where the balls have too little to spare; none if the triangle is covered.
+  std::optional<Vec3> uncovered_point() {
+    std::vector<std::array<Corner, 3>> parts{{corner({1, 0, 0}), corner({0, 1, 0}), corner({0, 0, 1})}};
+    for (const Corner& c : parts[0])
+      if (c.holders.empty()) return c.position;
+    for (std::size_t count = 1; !parts.empty(); count += 2) {
+      meter_.go_on();
+      const auto part = std::move(parts.back());
+      parts.pop_back();
+      if (have_common(part[0].holders, part[1].holders, part[2].holders)) continue;
+      const auto [i, length] = longest_side(part);
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      Corner middle = corner(part[i].weights * 0.5 + part[j].weights * 0.5);
+      if (middle.holders.empty()) return middle.position;
+      if (length < smallest_ || is_fine(middle.weights) || count > kMostParts) {
+        is_certain_ = false;
+        return middle.position;
+      }
+      parts.push_back({part[i], middle, part[k]});
+      parts.push_back({std::move(middle), part[j], part[k]});
+    }
+    return std::nullopt;
+  }
+
+  /// Whether no ball holds the point that was found.
+  bool is_certain() const { return is_certain_; }
+
+ private:
+  Corner corner(const Vec3& weights) const {
+    const Triangle& t = triangle_;
+    Corner result{weights, t.a * weights.x + t.b * weights.y + t.c * weights.z, {}};
+    for (const BallIndex i : near_)
+      if (holds(balls_[i], t, weights)) result.holders.push_back(i);
+    return result;
+  }
+
+  static std::pair<int, double> longest_side(const std::array<Corner, 3>& corners) {
+    std::pair<int, double> longest{0, -1};
+    for (int i = 0; i < 3; ++i)
+      if (const double l = norm(corners[(i + 1) % 3].position - corners[i].position); l > longest.second)
+        longest = {i, l};
+    return longest;
+  }
+
+  /// Whether half of a weight may be rounded.
+  static bool is_fine(const Vec3& weights) {
+    constexpr double kUnit = 0x1p50;
+    return std::fmod(weights.x * kUnit, 1) != 0 || std::fmod(weights.y * kUnit, 1) != 0 ||
+           std::fmod(weights.z * kUnit, 1) != 0;
+  }
+
+  const Triangle triangle_;
+  const Balls& balls_;
+  const BallSet near_;
+  const double smallest_;
+  ProgressMeter& meter_;
+  bool is_certain_ = true;
+};
+
+/// Whether a triangle may touch a cube: false only if it does not. Separating axes (Akenine-Moller 2001); sums of at
+/// most six products, of factors below 2 largest and 2 reach, are rounded by less than `slack`.
+bool may_touch(const Box& cube, const Triangle& t, double largest) {
+  if (!cube.overlaps(box_of(t))) return false;
+  const Vec3 m = cube.center(), half = (cube.max - cube.min) * 0.5;
+  const std::array<Vec3, 3> v{t.a - m, t.b - m, t.c - m}, e{t.b - t.a, t.c - t.b, t.a - t.c};
+  double reach = 0;
+  for (const Vec3& p : v) reach = std::max(reach, norm(p));
+  reach += norm(half);
+  const auto is_apart = [&](const Vec3& axis, double slack) {
+    const double r = half.x * std::abs(axis.x) + half.y * std::abs(axis.y) + half.z * std::abs(axis.z) + slack;
+    const auto [least, greatest] = std::minmax({dot(axis, v[0]), dot(axis, v[1]), dot(axis, v[2])});
+    return least > r || greatest < -r;
+  };
+  constexpr double kRounding = 0x1p-44;
+  if (is_apart(cross(e[0], e[1]), kRounding * largest * reach * reach)) return false;
+  for (const Vec3& side : e)
+    for (const Vec3& axis : {Vec3{0, -side.z, side.y}, Vec3{side.z, 0, -side.x}, Vec3{-side.y, side.x, 0}})
+      if (is_apart(axis, kRounding * largest * reach)) return false;
+  return true;
+}
+
+/// The corners of what is left of t in the box.
+template <class Field>
+std::vector<std::array<Field, 3>> clipped(const Triangle& t, const Box& box) {
+  std::vector<std::array<Field, 3>> polygon;
+  for (const Vec3& p : {t.a, t.b, t.c}) polygon.push_back({Field(p.x), Field(p.y), Field(p.z)});
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int sign : {-1, 1}) {
+      const Field wall(sign < 0 ? box.min[axis] : box.max[axis]);
+      const auto beyond = [&](const std::array<Field, 3>& p) { return Field((p[axis] - wall) * Field(sign)); };
+      std::vector<std::array<Field, 3>> rest;
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const auto &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+        const Field here = beyond(p), next = beyond(q);
+        if (!(here > Field(0))) rest.push_back(p);
+        if (!((here > Field(0) && next < Field(0)) || (here < Field(0) && next > Field(0)))) continue;
+        const Field fraction = here / (here - next);
+        auto& x = rest.emplace_back();
+        for (int k = 0; k < 3; ++k) x[k] = p[k] + fraction * (q[k] - p[k]);
+      }
+      polygon = std::move(rest);
+    }
+  return polygon;
+}
+
+/// Cuts the solid into cubes.
+class CubeCutter {
+ public:
+  CubeCutter(const Surface& solid, const Balls& balls, double smallest, const Progress& progress)
+      : solid_(solid), balls_(balls), counter_(progress, "verify", kMostCubes), smallest_(smallest) {}
+
+  std::optional<Vec3> uncovered_point() {
+    Box box;
+    for (const Triangle& t : solid_.faces) box.extend(box_of(t));
+    if (box.is_empty()) return std::nullopt;
+    const Box root = root_cube(box);
+    for (int i = 0; i < 3; ++i) largest_ = std::max({largest_, std::abs(root.min[i]), std::abs(root.max[i])});
+    smallest_ = std::max(smallest_, largest_ * 0x1p-50);
+    std::vector<FaceIndex> faces(solid_.faces.size());
+    for (FaceIndex f = 0; f < faces.size(); ++f) faces[f] = f;
+    const bool covered = is_covered(root, balls_.near(root), faces, false);
+    counter_.finish();
+    return covered ? std::nullopt : std::optional(point_);
+  }
+
+  bool is_certain() const { return is_certain_; }
+
+ private:
+  static Box root_cube(const Box& box) {
+    const Vec3 size = box.max - box.min;
+    const double side = std::exp2(std::ceil(std::log2(std::max({size.x, size.y, size.z}))) + 1), unit = side / 1024;
+    Box root;
+    for (int i = 0; i < 3; ++i) {
+      root.min[i] = std::floor(box.min[i] / unit) * unit;
+      root.max[i] = root.min[i] + side;
+    }
+    return root;
+  }
+
+  /// `lies_inside` tells that all of the cube lies inside of the solid; else the faces are those that may touch it.
+  bool is_covered(const Box& cube, const BallSet& near, const std::vector<FaceIndex>& faces, bool lies_inside) {
+    counter_.next();
+    ++count_;
+    const Vec3 m = cube.center();
+    if (is_in_one_ball(cube, m, near)) return true;
+    std::vector<FaceIndex> touching;
+    if (!lies_inside) {
+      for (const FaceIndex f : faces)
+        if (may_touch(cube, solid_.faces[f], largest_)) touching.push_back(f);
+      if (touching.empty()) {
+        if (winding_at(solid_, ExactPoint(m)) < 1) return true;
+        lies_inside = true;
+      } else if (touching.size() <= kFewFaces && is_solid_in_one_ball(cube, touching, near)) {
+        return true;
+      }
+    }
+    point_ = m;
+    const bool is_held = std::any_of(near.begin(), near.end(), [&](BallIndex i) { return holds(balls_[i], m); });
+    if (!is_held && (lies_inside || is_inside(m, touching))) return false;
+    if (cube.max.x - cube.min.x < smallest_ || count_ > kMostCubes) return is_certain_ = false;
+    for (int i = 0; i < 8; ++i) {
+      Box eighth = cube;
+      for (int axis = 0; axis < 3; ++axis) (i >> axis & 1 ? eighth.min : eighth.max)[axis] = m[axis];
+      if (!is_covered(eighth, balls_.near(eighth, near), touching, lies_inside)) return false;
+    }
+    return true;
+  }
+
+  /// The corner farthest from the centre of a ball decides.
+  bool is_in_one_ball(const Box& cube, const Vec3& middle, const BallSet& near) const {
+    return std::any_of(near.begin(), near.end(), [&](BallIndex i) {
+      const Ball& ball = balls_[i];
+      Vec3 farthest;
+      for (int axis = 0; axis < 3; ++axis)
+        farthest[axis] = (ball.center[axis] >= middle[axis] ? cube.min : cube.max)[axis];
+      return holds(ball, farthest);
+    });
+  }
+
+  /// The part of the solid in the cube.
+  bool is_solid_in_one_ball(const Box& cube, const std::vector<FaceIndex>& faces, const BallSet& near) const {
+    std::vector<std::array<double, 3>> rough;
+    for (const FaceIndex f : faces)
+      for (const auto& p : clipped<double>(solid_.faces[f], cube)) rough.push_back(p);
+    return std::any_of(near.begin(), near.end(), [&](BallIndex i) {
+      constexpr double kAbout = 1 + 1e-9;
+      const Ball& ball = balls_[i];
+      const auto may_hold = [&](const auto& p) {
+        return squared_distance(p, ball.center) <= kAbout * ball.radius * ball.radius;
+      };
+      return std::all_of(rough.begin(), rough.end(), may_hold) && holds_corners_inside(ball, cube, faces) &&
+             std::all_of(faces.begin(), faces.end(), [&](FaceIndex f) { return holds_part(ball, f, cube); });
+    });
+  }
+
+  bool holds_part(const Ball& ball, FaceIndex f, const Box& cube) const {
+    const CGAL::Gmpq radius(ball.radius);
+    const auto polygon = clipped<CGAL::Gmpq>(solid_.faces[f], cube);
+    return std::all_of(polygon.begin(), polygon.end(),
+                       [&](const auto& p) { return squared_distance(p, ball.center) <= radius * radius; });
+  }
+
+  bool holds_corners_inside(const Ball& ball, const Box& cube, const std::vector<FaceIndex>& faces) const {
+    for (int i = 0; i < 8; ++i) {
+      Vec3 p;
+      for (int axis = 0; axis < 3; ++axis) p[axis] = (i >> axis & 1 ? cube.max : cube.min)[axis];
+      if (holds(ball, p)) continue;
+      const auto is_on = [&](FaceIndex f) { return triangles_touch({p, p, p}, solid_.faces[f]); };
+      if (std::none_of(faces.begin(), faces.end(), is_on) && winding_at(solid_, ExactPoint(p)) >= 1) return false;
+    }
+    return true;
+  }
+
+  /// Whether p lies inside of the solid; false in the planes of the faces around.
+  bool is_inside(const Vec3& p, const std::vector<FaceIndex>& around) const {
+    const auto is_in_plane = [&](FaceIndex f) { return side(solid_.faces[f], p) == Side::On; };
+    return std::none_of(around.begin(), around.end(), is_in_plane) && winding_at(solid_, ExactPoint(p)) >= 1;
+  }
+
+  const Surface& solid_;
+  const Balls& balls_;
+  ProgressCounter counter_;
+  double smallest_, largest_ = 0;
+  std::size_t count_ = 0;
+  Vec3 point_;
+  bool is_certain_ = true;
+};
+
+class BallUnionJudge {
+ public:
+  BallUnionJudge(std::span<const Ball> balls, const TriangleMesh& original, const PreparedOriginal& prepared,
+                 const VerificationOptions& options, UnionVerification& found)
+      : balls_(balls),
+        original_(original),
+        smallest_(kSmallest * prepared.box.diagonal()),
+        options_(options),
+        meter_(options.progress, "verify"),
+        found_(found) {}
+
+  void cover_triangles() {
+    const PerVertex<BallSet> holders = holders_of_vertices();
+    std::vector<Offender> offenders;
+    for (const FaceId f : original_.triangles.ids()) {
+      if (index(f) % 64 == 0) meter_.at(0.5 * index(f) / static_cast<double>(original_.face_count()));
+      const auto& [a, b, c] = original_.triangles[f];
+      if (have_common(holders[a], holders[b], holders[c])) continue;
+      TriangleCutter cutter(original_.triangle(f), balls_, smallest_, meter_);
+      if (const auto point = cutter.uncovered_point()) {
+        offenders.push_back(offender(f, *point));
+        is_certain_ = is_certain_ && cutter.is_certain();
+      }
+    }
+    found_.faces_outside = offenders.size();
+    if (!offenders.empty()) refuse("triangles of the original lie outside of the balls, or in part");
+    found_.worst = worst_of(std::move(offenders), options_.max_offenders);
+  }
+
+  void fill_inside() {
+    const Surface solid(original_, "original");
+    CubeCutter cutter(solid, balls_, smallest_, meter_.part(0.5, 1));
+    const auto point = cutter.uncovered_point();
+    if (!point) return;
+    found_.holes = 1;
+    is_certain_ = is_certain_ && cutter.is_certain();
+    std::ostringstream text;
+    text.precision(9);
+    text << "the balls leave a part of the inside open, for instance at (" << point->x << ", " << point->y << ", "
+         << point->z << ')';
+    refuse(text.str());
+  }
+
+  void finish() {
+    if (!is_certain_)
+      found_.notes.emplace_back(
+          "in places the balls have less than 1e-9 of the diagonal to spare, which counts as uncovered; make them a "
+          "little larger");
+    meter_.at(1);
+  }
+
+ private:
+  PerVertex<BallSet> holders_of_vertices() const {
+    PerVertex<BallSet> holders(original_.vertex_count());
+    for (const VertexId v : original_.positions.ids()) {
+      const Vec3& p = original_.positions[v];
+      if (!is_finite(p)) continue;
+      for (const BallIndex i : balls_.near({p, p}))
+        if (holds(balls_[i], p)) holders[v].push_back(i);
+    }
+    return holders;
+  }
+
+  Offender offender(FaceId f, const Vec3& found) const {
+    const auto [a, b, c] = original_.triangle(f);
+    Offender result{f, found, balls_.distance(found)};
+    for (const Vec3& p : {a, b, c, a * 0.5 + b * 0.5, b * 0.5 + c * 0.5, c * 0.5 + a * 0.5, a / 3 + b / 3 + c / 3})
+      if (const double d = balls_.distance(p); d > result.distance) result.point = p, result.distance = d;
+    return result;
+  }
+
+  void refuse(const std::string& why) {
+    found_.covers = false;
+    if (found_.why_not.empty()) found_.why_not = why;
+  }
+
+  const Balls balls_;
+  const TriangleMesh& original_;
+  const double smallest_;
+  const VerificationOptions& options_;
+  ProgressMeter meter_;
+  UnionVerification& found_;
+  bool is_certain_ = true;
+};
+
+void check(std::span<const Ball> balls) {
+  if (balls.empty()) throw InputError(Defect::EmptyMesh, "there is no ball: a union needs at least one");
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const auto& [center, radius] = balls[i];
+    if (!is_finite(center) || !(radius >= 0) || !std::isfinite(radius))
+      throw InputError(Defect::NonFiniteCoordinate,
+                       "ball " + std::to_string(i + 1) +
+                           ": its centre and radius must be finite, and its radius not negative; remove it");
+  }
+  Box box;
+  for (const Ball& ball : balls) box.extend(box_around(ball));
+  require_usable_reach(box, "coordinates of the balls");
+}
+
+}  // namespace
+}  // namespace verify
+
+UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh original, bool inside,
+                               const VerificationOptions& options) {
+  UnionVerification found;
+  const verify::PreparedOriginal prepared = verify::prepare_original(original, found.notes);
+  verify::check(balls);
+  found.original_closed = prepared.closed;
+  found.original_volume = prepared.volume;
+  found.covers = true;
+  verify::BallUnionJudge judge(balls, original, prepared, options, found);
+  if (!options.solid_only || !prepared.closed) judge.cover_triangles();
+  if (prepared.closed && (inside || options.solid_only)) judge.fill_inside();
+  found.union_volume = union_volume(balls);
+  if (prepared.closed) found.void_ratio = found.union_volume / found.original_volume - 1;
+  judge.finish();
+  return found;
+}
+
+}  // namespace prohull

@@ -1,0 +1,359 @@
+#include "prohull/union_verification.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <numbers>
+
+#include "effort.h"
+#include "prohull/convex_hull.h"
+#include "prohull/error.h"
+#include "prohull/sample.h"
+#include "random.h"
+#include "verify/cover_oracle.h"
+#include "verify/random_chains.h"
+
+namespace prohull {
+namespace {
+
+using namespace meshes;
+using Pieces = std::vector<TriangleMesh>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::string message_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// The small cubes of a cube of side 3, but for one.
+Pieces small_cubes(int left_out = -1) {
+  Pieces pieces;
+  for (int i = 0; i < 27; ++i) {
+    const Vec3 min{double(i % 3), double(i / 3 % 3), double(i / 9)};
+    if (i != left_out) pieces.push_back(box(min, min + Vec3{1, 1, 1}));
+  }
+  return pieces;
+}
+const TriangleMesh kCube = box({0, 0, 0}, {3, 3, 3});
+constexpr int kMiddle = 13;
+
+TEST(UnionOfPieces, MayShareWalls) {
+  const double third = 1.0 / 3;
+  const TriangleMesh original = box({0, 0, 0}, {1, 1, 1});
+  Pieces pieces{box({0, 0, 0}, {third, 1, 1}), box({third, 0, 0}, {1, 1, 1})};
+  const UnionVerification found = verify_union(pieces, original);
+  EXPECT_TRUE(found.covers) << found.why_not;
+  EXPECT_TRUE(found.original_closed);
+  EXPECT_NEAR(found.void_ratio, 0, 1e-6);
+  EXPECT_TRUE(verify_union(small_cubes(), kCube).covers);
+}
+
+TEST(UnionOfPieces, LeavesASlitOfOneUlp) {
+  const double third = 1.0 / 3;
+  const TriangleMesh original = box({0, 0, 0}, {1, 1, 1});
+  Pieces pieces{box({0, 0, 0}, {third, 1, 1}), box({std::nextafter(third, 1), 0, 0}, {1, 1, 1})};
+  const UnionVerification found = verify_union(pieces, original);
+  EXPECT_FALSE(found.covers);
+  EXPECT_EQ(found.faces_outside, 8u);
+  ASSERT_FALSE(found.worst.empty());
+  EXPECT_NEAR(found.worst[0].point.x, third, 1e-15);
+}
+
+TEST(UnionOfPieces, IsFoundTooSmallByOneUlpInAnyCoordinate) {
+  const Pieces pieces{box({0, 0, 0}, {0.3, 1, 1}), box({0.3, 0, 0}, {1, 1, 1})};
+  const TriangleMesh original = box({0, 0, 0}, {1, 1, 1});
+  ASSERT_TRUE(verify_union(pieces, original).covers);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (const VertexId v : pieces[i].positions.ids())
+      for (int axis = 0; axis < 3; ++axis) {
+        Pieces mutant = pieces;
+        double& x = mutant[i].positions[v][axis];
+        x = std::nextafter(x, 0.5);
+        const bool slides_along_the_wall = axis == 0 && x > 0.2 && x < 0.4;
+        const UnionVerification found = verify_union(mutant, original);
+        EXPECT_FALSE(found.covers && !slides_along_the_wall) << i << ' ' << index(v) << ' ' << axis;
+        x = std::nextafter(std::nextafter(x, x < 0.5 ? -1 : 2), x < 0.5 ? -1 : 2);
+        if (!slides_along_the_wall) {
+          EXPECT_TRUE(verify_union(mutant, original).covers);
+        }
+      }
+}
+
+TEST(UnionOfPieces, LeavesAHoleInside) {
+  const UnionVerification found = verify_union(small_cubes(kMiddle), kCube);
+  EXPECT_FALSE(found.covers);
+  EXPECT_EQ(found.faces_outside, 0u);
+  EXPECT_EQ(found.holes, 1u);
+  EXPECT_NE(found.why_not.find("inside open"), std::string::npos) << found.why_not;
+  EXPECT_FALSE(verify_union(small_cubes(kMiddle), kCube, {.solid_only = true}).covers);
+}
+
+TEST(UnionOfPieces, OutsideOfASurfaceTouchesAllTrianglesButNotTheInside) {
+  Pieces pieces = small_cubes(kMiddle);
+  const UnionVerification found = verify_union(pieces, box({1, 1, 1}, {2, 2, 2}));
+  EXPECT_FALSE(found.covers);
+  EXPECT_EQ(found.faces_outside, 0u);
+  EXPECT_GE(found.holes, 1u);
+}
+
+TEST(UnionOfPieces, TurnsPiecesThatAreInsideOut) {
+  Pieces pieces = small_cubes();
+  pieces[3] = inside_out(pieces[3]);
+  const UnionVerification found = verify_union(pieces, kCube);
+  EXPECT_TRUE(found.covers) << found.why_not;
+  EXPECT_EQ(found.turned_pieces, 1u);
+}
+
+TEST(UnionOfPieces, TakesPiecesThatAreNotConvex) {
+  const TriangleMesh ring = torus(24, 12);
+  const UnionVerification found = verify_union(Pieces{ring, box({5, 5, 5}, {6, 6, 6})}, ring);
+  EXPECT_TRUE(found.covers) << found.why_not;
+  EXPECT_TRUE(std::isnan(found.union_volume));
+  TriangleMesh smaller = ring;
+  smaller.positions[VertexId(0)].x = std::nextafter(smaller.positions[VertexId(0)].x, 0);  // farthest out
+  EXPECT_FALSE(verify_union(Pieces{smaller}, ring).covers);
+}
+
+TEST(UnionOfPieces, AsksOfAnOpenOriginalOnlyTheTriangles) {
+  TriangleMesh open = kCube;
+  open.triangles.pop_back();
+  open.triangles.push_back(open.triangles[FaceId(0)]);
+  open.triangles.push_back({open.positions.push_back({kInfinity, 0, 0}), VertexId(0), VertexId(1)});
+  const UnionVerification found = verify_union(small_cubes(kMiddle), open);
+  EXPECT_TRUE(found.covers) << found.why_not;
+  EXPECT_FALSE(found.original_closed);
+  ASSERT_EQ(found.notes.size(), 2u);
+  EXPECT_NE(found.notes[0].find("1 face of the original is not finite"), std::string::npos);
+}
+
+TEST(UnionOfPieces, RefusesWhatIsNoSolidByItsNumber) {
+  const TriangleMesh cube = box({0, 0, 0}, {1, 1, 1});
+  TriangleMesh open = cube, infinite = cube;
+  open.triangles.pop_back();
+  infinite.positions[VertexId(0)].x = kInfinity;
+  const TriangleMesh tangled = together(cube, inside_out(box({2, 2, 2}, {2.5, 2.5, 2.5})));
+  const TriangleMesh flat = box({0, 0, 0}, {1, 1, 0});
+  const auto refusal = [&](const TriangleMesh& piece) {
+    return message_of([&] { verify_union(Pieces{cube, piece}, cube); });
+  };
+  EXPECT_NE(refusal(open).find("piece 2: the piece's mesh is not closed"), std::string::npos) << refusal(open);
+  EXPECT_NE(refusal(infinite).find("piece 2:"), std::string::npos);
+  EXPECT_NE(refusal({}).find("piece 2:"), std::string::npos);
+  EXPECT_NE(refusal(tangled).find("piece 2: it intersects itself"), std::string::npos) << refusal(tangled);
+  EXPECT_NE(refusal(flat).find("piece 2: it has no volume"), std::string::npos) << refusal(flat);
+  EXPECT_THROW(verify_union(Pieces{}, cube), InputError);
+}
+
+TEST(UnionOfPieces, EndsWhenCancelled) {
+  const VerificationOptions options{.progress = [](std::string_view, double) { return false; }};
+  EXPECT_THROW(verify_union(small_cubes(), kCube, options), Cancelled);
+}
+
+/// The convex hull of a few corners of a grid; it may be empty.
+TriangleMesh random_polytope(RandomChains& chains, int corners) {
+  TriangleMesh points;
+  for (int i = 0; i < corners; ++i) points.positions.push_back(chains.corner());
+  for (std::uint32_t i = 2; i < points.positions.size(); ++i)
+    points.triangles.push_back({VertexId(i - 2), VertexId(i - 1), VertexId(i)});
+  return convex_hull(points);
+}
+
+TEST(UnionOfPieces, AgreesWithBruteForce) {
+  RandomChains chains(test_seed());
+  std::mt19937 random(test_seed());
+  int accepted = 0, rejected = 0;
+  for (int i = 0; i < rounds(300); ++i) {
+    TriangleMesh original = random_polytope(chains, 5);
+    if (original.face_count() == 0) continue;
+    original = moved(scaled(original, 0.5), {0.75, 0.75, 0.75});
+    Pieces pieces;
+    while (pieces.size() < 3) {
+      TriangleMesh piece = random_polytope(chains, 9);
+      if (piece.face_count() == 0) continue;
+      if (chains.uniform(0, 3) == 0) {  // a hair's breadth, in or out: then kernels are no longer all of it
+        double& x = piece.positions[VertexId(0)][chains.uniform(0, 2)];
+        x = std::nextafter(x, chains.uniform(-9, 9));
+      }
+      pieces.push_back(chains.uniform(0, 4) == 0 ? inside_out(piece) : piece);
+    }
+    TriangleMesh all;
+    for (const TriangleMesh& piece : pieces) append(all, signed_volume(piece) < 0 ? inside_out(piece) : piece);
+    const oracle::Cover cover(all, random);
+    bool covers = true;
+    std::size_t outside = 0;
+    for (const FaceId f : original.triangles.ids()) outside += !cover.covers(original.triangle(f));
+    covers = outside == 0 && oracle::encloses(original, all, random);
+    const UnionVerification found = verify_union(pieces, original);
+    ASSERT_EQ(found.covers, covers) << "round " << i;
+    ASSERT_EQ(found.faces_outside, outside) << "round " << i;
+    ++(covers ? accepted : rejected);
+  }
+  std::printf("%d cover, %d do not\n", accepted, rejected);
+  EXPECT_GT(accepted, 0);
+  EXPECT_GT(rejected, 0);
+}
+
+/// The corners lie on the sphere of radius 3, exactly.
+const TriangleMesh kInscribed =
+    convex_hull(make({{1, 2, 2}, {-2, -1, 2}, {2, -2, 1}, {-1, 2, -2}, {2, 1, -2}}, {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}}));
+
+TEST(UnionOfBalls, MayTouchCornersButNotByOneUlpLess) {
+  const UnionVerification found = verify_union(std::vector<Ball>{{{0, 0, 0}, 3}}, kInscribed, true);
+  EXPECT_TRUE(found.covers) << found.why_not;
+  const UnionVerification less = verify_union(std::vector<Ball>{{{0, 0, 0}, std::nextafter(3, 0)}}, kInscribed, false);
+  EXPECT_FALSE(less.covers);
+  EXPECT_EQ(less.faces_outside, kInscribed.face_count());
+  EXPECT_TRUE(less.notes.empty()) << "no point of doubt";
+}
+
+TEST(UnionOfBalls, MayTouchEachOther) {
+  const TriangleMesh segment = make({{-2, 0, 0}, {2, 0, 0}}, {{0, 1, 1}});
+  EXPECT_TRUE(verify_union(std::vector<Ball>{{{-1, 0, 0}, 1}, {{1, 0, 0}, 1}}, segment, false).covers);
+  const double less = std::nextafter(1, 0);
+  EXPECT_FALSE(verify_union(std::vector<Ball>{{{-1, 0, 0}, 1}, {{1 + 1e-15, 0, 0}, 1}}, segment, false).covers);
+  EXPECT_FALSE(verify_union(std::vector<Ball>{{{-1, 0, 0}, less}, {{1, 0, 0}, 1}}, segment, false).covers);
+}
+
+TEST(UnionOfBalls, WithAPointInDoubtCountAsUncoveredAndSaySo) {
+  // The balls meet at x = 1/3, which no middle of middles hits.
+  const TriangleMesh segment = make({{-1, 0, 0}, {1, 0, 0}}, {{0, 1, 1}});
+  const double third = 1.0 / 3;
+  const std::vector<Ball> balls{{{third - 2, 0, 0}, 2}, {{third + 2, 0, 0}, 2}};
+  const UnionVerification found = verify_union(balls, segment, false);
+  EXPECT_FALSE(found.covers);
+  EXPECT_NE(found.notes.back().find("to spare"), std::string::npos);
+}
+
+std::vector<Ball> balls_around_small_cubes(int left_out = -1) {
+  std::vector<Ball> balls;
+  for (int i = 0; i < 27; ++i)
+    if (i != left_out) balls.push_back({{i % 3 + 0.5, i / 3 % 3 + 0.5, i / 9 + 0.5}, 0.9});
+  return balls;
+}
+
+TEST(UnionOfBalls, LeavesAHoleInside) {
+  EXPECT_TRUE(verify_union(balls_around_small_cubes(), kCube, true).covers);
+  EXPECT_TRUE(verify_union(balls_around_small_cubes(kMiddle), kCube, false).covers);
+  const UnionVerification found = verify_union(balls_around_small_cubes(kMiddle), kCube, true);
+  EXPECT_FALSE(found.covers);
+  EXPECT_EQ(found.faces_outside, 0u);
+  EXPECT_EQ(found.holes, 1u);
+  EXPECT_NE(found.why_not.find("inside open"), std::string::npos) << found.why_not;
+}
+
+TEST(UnionOfBalls, OutsideOfTheSolidNeedNotCover) {
+  const TriangleMesh hollow = together(kCube, inside_out(box({1, 1, 1}, {2, 2, 2})));
+  std::vector<Ball> balls = balls_around_small_cubes(kMiddle);
+  EXPECT_TRUE(verify_union(balls, hollow, true).covers);
+}
+
+TEST(UnionOfBalls, NamesTheFarthestTriangle) {
+  std::vector<Ball> balls = balls_around_small_cubes(0);
+  const UnionVerification found = verify_union(balls, kCube, false);
+  EXPECT_FALSE(found.covers);
+  EXPECT_EQ(found.faces_outside, 6u);
+  ASSERT_FALSE(found.worst.empty());
+  EXPECT_EQ(found.worst[0].point, (Vec3{0, 0, 0}));
+  EXPECT_NEAR(found.worst[0].distance, std::sqrt(0.5 + 2.25) - 0.9, 1e-9);
+}
+
+TEST(UnionOfBalls, RefusesBallsByTheirNumber) {
+  const std::vector<Ball> balls{{{0, 0, 0}, 1}, {{0, 0, 0}, -1}};
+  EXPECT_NE(message_of([&] { verify_union(balls, kCube, false); }).find("ball 2:"), std::string::npos);
+  EXPECT_THROW(verify_union(std::vector<Ball>{}, kCube, false), InputError);
+}
+
+TEST(UnionOfBalls, AgreesWithPointsInExactArithmetic) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> coordinate(-1, 1), radius(0.8, 1.6);
+  const TriangleMesh original = sphere(1);
+  int accepted = 0, unseen = 0;
+  for (int i = 0; i < rounds(60); ++i) {
+    std::vector<Ball> balls;
+    for (int k = 0; k < 5; ++k)
+      balls.push_back({{coordinate(random), coordinate(random), coordinate(random)}, radius(random)});
+    const bool covers = verify_union(balls, original, true).covers;
+    accepted += covers;
+    bool all_points = true;
+    for (int k = 0; k < 3000 && all_points; ++k) {
+      const Triangle t = original.triangle(FaceId(unsigned(k) % original.face_count()));
+      std::uniform_int_distribution<int> weight(0, 16);
+      const int u = weight(random), v = std::min(weight(random), 16 - u), depth = k < 1500 ? 16 : weight(random);
+      const auto p = [&](int axis) {
+        using Number = oracle::Exact::FT;
+        return (Number(t.a[axis]) * u + Number(t.b[axis]) * v + Number(t.c[axis]) * (16 - u - v)) * depth / 256;
+      };
+      const oracle::Point point(p(0), p(1), p(2));
+      all_points = std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) {
+        return CGAL::squared_distance(point, oracle::exact(ball.center)) <=
+               oracle::Exact::FT(ball.radius) * oracle::Exact::FT(ball.radius);
+      });
+    }
+    ASSERT_LE(covers, all_points) << "round " << i;
+    unseen += !covers && all_points;
+  }
+  std::printf("%d cover\n", accepted);
+  EXPECT_GT(accepted, 0);
+  EXPECT_LE(unseen, rounds(60) / 10 + 1);  // small gaps between the points
+}
+
+void expect_bounds(const DistanceBounds& found, double expected) {
+  EXPECT_LE(found.lower, expected * (1 + 1e-9));
+  EXPECT_GE(found.upper, expected * (1 - 1e-9));
+  EXPECT_LE(found.upper, found.lower * 1.011 + 1e-3);
+}
+
+TEST(UnionReach, IsMeasuredOutsideOfTheSolid) {
+  const TriangleMesh original = box({0, 0, 0}, {1, 1, 1});
+  expect_bounds(union_reach(Pieces{box({-0.1, -0.1, -0.1}, {1.2, 1.2, 1.2})}, original), 0.2 * std::sqrt(3));
+  expect_bounds(union_reach(Pieces{box({0.1, 0.1, 0.1}, {0.9, 0.9, 0.9}), original}, original), 0);
+  expect_bounds(union_reach(Pieces{box({0.4, 0.4, 0.4}, {0.6, 0.6, 1.5})}, inside_out(original)), 0.5);
+}
+
+TEST(UnionReach, OfBalls) {
+  const TriangleMesh original = box({0, 0, 0}, {1, 1, 1});
+  expect_bounds(union_reach(std::vector<Ball>{{{0.5, 0.5, 0.5}, 1}}, original), 0.5);
+  expect_bounds(union_reach(std::vector<Ball>{{{0.5, 0.5, 0.5}, 0.4}, {{0.5, 0.25, 0.75}, 0.5}}, original), 0.25);
+  expect_bounds(union_reach(std::vector<Ball>{{{0.5, 0.5, 0.5}, 0.4}}, original), 0);
+}
+
+TEST(UnionReach, FromOpenTrianglesIsThatOfTheSurfaceOfTheUnion) {
+  TriangleMesh open = box({0, 0, 0}, {4, 1, 1});
+  open.triangles.pop_back();
+  // The wall that the pieces share is far from the open end's triangles, but inside of the union.
+  const Pieces pieces{box({0, 0, 0}, {2, 1, 1}), box({2, 0, 0}, {4, 1, 1})};
+  EXPECT_LT(union_reach(pieces, open).upper, 0.75);
+  const std::vector<Ball> balls{{{2, 0.5, 0.5}, 3}, {{2, 0.5, 0.5}, 0.1}};
+  const DistanceBounds found = union_reach(balls, open);
+  EXPECT_GT(found.lower, 2.4);
+  EXPECT_LT(found.upper, 2.6);
+}
+
+TEST(UnionVolume, CountsOverlapsOnce) {
+  const TriangleMesh cube = box({0, 0, 0}, {1, 1, 1});
+  EXPECT_NEAR(union_volume(Pieces{cube}), 1, 1e-7);
+  EXPECT_NEAR(union_volume(Pieces{cube, cube, cube}), 1, 1e-7);
+  EXPECT_NEAR(union_volume(Pieces{cube, box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})}), 1, 1e-7);
+  EXPECT_NEAR(union_volume(Pieces{cube, box({0.5, 0, 0}, {1.5, 1, 1})}), 1.5, 1e-7);
+  EXPECT_NEAR(union_volume(Pieces{cube, box({1, 0, 0}, {2, 1, 1}), box({5, 5, 5}, {6, 6, 6})}), 3, 1e-7);
+  EXPECT_NEAR(union_volume(small_cubes()), 27, 1e-6);
+  EXPECT_NEAR(union_volume(Pieces{moved(cube, {1e4, 0, 0}), moved(cube, {1e4 + 0.5, 0, 0})}), 1.5, 1e-6);
+}
+
+TEST(UnionVolume, OfBalls) {
+  const double ball = 4 * std::numbers::pi / 3;
+  EXPECT_NEAR(union_volume(std::vector<Ball>{{{1, 2, 3}, 1}}), ball, 1e-6 * ball);
+  EXPECT_NEAR(union_volume(std::vector<Ball>{{{1, 2, 3}, 1}, {{1, 2, 3}, 1}, {{1, 2, 3.5}, 0.5}}), ball, 1e-6 * ball);
+  EXPECT_NEAR(union_volume(std::vector<Ball>{{{0, 0, 0}, 1}, {{9, 0, 0}, 2}}), 9 * ball, 1e-5 * ball);
+  const double lens = 5 * std::numbers::pi / 12;  // of unit balls at the distance 1
+  for (const Vec3& to : {Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{0.6, 0, 0.8}})
+    EXPECT_NEAR(union_volume(std::vector<Ball>{{{0, 0, 0}, 1}, {to, 1}}), 2 * ball - lens, 2e-6 * ball);
+}
+
+}  // namespace
+}  // namespace prohull
