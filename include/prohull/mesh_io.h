@@ -78,4 +78,16 @@ TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& na
 /// InputError(NonFiniteCoordinate) if a coordinate is not a float32 (float32_hull.h).
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
+/// Whether write_meshes takes a format: OBJ and GLB.
+bool holds_several_meshes(MeshFormat format);
+
+/// Writes several meshes to one file, as write_mesh writes one. An OBJ file has an object for each of them, in whose
+/// name blanks, control characters, # and backslashes become _. A GLB file has a node with a mesh for each that has
+/// triangles, all at the same place, in seven colours that take turns. read_mesh reads all of them as one mesh again.
+///
+/// Throws as write_mesh does; InputError(UnknownFormat) for formats that hold one mesh, InputError(InvalidOption)
+/// unless there is a name for each mesh.
+void write_meshes(const std::filesystem::path& path, std::span<const TriangleMesh> meshes,
+                  std::span<const std::string> names);
+
 }  // namespace prohull

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "prohull/distance.h"
+#include "prohull/names.h"
+#include "prohull/progress.h"
+#include "prohull/shapes.h"
+#include "prohull/triangle_mesh.h"
+
+namespace prohull {
+
+/// What a piece of a convex cover may be.
+enum class PieceShape { Polytope, Box, Capsule, Ball };
+
+/// "polytope", "box", "capsule", "sphere"
+Names<PieceShape> piece_shape_names();
+
+struct ConvexCoverOptions {
+  std::size_t max_pieces = 16;    ///< at least 1
+  std::size_t max_vertices = 64;  ///< of a piece; at least 4
+  /// How far the union may reach from the triangles, and how large it may be. With bounds the cover has as few pieces
+  /// as keep them, at most max_pieces.
+  HullBounds bounds = {};
+  /// With any other shape than Polytope, pieces take that shape where `bounds` allow it: all, if there are none.
+  PieceShape shape = PieceShape::Polytope;
+  bool float32_coordinates = false;  ///< of the vertices of the pieces, as in HullOptions
+  unsigned threads = 0;              ///< 0: one for each core; the cover is the same for any number
+  Progress progress = {};            ///< stages of enclosing_hulls, then "cut", "fit" and "verify"
+};
+
+/// A convex piece.
+struct ConvexPiece {
+  TriangleMesh
+      mesh;  ///< a convex polytope: closed, outwards, no vertex outside of a face's plane; of a box its own mesh
+  /// A capsule or sphere around the mesh, or the box; none if the piece is the mesh itself.
+  std::variant<std::monostate, OrientedBox, Capsule, Ball> primitive = {};
+};
+
+struct ConvexCover {
+  std::vector<ConvexPiece> pieces;
+  bool certified = false;      ///< the meshes of the pieces cover, proven exactly (verify_union)
+  bool covers_inside = false;  ///< what was proven: also the inside, because the input bounds a solid
+  double volume = 0;  ///< of the union; overlaps count once. Of capsules and spheres that of polytopes around them, as
+                      ///< is `reach`
+  double original_volume = 0;  ///< as EnclosingHulls::volume
+  double void_ratio = 0;       ///< volume / original_volume - 1; infinite if the triangles have no volume
+  DistanceBounds reach;        ///< how far the union reaches out of the solid, or from the triangles if there is none
+  bool within_bounds = true;
+  std::vector<std::string> notes;  ///< sentences for the user
+  double seconds = 0, verify_seconds = 0;
+};
+
+/// Covers triangles by a few convex pieces. Guaranteed: `certified` is decided exactly, on the coordinates returned, by
+/// code that shares nothing with the search. Every finite triangle is covered, and the inside too where the triangles
+/// bound a solid.
+///
+/// Throws InputError if no triangle is finite, and for options outside of their range; Cancelled.
+///
+///     const ConvexCover cover = convex_cover(read_mesh("horse.ply"), {.max_pieces = 32});
+ConvexCover convex_cover(TriangleMesh triangles, const ConvexCoverOptions& options = {});
+
+}  // namespace prohull

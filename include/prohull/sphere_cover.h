@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "prohull/distance.h"
+#include "prohull/progress.h"
+#include "prohull/shapes.h"
+#include "prohull/triangle_mesh.h"
+
+namespace prohull {
+
+struct SphereCoverOptions {
+  std::size_t max_balls = 64;  ///< at least 1
+  /// How far the balls may reach out of the solid, in the input's unit. With it the cover has as few balls as keep it,
+  /// at most max_balls.
+  double max_distance = std::numeric_limits<double>::infinity();
+  bool fill = false;       ///< cover the inside too, not only the surface
+  unsigned threads = 0;    ///< 0: one for each core; the cover is the same for any number
+  Progress progress = {};  ///< stages of enclosing_hulls, then "spheres" and "verify"
+};
+
+struct SphereCover {
+  std::vector<Ball> balls;
+  bool certified = false;          ///< the balls cover, proven exactly (verify_union)
+  bool covers_inside = false;      ///< what was proven: also the inside
+  DistanceBounds reach;            ///< how far the balls reach out of the solid, or from the triangles if there is none
+  double volume = 0;               ///< of the union; overlaps count once
+  double original_volume = 0;      ///< as EnclosingHulls::volume; 0 if the triangles bound nothing
+  bool within_bounds = true;       ///< max_distance is kept
+  std::vector<std::string> notes;  ///< sentences for the user
+  double seconds = 0, verify_seconds = 0;
+};
+
+/// Covers triangles by balls, so that the balls reach out as little as possible. Guaranteed: `certified` is decided
+/// exactly, on the doubles returned, by code that shares nothing with the search.
+///
+/// Throws InputError if no triangle is finite, and for options outside of their range; Cancelled.
+///
+///     const SphereCover cover = sphere_cover(read_mesh("link.stl"), {.max_balls = 64});
+SphereCover sphere_cover(TriangleMesh triangles, const SphereCoverOptions& options = {});
+
+}  // namespace prohull

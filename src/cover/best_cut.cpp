@@ -1,0 +1,240 @@
+#include "cover/best_cut.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "cover/growing_hull.h"
+
+namespace prohull::cover {
+namespace {
+
+constexpr int kOffsets = 15;
+
+std::vector<Vec3> directions() {
+  std::vector<Vec3> all;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z)
+        if (std::array{x, y, z} > std::array{0, 0, 0}) {
+          const Vec3 d{double(x), double(y), double(z)};
+          all.push_back(d / norm(d));
+        }
+  return all;
+}
+
+Cut cut_of(const Plane& plane, double below, double above) {
+  constexpr double kUnevenness = 1e-3;
+  return {plane, below + above, below + above + kUnevenness * std::max(below, above)};
+}
+
+Cut no_cut() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {{}, kInfinity, kInfinity};
+}
+
+using Edges = std::vector<std::array<std::uint32_t, 2>>;
+
+Vec3 crossing(const Vec3& p, const Vec3& q, double height_p, double height_q) {
+  return p + (q - p) * (height_p / (height_p - height_q));
+}
+
+/// Heights of the polygons that are at right angles to `normal`, those of the largest area first: where parts that were
+/// built of blocks come apart.
+std::vector<double> heights_of_steps(const Part& part, const Vec3& normal) {
+  constexpr std::size_t kMost = 6;
+  std::vector<std::pair<double, double>> steps;  // height, area
+  for (std::size_t i = 0; i < part.polygon_count(); ++i) {
+    const Vec3 area = area_vector(part, part.polygon(i));
+    if (std::abs(dot(area, normal)) > (1 - 1e-6) * norm(area))
+      steps.emplace_back(dot(part.points[part.polygon(i)[0]], normal), norm(area));
+  }
+  std::sort(steps.begin(), steps.end());
+  std::vector<std::pair<double, double>> joined;
+  for (const auto& [height, area] : steps)
+    if (!joined.empty() && height - joined.back().first < 1e-6)
+      joined.back().second += area;
+    else
+      joined.emplace_back(height, area);
+  std::stable_sort(joined.begin(), joined.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  joined.resize(std::min(joined.size(), kMost));
+  std::vector<double> heights;
+  for (const auto& [height, area] : joined) heights.push_back(height);
+  return heights;
+}
+
+/// The volumes of the hulls on both sides of planes of one direction. A hull grows from plane to plane, so that all of
+/// them cost little more than one.
+class Sweep {
+ public:
+  Sweep(const Part& part, const Edges& edges, const Vec3& normal, const Solid& solid)
+      : part_(part),
+        normal_(normal),
+        tolerance_(solid.tolerance()),
+        heights_(part.points.size()),
+        order_(part.points.size()) {
+    for (std::size_t i = 0; i < heights_.size(); ++i) heights_[i] = dot(normal, part.points[i]);
+    std::iota(order_.begin(), order_.end(), 0u);
+    std::sort(order_.begin(), order_.end(),
+              [&](std::uint32_t i, std::uint32_t j) { return heights_[i] < heights_[j]; });
+    choose_offsets();
+    slabs_.resize(offsets_.size());
+    for (const auto& [a, b] : edges) heights_[a] < heights_[b] ? add_edge(a, b) : add_edge(b, a);
+    for (std::size_t i = 0; i < offsets_.size(); ++i)
+      for (const Vec3& p : new_corners(part, {normal, offsets_[i]}, solid)) slabs_[i].both.push_back(p);
+  }
+
+  Cut best() {
+    if (offsets_.empty()) return no_cut();
+    std::vector<double> below(offsets_.size()), above(offsets_.size());
+    grow(true, below);
+    grow(false, above);
+    Cut best;
+    best.merit = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < offsets_.size(); ++i)
+      if (const Cut cut = cut_of({normal_, offsets_[i]}, below[i], above[i]); cut.merit < best.merit) best = cut;
+    return best;
+  }
+
+ private:
+  /// What the surface has in a plane.
+  struct Slab {
+    std::vector<Vec3> both, lower, upper;  // of both sides, or only of the faces below, or above
+  };
+
+  void choose_offsets() {
+    const double low = heights_[order_.front()], high = heights_[order_.back()];
+    for (int i = 1; i <= kOffsets; ++i) offsets_.push_back(low + (high - low) * i / (kOffsets + 1));
+    for (const double height : heights_of_steps(part_, normal_)) offsets_.push_back(height);
+    std::sort(offsets_.begin(), offsets_.end());
+    std::erase_if(offsets_, [&](double t) { return t < low + 10 * tolerance_ || t > high - 10 * tolerance_; });
+  }
+
+  void add_edge(std::uint32_t a, std::uint32_t b) {
+    const double low = heights_[a], high = heights_[b];
+    const auto first = std::lower_bound(offsets_.begin(), offsets_.end(), low - tolerance_);
+    for (auto i = static_cast<std::size_t>(first - offsets_.begin());
+         i < offsets_.size() && offsets_[i] <= high + tolerance_; ++i) {
+      const bool starts_here = low > offsets_[i] - tolerance_, ends_here = high < offsets_[i] + tolerance_;
+      if (starts_here && ends_here) continue;
+      if (starts_here)
+        slabs_[i].upper.push_back(part_.points[a]);
+      else if (ends_here)
+        slabs_[i].lower.push_back(part_.points[b]);
+      else
+        slabs_[i].both.push_back(crossing(part_.points[a], part_.points[b], low - offsets_[i], high - offsets_[i]));
+    }
+  }
+
+  void grow(bool up, std::vector<double>& volumes) {
+    static thread_local GrowingHull hull;
+    hull.clear();
+    std::size_t next = 0;
+    const std::size_t n = order_.size();
+    std::vector<Vec3> batch;
+    for (std::size_t k = 0; k < offsets_.size(); ++k) {
+      const std::size_t i = up ? k : offsets_.size() - 1 - k;
+      const double t = offsets_[i];
+      batch = slabs_[i].both;
+      const std::vector<Vec3>& own = up ? slabs_[i].lower : slabs_[i].upper;
+      batch.insert(batch.end(), own.begin(), own.end());
+      for (; next < n; ++next) {
+        const std::uint32_t v = order_[up ? next : n - 1 - next];
+        if (up ? heights_[v] >= t - tolerance_ : heights_[v] <= t + tolerance_) break;
+        batch.push_back(part_.points[v]);
+      }
+      for (const Vec3& p : part_.inside)
+        if (up ? dot(normal_, p) <= t : dot(normal_, p) >= t) batch.push_back(p);
+      hull.add(batch);
+      volumes[i] = hull.volume();
+    }
+  }
+
+  const Part& part_;
+  const Vec3 normal_;
+  const double tolerance_;
+  std::vector<double> heights_, offsets_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Slab> slabs_;  // by offset
+};
+
+Cut cut_along(const Part& part, const Edges& edges, const Plane& plane, const Solid& solid) {
+  static thread_local GrowingHull hull;
+  static thread_local std::vector<Vec3> lower, upper;
+  static thread_local std::vector<double> heights;
+  lower.clear(), upper.clear(), heights.clear();
+  const double near = solid.tolerance();
+  for (const Vec3& p : part.points) {
+    heights.push_back(plane.height(p));
+    if (std::abs(heights.back()) > near) (heights.back() < 0 ? lower : upper).push_back(p);
+  }
+  for (const Vec3& p : part.inside) (plane.height(p) < 0 ? lower : upper).push_back(p);
+  if (lower.empty() || upper.empty()) return no_cut();
+  for (const auto& [a, b] : edges) {
+    const bool a_on = std::abs(heights[a]) <= near, b_on = std::abs(heights[b]) <= near;
+    if (a_on != b_on) {
+      const double other = heights[a_on ? b : a];
+      (other < 0 ? lower : upper).push_back(part.points[a_on ? a : b]);
+    } else if (!a_on && (heights[a] < 0) != (heights[b] < 0)) {
+      lower.push_back(crossing(part.points[a], part.points[b], heights[a], heights[b]));
+      upper.push_back(lower.back());
+    }
+  }
+  for (const Vec3& p : new_corners(part, plane, solid)) lower.push_back(p), upper.push_back(p);
+  hull.clear();
+  hull.add(lower);
+  const double below = hull.volume();
+  hull.clear();
+  hull.add(upper);
+  return cut_of(plane, below, hull.volume());
+}
+
+}  // namespace
+
+std::vector<Cut> cuts(const Part& part, const Solid& solid) {
+  static const std::vector<Vec3> all = directions();
+  const auto part_edges = edges(part);
+  std::vector<Cut> result;
+  if (part.points.size() < 4) return result;
+  result.resize(all.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, all.size(),
+                            [&](std::size_t i) { result[i] = Sweep(part, part_edges, all[i], solid).best(); });
+  std::erase_if(result, [](const Cut& c) { return !std::isfinite(c.volume); });
+  std::stable_sort(result.begin(), result.end(), [](const Cut& a, const Cut& b) { return a.merit < b.merit; });
+  return result;
+}
+
+Cut refined(const Part& part, const Cut& cut, const Solid& solid) {
+  const auto part_edges = edges(part);
+  Box box;
+  for (const Vec3& p : part.points) box.extend(p);
+  Cut best = cut_along(part, part_edges, cut.plane, solid);
+  double angle = 0.25, shift = box.diagonal() / 30;
+  for (int round = 0; round < 5; ++round, angle /= 2, shift /= 2) {
+    for (bool improved = true; improved;) {
+      improved = false;
+      const Vec3 n = best.plane.normal;
+      const Vec3 u0 = std::abs(n.x) < 0.6 ? cross(n, Vec3{1, 0, 0}) : cross(n, Vec3{0, 1, 0});
+      const Vec3 u = u0 / norm(u0), v = cross(n, u);
+      // The plane turns about the middle of its meeting with the part: about the foot of the part's centre.
+      const Vec3 pivot = box.center() - n * best.plane.height(box.center());
+      std::vector<Plane> tries{{n, best.plane.offset + shift}, {n, best.plane.offset - shift}};
+      for (const Vec3& side : {u, -u, v, -v}) {
+        const Vec3 m = n + side * angle;
+        const Vec3 unit = m / norm(m);
+        tries.push_back({unit, dot(unit, pivot)});
+      }
+      Cut found = best;
+      for (const Plane& plane : tries)
+        if (const Cut next = cut_along(part, part_edges, plane, solid); next.merit < found.merit * (1 - 1e-6))
+          found = next, improved = true;
+      best = found;
+    }
+  }
+  return best;
+}
+
+}  // namespace prohull::cover

@@ -1,0 +1,325 @@
+#include "prohull/convex_cover.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "cover/cut_tree.h"
+#include "cover/piece_hull.h"
+#include "cover/shape_choice.h"
+#include "parallel/arena.h"
+#include "prohull/convex_hull.h"
+#include "prohull/enclosing_hull.h"
+#include "prohull/error.h"
+#include "prohull/float32_hull.h"
+#include "prohull/union_verification.h"
+
+namespace prohull {
+namespace cover {
+namespace {
+
+/// Cuts are looked for on a hull of so many faces: more make them hardly better.
+constexpr std::size_t kSearchFaces = 1500;
+constexpr double kSearchTolerance = 1e-6;
+constexpr double kTolerances[]{1e-9, 1e-6, 1e-4};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void check(const ConvexCoverOptions& options) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw InputError(Defect::InvalidOption, what);
+  };
+  require(options.max_pieces >= 1, "a cover has at least 1 piece: ask for 1 or more");
+  require(options.max_vertices >= 4, "a piece has at least 4 vertices: ask for 4 or more");
+  const HullBounds& b = options.bounds;
+  require(b.max_distance > 0 && b.max_void_ratio > 0 && b.max_added_volume > 0,
+          "the greatest distance, void and added volume of a cover must be greater than 0");
+}
+
+/// What is cut into pieces.
+struct Material {
+  TriangleMesh solid;   ///< closed, outwards; or without faces
+  TriangleMesh beside;  ///< triangles to cover that bound nothing
+  TriangleMesh coarse;  ///< like both, of few faces: the cuts are looked for in it
+  double volume = 0;
+};
+
+/// Vertices within the cubes of a grid become one.
+TriangleMesh clustered(const TriangleMesh& mesh) {
+  const Box box = bounding_box(mesh);
+  const double spacing = box.diagonal() / 64;
+  std::map<std::array<int, 3>, VertexId> known;
+  std::set<std::array<VertexId, 3>> faces;
+  TriangleMesh result;
+  for (auto t : mesh.triangles) {
+    for (VertexId& v : t) {
+      const Vec3 cell = (mesh.positions[v] - box.min) / spacing;
+      const auto [entry, is_new] = known.try_emplace({int(cell.x), int(cell.y), int(cell.z)});
+      if (is_new) entry->second = result.positions.push_back(mesh.positions[v]);
+      v = entry->second;
+    }
+    std::sort(t.begin(), t.end());
+    if (faces.insert(t).second) result.triangles.push_back(t);
+  }
+  return result;
+}
+
+/// A copy of the mesh in the frame in which cuts are looked for.
+class Frame {
+ public:
+  explicit Frame(const Box& box) : center_(box.center()), size_(box.diagonal() > 0 ? box.diagonal() : 1) {}
+  TriangleMesh scaled(TriangleMesh mesh) const {
+    for (Vec3& p : mesh.positions) p = (p - center_) / size_;
+    return mesh;
+  }
+  void unscale(CutTree& tree) const {
+    for (CutTree::Node& node : tree.nodes) {
+      node.plane.offset = node.plane.offset * size_ + dot(node.plane.normal, center_);
+      node.volume *= size_ * size_ * size_;
+    }
+  }
+
+ private:
+  Vec3 center_;
+  double size_;
+};
+
+std::vector<TriangleMesh> meshes_of(const std::vector<ConvexPiece>& pieces) {
+  std::vector<TriangleMesh> meshes;
+  for (const ConvexPiece& piece : pieces) meshes.push_back(piece.mesh);
+  return meshes;
+}
+
+std::vector<TriangleMesh> meshes_around(const std::vector<ConvexPiece>& pieces) {
+  std::vector<TriangleMesh> meshes;
+  for (const ConvexPiece& piece : pieces) meshes.push_back(mesh_around(piece));
+  return meshes;
+}
+
+EnclosingOptions enclosing_options(const ConvexCoverOptions& options) {
+  EnclosingOptions result;
+  result.hull.threads = options.threads;
+  result.progress = options.progress;
+  return result;
+}
+
+class Covering {
+ public:
+  Covering(TriangleMesh triangles, const ConvexCoverOptions& options)
+      : options_(options), prepared_(prepared_for_hulls(std::move(triangles), enclosing_options(options))) {
+    if (options.float32_coordinates) check_float32_spacing(prepared_.original);
+  }
+
+  ConvexCover run() {
+    std::optional<ConvexCover> cover;
+    if (prepared_.closed) cover = best_of(of_closed_mesh());
+    if (!cover || !cover->certified) {
+      const Material material = of_enclosing_hull();
+      cover = best_of(material);
+      if (prepared_.closed) cover->notes.emplace_back("no cover of the mesh itself was certified");
+      cover->notes.emplace_back(material.solid.face_count() > 0
+                                    ? "a hull around the mesh was cut into pieces"
+                                    : "the triangles are covered, but not what lies between them");
+    }
+    if (!cover->certified) {
+      cover = best_of(of_convex_hull());
+      cover->notes.emplace_back("no cover of several pieces was certified; this is the convex hull");
+    }
+    if (!cover->certified) throw InputError(Defect::NoCertificate, "no cover of these triangles was certified");
+    return std::move(*cover);
+  }
+
+ private:
+  Material of_closed_mesh() const {
+    const TriangleMesh& closed = prepared_.closed->mesh;
+    Material result{closed, prepared_.dropped, closed, signed_volume(closed)};
+    if (result.solid.face_count() > kSearchFaces)
+      result.coarse = build_hull(result.solid, {.target_faces = kSearchFaces,
+                                                .relax_guards = true,
+                                                .threads = options_.threads,
+                                                .progress = options_.progress})
+                          .hull.base();
+    return result;
+  }
+
+  /// Of triangles that bound no solid by themselves.
+  Material of_enclosing_hull() const {
+    if (convex_hull(prepared_.original).face_count() == 0) return {{}, prepared_.original, prepared_.original, 0};
+    const std::size_t faces[]{kSearchFaces};
+    EnclosingHulls made = enclosing_hulls(prepared_.original, faces, enclosing_options(options_));
+    TriangleMesh& hull = made.hulls[0].mesh;
+    // Where no better solid than the convex hull is found, the triangles themselves are cut.
+    if (made.hulls[0].source == Source::ConvexHull)
+      return {{}, prepared_.original, clustered(prepared_.original), made.volume};
+    return {hull, {}, hull, made.volume};
+  }
+
+  /// One piece.
+  Material of_convex_hull() const {
+    const TriangleMesh hull = convex_hull(prepared_.original);
+    return {hull, {}, hull, prepared_.closed ? signed_volume(prepared_.closed->mesh) : 0};
+  }
+
+  /// The most pieces, or as few as keep the bounds.
+  ConvexCover best_of(const Material& material) {
+    const CutTree tree = tree_of(material);
+    Solid solid(material.solid, material.beside, kTolerances[0]);
+    const std::size_t most = fewest_for(tree, least_volumes(tree)[std::min(leaves(tree), options_.max_pieces)]);
+    ConvexCover best = fitted(tree, most, solid, material);
+    if (best.pieces.size() > 1) {
+      std::vector<ConvexPiece> one = pieces(tree, 1, solid);
+      if (signed_volume(one[0].mesh) <= best.volume) return shaped(certified(std::move(one), material), material);
+    }
+    if (!options_.bounds.any()) return shaped(std::move(best), material);
+    std::size_t low = 0, high = most;  // the cover of `low` pieces does not keep the bounds
+    while (best.within_bounds && high - low > 1) {
+      const std::size_t middle = (low + high) / 2;
+      ConvexCover cover = fitted(tree, middle, solid, material);
+      if (cover.certified && cover.within_bounds)
+        best = std::move(cover), high = middle;
+      else
+        low = middle;
+    }
+    return shaped(std::move(best), material);
+  }
+
+  /// In the frame of the material.
+  CutTree tree_of(const Material& material) const {
+    ProgressMeter meter(options_.progress, "cut");
+    const Frame frame(bounding_box(material.coarse));
+    CutTree tree = arena_of(options_.threads).execute([&] {
+      return cut_tree(search_solid(material, frame), options_.max_pieces + options_.max_pieces / 4 + 8, meter);
+    });
+    frame.unscale(tree);
+    meter.at(1);
+    return tree;
+  }
+
+  /// Where a plane and the surface nearly coincide, rounding may leave a corner out. Another tolerance then helps.
+  ConvexCover fitted(const CutTree& tree, std::size_t count, Solid& solid, const Material& material) {
+    ConvexCover cover;
+    for (const double tolerance : kTolerances) {
+      solid.set_tolerance(tolerance);
+      cover = certified(pieces(tree, count, solid), material);
+      if (cover.certified) break;
+    }
+    return cover;
+  }
+
+  static Solid search_solid(const Material& material, const Frame& frame) {
+    const TriangleMesh coarse = frame.scaled(material.coarse);
+    return material.solid.face_count() > 0 ? Solid(coarse, {}, kSearchTolerance) : Solid({}, coarse, kSearchTolerance);
+  }
+
+  static std::size_t leaves(const CutTree& tree) { return (tree.nodes.size() + 1) / 2; }
+
+  /// Pieces that save nothing are not made.
+  static std::size_t fewest_for(const CutTree& tree, double volume) {
+    const std::vector<double> least = least_volumes(tree);
+    const auto first = std::find_if(least.begin(), least.end(), [&](double v) { return v <= volume * (1 + 1e-6); });
+    return static_cast<std::size_t>(first - least.begin());
+  }
+
+  std::vector<ConvexPiece> pieces(const CutTree& tree, std::size_t count, const Solid& solid) {
+    const std::vector<Part> parts = divided(tree, count, solid);
+    ProgressMeter meter(options_.progress, "fit");
+    std::vector<ConvexPiece> result(parts.size());
+    arena_of(options_.threads).execute([&] {
+      oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+        meter.go_on();
+        result[i].mesh = piece_hull(parts[i], options_.max_vertices, options_.float32_coordinates);
+      });
+    });
+    std::erase_if(result, [](const ConvexPiece& piece) { return piece.mesh.face_count() == 0; });
+    meter.at(1);
+    return result;
+  }
+
+  /// In the shape that is asked for, as far as the bounds allow it.
+  ConvexCover shaped(ConvexCover polytopes, const Material& material) const {
+    if (options_.shape == PieceShape::Polytope || !polytopes.within_bounds) return polytopes;
+    std::vector<ConvexPiece> all = polytopes.pieces;
+    for (ConvexPiece& piece : all) take_shape(piece, options_.shape, options_.float32_coordinates);
+    ConvexCover cover = certified(all, material);
+    if (cover.within_bounds) return cover;
+    std::vector<std::size_t> by_growth(all.size());
+    std::iota(by_growth.begin(), by_growth.end(), std::size_t{0});
+    const auto growth = [&](std::size_t i) {
+      return signed_volume(mesh_around(all[i])) - signed_volume(polytopes.pieces[i].mesh);
+    };
+    std::stable_sort(by_growth.begin(), by_growth.end(),
+                     [&](std::size_t i, std::size_t j) { return growth(i) < growth(j); });
+    for (const std::size_t i : by_growth) {
+      std::vector<ConvexPiece> pieces = polytopes.pieces;
+      pieces[i] = all[i];
+      ConvexCover next = certified(std::move(pieces), material);
+      if (next.within_bounds) polytopes = std::move(next);
+    }
+    return polytopes;
+  }
+
+  ConvexCover certified(std::vector<ConvexPiece> pieces, const Material& material) const {
+    ConvexCover cover;
+    prove(cover, meshes_of(pieces));
+    cover.original_volume = material.volume;
+    measure(cover, meshes_around(pieces));
+    cover.pieces = std::move(pieces);
+    return cover;
+  }
+
+  void prove(ConvexCover& cover, const std::vector<TriangleMesh>& meshes) const {
+    const auto start = std::chrono::steady_clock::now();
+    const UnionVerification found =
+        verify_union(meshes, prepared_.original, {.max_offenders = 1, .progress = options_.progress});
+    cover.certified = found.covers;
+    cover.covers_inside = found.covers && found.original_closed;
+    cover.verify_seconds = seconds_since(start);
+  }
+
+  void measure(ConvexCover& cover, const std::vector<TriangleMesh>& meshes) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    cover.volume = union_volume(meshes);
+    cover.void_ratio = cover.original_volume > 0 ? cover.volume / cover.original_volume - 1 : infinity;
+    cover.reach = union_reach(meshes, prepared_.original, {.progress = options_.progress});
+    cover.within_bounds = keeps_bounds(cover);
+  }
+
+  bool keeps_bounds(const ConvexCover& cover) const {
+    const HullBounds& b = options_.bounds;
+    return cover.reach.upper <= b.max_distance && cover.void_ratio <= b.max_void_ratio &&
+           cover.volume - cover.original_volume <= b.max_added_volume;
+  }
+
+  const ConvexCoverOptions& options_;
+  const RepairedMesh prepared_;
+};
+
+}  // namespace
+}  // namespace cover
+
+Names<PieceShape> piece_shape_names() {
+  static constexpr std::pair<std::string_view, PieceShape> kNames[]{{"polytope", PieceShape::Polytope},
+                                                                    {"box", PieceShape::Box},
+                                                                    {"capsule", PieceShape::Capsule},
+                                                                    {"sphere", PieceShape::Ball}};
+  return kNames;
+}
+
+ConvexCover convex_cover(TriangleMesh triangles, const ConvexCoverOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  cover::check(options);
+  ConvexCover result = cover::Covering(std::move(triangles), options).run();
+  result.seconds = cover::seconds_since(start);
+  return result;
+}
+
+}  // namespace prohull

@@ -1,0 +1,214 @@
+#include "cover/cut_tree.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "cover/best_cut.h"
+
+namespace prohull::cover {
+namespace {
+
+constexpr std::size_t kTried = 3;  // cuts of a part
+/// A cut that saves less, of the volume of the whole convex hull, is not made.
+constexpr double kLeastGain = 1e-5;
+
+/// A part, and what may become of it.
+struct Candidate {
+  explicit Candidate(Part p) : part(std::move(p)), volume(hull_volume(part)) {}
+
+  Part part;
+  double volume;
+  std::vector<Cut> first_cuts;  ///< the best first
+};
+
+/// A cut of a part, made.
+struct Halves {
+  Cut cut;
+  std::vector<Candidate> sides;
+
+  /// The volume after one more cut.
+  double volume_later() const {
+    double most = 0;
+    for (const Candidate& side : sides)
+      if (!side.first_cuts.empty()) most = std::max(most, side.volume - side.first_cuts.front().volume);
+    return sides[0].volume + sides[1].volume - most;
+  }
+};
+
+class Cutting {
+ public:
+  Cutting(const Solid& solid, std::size_t leaves, ProgressMeter& meter)
+      : solid_(solid), leaves_(leaves), meter_(meter) {}
+
+  CutTree run() {
+    Candidate root(whole(solid_));
+    root.first_cuts = cuts(root.part, solid_);
+    least_gain_ = kLeastGain * root.volume;
+    add(std::move(root));
+    for (std::size_t leaves = 1; leaves < leaves_; ++leaves) {
+      meter_.at(leaves, leaves_);
+      const auto best =
+          std::max_element(open_.begin(), open_.end(), [](const Open& a, const Open& b) { return a.gain < b.gain; });
+      if (best == open_.end()) break;
+      Open chosen = std::move(*best);
+      open_.erase(best);
+      tree_.nodes[chosen.node].plane = chosen.halves.cut.plane;
+      tree_.nodes[chosen.node].below = tree_.nodes.size();
+      tree_.nodes[chosen.node].above = tree_.nodes.size() + 1;
+      for (Candidate& side : chosen.halves.sides) add(std::move(side));
+    }
+    return std::move(tree_);
+  }
+
+ private:
+  /// A leaf that may be cut, and how.
+  struct Open {
+    std::size_t node;
+    Halves halves;
+    double gain;  ///< for each of two cuts
+  };
+
+  void add(Candidate candidate) {
+    const std::size_t node = tree_.nodes.size();
+    tree_.nodes.push_back({candidate.volume});
+    if (candidate.first_cuts.empty()) return;
+    const std::size_t count = std::min(kTried, candidate.first_cuts.size());
+    std::vector<std::optional<Halves>> tried(count);
+    oneapi::tbb::parallel_for(std::size_t{0}, count,
+                              [&](std::size_t i) { tried[i] = halves(candidate, candidate.first_cuts[i]); });
+    const auto best = std::min_element(
+        tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a->volume_later() < b->volume_later(); });
+    const double gain = (candidate.volume - (*best)->volume_later()) / 2;
+    if (gain > least_gain_) open_.push_back({node, std::move(**best), gain});
+  }
+
+  Halves halves(const Candidate& candidate, const Cut& coarse) const {
+    Halves result{refined(candidate.part, coarse, solid_), {}};
+    auto [below, above] = cut(candidate.part, result.cut.plane, solid_);
+    result.sides.emplace_back(std::move(below));
+    result.sides.emplace_back(std::move(above));
+    oneapi::tbb::parallel_for(std::size_t{0}, std::size_t{2}, [&](std::size_t i) {
+      Candidate& side = result.sides[i];
+      side.first_cuts = cuts(side.part, solid_);
+    });
+    return result;
+  }
+
+  const Solid& solid_;
+  const std::size_t leaves_;
+  ProgressMeter& meter_;
+  CutTree tree_;
+  std::vector<Open> open_;
+  double least_gain_ = 0;
+};
+
+/// By number of parts, from 1 on; [0] is infinite.
+std::vector<double> volumes_below(const CutTree& tree, std::size_t node) {
+  const CutTree::Node& n = tree.nodes[node];
+  std::vector<double> least{std::numeric_limits<double>::infinity(), n.volume};
+  if (n.below == 0) return least;
+  const std::vector<double> below = volumes_below(tree, n.below), above = volumes_below(tree, n.above);
+  least.resize(below.size() + above.size() - 1, least[0]);
+  for (std::size_t i = 1; i < below.size(); ++i)
+    for (std::size_t j = 1; j < above.size(); ++j) least[i + j] = std::min(least[i + j], below[i] + above[j]);
+  return least;
+}
+
+/// The planes of flat regions of the surface that lie close to a plane, those of the largest area first.
+std::vector<Plane> flat_regions_near(const Part& part, const Plane& plane, double distance) {
+  constexpr std::size_t kMost = 4;
+  constexpr double kLeastCosine = 0.9994;  // 2 degrees
+  struct Region {
+    Plane plane;
+    double area;
+  };
+  std::vector<Region> regions;
+  for (std::size_t i = 0; i < part.polygon_count(); ++i) {
+    const Vec3 &origin = part.points[part.polygon(i)[0]], area = area_vector(part, part.polygon(i));
+    const double size = norm(area), cosine = dot(area, plane.normal);
+    if (std::abs(plane.height(origin)) > distance || std::abs(cosine) < kLeastCosine * size || size == 0) continue;
+    const Vec3 normal = cosine > 0 ? area / size : -area / size;
+    const Plane own{normal, dot(normal, origin)};
+    const auto same = std::find_if(regions.begin(), regions.end(), [&](const Region& r) {
+      return dot(r.plane.normal, normal) > 1 - 1e-9 && std::abs(r.plane.height(origin)) < 1e-5 * distance;
+    });
+    if (same != regions.end())
+      same->area += size;
+    else if (regions.size() < 1000)
+      regions.push_back({own, size});
+  }
+  std::stable_sort(regions.begin(), regions.end(), [](const Region& a, const Region& b) { return a.area > b.area; });
+  std::vector<Plane> planes;
+  for (std::size_t i = 0; i < std::min(kMost, regions.size()); ++i)
+    if (regions[i].area > 1e-2 * distance * distance) planes.push_back(regions[i].plane);
+  return planes;
+}
+
+/// Halves of the part by the plane, or by one close to it: by a flat region of the surface, or by the plane, moved, if
+/// the halves are larger than `expected`. The plane was found on another, coarser solid. There it may run along a wall
+/// that lies a little beyond it here; then a slice of that wall reaches all along the other half.
+class Halving {
+ public:
+  Halving(const Part& part, const Solid& solid) : part_(part), solid_(solid) {}
+
+  std::pair<Part, Part> near(const Plane& plane, double expected) {
+    const double size = solid_.box().diagonal();
+    try_plane(plane);
+    for (const Plane& flat : flat_regions_near(part_, plane, 0.02 * size)) try_plane(flat);
+    for (const double share : {0.001, 0.003, 0.01, 0.02}) {
+      if (least_ <= 1.01 * expected) break;
+      try_plane({plane.normal, plane.offset + share * size});
+      try_plane({plane.normal, plane.offset - share * size});
+    }
+    return std::move(best_);
+  }
+
+ private:
+  void try_plane(const Plane& plane) {
+    std::pair<Part, Part> halves = cut(part_, plane, solid_);
+    const double volume = hull_volume(halves.first) + hull_volume(halves.second);
+    if (volume < least_) least_ = volume, best_ = std::move(halves);
+  }
+
+  const Part& part_;
+  const Solid& solid_;
+  std::pair<Part, Part> best_;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+void divide(const CutTree& tree, std::size_t node, std::size_t k, const Part& part, const Solid& solid,
+            std::vector<Part>& parts) {
+  if (part.empty()) return;
+  const CutTree::Node& n = tree.nodes[node];
+  if (k == 1 || n.below == 0) return parts.push_back(part);
+  const std::vector<double> below = volumes_below(tree, n.below), above = volumes_below(tree, n.above);
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < below.size(); ++i)
+    if (i < k && k - i < above.size() && below[i] + above[k - i] < least) best = i, least = below[i] + above[k - i];
+  const auto [lower, upper] =
+      Halving(part, solid).near(n.plane, tree.nodes[n.below].volume + tree.nodes[n.above].volume);
+  divide(tree, n.below, best, lower, solid, parts);
+  divide(tree, n.above, k - best, upper, solid, parts);
+}
+
+}  // namespace
+
+CutTree cut_tree(const Solid& solid, std::size_t leaves, ProgressMeter& meter) {
+  return Cutting(solid, leaves, meter).run();
+}
+
+std::vector<double> least_volumes(const CutTree& tree) { return volumes_below(tree, 0); }
+
+std::vector<Part> divided(const CutTree& tree, std::size_t k, const Solid& solid) {
+  std::vector<Part> parts;
+  divide(tree, 0, k, whole(solid), solid, parts);
+  return parts;
+}
+
+}  // namespace prohull::cover

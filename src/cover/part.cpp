@@ -1,0 +1,275 @@
+#include "cover/part.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cover/spread_directions.h"
+#include "cover/tightening.h"
+
+namespace prohull::cover {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffff;
+
+Vec3 crossing(const Vec3& p, const Vec3& q, double height_p, double height_q) {
+  return p + (q - p) * (height_p / (height_p - height_q));
+}
+
+/// The part of a segment that is not above a plane.
+bool clip(Segment& s, const Plane& plane) {
+  const double a = plane.height(s.a), b = plane.height(s.b);
+  if (a > 0 && b > 0) return false;
+  if (a > 0) s.a = crossing(s.a, s.b, a, b);
+  if (b > 0) s.b = crossing(s.a, s.b, a, b);
+  return true;
+}
+
+bool clip(Segment& s, const Box& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 normal{};
+    normal[axis] = 1;
+    if (!clip(s, Plane{normal, box.max[axis]}) || !clip(s, Plane{-normal, -box.min[axis]})) return false;
+  }
+  return true;
+}
+
+/// The cell on the side of the plane that its normal looks away from.
+Cell below(const Cell& cell, const Plane& plane, const Box& box) {
+  Cell result;
+  result.planes = cell.planes;
+  result.planes.push_back(plane);
+  for (Segment s : cell.edges)
+    if (clip(s, plane)) result.edges.push_back(s);
+  const double reach = box.diagonal() + norm(box.center());
+  for (const Plane& other : cell.planes) {
+    const Vec3 direction = cross(plane.normal, other.normal);
+    const double sine2 = squared_norm(direction);
+    if (sine2 < 1e-12) continue;
+    const Vec3 point =
+        (cross(other.normal, direction) * plane.offset + cross(direction, plane.normal) * other.offset) / sine2;
+    const Vec3 along = direction * (2 * reach / std::sqrt(sine2));
+    Segment s{point - along, point + along};
+    bool meets = clip(s, box);
+    for (const Plane& bound : cell.planes) meets = meets && (&bound == &other || clip(s, bound));
+    if (meets) result.edges.push_back(s);
+  }
+  return result;
+}
+
+/// Adds the triangles, and the vertices that they use.
+void append_used(TriangleMesh& surface, const TriangleMesh& mesh) {
+  PerVertex<VertexId> number(mesh.vertex_count(), VertexId{kNone});
+  for (auto t : mesh.triangles) {
+    for (VertexId& v : t) {
+      if (number[v] == VertexId{kNone}) number[v] = surface.positions.push_back(mesh.positions[v]);
+      v = number[v];
+    }
+    surface.triangles.push_back(t);
+  }
+}
+
+/// Collects the points and polygons of one side.
+class Side {
+ public:
+  explicit Side(std::size_t points) : number_(points, kNone) {}
+
+  void add_corner(const Part& part, std::uint32_t v) {
+    if (number_[v] == kNone) {
+      number_[v] = static_cast<std::uint32_t>(result.points.size());
+      result.points.push_back(part.points[v]);
+    }
+    add(number_[v]);
+  }
+  void add(std::uint32_t corner) { result.corners.push_back(corner); }
+  void end_polygon() {
+    const std::uint32_t last = result.ends.empty() ? 0 : result.ends.back();
+    if (result.corners.size() == last) return;
+    result.ends.push_back(static_cast<std::uint32_t>(result.corners.size()));
+  }
+
+  bool has(std::uint32_t v) const { return number_[v] != kNone; }
+
+  Part result;
+
+ private:
+  std::vector<std::uint32_t> number_;
+};
+
+}  // namespace
+
+Solid::Solid(const TriangleMesh& mesh, const TriangleMesh& more, double tolerance) : index_(mesh) {
+  append_used(surface_, mesh);
+  append_used(surface_, more);
+  box_ = bounding_box(surface_);
+  set_tolerance(tolerance);
+}
+
+bool Solid::contains(const Vec3& p) const {
+  if (index_.face_count() == 0) return false;
+  MeshQuery query(index_);
+  return query.contains(p) || query.closest_point(p, tolerance_);
+}
+
+Part whole(const Solid& solid) {
+  Part part;
+  for (const VertexId v : solid.surface().positions.ids()) part.points.push_back(solid.surface().positions[v]);
+  for (const auto& t : solid.surface().triangles) {
+    for (const VertexId v : t) part.corners.push_back(static_cast<std::uint32_t>(index(v)));
+    part.ends.push_back(static_cast<std::uint32_t>(part.corners.size()));
+  }
+  part.cells.emplace_back();
+  return part;
+}
+
+Vec3 area_vector(const Part& part, std::span<const std::uint32_t> polygon) {
+  const Vec3& origin = part.points[polygon[0]];
+  Vec3 area{};
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    area += cross(part.points[polygon[i - 1]] - origin, part.points[polygon[i]] - origin);
+  return area;
+}
+
+std::vector<std::array<std::uint32_t, 2>> edges(const Part& part) {
+  std::vector<std::array<std::uint32_t, 2>> result;
+  result.reserve(part.corners.size());
+  for (std::size_t p = 0; p < part.polygon_count(); ++p) {
+    const std::span<const std::uint32_t> polygon = part.polygon(p);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const auto [a, b] = std::minmax(polygon[i], polygon[(i + 1) % polygon.size()]);
+      result.push_back({a, b});
+    }
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+std::vector<Vec3> new_corners(const Part& part, const Plane& plane, const Solid& solid) {
+  std::vector<Vec3> result;
+  for (const Cell& cell : part.cells)
+    for (const Segment& s : cell.edges) {
+      const double a = plane.height(s.a), b = plane.height(s.b);
+      if ((a < 0) == (b < 0)) continue;
+      const Vec3 p = crossing(s.a, s.b, a, b);
+      if (solid.contains(p)) result.push_back(p);
+    }
+  return result;
+}
+
+namespace {
+
+class Cutter {
+ public:
+  Cutter(const Part& part, const Plane& plane, const Solid& solid)
+      : part_(part),
+        plane_(plane),
+        solid_(solid),
+        heights_(part.points.size()),
+        lower_(part.points.size()),
+        upper_(part.points.size()) {
+    std::transform(part.points.begin(), part.points.end(), heights_.begin(),
+                   [&](const Vec3& p) { return plane.height(p); });
+    crossed_ = edges(part);
+    std::erase_if(crossed_, [&](const auto& e) { return side(e[0]) * side(e[1]) >= 0; });
+    for (const auto& [a, b] : crossed_) {
+      const Vec3 p = crossing(part.points[a], part.points[b], heights_[a], heights_[b]);
+      lower_.result.points.push_back(p);
+      upper_.result.points.push_back(p);
+    }
+  }
+
+  std::pair<Part, Part> run() {
+    for (std::size_t i = 0; i < part_.polygon_count(); ++i) add_polygon(part_.polygon(i));
+    for (std::uint32_t v = 0; v < heights_.size(); ++v)
+      if (side(v) == 0) add_to_other_side(v);
+    for (const Vec3& p : part_.inside) {
+      const double height = plane_.height(p);
+      if (height <= solid_.tolerance()) lower_.result.inside.push_back(p);
+      if (height >= -solid_.tolerance()) upper_.result.inside.push_back(p);
+    }
+    return {std::move(lower_.result), std::move(upper_.result)};
+  }
+
+ private:
+  int side(std::uint32_t v) const {
+    return heights_[v] > solid_.tolerance() ? 1 : heights_[v] < -solid_.tolerance() ? -1 : 0;
+  }
+
+  void add_polygon(std::span<const std::uint32_t> polygon) {
+    bool is_below = false, is_above = false;
+    for (const std::uint32_t v : polygon) is_below |= side(v)<0, is_above |= side(v)> 0;
+    if (!is_below && !is_above) (looks_up(polygon) ? is_below : is_above) = true;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const std::uint32_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+      if (is_below && side(a) <= 0) lower_.add_corner(part_, a);
+      if (is_above && side(a) >= 0) upper_.add_corner(part_, a);
+      if (side(a) * side(b) >= 0) continue;
+      const std::array<std::uint32_t, 2> key{std::min(a, b), std::max(a, b)};
+      const auto number =
+          static_cast<std::uint32_t>(std::lower_bound(crossed_.begin(), crossed_.end(), key) - crossed_.begin());
+      lower_.add(number);
+      upper_.add(number);
+    }
+    lower_.end_polygon();
+    upper_.end_polygon();
+  }
+
+  /// A corner on the plane whose polygons all lie on one side of it may still be a corner of what the solid has on the
+  /// other side: where an edge of a cell runs along the surface.
+  void add_to_other_side(std::uint32_t v) {
+    if (lower_.has(v) && !upper_.has(v) && has_solid_beside(v, 1)) upper_.result.inside.push_back(part_.points[v]);
+    if (upper_.has(v) && !lower_.has(v) && has_solid_beside(v, -1)) lower_.result.inside.push_back(part_.points[v]);
+  }
+
+  bool has_solid_beside(std::uint32_t v, int sign) const {
+    static const std::vector<Vec3> directions = spread_directions(48);
+    const double step = 1e-4 * solid_.box().diagonal();
+    return std::any_of(directions.begin(), directions.end(), [&](const Vec3& d) {
+      if (sign * dot(plane_.normal, d) < 0.05) return false;
+      const Vec3 p = part_.points[v] + d * step;
+      return std::any_of(part_.cells.begin(), part_.cells.end(), [&](const Cell& cell) { return holds(cell, p); }) &&
+             solid_.contains(p);
+    });
+  }
+
+  static bool holds(const Cell& cell, const Vec3& p) {
+    return std::all_of(cell.planes.begin(), cell.planes.end(),
+                       [&](const Plane& plane) { return plane.height(p) <= 0; });
+  }
+
+  bool looks_up(std::span<const std::uint32_t> polygon) const {
+    return dot(area_vector(part_, polygon), plane_.normal) > 0;
+  }
+
+  const Part& part_;
+  const Plane& plane_;
+  const Solid& solid_;
+  std::vector<double> heights_;
+  std::vector<std::array<std::uint32_t, 2>> crossed_;
+  Side lower_, upper_;
+};
+
+}  // namespace
+
+std::pair<Part, Part> cut(const Part& part, const Plane& plane, const Solid& solid) {
+  auto [lower, upper] = Cutter(part, plane, solid).run();
+  for (const Vec3& p : new_corners(part, plane, solid)) {
+    lower.inside.push_back(p);
+    upper.inside.push_back(p);
+  }
+  for (const Cell& cell : part.cells) {
+    lower.cells.push_back(below(cell, plane, solid.box()));
+    upper.cells.push_back(below(cell, Plane{-plane.normal, -plane.offset}, solid.box()));
+  }
+  return {std::move(lower), std::move(upper)};
+}
+
+std::vector<Vec3> hull_points(const Part& part) {
+  std::vector<Vec3> points = part.points;
+  points.insert(points.end(), part.inside.begin(), part.inside.end());
+  return points;
+}
+
+double hull_volume(const Part& part) { return signed_volume(convex_hull_of(hull_points(part))); }
+
+}  // namespace prohull::cover

@@ -1,0 +1,241 @@
+#include "prohull/sphere_cover.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "cover/ball_search.h"
+#include "cover/depth.h"
+#include "cover/inside_cubes.h"
+#include "cover/patches.h"
+#include "parallel/arena.h"
+#include "prohull/enclosing_hull.h"
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
+#include "prohull/union_verification.h"
+#include "prohull/wrap.h"
+
+namespace prohull {
+namespace {
+
+using cover::BallCover;
+using cover::BallTask;
+using cover::CubeGrid;
+using cover::Depth;
+using cover::Patches;
+using cover::Place;
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void check(const SphereCoverOptions& options) {
+  if (options.max_balls == 0) throw InputError(Defect::InvalidOption, "max_balls is 0; a cover has at least one ball");
+  if (!(options.max_distance > 0))
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("max_distance is {}; it must be greater than 0", options.max_distance));
+}
+
+EnclosingOptions enclosing_options(const SphereCoverOptions& options) {
+  EnclosingOptions enclosing;
+  enclosing.hull.threads = options.threads;
+  enclosing.progress = options.progress;
+  return enclosing;
+}
+
+double area_of(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const FaceId f : mesh.triangles.ids()) {
+    const Triangle t = mesh.triangle(f);
+    sum += norm(cross(t.b - t.a, t.c - t.a)) / 2;
+  }
+  return sum;
+}
+
+double largest_coordinate(const Box& box) {
+  double most = 0;
+  for (int axis = 0; axis < 3; ++axis) most = std::max({most, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  return most;
+}
+
+/// What is to be covered, cut into patches, and places for balls.
+struct Cut {
+  double size;  ///< of a cube
+  Patches patches;
+  std::vector<Place> places = {};
+};
+
+class SphereCoverer {
+ public:
+  SphereCoverer(TriangleMesh triangles, const SphereCoverOptions& options)
+      : options_(options),
+        input_(prepared_for_hulls(std::move(triangles), enclosing_options(options))),
+        diagonal_(bounding_box(input_.original).diagonal()) {
+    constexpr double kOfDiagonal = 1e-7, kOfCoordinate = 1e-14;
+    least_margin_ =
+        std::max({kOfDiagonal * diagonal_, kOfCoordinate * largest_coordinate(bounding_box(input_.original)),
+                  std::numeric_limits<double>::min()});
+  }
+
+  SphereCover run() {
+    const Stopwatch all;
+    find_solid();
+    const BallCover found = search();
+    const Stopwatch verifying;
+    certify(found);
+    made_.verify_seconds = verifying.seconds();
+    measure(found);
+    made_.seconds = all.seconds();
+    return std::move(made_);
+  }
+
+ private:
+  void find_solid() {
+    TriangleMesh sheets;
+    if (input_.closed) {
+      solid_ = input_.closed->mesh, sheets = input_.dropped;
+      made_.original_volume = input_.closed->report.volume;
+    } else {
+      wrap_solid();
+      sheets = input_.original;
+    }
+    to_cover_ = input_.original;
+    if (options_.fill) append(to_cover_, solid_);
+    box_ = bounding_box(to_cover_);
+    depth_.emplace(solid_, slack_, std::move(sheets));
+  }
+
+  /// Of triangles that bound no solid: a wrap, which closes what is open.
+  void wrap_solid() {
+    constexpr double kPerDiagonal = 96, kClosing = 1.5;  // the closing in spacings, as for hulls
+    const double spacing = std::max(diagonal_ / kPerDiagonal, least_margin_);
+    TriangleMesh near = input_.original;
+    append(near, input_.caps);
+    Wrap made = wrap(
+        near, {.spacing = spacing, .seal_rooms = true, .closing = kClosing * spacing, .progress = options_.progress});
+    solid_ = std::move(made.mesh);
+    append(near, made.doors);
+    slack_ = distance_bounds(solid_, near, {.progress = options_.progress}).upper;
+    made_.original_volume = made.inside_volume;
+    made_.notes.push_back(fmt::format(
+        "the triangles bound no solid ({}): what lies inside is taken from a wrap, up to {:.4g} around them",
+        input_.obstacle, slack_));
+  }
+
+  BallCover search() {
+    ProgressMeter meter(options_.progress, "spheres");
+    if (std::isfinite(options_.max_distance)) {
+      BallCover found = keep_distance(meter);
+      if (!found.balls.empty()) return found;
+      made_.notes.push_back(
+          fmt::format("{} balls do not keep a distance of {:.4g}; these reach out as little as they can",
+                      options_.max_balls, options_.max_distance));
+    }
+    return reach_least(meter);
+  }
+
+  /// Few balls that keep max_distance; none if that takes too many.
+  BallCover keep_distance(ProgressMeter& meter) {
+    constexpr double kCoarsest = 8;
+    const double reach = options_.max_distance - 2 * least_margin_;
+    if (!(reach > 0)) return {};
+    const Cut cut = cut_up(std::min(reach / kCubesPerReach, diagonal_ / kCoarsest), meter);
+    const BallTask task{cut.patches, *depth_, cut.size, meter};
+    return cover::fewest_balls(task, cut.places, options_.max_balls, reach);
+  }
+
+  /// Searches with coarser or finer patches, until they are small beside the reach.
+  BallCover reach_least(ProgressMeter& meter) {
+    const double first = diagonal_ * 0.25 / std::sqrt(static_cast<double>(options_.max_balls));
+    for (double guess = first;;) {
+      const Cut cut = cut_up(guess / kCubesPerReach, meter);
+      const BallTask task{cut.patches, *depth_, cut.size, meter};
+      BallCover found = cover::least_reach(task, cut.places, options_.max_balls, std::max(guess, 2 * cut.size));
+      constexpr double kFinest = 0.5;  // a ball is covered by one that reaches out by nothing
+      if (!found.balls.empty() && (found.reach > guess / 2 || guess < kFinest * first)) return found;
+      guess = found.balls.empty() ? guess * 1.5 : std::max(found.reach * 1.1, guess / 3);
+    }
+  }
+
+  Cut cut_up(double size, ProgressMeter& meter) {
+    constexpr double kMostPatches = 100'000, kPatchesPerBall = 10;
+    const double most = std::max(kMostPatches, kPatchesPerBall * static_cast<double>(options_.max_balls));
+    size = std::max(size, std::sqrt(area_of(to_cover_) / most));
+    size = std::max(size, least_margin_);
+    const CubeGrid grid(box_, size);
+    std::vector<cover::PointInCube> points = cover::points_in_cubes(to_cover_, grid);
+    meter.at(0.1);
+    Cut cut{grid.spacing(), cover::patches_of(points)};
+    constexpr std::size_t kLeastPlaces = 5000, kPlacesPerBall = 40;
+    cut.places = cover::places_for_balls({cut.patches, *depth_, cut.size, meter}, cut.size,
+                                         std::max(kLeastPlaces, kPlacesPerBall * options_.max_balls));
+    meter.at(0.3);
+    if (options_.fill) {
+      cover::add_inside(points, grid, box_, *depth_, meter);
+      cut.patches = cover::patches_of(std::move(points));
+    }
+    meter.at(0.4);
+    return cut;
+  }
+
+  /// The balls become larger by a hair, so that no rounding uncovers anything.
+  void certify(const BallCover& found) {
+    constexpr int kTrials = 4;
+    constexpr double kGrowth = 10;
+    margin_ = least_margin_;
+    for (int trial = 0; trial < kTrials; ++trial, margin_ *= kGrowth) {
+      made_.balls = found.balls;
+      for (Ball& ball : made_.balls) ball.radius += margin_;
+      made_.certified = covers();
+      if (made_.certified) break;
+    }
+    made_.covers_inside = made_.certified && options_.fill;
+  }
+
+  bool covers() const {
+    const VerificationOptions options{.progress = options_.progress};
+    const bool asks_inside = options_.fill && is_closed(input_.original);
+    if (!verify_union(made_.balls, input_.original, asks_inside, options).covers) return false;
+    return !options_.fill || asks_inside || verify_union(made_.balls, solid_, true, options).covers;
+  }
+
+  void measure(const BallCover& found) {
+    const DistanceBounds out = union_reach(made_.balls, solid_, {.progress = options_.progress});
+    made_.reach = out;
+    made_.reach.upper = std::max(out.lower, std::min(out.upper + slack_, found.reach + margin_));
+    if (slack_ > 0 || input_.dropped.face_count() > 0) made_.reach.lower = 0;
+    made_.volume = union_volume(made_.balls);
+    made_.within_bounds = made_.reach.upper <= options_.max_distance;
+  }
+
+  static constexpr double kCubesPerReach = 3;
+
+  const SphereCoverOptions& options_;
+  const RepairedMesh input_;
+  const double diagonal_;
+  double least_margin_ = 0, margin_ = 0;
+  Box box_;
+  TriangleMesh solid_, to_cover_;
+  double slack_ = 0;
+  std::optional<Depth> depth_;
+  SphereCover made_;
+};
+
+}  // namespace
+
+SphereCover sphere_cover(TriangleMesh triangles, const SphereCoverOptions& options) {
+  check(options);
+  SphereCover cover;
+  arena_of(options.threads).execute([&] { cover = SphereCoverer(std::move(triangles), options).run(); });
+  return cover;
+}
+
+}  // namespace prohull

@@ -1,0 +1,205 @@
+#include "prohull/convex_cover.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "effort.h"
+#include "meshes.h"
+#include "progress.h"
+#include "prohull/convex_hull.h"
+#include "prohull/error.h"
+#include "prohull/sample.h"
+#include "prohull/union_verification.h"
+
+namespace prohull {
+namespace {
+
+std::vector<TriangleMesh> meshes_of(const ConvexCover& cover) {
+  std::vector<TriangleMesh> meshes;
+  for (const ConvexPiece& piece : cover.pieces) meshes.push_back(piece.mesh);
+  return meshes;
+}
+
+/// Two bars that share a corner.
+TriangleMesh angle_of_bars() {
+  return meshes::make({{0, 0, 0},
+                       {3, 0, 0},
+                       {3, 1, 0},
+                       {1, 1, 0},
+                       {1, 3, 0},
+                       {0, 3, 0},
+                       {0, 0, 1},
+                       {3, 0, 1},
+                       {3, 1, 1},
+                       {1, 1, 1},
+                       {1, 3, 1},
+                       {0, 3, 1}},
+                      {{0, 3, 2},  {0, 2, 1},  {0, 5, 4},  {0, 4, 3},   {6, 8, 9}, {6, 7, 8}, {6, 10, 11},
+                       {6, 9, 10}, {0, 1, 7},  {0, 7, 6},  {1, 2, 8},   {1, 8, 7}, {2, 3, 9}, {2, 9, 8},
+                       {3, 4, 10}, {3, 10, 9}, {4, 5, 11}, {4, 11, 10}, {5, 0, 6}, {5, 6, 11}});
+}
+
+TriangleMesh two_boxes_apart() {
+  TriangleMesh both = meshes::box({0, 0, 0}, {1, 1, 1});
+  append(both, meshes::box({3, 0, 0}, {4, 1, 1}));
+  return both;
+}
+
+TEST(ConvexCover, OfABoxIsTheBox) {
+  const ConvexCover cover = convex_cover(meshes::box({0, 0, 0}, {1, 2, 3}));
+  ASSERT_EQ(cover.pieces.size(), 1u);
+  EXPECT_EQ(cover.pieces[0].mesh.vertex_count(), 8u);
+  EXPECT_TRUE(cover.certified && cover.covers_inside);
+  EXPECT_NEAR(cover.void_ratio, 0, 1e-6);
+  EXPECT_LT(cover.reach.upper, 1e-8);
+}
+
+TEST(ConvexCover, FindsTheCutThatLeavesNoVoid) {
+  const ConvexCover cover = convex_cover(angle_of_bars(), {.max_pieces = 2});
+  EXPECT_EQ(cover.pieces.size(), 2u);
+  EXPECT_TRUE(cover.certified);
+  EXPECT_LT(cover.void_ratio, 0.02) << "their convex hull has 40 % void";
+}
+
+TEST(ConvexCover, SeparatesComponents) {
+  const ConvexCover cover = convex_cover(two_boxes_apart(), {.max_pieces = 5});
+  EXPECT_EQ(cover.pieces.size(), 2u);
+  EXPECT_NEAR(cover.void_ratio, 0, 1e-4);
+}
+
+TEST(ConvexCover, OfSamplesIsCertifiedAndSmallerThanTheConvexHull) {
+  for (const SampleInfo& sample : samples()) {
+    if (sample.name == "gyroid") continue;  // of 22,000 faces
+    if (kTestsAreSlow && sample.name != "bracket" && sample.name != "pony") continue;
+    const TriangleMesh mesh = make_sample(sample.name, effort(2000u, 400u));
+    const ConvexCover few = convex_cover(mesh, {.max_pieces = 4});
+    EXPECT_TRUE(few.certified && few.covers_inside) << sample.name;
+    EXPECT_LE(few.pieces.size(), 4u);
+    for (const ConvexPiece& piece : few.pieces) EXPECT_LE(piece.mesh.vertex_count(), 64u) << sample.name;
+    EXPECT_LE(few.volume, signed_volume(convex_hull(mesh)) * 1.05) << sample.name;
+    EXPECT_TRUE(verify_union(meshes_of(few), mesh).covers) << sample.name;
+  }
+}
+
+TEST(ConvexCover, OfMorePiecesIsSmaller) {
+  const TriangleMesh mesh = meshes::torus(effort(24u, 12u), effort(10u, 6u));
+  double last = std::numeric_limits<double>::infinity();
+  for (const std::size_t pieces : {1u, 4u, 10u}) {
+    const ConvexCover cover = convex_cover(mesh, {.max_pieces = pieces});
+    EXPECT_LT(cover.volume, last * 0.95) << pieces;
+    last = cover.volume;
+  }
+}
+
+TEST(ConvexCover, HasAsFewPiecesAsKeepTheBounds) {
+  const TriangleMesh mesh = meshes::torus(effort(24u, 12u), effort(10u, 6u));
+  const ConvexCover near = convex_cover(mesh, {.max_pieces = 20, .bounds = {.max_void_ratio = 0.25}});
+  EXPECT_TRUE(near.within_bounds);
+  EXPECT_LE(near.void_ratio, 0.25);
+  const ConvexCover fewer = convex_cover(mesh, {.max_pieces = near.pieces.size() - 1});
+  EXPECT_GT(fewer.void_ratio, 0.25);
+  const ConvexCover too_few = convex_cover(mesh, {.max_pieces = 2, .bounds = {.max_distance = 0.01}});
+  EXPECT_FALSE(too_few.within_bounds);
+  EXPECT_TRUE(too_few.certified);
+  EXPECT_GT(too_few.reach.upper, 0.01);
+}
+
+TEST(ConvexCover, TakesAnyTriangles) {
+  TriangleMesh open = meshes::torus(effort(16u, 12u), effort(8u, 6u));
+  open.triangles.resize(open.face_count() - 9);
+  TriangleMesh soup;
+  for (const FaceId f : open.triangles.ids()) {
+    const auto [a, b, c] = open.triangle(f);
+    std::array<VertexId, 3> t{soup.positions.push_back(a), soup.positions.push_back(b), soup.positions.push_back(c)};
+    soup.triangles.push_back(t);
+  }
+  TriangleMesh with_nan = meshes::torus(effort(16u, 12u), effort(8u, 6u));
+  with_nan.positions[VertexId(5)].x = std::numeric_limits<double>::quiet_NaN();
+  const TriangleMesh plate = meshes::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  const TriangleMesh needle = meshes::make({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}});
+  const std::pair<const char*, TriangleMesh> all[]{
+      {"open", open},
+      {"soup", soup},
+      {"not finite", with_nan},
+      {"plate", plate},
+      {"needle", needle},
+      {"inside out", meshes::inside_out(meshes::torus(effort(16u, 12u), effort(8u, 6u)))},
+      {"huge", meshes::scaled(meshes::torus(effort(16u, 12u), effort(8u, 6u)), 1e9)},
+      {"tiny", meshes::scaled(meshes::torus(effort(16u, 12u), effort(8u, 6u)), 1e-9)},
+      {"far away", meshes::moved(meshes::torus(effort(16u, 12u), effort(8u, 6u)), {1e6, 0, 0})}};
+  for (const auto& [name, mesh] : all) {
+    const ConvexCover cover = convex_cover(mesh, {.max_pieces = 4});
+    EXPECT_TRUE(cover.certified) << name;
+    EXPECT_TRUE(verify_union(meshes_of(cover), mesh).covers) << name;
+  }
+}
+
+TEST(ConvexCover, KeepsFloat32Coordinates) {
+  const TriangleMesh mesh = meshes::torus(effort(20u, 12u), effort(9u, 6u));
+  const ConvexCover cover = convex_cover(mesh, {.max_pieces = 6, .float32_coordinates = true});
+  EXPECT_TRUE(cover.certified);
+  for (const ConvexPiece& piece : cover.pieces)
+    for (const Vec3& p : piece.mesh.positions)
+      for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(p[axis], static_cast<double>(static_cast<float>(p[axis])));
+}
+
+/// A piece of this part once had a spike that reached out by 40 % of the diagonal.
+TEST(ConvexCover, OfFloat32CoordinatesIsHardlyLarger) {
+  const TriangleMesh mesh = make_sample("bracket", 3000);
+  const ConvexCover usual = convex_cover(mesh, {.max_pieces = 8});
+  const ConvexCover rounded = convex_cover(mesh, {.max_pieces = 8, .float32_coordinates = true});
+  EXPECT_LT(rounded.volume, usual.volume * 1.01);
+  EXPECT_LT(rounded.reach.upper, usual.reach.upper * 1.01);
+}
+
+TEST(ConvexCover, TakesTheShapeThatIsAskedFor) {
+  for (const PieceShape shape : {PieceShape::Box, PieceShape::Capsule, PieceShape::Ball}) {
+    const ConvexCover cover =
+        convex_cover(meshes::torus(effort(16u, 12u), effort(8u, 6u)), {.max_pieces = 4, .shape = shape});
+    EXPECT_TRUE(cover.certified);
+    for (const ConvexPiece& piece : cover.pieces)
+      EXPECT_EQ(piece.primitive.index(), shape == PieceShape::Box ? 1u : shape == PieceShape::Capsule ? 2u : 3u);
+  }
+}
+
+TEST(ConvexCover, TakesAShapeOnlyAsFarAsTheBoundsAllow) {
+  TriangleMesh mesh = meshes::box({0, 0, 0}, {1, 1, 1});
+  append(mesh, meshes::tetrahedron({3, 0, 0}, {4, 0, 0}, {3, 1, 0}, {3, 0, 1}));
+  const ConvexCover cover =
+      convex_cover(mesh, {.max_pieces = 2, .bounds = {.max_void_ratio = 0.1}, .shape = PieceShape::Box});
+  ASSERT_EQ(cover.pieces.size(), 2u);
+  EXPECT_TRUE(cover.within_bounds);
+  const auto boxes = std::count_if(cover.pieces.begin(), cover.pieces.end(), [](const ConvexPiece& piece) {
+    return std::holds_alternative<OrientedBox>(piece.primitive);
+  });
+  EXPECT_EQ(boxes, 1) << "the box is one, the tetrahedron is not";
+}
+
+TEST(ConvexCover, IsTheSameForAnyNumberOfThreads) {
+  const TriangleMesh mesh = meshes::torus(effort(24u, 12u), effort(10u, 6u));
+  const ConvexCover one = convex_cover(mesh, {.max_pieces = 6, .threads = 1});
+  const ConvexCover all = convex_cover(mesh, {.max_pieces = 6});
+  EXPECT_EQ(meshes_of(one), meshes_of(all));
+}
+
+TEST(ConvexCover, CanBeCancelled) {
+  const UnthrottledProgress unthrottled;
+  for (const std::string_view last : {"cut", "fit", "verify"}) {
+    ConvexCoverOptions options{.max_pieces = 4};
+    options.progress = [&](std::string_view stage, double) { return stage != last; };
+    EXPECT_THROW(convex_cover(meshes::torus(effort(16u, 12u), effort(8u, 6u)), options), Cancelled) << last;
+  }
+}
+
+TEST(ConvexCover, RefusesWhatItCannotDo) {
+  const TriangleMesh box = meshes::box({0, 0, 0}, {1, 1, 1});
+  EXPECT_THROW(convex_cover(box, {.max_pieces = 0}), InputError);
+  EXPECT_THROW(convex_cover(box, {.max_vertices = 3}), InputError);
+  EXPECT_THROW(convex_cover(box, {.bounds = {.max_distance = -1}}), InputError);
+  EXPECT_THROW(convex_cover(TriangleMesh{}), InputError);
+}
+
+}  // namespace
+}  // namespace prohull
