@@ -29,15 +29,16 @@ struct FormatTraits {
   TriangleMesh (*read)(std::string_view content, const std::string& file, const ReadOptions& options);
   std::optional<MeshFormat> format;
   std::string (*content)(const TriangleMesh& mesh);
+  std::string (*content_of_several)(std::span<const TriangleMesh> meshes, std::span<const std::string> names);
 };
 
 constexpr std::array<FormatTraits, 6> kFormats = {{
-    {".ply", "PLY", read_ply, MeshFormat::Ply, ply_content},
-    {".obj", "OBJ", read_obj, MeshFormat::Obj, obj_content},
-    {".off", "OFF", read_off, MeshFormat::Off, off_content},
-    {".stl", "STL", read_stl, MeshFormat::Stl, stl_content},
-    {".glb", "GLB", read_gltf, MeshFormat::Glb, glb_content},
-    {".gltf", "glTF", read_gltf, {}, nullptr},
+    {".ply", "PLY", read_ply, MeshFormat::Ply, ply_content, nullptr},
+    {".obj", "OBJ", read_obj, MeshFormat::Obj, obj_content, obj_content},
+    {".off", "OFF", read_off, MeshFormat::Off, off_content, nullptr},
+    {".stl", "STL", read_stl, MeshFormat::Stl, stl_content, nullptr},
+    {".glb", "GLB", read_gltf, MeshFormat::Glb, glb_content, glb_content},
+    {".gltf", "glTF", read_gltf, {}, nullptr, nullptr},
 }};
 
 const FormatTraits& traits(MeshFormat format) {
@@ -109,12 +110,13 @@ void scale(TriangleMesh& mesh, double factor, const std::filesystem::path& name)
   }
 }
 
-void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::filesystem::path& path) {
+/// `name` is that of the mesh, for messages.
+void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::string& name) {
   for (const VertexId v : mesh.positions.ids()) {
     const Vec3& p = mesh.positions[v];
     const auto refuse = [&](std::string_view why) {
       throw InputError(Defect::NonFiniteCoordinate,
-                       fmt::format("{}: vertex {} is ({}, {}, {}); {}", path.string(), index(v), p.x, p.y, p.z, why));
+                       fmt::format("{}: vertex {} is ({}, {}, {}); {}", name, index(v), p.x, p.y, p.z, why));
     };
     if (!is_finite(p)) refuse("coordinates must be finite");
     if (stores_float32(format) && !(is_float32(p.x) && is_float32(p.y) && is_float32(p.z)))
@@ -122,6 +124,21 @@ void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::f
           "{} stores float32 and would change it; round the mesh to float32 first, or write PLY, OBJ or OFF",
           traits(format).name));
   }
+}
+
+MeshFormat format_to_write(const std::filesystem::path& path) {
+  const MeshFormat format = mesh_format(path);
+  if (lower_case_extension(path) == ".gz")
+    throw InputError(
+        Defect::UnknownFormat,
+        fmt::format("{}: prohull reads meshes from .gz files, but does not write them; leave .gz out", path.string()));
+  return format;
+}
+
+void check_glb_size(std::span<const TriangleMesh> meshes, std::span<const std::string> names,
+                    const std::filesystem::path& path) {
+  if (glb_size(meshes, names) > std::numeric_limits<std::uint32_t>::max())
+    throw InputError(Defect::CannotWrite, fmt::format("{}: a GLB holds at most 4 GiB; write PLY", path.string()));
 }
 
 }  // namespace
@@ -170,15 +187,28 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& opt
 }
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
-  const MeshFormat format = mesh_format(path);
-  if (lower_case_extension(path) == ".gz")
-    throw InputError(
-        Defect::UnknownFormat,
-        fmt::format("{}: prohull reads meshes from .gz files, but does not write them; leave .gz out", path.string()));
-  check_coordinates(mesh, format, path);
-  if (format == MeshFormat::Glb && glb_size(mesh) > std::numeric_limits<std::uint32_t>::max())
-    throw InputError(Defect::CannotWrite, fmt::format("{}: a GLB holds at most 4 GiB; write PLY", path.string()));
+  const MeshFormat format = format_to_write(path);
+  check_coordinates(mesh, format, path.string());
+  if (format == MeshFormat::Glb) check_glb_size({&mesh, 1}, {}, path);
   write_file(path, traits(format).content(mesh));
+}
+
+bool holds_several_meshes(MeshFormat format) { return traits(format).content_of_several; }
+
+void write_meshes(const std::filesystem::path& path, std::span<const TriangleMesh> meshes,
+                  std::span<const std::string> names) {
+  const MeshFormat format = format_to_write(path);
+  if (!holds_several_meshes(format))
+    throw InputError(Defect::UnknownFormat,
+                     fmt::format("{}: {} files hold one mesh each; write a file for each mesh, or name it .obj or .glb",
+                                 path.string(), traits(format).name));
+  if (names.size() != meshes.size())
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("{}: {} names for {} meshes", path.string(), names.size(), meshes.size()));
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    check_coordinates(meshes[i], format, fmt::format("{}: {}", path.string(), names[i]));
+  if (format == MeshFormat::Glb) check_glb_size(meshes, names, path);
+  write_file(path, traits(format).content_of_several(meshes, names));
 }
 
 }  // namespace prohull

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "geometry/float32.h"
 #include "io/append.h"
@@ -40,39 +42,112 @@ Vec3 unit_normal(const Triangle& t) {
   return largest(normal) == 0 ? Vec3{} : normal / norm(normal);
 }
 
-std::string decimals(const Vec3& p) {
-  std::string out;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (axis > 0) out += ',';
-    append_number(out, p[axis]);
-  }
-  return out;
-}
-
 Box box_of_all_vertices(const TriangleMesh& mesh) {
   Box box;
   for (const Vec3& p : mesh.positions) box.extend(p);
   return box;
 }
 
-/// glTF 2.0, 3.6 and 3.7: indices of 32 bits behind positions of float32.
-std::string gltf_json(const TriangleMesh& mesh) {
-  constexpr std::string_view kAsset = R"("asset":{"version":"2.0","generator":"prohull"},"scene":0)";
-  if (mesh.face_count() == 0) return fmt::format(R"({{{},"scenes":[{{}}]}})", kAsset);
-  const Box box = box_of_all_vertices(mesh);
-  const std::size_t vertex_bytes = 12 * mesh.vertex_count(), face_bytes = 12 * mesh.face_count();
-  return fmt::format(
-      R"({{{},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],)"
-      R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],)"
-      R"("accessors":[{{"bufferView":0,"componentType":5126,"count":{},"type":"VEC3","min":[{}],"max":[{}]}},)"
-      R"({{"bufferView":1,"componentType":5125,"count":{},"type":"SCALAR"}}],)"
-      R"("bufferViews":[{{"buffer":0,"byteLength":{},"target":34962}},)"
-      R"({{"buffer":0,"byteOffset":{},"byteLength":{},"target":34963}}],"buffers":[{{"byteLength":{}}}]}})",
-      kAsset, mesh.vertex_count(), decimals(box.min), decimals(box.max), 3 * mesh.face_count(), vertex_bytes,
-      vertex_bytes, face_bytes, vertex_bytes + face_bytes);
+using Json = nlohmann::ordered_json;
+
+/// The colours that Okabe and Ito (2008) chose for people with any kind of colour vision, but black; linear light.
+constexpr auto kColors = std::to_array<std::array<double, 3>>({{0.791, 0.347, 0.000},
+                                                               {0.093, 0.456, 0.815},
+                                                               {0.000, 0.342, 0.171},
+                                                               {0.871, 0.776, 0.054},
+                                                               {0.000, 0.168, 0.445},
+                                                               {0.665, 0.112, 0.000},
+                                                               {0.604, 0.191, 0.386}});
+
+Json material(std::size_t i) {
+  const auto& [r, g, b] = kColors[i];
+  return {{"pbrMetallicRoughness", {{"baseColorFactor", {r, g, b, 1}}, {"metallicFactor", 0}}}};
 }
 
-constexpr std::size_t kGlbOverhead = 2048;  // headers and JSON, of which all but 13 numbers is fixed
+/// glTF 2.0, 3.6 and 3.7: of each mesh positions of float32, then indices of 32 bits.
+class GltfJson {
+ public:
+  void add(const TriangleMesh& mesh, const std::string* name) {
+    if (mesh.face_count() == 0) return;
+    const std::size_t number = meshes_.size();
+    const Box box = box_of_all_vertices(mesh);
+    Json primitive{{"attributes", {{"POSITION", accessors_.size()}}}, {"indices", accessors_.size() + 1}};
+    add_accessor(12 * mesh.vertex_count(), 34962,
+                 {{"componentType", 5126},
+                  {"count", mesh.vertex_count()},
+                  {"type", "VEC3"},
+                  {"min", {box.min.x, box.min.y, box.min.z}},
+                  {"max", {box.max.x, box.max.y, box.max.z}}});
+    add_accessor(12 * mesh.face_count(), 34963,
+                 {{"componentType", 5125}, {"count", 3 * mesh.face_count()}, {"type", "SCALAR"}});
+    if (name) {
+      primitive["material"] = number % kColors.size();
+      if (materials_.size() < kColors.size()) materials_.push_back(material(number));
+    }
+    meshes_.push_back({{"primitives", Json::array({std::move(primitive)})}});
+    Json node{{"mesh", number}};
+    if (name) node["name"] = *name, meshes_.back()["name"] = *name;
+    nodes_.push_back(std::move(node));
+    places_.push_back(number);
+  }
+
+  std::string text() const {
+    Json json{{"asset", {{"version", "2.0"}, {"generator", "prohull"}}}, {"scene", 0}};
+    json["scenes"] = Json::array({Json::object()});
+    if (!nodes_.empty()) {
+      json["scenes"][0]["nodes"] = places_, json["nodes"] = nodes_, json["meshes"] = meshes_;
+      if (!materials_.empty()) json["materials"] = materials_;
+      json["accessors"] = accessors_, json["bufferViews"] = views_;
+      json["buffers"] = Json::array({Json{{"byteLength", bytes_}}});
+    }
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+
+ private:
+  void add_accessor(std::size_t bytes, int target, const Json& what) {
+    Json accessor{{"bufferView", views_.size()}};
+    accessor.update(what);
+    accessors_.push_back(std::move(accessor));
+    views_.push_back({{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", bytes}, {"target", target}});
+    bytes_ += bytes;
+  }
+
+  Json nodes_ = Json::array(), places_ = nodes_, meshes_ = nodes_, materials_ = nodes_, accessors_ = nodes_,
+       views_ = nodes_;
+  std::size_t bytes_ = 0;
+};
+
+std::string gltf_json(std::span<const TriangleMesh> meshes, std::span<const std::string> names) {
+  GltfJson json;
+  for (std::size_t i = 0; i < meshes.size(); ++i) json.add(meshes[i], names.empty() ? nullptr : &names[i]);
+  return json.text();
+}
+
+std::size_t glb_bytes(const TriangleMesh& mesh) {
+  return mesh.face_count() == 0 ? 0 : 12 * (mesh.vertex_count() + mesh.face_count());
+}
+
+void append_glb(std::string& out, const TriangleMesh& mesh) {
+  for (const Vec3& p : mesh.positions) append_vector<float>(out, p);
+  for (const auto& t : mesh.triangles)
+    for (const VertexId v : t) append_bytes(out, index(v));
+}
+
+/// Readers end a name at a line's end, some at a blank; # begins a comment, and \\ continues a line.
+std::string obj_name(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) <= ' ' || c == '\x7f' || c == '#' || c == '\\') c = '_';
+  return name;
+}
+
+void append_obj(std::string& out, const TriangleMesh& mesh, std::uint64_t vertices_before) {
+  for (const Vec3& p : mesh.positions) append_line(out += "v ", p);
+  for (const auto& t : mesh.triangles) {
+    out += 'f';
+    for (const VertexId v : t) append_number(out += ' ', vertices_before + index(v) + 1);
+    out += '\n';
+  }
+}
 
 }  // namespace
 
@@ -99,11 +174,17 @@ std::string ply_content(const TriangleMesh& mesh) {
 
 std::string obj_content(const TriangleMesh& mesh) {
   std::string out = "# prohull\n";
-  for (const Vec3& p : mesh.positions) append_line(out += "v ", p);
-  for (const auto& t : mesh.triangles) {
-    out += 'f';
-    for (const VertexId v : t) append_number(out += ' ', std::uint64_t{index(v)} + 1);
-    out += '\n';
+  append_obj(out, mesh, 0);
+  return out;
+}
+
+std::string obj_content(std::span<const TriangleMesh> meshes, std::span<const std::string> names) {
+  std::string out = "# prohull\n";
+  std::uint64_t vertices = 0;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    out += "o " + obj_name(names[i]) + "\n";
+    append_obj(out, meshes[i], vertices);
+    vertices += meshes[i].vertex_count();
   }
   return out;
 }
@@ -133,16 +214,23 @@ std::string stl_content(const TriangleMesh& mesh) {
   return out;
 }
 
-std::uint64_t glb_size(const TriangleMesh& mesh) {
-  return kGlbOverhead + std::uint64_t{12} * mesh.vertex_count() + std::uint64_t{12} * mesh.face_count();
+std::uint64_t glb_size(std::span<const TriangleMesh> meshes, std::span<const std::string> names) {
+  constexpr std::uint64_t kOverhead = 2048;  // headers and JSON, of which all but some numbers is fixed
+  std::uint64_t size = kOverhead;
+  for (const TriangleMesh& mesh : meshes) size += kOverhead + glb_bytes(mesh);
+  for (const std::string& name : names) size += 2 * 6 * name.size();  // twice, and a byte may become \u0000
+  return size;
 }
 
+std::string glb_content(const TriangleMesh& mesh) { return glb_content({&mesh, 1}, {}); }
+
 /// glTF 2.0, 4.4: a header, a chunk of JSON and one of bytes.
-std::string glb_content(const TriangleMesh& mesh) {
+std::string glb_content(std::span<const TriangleMesh> meshes, std::span<const std::string> names) {
   constexpr std::size_t kHeaderSize = 12, kChunkHeaderSize = 8, kAlignment = 4;
-  std::string json = gltf_json(mesh);
+  std::string json = gltf_json(meshes, names);
   json.resize((json.size() + kAlignment - 1) / kAlignment * kAlignment, ' ');
-  const std::size_t binary_size = mesh.face_count() == 0 ? 0 : 12 * (mesh.vertex_count() + mesh.face_count());
+  std::size_t binary_size = 0;
+  for (const TriangleMesh& mesh : meshes) binary_size += glb_bytes(mesh);
   const std::size_t size =
       kHeaderSize + kChunkHeaderSize + json.size() + (binary_size == 0 ? 0 : kChunkHeaderSize + binary_size);
   std::string out = "glTF";
@@ -154,9 +242,8 @@ std::string glb_content(const TriangleMesh& mesh) {
   if (binary_size == 0) return out;
   append_bytes(out, static_cast<std::uint32_t>(binary_size));
   out += std::string_view("BIN\0", 4);
-  for (const Vec3& p : mesh.positions) append_vector<float>(out, p);
-  for (const auto& t : mesh.triangles)
-    for (const VertexId v : t) append_bytes(out, index(v));
+  for (const TriangleMesh& mesh : meshes)
+    if (mesh.face_count() > 0) append_glb(out, mesh);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "prohull/triangle_mesh.h"
@@ -14,10 +15,17 @@ std::string obj_content(const TriangleMesh& mesh);
 std::string off_content(const TriangleMesh& mesh);
 std::string stl_content(const TriangleMesh& mesh);
 /// A scene of one node with one mesh of one primitive, without normals: glTF shades it flat. Without triangles the
-/// scene is empty. glb_size(mesh) is below 4 GiB.
+/// scene is empty. glb_size is below 4 GiB.
 std::string glb_content(const TriangleMesh& mesh);
+
+// Of several meshes, each with a name.
+
+/// An object for each; what the name of an object cannot hold becomes _.
+std::string obj_content(std::span<const TriangleMesh> meshes, std::span<const std::string> names);
+/// A node with a mesh for each, in a colour of its own. Those without triangles are left out. glb_size is below 4 GiB.
+std::string glb_content(std::span<const TriangleMesh> meshes, std::span<const std::string> names);
 /// At most that many bytes.
-std::uint64_t glb_size(const TriangleMesh& mesh);
+std::uint64_t glb_size(std::span<const TriangleMesh> meshes, std::span<const std::string> names);
 
 /// Whether float32 stores the value without changing it (for -0.0, denormals and all others).
 bool is_float32(double value);
