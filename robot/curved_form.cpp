@@ -100,12 +100,18 @@ bool is_exact_sum(double a, double b) {
 }
 
 std::optional<CurvedForm> CurvedForm::of(const Form& form, const Pose& pose) {
-  if (const auto* sphere = std::get_if<SphereForm>(&form)) return CurvedForm(Kind::Sphere, sphere->radius, 0, pose);
+  if (const auto* sphere = std::get_if<SphereForm>(&form))
+    return CurvedForm(Kind::Sphere, sphere->radius, 0, {.translation = pose.translation});
   if (const auto* cylinder = std::get_if<CylinderForm>(&form))
     return CurvedForm(Kind::Cylinder, cylinder->radius, cylinder->length, pose);
   if (const auto* capsule = std::get_if<CapsuleForm>(&form))
     return CurvedForm(Kind::Capsule, capsule->radius, capsule->length, pose);
   return std::nullopt;
+}
+
+std::optional<Ball> CurvedForm::ball() const {
+  if (kind_ != Kind::Sphere) return std::nullopt;
+  return Ball{pose_.translation, radius_};
 }
 
 template <class Number>

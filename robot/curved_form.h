@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "prohull/shapes.h"
 #include "robot/link_triangles.h"
 #include "robot/model.h"
 
@@ -11,12 +12,15 @@ namespace prohull::robot {
 bool is_exact_sum(double a, double b);
 
 /// A sphere, cylinder or capsule where a pose puts it: all points p for which R^T (p - t) lies in the form, computed
-/// with real numbers from the stored doubles of R and t. So it is convex and closed, and `contains` can be exact.
-/// Lengths are 0, or between 1e-100 and 1e100.
+/// with real numbers from the stored doubles of R and t; of a sphere R is the identity. So it is convex and closed, and
+/// `contains` can be exact. Lengths are 0, or between 1e-100 and 1e100.
 class CurvedForm {
  public:
   /// None of any other form.
   static std::optional<CurvedForm> of(const Form& form, const Pose& pose = {});
+
+  /// If it is a sphere, the same one.
+  std::optional<Ball> ball() const;
 
   /// Exact.
   bool contains(const Vec3& p) const;

@@ -1,5 +1,6 @@
 #include "robot/transform.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace prohull::robot {
@@ -37,6 +38,29 @@ Pose pose_of_rpy(const Vec3& rpy, const Vec3& translation) {
   return {{Vec3{cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr},
            Vec3{sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr}, Vec3{-sp, cp * sr, cp * cr}},
           translation};
+}
+
+std::array<double, 4> quaternion_of(const Pose& pose) {
+  const auto& r = pose.rotation;
+  const std::array<double, 4> squares{1 + r[0].x + r[1].y + r[2].z, 1 + r[0].x - r[1].y - r[2].z,
+                                      1 - r[0].x + r[1].y - r[2].z, 1 - r[0].x - r[1].y + r[2].z};
+  const auto largest = static_cast<std::size_t>(std::ranges::max_element(squares) - squares.begin());
+  const double yz = r[2].y - r[1].z, zx = r[0].z - r[2].x, xy = r[1].x - r[0].y;  // 4 w times x, y, z
+  const double x_y = r[1].x + r[0].y, x_z = r[0].z + r[2].x, y_z = r[2].y + r[1].z;
+  const std::array<std::array<double, 4>, 4> rows{
+      {{squares[0], yz, zx, xy}, {yz, squares[1], x_y, x_z}, {zx, x_y, squares[2], y_z}, {xy, x_z, y_z, squares[3]}}};
+  std::array<double, 4> q = rows[largest];  // by the largest of the four
+  const double length = 2 * std::sqrt(squares[largest]);
+  for (double& part : q) part /= length;
+  return q;
+}
+
+Vec3 rpy_of(const Pose& pose) {
+  const auto& r = pose.rotation;
+  const double yaw = std::atan2(r[1].x, r[0].x), pitch = std::atan2(-r[2].x, std::hypot(r[0].x, r[1].x));
+  // Where the pitch is a right angle, rounding decides the yaw. The roll belongs to the yaw that was found.
+  const double s = std::sin(yaw), c = std::cos(yaw);
+  return {std::atan2(s * r[0].z - c * r[1].z, c * r[1].y - s * r[0].y), pitch, yaw};
 }
 
 Pose rotation_about(const Vec3& axis, double angle) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "prohull/collide.h"
 
 namespace prohull::robot {
@@ -13,6 +15,12 @@ Pose inverse(const Pose& pose);
 
 /// Roll, pitch and yaw in radians, about the fixed axes x, y and z, in this order: as URDF and SDF say it.
 Pose pose_of_rpy(const Vec3& rpy, const Vec3& translation = {});
+
+/// The angles that pose_of_rpy takes to this rotation, but for rounding.
+Vec3 rpy_of(const Pose& pose);
+
+/// The unit quaternion w, x, y, z of the rotation.
+std::array<double, 4> quaternion_of(const Pose& pose);
 
 /// About an axis of any length but 0 through the origin, by `angle` radians.
 Pose rotation_about(const Vec3& axis, double angle);

@@ -14,6 +14,7 @@
 #include "prohull/mesh_query.h"
 #include "prohull/names.h"
 #include "prohull/openings.h"
+#include "prohull/union_verification.h"
 #include "prohull/wrap.h"
 #include "robot/check/union_cover.h"
 #include "robot/side_by_side.h"
@@ -172,7 +173,7 @@ class LinkChecker {
   void add_visual(const Shape& shape) {
     if (const auto form = CurvedForm::of(shape.form, pose_of(shape))) {
       see(*form, pose_of(shape));
-      append(check_.visual, form->mesh(Curved::Around, kShownSegments));
+      append(check_.visual, form->mesh(Curved::Around, shown_segments(link_.visual.size())));
       return curved_.push_back(*form);
     }
     const TriangleMesh mesh = triangles_of(shape);
@@ -183,7 +184,7 @@ class LinkChecker {
   void add_collision(const Shape& shape) {
     if (const auto form = CurvedForm::of(shape.form, pose_of(shape))) {
       see(*form, pose_of(shape));
-      append(check_.collision, form->mesh(Curved::Around, kShownSegments));
+      append(check_.collision, form->mesh(Curved::Around, shown_segments(link_.collision.size())));
       pieces_.curved.push_back(*form);
     } else {
       const TriangleMesh mesh = triangles_of(shape);
@@ -264,14 +265,20 @@ class LinkChecker {
     check_.worst_point = part.reach.farthest;
   }
 
+  template <class Measure>
+  void measure_volume(double& volume, Measure measure_it) {
+    try {
+      volume = measure_it();
+    } catch (const InputError& error) {
+      note(fmt::format("no volume: {}", error.what()));
+    }
+  }
+
   void measure() {
-    for (const auto& [volume, mesh] :
-         {std::pair(&check_.visual_volume, &check_.visual), std::pair(&check_.collision_volume, &check_.collision)})
-      try {
-        *volume = enclosed_volume(*mesh, progress_);
-      } catch (const InputError& error) {
-        note(fmt::format("no volume: {}", error.what()));
-      }
+    const auto balls = only_balls(pieces_);
+    measure_volume(check_.visual_volume, [&] { return enclosed_volume(check_.visual, progress_); });
+    measure_volume(check_.collision_volume,
+                   [&] { return balls.empty() ? enclosed_volume(check_.collision, progress_) : union_volume(balls); });
     if (check_.visual.face_count() == 0) return;
     check_.convex_volume = signed_volume(convex_hull(check_.visual));
     if (check_.collision.face_count() == 0) return;
@@ -279,7 +286,8 @@ class LinkChecker {
     check_.mean_fat = mean_distance(check_.collision, check_.visual);
   }
 
-  static constexpr std::size_t kShownSegments = 64;
+  /// Corners around the axis of the meshes that are measured and shown: many forms need fewer each.
+  static std::size_t shown_segments(std::size_t forms) { return forms <= 8 ? 64 : 32; }
 
   const Link& link_;
   const Progress progress_;

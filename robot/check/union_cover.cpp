@@ -10,6 +10,7 @@
 
 #include "prohull/enclosure.h"
 #include "prohull/mesh_query.h"
+#include "prohull/union_verification.h"
 #include "robot/check/convex_pairs.h"
 
 namespace prohull::robot {
@@ -98,6 +99,18 @@ PerFace<char> are_outside(const TriangleMesh& faces, const TriangleMesh& solid,
   return outside;
 }
 
+/// The faces that balls do not cover, or with next to nothing to spare.
+std::vector<Offender> offenders(const TriangleMesh& faces, std::span<const Ball> balls, const Progress& progress) {
+  if (faces.face_count() == 0) return {};
+  return verify_union(balls, faces, false, {.max_offenders = faces.face_count(), .progress = progress}).worst;
+}
+
+TriangleMesh uncovered(const TriangleMesh& faces, std::span<const Ball> balls, const Progress& progress) {
+  PerFace<char> outside(faces.face_count(), 0);
+  for (const Offender& offender : offenders(faces, balls, progress)) outside[offender.face] = 1;
+  return faces_that(faces, [&](FaceId f) { return outside[f] != 0; });
+}
+
 TriangleMesh uncovered(const TriangleMesh& faces, const Pieces& pieces, Curved curved, std::size_t segments,
                        const Progress& progress) {
   const TriangleMesh rest = faces_that(faces, [&](FaceId f) { return !lies_in_one(faces.triangle(f), pieces.curved); });
@@ -173,7 +186,8 @@ class Reach {
   Reach(const TriangleMesh& faces, const Pieces& pieces, const Progress& progress)
       : pieces_(pieces),
         progress_(progress),
-        solid_(solid_mesh(pieces, Curved::Within, kSegments[0])),
+        balls_(only_balls(pieces)),
+        solid_(balls_.empty() ? solid_mesh(pieces, Curved::Within, kSegments[0]) : TriangleMesh()),
         surface_(surface()),
         query_(QueryIndex(surface_)),
         pairs_(pieces.solids, progress) {
@@ -189,7 +203,7 @@ class Reach {
   }
 
   DistanceBounds run() {
-    while (is_wide() && seen_ < kMostCells) add(mesh_of(halves()));
+    while (is_wide() && seen_ < kMostCells && !is_stuck()) add(mesh_of(halves()));
     reach_.upper = std::max(cells_.empty() ? 0 : cells_.top().upper, reach_.lower) + rounding_;
     reach_.lower = std::max(0.0, reach_.lower - rounding_);
     return reach_;
@@ -211,10 +225,20 @@ class Reach {
     return result;
   }
 
+  /// In a slit between two pieces, cells keep their bound until they are as narrow as the slit. Other bounds shrink by
+  /// then, as each cell that was there at the last look may have been cut twice.
+  bool is_stuck() {
+    if (seen_ < next_look_) return false;
+    next_look_ = 8 * seen_;
+    const double gap = cells_.top().upper - reach_.lower;
+    return gap > 0.9 * std::exchange(gap_, gap);
+  }
+
   bool is_wide() const { return !cells_.empty() && cells_.top().upper > (1 + kRelativeGap) * reach_.lower + rounding_; }
 
   void add(const TriangleMesh& faces) {
-    const std::vector<Offender> found = offenders(faces, solid_, progress_);
+    const std::vector<Offender> found =
+        balls_.empty() ? offenders(faces, solid_, progress_) : offenders(faces, balls_, progress_);
     std::vector<Triangle> cells, points;
     for (const Offender& offender : found) {
       cells.push_back(faces.triangle(offender.face));
@@ -280,16 +304,31 @@ class Reach {
 
   const Pieces& pieces_;
   const Progress& progress_;
+  const std::vector<Ball> balls_;  // the pieces, if they are nothing else; then there is no solid_
   const TriangleMesh solid_, surface_;
   MeshQuery query_;
   ConvexPairs pairs_;
   double rounding_ = 0;
   std::priority_queue<Cell> cells_;
-  std::size_t seen_ = 0;
+  std::size_t seen_ = 0, next_look_ = 1024;
+  double gap_ = std::numeric_limits<double>::infinity();  // at the last look
   DistanceBounds reach_;
 };
 
+/// By the exact test of unions of balls, for which no meshes have to stand.
+PartCover cover_by_balls(const TriangleMesh& faces, std::span<const Ball> balls, const Pieces& pieces,
+                         const Progress& progress) {
+  PartCover result{Covers::Unknown, uncovered(faces, balls, progress), {}};
+  if (result.outside.face_count() == 0) return {};
+  result.reach = Reach(result.outside, pieces, progress).run();
+  if (result.reach.lower > 0 || with_corner_outside(result.outside, pieces, progress).face_count() > 0)
+    result.covers = Covers::No;
+  return result;
+}
+
 PartCover cover_flat(const TriangleMesh& faces, const Pieces& pieces, const Progress& progress) {
+  if (const std::vector<Ball> balls = only_balls(pieces); !balls.empty())
+    return cover_by_balls(faces, balls, pieces, progress);
   PartCover result{Covers::Unknown, without_equals(faces, pieces.triangles), {}};
   TriangleMesh leaving;  // the solid pieces
   for (const std::size_t segments : kSegments) {
@@ -309,9 +348,27 @@ PartCover cover_flat(const TriangleMesh& faces, const Pieces& pieces, const Prog
   return result;
 }
 
+PartCover cover_curved_by_balls(const CurvedForm& form, std::span<const Ball> balls, const Pieces& pieces,
+                                const Progress& progress) {
+  PartCover result{Covers::Unknown, {}, {}};
+  for (const std::size_t segments : kSegments) {
+    result.outside = uncovered(form.mesh(Curved::Around, segments), balls, progress);
+    if (result.outside.face_count() == 0) return {};
+  }
+  const auto reach = [&](Curved curved) {
+    return Reach(uncovered(form.mesh(curved, kFineness), balls, progress), pieces, progress).run();
+  };
+  result.reach = reach(Curved::Within);
+  result.reach.upper = reach(Curved::Around).upper;
+  if (result.reach.lower > 0) result.covers = Covers::No;
+  return result;
+}
+
 /// Faces around the form to prove that it is covered, and faces within it to prove that it is not.
 PartCover cover_curved(const CurvedForm& form, const Pieces& pieces, const Progress& progress) {
   if (std::find(pieces.curved.begin(), pieces.curved.end(), form) != pieces.curved.end()) return {};
+  if (const std::vector<Ball> balls = only_balls(pieces); !balls.empty())
+    return cover_curved_by_balls(form, balls, pieces, progress);
   PartCover result{Covers::Unknown, {}, {}};
   for (const std::size_t segments : kSegments) {
     result.outside = uncovered(form.mesh(Curved::Around, segments), pieces, Curved::Within, segments, progress);
@@ -329,6 +386,15 @@ PartCover cover_curved(const CurvedForm& form, const Pieces& pieces, const Progr
 }
 
 }  // namespace
+
+std::vector<Ball> only_balls(const Pieces& pieces) {
+  std::vector<Ball> balls;
+  for (const CurvedForm& form : pieces.curved)
+    if (const auto ball = form.ball()) balls.push_back(*ball);
+  const bool has_others = pieces.solids.face_count() + pieces.triangles.face_count() > 0 || !pieces.tangled.empty() ||
+                          balls.size() < pieces.curved.size();
+  return has_others ? std::vector<Ball>() : balls;
+}
 
 /// Inside out, the mesh winds at least once around such points. A box far away, of greater volume, sees to it that it
 /// does not count as turned.

@@ -21,6 +21,9 @@ struct Pieces {
   bool empty() const { return solids.face_count() + triangles.face_count() + curved.size() == 0; }
 };
 
+/// If the pieces are balls and nothing else: these.
+std::vector<Ball> only_balls(const Pieces& pieces);
+
 /// Whether a closed mesh winds around some point a negative number of times, as in a lobe that is inside out. Exact.
 bool is_tangled(const TriangleMesh& mesh, const Progress& progress = {});
 
@@ -46,7 +49,7 @@ struct PartCover {
 ///
 /// A triangle that equals one of the pieces' triangles is covered, and so is one in a single curved piece. Of all
 /// others, verify_cover decides: curved pieces are replaced by meshes within them to prove that a triangle is covered,
-/// and by meshes around them to prove that it is not.
+/// and by meshes around them to prove that it is not. Of unions of balls alone, verify_union decides.
 PartCover cover(const Part& part, const Pieces& pieces, const Progress& progress = {});
 
 }  // namespace prohull::robot

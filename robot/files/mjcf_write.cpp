@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <set>
 
@@ -28,22 +27,6 @@ constexpr std::array<std::string_view, 7> kPoseAttributes{"fromto", "pos",   "qu
 
 bool is_shape_attribute(std::string_view name) {
   return std::ranges::find(kShapeAttributes, name) != kShapeAttributes.end();
-}
-
-/// The unit quaternion w, x, y, z of a rotation, by the largest of the four.
-std::array<double, 4> quaternion_of(const Pose& pose) {
-  const auto& r = pose.rotation;
-  const std::array<double, 4> squares{1 + r[0].x + r[1].y + r[2].z, 1 + r[0].x - r[1].y - r[2].z,
-                                      1 - r[0].x + r[1].y - r[2].z, 1 - r[0].x - r[1].y + r[2].z};
-  const auto largest = static_cast<std::size_t>(std::ranges::max_element(squares) - squares.begin());
-  const double yz = r[2].y - r[1].z, zx = r[0].z - r[2].x, xy = r[1].x - r[0].y;  // 4 w times x, y, z
-  const double x_y = r[1].x + r[0].y, x_z = r[0].z + r[2].x, y_z = r[2].y + r[1].z;
-  const std::array<std::array<double, 4>, 4> rows{
-      {{squares[0], yz, zx, xy}, {yz, squares[1], x_y, x_z}, {zx, x_y, squares[2], y_z}, {xy, x_z, y_z, squares[3]}}};
-  std::array<double, 4> q = rows[largest];
-  const double length = 2 * std::sqrt(squares[largest]);
-  for (double& part : q) part /= length;
-  return q;
 }
 
 /// The pose as pos and quat, where they are not those of a geom that says nothing.
@@ -93,11 +76,12 @@ class MjcfWriter {
         return std::ranges::any_of(collision.kept, [&](std::size_t i) { return from.at(i).element == geom.element; });
       });
     const MjcfElement* const model_geom = old.empty() ? nullptr : &old[0];
-    std::vector<NewGeom> added;
-    if (!collision.hull.empty()) added.push_back(hull_geom(collision, body, from, model_geom));
+    std::vector<NewGeom> added = new_geoms(collision, body, from, model_geom);
+    const std::size_t stand_ins = added.size();
     if (!keeps_places)
       for (const std::size_t kept : collision.kept) added.push_back(kept_geom(from.at(kept), body, model_geom));
-    take_names(added, old, body);
+    if (model_geom && !body.visual_collides) share_mass(added, stand_ins, *model_geom);
+    take_names(added, std::max<std::size_t>(stand_ins, 1), old, body);
     if (body.visual_collides)
       show_only(old, added);
     else
@@ -114,16 +98,33 @@ class MjcfWriter {
     std::string name;
   };
 
-  NewGeom hull_geom(const NewCollision& collision, const MjcfBody& body, const std::vector<MjcfElement>& from,
-                    const MjcfElement* like) {
+  std::vector<NewGeom> new_geoms(const NewCollision& collision, const MjcfBody& body,
+                                 const std::vector<MjcfElement>& from, const MjcfElement* like) {
+    std::vector<NewGeom> geoms;
+    for (const std::string& hull : collision.hulls) geoms.push_back(hull_geom(hull, collision, body, from, like));
+    for (const Ball& ball : collision.balls) geoms.push_back(ball_geom(ball, body, like));
+    return geoms;
+  }
+
+  NewGeom hull_geom(const std::string& hull, const NewCollision& collision, const MjcfBody& body,
+                    const std::vector<MjcfElement>& from, const MjcfElement* like) {
     NewGeom geom{nullptr, body.element, body.child_class, {}, ""};
-    std::vector<Attribute> shape{{"type", "mesh"}, {"mesh", add_mesh(collision, body)}};
+    std::vector<Attribute> shape{{"type", "mesh"}, {"mesh", add_mesh(hull, body)}};
     if (collision.same_origin_as) {
       const MjcfElement& same = from.at(*collision.same_origin_as);
       geom.beside = same.element, geom.home = same.home;
       const auto& known = shapes(file_.robot.links.at(collision.link), collision.from);
       append(shape, pose_attributes(same, known.at(*collision.same_origin_as).origin));
     }
+    geom.attributes = with_shape(like, geom, std::move(shape), body);
+    return geom;
+  }
+
+  NewGeom ball_geom(const Ball& ball, const MjcfBody& body, const MjcfElement* like) {
+    refuse_fromto();
+    NewGeom geom{nullptr, body.element, body.child_class, {}, ""};
+    std::vector<Attribute> shape{{"type", "sphere"}, {"size", fmt::format("{}", ball.radius)}};
+    append(shape, attributes_of(Pose{.translation = ball.center}));
     geom.attributes = with_shape(like, geom, std::move(shape), body);
     return geom;
   }
@@ -213,16 +214,31 @@ class MjcfWriter {
     return home == body.element ? body.child_class : "";
   }
 
-  /// What names a geom that the hull stands for names the hull, which takes the name of the first one if it has any.
-  void take_names(std::vector<NewGeom>& added, const std::vector<MjcfElement>& old, const MjcfBody& body) {
+  /// Several geoms in place of one weigh as much as it: the first `count` have equal parts of a mass that it says.
+  void share_mass(std::vector<NewGeom>& geoms, std::size_t count, const MjcfElement& old) const {
+    if (count < 2 || !model_.value(old, "mass")) return;
+    const double part = mjcf_numbers(model_, old, "mass", 1, 1)[0] / static_cast<double>(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::erase_if(geoms[i].attributes, [](const Attribute& it) { return it.first == "mass"; });
+      geoms[i].attributes.emplace_back("mass", fmt::format("{}", part));
+    }
+  }
+
+  /// What names a geom that the first `count` new ones stand for names these. The first one takes the name of the first
+  /// old one if that has any.
+  void take_names(std::vector<NewGeom>& added, std::size_t count, const std::vector<MjcfElement>& old,
+                  const MjcfBody& body) {
     if (added.empty() || old.empty()) return;
     const std::string* const first = old[0].element->attribute("name");
     if (first) added[0].name = *first;
     for (const MjcfElement& geom : old) {
       const std::string* const name = geom.element->attribute("name");
       if (!name) continue;
-      if (added[0].name.empty()) added[0].name = unique(body.name + "_hull", geom_names_);
-      renamed_[*name] = added[0].name;
+      std::vector<std::string>& stand_ins = stand_ins_[*name];
+      for (std::size_t i = 0; i < count; ++i) {
+        if (added[i].name.empty()) added[i].name = unique(body.name + "_hull", geom_names_);
+        stand_ins.push_back(added[i].name);
+      }
     }
   }
 
@@ -244,14 +260,21 @@ class MjcfWriter {
     edits_.push_back({{end, end}, fmt::format(" {}=\"{}\"", key, value)});
   }
 
-  /// Removes geoms. The first new one takes the place of the first old one in the same <body> or <frame>.
+  /// Removes geoms. The first new one takes the place of the first old one in the same <body> or <frame>, with all that
+  /// stand beside it.
   void remove(const std::vector<MjcfElement>& old, std::vector<NewGeom>& added) {
     bool is_placed = added.empty();
     for (const MjcfElement& geom : old)
       if (!is_placed && added[0].home == geom.home) {
-        edits_.push_back({geom.element->whole, text_of(added[0])});
+        const auto others = std::find_if(added.begin(), added.end(), [&](const NewGeom& other) {
+          return other.home != added[0].home || other.beside != added[0].beside;
+        });
+        std::string text = text_of(added[0]);
+        for (auto other = added.begin() + 1; other != others; ++other)
+          text += line_end_ + std::string(document_.indentation(*geom.element)) + text_of(*other);
+        edits_.push_back({geom.element->whole, text});
         is_placed = true;
-        added.erase(added.begin());
+        added.erase(added.begin(), others);
       } else {
         edits_.push_back({lines_of(document_, *geom.element), ""});
       }
@@ -297,34 +320,63 @@ class MjcfWriter {
     for (const std::string_view key : {"geom", "geom1", "geom2", "objname"}) {
       const std::string* const name = element.attribute(key);
       if (!name || (key == "objname" && (!type || *type != "geom"))) continue;
-      const auto found = renamed_.find(*name);
-      if (found != renamed_.end() && found->second != *name)
-        edits_.push_back({value_span(document_, element, key), xml_escaped(found->second)});
+      if (const std::string now = stand_ins(*name).front(); now != *name)
+        edits_.push_back({value_span(document_, element, key), xml_escaped(now)});
     }
+    if (element.name == "pair") repeat_pair(element);
     for (const XmlElement* child : element.children) rename_references(*child);
+  }
+
+  /// The geoms that a name stands for now.
+  std::vector<std::string> stand_ins(const std::string& name) const {
+    const auto found = stand_ins_.find(name);
+    return found == stand_ins_.end() ? std::vector{name} : found->second;
+  }
+
+  /// A pair of geoms that may touch, for all but the first that stand for them.
+  void repeat_pair(const XmlElement& pair) {
+    const std::string *const first = pair.attribute("geom1"), *const second = pair.attribute("geom2");
+    if (!first || !second) return;
+    std::string text;
+    for (const std::string& a : stand_ins(*first))
+      for (const std::string& b : stand_ins(*second))
+        if (a != stand_ins(*first).front() || b != stand_ins(*second).front())
+          text += line_end_ + std::string(document_.indentation(pair)) + text_of_pair(pair, a, b);
+    if (!text.empty()) edits_.push_back({{pair.whole.end, pair.whole.end}, text});
+  }
+
+  static std::string text_of_pair(const XmlElement& pair, const std::string& geom1, const std::string& geom2) {
+    std::string text = fmt::format("<pair geom1=\"{}\" geom2=\"{}\"", xml_escaped(geom1), xml_escaped(geom2));
+    for (const auto& [key, value] : pair.attributes)
+      if (key != "geom1" && key != "geom2" && key != "name") text += fmt::format(" {}=\"{}\"", key, xml_escaped(value));
+    return text + "/>";
   }
 
   // Assets
 
-  std::string add_mesh(const NewCollision& collision, const MjcfBody& body) {
-    const std::string extension = fs::path(collision.hull).extension().string();
+  std::string add_mesh(const std::string& hull, const MjcfBody& body) {
+    const std::string extension = fs::path(hull).extension().string();
     if (extension != ".stl" && extension != ".obj")
       throw InputError(Defect::InvalidOption, fmt::format("{}: MuJoCo reads no {} files; write the hulls as stl or obj",
                                                           document_.file(), extension));
-    if (collision.hull.find("://") != std::string::npos)
+    if (hull.find("://") != std::string::npos)
       throw InputError(Defect::InvalidOption,
-                       fmt::format("{}: MuJoCo reads paths, but no URIs such as {}", document_.file(), collision.hull));
-    if (model_.defaults(model_.main_class(), "geom").contains("fromto"))
-      throw InputError(Defect::Malformed, fmt::format("{}: the main <default> sets fromto for all geoms, which no mesh "
-                                                      "can have",
-                                                      document_.file()));
+                       fmt::format("{}: MuJoCo reads paths, but no URIs such as {}", document_.file(), hull));
+    refuse_fromto();
     std::string name = unique(body.name + "_hull", mesh_names_);
-    const fs::path file = fs::absolute(folder_ / collision.hull).lexically_normal();
+    const fs::path file = fs::absolute(folder_ / hull).lexically_normal();
     const fs::path from = (folder_ / model_.compiler().mesh_folder).lexically_normal();
     const fs::path relative = file.lexically_relative(from);
     assets_.push_back(fmt::format("<mesh name=\"{}\" file=\"{}\"{}/>", xml_escaped(name),
                                   xml_escaped((relative.empty() ? file : relative).generic_string()), plain_mesh()));
     return name;
+  }
+
+  void refuse_fromto() const {
+    if (model_.defaults(model_.main_class(), "geom").contains("fromto"))
+      throw InputError(Defect::Malformed, fmt::format("{}: the main <default> sets fromto for all geoms, which no mesh "
+                                                      "or sphere can have",
+                                                      document_.file()));
   }
 
   /// What default classes say about meshes must not change a hull.
@@ -405,7 +457,7 @@ class MjcfWriter {
   const MjcfModel model_;
   const std::string line_end_;
   std::set<std::string> mesh_names_, geom_names_;
-  std::map<std::string, std::string> renamed_;  // geoms that a hull stands for: its name
+  std::map<std::string, std::vector<std::string>> stand_ins_;  // the geoms that stand for those of a name
   std::vector<std::string> assets_;
   std::vector<XmlEdit> inserted_, edits_;
 };

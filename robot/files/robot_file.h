@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "prohull/names.h"
+#include "prohull/shapes.h"
 #include "robot/model.h"
 
 namespace prohull::robot {
@@ -48,9 +49,12 @@ RobotFile read_robot(std::string text, const std::filesystem::path& path, const 
 struct NewCollision {
   std::size_t link = 0;              ///< in Robot::links
   Geometry from = Geometry::Visual;  ///< which shapes of the link `same_origin_as` and `kept` count
-  std::string hull;                  ///< URI of the hull's mesh file, for the format of the robot; empty: no hull
-  std::optional<std::size_t> same_origin_as;  ///< the shape whose origin the hull has; none: it is in the link's frame
-  std::vector<std::size_t> kept;              ///< shapes that become collision elements as they are
+  /// URIs of mesh files, for the format of the robot: of the hull, or of each convex piece.
+  std::vector<std::string> hulls = {};
+  /// The shape whose origin the hulls have; none: they are in the frame of the link.
+  std::optional<std::size_t> same_origin_as = {};
+  std::vector<Ball> balls = {};        ///< in the frame of the link
+  std::vector<std::size_t> kept = {};  ///< shapes that become collision elements as they are
 };
 
 /// The text with new collision elements; `collisions` names no link twice. Every byte outside of the collision elements

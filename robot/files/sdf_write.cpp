@@ -57,9 +57,8 @@ class SdfWriter {
       if (is_shape(*child, collision.from)) from.push_back(child);
       if (child->name == "collision") old.push_back(child);
     }
-    std::vector<Piece> pieces;
     const std::string indent = indent_of(link, old.empty() ? nullptr : old[0]);
-    if (!collision.hull.empty()) pieces.push_back(hull_piece(collision, from, link, indent));
+    std::vector<Piece> pieces = new_pieces(collision, from, link, indent);
     for (const std::size_t kept : collision.kept)
       if (collision.from == Geometry::Collision)
         std::erase(old, from.at(kept));  // it stays where it is
@@ -93,13 +92,20 @@ class SdfWriter {
     return pose ? std::string(document_[pose->whole]) : "";
   }
 
-  Piece hull_piece(const NewCollision& collision, const std::vector<const XmlElement*>& from, const XmlElement& link,
-                   const std::string& indent) const {
+  std::vector<Piece> new_pieces(const NewCollision& collision, const std::vector<const XmlElement*>& from,
+                                const XmlElement& link, const std::string& indent) const {
     const std::string end = line_end_, one = step(link, indent);
     const std::string in1 = end + indent + one, in2 = in1 + one, in3 = in2 + one;
-    return {collision.same_origin_as ? pose_of(*from.at(*collision.same_origin_as)) : "",
-            fmt::format("<geometry>{}<mesh>{}<uri>{}</uri>{}</mesh>{}</geometry>", in2, in3,
-                        xml_escaped(collision.hull), in2, in1)};
+    const std::string pose = collision.same_origin_as ? pose_of(*from.at(*collision.same_origin_as)) : "";
+    std::vector<Piece> pieces;
+    for (const std::string& hull : collision.hulls)
+      pieces.push_back({pose, fmt::format("<geometry>{}<mesh>{}<uri>{}</uri>{}</mesh>{}</geometry>", in2, in3,
+                                          xml_escaped(hull), in2, in1)});
+    for (const auto& [center, radius] : collision.balls)
+      pieces.push_back({fmt::format("<pose>{} {} {} 0 0 0</pose>", center.x, center.y, center.z),
+                        fmt::format("<geometry>{}<sphere>{}<radius>{}</radius>{}</sphere>{}</geometry>", in2, in3,
+                                    radius, in2, in1)});
+    return pieces;
   }
 
   Piece kept_piece(const XmlElement& shape) const {

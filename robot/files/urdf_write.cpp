@@ -52,16 +52,13 @@ class UrdfWriter {
   void replace(const NewCollision& collision) {
     const Elements old = links_[collision.link]->children_called("collision");
     if (collision.from == Geometry::Collision) return replace_among(collision, old);
-    std::vector<Piece> pieces;
-    if (!collision.hull.empty()) pieces.push_back(hull_piece(collision));
+    std::vector<Piece> pieces = new_pieces(collision);
     for (const std::size_t shape : collision.kept) pieces.push_back(copied(collision.link, collision.from, shape));
     write_pieces(collision.link, pieces, old);
   }
 
-  /// Kept collision elements stay where they are; the hull takes the place of the first other one.
+  /// Kept collision elements stay where they are; the first new one takes the place of the first other one.
   void replace_among(const NewCollision& collision, const Elements& old) {
-    std::vector<Piece> pieces;
-    if (!collision.hull.empty()) pieces.push_back(hull_piece(collision));
     Elements others;
     for (std::size_t i = 0; i < old.size(); ++i) {
       if (std::ranges::find(collision.kept, i) == collision.kept.end())
@@ -69,17 +66,22 @@ class UrdfWriter {
       else
         relocate(robot_.links[collision.link].collision[i], *old[i]);
     }
-    write_pieces(collision.link, pieces, others);
+    write_pieces(collision.link, new_pieces(collision), others);
   }
 
   // What is to be written
 
-  Piece hull_piece(const NewCollision& collision) const {
-    Piece piece;
-    piece.form = fmt::format("<mesh filename=\"{}\"/>", xml_escaped(collision.hull));
+  std::vector<Piece> new_pieces(const NewCollision& collision) const {
+    std::vector<Piece> pieces;
+    std::string origin;
     if (collision.same_origin_as)
-      piece.origin = origin_of(*element_of(collision.link, collision.from, *collision.same_origin_as));
-    return piece;
+      origin = origin_of(*element_of(collision.link, collision.from, *collision.same_origin_as));
+    for (const std::string& hull : collision.hulls)
+      pieces.push_back({origin, fmt::format("<mesh filename=\"{}\"/>", xml_escaped(hull)), ""});
+    for (const auto& [center, radius] : collision.balls)
+      pieces.push_back({fmt::format("<origin xyz=\"{} {} {}\"/>", center.x, center.y, center.z),
+                        fmt::format("<sphere radius=\"{}\"/>", radius), ""});
+    return pieces;
   }
 
   Piece copied(std::size_t link, Geometry from, std::size_t shape) const {

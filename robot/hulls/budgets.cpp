@@ -53,8 +53,12 @@ class BudgetReader {
   }
 
   void read_budget(const YAML::Node& node, Budget& budget) const {
-    require_keys(node, {"faces", "max_distance", "padding", "skip"});
+    require_keys(node, {"collision", "faces", "pieces", "vertices", "spheres", "max_distance", "padding", "skip"});
+    if (node["collision"]) budget.collision = collision(node["collision"]);
     if (node["faces"]) budget.faces = faces(node["faces"]);
+    if (node["pieces"]) budget.pieces = count(node["pieces"], 1, "pieces");
+    if (node["vertices"]) budget.vertices = count(node["vertices"], 4, "vertices");
+    if (node["spheres"]) budget.spheres = count(node["spheres"], 1, "spheres");
     if (node["max_distance"]) budget.max_distance = length(node["max_distance"], "max_distance");
     if (node["padding"]) budget.padding = length(node["padding"], "padding");
     if (node["skip"]) budget.skip = value<bool>(node["skip"], "true or false");
@@ -78,19 +82,27 @@ class BudgetReader {
     }
   }
 
-  std::size_t face_count(const YAML::Node& node) const {
-    const auto count = value<long long>(node, "a number of faces");
-    if (count < 4 || count > 1'000'000'000) refuse(node, fmt::format("'{}': expected at least 4 faces", count));
-    return static_cast<std::size_t>(count);
+  Collision collision(const YAML::Node& node) const {
+    const auto said = value<std::string>(node, "hull, convex or spheres");
+    for (const auto& [name, kind] : collision_names())
+      if (name == said) return kind;
+    refuse(node, fmt::format("'{}': expected hull, convex or spheres", said));
+  }
+
+  std::size_t count(const YAML::Node& node, long long least, std::string_view of) const {
+    const std::string expected = fmt::format("at least {} {}", least, of);
+    const auto said = value<long long>(node, expected.c_str());
+    if (said < least || said > 1'000'000'000) refuse(node, fmt::format("'{}': expected {}", said, expected));
+    return static_cast<std::size_t>(said);
   }
 
   /// One number for each set of hulls. Every set has a hull of each link.
   std::vector<std::size_t> faces(const YAML::Node& node) const {
     std::vector<std::size_t> counts;
     if (node.IsSequence())
-      for (const YAML::Node& count : node) counts.push_back(face_count(count));
+      for (const YAML::Node& each : node) counts.push_back(count(each, 4, "faces"));
     else
-      counts.push_back(face_count(node));
+      counts.push_back(count(node, 4, "faces"));
     if (counts.size() != options_.budget.faces.size())
       refuse(node, fmt::format("{} numbers of faces, but {} sets of hulls are asked for", counts.size(),
                                options_.budget.faces.size()));
@@ -104,12 +116,29 @@ class BudgetReader {
 
 std::string in_millimetres(double length) { return fmt::format("{:.6g}mm", length * 1000); }
 
-/// "{faces: [500], padding: 5mm}"
-std::string text_of(const Budget& budget) {
-  std::string text = fmt::format("{{faces: [{}]", fmt::join(budget.faces, ", "));
-  if (budget.max_distance > 0) text += ", max_distance: " + in_millimetres(budget.max_distance);
-  if (budget.padding > 0) text += ", padding: " + in_millimetres(budget.padding);
-  if (budget.skip) text += ", skip: true";
+/// "faces: [500]", or "pieces: 8, vertices: 64"
+std::string size_of(const Budget& budget) {
+  switch (budget.collision) {
+    case Collision::Hull:
+      break;
+    case Collision::Convex:
+      return fmt::format("pieces: {}, vertices: {}", budget.pieces, budget.vertices);
+    case Collision::Spheres:
+      return fmt::format("spheres: {}", budget.spheres);
+  }
+  return fmt::format("faces: [{}]", fmt::join(budget.faces, ", "));
+}
+
+/// "{faces: [500], padding: 5mm}": what counts, and is not so anyhow.
+std::string text_of(const Budget& budget, const Budget& anyhow) {
+  std::string text("{");
+  if (budget.collision != anyhow.collision)
+    text += fmt::format("collision: {}, ", prohull::name_of(collision_names(), budget.collision));
+  text += size_of(budget);
+  if (budget.max_distance > 0 || anyhow.max_distance > 0)
+    text += ", max_distance: " + in_millimetres(budget.max_distance);
+  if (budget.padding > 0 || anyhow.padding > 0) text += ", padding: " + in_millimetres(budget.padding);
+  if (budget.skip || anyhow.skip) text += fmt::format(", skip: {}", budget.skip);
   return text + "}";
 }
 
@@ -133,11 +162,12 @@ void read_budgets(std::string_view text, const std::string& name, const Robot& r
 std::string budgets_text(const Robot& robot, const LinkHullOptions& options) {
   std::string text =
       "# Budgets of hulls. Of each link: faces, max_distance, padding (lengths with a unit: mm, cm, m, in), and\n"
-      "# skip: true to leave its collision elements as they are. What is left out is as under default.\n";
-  text += fmt::format("default: {}\nlinks:\n", text_of(options.budget));
+      "# skip: true to leave its collision elements as they are. What is left out is as under default.\n"
+      "# collision: convex takes pieces and vertices, collision: spheres takes spheres, in place of faces.\n";
+  text += fmt::format("default: {}\nlinks:\n", text_of(options.budget, {}));
   for (const Link& link : robot.links) {
     if (shapes(link, options.from).empty() && !options.budgets.contains(link.name)) continue;
-    text += fmt::format("  {}: {}\n", quoted(link.name), text_of(options.budget_of(link.name)));
+    text += fmt::format("  {}: {}\n", quoted(link.name), text_of(options.budget_of(link.name), options.budget));
   }
   return text;
 }

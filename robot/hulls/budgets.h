@@ -13,6 +13,7 @@ namespace prohull::robot {
 ///     default: {faces: [500], padding: 2mm}
 ///     links:
 ///       forearm_link: {faces: 800, max_distance: 1.5mm}
+///       hand_link: {collision: convex, pieces: 12, vertices: 32}
 ///       tool0: {skip: true}
 ///
 /// What a link does not say is as `options.budget` has it after "default" was read. Lengths are numbers in metres, or

@@ -39,9 +39,16 @@ TriangleMesh mesh_of(const json& mesh) {
   return result;
 }
 
+/// The mesh of pieces and balls is made of them.
 json json_of(const LinkHull& hull) {
+  json pieces = json::array(), balls = json::array();
+  for (const TriangleMesh& piece : hull.pieces) pieces.push_back(json_of(piece));
+  for (const Ball& ball : hull.balls) balls.push_back({json_of(ball.center), ball.radius});
+  const bool is_cover = !pieces.empty() || !balls.empty();
   return {{"target_faces", hull.target_faces},
-          {"mesh", json_of(hull.mesh)},
+          {"mesh", is_cover ? json() : json_of(hull.mesh)},
+          {"pieces", pieces},
+          {"balls", balls},
           {"certified", hull.certified},
           {"proof", hull.proof},
           {"target_reached", hull.target_reached},
@@ -57,7 +64,10 @@ json json_of(const LinkHull& hull) {
 LinkHull hull_of(const json& hull) {
   LinkHull result;
   hull.at("target_faces").get_to(result.target_faces);
-  result.mesh = mesh_of(hull.at("mesh"));
+  for (const json& piece : hull.at("pieces")) result.pieces.push_back(mesh_of(piece));
+  for (const json& ball : hull.at("balls")) result.balls.push_back({point_of(ball.at(0)), ball.at(1)});
+  const json& mesh = hull.at("mesh");
+  result.mesh = mesh.is_null() ? robot::mesh_of(result.pieces, result.balls) : mesh_of(mesh);
   hull.at("certified").get_to(result.certified);
   hull.at("proof").get_to(result.proof);
   hull.at("target_reached").get_to(result.target_reached);
@@ -185,6 +195,7 @@ const std::string& program_fingerprint() {
 std::string key_of(const Link& link, const Budget& budget, const LinkHullOptions& options) {
   Fingerprint key;
   key.add(program_fingerprint());
+  key.add(std::size_t(budget.collision)), key.add(budget.pieces), key.add(budget.vertices), key.add(budget.spheres);
   for (const std::size_t faces : budget.faces) key.add(faces);
   key.add(budget.max_distance), key.add(budget.padding);
   key.add(std::size_t(options.tight)), key.add(options.format);

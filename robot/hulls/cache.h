@@ -43,8 +43,8 @@ class HullCache {
   /// An empty path: nothing is kept.
   explicit HullCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// What keep() has kept under the key, if the file is whole. Without LinkHulls::link, frame, triangles and
-  /// primitives, which the caller knows.
+  /// What keep() has kept under the key, if the file is whole. Without LinkHulls::link, collision, frame,
+  /// triangles and primitives, which the caller knows.
   std::optional<LinkHulls> find(std::string_view key) const;
   /// If it cannot be written, the next run is slower, and nothing else. Hulls that were not found for 90 days are
   /// removed, and what earlier runs have left unfinished.

@@ -8,10 +8,13 @@
 #include <system_error>
 #include <utility>
 
+#include "prohull/convex_cover.h"
 #include "prohull/convex_hull.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
+#include "prohull/sphere_cover.h"
+#include "robot/curved_form.h"
 #include "robot/hulls/cache.h"
 #include "robot/side_by_side.h"
 
@@ -34,16 +37,21 @@ void require_links(const Robot& robot, const LinkHullOptions& options) {
                        fmt::format("a budget is for the link '{}', which {} does not have", name, robot.name));
 }
 
-/// Padded hulls enclose primitives too, which would not be padded themselves.
-bool is_hulled(const Shape& shape, const Budget& budget) {
-  return shape.mesh() || (budget.padding > 0 && !std::holds_alternative<OtherForm>(shape.form));
+[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
+
+void require_hull(const Link& link, const Budget& budget) {
+  if (budget.collision == Collision::Hull) return;
+  const std::string where =
+      fmt::format("link {}: collision '{}'", link.name, prohull::name_of(collision_names(), budget.collision));
+  if (budget.padding > 0) refuse(where + " takes no padding; use hulls, or let the planner add it");
+  if (budget.faces.size() > 1) refuse(where + " comes in one set; say one number of faces, or use hulls");
 }
 
 Plan plan_of(const Robot& robot, std::size_t link, const LinkHullOptions& options, LinkHulls& result) {
   Plan plan{.link = link, .budget = options.budget_of(robot.links[link].name)};
   const std::vector<Shape>& all = shapes(robot.links[link], options.from);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (is_hulled(all[i], plan.budget)) {
+    if (is_covered(all[i], plan.budget)) {
       plan.hulled.push_back(all[i]), plan.numbers.push_back(i);
       std::error_code unknown;
       if (const MeshFile* const mesh = all[i].mesh()) plan.bytes += std::filesystem::file_size(mesh->path, unknown);
@@ -52,7 +60,9 @@ Plan plan_of(const Robot& robot, std::size_t link, const LinkHullOptions& option
     }
   }
   result.link = link;
-  result.frame = common_frame(plan.hulled);
+  result.collision = plan.budget.collision;
+  // Spheres have no use for a rotation: in the frame of the link nothing is rounded on their way into files.
+  if (plan.budget.collision != Collision::Spheres) result.frame = common_frame(plan.hulled);
   if (std::optional<std::size_t>& same = result.frame.same_origin_as) same = plan.numbers[*same];
   result.status = !plan.hulled.empty()        ? LinkStatus::Hulled
                   : result.primitives.empty() ? LinkStatus::Empty
@@ -77,6 +87,33 @@ void leave_as_it_is(LinkHulls& result, LinkStatus status, std::string why) {
   result.status = status;
   result.why = std::move(why);
   result.primitives.clear();
+}
+
+/// What ConvexCover and SphereCover have in common.
+template <class Cover>
+LinkHull measured(const Cover& cover) {
+  LinkHull result;
+  result.certified = cover.certified;
+  if (cover.certified) result.proof = "union";
+  result.target_reached = true, result.within_bounds = cover.within_bounds;
+  result.volume = cover.volume;
+  result.distance = cover.reach;
+  result.notes = cover.notes;
+  return result;
+}
+
+LinkHull link_hull(const ConvexCover& cover) {
+  LinkHull result = measured(cover);
+  for (const ConvexPiece& piece : cover.pieces) result.pieces.push_back(piece.mesh);
+  result.mesh = mesh_of(result.pieces, {});
+  return result;
+}
+
+LinkHull link_hull(const SphereCover& cover) {
+  LinkHull result = measured(cover);
+  result.balls = cover.balls;
+  result.mesh = mesh_of({}, result.balls);
+  return result;
 }
 
 LinkHull link_hull(const EnclosingHulls& made, const EnclosingHull& hull, const Progress& go_on) {
@@ -114,7 +151,7 @@ EnclosingOptions enclosing_options(const Budget& budget, const LinkHullOptions& 
   return enclosing;
 }
 
-void build(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
+void build_hulls(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
   const EnclosingOptions enclosing = enclosing_options(plan.budget, options, go_on);
   if (enclosing.hull.float32_coordinates) check_float32_spacing(result.triangles);
   const EnclosingHulls made = enclosing_hulls(result.triangles, plan.budget.faces, enclosing);
@@ -122,6 +159,44 @@ void build(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, 
   result.sealed_volume = made.volume;
   result.convex_volume = signed_volume(convex_hull(made.input.original));
   result.repairs = describe(made.input.repairs);
+}
+
+ConvexCover pieces_around(const TriangleMesh& triangles, const Budget& budget, const LinkHullOptions& options,
+                          const Progress& go_on) {
+  ConvexCoverOptions how{.max_pieces = budget.pieces, .max_vertices = budget.vertices};
+  if (budget.max_distance > 0) how.bounds.max_distance = budget.max_distance;
+  how.float32_coordinates = stores_float32(mesh_format("hull." + options.format));
+  how.threads = options.threads, how.progress = go_on;
+  if (how.float32_coordinates) check_float32_spacing(triangles);
+  return convex_cover(triangles, how);
+}
+
+SphereCover balls_around(const TriangleMesh& triangles, const Budget& budget, const LinkHullOptions& options,
+                         const Progress& go_on) {
+  SphereCoverOptions how{.max_balls = budget.spheres};
+  if (budget.max_distance > 0) how.max_distance = budget.max_distance;
+  how.threads = options.threads, how.progress = go_on;
+  return sphere_cover(triangles, how);
+}
+
+template <class Cover>
+void take_cover(const Cover& cover, LinkHulls& result) {
+  result.hulls.push_back(link_hull(cover));
+  result.sealed_volume = cover.original_volume;
+  const RepairedMesh input = prepared_for_hulls(result.triangles);
+  result.convex_volume = signed_volume(convex_hull(input.original));
+  result.repairs = describe(input.repairs);
+}
+
+void build(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
+  switch (plan.budget.collision) {
+    case Collision::Hull:
+      return build_hulls(plan, options, result, go_on);
+    case Collision::Convex:
+      return take_cover(pieces_around(result.triangles, plan.budget, options, go_on), result);
+    case Collision::Spheres:
+      return take_cover(balls_around(result.triangles, plan.budget, options, go_on), result);
+  }
 }
 
 void add_hulls(const Link& link, const Plan& plan, const LinkHullOptions& options, LinkHulls& result,
@@ -147,6 +222,22 @@ void add_hulls(const Link& link, const Plan& plan, const LinkHullOptions& option
 
 }  // namespace
 
+Names<Collision> collision_names() {
+  static constexpr std::pair<std::string_view, Collision> kNames[]{
+      {"hull", Collision::Hull}, {"convex", Collision::Convex}, {"spheres", Collision::Spheres}};
+  return kNames;
+}
+
+TriangleMesh mesh_of(std::span<const TriangleMesh> pieces, std::span<const Ball> balls) {
+  constexpr std::size_t kSegments = 24;  // the mesh is up to 1.8 % larger than the ball
+  TriangleMesh mesh;
+  for (const TriangleMesh& piece : pieces) append(mesh, piece);
+  for (const Ball& ball : balls)
+    append(mesh,
+           CurvedForm::of(SphereForm{ball.radius}, {.translation = ball.center})->mesh(Curved::Around, kSegments));
+  return mesh;
+}
+
 const Budget& LinkHullOptions::budget_of(const std::string& link) const {
   const auto own = budgets.find(link);
   return own == budgets.end() ? budget : own->second;
@@ -168,8 +259,36 @@ std::string_view name_of(LinkStatus status) {
   return "";
 }
 
-std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& options) {
+bool is_covered(const Shape& shape, const Budget& budget) {
+  if (shape.mesh()) return true;
+  if (std::holds_alternative<OtherForm>(shape.form)) return false;
+  return budget.padding > 0 ||
+         (budget.collision == Collision::Spheres && !std::holds_alternative<SphereForm>(shape.form));
+}
+
+std::string_view cover_words(std::span<const LinkHulls> links) {
+  const auto is_of = [&](Collision kind) {
+    return std::ranges::all_of(links,
+                               [&](const LinkHulls& link) { return link.hulls.empty() || link.collision == kind; });
+  };
+  if (is_of(Collision::Hull)) return "hulls";
+  if (is_of(Collision::Convex)) return "convex pieces";
+  return is_of(Collision::Spheres) ? "spheres" : "collision geometry";
+}
+
+void check_budgets(const Robot& robot, const LinkHullOptions& options) {
   require_links(robot, options);
+  bool has_hull = robot.links.empty();
+  for (const Link& link : robot.links) {
+    const Budget& budget = options.budget_of(link.name);
+    has_hull |= budget.collision == Collision::Hull;
+    if (!budget.skip) require_hull(link, budget);
+  }
+  if (options.tight && !has_hull) refuse("--tight is about hulls; no link has one");
+}
+
+std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& options) {
+  check_budgets(robot, options);
   std::vector<LinkHulls> results(robot.links.size());
   std::vector<Plan> plans;
   std::string missing;

@@ -12,6 +12,7 @@
 
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
+#include "robot/files/sphere_file.h"
 #include "robot/files/xml.h"
 
 namespace prohull::robot {
@@ -86,16 +87,12 @@ class RobotSet {
   void add(const LinkHulls& link) {
     NewCollision collision;
     collision.link = link.link, collision.from = options_.from, collision.kept = link.primitives;
-    if (link.status == LinkStatus::Hulled && link.hulls[set_].certified) {
-      const path mesh = path("meshes") / ("collision" + suffix_) /
-                        (names_.of(file_.robot.links[link.link].name) + "." + options_.format);
-      files_.push_back({mesh, [&hull = link.hulls[set_].mesh](const path& target) { write_mesh(target, hull); }});
-      collision.hull = options_.package.empty() ? mesh.generic_string()
-                                                : "package://" + options_.package + "/" + mesh.generic_string();
-      collision.same_origin_as = link.frame.same_origin_as;
-    } else if (link.status != LinkStatus::Primitives) {
+    if (link.status == LinkStatus::Hulled && link.hulls[set_].certified)
+      add_hull(link.hulls[set_], collision);
+    else if (link.status != LinkStatus::Primitives)
       return;
-    }
+    if (!collision.hulls.empty()) collision.same_origin_as = link.frame.same_origin_as;
+    if (link.collision == Collision::Spheres) add_balls(collision);
     collisions_.push_back(std::move(collision));
   }
 
@@ -103,10 +100,40 @@ class RobotSet {
     const path name = fmt::format("{}{}{}", robot_stem(file_), suffix_, extension());
     std::string text = with_collisions(file_, collisions_, folder);
     files_.push_back({name, [text = std::move(text)](const path& target) { write_text(target, text); }});
+    if (!balls_.empty())
+      files_.push_back({robot_stem(file_) + "_spheres.yaml",
+                        [text = sphere_file(balls_)](const path& target) { write_text(target, text); }});
     return std::move(files_);
   }
 
  private:
+  void add_hull(const LinkHull& hull, NewCollision& collision) {
+    const std::string name = names_.of(file_.robot.links[collision.link].name);
+    if (hull.pieces.empty() && hull.balls.empty()) collision.hulls.push_back(add_mesh(name, hull.mesh));
+    for (std::size_t i = 0; i < hull.pieces.size(); ++i)
+      collision.hulls.push_back(add_mesh(names_.of(fmt::format("{}_{:02}", name, i + 1)), hull.pieces[i]));
+    collision.balls = hull.balls;
+  }
+
+  /// Returns its URI.
+  std::string add_mesh(const std::string& name, const TriangleMesh& mesh) {
+    const path file = path("meshes") / ("collision" + suffix_) / (name + "." + options_.format);
+    files_.push_back({file, [&mesh](const path& target) { write_mesh(target, mesh); }});
+    return options_.package.empty() ? file.generic_string()
+                                    : "package://" + options_.package + "/" + file.generic_string();
+  }
+
+  /// Those of the cover, and spheres that are kept.
+  void add_balls(const NewCollision& collision) {
+    const Link& link = file_.robot.links[collision.link];
+    LinkBalls all{link.name, collision.balls};
+    for (const std::size_t kept : collision.kept) {
+      const Shape& shape = shapes(link, options_.from)[kept];
+      all.balls.push_back({shape.origin.translation, std::get<SphereForm>(shape.form).radius});
+    }
+    balls_.push_back(std::move(all));
+  }
+
   std::string extension() const {
     const std::string own = file_.path.extension().string();
     return own.empty() || own == ".xacro" ? fmt::format(".{}", prohull::name_of(robot_format_names(), file_.format))
@@ -119,6 +146,7 @@ class RobotSet {
   const std::string suffix_;
   FileNames names_;
   std::vector<NewCollision> collisions_;
+  std::vector<LinkBalls> balls_;
   std::vector<OutputFile> files_;
 };
 

@@ -35,7 +35,9 @@ void check_options(const RobotFile& file, const WriteOptions& options);
 
 /// The files of a robot whose collision elements name the hulls. With the first number of faces the robot has the name
 /// of its file, and its hulls are meshes/collision/LINK.stl; with each other number it has _FACES after its name, and
-/// its hulls are meshes/collision_FACES/LINK.stl. `folder` is where the files are going to be.
+/// its hulls are meshes/collision_FACES/LINK.stl. `folder` is where the files are going to be. Convex pieces are
+/// meshes/collision/LINK_01.stl and so on. The spheres of all links that have them are in ROBOT_spheres.yaml, too, as
+/// cuRobo reads them.
 ///
 /// A link keeps its collision elements if it was skipped, has no geometry, or has no certified hull.
 /// Throws as check_options. `links` must outlive the result.

@@ -27,13 +27,15 @@ Json distance(const DistanceBounds& bounds) {
 }
 
 Json facts_of(const LinkHull& hull, const LinkHulls& link) {
-  return {{"target_faces", hull.target_faces},
-          {"faces", hull.mesh.face_count()},
+  return {{"target_faces", hull.target_faces > 0 ? Json(hull.target_faces) : Json()},
+          {"faces", hull.balls.empty() ? Json(hull.mesh.face_count()) : Json()},
+          {"pieces", hull.pieces.empty() ? Json() : Json(hull.pieces.size())},
+          {"spheres", hull.balls.empty() ? Json() : Json(hull.balls.size())},
           {"certified", hull.certified},
           {"proof", hull.proof.empty() ? Json() : Json(hull.proof)},
           {"target_reached", hull.target_reached},
           {"within_bounds", hull.within_bounds},
-          {"source", hull.source},
+          {"source", hull.source.empty() ? Json() : Json(hull.source)},
           {"volume", number(hull.volume)},
           {"volume_ratio", number(ratio(hull.volume, link.sealed_volume))},
           {"convex_ratio", number(ratio(hull.volume, link.convex_volume))},
@@ -45,6 +47,7 @@ Json facts_of(const LinkHull& hull, const LinkHulls& link) {
 
 void add_hulls(const LinkHulls& link, Json& facts) {
   facts["status"] = name_of(link.status);
+  facts["collision"] = prohull::name_of(collision_names(), link.collision);
   facts["why"] = link.why.empty() ? Json() : Json(clean_text(link.why));
   facts["faces"] = link.triangles.face_count();
   facts["sealed_volume"] = number(link.sealed_volume);
@@ -129,6 +132,8 @@ Json facts_of(const Totals& totals) {
           {"empty", totals.empty},
           {"faces_before", totals.faces_before},
           {"faces_after", totals.faces_after},
+          {"pieces", totals.pieces},
+          {"spheres", totals.balls},
           {"median_volume_ratio", number(totals.volume_ratio)},
           {"median_convex_ratio", number(totals.convex_ratio)},
           {"checked", totals.checked},

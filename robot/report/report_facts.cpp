@@ -55,8 +55,10 @@ std::string number_in(const Unit& unit, double metres, Rounded rounded) {
   return fmt::format("{:.{}f}", rounded_to(value, decimals, rounded), decimals);
 }
 
+bool is_hull(const LinkHull& hull) { return hull.pieces.empty() && hull.balls.empty(); }
+
 std::string sentence_of_hull(const LinkHull& hull, std::string_view what) {
-  return fmt::format("The hull with {} {}", counted(hull.mesh.face_count(), "face"), what);
+  return fmt::format("The {} {} {}", is_hull(hull) ? "hull with" : "union of", size_text(hull), what);
 }
 
 void mark_hull(std::size_t link, const LinkHulls& link_hulls, const LinkHull& hull, std::vector<Mark>& marks) {
@@ -68,7 +70,7 @@ void mark_hull(std::size_t link, const LinkHulls& link_hulls, const LinkHull& hu
   if (!hull.target_reached)
     add(Severity::Look, fmt::format("has more faces than the {} asked for.", count_text(hull.target_faces)));
   if (!hull.within_bounds) add(Severity::Look, "does not keep the bound of the distance.");
-  if (const auto fat = ratio(hull.volume, link_hulls.sealed_volume); fat && *fat > kFat)
+  if (const auto fat = ratio(hull.volume, link_hulls.sealed_volume); is_hull(hull) && fat && *fat > kFat)
     add(Severity::Look, fmt::format("has {} the volume of the original.", ratio_text(fat)));
   if (hull.self_intersections > 0)
     add(Severity::Look,
@@ -88,19 +90,20 @@ void mark_motion(const ReportInput& input, std::size_t link, std::vector<Mark>& 
   for (const MotionPair& pair : input.motion->pairs)
     if (pair.missed > 0 && pair.a == link)
       marks.push_back({link, Severity::Failure,
-                       fmt::format("In {} its hull misses a collision with {}: a failed certificate.",
+                       fmt::format("In {} a collision with {} is missed: a failed certificate.",
                                    counted(pair.missed, "configuration"), clean_text(links[pair.b].name))});
 }
 
-std::string sum_up_hulls(const Totals& totals, std::string_view geometry) {
+std::string sum_up_hulls(const Totals& totals, std::string_view geometry, std::string_view covers) {
   const std::string hulled = counted(totals.hulled, "link");
   if (totals.certified < totals.hulled)
-    return fmt::format("{} of {} with hulls {} not certified.", totals.hulled - totals.certified, hulled,
+    return fmt::format("{} of {} with {} {} not certified.", totals.hulled - totals.certified, hulled, covers,
                        totals.hulled - totals.certified == 1 ? "is" : "are");
+  const std::string_view cover = covers == "hulls" ? "hull" : covers;
   if (totals.hulled == 1)
-    return fmt::format("The hull of the one link is certified: no point of its {} lies outside.", geometry);
-  return fmt::format("All {} {}are certified: no point of their {} lies outside of its hull.", hulled,
-                     totals.hulled == totals.links ? "" : "with hulls ", geometry);
+    return fmt::format("The one link is certified: no point of its {} lies outside of its {}.", geometry, cover);
+  return fmt::format("All {} {}are certified: no point of their {} lies outside of its {}.", hulled,
+                     totals.hulled == totals.links ? "" : fmt::format("with {} ", covers), geometry, cover);
 }
 
 Finding finding_of_checks(const Totals& totals) {
@@ -115,14 +118,15 @@ Finding finding_of_checks(const Totals& totals) {
   return {false, text + "."};
 }
 
-Finding finding_of_motion(const MotionResult& motion) {
+Finding finding_of_motion(const MotionResult& motion, std::string_view covers) {
   const std::string moved = counted(motion.configurations, "random configuration");
   if (motion.missed() > 0)
-    return {false, fmt::format("In {}, the hulls miss {} of the visual geometry: failed certificates.", moved,
-                               counted(motion.missed(), "collision"))};
-  return {true, fmt::format("In {}, the hulls miss no collision of the visual geometry. They report {}; the convex "
-                            "hulls report {}.",
-                            moved, counted(motion.false_hull(), "false collision"), count_text(motion.false_convex()))};
+    return {false, fmt::format("In {}, {} of the visual geometry {} missed: failed certificates.", moved,
+                               counted(motion.missed(), "collision"), motion.missed() == 1 ? "is" : "are")};
+  return {true, fmt::format(
+                    "In {}, no collision of the visual geometry is missed. With the {} there are {}, with convex "
+                    "hulls {}.",
+                    moved, covers, counted(motion.false_hull(), "false collision"), count_text(motion.false_convex()))};
 }
 
 void count_hulls(const LinkHulls& hulls, Totals& totals) {
@@ -134,7 +138,8 @@ void count_hulls(const LinkHulls& hulls, Totals& totals) {
   ++totals.hulled;
   totals.certified += is_certified(hulls);
   totals.faces_before += hulls.triangles.face_count();
-  totals.faces_after += first->mesh.face_count();
+  if (first->balls.empty()) totals.faces_after += first->mesh.face_count();
+  totals.pieces += first->pieces.size(), totals.balls += first->balls.size();
 }
 
 void count_check(const LinkCheck& check, double allow, Totals& totals) {
@@ -204,6 +209,12 @@ std::string count_text(std::size_t count) {
 std::string counted(std::size_t count, std::string_view one, std::string_view many) {
   if (count == 1) return fmt::format("1 {}", one);
   return many.empty() ? fmt::format("{} {}s", count_text(count), one) : fmt::format("{} {}", count_text(count), many);
+}
+
+std::string size_text(const LinkHull& hull) {
+  if (!hull.pieces.empty()) return counted(hull.pieces.size(), "convex piece");
+  if (!hull.balls.empty()) return counted(hull.balls.size(), "sphere");
+  return counted(hull.mesh.face_count(), "face");
 }
 
 std::string ratio_text(std::optional<double> ratio) { return ratio ? fmt::format("{:.2f} ×", *ratio) : "–"; }
@@ -292,10 +303,10 @@ std::vector<Finding> findings_of(const ReportInput& input) {
   const bool visual = input.from == Geometry::Visual;
   std::vector<Finding> findings;
   if (totals.hulled > 0)
-    findings.push_back(
-        {totals.certified == totals.hulled, sum_up_hulls(totals, visual ? "visual meshes" : "collision meshes")});
+    findings.push_back({totals.certified == totals.hulled,
+                        sum_up_hulls(totals, visual ? "visual meshes" : "collision meshes", cover_words(input.hulls))});
   if (totals.checked > 0) findings.push_back(finding_of_checks(totals));
-  if (input.motion) findings.push_back(finding_of_motion(*input.motion));
+  if (input.motion) findings.push_back(finding_of_motion(*input.motion, cover_words(input.hulls)));
   if (findings.empty()) findings.push_back({true, "No link has meshes: there was nothing to do."});
   return findings;
 }

@@ -27,6 +27,7 @@ std::string range_text(double at_least, double at_most);
 std::string count_text(std::size_t count);  ///< "12,345"
 /// "1 link", "12,345 links"; `many` if the plural is not made by an s.
 std::string counted(std::size_t count, std::string_view one, std::string_view many = {});
+std::string size_text(const LinkHull& hull);               ///< "500 faces", "8 convex pieces", "64 spheres"
 std::string ratio_text(std::optional<double> ratio);       ///< "1.06 ×", or "–"
 std::optional<double> ratio(double value, double of);      ///< none unless both are positive and finite
 std::optional<double> median(std::vector<double> values);  ///< none without values
@@ -58,6 +59,7 @@ std::vector<Mark> marks_of(const ReportInput& input);  ///< in the order of the 
 struct Totals {
   std::size_t links = 0, hulled = 0, certified = 0, primitives = 0, skipped = 0, empty = 0;
   std::size_t faces_before = 0, faces_after = 0;     ///< of the links that have hulls, and of their first hulls
+  std::size_t pieces = 0, balls = 0;                 ///< of the links that have these in place of hulls
   std::optional<double> volume_ratio, convex_ratio;  ///< medians: hull / sealed original, hull / convex hull
   std::size_t checked = 0, passed = 0;               ///< links with visual geometry, and those that pass the check
   std::optional<double> shipped_ratio;               ///< median: shipped collision geometry / sealed original

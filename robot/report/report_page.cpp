@@ -237,15 +237,27 @@ std::string false_collisions_tile(const MotionResult& motion) {
       fmt::format("false collisions: {}, where the convex hulls have {}", count_text(ours), count_text(convex)));
 }
 
+std::string size_tile(const Totals& totals) {
+  const std::string before = count_text(totals.faces_before);
+  if (totals.pieces + totals.balls == 0)
+    return tile(fmt::format("{} → {}", before, count_text(totals.faces_after)),
+                "faces of the geometry, and of its hulls");
+  if (totals.pieces * totals.balls > 0)
+    return tile(fmt::format("{} → {} + {}", before, count_text(totals.pieces), count_text(totals.balls)),
+                "faces of the geometry; convex pieces and spheres");
+  return tile(fmt::format("{} → {}", before, count_text(totals.pieces + totals.balls)),
+              fmt::format("faces of the geometry, and {} around it", totals.pieces > 0 ? "convex pieces" : "spheres"));
+}
+
 std::string tiles(const ReportInput& input) {
   const Totals totals = totals_of(input);
   std::string text;
   if (totals.hulled > 0) {
-    text += tile(fmt::format("{} of {}", totals.certified, totals.hulled), "links with hulls are certified");
-    text += tile(fmt::format("{} → {}", count_text(totals.faces_before), count_text(totals.faces_after)),
-                 "faces of the geometry, and of its hulls");
-    text += tile(ratio_text(totals.volume_ratio), "hull volume / original volume (median)");
-    text += tile(ratio_text(totals.convex_ratio), "hull volume / convex hull volume (median)");
+    text += tile(fmt::format("{} of {}", totals.certified, totals.hulled),
+                 fmt::format("links with {} are certified", cover_words(input.hulls)));
+    text += size_tile(totals);
+    text += tile(ratio_text(totals.volume_ratio), "volume / original volume (median)");
+    text += tile(ratio_text(totals.convex_ratio), "volume / convex hull volume (median)");
   }
   if (input.motion) text += false_collisions_tile(*input.motion);
   if (totals.checked > 0)
@@ -264,8 +276,9 @@ std::string chip(std::string_view color, std::string_view words) {
 
 std::string legend(const ReportInput& input) {
   const std::string geometry = chip(kGrey, input.from == Geometry::Visual ? "visual geometry" : "geometry");
-  return fmt::format("<span class=\"legend\">{}{}</span>", geometry,
-                     input.hulls.empty() ? chip(kOrange, "shipped collision geometry") : chip(kBlue, "hulls"));
+  return fmt::format(
+      "<span class=\"legend\">{}{}</span>", geometry,
+      input.hulls.empty() ? chip(kOrange, "shipped collision geometry") : chip(kBlue, cover_words(input.hulls)));
 }
 
 std::string overview(const ReportInput& input, const std::string& png) {
@@ -341,7 +354,7 @@ std::vector<Cell> hull_cells(const LinkHulls* hulls) {
   if (!hull) return {hulls ? words_for(hulls->status) : std::string(kDash), "", "", "", "", ""};
   return {is_certified(*hulls) ? Cell("✓ certified", "good") : Cell("✕ not certified", "bad"),
           count_text(hulls->triangles.face_count()),
-          count_text(hull->mesh.face_count()),
+          hulls->collision == Collision::Hull ? count_text(hull->mesh.face_count()) : size_text(*hull),
           ratio_text(ratio(hull->volume, hulls->sealed_volume)),
           ratio_text(ratio(hull->volume, hulls->convex_volume)),
           length_text(hull->distance.upper, Rounded::Up)};
@@ -353,9 +366,10 @@ void append_cells(std::vector<Cell>& cells, std::vector<Cell> more) {
 
 std::string links_table(const ReportInput& input) {
   std::vector<std::string> heads{"Link"};
+  const bool has_hulls = cover_words(input.hulls) == "hulls";
   if (!input.hulls.empty())
-    for (const char* head : {"Hull", "Faces before", "Faces after", "Volume&nbsp;/ original",
-                             "Volume&nbsp;/ convex&nbsp;hull", "Distance at&nbsp;most"})
+    for (const char* head : {has_hulls ? "Hull" : "Cover", "Faces before", has_hulls ? "Faces after" : "Covered by",
+                             "Volume&nbsp;/ original", "Volume&nbsp;/ convex&nbsp;hull", "Distance at&nbsp;most"})
       heads.emplace_back(head);
   if (!input.shipped.empty())
     for (const char* head : {"Shipped", "Sticks out by", "Shipped volume&nbsp;/ original"}) heads.emplace_back(head);
@@ -376,6 +390,7 @@ std::string built_from(const LinkHull& hull) {
   if (hull.source == "mesh") return "the repaired mesh";
   if (hull.source == "convex-hull") return "the convex hull";
   if (hull.source == "wrap") return "a wrap";
+  if (hull.source.empty()) return std::string(kDash);
   return html_escaped(hull.source);
 }
 
@@ -389,7 +404,9 @@ class FactsTable {
     std::vector<std::string> heads{""};
     if (hulls_)
       for (const LinkHull& hull : hulls_->hulls)
-        heads.push_back(hulls_->hulls.size() == 1 ? "Hull" : fmt::format("Hull of {}", count_text(hull.target_faces)));
+        heads.push_back(hulls_->collision != Collision::Hull ? "Cover"
+                        : hulls_->hulls.size() == 1          ? "Hull"
+                                                    : fmt::format("Hull of {}", count_text(hull.target_faces)));
     if (check_) heads.emplace_back("Shipped");
     return heads.size() == 1 ? "" : fmt::format("<div class=\"facts\">{}</div>\n", table("", heads, rows()));
   }
@@ -429,7 +446,13 @@ class FactsTable {
 
   std::string size_rows() const {
     std::string text = line(
-        "Faces", [](const LinkHull& hull) { return Cell(count_text(hull.mesh.face_count())); },
+        "Faces",
+        [&](const LinkHull& hull) {
+          return Cell(hulls_->collision == Collision::Hull ? count_text(hull.mesh.face_count())
+                      : hull.pieces.empty()
+                          ? size_text(hull)
+                          : fmt::format("{} in {}", count_text(hull.mesh.face_count()), size_text(hull)));
+        },
         [](const LinkCheck& c) {
           return Cell(c.pieces > 1 ? fmt::format("{} in {}", count_text(c.collision_faces), counted(c.pieces, "piece"))
                                    : count_text(c.collision_faces));
@@ -479,9 +502,11 @@ std::string pictures(const ReportInput& input, std::size_t link, const CardPictu
   std::string figures;
   for (std::size_t k = 0; k < drawn.hulls.size(); ++k) {
     const LinkHull& hull = hulls_of(input, link)->hulls[k];
-    const std::string faces = counted(hull.mesh.face_count(), "face");
-    figures += figure(drawn.hulls[k], fmt::format("{} inside of its translucent hull with {}", name, faces),
-                      chip(kBlue, fmt::format("Hull, {}", faces)), {});
+    const bool is_hull = hulls_of(input, link)->collision == Collision::Hull;
+    figures += figure(drawn.hulls[k],
+                      fmt::format("{} inside of {} {}", name, is_hull ? "its translucent hull with" : "its translucent",
+                                  size_text(hull)),
+                      chip(kBlue, fmt::format("{}{}", is_hull ? "Hull, " : "", size_text(hull))), {});
   }
   if (!drawn.shipped.empty()) {
     const LinkCheck& check = *check_of(input, link);
@@ -515,18 +540,19 @@ std::vector<std::string> notes_of(const LinkHulls* hulls, const LinkCheck* check
 }
 
 std::string facts_line(const LinkHulls& hulls) {
+  const std::string_view covers = cover_words({&hulls, 1});
   std::string text;
   if (first_hull(hulls))
     text = fmt::format("The geometry has {}. ", counted(hulls.triangles.face_count(), "face"));
   else if (hulls.status == LinkStatus::Primitives)
     text = "Its primitives become the collision elements. ";
   if (!hulls.hulls.empty() && !hulls.primitives.empty())
-    text += fmt::format("{} beside the hull. ",
-                        counted(hulls.primitives.size(), "primitive is kept", "primitives are kept"));
+    text += fmt::format("{} beside {}. ", counted(hulls.primitives.size(), "primitive is kept", "primitives are kept"),
+                        hulls.collision == Collision::Hull ? "the hull" : covers);
   if (hulls.from_cache)
-    text += "The hulls come from the cache.";
+    text += fmt::format("The {} come from the cache.", covers);
   else if (first_hull(hulls))
-    text += fmt::format("Its hulls took {:.1f} s.", hulls.seconds);
+    text += fmt::format("Its {} took {:.1f} s.", covers, hulls.seconds);
   return text.empty() ? "" : fmt::format("<p class=\"muted small\">{}</p>\n", text);
 }
 
@@ -580,14 +606,14 @@ std::string time_text(double microseconds) {
   return microseconds > 0 && std::isfinite(microseconds) ? fmt::format("{:.1f} µs", microseconds) : std::string(kDash);
 }
 
-std::string motion_summary(const MotionResult& m) {
+std::string motion_summary(const MotionResult& m, const std::string& head) {
   const std::string rows =
       row("Visual geometry", {count_text(m.visual_configurations), count_text(sum(m, &MotionPair::visual)),
                               std::string(kDash), std::string(kDash), time_text(m.visual_us)}) +
       row("Convex hulls", {count_text(m.convex_configurations), count_text(sum(m, &MotionPair::convex)),
                            count_text(m.false_convex()), std::string(kDash), std::string(kDash)}) +
-      row("Hulls", {count_text(m.hull_configurations), count_text(sum(m, &MotionPair::hull)),
-                    count_text(m.false_hull()), missed_cell(m.missed()), time_text(m.hull_us)});
+      row(head, {count_text(m.hull_configurations), count_text(sum(m, &MotionPair::hull)), count_text(m.false_hull()),
+                 missed_cell(m.missed()), time_text(m.hull_us)});
   return table("",
                {"Checked with", "Configurations in collision", "Pairs in collision", "False collisions",
                 "Missed collisions", "Time per check of a pair"},
@@ -613,7 +639,9 @@ std::string motion_pairs(const ReportInput& input) {
                  missed_cell(pair.missed)});
   if (rows.empty()) return "<p>No pair collides in any configuration.</p>\n";
   return table("Pairs of links that collide in some configuration",
-               {"Pair", "Visual geometry collides", "False, convex hulls", "False, hulls", "Missed"}, rows);
+               {"Pair", "Visual geometry collides", "False, convex hulls",
+                fmt::format("False, {}", cover_words(input.hulls)), "Missed"},
+               rows);
 }
 
 std::string motion_kinds(const MotionResult& motion) {
@@ -628,12 +656,14 @@ std::string motion_kinds(const MotionResult& motion) {
 
 std::string motion_section(const ReportInput& input) {
   if (!input.motion) return {};
+  const std::string_view covers = cover_words(input.hulls);
   return fmt::format(
       "<section>\n<h2>In motion</h2>\n<div class=\"card\">\n<p>{} of the joints within their limits (seed {}). "
       "In each, every pair of links that are not adjacent was checked with the visual geometry, with the convex hulls, "
-      "and with the hulls of this report.</p>\n{}{}</div>\n<div class=\"card\">\n{}</div>\n</section>\n",
-      counted(input.motion->configurations, "random configuration"), input.motion->seed, motion_summary(*input.motion),
-      motion_kinds(*input.motion), motion_pairs(input));
+      "and with the {} of this report.</p>\n{}{}</div>\n<div class=\"card\">\n{}</div>\n</section>\n",
+      counted(input.motion->configurations, "random configuration"), input.motion->seed, covers,
+      motion_summary(*input.motion, covers == "hulls" ? "Hulls" : "Cover"), motion_kinds(*input.motion),
+      motion_pairs(input));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -647,18 +677,20 @@ std::string words(const ReportInput& input) {
   std::vector<Word> shown;
   if (!input.hulls.empty())
     shown = {{"Hull", "A closed mesh of few faces around the geometry of a link."},
+             {"Cover", "Convex pieces, or spheres, that cover the geometry of a link together."},
              {"Certified",
               "An exact test, which shares no code with the construction, has shown that no point of the "
-              "geometry lies outside of the hull. There is no tolerance."},
+              "geometry lies outside of the hull, or of the cover. There is no tolerance."},
              {"Proof",
               "How that was shown: <i>replay</i> follows each step of the construction, <i>enclosure</i> compares two "
-              "closed meshes, <i>coverage</i> shows that the hull covers each triangle, and <i>padding</i> that it "
-              "keeps its distance besides."},
+              "closed meshes, <i>coverage</i> shows that the hull covers each triangle, <i>padding</i> that it "
+              "keeps its distance besides, and <i>union</i> that convex pieces or spheres cover each triangle "
+              "together."},
              {"Repair",
               "A change of the geometry before a hull was built, such as a cap on an opening. The hull "
               "encloses the triangles of the file all the same."}};
   shown.push_back({"Volume / original",
-                   "The volume of the hull by that of the sealed original: the geometry of the "
+                   "The volume of the hull or cover by that of the sealed original: the geometry of the "
                    "file with its openings closed. What it is above 1 is the void."});
   shown.push_back({"Void",
                    "The space between a hull and the geometry within it. The less there is, the fewer false "

@@ -224,13 +224,6 @@ std::vector<std::pair<std::string, TriangleMesh>> meshes() {
 constexpr const char* kHead = R"(<?xml version="1.0"?>
 <!-- A robot arm of seven joints, about 1.1 m long. At 0 all joints are where the arm waits. -->
 <robot name="sample_arm">
-  <material name="shell">
-    <color rgba="0.92 0.93 0.94 1"/>
-  </material>
-  <material name="trim">
-    <color rgba="0.16 0.38 0.62 1"/>
-  </material>
-
 )";
 
 constexpr const char* kTail = R"(  <!-- For the simulator; nothing else reads it. -->
@@ -343,6 +336,10 @@ std::string joints() {
 
 }  // namespace
 
-SampleRobot make_sample_arm() { return {kHead + links() + "\n" + joints() + kTail, meshes()}; }
+SampleRobot make_sample_arm() {
+  return {kHead + material("shell", "0.92 0.93 0.94 1") + material("trim", "0.16 0.38 0.62 1") + "\n" + links() + "\n" +
+              joints() + kTail,
+          meshes()};
+}
 
 }  // namespace prohull::robot

@@ -117,13 +117,9 @@ std::vector<std::pair<std::string, TriangleMesh>> meshes() {
 constexpr const char* kHead = R"(<?xml version="1.0"?>
 <!-- A mobile base: two driven wheels and two casters. Its frame is on the floor, between the driven wheels. -->
 <robot name="sample_mobile_base">
-  <material name="orange">
-    <color rgba="0.93 0.46 0.13 1"/>
-  </material>
-  <material name="black">
-    <color rgba="0.12 0.12 0.13 1"/>
-  </material>
+)";
 
+constexpr const char* kBase = R"(
   <link name="base_footprint"/>
   <link name="base_link">
     <visual>
@@ -159,45 +155,9 @@ constexpr const char* kMiddle = R"(  </link>
     <origin xyz="0 0 0.1" rpy="0 0 0"/>
   </joint>
 
-  <link name="lidar">
-    <visual>
-      <geometry>
-        <cylinder radius="0.04" length="0.05"/>
-      </geometry>
-      <material name="black"/>
-    </visual>
-    <collision>
-      <geometry>
-        <cylinder radius="0.04" length="0.05"/>
-      </geometry>
-    </collision>
-  </link>
-  <joint name="lidar_joint" type="fixed">
-    <parent link="base_link"/>
-    <child link="lidar"/>
-    <origin xyz="0.16 0 0.172" rpy="0 0 0"/>
-  </joint>
+)";
 
-  <link name="mast">
-    <visual>
-      <geometry>
-        <mesh filename="meshes/visual/mast.stl"/>
-      </geometry>
-      <material name="black"/>
-    </visual>
-    <collision>
-      <geometry>
-        <mesh filename="meshes/collision/mast.stl"/>
-      </geometry>
-    </collision>
-  </link>
-  <joint name="mast_joint" type="fixed">
-    <parent link="base_link"/>
-    <child link="mast"/>
-    <origin xyz="-0.1 0 0.147" rpy="0 0 0"/>
-  </joint>
-
-  <link name="camera">
+constexpr const char* kCameraAndAntenna = R"(  <link name="camera">
     <visual>
       <geometry>
         <box size="0.03 0.12 0.03"/>
@@ -242,12 +202,40 @@ constexpr const char* kMiddle = R"(  </link>
 
 )";
 
+constexpr const char* kLidar = R"(<cylinder radius="0.04" length="0.05"/>)";
+
 constexpr const char* kTail = R"(
   <gazebo reference="caster_front_wheel">
     <mu1>0.1</mu1>
   </gazebo>
 </robot>
 )";
+
+/// A link on top of the base.
+std::string mounted(const std::string& name, const std::string& visual, const std::string& collision,
+                    const std::string& xyz) {
+  return fmt::format(R"(  <link name="{0}">
+    <visual>
+      <geometry>
+        {1}
+      </geometry>
+      <material name="black"/>
+    </visual>
+    <collision>
+      <geometry>
+        {2}
+      </geometry>
+    </collision>
+  </link>
+  <joint name="{0}_joint" type="fixed">
+    <parent link="base_link"/>
+    <child link="{0}"/>
+    <origin xyz="{3}" rpy="0 0 0"/>
+  </joint>
+
+)",
+                     name, visual, collision, xyz);
+}
 
 /// The wheel stands on the left; turned about x, also on the right.
 std::string driven_wheel(const char* side, double direction) {
@@ -324,8 +312,13 @@ std::string caster(const char* where, double x) {
 }  // namespace
 
 SampleRobot make_sample_mobile_base() {
-  return {kHead + inertial(14, {0, 0, 0.03}, {0.56, 0.36, 0.18}) + kMiddle + driven_wheel("left", 1) +
-              driven_wheel("right", -1) + caster("front", 0.21) + caster("rear", -0.21) + kTail,
+  return {kHead + material("orange", "0.93 0.46 0.13 1") + material("black", "0.12 0.12 0.13 1") + kBase +
+              inertial(14, {0, 0, 0.03}, {0.56, 0.36, 0.18}) + kMiddle +
+              mounted("lidar", kLidar, kLidar, "0.16 0 0.172") +
+              mounted("mast", R"(<mesh filename="meshes/visual/mast.stl"/>)",
+                      R"(<mesh filename="meshes/collision/mast.stl"/>)", "-0.1 0 0.147") +
+              kCameraAndAntenna + driven_wheel("left", 1) + driven_wheel("right", -1) + caster("front", 0.21) +
+              caster("rear", -0.21) + kTail,
           meshes()};
 }
 

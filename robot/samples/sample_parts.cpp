@@ -212,6 +212,14 @@ TriangleMesh loose_convex_hull(const TriangleMesh& mesh) {
   return hull;
 }
 
+std::string material(const std::string& name, const std::string& rgba) {
+  return fmt::format(R"(  <material name="{}">
+    <color rgba="{}"/>
+  </material>
+)",
+                     name, rgba);
+}
+
 std::string inertial(double mass, const Vec3& center, const Vec3& size) {
   const auto moment = [mass](double a, double b) { return mass * (a * a + b * b) / 12; };
   return fmt::format(R"(    <inertial>

@@ -66,6 +66,9 @@ TriangleMesh rounded_to_float32(TriangleMesh mesh);
 /// The convex hull, grown by 0.2 % from the middle of its box, so that rounding leaves nothing outside.
 TriangleMesh loose_convex_hull(const TriangleMesh& mesh);
 
+/// A <material> element of a robot.
+std::string material(const std::string& name, const std::string& rgba);
+
 /// An <inertial> element: that of a box of this size and mass (kg) about the centre.
 std::string inertial(double mass, const Vec3& center, const Vec3& size);
 

@@ -42,12 +42,32 @@ TEST(Budgets, HaveANumberOfFacesForEachSet) {
             "budgets.yaml: line 2: 2 numbers of faces, but 1 sets of hulls are asked for");
 }
 
+TEST(Budgets, SayOfWhichKindTheCollisionGeometryIs) {
+  const LinkHullOptions options = read(
+      "default: {collision: convex, pieces: 5}\n"
+      "links:\n"
+      "  arm: {vertices: 12}\n"
+      "  forearm: {collision: spheres, spheres: 30}\n"
+      "  tool0: {collision: hull}\n");
+  EXPECT_EQ(options.budget, (Budget{.collision = Collision::Convex, .pieces = 5}));
+  EXPECT_EQ(options.budgets.at("arm"), (Budget{.collision = Collision::Convex, .pieces = 5, .vertices = 12}));
+  EXPECT_EQ(options.budgets.at("forearm"), (Budget{.collision = Collision::Spheres, .pieces = 5, .spheres = 30}));
+  EXPECT_EQ(options.budgets.at("tool0"), (Budget{.pieces = 5}));
+}
+
 TEST(Budgets, RefuseWhatTheyDoNotKnowWithItsLine) {
-  EXPECT_EQ(message_of("links:\n  arm: {face: 3}"),
-            "budgets.yaml: line 2: 'face' is not known; expected faces, max_distance, padding, skip");
+  EXPECT_EQ(
+      message_of("links:\n  arm: {face: 3}"),
+      "budgets.yaml: line 2: 'face' is not known; expected collision, faces, max_distance, padding, pieces, skip, "
+      "spheres, vertices");
   EXPECT_EQ(message_of("limits: 3"), "budgets.yaml: line 1: 'limits' is not known; expected default, links");
-  EXPECT_NE(message_of("default: {faces: many}").find("line 1: 'many': expected a number of faces"), std::string::npos);
-  EXPECT_NE(message_of("default: {faces: 3}").find("at least 4"), std::string::npos);
+  EXPECT_NE(message_of("default: {faces: many}").find("line 1: 'many': expected at least 4 faces"), std::string::npos);
+  EXPECT_NE(message_of("default: {faces: 3}").find("at least 4 faces"), std::string::npos);
+  EXPECT_NE(message_of("default: {pieces: 0}").find("at least 1 pieces"), std::string::npos);
+  EXPECT_NE(message_of("default: {vertices: 3}").find("at least 4 vertices"), std::string::npos);
+  EXPECT_NE(message_of("default: {spheres: all}").find("'all': expected at least 1 spheres"), std::string::npos);
+  EXPECT_NE(message_of("default: {collision: boxes}").find("'boxes': expected hull, convex or spheres"),
+            std::string::npos);
   EXPECT_NE(message_of("default: {faces: [500], padding: 5 miles}").find("is no length"), std::string::npos);
   EXPECT_NE(message_of("default: {padding: -1mm}").find("is no length"), std::string::npos);
   EXPECT_NE(message_of("default: {skip: maybe}").find("true or false"), std::string::npos);
@@ -71,6 +91,24 @@ TEST(Budgets, AreReadAsTheyWereWritten) {
   EXPECT_EQ(again.budget, options.budget);
   ASSERT_EQ(again.budgets.size(), 1U);
   EXPECT_EQ(again.budgets.at(robot.links[0].name), options.budget);
+}
+
+TEST(Budgets, AreWrittenAsShortAsTheyCanBe) {
+  Robot robot{.name = "r", .links = {{.name = "a"}, {.name = "b"}, {.name = "c"}}};
+  for (Link& link : robot.links) link.visual.resize(1);
+  LinkHullOptions options;
+  options.budget = {.collision = Collision::Convex, .pieces = 4, .max_distance = 0.001, .skip = true};
+  options.budgets["b"] = {.collision = Collision::Spheres};
+  options.budgets["c"] = {};
+  const std::string text = budgets_text(robot, options);
+  EXPECT_NE(text.find("\n  \"a\": {pieces: 4, vertices: 64, max_distance: 1mm, skip: true}\n"), std::string::npos);
+  EXPECT_NE(text.find("\n  \"b\": {collision: spheres, spheres: 64, max_distance: 0mm, skip: false}\n"),
+            std::string::npos);
+  const LinkHullOptions again = read(text, 1, robot);
+  EXPECT_EQ(again.budget, options.budget);
+  EXPECT_EQ(again.budget_of("a"), options.budget);
+  EXPECT_EQ(again.budget_of("b"), (Budget{.collision = Collision::Spheres, .pieces = 4}));
+  EXPECT_EQ(again.budget_of("c"), (Budget{.pieces = 4}));
 }
 
 TEST(LengthOf, TakesUnits) {

@@ -9,6 +9,7 @@
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "prohull/sample.h"
+#include "prohull/union_verification.h"
 #include "robot/hulls/cache.h"
 #include "robot/motion/bodies.h"
 #include "robot/transform.h"
@@ -33,6 +34,15 @@ class LinkHullsTest : public testing::Test {
 
   Shape mesh(const std::string& name, const Pose& origin = {}) const {
     return {.form = MeshFile{.uri = name, .path = folder_.path() / name}, .origin = origin};
+  }
+
+  /// The first links have a hull each.
+  void expect_same_for_any_number_of_threads(std::size_t links) {
+    options_.threads = 1;
+    const std::vector<LinkHulls> one = link_hulls(robot_, options_);
+    options_.threads = 3;
+    const std::vector<LinkHulls> three = link_hulls(robot_, options_);
+    for (std::size_t i = 0; i < links; ++i) EXPECT_EQ(one.at(i).hulls.at(0).mesh, three.at(i).hulls.at(0).mesh);
   }
 
   RobotFolder folder_;
@@ -62,21 +72,11 @@ TEST_F(LinkHullsTest, EncloseAllMeshesOfALink) {
   EXPECT_EQ(made[3].status, LinkStatus::Empty);
 }
 
-TEST_F(LinkHullsTest, AreTheSameForAnyNumberOfThreads) {
-  options_.threads = 1;
-  const std::vector<LinkHulls> one = link_hulls(robot_, options_);
-  options_.threads = 3;
-  const std::vector<LinkHulls> three = link_hulls(robot_, options_);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(one[i].hulls[0].mesh, three[i].hulls[0].mesh);
-}
+TEST_F(LinkHullsTest, AreTheSameForAnyNumberOfThreads) { expect_same_for_any_number_of_threads(2); }
 
 TEST_F(LinkHullsTest, WithPaddingAreTheSameForAnyNumberOfThreads) {
   options_.budget.padding = 0.02;
-  options_.threads = 1;
-  const std::vector<LinkHulls> one = link_hulls(robot_, options_);
-  options_.threads = 3;
-  const std::vector<LinkHulls> three = link_hulls(robot_, options_);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(one[i].hulls[0].mesh, three[i].hulls[0].mesh);
+  expect_same_for_any_number_of_threads(3);
 }
 
 TEST_F(LinkHullsTest, OfOtherBudgets) {
@@ -87,6 +87,79 @@ TEST_F(LinkHullsTest, OfOtherBudgets) {
   EXPECT_EQ(made[1].status, LinkStatus::Skipped);
   options_.budgets["elbow"] = {};
   EXPECT_THROW(link_hulls(robot_, options_), InputError);
+}
+
+TEST_F(LinkHullsTest, MayBeConvexPieces) {
+  options_.budget.collision = Collision::Convex, options_.budget.pieces = 4, options_.budget.vertices = 20;
+  options_.cache = folder_.path() / "cache";
+  const std::vector<LinkHulls> made = link_hulls(robot_, options_);
+  EXPECT_EQ(made[1].frame.same_origin_as, 0U);
+  for (const std::size_t link : {0U, 1U}) {
+    ASSERT_EQ(made[link].hulls.size(), 1U);
+    const LinkHull& cover = made[link].hulls[0];
+    EXPECT_TRUE(cover.certified);
+    EXPECT_EQ(cover.proof, "union");
+    EXPECT_GE(cover.pieces.size(), 1U);
+    EXPECT_LE(cover.pieces.size(), 4U);
+    for (const TriangleMesh& piece : cover.pieces) {
+      EXPECT_LE(piece.vertex_count(), 20U);
+      for (const Vec3& p : piece.positions) EXPECT_EQ(p.x, double(float(p.x)));  // as an STL file keeps it
+    }
+    EXPECT_TRUE(verify_cover(made[link].triangles, cover.mesh).encloses);
+    EXPECT_GT(cover.volume, 0.999 * made[link].sealed_volume);
+  }
+  EXPECT_EQ(made[2].status, LinkStatus::Primitives);
+
+  const std::vector<LinkHulls> again = link_hulls(robot_, options_);
+  EXPECT_TRUE(again[0].from_cache);
+  EXPECT_EQ(again[0].hulls[0].pieces, made[0].hulls[0].pieces);
+  EXPECT_EQ(again[0].hulls[0].mesh, made[0].hulls[0].mesh);
+}
+
+TEST_F(LinkHullsTest, MayBeSpheresInTheFrameOfTheLink) {
+  robot_.links[2].visual.push_back({.form = SphereForm{0.2}});
+  options_.budget.collision = Collision::Spheres, options_.budget.spheres = 10;
+  options_.cache = folder_.path() / "cache";
+  folder_.add("torus.ply", make_sample("torus", 200));
+  folder_.add("bracket.ply", make_sample("bracket", 200));
+  const std::vector<LinkHulls> made = link_hulls(robot_, options_);
+  for (const std::size_t link : {0U, 1U, 2U}) {  // the cylinder of the wheel has spheres too
+    ASSERT_EQ(made[link].hulls.size(), 1U);
+    EXPECT_EQ(made[link].frame.in_link, Pose{});
+    const LinkHull& cover = made[link].hulls[0];
+    EXPECT_TRUE(cover.certified);
+    EXPECT_EQ(cover.proof, "union");
+    EXPECT_GE(cover.balls.size(), 1U);
+    EXPECT_LE(cover.balls.size(), 10U);
+    EXPECT_TRUE(verify_union(cover.balls, made[link].triangles, false).covers);
+    ASSERT_TRUE(is_closed(cover.mesh));  // a mesh around each ball
+    EXPECT_GT(signed_volume(cover.mesh), cover.volume);
+  }
+  EXPECT_EQ(made[2].primitives, std::vector<std::size_t>{1});  // a sphere is one already
+
+  const std::vector<LinkHulls> again = link_hulls(robot_, options_);
+  EXPECT_TRUE(again[0].from_cache);
+  EXPECT_EQ(again[0].hulls[0].balls, made[0].hulls[0].balls);
+  EXPECT_EQ(again[0].hulls[0].mesh, made[0].hulls[0].mesh);
+}
+
+TEST_F(LinkHullsTest, RefuseWhatOnlyHullsCanHave) {
+  const auto refused = [&](const char* expected) {
+    try {
+      link_hulls(robot_, options_);
+      ADD_FAILURE() << "not refused: " << expected;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.defect(), Defect::InvalidOption);
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+  };
+  options_.budgets["arm"] = {.collision = Collision::Convex, .padding = 0.001};
+  refused("link arm: collision 'convex' takes no padding");
+  options_.budgets["arm"] = {.collision = Collision::Spheres, .faces = {500, 100}};
+  refused("link arm: collision 'spheres' comes in one set");
+  options_.budgets.clear();
+  options_.budget.collision = Collision::Spheres, options_.tight = true;
+  refused("--tight is about hulls");
 }
 
 TEST_F(LinkHullsTest, SayWhichMeshesAreMissing) {
@@ -150,6 +223,10 @@ TEST_F(LinkHullsTest, HaveAKeyOfAllThatTheyAreMadeFrom) {
   change("size of a primitive", [&] { link.visual[2].form = CylinderForm{0.1, 0.06}; });
   change("faces", [&] { options_.budget.faces = {201}; });
   change("numbers of faces", [&] { options_.budget.faces = {200, 100}; });
+  change("collision", [&] { options_.budget.collision = Collision::Convex; });
+  change("pieces", [&] { options_.budget.pieces = 9; });
+  change("vertices", [&] { options_.budget.vertices = 65; });
+  change("spheres", [&] { options_.budget.spheres = 65; });
   change("max_distance", [&] { options_.budget.max_distance = 0.1; });
   change("padding", [&] { options_.budget.padding = 0.1; });
   change("format", [&] { options_.format = "obj"; });

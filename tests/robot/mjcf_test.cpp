@@ -40,24 +40,7 @@ std::string write(const std::string& text, const std::vector<NewCollision>& coll
   return mjcf_with_collisions(read_mjcf(document, Packages(path, {})), document, collisions, folder);
 }
 
-NewCollision hull_of(std::size_t link, std::optional<std::size_t> same_origin_as = {},
-                     std::vector<std::size_t> kept = {}) {
-  NewCollision collision;
-  collision.link = link, collision.hull = "meshes/500/a.stl", collision.same_origin_as = same_origin_as;
-  collision.kept = std::move(kept);
-  return collision;
-}
-
-void expect_near(const Vec3& a, const Vec3& b) {
-  EXPECT_NEAR(a.x, b.x, 1e-12);
-  EXPECT_NEAR(a.y, b.y, 1e-12);
-  EXPECT_NEAR(a.z, b.z, 1e-12);
-}
-void expect_near(const Pose& a, const Pose& b) {
-  for (std::size_t row = 0; row < 3; ++row) expect_near(a.rotation[row], b.rotation[row]);
-  expect_near(a.translation, b.translation);
-}
-
+const std::string kHull = "meshes/500/a.stl";
 const std::string kMesh = "<asset><mesh name='part' file='part.stl'/></asset>";
 
 TEST(Mjcf, ReadsShapesFromHalfLengths) {
@@ -321,7 +304,7 @@ TEST(MjcfWithCollisions, TheHullTakesThePlaceOfTheFirstGeomThatCollides) {
       "      <site unknown = 'x'/>\r\n"
       "    </body>\r\n  </worldbody>\r\n"
       "  <contact><pair geom1=\"c\" geom2=\"c\"/></contact>\r\n</mujoco>\r\n";
-  EXPECT_EQ(write(text, {hull_of(0, 0)}), expected);
+  EXPECT_EQ(write(text, {hull_of(kHull, 0, 0)}), expected);
   EXPECT_EQ(write(text, {}), text);
 }
 
@@ -330,7 +313,7 @@ TEST(MjcfWithCollisions, GeomsThatWereBothStayToBeSeen) {
       "\n  <geom name='g' type='mesh' mesh='part' pos='1 0 0' mass='2' friction='1'/>\n"
       "  <geom type='box' size='1 1 1' contype='3'  />\n  <inertial mass='1' pos='0 0 0'/>\n",
       kMesh);
-  const std::string result = write(text, {hull_of(0, 0, {1})});
+  const std::string result = write(text, {hull_of(kHull, 0, 0, {1})});
   EXPECT_NE(result.find("  <geom type='mesh' mesh='part' pos='1 0 0' mass='2' friction='1' contype=\"0\" "
                         "conaffinity=\"0\"/>\n"
                         "  <geom name=\"g\" friction=\"1\" mass=\"0\" type=\"mesh\" mesh=\"a_hull\" pos=\"1 0 0\"/>\n"
@@ -351,7 +334,7 @@ TEST(MjcfWithCollisions, WhatNamesAGeomNamesItsHull) {
                 kMesh +
                     "<contact><pair geom1='g' geom2='floor'/></contact><sensor><framepos objtype='geom' objname='g'/>"
                     "</sensor><sensor><framepos objtype='body' objname='g'/></sensor>");
-  const std::string result = write(text, {hull_of(0, 0)});
+  const std::string result = write(text, {hull_of(kHull, 0, 0)});
   const Link link = read(result).robot.links[0];
   EXPECT_EQ(link.visual.size(), 2U);
   ASSERT_EQ(link.collision.size(), 1U) << result;
@@ -359,6 +342,61 @@ TEST(MjcfWithCollisions, WhatNamesAGeomNamesItsHull) {
   EXPECT_NE(result.find("<pair geom1='a_hull' geom2='floor'/>"), std::string::npos);
   EXPECT_NE(result.find("objtype='geom' objname='a_hull'"), std::string::npos);
   EXPECT_NE(result.find("objtype='body' objname='g'"), std::string::npos);
+}
+
+NewCollision two_pieces(std::size_t link, std::optional<std::size_t> same_origin_as = {}) {
+  NewCollision collision = hull_of(kHull, link, same_origin_as);
+  collision.hulls = {"meshes/a_01.stl", "meshes/a_02.stl"};
+  return collision;
+}
+
+TEST(MjcfWithCollisions, TakesSeveralPieces) {
+  const std::string visual = "<geom type='mesh' mesh='part' pos='1 2 3' contype='0' conaffinity='0'/>";
+  for (const std::string& old : {std::string(), std::string("\n  <geom name='g' size='1' mass='3'/>"),
+                                 std::string("\n  <geom size='1' mass='3'/>\n  <geom size='2'/>")})
+    for (const std::optional<std::size_t> same : {std::optional<std::size_t>(), std::optional<std::size_t>(0)}) {
+      const std::string result = write(with_body(visual + old, kMesh), {two_pieces(0, same)});
+      const Link link = read(result).robot.links[0];
+      EXPECT_EQ(link.visual.size(), 1U) << result;
+      ASSERT_EQ(link.collision.size(), 2U) << result;
+      EXPECT_NE(link.collision[0].mesh()->uri, link.collision[1].mesh()->uri);
+      for (const Shape& shape : link.collision)
+        EXPECT_EQ(shape.origin, same ? translation_by({1, 2, 3}) : Pose{}) << result;
+      const std::size_t first = result.find("mass=\"1.5\"");  // half of what the old geom weighs
+      EXPECT_EQ(result.find("mass=\"1.5\"", first + 1) == std::string::npos, old.empty()) << result;
+    }
+}
+
+TEST(MjcfWithCollisions, TakesSpheres) {
+  NewCollision collision = hull_of(kHull, 0);
+  collision.hulls.clear();
+  collision.balls = {{{0.1, -2e-7, 3}, 0.25}, {{}, 0.5}};
+  // A class that sets poses must not move them.
+  const std::string sections = kMesh + "<default><geom pos='3 3 3' quat='1 1 1 1'/></default>";
+  const std::string result = write(with_body("<geom type='mesh' mesh='part' contype='0' conaffinity='0'/>"
+                                             "<geom size='1'/>",
+                                             sections),
+                                   {collision});
+  const Link link = read(result).robot.links[0];
+  ASSERT_EQ(link.collision.size(), 2U) << result;
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_EQ(std::get<SphereForm>(link.collision[i].form).radius, collision.balls[i].radius);
+    EXPECT_EQ(link.collision[i].origin, translation_by(collision.balls[i].center)) << result;
+  }
+}
+
+TEST(MjcfWithCollisions, APairThatMayTouchIsOneForEachPiece) {
+  const std::string text =
+      with_body("<geom type='mesh' mesh='part' contype='0' conaffinity='0'/><geom name='g' type='mesh' mesh='part'/>",
+                kMesh +
+                    "<contact>\n  <pair name='p' geom1='g' geom2='floor' condim='1'/>\n</contact>"
+                    "<sensor><framepos objtype='geom' objname='g'/></sensor>");
+  const std::string result = write(text, {two_pieces(0)});
+  EXPECT_NE(result.find("\n  <pair name='p' geom1='g' geom2='floor' condim='1'/>\n"
+                        "  <pair geom1=\"a_hull\" geom2=\"floor\" condim=\"1\"/>\n</contact>"),
+            std::string::npos)
+      << result;
+  EXPECT_EQ(read(result).robot.links[0].collision.size(), 2U);
 }
 
 TEST(MjcfWithCollisions, KeepsThePoseOfWhatIsEnclosed) {
@@ -378,7 +416,7 @@ TEST(MjcfWithCollisions, KeepsThePoseOfWhatIsEnclosed) {
       for (const std::string& sections : {plain_sections, moving + plain_sections}) {
         const std::string text = with_body(visual + colliding, sections);
         const Link before = read(text).robot.links[0];
-        const std::string result = write(text, {hull_of(0, 0)});
+        const std::string result = write(text, {hull_of(kHull, 0, 0)});
         const Link after = read(result).robot.links[0];
         ASSERT_EQ(after.visual.size(), 1U) << result;
         ASSERT_EQ(after.collision.size(), 1U) << result;
@@ -386,7 +424,7 @@ TEST(MjcfWithCollisions, KeepsThePoseOfWhatIsEnclosed) {
         EXPECT_EQ(after.collision[0].mesh()->scale, (Vec3{1, 1, 1}));
         EXPECT_EQ(after.collision[0].mesh()->uri, "meshes/500/a.stl");
         // In the frame of the link.
-        const std::string plain = write(text, {hull_of(0)});
+        const std::string plain = write(text, {hull_of(kHull, 0)});
         expect_near(read(plain).robot.links[0].collision.at(0).origin, Pose{});
       }
     }
@@ -397,7 +435,7 @@ TEST(MjcfWithCollisions, PrimitivesThatAreKeptBecomeGeomsThatCollide) {
       "\n<geom type='box' size='1 2 3' pos='1 0 0' contype='0' conaffinity='0'/>\n"
       "<geom type='mesh' mesh='part' contype='0' conaffinity='0'/>\n<geom name='c' size='5' solref='1 1'/>\n",
       kMesh);
-  const std::string result = write(text, {hull_of(0, 1, {0})});
+  const std::string result = write(text, {hull_of(kHull, 0, 1, {0})});
   const Link link = read(result).robot.links[0];
   ASSERT_EQ(link.visual.size(), 2U);
   ASSERT_EQ(link.collision.size(), 2U);
@@ -407,8 +445,8 @@ TEST(MjcfWithCollisions, PrimitivesThatAreKeptBecomeGeomsThatCollide) {
   EXPECT_EQ(box->origin, translation_by({1, 0, 0}));
   EXPECT_NE(result.find("solref=\"1 1\" type=\"box\""), std::string::npos);
   // From the collision geometry: what is kept is not touched.
-  NewCollision kept = hull_of(0, {}, {0});
-  kept.hull.clear(), kept.from = Geometry::Collision;
+  NewCollision kept = hull_of(kHull, 0, {}, {0});
+  kept.hulls.clear(), kept.from = Geometry::Collision;
   EXPECT_EQ(write(text, {kept}), text);
 }
 
@@ -424,7 +462,7 @@ TEST(MjcfWithCollisions, RelativePathsStillFindTheirFiles) {
     const std::string text =
         with_body("<geom type='mesh' mesh='part' contype='0' conaffinity='0'/><geom size='1'/>",
                   "<compiler " + compiler + "/><asset><mesh file='part.stl'/><texture file='wood.png'/></asset>\n");
-    const std::string result = write(text, {hull_of(0)}, folder / "in" / "arm.xml", folder / "out");
+    const std::string result = write(text, {hull_of(kHull, 0)}, folder / "in" / "arm.xml", folder / "out");
     const Link link = read(result, folder / "out" / "arm.xml").robot.links[0];
     EXPECT_EQ(link.visual.at(0).mesh()->path, folder / "in" / "assets" / "part.stl") << result;
     EXPECT_EQ(link.collision.at(0).mesh()->path, folder / "out" / "meshes" / "500" / "a.stl") << result;
@@ -434,9 +472,9 @@ TEST(MjcfWithCollisions, RelativePathsStillFindTheirFiles) {
 }
 
 TEST(MjcfWithCollisions, RefusesHullsThatMujocoCannotRead) {
-  NewCollision collision = hull_of(0);
+  NewCollision collision = hull_of(kHull, 0);
   for (const char* hull : {"a.glb", "package://arm/a.stl"}) {
-    collision.hull = hull;
+    collision.hulls = {hull};
     EXPECT_THROW(write(with_body("<geom size='1'/>"), {collision}), InputError);
   }
 }

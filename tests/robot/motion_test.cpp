@@ -11,6 +11,7 @@
 #include "meshes.h"
 #include "prohull/error.h"
 #include "random.h"
+#include "robot_testing.h"
 
 namespace prohull::robot {
 namespace {
@@ -47,10 +48,6 @@ Joint limited(Joint joint, double lower, double upper) {
 Joint mimicking(Joint joint, std::size_t other, double multiplier, double offset) {
   joint.mimic = Mimic{other, multiplier, offset};
   return joint;
-}
-
-void expect_near(const Vec3& a, const Vec3& b) {
-  EXPECT_LT(norm(a - b), 1e-12) << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
 }
 
 TEST(LinkPoses, OfAPendulumOfTwoLinks) {

@@ -124,6 +124,37 @@ TEST(ReportFacts, AHullThatIsNotCertifiedIsAFailureAndALargeOneNeedsALook) {
   EXPECT_EQ(totals_of(input).certified, 1);
 }
 
+TEST(ReportFacts, PiecesAndSpheresAreCalledSo) {
+  const RobotFile file = robot_of({"a"});
+  ReportInput input = input_of(file);
+  input.hulls = {certified_hulls(0)};
+  LinkHull& cover = input.hulls[0].hulls[0];
+  cover.volume = 6, cover.target_faces = 0, cover.source = "", cover.proof = "union";  // large, as covers are
+
+  input.hulls[0].collision = Collision::Convex;
+  cover.pieces = {make_sample("box", 12), make_sample("box", 12)};
+  EXPECT_TRUE(marks_of(input).empty());
+  EXPECT_EQ(findings_of(input).front().text,
+            "The one link is certified: no point of its visual meshes lies outside of its convex pieces.");
+  const nlohmann::json pieces = report_json(input)["links"][0];
+  EXPECT_EQ(pieces["collision"], "convex");
+  EXPECT_EQ(pieces["hulls"][0]["pieces"], 2);
+  EXPECT_TRUE(pieces["hulls"][0]["spheres"].is_null());
+  EXPECT_TRUE(pieces["hulls"][0]["target_faces"].is_null());
+  EXPECT_TRUE(pieces["hulls"][0]["source"].is_null());
+  EXPECT_TRUE(has(report_html(input), "inside of its translucent 2 convex pieces"));
+
+  input.hulls[0].collision = Collision::Spheres;
+  cover.pieces.clear(), cover.balls = {{{}, 1}, {{}, 2}, {{}, 3}}, cover.certified = false;
+  ASSERT_EQ(marks_of(input).size(), 1U);
+  EXPECT_EQ(marks_of(input)[0].text, "The union of 3 spheres is not certified: it may not enclose the link.");
+  const nlohmann::json spheres = report_json(input)["links"][0];
+  EXPECT_EQ(spheres["collision"], "spheres");
+  EXPECT_EQ(spheres["hulls"][0]["spheres"], 3);
+  EXPECT_TRUE(spheres["hulls"][0]["faces"].is_null());
+  EXPECT_EQ(totals_of(input).balls, 3U);
+}
+
 TEST(ReportFacts, AMissedCollisionIsAFailure) {
   const RobotFile file = robot_of({"a", "b"});
   ReportInput input = input_of(file);

@@ -179,14 +179,14 @@ TEST_P(KnownRobot, IsWrittenAsUrdfdomReadsIt) {
   std::vector<NewCollision> collisions;
   for (std::size_t link = 0; link < file.robot.links.size(); ++link)
     if (!file.robot.links[link].visual.empty())
-      collisions.push_back({link, Geometry::Visual, "meshes/" + std::to_string(link) + ".stl", 0, {}});
+      collisions.push_back({.link = link, .hulls = {"meshes/" + std::to_string(link) + ".stl"}, .same_origin_as = 0});
   const TemporaryFolder folder;
   write_file(folder / "robot.urdf", with_collisions(file, collisions, folder.path()));
   const Robot again = read_robot(folder / "robot.urdf").robot;
   for (const NewCollision& collision : collisions) {
     const std::vector<Shape>& shapes = again.links[collision.link].collision;
     ASSERT_EQ(shapes.size(), 1U);
-    EXPECT_EQ(shapes[0].mesh()->uri, collision.hull);
+    EXPECT_EQ(shapes[0].mesh()->uri, collision.hulls[0]);
     EXPECT_EQ(shapes[0].origin, file.robot.links[collision.link].visual[0].origin);
   }
   const std::string program = PROHULL_CHECK_URDF;

@@ -5,6 +5,7 @@
 
 #include "robot/files/sdf.h"
 #include "robot/transform.h"
+#include "robot_testing.h"
 
 namespace prohull::robot {
 namespace {
@@ -59,22 +60,14 @@ struct Peer {
   sdf::Root root;
 };
 
-void expect_near(const Vec3& a, const Vec3& b) {
-  EXPECT_NEAR(a.x, b.x, 1e-9);
-  EXPECT_NEAR(a.y, b.y, 1e-9);
-  EXPECT_NEAR(a.z, b.z, 1e-9);
-}
-void expect_near(const Pose& a, const Pose& b) {
-  for (int row = 0; row < 3; ++row) expect_near(a.rotation[std::size_t(row)], b.rotation[std::size_t(row)]);
-  expect_near(a.translation, b.translation);
-}
+constexpr double kTolerance = 1e-9;
 
 TEST(SdfPeer, AgreesAboutLinksAndShapes) {
   const Robot robot = read(kModel).robot;
   const Peer peer(kModel);
   ASSERT_EQ(robot.links.size(), peer.model().LinkCount());
   const sdf::Visual& visual = *peer.model().LinkByName("arm")->VisualByIndex(0);
-  expect_near(robot.links[1].visual.at(0).origin, Peer::pose_of(visual.SemanticPose(), "arm"));
+  expect_near(robot.links[1].visual.at(0).origin, Peer::pose_of(visual.SemanticPose(), "arm"), kTolerance);
 }
 
 TEST(SdfPeer, AgreesAboutJoints) {
@@ -89,11 +82,11 @@ TEST(SdfPeer, AgreesAboutJoints) {
     EXPECT_EQ(name, parent);
     EXPECT_TRUE(other.ResolveChildLink(name).empty());
     EXPECT_EQ(name, child);
-    expect_near(joint.origin, Peer::pose_of(peer.model().LinkByName(child)->SemanticPose(), parent));
-    expect_near(joint.anchor, Peer::pose_of(other.SemanticPose(), child).translation);
+    expect_near(joint.origin, Peer::pose_of(peer.model().LinkByName(child)->SemanticPose(), parent), kTolerance);
+    expect_near(joint.anchor, Peer::pose_of(other.SemanticPose(), child).translation, kTolerance);
     ignition::math::Vector3d axis;
     EXPECT_TRUE(other.Axis()->ResolveXyz(axis, child).empty());
-    expect_near(joint.axis, {axis.X(), axis.Y(), axis.Z()});
+    expect_near(joint.axis, {axis.X(), axis.Y(), axis.Z()}, kTolerance);
   }
   EXPECT_EQ(peer.model().JointByName("j1")->Axis()->Upper(), robot.joints[0].upper);
 }
@@ -101,7 +94,7 @@ TEST(SdfPeer, AgreesAboutJoints) {
 TEST(SdfPeer, ReadsWhatIsWritten) {
   const XmlDocument document(kModel, "arm.sdf");
   NewCollision collision;
-  collision.link = 1, collision.hull = "hulls/arm.stl", collision.same_origin_as = 0, collision.kept = {0};
+  collision.link = 1, collision.hulls = {"hulls/arm.stl"}, collision.same_origin_as = 0, collision.kept = {0};
   const Peer peer(sdf_with_collisions(read(kModel), document, std::vector{collision}, "."));
   const sdf::Link& link = *peer.model().LinkByName("arm");
   ASSERT_EQ(link.CollisionCount(), 2U);
@@ -112,7 +105,7 @@ TEST(SdfPeer, ReadsWhatIsWritten) {
   EXPECT_EQ(link.CollisionByIndex(1)->Name(), "arm_hull");
   const Pose visual = Peer::pose_of(link.VisualByIndex(0)->SemanticPose(), "arm");
   for (const std::size_t i : {0U, 1U})
-    expect_near(Peer::pose_of(link.CollisionByIndex(i)->SemanticPose(), "arm"), visual);
+    expect_near(Peer::pose_of(link.CollisionByIndex(i)->SemanticPose(), "arm"), visual, kTolerance);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "prohull/error.h"
 #include "robot/transform.h"
@@ -31,20 +32,7 @@ std::string write(const std::string& text, const std::vector<NewCollision>& coll
   return sdf_with_collisions(read_sdf(document, Packages(path, {})), document, collisions, folder);
 }
 
-NewCollision hull_of(std::size_t link, std::optional<std::size_t> same_origin_as = {},
-                     std::vector<std::size_t> kept = {}) {
-  NewCollision collision;
-  collision.link = link, collision.hull = "hulls/a&b.stl", collision.same_origin_as = same_origin_as;
-  collision.kept = std::move(kept);
-  return collision;
-}
-
-void expect_near(const Vec3& a, const Vec3& b) {
-  EXPECT_NEAR(a.x, b.x, 1e-12);
-  EXPECT_NEAR(a.y, b.y, 1e-12);
-  EXPECT_NEAR(a.z, b.z, 1e-12);
-}
-
+const std::string kHull = "hulls/a&b.stl";
 const std::string kBox = "<geometry><box><size>1 2 3</size></box></geometry>";
 
 TEST(Sdf, ReadsShapes) {
@@ -297,31 +285,27 @@ TEST(Sdf, ReadsManyLinksQuickly) {
 }
 
 TEST(SdfWithCollisions, ChangesTheFirstCollisionAndRemovesTheOthers) {
-  const std::string text =
+  const std::string before =
       "<?xml version='1.0'?>\r\n<!-- kept -->\r\n<sdf version='1.9'>\r\n  <model name='m'>\r\n"
       "    <link name='a'>\r\n"
       "      <visual name='v'>\r\n        <pose relative_to='a' degrees='true'>1 2 3  0 0 90</pose>\r\n        " +
       kBox +
       "\r\n      </visual>\r\n"
-      "      <collision name='c'>\r\n"
-      "        <laser_retro>1</laser_retro>\r\n"
-      "        <pose>9 9 9 0 0 0</pose>\r\n"
-      "        <geometry><sphere><radius>1</radius></sphere></geometry>\r\n"
-      "        <surface><x:y xmlns:x='z'><![CDATA[ <a> ]]></x:y></surface>\r\n"
-      "      </collision>\r\n"
-      "      <!-- second -->\r\n"
-      "      <collision name='d'>\r\n        " +
-      kBox +
-      "\r\n      </collision>\r\n"
-      "      <unknown a = \"1\" />\r\n"
-      "    </link>\r\n  </model>\r\n</sdf>\r\n";
+      "      <collision name='c'>\r\n";
+  const std::string text = before +
+                           "        <laser_retro>1</laser_retro>\r\n"
+                           "        <pose>9 9 9 0 0 0</pose>\r\n"
+                           "        <geometry><sphere><radius>1</radius></sphere></geometry>\r\n"
+                           "        <surface><x:y xmlns:x='z'><![CDATA[ <a> ]]></x:y></surface>\r\n"
+                           "      </collision>\r\n"
+                           "      <!-- second -->\r\n"
+                           "      <collision name='d'>\r\n        " +
+                           kBox +
+                           "\r\n      </collision>\r\n"
+                           "      <unknown a = \"1\" />\r\n"
+                           "    </link>\r\n  </model>\r\n</sdf>\r\n";
   const std::string expected =
-      "<?xml version='1.0'?>\r\n<!-- kept -->\r\n<sdf version='1.9'>\r\n  <model name='m'>\r\n"
-      "    <link name='a'>\r\n"
-      "      <visual name='v'>\r\n        <pose relative_to='a' degrees='true'>1 2 3  0 0 90</pose>\r\n        " +
-      kBox +
-      "\r\n      </visual>\r\n"
-      "      <collision name='c'>\r\n"
+      before +
       "        <laser_retro>1</laser_retro>\r\n"
       "        <pose relative_to='a' degrees='true'>1 2 3  0 0 90</pose>\r\n"
       "        <geometry>\r\n          <mesh>\r\n            <uri>hulls/a&amp;b.stl</uri>\r\n          </mesh>\r\n"
@@ -331,10 +315,10 @@ TEST(SdfWithCollisions, ChangesTheFirstCollisionAndRemovesTheOthers) {
       "      <!-- second -->\r\n"
       "      <unknown a = \"1\" />\r\n"
       "    </link>\r\n  </model>\r\n</sdf>\r\n";
-  EXPECT_EQ(write(text, {hull_of(0, 0)}), expected);
+  EXPECT_EQ(write(text, {hull_of(kHull, 0, 0)}), expected);
   EXPECT_EQ(write(text, {}), text);
   // In the frame of the link, the pose goes.
-  EXPECT_EQ(write(text, {hull_of(0)}).find("9 9 9"), std::string::npos);
+  EXPECT_EQ(write(text, {hull_of(kHull, 0)}).find("9 9 9"), std::string::npos);
 }
 
 TEST(SdfWithCollisions, ReadsBackWithTheNewCollisions) {
@@ -343,7 +327,7 @@ TEST(SdfWithCollisions, ReadsBackWithTheNewCollisions) {
                "\n    </visual>\n    <visual name='e'><geometry><empty/></geometry></visual>\n"
                "    <visual name='w'>\n      <geometry>\n        <mesh><uri>a.stl</uri></mesh>\n      </geometry>\n"
                "    </visual>\n    <sensor name='a_hull' type='contact'/>\n  </link>\n  <link name='b'/>\n");
-  const std::string result = write(text, {hull_of(0, 1, {0})});
+  const std::string result = write(text, {hull_of(kHull, 0, 1, {0})});
   const Link link = read(result).robot.links[0];
   EXPECT_EQ(link.visual.size(), 2U);
   ASSERT_EQ(link.collision.size(), 2U);
@@ -355,9 +339,31 @@ TEST(SdfWithCollisions, ReadsBackWithTheNewCollisions) {
   EXPECT_EQ(link.collision[1].origin, translation_by({1, 2, 3}));
 }
 
+TEST(SdfWithCollisions, TakesSeveralPiecesAndSpheres) {
+  const std::string visual = "<visual name='v'><pose>1 2 3 0 0 0</pose>" + kBox + "</visual>";
+  const std::string old = "<collision name='c'><pose>4 4 4 0 0 0</pose>" + kBox + "</collision>";
+  for (const std::string& before :
+       {visual, visual + old, visual + old + "<collision name='d'>" + kBox + "</collision>"}) {
+    NewCollision collision = hull_of(kHull, 0, 0);
+    collision.hulls = {"hulls/a_01.stl", "hulls/a_02.stl"};
+    collision.balls = {{{0.1, -2e-7, 3}, 0.25}};
+    const Link link = read(write(in_model("<link name='a'>" + before + "</link>"), {collision})).robot.links[0];
+    ASSERT_EQ(link.collision.size(), 3U);
+    std::set<std::string> names;
+    for (const Shape& shape : link.collision) names.insert(shape.name);
+    EXPECT_EQ(names.size(), 3U);
+    for (const std::size_t i : {0U, 1U}) {
+      EXPECT_TRUE(link.collision[i].mesh());
+      EXPECT_EQ(link.collision[i].origin, translation_by({1, 2, 3}));
+    }
+    EXPECT_EQ(std::get<SphereForm>(link.collision[2].form).radius, 0.25);
+    EXPECT_EQ(link.collision[2].origin, translation_by({0.1, -2e-7, 3}));
+  }
+}
+
 TEST(SdfWithCollisions, CollisionElementsThatAreKeptStayWhereTheyAre) {
   const std::string box = "<collision name='c'>" + kBox + "<max_contacts>3</max_contacts></collision>";
-  NewCollision collision = hull_of(0, {}, {0});
+  NewCollision collision = hull_of(kHull, 0, {}, {0});
   collision.from = Geometry::Collision;
   const std::string result = write(in_model("<link name='a'>" + box +
                                             "<collision name='d'><geometry><mesh><uri>a.stl</uri></mesh></geometry>"
@@ -375,7 +381,7 @@ TEST(SdfWithCollisions, WorksWithoutLines) {
       "<sdf version='1.9'><model name='m'><link name='a'><visual name='v'><pose>1 0 0 0 0 0</pose>" + kBox +
       "</visual><collision name='c'>" + kBox + "</collision><collision name='d'>" + kBox +
       "</collision></link></model></sdf>";
-  const std::string result = write(text, {hull_of(0, 0, {0})});
+  const std::string result = write(text, {hull_of(kHull, 0, 0, {0})});
   const Link link = read(result).robot.links[0];
   ASSERT_EQ(link.collision.size(), 2U);
   EXPECT_EQ(link.collision[0].origin, translation_by({1, 0, 0}));
@@ -393,12 +399,12 @@ TEST(SdfWithCollisions, RelativePathsStillFindTheirFiles) {
       in_model("<link name='a'>\n<visual name='v'>" + mesh + "</visual>\n<collision name='c'>" + mesh +
                "</collision>\n</link>\n<link name='b'><visual name='v'>" + mesh + "</visual></link>");
   const RobotFile moved =
-      read(write(text, {hull_of(0)}, folder / "in" / "arm.sdf", folder / "out"), folder / "out" / "arm.sdf");
+      read(write(text, {hull_of(kHull, 0)}, folder / "in" / "arm.sdf", folder / "out"), folder / "out" / "arm.sdf");
   for (const std::size_t link : {0U, 1U})
     EXPECT_EQ(moved.robot.links[link].visual[0].mesh()->path.filename(), "a b.stl");
   EXPECT_EQ(moved.robot.links[0].collision[0].mesh()->uri, "hulls/a&b.stl");
   // A copy of a shape finds its file, too.
-  NewCollision kept = hull_of(1, {}, {0});
+  NewCollision kept = hull_of(kHull, 1, {}, {0});
   const RobotFile copied =
       read(write(text, {kept}, folder / "in" / "arm.sdf", folder / "out"), folder / "out" / "arm.sdf");
   EXPECT_EQ(copied.robot.links[1].collision[1].mesh()->path.filename(), "a b.stl");

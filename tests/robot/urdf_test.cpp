@@ -325,12 +325,13 @@ std::string old_collisions() {
 }
 
 TEST(WriteUrdf, ChangesTheFirstCollisionAndRemovesOthers) {
-  EXPECT_EQ(written(kArm, {0, Geometry::Visual, "hull&a.stl", 0, {}}), replaced(kArm, old_collisions(), kNewCollision));
+  EXPECT_EQ(written(kArm, {0, Geometry::Visual, {"hull&a.stl"}, 0, {}, {}}),
+            replaced(kArm, old_collisions(), kNewCollision));
 }
 
 TEST(WriteUrdf, KeepsLineEndsAndTheByteOrderMark) {
   const std::string crlf = "\xef\xbb\xbf" + with_crlf(kArm);
-  EXPECT_EQ(written(crlf, {0, Geometry::Visual, "hull&a.stl", 0, {}}),
+  EXPECT_EQ(written(crlf, {0, Geometry::Visual, {"hull&a.stl"}, 0, {}, {}}),
             replaced(crlf, with_crlf(old_collisions()), with_crlf(kNewCollision)));
 }
 
@@ -346,7 +347,7 @@ TEST(WriteUrdf, AddsKeptShapesWithTheirBytes) {
       </geometry>
     </collision>
 )";
-  EXPECT_EQ(written(kArm, {0, Geometry::Visual, "hull&a.stl", 0, {1}}),
+  EXPECT_EQ(written(kArm, {0, Geometry::Visual, {"hull&a.stl"}, 0, {}, {1}}),
             replaced(kArm, old_collisions(), kNewCollision + box));
 }
 
@@ -354,7 +355,7 @@ TEST(WriteUrdf, RemovesTheOriginWhereTheFrameIsThatOfTheLink) {
   const std::string before =
       "<robot name='r'>\n <link name='a'>\n  <collision>\n   <origin xyz='1 0 0'/>\n"
       "   <geometry><box size='1 1 1'/></geometry>\n  </collision>\n </link>\n</robot>\n";
-  EXPECT_EQ(written(before, {0, Geometry::Collision, "h.stl", std::nullopt, {}}),
+  EXPECT_EQ(written(before, {0, Geometry::Collision, {"h.stl"}, std::nullopt, {}, {}}),
             replaced(replaced(before, "   <origin xyz='1 0 0'/>\n", ""), "<box size='1 1 1'/>",
                      "<mesh filename=\"h.stl\"/>"));
 }
@@ -363,7 +364,7 @@ TEST(WriteUrdf, AddsCollisionsAfterTheLastVisual) {
   const std::string before =
       "<robot name='r'>\r\n\t<link name='a'>\r\n\t\t<visual>\r\n\t\t\t<origin xyz='1 0 0'/>\r\n"
       "\t\t\t<geometry><mesh filename='a'/></geometry>\r\n\t\t</visual>\r\n\t</link>\r\n</robot>";
-  EXPECT_EQ(written(before, {0, Geometry::Visual, "h.stl", 0, {}}),
+  EXPECT_EQ(written(before, {0, Geometry::Visual, {"h.stl"}, 0, {}, {}}),
             replaced(before, "</visual>\r\n",
                      "</visual>\r\n\t\t<collision>\r\n\t\t\t<origin xyz='1 0 0'/>\r\n\t\t\t<geometry><mesh "
                      "filename=\"h.stl\"/></geometry>\r\n\t\t</collision>\r\n"));
@@ -378,18 +379,18 @@ TEST(WriteUrdf, WritesIntoOneLine) {
   const std::string hull =
       "<collision><origin xyz='1 0 0'/><geometry><mesh filename=\"h.stl\"/></geometry></collision>";
   const std::string box = "<collision><origin xyz='1 0 0'/><geometry><box size='1 1 1'/></geometry></collision>";
-  const NewCollision both{0, Geometry::Visual, "h.stl", 0, {0}};
+  const NewCollision both{0, Geometry::Visual, {"h.stl"}, 0, {}, {0}};
   EXPECT_EQ(written(robot(visual), both), robot(visual + hull + box));
   EXPECT_EQ(written(robot(visual + old + old + old), both), robot(visual + hull + box));
-  EXPECT_EQ(written(robot(visual + old), {0, Geometry::Visual, "", std::nullopt, {0}}), robot(visual + box));
-  EXPECT_EQ(written(robot(visual + old + old), {0, Geometry::Visual, "", std::nullopt, {}}), robot(visual));
+  EXPECT_EQ(written(robot(visual + old), {0, Geometry::Visual, {}, std::nullopt, {}, {0}}), robot(visual + box));
+  EXPECT_EQ(written(robot(visual + old + old), {0, Geometry::Visual, {}, std::nullopt, {}, {}}), robot(visual));
 }
 
 TEST(WriteUrdf, WritesOneLineBelowAnother) {
   const std::string visual = " <visual><geometry><box size='1 1 1'/></geometry></visual>\n";
   const std::string before = "<robot name='r'><link name='a'>\n" + visual + "</link></robot>";
   EXPECT_EQ(
-      written(before, {0, Geometry::Visual, "h.stl", std::nullopt, {}}),
+      written(before, {0, Geometry::Visual, {"h.stl"}, std::nullopt, {}, {}}),
       replaced(before, visual, visual + " <collision><geometry><mesh filename=\"h.stl\"/></geometry></collision>\n"));
 }
 
@@ -399,9 +400,9 @@ TEST(WriteUrdf, LeavesKeptCollisionsWhereTheyAre) {
   const auto robot = [](const std::string& inside) {
     return "<robot name='r'>\n <link name='a'>\n" + inside + " </link>\n</robot>\n";
   };
-  EXPECT_EQ(written(robot(box + mesh + mesh), {0, Geometry::Collision, "h.stl", 1, {0}}),
+  EXPECT_EQ(written(robot(box + mesh + mesh), {0, Geometry::Collision, {"h.stl"}, 1, {}, {0}}),
             robot(box + replaced(mesh, "<mesh filename='a'/>", "<mesh filename=\"h.stl\"/>")));
-  EXPECT_EQ(written(robot(box), {0, Geometry::Collision, "", std::nullopt, {0}}), robot(box));
+  EXPECT_EQ(written(robot(box), {0, Geometry::Collision, {}, std::nullopt, {}, {0}}), robot(box));
 }
 
 TEST(WriteUrdf, RelatesOtherMeshesToTheNewFolder) {
@@ -415,7 +416,7 @@ TEST(WriteUrdf, RelatesOtherMeshesToTheNewFolder) {
       "<collision><geometry><mesh filename='c.stl'/></geometry></collision></link>"
       "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint></robot>";
   const RobotFile file = read_robot(text, folder / "arm/arm.urdf");
-  const NewCollision collision{0, Geometry::Visual, "meshes/a.stl", 0, {0}};
+  const NewCollision collision{0, Geometry::Visual, {"meshes/a.stl"}, 0, {}, {0}};
   std::string expected = replaced(text, "'a b.stl'", "'../arm/a b.stl'");
   expected = replaced(expected, "<mesh filename='b.stl'/></geometry></collision>",
                       "<mesh filename=\"meshes/a.stl\"/></geometry></collision><collision><geometry><mesh scale='1 1 "
@@ -436,7 +437,7 @@ TEST(WriteUrdf, RelatesTexturesToTheNewFolder) {
       "<texture filename=\"tex/b.png\"/></material></visual><collision><geometry><mesh filename='a.stl'/></geometry>"
       "</collision></link></robot>";
   const RobotFile file = read_robot(text, folder / "arm/arm.urdf");
-  const NewCollision collision{0, Geometry::Visual, "hull.stl", std::nullopt, {}};
+  const NewCollision collision{0, Geometry::Visual, {"hull.stl"}, std::nullopt, {}, {}};
   std::string expected = replaced(text, "'tex/a.png'", "'../arm/tex/a.png'");
   expected = replaced(expected, "\"tex/b.png\"", "\"../arm/tex/b.png\"");
   expected = replaced(expected, "<collision><geometry><mesh filename='a.stl'/>",
@@ -453,7 +454,7 @@ TEST(WriteUrdf, RefusesLettersThatTheEncodingDoesNotHave) {
                              "<box size='1 1 1'/></geometry></visual></link></robot>";
     const bool is_latin = has(encoding, "8859");
     const RobotFile file = read(is_latin ? text : replaced(text, "\xfc", "\xc3\xbc"));
-    const NewCollision collision{0, Geometry::Visual, hull, std::nullopt, {}};
+    const NewCollision collision{0, Geometry::Visual, {hull}, std::nullopt, {}, {}};
     return with_collisions(file, {&collision, 1}, "");
   };
   const std::string latin = " encoding='ISO-8859-1'", hull = "h\xc3\xbcll.stl";
@@ -497,16 +498,25 @@ TEST(WriteUrdf, HoldsForDamagedFiles) {
     std::vector<NewCollision> collisions;
     for (std::size_t link = 0; link < file.robot.links.size(); ++link)
       if (const std::size_t count = file.robot.links[link].visual.size(); count > 0)
-        collisions.push_back({link, Geometry::Visual, "h.stl", random() % count, {random() % count}});
+        collisions.push_back({link,
+                              Geometry::Visual,
+                              {"h_01.stl", "h_02.stl"},
+                              random() % count,
+                              {{{0.1, -2e-7, 3}, 0.25}},
+                              {random() % count}});
     const Robot again = read(with_collisions(file, collisions, fs::current_path())).robot;
     ASSERT_EQ(summary(again), summary(file.robot)) << text;
     for (const NewCollision& each : collisions) {
       const Link &now = again.links[each.link], &before = file.robot.links[each.link];
-      ASSERT_EQ(now.collision.size(), 2U) << text;
-      ASSERT_EQ(now.collision[0].mesh()->uri, "h.stl") << text;
-      ASSERT_EQ(now.collision[0].origin, before.visual[*each.same_origin_as].origin) << text;
-      ASSERT_EQ(now.collision[1].form.index(), before.visual[each.kept[0]].form.index()) << text;
-      ASSERT_EQ(now.collision[1].origin, before.visual[each.kept[0]].origin) << text;
+      ASSERT_EQ(now.collision.size(), 4U) << text;
+      for (const std::size_t i : {0U, 1U}) {
+        ASSERT_EQ(now.collision[i].mesh()->uri, each.hulls[i]) << text;
+        ASSERT_EQ(now.collision[i].origin, before.visual[*each.same_origin_as].origin) << text;
+      }
+      ASSERT_EQ(std::get<SphereForm>(now.collision[2].form).radius, 0.25) << text;
+      ASSERT_EQ(now.collision[2].origin, (Pose{.translation = {0.1, -2e-7, 3}})) << text;
+      ASSERT_EQ(now.collision[3].form.index(), before.visual[each.kept[0]].form.index()) << text;
+      ASSERT_EQ(now.collision[3].origin, before.visual[each.kept[0]].origin) << text;
     }
   }
   EXPECT_GT(read_count, rounds(20'000) / 100);

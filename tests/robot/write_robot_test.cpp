@@ -4,10 +4,12 @@
 
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/sample.h"
+#include "robot/files/sphere_file.h"
 #include "robot_folder.h"
 
 namespace prohull::robot {
@@ -109,6 +111,74 @@ TEST_F(WriteRobotTest, KeepsLongNamesShortAndDistinct) {
   write_all(output_files(robot, hulls, out, how_), out);
   EXPECT_TRUE(exists(meshes / (std::string(100, 'x') + ".stl")));
   EXPECT_TRUE(exists(meshes / (std::string(100, 'x') + "_2.stl")));
+}
+
+TEST_F(WriteRobotTest, WritesAFileForEachConvexPiece) {
+  how_.faces = {500}, how_.format = "obj";
+  hulls_[0].collision = Collision::Convex;
+  hulls_[0].hulls = {{.pieces = {make_sample("sphere", 80), make_sample("box", 12)}, .certified = true}};
+  const std::filesystem::path out = folder_.path() / "out";
+  write_all(output_files(file_, hulls_, out, how_), out);
+  const RobotFile again = read_robot(out / "arm.urdf");
+  ASSERT_EQ(again.robot.links[0].collision.size(), 2U);
+  for (const std::size_t i : {0U, 1U}) {
+    const Shape& shape = again.robot.links[0].collision[i];
+    EXPECT_EQ(shape.mesh()->uri, i == 0 ? "meshes/collision/a_b_01.obj" : "meshes/collision/a_b_02.obj");
+    EXPECT_EQ(shape.origin, again.robot.links[0].visual[0].origin);
+    EXPECT_EQ(read_mesh(shape.mesh()->path).face_count(), hulls_[0].hulls[0].pieces[i].face_count());
+  }
+}
+
+TEST_F(WriteRobotTest, KeepsTheNamesOfPiecesDistinctFromThoseOfLinks) {
+  const std::string visual = "<visual><geometry><mesh filename=\"torus.ply\"/></geometry></visual></link>";
+  std::ofstream(folder_.path() / "two.urdf")
+      << "<robot name=\"two\"><link name=\"a\">" << visual << "<link name=\"a_01\">" << visual
+      << "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"a_01\"/></joint></robot>";
+  std::vector<LinkHulls> hulls{hulls_[0], hulls_[0]};
+  hulls[0].collision = Collision::Convex, hulls[0].hulls = {{.pieces = {make_sample("sphere", 80)}, .certified = true}};
+  hulls[1].link = 1;
+  how_.faces = {500};
+  std::set<std::filesystem::path> names;
+  for (const OutputFile& file : output_files(read_robot(folder_.path() / "two.urdf"), hulls, folder_.path(), how_))
+    EXPECT_TRUE(names.insert(file.path).second) << file.path;
+  EXPECT_EQ(names.size(), 3U);
+}
+
+TEST_F(WriteRobotTest, WritesSpheresIntoTheRobotAndIntoAFileOfTheirOwn) {
+  how_.faces = {500};
+  hulls_[0].collision = Collision::Spheres, hulls_[0].frame = {};
+  hulls_[0].hulls = {{.balls = {{{0.1, -0.2, 1e-7}, 0.125}, {{0, 0, 1}, 0.3}}, .certified = true}};
+  const std::filesystem::path out = folder_.path() / "out";
+  const std::vector<OutputFile> files = output_files(file_, hulls_, out, how_);
+  EXPECT_EQ(files.back().path, "arm_spheres.yaml");
+  write_all(files, out);
+  EXPECT_FALSE(std::filesystem::exists(out / "meshes"));
+  const RobotFile again = read_robot(out / "arm.urdf");
+  ASSERT_EQ(again.robot.links[0].collision.size(), 2U);
+  for (const std::size_t i : {0U, 1U}) {
+    const Ball& ball = hulls_[0].hulls[0].balls[i];
+    EXPECT_EQ(std::get<SphereForm>(again.robot.links[0].collision[i].form).radius, ball.radius);
+    EXPECT_EQ(again.robot.links[0].collision[i].origin, Pose{.translation = ball.center});
+  }
+  const auto listed = read_sphere_file(content(out / "arm_spheres.yaml"), "arm_spheres.yaml");
+  ASSERT_EQ(listed.size(), 1U);
+  EXPECT_EQ(listed[0].link, "a/b");
+  EXPECT_EQ(listed[0].balls, hulls_[0].hulls[0].balls);
+}
+
+TEST_F(WriteRobotTest, WritesSpheresThatALinkHadBeforeToo) {
+  std::ofstream(folder_.path() / "ball.urdf")
+      << "<robot name=\"ball\"><link name=\"a\"><visual><origin xyz=\"1 2 3\" rpy=\"1 0 0\"/><geometry><sphere "
+         "radius=\"0.5\"/></geometry></visual></link></robot>";
+  const RobotFile ball = read_robot(folder_.path() / "ball.urdf");
+  const std::vector<LinkHulls> hulls = link_hulls(ball.robot, {.budget = {.collision = Collision::Spheres}});
+  EXPECT_EQ(hulls[0].status, LinkStatus::Primitives);
+  how_.faces = {500};
+  const std::filesystem::path out = folder_.path() / "out";
+  write_all(output_files(ball, hulls, out, how_), out);
+  const auto listed = read_sphere_file(content(out / "ball_spheres.yaml"), "ball_spheres.yaml");
+  ASSERT_EQ(listed.size(), 1U);
+  EXPECT_EQ(listed[0].balls, (std::vector<Ball>{{{1, 2, 3}, 0.5}}));
 }
 
 TEST_F(WriteRobotTest, KeepsTheCollisionElementsOfALinkWithoutACertificate) {

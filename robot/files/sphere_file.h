@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "prohull/shapes.h"
+
+namespace prohull::robot {
+
+/// The spheres of a link, in the frame of the link; metres.
+struct LinkBalls {
+  std::string link;
+  std::vector<Ball> balls;
+};
+
+/// The YAML file of collision spheres that cuRobo reads: collision_spheres: {LINK: [{center: [x, y, z], radius: r}]}.
+/// Numbers read back as the same doubles, in Python too. Throws InputError(InvalidOption) for names that are not UTF-8.
+std::string sphere_file(std::span<const LinkBalls> links);
+
+/// Reads the same; other keys beside collision_spheres are ignored. Spheres of a radius of 0 or less, which switch a
+/// sphere off in cuRobo, are left out. Throws InputError with `path` and the line for anything else.
+std::vector<LinkBalls> read_sphere_file(const std::string& text, const std::filesystem::path& path);
+
+}  // namespace prohull::robot

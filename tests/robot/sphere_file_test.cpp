@@ -1,0 +1,93 @@
+#include "robot/files/sphere_file.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "prohull/error.h"
+
+namespace prohull::robot {
+namespace {
+
+std::string refusal(const std::string& text) {
+  try {
+    read_sphere_file(text, "spheres.yaml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_read_back(const std::vector<LinkBalls>& links) {
+  const std::vector<LinkBalls> read = read_sphere_file(sphere_file(links), "spheres.yaml");
+  ASSERT_EQ(read.size(), links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    EXPECT_EQ(read[i].link, links[i].link);
+    EXPECT_EQ(read[i].balls, links[i].balls);
+  }
+}
+
+TEST(SphereFile, ReadsBackAsTheSameDoubles) {
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  expect_read_back({{"base", {{{0.1, -1.0 / 3, 1e-5}, 2e22}, {{1e300, kLeast, -0.0}, 1}}},
+                    {"arm: [1] \"\n#'", {{{1, 2, 3}, 0.25}}},
+                    {"none", {}},
+                    {"\xC3\xA9 true", {}}});
+  expect_read_back({});
+}
+
+TEST(SphereFile, HasPointsInAllNumbersForYaml11) {
+  const LinkBalls link{"a", {{{1e-5, 1, 1.5e-7}, 1e20}}};
+  EXPECT_EQ(sphere_file(std::span(&link, 1)),
+            "collision_spheres:\n  \"a\":\n    - {center: [1.0e-05, 1.0, 1.5e-07], radius: 1.0e+20}\n");
+}
+
+TEST(SphereFile, RefusesNamesThatYamlCannotHold) {
+  const LinkBalls link{"a\xFF", {}};
+  EXPECT_THROW(sphere_file(std::span(&link, 1)), InputError);
+}
+
+TEST(SphereFile, IsReadAsOthersWriteIt) {
+  const auto links = read_sphere_file(
+      "robot: 'UR'\n"
+      "collision_spheres:\n"
+      "  tool0:\n"
+      "    - \"center\": [0, 0.5, 1e-3]\n"
+      "      \"radius\": 0.1\n"
+      "    - {center: [0, 0, 0], radius: -0.01}\n",
+      "ur.yml");
+  ASSERT_EQ(links.size(), 1U);
+  EXPECT_EQ(links[0].link, "tool0");
+  EXPECT_EQ(links[0].balls, (std::vector<Ball>{{{0, 0.5, 1e-3}, 0.1}}));
+}
+
+TEST(SphereFile, RefusesAnythingElseWithTheLine) {
+  const std::string head = "collision_spheres:\n  a:\n";
+  EXPECT_EQ(refusal(""), "spheres.yaml: line 1: expected collision_spheres: and below it links");
+  EXPECT_EQ(refusal("[1]"), "spheres.yaml: line 1: expected collision_spheres: and below it links");
+  EXPECT_EQ(refusal("collision_spheres: other.yml"),
+            "spheres.yaml: line 1: collision_spheres: expected the name of a link and its spheres on each line");
+  EXPECT_EQ(refusal(head + "    x"),
+            "spheres.yaml: line 3: expected a list of spheres, each with a center and a radius");
+  EXPECT_EQ(refusal(head + "    - {center: [0, 0, 0]}"),
+            "spheres.yaml: line 3: expected a sphere, as {center: [x, y, z], radius: r}");
+  EXPECT_EQ(refusal(head + "    - {center: [0, 0], radius: 1}"),
+            "spheres.yaml: line 3: center: expected three numbers, as [x, y, z]");
+  EXPECT_EQ(refusal(head + "    - {center: [0, 0, big], radius: 1}"), "spheres.yaml: line 3: 'big': expected a number");
+  EXPECT_EQ(refusal(head + "    - {center: [0, 0, 0], radius: .inf}"),
+            "spheres.yaml: line 3: '.inf': expected a finite number");
+  EXPECT_EQ(refusal(head + "    []\n  a: []"), "spheres.yaml: line 4: the link a occurs twice");
+  EXPECT_NE(refusal(head + "    - {center: [0, 0, 0"), "");
+  EXPECT_NE(refusal(std::string(100000, '[')), "");
+}
+
+TEST(SphereFile, RefusesAliasesOfTooManySpheres) {
+  std::string text = "all: &all\n";
+  for (int i = 0; i < 2000; ++i) text += "  - {center: [0, 0, 0], radius: 1}\n";
+  text += "collision_spheres:\n";
+  for (int i = 0; i < 60; ++i) text += "  l" + std::to_string(i) + ": *all\n";
+  EXPECT_NE(refusal(text).find("more than 100000 spheres"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace prohull::robot
