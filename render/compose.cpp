@@ -40,7 +40,7 @@ std::vector<Surface> surfaces(const PanelPlan& plan, const Bodies& bodies, const
   constexpr double kMiddle = 0.5;
   const Rgb clay = *parse_color("clay");
   const Material edged{plan.color, plan.inside ? look.opacity : 1, plan.line_width};
-  std::vector<Surface> result{{bodies[plan.shown], edged}};
+  std::vector<Surface> result{{.body = bodies[plan.shown], .material = edged, .colors = plan.face_colors}};
   if (plan.inside) result.push_back({bodies[*plan.inside], {plan.inside_color.value_or(clay)}});
   if (plan.right) {
     for (Surface& surface : result) surface.to = kMiddle;

@@ -29,6 +29,7 @@ struct PanelPlan {
   std::optional<std::size_t> inside;  ///< then `shown` is translucent
   std::optional<std::size_t> right;   ///< takes the place of the others in the right half
   Rgb color;                          ///< of `shown`
+  PerFace<Rgb> face_colors;           ///< of `shown`; empty: all faces have `color`
   std::optional<Rgb> inside_color;    ///< of `inside`; none: that of clay
   double line_width = 0;              ///< of the edges of `shown`, in pixels; 0: not drawn
   std::optional<MarkedSegment> segment;

@@ -1,5 +1,6 @@
 #include "render/marks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -40,9 +41,20 @@ TriangleMesh dashes(const Segment& segment, double radius, double period) {
 }
 
 TriangleMesh ball(const Vec3& center, double radius) {
-  constexpr std::size_t kFaces = 2000;
-  TriangleMesh mesh = make_sample("sphere", kFaces);
-  for (Vec3& p : mesh.positions) p = center + radius / norm(p) * p;
+  const Ball ball{center, radius};
+  return spheres({&ball, 1});
+}
+
+TriangleMesh spheres(std::span<const Ball> balls) {
+  constexpr std::size_t kFaces = 2000, kFewestFaces = 80, kAllFaces = 1'000'000;
+  TriangleMesh mesh;
+  if (balls.empty()) return mesh;
+  const TriangleMesh unit = make_sample("sphere", std::clamp(kAllFaces / balls.size(), kFewestFaces, kFaces));
+  for (const Ball& ball : balls) {
+    TriangleMesh sphere = unit;
+    for (Vec3& p : sphere.positions) p = ball.center + ball.radius / norm(p) * p;
+    append(mesh, sphere);
+  }
   return mesh;
 }
 

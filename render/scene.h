@@ -33,8 +33,10 @@ struct Material {
 struct Surface {
   std::shared_ptr<const Body> body;
   Material material;
-  double from = 0, to = 1;  ///< the part of the picture's width where it is seen
+  double from = 0, to = 1;   ///< the part of the picture's width where it is seen
+  PerFace<Rgb> colors = {};  ///< empty: all faces have that of the material
 
+  const Rgb& color(FaceId face) const { return colors.empty() ? material.color : colors[face]; }
   bool is_translucent() const { return material.opacity < 1; }
   bool is_seen_at(double column) const { return from <= column && column < to; }
 };

@@ -80,7 +80,8 @@ TileRenderer::Sample TileRenderer::sample(int x, int y, int i) {
   if (const Surface* surface = meeting->surface) {
     sample.seen = Seen::Face;
     normals = normals_at(*surface, meeting->face, sample.position, sample.to_eye);
-    sample.color = mix(surface->material.color, line_color(surface->material.color), line_at(*meeting, at));
+    const Rgb& color = surface->color(meeting->face);
+    sample.color = mix(color, line_color(color), line_at(*meeting, at));
   } else {
     sample.seen = Seen::Ground;
   }
@@ -97,8 +98,9 @@ Rgba TileRenderer::veil(double t, const Ray& ray, double column, const Point2& a
     const Material& material = meeting.surface->material;
     const Vec3 normal = normals_at(*meeting.surface, meeting.face, meeting.position, to_eye).shading;
     const float line = line_at(meeting, at) * (seen.alpha > 0 ? kFarLine : kNearLine);
-    const Rgba glass = lighting_.glazed(material.color, material.opacity, normal, to_eye);
-    seen = over(seen, over({line_color(material.color) * line, line}, glass));
+    const Rgb& color = meeting.surface->color(meeting.face);
+    const Rgba glass = lighting_.glazed(color, material.opacity, normal, to_eye);
+    seen = over(seen, over({line_color(color) * line, line}, glass));
   }
   if (const auto mark = tracer_.shining_through(t, ray, column)) {
     const float share = static_cast<float>(mark->surface->material.through);

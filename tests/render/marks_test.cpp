@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "prohull/mesh_report.h"
 
 namespace prohull::render {
@@ -25,6 +27,16 @@ TEST(Marks, DashesCoverHalfOfTheWay) {
 TEST(Marks, OfNoLengthAreNothing) {
   EXPECT_TRUE(rod({{1, 2, 3}, {1, 2, 3}}, 0.5).triangles.empty());
   EXPECT_TRUE(dashes({{1, 2, 3}, {1, 2, 3}}, 0.5, 1).triangles.empty());
+}
+
+TEST(Spheres, AreClosedAndHaveFewerFacesTheMoreThereAre) {
+  const Ball ball{{1, 2, 3}, 0.5};
+  const TriangleMesh three = spheres(std::vector<Ball>(3, ball)), many = spheres(std::vector<Ball>(5000, ball));
+  EXPECT_TRUE(inspect(three).is_closed_manifold());
+  EXPECT_NEAR(signed_volume(three), 3 * 4. / 3 * 3.14159 * 0.125, 0.01);
+  EXPECT_LT(many.face_count(), 1'500'000u);
+  EXPECT_NEAR(norm(many.positions[VertexId(7)] - ball.center), ball.radius, 1e-12);
+  EXPECT_TRUE(spheres({}).triangles.empty());
 }
 
 }  // namespace
