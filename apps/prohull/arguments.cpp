@@ -23,11 +23,17 @@ Extensions operator+(Extensions a, const Extensions& b) {
 const std::map<std::string_view, Extensions>& file_types() {
   static const Extensions phull{".phull"}, written = written_mesh_extensions(),
                                            read = read_mesh_extensions() + Extensions{".gz", ".zip"};
-  static const std::map<std::string_view, Extensions> types{
-      {"IN", read + phull},       {"HULL", read + phull}, {"MESH", read + phull},
-      {"ORIGINAL", read},         {"OUT", written},       {"FILE", {".npy", ".npz", ".csv"}},
-      {"HITS", {".npz", ".csv"}}, {"H.phull", phull},     {"FILE.json", {".json"}},
-      {"OUT.png", {".png"}}};
+  static const std::map<std::string_view, Extensions> types{{"IN", read + phull},
+                                                            {"HULL", read + phull},
+                                                            {"MESH", read + phull},
+                                                            {"ORIGINAL", read},
+                                                            {"OUT", written},
+                                                            {"FILE", {".npy", ".npz", ".csv"}},
+                                                            {"HITS", {".npz", ".csv"}},
+                                                            {"H.phull", phull},
+                                                            {"FILE.json", {".json"}},
+                                                            {"OUT.png", {".png"}},
+                                                            {"PIECES", written + Extensions{".urdf", ".xml"}}};
   return types;
 }
 

@@ -62,16 +62,6 @@ EnclosingHulls build(const TriangleMesh& mesh, const BuildOptions& options) {
   }
 }
 
-/// The triangles of a file, bit for bit: STL does not keep how vertices are numbered.
-bool has_triangles_of(const TriangleMesh& file, const TriangleMesh& mesh) {
-  if (file.face_count() != mesh.face_count()) return false;
-  for (const FaceId f : mesh.triangles.ids()) {
-    const Triangle s = file.triangle(f), t = mesh.triangle(f);
-    if (!(s.a == t.a && s.b == t.b && s.c == t.c)) return false;
-  }
-  return true;
-}
-
 Written write_certified(EnclosingHull hull, FinestLevel finest, const BuildOptions& options, const std::string& suffix,
                         Outputs& outputs) {
   Written written;
@@ -81,7 +71,7 @@ Written write_certified(EnclosingHull hull, FinestLevel finest, const BuildOptio
   Stopwatch writing;
   written.certified = outputs.add(written.path, suffix, [&](const auto& file) {
     write_mesh(file, written.hull.mesh);
-    return has_triangles_of(read_mesh(file), written.hull.mesh);
+    return holds_triangles_of(file, written.hull.mesh);
   });
   if (written.certified)
     outputs.add(options.hierarchy, ".phull", [&](const auto& file) {

@@ -109,8 +109,6 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
         hull.padding);
 }
 
-nlohmann::json finite_or_null(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
-
 nlohmann::json facts_of(const RefusalCounts& counts) {
   nlohmann::json json;
   for (const auto& [name, refusal] : refusal_names()) json[std::string(name)] = counts[refusal];

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace prohull::cli {
 
 nlohmann::json facts(const MeshReport& report) {
@@ -22,6 +24,8 @@ nlohmann::json facts(const MeshQuality& quality) {
           {"sharp_edges", quality.sharp_edges},
           {"sharp_below_degrees", kSharpDihedralAngle / kDegree}};
 }
+
+nlohmann::json finite_or_null(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
 
 std::string described(const MeshQuality& quality) {
   return fmt::format(

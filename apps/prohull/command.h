@@ -30,6 +30,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 nlohmann::json facts(const MeshReport& report);
 nlohmann::json facts(const MeshQuality& quality);
+nlohmann::json finite_or_null(double value);
 
 /// In a line: "compactness median 0.72, worst 0.08; ..."
 std::string described(const MeshQuality& quality);
@@ -40,6 +41,7 @@ void add_build(CLI::App& app, Run& run);
 void add_collide(CLI::App& app, Run& run);
 void add_completion(CLI::App& app, Run& run);
 void add_contains(CLI::App& app, Run& run);
+void add_convex(CLI::App& app, Run& run);
 void add_distance(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_lod(CLI::App& app, Run& run);
@@ -47,6 +49,7 @@ void add_manual(CLI::App& app, Run& run);
 void add_query(CLI::App& app, Run& run);
 void add_render(CLI::App& app, Run& run);
 void add_sample(CLI::App& app, Run& run);
+void add_spheres(CLI::App& app, Run& run);
 void add_urdf(CLI::App& app, Run& run);
 void add_verify(CLI::App& app, Run& run);
 

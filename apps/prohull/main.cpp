@@ -19,6 +19,8 @@ void add_commands(CLI::App& app, Run& run) {
   add_collide(app, run);
   add_contains(app, run);
   add_distance(app, run);
+  add_convex(app, run);
+  add_spheres(app, run);
   add_urdf(app, run);
   add_render(app, run);
   add_sample(app, run);

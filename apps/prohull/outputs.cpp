@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <fstream>
 #include <mutex>
+#include <set>
 #include <system_error>
 
 #include "console.h"
@@ -201,6 +202,16 @@ void Outputs::commit() {
     if (is_stream(target)) pour(temporary, target);
 }
 
+bool holds_triangles_of(const path& file, const TriangleMesh& mesh) {
+  const TriangleMesh read = read_mesh(file);
+  if (read.face_count() != mesh.face_count()) return false;
+  for (const FaceId f : mesh.triangles.ids()) {
+    const Triangle s = read.triangle(f), t = mesh.triangle(f);
+    if (!(s.a == t.a && s.b == t.b && s.c == t.c)) return false;
+  }
+  return true;
+}
+
 void remove_unfinished_outputs() {
   g_mutex.lock();
   for (const path& temporary : g_temporaries) remove_all_of(temporary);
@@ -212,17 +223,19 @@ bool is_standard_stream(const path& file) { return file == "-"; }
 void check_files(const std::vector<path>& inputs, const std::vector<path>& outputs) {
   if (std::ranges::count_if(inputs, is_standard_stream) > 1)
     refuse("standard input (-) is named twice, but can be read only once; save one of the files first");
-  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-    if (output->empty()) continue;
-    const auto is_same = [&](const path& other) { return !other.empty() && resolved(other) == resolved(*output); };
-    if (std::any_of(outputs.begin(), output, is_same))
-      refuse(is_standard_stream(*output)
-                 ? "standard output (-) is named twice, but takes one file only; name another file"
-                 : fmt::format("{} is named twice, and would be overwritten; choose another name", output->string()));
-    if (!is_standard_stream(*output) && std::ranges::any_of(inputs, is_same))
-      refuse(fmt::format("{} is named twice, and would be overwritten; choose another name", output->string()));
-    require_writable(*output);
-    if (is_standard_stream(*output)) console().summary = stderr;
+  std::set<path> read, written;
+  for (const path& input : inputs)
+    if (!input.empty() && !is_standard_stream(input)) read.insert(resolved(input));
+  for (const path& output : outputs) {
+    if (output.empty()) continue;
+    const path file = is_standard_stream(output) ? output : resolved(output);
+    const bool is_new = written.insert(file).second;
+    if (!is_new && is_standard_stream(output))
+      refuse("standard output (-) is named twice, but takes one file only; name another file");
+    if (!is_new || read.contains(file))
+      refuse(fmt::format("{} is named twice, and would be overwritten; choose another name", output.string()));
+    require_writable(output);
+    if (is_standard_stream(output)) console().summary = stderr;
   }
 }
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "prohull/triangle_mesh.h"
+
 namespace prohull::cli {
 
 /// The files that a command writes. They are written under other names beside their own, and appear together, whole,
@@ -41,6 +43,9 @@ class Outputs {
   std::vector<Pending> pending_;
   std::vector<std::filesystem::path> folders_;
 };
+
+/// Whether a mesh file has the triangles of `mesh`, bit for bit. STL does not keep how vertices are numbered.
+bool holds_triangles_of(const std::filesystem::path& file, const TriangleMesh& mesh);
 
 /// Removes what was not committed, for a program that ends without unwinding. No output can be committed after that.
 void remove_unfinished_outputs();

@@ -11,8 +11,11 @@
 #include "prohull/refine_along.h"
 #include "render/compose.h"
 #include "render/draw.h"
+#include "render/marks.h"
 #include "render/mesh_table.h"
+#include "render/pieces.h"
 #include "robot/files/robot_file.h"
+#include "robot/files/sphere_file.h"
 #include "robot/motion/bodies.h"
 
 namespace prohull::cli {
@@ -25,7 +28,7 @@ using render::Rgb;
 struct Options {
   std::vector<std::filesystem::path> in;
   std::filesystem::path out, report;
-  std::vector<std::string> over, split, colors, faces, centers;
+  std::vector<std::string> over, split, colors, faces, centers, explosions;
   std::vector<double> zooms, line_widths;
   std::string segment;
   bool refine = false, wireframe = false, palette = false;
@@ -84,6 +87,14 @@ Vec3 point_of(const std::string& text) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
+double explosion_of(const std::string& text) {
+  constexpr double kMost = 100;
+  double factor = 0;
+  if (!parse(text, factor) || !(factor >= 0 && factor <= kMost))
+    refuse(fmt::format("--explode takes a number between 0 and {}, or {}, but not '{}'", kMost, kNone, text));
+  return factor;
+}
+
 Segment segment_of(const std::string& text) {
   const std::vector<double> numbers = numbers_of(text, 6, "segment");
   const Segment segment{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
@@ -101,6 +112,24 @@ std::optional<Value> for_panel(const std::vector<Value>& values, std::size_t i) 
 bool is_robot(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 5> kSuffixes{".urdf", ".xacro", ".sdf", ".mjcf", ".xml"};
   return std::ranges::find(kSuffixes, path.extension().string()) != kSuffixes.end();
+}
+
+bool is_spheres(const std::filesystem::path& path) { return path.extension() == ".yaml" || path.extension() == ".yml"; }
+
+/// All spheres of a file where the robot has its links at rest. Throws InputError that names `path`.
+std::vector<Ball> posed(const std::vector<robot::LinkBalls>& links, const robot::Robot& robot,
+                        const std::filesystem::path& path) {
+  const std::vector<Pose> poses = robot::link_poses(robot, robot::rest_positions(robot));
+  std::vector<Ball> balls;
+  for (const robot::LinkBalls& link : links) {
+    const auto found = std::ranges::find(robot.links, link.link, &robot::Link::name);
+    if (found == robot.links.end())
+      throw InputError(Defect::Malformed,
+                       fmt::format("{}: the robot '{}' has no link '{}'", path.string(), robot.name, link.link));
+    const Pose& pose = poses[static_cast<std::size_t>(found - robot.links.begin())];
+    for (const Ball& ball : link.balls) balls.push_back({placed(pose, ball.center), ball.radius});
+  }
+  return balls;
 }
 
 /// The geometry of all links, posed as in the report of a robot. Throws InputError that names `path`.
@@ -136,13 +165,17 @@ class Planner {
     once_or_for_each("--line-width", options_.line_widths.size());
     once_or_for_each("--zoom", options_.zooms.size());
     once_or_for_each("--center", options_.centers.size());
-    const auto is_hull = [&](const auto& path) { return !is_robot(path) && table_.is_hull(path); };
+    once_or_for_each("--explode", options_.explosions.size());
+    const auto is_hull = [&](const auto& path) { return is_mesh(path) && table_.is_hull(path); };
     if (!options_.faces.empty() && std::ranges::none_of(options_.in, is_hull))
       refuse("--faces is for .phull files; a mesh file has one level only");
   }
 
+  /// A mesh or .phull file.
+  static bool is_mesh(const std::filesystem::path& path) { return !is_robot(path) && !is_spheres(path); }
+
   std::vector<std::size_t> levels(const std::filesystem::path& path) {
-    if (is_robot(path) || !table_.is_hull(path)) return {MeshTable::kFinest};
+    if (!is_mesh(path) || !table_.is_hull(path)) return {MeshTable::kFinest};
     if (options_.faces.empty()) return {0};
     std::vector<std::size_t> levels;
     for (const std::string& text : options_.faces) levels.push_back(level_of(text));
@@ -152,6 +185,7 @@ class Planner {
   void add(const std::filesystem::path& path, std::size_t level) {
     PanelPlan plan;
     if (is_robot(path)) return add_robot(path, std::move(plan));
+    if (is_spheres(path)) return add_spheres(path, std::move(plan));
     plan.inside = companion(options_.over, path);
     plan.right = companion(options_.split, path);
     if (options_.refine) {
@@ -165,6 +199,8 @@ class Planner {
 
   void add(PanelPlan plan, bool is_hull) {
     const std::size_t i = plans_.size();
+    if (const auto factor = for_panel(options_.explosions, i); factor && *factor != kNone)
+      explode(plan, explosion_of(*factor));
     plan.color = color_of(for_panel(options_.colors, i).value_or(is_hull ? "blue" : "clay"));
     if (options_.wireframe) plan.line_width = for_panel(options_.line_widths, i).value_or(1);
     plan.zoom = for_panel(options_.zooms, i).value_or(1);
@@ -192,6 +228,41 @@ class Planner {
       throw InputError(Defect::EmptyMesh, path.string() + ": the robot has no geometry to draw");
     if (!options_.segment.empty()) plan.segment = crossings(plan.inside.value_or(plan.shown));
     add(std::move(plan), has_collision);
+  }
+
+  /// The spheres of one link over its mesh, or those of all links over the robot.
+  void add_spheres(const std::filesystem::path& path, PanelPlan plan) {
+    if (options_.refine || for_panel(options_.split, plans_.size()).value_or("none") != kNone)
+      refuse(fmt::format("{}: spheres are drawn --over a mesh or a robot; leave out --refine, and say --split none",
+                         path.string()));
+    const std::vector<robot::LinkBalls> links = robot::read_sphere_file(read_bytes(path), path);
+    const std::filesystem::path over = for_panel(options_.over, plans_.size()).value_or(std::string(kNone));
+    std::vector<Ball> balls;
+    if (is_robot(over)) {
+      const robot::Robot robot = robot::read_robot(over, options_.robots).robot;
+      balls = posed(links, robot, path);
+      TriangleMesh visual = robot_mesh(robot, robot::Geometry::Visual, over);
+      if (visual.face_count() > 0) plan.inside = table_.add(std::move(visual));
+    } else if (links.size() > 1) {
+      refuse(fmt::format("{}: it has spheres of {} links; say --over ROBOT.urdf, so that they have a place",
+                         path.string(), links.size()));
+    } else {
+      if (!links.empty()) balls = links[0].balls;
+      if (over != kNone) plan.inside = table_.add(over, MeshTable::kFinest);
+    }
+    if (balls.empty()) throw InputError(Defect::EmptyMesh, path.string() + ": there are no spheres to draw");
+    TriangleMesh spheres = render::spheres(balls);
+    render::require_drawable(spheres, path);
+    plan.shown = table_.add(std::move(spheres));
+    if (!options_.segment.empty()) plan.segment = crossings(plan.inside.value_or(plan.shown));
+    add(std::move(plan), true);
+  }
+
+  void explode(PanelPlan& plan, double factor) {
+    render::Exploded apart = render::exploded(table_.meshes()[plan.shown], factor);
+    render::require_drawable(apart.mesh, fmt::format("--explode {}", factor));
+    plan.face_colors = std::move(apart.colors);
+    plan.shown = table_.add(std::move(apart.mesh));
   }
 
   void add_refined(const std::filesystem::path& path, std::size_t level, PanelPlan& plan) {
@@ -334,6 +405,15 @@ void add_content_options(CLI::App& command, Options& options) {
       ->type_name("MESH")
       ->group(kContent);
   command
+      .add_option("--explode", options.explosions,
+                  std::string("Draw each part of IN in a colour of its own, and move it away from the middle by this "
+                              "factor, 0 to 100; 0 moves nothing, and none draws one mesh of one colour. Parts are "
+                              "what shared vertices connect, such as the pieces of `prohull convex`.") +
+                      kForPanels)
+      ->allow_extra_args(false)
+      ->type_name("FACTOR")
+      ->group(kContent);
+  command
       .add_option("--segment", options.segment,
                   "Draw this segment, and a mark where it crosses IN, or the mesh that IN is drawn over.")
       ->type_name("X,Y,Z,X,Y,Z")
@@ -424,8 +504,9 @@ void add_render(CLI::App& app, Run& run) {
       "render", "Draws meshes, hulls and robots as a PNG picture. Each of them has a panel of its own, side by side.");
   command
       .add_option("in", options->in,
-                  std::string("Meshes, .phull files or robots (.urdf, .xacro, .sdf, .mjcf, .xml) to draw. Robots are "
-                              "drawn within their collision geometry. ") +
+                  std::string("Meshes, .phull files, robots (.urdf, .xacro, .sdf, .mjcf, .xml) or spheres (.yaml) to "
+                              "draw. Robots are drawn within their collision geometry, and spheres --over a mesh or "
+                              "a robot. ") +
                       kMeshFiles)
       ->required()
       ->type_name("IN");
@@ -452,6 +533,8 @@ void add_render(CLI::App& app, Run& run) {
                 "prohull render hull.ply --over horse.ply --wireframe -o both.png",
                 "prohull render hull.stl --split horse.ply --wireframe -o halves.png",
                 "prohull render horse.phull --faces original,2000,200 --wireframe -o levels.png --size 1200x400",
+                "prohull render horse.ply horse_pieces.obj --explode none --explode 0.3 -o pieces.png",
+                "prohull render arm_spheres.yaml --over arm.urdf -o spheres.png",
                 "prohull render arm.urdf arm_safe/arm.urdf --color orange --color blue -o arm.png",
                 "prohull render pump.stl -o pump.png --up y --azimuth 120 --background transparent"});
   command.callback([options, &run] { run = [options] { return run_render(*options); }; });

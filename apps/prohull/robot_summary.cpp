@@ -43,11 +43,18 @@ class Table {
 
 std::string ratio(double a, double b) { return b > 0 ? fmt::format("{:.2f}", a / b) : "-"; }
 
+/// "500" faces of a hull, "8 pieces" or "64 spheres"
+std::string size_of(const LinkHull& hull) {
+  if (!hull.pieces.empty()) return counted(hull.pieces.size(), "piece", "pieces");
+  if (!hull.balls.empty()) return counted(hull.balls.size(), "sphere", "spheres");
+  return grouped(hull.mesh.face_count());
+}
+
 void add_hulls(Table& table, const Link& link, const LinkHulls& made) {
   for (const LinkHull& hull : made.hulls)
-    table.add({link.name, grouped(made.triangles.face_count()), grouped(hull.mesh.face_count()),
-               ratio(hull.volume, made.sealed_volume), ratio(hull.volume, made.convex_volume),
-               millimetres(hull.distance.upper), hull.certified ? "yes" : "NO"});
+    table.add({link.name, grouped(made.triangles.face_count()), size_of(hull), ratio(hull.volume, made.sealed_volume),
+               ratio(hull.volume, made.convex_volume), millimetres(hull.distance.upper),
+               hull.certified ? "yes" : "NO"});
   if (made.status == LinkStatus::Primitives) table.add({link.name, "primitives, kept"});
   if (!made.why.empty()) table.add({link.name, "left as it is"});
 }
@@ -63,7 +70,8 @@ std::string notes_text(const std::string& link, const LinkHull& hull, bool has_o
 
 std::string hulls_text(const ReportInput& facts) {
   Table table;
-  table.add({"link", "faces", "hull", "/ part", "/ convex", "distance", "certified"});
+  const bool has_hulls = cover_words(facts.hulls) == "hulls";
+  table.add({"link", "faces", has_hulls ? "hull" : "cover", "/ part", "/ convex", "distance", "certified"});
   for (const LinkHulls& made : facts.hulls) add_hulls(table, facts.file.robot.links[made.link], made);
   std::string text = table.text();
   for (const LinkHulls& made : facts.hulls) {
@@ -92,9 +100,10 @@ std::string shipped_text(const ReportInput& facts) {
   return text + "\n";
 }
 
-std::string motion_text(const MotionResult& motion) {
-  return fmt::format("  motion: {} configurations; false collisions {} with these hulls, {} with convex hulls; {}\n",
-                     grouped(motion.configurations), grouped(motion.false_hull()), grouped(motion.false_convex()),
+std::string motion_text(const MotionResult& motion, std::string_view covers) {
+  return fmt::format("  motion: {} configurations; false collisions {} with {} {}, {} with convex hulls; {}\n",
+                     grouped(motion.configurations), grouped(motion.false_hull()),
+                     covers == "collision geometry" ? "this" : "these", covers, grouped(motion.false_convex()),
                      motion.missed() == 0 ? "none missed" : fmt::format("{} MISSED", grouped(motion.missed())));
 }
 
@@ -114,6 +123,20 @@ std::string described(std::span<const Shape> all) {
   return text.empty() ? "no geometry" : text;
 }
 
+/// "a hull of 500 faces"
+std::string cover_of(const Budget& budget) {
+  switch (budget.collision) {
+    case Collision::Hull:
+      break;
+    case Collision::Convex:
+      return fmt::format("up to {} of up to {} vertices", counted(budget.pieces, "convex piece", "convex pieces"),
+                         grouped(budget.vertices));
+    case Collision::Spheres:
+      return fmt::format("up to {}", counted(budget.spheres, "sphere", "spheres"));
+  }
+  return fmt::format("a hull of {} faces", fmt::join(budget.faces, " and "));
+}
+
 /// What a run would do with a link.
 std::string plan_of(const Link& link, const LinkHullOptions& options) {
   const Budget& budget = options.budget_of(link.name);
@@ -124,9 +147,8 @@ std::string plan_of(const Link& link, const LinkHullOptions& options) {
   if (budget.skip || has([](const Shape& shape) { return std::holds_alternative<OtherForm>(shape.form); }))
     return "left as it is";
   if (has(is_missing)) return options.skip_missing ? "left as it is" : "an error, as its mesh is missing";
-  if (budget.padding == 0 && !has([](const Shape& shape) { return shape.mesh() != nullptr; }))
-    return "primitives, kept";
-  std::string text = fmt::format("a hull of {} faces", fmt::join(budget.faces, " and "));
+  if (!has([&](const Shape& shape) { return is_covered(shape, budget); })) return "primitives, kept";
+  std::string text = cover_of(budget);
   if (budget.max_distance > 0) text += fmt::format(", within {}", millimetres(budget.max_distance));
   if (budget.padding > 0) text += fmt::format(", with a padding of {}", millimetres(budget.padding));
   return text;
@@ -211,10 +233,12 @@ std::string robot_summary(const std::filesystem::path& folder, const ReportInput
   std::size_t hulls = 0, certified = 0;
   for (const LinkHulls& link : facts.hulls)
     for (const LinkHull& hull : link.hulls) ++hulls, certified += hull.certified;
+  const std::string_view covers = cover_words(facts.hulls);
   std::string text = hulls_text(facts) + shipped_text(facts);
-  if (facts.motion) text += motion_text(*facts.motion);
-  text += fmt::format("{}: the robot with its hulls, and report.html; {} of {} certified\n", folder.string(), certified,
-                      counted(hulls, "hull is", "hulls are"));
+  if (facts.motion) text += motion_text(*facts.motion, covers);
+  text += fmt::format(
+      "{}: the robot with its {}, and report.html; {} of {} certified\n", folder.string(), covers, certified,
+      covers == "hulls" ? counted(hulls, "hull is", "hulls are") : counted(hulls, "link is", "links are"));
   return text;
 }
 

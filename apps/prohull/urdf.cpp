@@ -30,6 +30,7 @@ struct Options {
   bool check = false, dry_run = false, no_cache = false, no_pictures = false;
   MotionOptions motion{.configurations = 1000};
   unsigned threads = 0;
+  std::vector<std::pair<const CLI::Option*, Collision>> sizes;  ///< options that one kind of collision geometry has
 };
 
 Names<Geometry> geometry_names() {
@@ -169,11 +170,23 @@ int run_build(const Options& options, const RobotFile& file) {
   return is_done ? kDone : kAnswerIsNo;
 }
 
+/// An option that no link heeds would be a surprise.
+void check_sizes(const Options& options, const Robot& robot) {
+  for (const auto& [option, kind] : options.sizes) {
+    const Collision needed = kind;
+    const auto heeds = [&](const Link& link) { return options.hulls.budget_of(link.name).collision == needed; };
+    if (option->count() > 0 && std::ranges::none_of(robot.links, heeds))
+      refuse(fmt::format("{} needs --collision {}, or a link with it in --budgets", option->get_name(),
+                         prohull::name_of(collision_names(), kind)));
+  }
+}
+
 int run_urdf(Options options) {
   complete(options);
   const RobotFile file = read_robot(options.in, options.file);
   if (!options.budgets.empty())
     read_budgets(read_bytes(options.budgets), input_name(options.budgets), file.robot, options.hulls);
+  if (!options.check) check_sizes(options, file.robot), check_budgets(file.robot, options.hulls);
   say_robot(file);
   if (!options.write_budgets.empty()) return run_write_budgets(options, file);
   if (options.check) return run_check(options, file);
@@ -181,30 +194,48 @@ int run_urdf(Options options) {
   return run_build(options, file);
 }
 
+/// What each kind of collision geometry has a number of.
+void add_sizes(CLI::App& command, Options& options, const char* group) {
+  Budget& budget = options.hulls.budget;
+  const auto is_for = [&](Collision kind, CLI::Option* option) {
+    option->capture_default_str()->group(group);
+    options.sizes.emplace_back(option, kind);
+  };
+  is_for(Collision::Hull,
+         add_number(command, "--faces", budget.faces, {4, 1e9},
+                    "Number of faces of each hull, at least 4. Several numbers, as in 500,100, make a robot each.")
+             ->delimiter(',')
+             ->type_name("N[,N...]"));
+  is_for(Collision::Convex, add_number(command, "--pieces", budget.pieces, {1, 1e9},
+                                       "Largest number of convex pieces of each link, with --collision convex."));
+  is_for(Collision::Convex, add_number(command, "--vertices", budget.vertices, {4, 1e9},
+                                       "Largest number of vertices of each convex piece, at least 4."));
+  is_for(Collision::Spheres, add_number(command, "--spheres", budget.spheres, {1, 1e9},
+                                        "Largest number of spheres of each link, with --collision spheres."));
+}
+
 /// Returns --write-budgets.
 CLI::Option* add_budgets(CLI::App& command, Options& options) {
   constexpr const char* kBudgets = "Budgets";
-  add_number(command, "--faces", options.hulls.budget.faces, {4, 1e9},
-             "Number of faces of each hull, at least 4. Several numbers, as in 500,100, make a robot each.")
-      ->delimiter(',')
-      ->capture_default_str()
-      ->type_name("N[,N...]")
-      ->group(kBudgets);
+  add_sizes(command, options, kBudgets);
   command
       .add_option("--max-distance", options.max_distance,
                   "Largest allowed distance of any point of a hull from the geometry, in metres or with a unit: 2mm. "
-                  "Hulls then have the fewest faces that keep it, but at least --faces. Padding does not count. The "
-                  "exit code is 1 if a hull cannot keep it.")
+                  "Hulls then have the fewest faces that keep it, but at least --faces. Convex pieces and spheres are "
+                  "then as few as keep it, but at most --pieces and --spheres. Padding does not count. The exit code "
+                  "is 1 if a hull cannot keep it.")
       ->type_name("LENGTH")
       ->group(kBudgets);
   command
       .add_option("--padding", options.padding,
-                  "Least distance that the hulls keep from the geometry, in metres or with a unit: 5mm.")
+                  "Least distance that the hulls keep from the geometry, in metres or with a unit: 5mm. Not for convex "
+                  "pieces and spheres.")
       ->type_name("LENGTH")
       ->group(kBudgets);
   command
       .add_option("--budgets", options.budgets,
-                  "YAML file with faces, max_distance, padding and skip for each link; see --write-budgets.")
+                  "YAML file with collision, faces, pieces, vertices, spheres, max_distance, padding and skip for each "
+                  "link; see --write-budgets.")
       ->type_name("FILE.yaml")
       ->group(kBudgets);
   return command
@@ -262,7 +293,7 @@ void add_urdf(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand(
       "urdf",
-      "Gives every link of a robot a certified collision mesh. Reads URDF, SDF and MJCF, and writes a copy of the "
+      "Gives every link of a robot certified collision geometry. Reads URDF, SDF and MJCF, and writes a copy of the "
       "robot with its meshes, a report with pictures, and the pairs of links that need no check. With --check, it "
       "decides whether the collision geometry that the robot ships with covers the robot. The exit code is 1 if a "
       "link is not covered.");
@@ -278,6 +309,11 @@ void add_urdf(CLI::App& app, Run& run) {
                       "this command has not written is refused.")
           ->type_name("DIR");
   add_package_path_option(command, options->file.package_paths);
+  add_choice(
+      command, "--collision", options->hulls.budget.collision, collision_names(),
+      "What covers each link: one hull, which may be concave; convex pieces, for engines that take only these; or "
+      "spheres, for planners that take only these. Spheres also go into ROBOT_spheres.yaml, as cuRobo reads "
+      "them.");
   add_choice(command, "--from", options->hulls.from, geometry_names(), "Geometry of each link that the hulls enclose.");
   command.add_option("--format", options->hulls.format, "Format of the hulls.")
       ->transform(one_of("--format", {"stl", "obj", "glb"}))
@@ -308,6 +344,8 @@ void add_urdf(CLI::App& app, Run& run) {
   add_examples(
       command,
       {"prohull urdf arm.urdf -o arm_safe", "prohull urdf arm.urdf -o arm_safe --faces 500,100 --padding 5mm",
+       "prohull urdf arm.xml -o arm_convex --collision convex --pieces 16",
+       "prohull urdf arm.urdf -o arm_spheres --collision spheres --spheres 64",
        "prohull urdf arm.urdf -o arm_safe --package arm_safe --package-path ~/ws/src",
        "prohull urdf arm.urdf --write-budgets budgets.yaml", "prohull urdf arm.urdf -o arm_safe --budgets budgets.yaml",
        "prohull urdf arm.urdf --check --allow 0.5mm --junit leaks.xml",

@@ -7,32 +7,18 @@
 #include "prohull/mesh_io.h"
 #include "prohull/verification.h"
 #include "recenter.h"
+#include "verify_union.h"
 
 namespace prohull::cli {
 namespace {
 
-struct Options {
-  std::filesystem::path hull, original, report;
-  InputOptions hull_input, original_input;
-  HullSide side = HullSide::Outer;
-  bool solid_only = false;
-  std::string offset = "0,0,0";
-};
-
-std::string text(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x, p.y, p.z); }
+using Options = VerifyOptions;
 
 void print_offenders(const Verification& found, const std::string& mesh) {
   if (found.faces_outside > 0)
     say("  {} faces of {} lie outside, at least in part; the farthest:\n", grouped(found.faces_outside), mesh);
   for (const Offender& o : found.worst)
-    say("    face {} at {}, {:.6g} outside\n", index(o.face), text(o.point), o.distance);
-}
-
-nlohmann::json facts(const std::vector<Offender>& worst) {
-  nlohmann::json all = nlohmann::json::array();
-  for (const Offender& o : worst)
-    all.push_back({{"face", index(o.face)}, {"point", {o.point.x, o.point.y, o.point.z}}, {"distance", o.distance}});
-  return all;
+    say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
 }
 
 Verification verify(const Options& options, const MeshOrHull& hull, TriangleMesh original) {
@@ -118,6 +104,10 @@ std::size_t face_count(const MeshOrHull& hull) {
 }
 
 int run_verify(const Options& options) {
+  if (!options.more.empty())
+    throw InputError(Defect::InvalidOption,
+                     "these are more than two files: with --union the last one is ORIGINAL, and all others are pieces");
+  if (options.inside) throw InputError(Defect::InvalidOption, "--inside is for spheres: use it with --union");
   check_files({options.hull, options.original}, {options.report});
   const std::vector<double> numbers = numbers_of(options.offset, 3, "offset");
   const Vec3 offset{numbers[0], numbers[1], numbers[2]};
@@ -143,6 +133,15 @@ int run_verify(const Options& options) {
 
 }  // namespace
 
+std::string text_of_point(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x, p.y, p.z); }
+
+nlohmann::json facts(const std::vector<Offender>& worst) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const Offender& o : worst)
+    all.push_back({{"face", index(o.face)}, {"point", {o.point.x, o.point.y, o.point.z}}, {"distance", o.distance}});
+  return all;
+}
+
 void add_verify(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("verify",
@@ -152,13 +151,27 @@ void add_verify(CLI::App& app, Run& run) {
                                           "proof, which is replayed. The solid of the "
                                           "mesh must be enclosed, and every triangle covered. Of a mesh that is not "
                                           "closed, only the latter is asked. A hull "
-                                          "whose faces look inwards is refused.");
-  command.add_option("hull", options->hull, std::string("Mesh or .phull file. ") + kMeshFiles)
+                                          "whose faces look inwards is refused.\n"
+                                          "With --union it is decided whether convex pieces together, or spheres "
+                                          "together, cover a mesh.");
+  command
+      .add_option("hull", options->hull,
+                  std::string("Mesh or .phull file; with --union a file of pieces. ") + kMeshFiles)
       ->required()
       ->type_name("HULL");
   command.add_option("original", options->original, "Mesh that the hull should enclose, in any of these formats.")
       ->required()
       ->type_name("ORIGINAL");
+  command.add_option("more", options->more, "With --union: more files of pieces. The last file is ORIGINAL.")
+      ->type_name("MORE");
+  command.add_flag(
+      "--union", options->is_union,
+      "Decide whether the union of pieces covers every triangle of ORIGINAL and, if that is closed, its "
+      "inside. Pieces may touch and overlap. Each connected component of a mesh file is a piece; STL "
+      "joins those that share corners. A .yaml file of collision spheres, as cuRobo reads it, holds the spheres of "
+      "one link.");
+  command.add_flag("--inside", options->inside,
+                   "With --union and spheres: the inside of ORIGINAL must be covered too, not only its triangles.");
   add_format_option(command, options->original_input);
   add_unit_options(command, options->original_input, "ORIGINAL (the same as `prohull build` was given for it)");
   command
@@ -173,13 +186,16 @@ void add_verify(CLI::App& app, Run& run) {
                    "Ask only for the solid that a closed mesh bounds. Triangles of folds and of parts that are inside "
                    "out bound no part of it, and may stick out.");
   add_report_option(command, options->report);
-  add_examples(command, {"prohull verify hull.stl horse.ply", "prohull verify horse.phull horse.ply",
-                         "prohull verify occluder.obj rock.obj --side inner", "prohull verify hull.stl soup.stl",
-                         "prohull verify arm_collision.stl arm.stl --unit mm",
-                         "prohull verify house.glb house_utm.ply --offset 500010,5400000,0"});
+  add_examples(
+      command,
+      {"prohull verify hull.stl horse.ply", "prohull verify horse.phull horse.ply",
+       "prohull verify occluder.obj rock.obj --side inner", "prohull verify hull.stl soup.stl",
+       "prohull verify arm_collision.stl arm.stl --unit mm",
+       "prohull verify house.glb house_utm.ply --offset 500010,5400000,0", "prohull verify --union pieces.obj part.stl",
+       "prohull verify --union a.stl b.stl c.stl part.stl", "prohull verify --union spheres.yaml part.stl --inside"});
   command.callback([options, &run] {
     options->hull_input.format = options->original_input.format;  // one of them may be standard input
-    run = [options] { return run_verify(*options); };
+    run = [options] { return options->is_union ? run_verify_union(*options) : run_verify(*options); };
   });
 }
 

@@ -481,7 +481,7 @@ expect 0 "help of the program" $prohull help
 says out "help of the program" "Commands:"
 expect 2 "help of no command" $prohull help biuld
 says err "help of no command" "did you mean 'build'?"
-for command in "" build verify info lod query contains distance collide render sample completion manual help; do
+for command in "" build verify info lod query contains distance collide convex render sample completion manual help; do
   for columns in 40 80 132; do
     expect 0 "help in $columns columns" env COLUMNS=$columns $prohull help $command
     checks=$((checks + 1))  # names of options, lists of choices and examples are as long as they are

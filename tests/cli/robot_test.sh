@@ -107,6 +107,39 @@ says budgeted/report.json "budgets: faces" '"target_faces": 80'
 says budgeted/report.json "budgets: padding" '"proof": "padding"'
 absent budgeted/robot.srdf "without configurations"
 
+# --- convex pieces and spheres ---
+few="--configurations 20 --no-pictures"
+expect 0 "dry run of pieces" $urdf -o pieces --collision convex --pieces 3 --dry-run
+says out "dry run of pieces" "up to 3 convex pieces of up to 64 vertices"
+expect 0 "convex pieces" $urdf -o pieces --collision convex --pieces 3 --vertices 16 $few
+says out "convex pieces" "2 of 2 links are certified"
+says out "convex pieces" "none missed"
+is "convex pieces are files" test -s pieces/meshes/collision/base_01.stl
+says pieces/report.json "convex pieces in JSON" '"collision": "convex"'
+expect 0 "convex pieces pass the check" $prohull urdf pieces/robot.urdf --check
+says out "convex pieces pass the check" "yes: the collision geometry covers"
+expect 0 "convex pieces again" $urdf -o pieces --collision convex --pieces 3 --vertices 16 $few
+says out "convex pieces again" "up to date"
+expect 0 "spheres" $urdf -o balls --collision spheres --spheres 12 $few
+says out "spheres" "3 of 3 links are certified"
+says out "spheres" "none missed"
+says balls/robot_spheres.yaml "spheres in a file of their own" "collision_spheres:"
+says balls/robot.urdf "spheres in the robot" "<sphere radius="
+absent balls/meshes "spheres need no meshes"
+expect 0 "spheres pass the check" $prohull urdf balls/robot.urdf --check
+says out "spheres pass the check" "yes: the collision geometry covers"
+expect 2 "--pieces without convex pieces" $urdf -o none --pieces 3
+says err "--pieces without convex pieces" "--pieces needs --collision convex"
+expect 2 "padding of pieces" $urdf -o none --collision convex --padding 1mm
+says err "padding of pieces" "takes no padding"
+expect 2 "--tight without hulls" $urdf -o none --collision spheres --tight
+expect 2 "two sets of spheres" $urdf -o none --collision spheres --faces 200,60
+printf 'default: {faces: [100]}\nlinks:\n  base: {collision: convex, pieces: 2}\n' >mixed.yaml
+expect 0 "mixed budgets" $urdf -o mixed --budgets mixed.yaml $few
+says out "mixed budgets" "certified"
+is "mixed budgets: pieces" test -s mixed/meshes/collision/base_01.stl
+is "mixed budgets: a hull" test -s mixed/meshes/collision/arm__1_.stl
+
 # --- what is refused, and leaves nothing ---
 expect 2 "no folder" $urdf
 says err "no folder" "-o"

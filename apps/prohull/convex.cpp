@@ -1,0 +1,377 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command.h"
+#include "prohull/convex_cover.h"
+#include "prohull/error.h"
+#include "prohull/float32_hull.h"
+#include "prohull/mesh_io.h"
+#include "robot/files/piece_files.h"
+
+namespace prohull::cli {
+namespace {
+
+using std::filesystem::path;
+
+struct Options {
+  path in, out, report;
+  ConvexCoverOptions cover;
+  InputOptions input;
+  std::string out_format;
+  double max_void_percent = 0;  ///< 0: any
+};
+
+[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
+
+OutputKind piece_outputs() {
+  OutputKind kind{"convex pieces", written_mesh_extensions()};
+  kind.suffixes.insert(kind.suffixes.end(), {".urdf", ".xml"});
+  return kind;
+}
+
+/// What holds all pieces in one file.
+OutputKind whole_outputs() {
+  OutputKind kind{"convex pieces", {}};
+  for (const std::string& suffix : written_mesh_extensions())
+    if (holds_several_meshes(mesh_format("x" + suffix))) kind.suffixes.push_back(suffix);
+  return kind;
+}
+
+std::string suffix_of(const Options& options) {
+  return output_suffix(options.out, is_standard_stream(options.out) ? whole_outputs() : piece_outputs(),
+                       options.out_format);
+}
+
+/// Which files the pieces go to: one for all, or a file for each, beside a robot file that names them or without it.
+class PieceFiles {
+ public:
+  /// Throws InputError for names and options that contradict each other.
+  explicit PieceFiles(const Options& options) : out_(options.out), suffix_(suffix_of(options)) {
+    const std::size_t most = options.cover.max_pieces;
+    stem_ = is_standard_stream(out_) ? "piece" : out_.stem().string();
+    names_ = most == 1 ? std::vector{stem_} : robot::piece_names(stem_, most);
+    check(options);
+  }
+
+  bool is_robot() const { return suffix_ == ".urdf" || suffix_ == ".xml"; }
+  bool is_one() const { return !is_robot() && holds_several_meshes(mesh_format("x" + suffix_)); }
+  std::string mesh_suffix() const { return is_robot() ? ".stl" : suffix_; }
+  bool has_float32() const { return stores_float32(mesh_format("x" + mesh_suffix())); }
+  const std::string& name(std::size_t piece) const { return names_[piece]; }
+  path path_of(std::size_t piece) const { return path(out_).replace_filename(names_[piece] + mesh_suffix()); }
+
+  /// All files of these pieces.
+  std::vector<path> written(const std::vector<ConvexPiece>& pieces) const {
+    std::vector<path> files;
+    if (is_one() || is_robot()) files.push_back(out_);
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      if (has_file(pieces[i])) files.push_back(path_of(i));
+    return files;
+  }
+
+  /// Returns whether the files hold the very bits of the pieces.
+  bool add_to(Outputs& outputs, const std::vector<ConvexPiece>& pieces) const {
+    if (is_one()) return add_one(outputs, pieces);
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      if (has_file(pieces[i]) && !add_piece(outputs, path_of(i), pieces[i])) return false;
+    if (is_robot()) outputs.add(out_, robot_file(pieces));
+    return true;
+  }
+
+  /// Names of files beside those of the pieces that look as if they held pieces too.
+  std::vector<std::string> others(const std::vector<ConvexPiece>& pieces) const {
+    std::set<std::string> own;
+    for (const path& file : written(pieces)) own.insert(file.filename().string());
+    std::vector<std::string> found;
+    std::error_code error;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(out_.has_parent_path() ? out_.parent_path() : ".", error)) {
+      const std::string name = entry.path().filename().string();
+      if (!is_one() && is_numbered(name) && !own.contains(name)) found.push_back(name);
+    }
+    std::ranges::sort(found);
+    return found;
+  }
+
+  static bool is_mesh(const ConvexPiece& piece) { return std::holds_alternative<std::monostate>(piece.primitive); }
+
+ private:
+  void check(const Options& options) const {
+    if (is_standard_stream(out_) && !is_one())
+      refuse("standard output (-) takes one file only; write .obj or .glb, or name the file");
+    if (!is_robot() && (options.cover.shape == PieceShape::Capsule || options.cover.shape == PieceShape::Ball))
+      refuse(fmt::format("{}: mesh files hold no {}; write .urdf or .xml", output_name(out_),
+                         options.cover.shape == PieceShape::Ball ? "spheres" : "capsules"));
+    std::vector<path> files = written(std::vector<ConvexPiece>(options.cover.max_pieces));
+    files.push_back(options.report);
+    check_files({options.in}, files);
+    if (is_robot()) robot::urdf_of(stem_, {});  // refuses its name before any work
+  }
+
+  bool has_file(const ConvexPiece& piece) const { return !is_one() && (!is_robot() || is_mesh(piece)); }
+
+  bool add_one(Outputs& outputs, const std::vector<ConvexPiece>& pieces) const {
+    std::vector<TriangleMesh> meshes;
+    TriangleMesh all;
+    for (const ConvexPiece& piece : pieces) meshes.push_back(piece.mesh), append(all, piece.mesh);
+    return outputs.add(out_, suffix_, [&](const path& file) {
+      write_meshes(file, meshes, std::span(names_).first(pieces.size()));
+      return holds_triangles_of(file, all);
+    });
+  }
+
+  bool add_piece(Outputs& outputs, const path& target, const ConvexPiece& piece) const {
+    return outputs.add(target, mesh_suffix(), [&](const path& file) {
+      write_mesh(file, piece.mesh);
+      return holds_triangles_of(file, piece.mesh);
+    });
+  }
+
+  std::string robot_file(const std::vector<ConvexPiece>& pieces) const {
+    std::vector<robot::NamedPiece> named;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      named.push_back({pieces[i].primitive, has_file(pieces[i]) ? path_of(i).filename().string() : ""});
+    return suffix_ == ".urdf" ? robot::urdf_of(stem_, named) : robot::mjcf_of(stem_, named);
+  }
+
+  /// Whether it is the name of a piece with some number.
+  bool is_numbered(const std::string& name) const {
+    const std::string begin = stem_ + "_", end = mesh_suffix();
+    if (name.size() <= begin.size() + end.size() || !name.starts_with(begin) || !name.ends_with(end)) return false;
+    return std::all_of(name.begin() + static_cast<std::ptrdiff_t>(begin.size()),
+                       name.end() - static_cast<std::ptrdiff_t>(end.size()),
+                       [](unsigned char c) { return std::isdigit(c) != 0; });
+  }
+
+  path out_;
+  std::string suffix_, stem_;
+  std::vector<std::string> names_;
+};
+
+struct Outcome {
+  MeshReport input;
+  double diagonal = 0;
+  ConvexCover cover;
+  bool certified = false;  ///< and the files hold the very bits of the pieces
+  std::vector<std::string> others;
+  double read_seconds = 0, write_seconds = 0;
+
+  int exit_code() const { return certified && cover.within_bounds ? kDone : kAnswerIsNo; }
+};
+
+double diagonal_of(const TriangleMesh& mesh) {
+  Box box;
+  for (const auto& triangle : mesh.triangles)
+    for (const VertexId v : triangle)
+      if (is_finite(mesh.positions[v])) box.extend(mesh.positions[v]);
+  return box.diagonal();
+}
+
+ConvexCover cover_of(TriangleMesh mesh, const Options& options) {
+  ProgressLine line;
+  ConvexCoverOptions cover = options.cover;
+  cover.progress = std::ref(line);
+  try {
+    if (cover.float32_coordinates) check_float32_spacing(mesh);
+    return convex_cover(std::move(mesh), cover);
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
+  }
+}
+
+// Summary and report
+
+/// The variant has its alternatives in the order of PieceShape.
+PieceShape shape_of(const ConvexPiece& piece) { return static_cast<PieceShape>(piece.primitive.index()); }
+std::string_view shape_name(const ConvexPiece& piece) { return name_of(piece_shape_names(), shape_of(piece)); }
+
+std::size_t most_vertices(const ConvexCover& cover) {
+  std::size_t most = 0;
+  for (const ConvexPiece& piece : cover.pieces)
+    if (PieceFiles::is_mesh(piece)) most = std::max(most, piece.mesh.vertex_count());
+  return most;
+}
+
+/// "12 convex pieces of at most 64 vertices", "3 boxes", "1 convex piece of 40 vertices and 3 boxes"
+std::string described_pieces(const ConvexCover& cover) {
+  const auto count = [&](PieceShape shape) {
+    return static_cast<std::size_t>(std::ranges::count(cover.pieces, shape, shape_of));
+  };
+  std::vector<std::string> parts;
+  if (const std::size_t n = count(PieceShape::Polytope); n > 0)
+    parts.push_back(fmt::format("{} of {}{} vertices", counted(n, "convex piece", "convex pieces"),
+                                n > 1 ? "at most " : "", most_vertices(cover)));
+  const auto add = [&](PieceShape shape, const char* one, const char* many) {
+    if (const std::size_t n = count(shape); n > 0) parts.push_back(counted(n, one, many));
+  };
+  add(PieceShape::Box, "box", "boxes");
+  add(PieceShape::Capsule, "capsule", "capsules");
+  add(PieceShape::Ball, "sphere", "spheres");
+  return fmt::format("{}", fmt::join(parts, " and "));
+}
+
+std::string described_size(const ConvexCover& cover) {
+  if (!cover.covers_inside || !(cover.original_volume > 0)) return fmt::format("volume {:.4g}", cover.volume);
+  return fmt::format("{:.2f} % {} volume than the mesh", 100 * std::abs(cover.void_ratio),
+                     cover.void_ratio < 0 ? "less" : "more");
+}
+
+void print_summary(const Options& options, const PieceFiles& files, const Outcome& outcome) {
+  const ConvexCover& cover = outcome.cover;
+  say("{}: {}, {}\n", input_name(options.in), counted(outcome.input.faces, "face", "faces"),
+      counted(outcome.input.components, "component", "components"));
+  for (const std::string& note : cover.notes) say("  {}\n", note);
+  say("{}: {}, {}, at most {:.4g} from the mesh ({:.2f} % of its diagonal)\n", output_name(options.out),
+      described_pieces(cover), described_size(cover), cover.reach.upper, 100 * cover.reach.upper / outcome.diagonal);
+  if (outcome.certified)
+    say("  certified: yes, the pieces as written cover every triangle of the original{}\n",
+        cover.covers_inside ? ", and its inside" : "; it has no inside");
+  else
+    say("  certified: NO: nothing was written; please report this mesh\n");
+  const auto in_shape = static_cast<std::size_t>(std::ranges::count(cover.pieces, options.cover.shape, shape_of));
+  if (in_shape < cover.pieces.size())
+    say("  {} of {} pieces have the shape asked for; the bounds allow no more\n", in_shape, cover.pieces.size());
+  if (!cover.within_bounds) say("  NOT within the bounds asked for; allow more --pieces, or larger bounds\n");
+  if (!outcome.others.empty())
+    say("  also there, but no pieces of this mesh: {}; remove them if they are of an earlier run\n",
+        fmt::join(outcome.others, ", "));
+  say("  read {:.2f} s, cover {:.2f} s, write {:.2f} s, verify {:.2f} s\n", outcome.read_seconds, cover.seconds,
+      outcome.write_seconds, cover.verify_seconds);
+  for (std::size_t i = 0; i < cover.pieces.size(); ++i)
+    say_more("  {}: {}, {} vertices, volume {:.4g}\n", files.name(i), shape_name(cover.pieces[i]),
+             cover.pieces[i].mesh.vertex_count(), signed_volume(cover.pieces[i].mesh));
+}
+
+nlohmann::json facts_of(const ConvexPiece& piece, const std::string& name) {
+  return {{"name", name},
+          {"shape", shape_name(piece)},
+          {"vertices", piece.mesh.vertex_count()},
+          {"faces", piece.mesh.face_count()},
+          {"volume", signed_volume(piece.mesh)}};
+}
+
+nlohmann::json options_report(const Options& options) {
+  const ConvexCoverOptions& cover = options.cover;
+  return {
+      {"pieces", cover.max_pieces},
+      {"vertices", cover.max_vertices},
+      {"scale", options.input.factor()},
+      {"max_distance", finite_or_null(cover.bounds.max_distance)},
+      {"max_void_percent", options.max_void_percent > 0 ? nlohmann::json(options.max_void_percent) : nlohmann::json()},
+      {"shape", name_of(piece_shape_names(), cover.shape)},
+      {"float32_coordinates", cover.float32_coordinates}};
+}
+
+nlohmann::json report_of(const Options& options, const PieceFiles& files, const Outcome& outcome) {
+  const ConvexCover& cover = outcome.cover;
+  nlohmann::json in = facts(outcome.input), pieces = nlohmann::json::array(), paths = pieces;
+  in["path"] = options.in.string();
+  in["diagonal"] = outcome.diagonal;
+  for (std::size_t i = 0; i < cover.pieces.size(); ++i) pieces.push_back(facts_of(cover.pieces[i], files.name(i)));
+  if (outcome.certified)
+    for (const path& file : files.written(cover.pieces)) paths.push_back(file.string());
+  const Vec3& farthest = cover.reach.farthest;
+  return {{"input", in},
+          {"paths", paths},
+          {"pieces", pieces},
+          {"certified", outcome.certified},
+          {"covers_inside", cover.covers_inside},
+          {"volume", finite_or_null(cover.volume)},
+          {"original_volume", finite_or_null(cover.original_volume)},
+          {"void_ratio", cover.original_volume > 0 ? finite_or_null(cover.void_ratio) : nlohmann::json()},
+          {"reach",
+           {{"lower", cover.reach.lower},
+            {"upper", finite_or_null(cover.reach.upper)},
+            {"farthest", {farthest.x, farthest.y, farthest.z}}}},
+          {"within_bounds", cover.within_bounds},
+          {"notes", cover.notes},
+          {"other_files", outcome.others},
+          {"seconds",
+           {{"read", outcome.read_seconds},
+            {"cover", cover.seconds},
+            {"write", outcome.write_seconds},
+            {"verify", cover.verify_seconds}}},
+          {"options", options_report(options)}};
+}
+
+int run_convex(Options options) {
+  const PieceFiles files(options);
+  options.cover.float32_coordinates = files.has_float32();
+  if (options.max_void_percent > 0) options.cover.bounds.max_void_ratio = options.max_void_percent / 100;
+  Outcome outcome;
+  const Stopwatch reading;
+  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
+  outcome.read_seconds = reading.seconds();
+  outcome.input = inspect(mesh);
+  outcome.diagonal = diagonal_of(mesh);
+  outcome.cover = cover_of(std::move(mesh), options);
+  Outputs pieces, report;
+  const Stopwatch writing;
+  outcome.certified = outcome.cover.certified && files.add_to(pieces, outcome.cover.pieces);
+  outcome.write_seconds = writing.seconds();
+  outcome.others = files.others(outcome.cover.pieces);
+  report.add_report(options.report, report_of(options, files, outcome));
+  if (outcome.certified) pieces.commit();
+  report.commit();
+  print_summary(options, files, outcome);
+  return outcome.exit_code();
+}
+
+}  // namespace
+
+void add_convex(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<Options>();
+  ConvexCoverOptions& cover = options->cover;
+  CLI::App& command = *app.add_subcommand(
+      "convex",
+      "Covers a mesh by a few convex pieces, as physics engines take them. Together the pieces provably cover every "
+      "triangle, and the inside too where the mesh is a solid. Any triangles will do. The files that were written are "
+      "read again, and what they hold is certified by exact arithmetic.");
+  command.add_option("in", options->in, std::string("Mesh to cover. ") + kMeshFiles)->required()->type_name("IN");
+  add_format_option(command, options->input);
+  add_unit_options(command, options->input, "the mesh");
+  command
+      .add_option("-o,--out", options->out,
+                  "File for the pieces. .obj and .glb hold all of them, each with a name. For .stl, .ply and .off each "
+                  "piece has a file: OUT_01.stl and so on. .urdf and .xml (MJCF) become a file of one link or body "
+                  "with all pieces, to be copied into a robot, with STL files beside it. With - it goes to standard "
+                  "output.")
+      ->required()
+      ->type_name("PIECES");
+  add_out_format_option(command, options->out_format, piece_outputs());
+  add_number(command, "--pieces", cover.max_pieces, {1, 1000},
+             "Largest number of pieces. With 1, the file of the piece has the name OUT, without a number.")
+      ->capture_default_str();
+  add_number(command, "--vertices", cover.max_vertices, {4, 1e6}, "Largest number of vertices of a piece, at least 4.")
+      ->capture_default_str();
+  add_number(command, "--max-distance", cover.bounds.max_distance, kPositive,
+             "Largest allowed distance of any point of the pieces from the mesh, in the mesh's unit. With such a bound "
+             "there are as few pieces as keep it.")
+      ->type_name("D");
+  add_number(command, "--max-void", options->max_void_percent, kPositive,
+             "Largest allowed void, in per cent. The void is how much more volume the pieces have together than the "
+             "mesh. With such a bound there are as few pieces as keep it.")
+      ->type_name("PERCENT");
+  add_choice(command, "--shape", cover.shape, piece_shape_names(),
+             "Shape of the pieces. With a bound, a piece has this shape only where the bound allows it, and is a "
+             "polytope elsewhere. Mesh files hold polytopes and boxes only.");
+  add_threads_option(command, cover.threads, "The pieces are the same for any number.");
+  add_report_option(command, options->report);
+  add_examples(command, {"prohull convex horse.ply -o horse_pieces.obj",
+                         "prohull convex arm.stl --unit mm --pieces 8 --vertices 32 -o arm_collision.glb",
+                         "prohull convex arm.stl --max-distance 2 --pieces 64 -o arm_piece.stl --report arm.json",
+                         "prohull convex arm.stl --unit mm --pieces 8 -o arm_pieces.urdf",
+                         "prohull convex arm.stl --unit mm --shape capsule --max-void 60 -o arm_pieces.xml",
+                         "prohull convex pump.stl --pieces 1 --vertices 16 -o pump_polytope.stl"});
+  command.callback([options, &run] { run = [options] { return run_convex(*options); }; });
+}
+
+}  // namespace prohull::cli

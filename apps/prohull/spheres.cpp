@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <utility>
+
+#include "command.h"
+#include "prohull/error.h"
+#include "prohull/sphere_cover.h"
+#include "robot/files/piece_files.h"
+#include "robot/files/sphere_file.h"
+
+namespace prohull::cli {
+namespace {
+
+struct Options {
+  std::filesystem::path in, out, report;
+  std::string out_format, link;
+  InputOptions input;
+  SphereCoverOptions cover;
+};
+
+struct Outcome {
+  SphereCover cover;
+  std::size_t faces = 0;
+  double diagonal = 0, read_seconds = 0;
+  bool written = false;
+
+  double part_of_diagonal() const { return diagonal > 0 ? cover.reach.upper / diagonal : 0; }
+  double void_ratio() const { return cover.volume / cover.original_volume - 1; }
+  bool has_volume() const { return cover.original_volume > 0; }
+};
+
+OutputKind sphere_outputs() { return {"spheres", {".yaml", ".yml", ".urdf", ".xml", ".json"}}; }
+
+/// "arm" of "arm.stl" and of "arm.stl.gz"
+std::string link_name(const Options& options) {
+  if (!options.link.empty()) return options.link;
+  if (is_standard_stream(options.in)) return "link";
+  const std::string packed = options.in.extension().string();
+  const std::filesystem::path name = options.in.stem();
+  return (packed == ".gz" || packed == ".zip" ? name.stem() : name).string();
+}
+
+nlohmann::json json_of(const std::vector<Ball>& balls) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const auto& [center, radius] : balls)
+    all.push_back({{"center", {center.x, center.y, center.z}}, {"radius", radius}});
+  return all;
+}
+
+std::string yaml_of(const std::string& link, const std::vector<Ball>& balls, const std::filesystem::path& path) {
+  const robot::LinkBalls spheres{link, balls};
+  const std::string text = robot::sphere_file(std::span(&spheres, 1));
+  const auto read = robot::read_sphere_file(text, path);
+  if (read.size() != 1 || read[0].balls != balls)
+    throw InputError(Defect::CannotWrite, fmt::format("{}: YAML does not keep these spheres", path.string()));
+  return text;
+}
+
+std::string text_of(const Options& options, const std::string& suffix, const std::vector<Ball>& balls) {
+  const std::string link = link_name(options);
+  if (suffix == ".yaml" || suffix == ".yml") return yaml_of(link, balls, options.out);
+  if (suffix == ".json") return nlohmann::json{{"link", link}, {"spheres", json_of(balls)}}.dump(2) + "\n";
+  std::vector<robot::NamedPiece> pieces;
+  for (const Ball& ball : balls) pieces.push_back({ball, {}});
+  return suffix == ".urdf" ? robot::urdf_of(link, pieces) : robot::mjcf_of(link, pieces);
+}
+
+/// Before any work: throws InputError for a name that the format cannot hold.
+std::string check_options(const Options& options) {
+  const std::string suffix = output_suffix(options.out, sphere_outputs(), options.out_format);
+  check_files({options.in}, {options.out, options.report});
+  try {
+    text_of(options, suffix, {});
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("'{}' is no name of a link: it is not UTF-8", link_name(options)));
+  }
+  return suffix;
+}
+
+SphereCover cover_of(TriangleMesh mesh, const Options& options) {
+  ProgressLine line;
+  SphereCoverOptions how = options.cover;
+  how.progress = std::ref(line);
+  try {
+    return sphere_cover(std::move(mesh), how);
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
+  }
+}
+
+nlohmann::json report_of(const Options& options, const Outcome& outcome) {
+  const SphereCover& cover = outcome.cover;
+  const Vec3& far = cover.reach.farthest;
+  return {{"input", {{"path", options.in.string()}, {"faces", outcome.faces}, {"diagonal", outcome.diagonal}}},
+          {"path", options.out.string()},
+          {"link", link_name(options)},
+          {"certified", cover.certified},
+          {"covers_inside", cover.covers_inside},
+          {"within_bounds", cover.within_bounds},
+          {"spheres", json_of(cover.balls)},
+          {"reach", {{"lower", cover.reach.lower}, {"upper", cover.reach.upper}, {"farthest", {far.x, far.y, far.z}}}},
+          {"volume", cover.volume},
+          {"original_volume", cover.original_volume},
+          {"void_ratio", outcome.has_volume() ? nlohmann::json(outcome.void_ratio()) : nlohmann::json()},
+          {"notes", cover.notes},
+          {"seconds", {{"read", outcome.read_seconds}, {"cover", cover.seconds}, {"verify", cover.verify_seconds}}}};
+}
+
+void print_summary(const Options& options, const Outcome& outcome) {
+  const SphereCover& cover = outcome.cover;
+  say("{}: {} around {}, which reach out by at most {:.4g}, {:.2f} % of the diagonal\n", output_name(options.out),
+      counted(cover.balls.size(), "sphere", "spheres"), counted(outcome.faces, "face", "faces"), cover.reach.upper,
+      outcome.part_of_diagonal() * 100);
+  if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);
+  if (outcome.has_volume())
+    say("  volume: {:.4g} with overlaps counted once, {:+.1f} % of the solid's\n", cover.volume,
+        outcome.void_ratio() * 100);
+  for (const std::string& note : cover.notes) say("  {}\n", note);
+  if (cover.certified)
+    say("  certified: yes, the spheres cover every triangle{}\n", cover.covers_inside ? " and the inside" : "");
+  else
+    say("  certified: no, so nothing was written\n");
+  say("  read {:.2f} s, cover {:.2f} s, of which verify {:.2f} s\n", outcome.read_seconds, cover.seconds,
+      cover.verify_seconds);
+}
+
+int run_spheres(const Options& options) {
+  const std::string suffix = check_options(options);
+  Outcome outcome;
+  const Stopwatch reading;
+  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
+  outcome.read_seconds = reading.seconds();
+  outcome.faces = mesh.face_count(), outcome.diagonal = bounding_box(mesh).diagonal();
+  outcome.cover = cover_of(std::move(mesh), options);
+  Outputs outputs;
+  if (outcome.cover.certified) outputs.add(options.out, text_of(options, suffix, outcome.cover.balls));
+  outputs.add_report(options.report, report_of(options, outcome));
+  outputs.commit();
+  print_summary(options, outcome);
+  return outcome.cover.certified && outcome.cover.within_bounds ? kDone : kAnswerIsNo;
+}
+
+}  // namespace
+
+void add_spheres(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "spheres",
+      "Covers a mesh by spheres, for planners that take nothing else. Every triangle is covered, which is proven "
+      "exactly, and the spheres reach out of the mesh as little as their number allows.");
+  command.add_option("in", options->in, std::string("Mesh to cover. ") + kMeshFiles)->required()->type_name("IN");
+  add_format_option(command, options->input);
+  add_unit_options(command, options->input, "the mesh");
+  command
+      .add_option(
+          "-o,--out", options->out,
+          "File for the spheres. Its name tells the format: .yaml or .yml for cuRobo, .urdf, .xml for MuJoCo, or "
+          ".json. With - it goes to standard output.")
+      ->required()
+      ->type_name("OUT");
+  add_out_format_option(command, options->out_format, sphere_outputs());
+  constexpr double kMostSpheres = 100'000;
+  add_number(command, "--count", options->cover.max_balls, {1, kMostSpheres}, "Number of spheres, at most.")
+      ->capture_default_str();
+  add_number(
+      command, "--max-distance", options->cover.max_distance, kPositive,
+      "Largest allowed distance of any point of the spheres from the mesh, in the mesh's unit. As few spheres as "
+      "keep it are taken, at most --count. The exit code is 1 if they do not keep it.")
+      ->type_name("D");
+  command.add_flag("--fill", options->cover.fill, "Cover the inside of the mesh too, not only its surface.");
+  command.add_option("--link", options->link, "Name of the link in the output. The default is the mesh's file name.")
+      ->type_name("NAME");
+  add_threads_option(command, options->cover.threads, "The spheres are the same for any number.");
+  add_report_option(command, options->report);
+  add_examples(command,
+               {"prohull spheres arm.stl --unit mm -o arm.yaml",
+                "prohull spheres arm.stl --count 100 --max-distance 5 -o arm.urdf",
+                "prohull spheres forearm.dae --fill --link forearm_link -o forearm.yml --report forearm.json"});
+  command.callback([options, &run] { run = [options] { return run_spheres(*options); }; });
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "inputs.h"
+#include "prohull/enclosure.h"
+
+namespace prohull::cli {
+
+/// `prohull verify`, with or without --union.
+struct VerifyOptions {
+  std::filesystem::path hull, original, report;
+  std::vector<std::filesystem::path> more;  ///< files after the second one
+  InputOptions hull_input, original_input;
+  HullSide side = HullSide::Outer;
+  bool solid_only = false, is_union = false, inside = false;
+  std::string offset = "0,0,0";
+};
+
+/// "(1, 2, 3)"
+std::string text_of_point(const Vec3& p);
+
+/// As reports have them.
+nlohmann::json facts(const std::vector<Offender>& worst);
+
+/// Returns the exit code.
+int run_verify_union(const VerifyOptions& options);
+
+}  // namespace prohull::cli
