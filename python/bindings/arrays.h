@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "prohull/enclosure.h"
 #include "prohull/names.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"
@@ -41,6 +42,16 @@ pybind11::array array_of(std::vector<T> values, std::vector<pybind11::ssize_t> s
   auto* const kept = new std::vector<T>(std::move(values));
   const pybind11::capsule keep(kept, [](void* vector) { delete static_cast<std::vector<T>*>(vector); });
   return pybind11::array_t<T>(std::move(shape), kept->data(), keep);
+}
+
+/// Shape (3,).
+inline pybind11::array point_of(const Vec3& p) { return array_of(std::vector<double>{p.x, p.y, p.z}, {3}); }
+
+/// Of each the face, the point and the distance.
+inline pybind11::list offenders_of(const std::vector<Offender>& worst) {
+  pybind11::list rows;
+  for (const Offender& o : worst) rows.append(pybind11::make_tuple(index(o.face), point_of(o.point), o.distance));
+  return rows;
 }
 
 inline pybind11::array vertices_of(const SharedMesh& mesh) {

@@ -6,51 +6,15 @@
 #include <vector>
 
 #include "arrays.h"
+#include "keywords.h"
 #include "module.h"
 #include "prohull/enclosing_hull.h"
-#include "prohull/error.h"
 #include "watch.h"
 
 namespace py = pybind11;
 
 namespace prohull::python {
 namespace {
-
-/// The options of build(), by name.
-class Keywords {
- public:
-  explicit Keywords(const py::dict& values) : values_(values) {}
-
-  template <class T>
-  T get(const char* name, const char* expected) const {
-    try {
-      return values_[name].cast<T>();
-    } catch (const py::cast_error&) {
-      refuse(name, expected);
-    }
-  }
-  bool flag(const char* name) const { return get<bool>(name, "True or False"); }
-  unsigned count(const char* name) const { return get<unsigned>(name, "a whole number, at least 0"); }
-  double number(const char* name) const { return get<double>(name, "a number"); }
-  double not_negative(const char* name) const {
-    const double value = number(name);
-    if (!(value >= 0)) refuse(name, "a number, at least 0");
-    return value;
-  }
-  template <class T>
-  T choice(const char* name, Names<T> choices) const {
-    if (const auto value = value_of(choices, py::str(values_[name]).cast<std::string>())) return *value;
-    refuse(name, ("one of " + joined(choices)).c_str());
-  }
-
- private:
-  [[noreturn]] void refuse(const char* name, const char* expected) const {
-    throw InputError(Defect::InvalidOption,
-                     std::string(name) + "=" + std::string(py::repr(values_[name])) + ": expected " + expected);
-  }
-
-  const py::dict& values_;
-};
 
 EnclosingOptions options_of(const Keywords& given) {
   EnclosingOptions options;

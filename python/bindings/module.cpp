@@ -27,6 +27,7 @@ PYBIND11_MODULE(_prohull, module) {
                                                                pybind11::cpp_function(&end_idle_threads));
   prohull::python::bind_meshes(module);
   prohull::python::bind_construction(module);
+  prohull::python::bind_covers(module);
   prohull::python::bind_verification(module);
   prohull::python::bind_queries(module);
   prohull::python::bind_collisions(module);

@@ -6,6 +6,7 @@ namespace prohull::python {
 
 void bind_meshes(pybind11::module_& module);
 void bind_construction(pybind11::module_& module);
+void bind_covers(pybind11::module_& module);
 void bind_verification(pybind11::module_& module);
 void bind_queries(pybind11::module_& module);
 void bind_collisions(pybind11::module_& module);

@@ -19,11 +19,7 @@ namespace {
 
 using Release = py::call_guard<py::gil_scoped_release>;
 
-py::array point_of(const Vec3& p) { return array_of(std::vector<double>{p.x, p.y, p.z}, {3}); }
-
 py::dict facts_of(const Verification& found) {
-  py::list worst;
-  for (const Offender& o : found.worst) worst.append(py::make_tuple(index(o.face), point_of(o.point), o.distance));
   py::dict facts;
   facts["encloses"] = found.encloses;
   facts["proof"] = found.proof;
@@ -32,7 +28,7 @@ py::dict facts_of(const Verification& found) {
   facts["every_triangle"] = found.every_triangle;
   facts["why_not"] = found.why_not;
   facts["faces_outside"] = found.faces_outside;
-  facts["worst"] = worst;
+  facts["worst"] = offenders_of(found.worst);
   facts["cavities"] = found.cavities;
   facts["faces_beside_solid"] = found.faces_beside_solid;
   facts["self_intersections"] = found.self_intersections;

@@ -7,8 +7,8 @@
 
 A mesh is given as the path of a file, as vertices and faces, or as a mesh of prohull, trimesh or Open3D. Lengths are in
 the unit of the mesh, angles in degrees. What is wrong with an argument or a file is raised as InputError, a ValueError.
-Ctrl-C stops long work (build, verify, distance_bounds, queries, read) with KeyboardInterrupt. Files appear whole or
-not at all.
+Ctrl-C stops long work (build, convex_pieces, spheres, verify, distance_bounds, queries, read) with KeyboardInterrupt.
+Files appear whole or not at all.
 """
 
 import os as _os
@@ -17,15 +17,18 @@ from pathlib import Path as _Path
 from . import _prohull
 from ._build import build
 from ._collide import Collider, Distances, FacePairs
+from ._covers import (Ball, Capsule, ConvexCover, ConvexPiece, OrientedBox, SphereCover, UnionVerification, convex_pieces,
+                      spheres, verify_union)
 from ._files import load, read, sample
 from ._hull import Hull
 from ._meshes import AllHits, ClosestPoints, FacesMet, FirstHits, Mesh, Refinement, TwoHulls
 from ._prohull import InputError
 from ._verify import Offender, Verification, distance_bounds, verify
 
-__all__ = ["AllHits", "ClosestPoints", "Collider", "Distances", "ENGINES", "FacePairs", "FacesMet", "FirstHits", "Hull",
-           "InputError", "Mesh", "Offender", "Refinement", "TwoHulls", "Verification", "build", "distance_bounds", "load",
-           "read", "sample", "verify"]
+__all__ = ["AllHits", "Ball", "Capsule", "ClosestPoints", "Collider", "ConvexCover", "ConvexPiece", "Distances", "ENGINES",
+           "FacePairs", "FacesMet", "FirstHits", "Hull", "InputError", "Mesh", "Offender", "OrientedBox", "Refinement",
+           "SphereCover", "TwoHulls", "UnionVerification", "Verification", "build", "convex_pieces", "distance_bounds",
+           "load", "read", "sample", "spheres", "verify", "verify_union"]
 
 #: Names of the engines of queries.
 ENGINES: tuple[str, ...] = _prohull.engines

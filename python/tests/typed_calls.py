@@ -59,3 +59,19 @@ each = mesh.contains([0, 0, 0])  # refused
 away = mesh.signed_distance(v)  # refused
 prohull.verify(one, "part.stl", side="out")  # refused
 one.reached  # refused
+
+pieces: prohull.ConvexCover = prohull.convex_pieces("part.stl", 8, vertices=32, max_void_percent=10, shape="box")
+pieces = prohull.convex_pieces((v, f), max_distance=0.01, progress=lambda stage, fraction: None)
+corners: NDArray[np.float64] = pieces.pieces[0].vertices
+balls: prohull.SphereCover = prohull.spheres(mesh, 32, max_distance=0.1, fill=True, threads=1)
+balls.save("part.yaml", link="forearm")
+covers: bool = prohull.verify_union(pieces, "part.stl").covers
+covers = bool(prohull.verify_union(["a.stl", "b.stl"], mesh, solid_only=True))
+covers = bool(prohull.verify_union([(v, f)], mesh))
+covers = prohull.verify_union(balls.balls, mesh, inside=True).covers
+
+prohull.convex_pieces("part.stl", "8")  # refused
+prohull.convex_pieces("part.stl", 8, shape="egg")  # refused
+prohull.convex_pieces("part.stl", 8, 64)  # refused
+prohull.spheres("part.stl", fill="yes")  # refused
+prohull.verify_union(3, "part.stl")  # refused

@@ -1,0 +1,160 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "arrays.h"
+#include "keywords.h"
+#include "module.h"
+#include "prohull/convex_cover.h"
+#include "prohull/mesh_io.h"
+#include "prohull/sphere_cover.h"
+#include "prohull/union_verification.h"
+#include "robot/files/piece_files.h"
+#include "robot/files/sphere_file.h"
+#include "watch.h"
+
+namespace py = pybind11;
+
+namespace prohull::python {
+namespace {
+
+static_assert(sizeof(Ball) == 4 * sizeof(double) && std::is_standard_layout_v<Ball>);
+
+std::vector<Ball> balls_of(const Array<double>& rows) {
+  const Ball* const first = rows_of<Ball>(rows);
+  return {first, first + rows.shape(0)};
+}
+
+py::array rows_of_balls(const std::vector<Ball>& balls) {
+  std::vector<double> values;
+  for (const Ball& b : balls) values.insert(values.end(), {b.center.x, b.center.y, b.center.z, b.radius});
+  return array_of(std::move(values), {static_cast<py::ssize_t>(balls.size()), 4});
+}
+
+/// The name of its class in Python, and the values of its fields; None if the piece is none of them.
+struct PrimitiveFacts {
+  py::object operator()(std::monostate) const { return py::none(); }
+  py::object operator()(const OrientedBox& box) const {
+    std::vector<double> axes;
+    for (const Vec3& axis : box.axes) axes.insert(axes.end(), {axis.x, axis.y, axis.z});
+    return py::make_tuple("box", point_of(box.center), array_of(std::move(axes), {3, 3}), point_of(box.half_sizes));
+  }
+  py::object operator()(const Capsule& c) const {
+    return py::make_tuple("capsule", point_of(c.a), point_of(c.b), c.radius);
+  }
+  py::object operator()(const Ball& ball) const { return py::make_tuple("sphere", point_of(ball.center), ball.radius); }
+};
+
+/// What both kinds of covers tell.
+template <class Cover>
+py::dict common_facts_of(const Cover& cover) {
+  py::dict facts;
+  facts["certified"] = cover.certified;
+  facts["covers_inside"] = cover.covers_inside;
+  facts["volume"] = cover.volume;
+  facts["original_volume"] = cover.original_volume;
+  facts["reach"] = py::make_tuple(cover.reach.lower, cover.reach.upper);
+  facts["within_bounds"] = cover.within_bounds;
+  facts["notes"] = cover.notes;
+  facts["seconds"] = cover.seconds;
+  facts["verify_seconds"] = cover.verify_seconds;
+  return facts;
+}
+
+py::dict convex_pieces(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
+  const Keywords given(keywords);
+  ConvexCoverOptions options;
+  options.max_pieces = given.count("pieces", 1);
+  options.max_vertices = given.count("vertices", 4);
+  options.bounds.max_distance = given.not_negative("max_distance");
+  options.bounds.max_void_ratio = given.not_negative("max_void_percent") / 100;
+  options.shape = given.choice("shape", piece_shape_names());
+  options.float32_coordinates = given.flag("float32_coordinates");
+  options.threads = given.count("threads");
+  ConvexCover cover = watched(progress, [&](Watch& watch) {
+    options.progress = watch.progress();
+    return convex_cover(mesh, options);
+  });
+  py::dict facts = common_facts_of(cover);
+  py::list pieces;
+  for (ConvexPiece& piece : cover.pieces)
+    pieces.append(py::make_tuple(std::move(piece.mesh), std::visit(PrimitiveFacts(), piece.primitive)));
+  facts["pieces"] = pieces;
+  return facts;
+}
+
+py::dict spheres(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
+  const Keywords given(keywords);
+  SphereCoverOptions options;
+  options.max_balls = given.count("count", 1);
+  options.max_distance = given.not_negative("max_distance");
+  options.fill = given.flag("fill");
+  options.threads = given.count("threads");
+  const SphereCover cover = watched(progress, [&](Watch& watch) {
+    options.progress = watch.progress();
+    return sphere_cover(mesh, options);
+  });
+  py::dict facts = common_facts_of(cover);
+  facts["balls"] = rows_of_balls(cover.balls);
+  return facts;
+}
+
+py::dict facts_of(const UnionVerification& found) {
+  py::dict facts;
+  facts["covers"] = found.covers;
+  facts["original_closed"] = found.original_closed;
+  facts["why_not"] = found.why_not;
+  facts["faces_outside"] = found.faces_outside;
+  facts["worst"] = offenders_of(found.worst);
+  facts["holes"] = found.holes;
+  facts["turned_pieces"] = found.turned_pieces;
+  facts["union_volume"] = found.union_volume;
+  facts["original_volume"] = found.original_volume;
+  facts["void_ratio"] = found.void_ratio;
+  facts["notes"] = found.notes;
+  return facts;
+}
+
+py::dict verify_pieces(const std::vector<TriangleMesh>& pieces, const TriangleMesh& original, bool solid_only,
+                       const py::object& progress) {
+  return facts_of(watched(progress, [&](Watch& watch) {
+    return verify_union(pieces, original, {.solid_only = solid_only, .progress = watch.progress()});
+  }));
+}
+
+py::dict verify_balls(const Array<double>& rows, const TriangleMesh& original, bool inside, bool solid_only,
+                      const py::object& progress) {
+  const std::vector<Ball> balls = balls_of(rows);
+  return facts_of(watched(progress, [&](Watch& watch) {
+    return verify_union(balls, original, inside, {.solid_only = solid_only, .progress = watch.progress()});
+  }));
+}
+
+void write_pieces(const std::filesystem::path& path, const std::vector<TriangleMesh>& pieces) {
+  write_meshes(path, pieces, robot::piece_names(path.stem().string(), pieces.size()));
+}
+
+std::string sphere_file(const std::string& link, const Array<double>& rows) {
+  const robot::LinkBalls balls{link, balls_of(rows)};
+  return robot::sphere_file({&balls, 1});
+}
+
+}  // namespace
+
+void bind_covers(py::module_& module) {
+  module.def("convex_pieces", &convex_pieces);
+  module.def("spheres", &spheres);
+  module.def("verify_pieces", &verify_pieces);
+  module.def("verify_balls", &verify_balls);
+  module.def("write_pieces", &write_pieces, py::call_guard<py::gil_scoped_release>());
+  module.def("sphere_file", &sphere_file);
+  module.attr("piece_shapes") = tuple_of(piece_shape_names());
+}
+
+}  // namespace prohull::python

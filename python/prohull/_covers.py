@@ -1,0 +1,305 @@
+"""Convex pieces and balls whose union covers a mesh."""
+
+import math
+import os
+import pathlib
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Callable, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays, _prohull
+from ._files import mesh_of
+from ._meshes import Mesh
+from ._prohull import InputError
+from ._types import MeshLike, Path, PieceShape, Progress, Rows
+from ._verify import Offender
+
+
+class Ball(NamedTuple):
+    """All points within `radius` of the center."""
+
+    center: NDArray[np.float64]  #: (3,)
+    radius: float
+
+
+class Capsule(NamedTuple):
+    """All points within `radius` of the segment from a to b."""
+
+    a: NDArray[np.float64]  #: (3,)
+    b: NDArray[np.float64]  #: (3,)
+    radius: float
+
+
+class OrientedBox(NamedTuple):
+    """All points center + x axes[0] + y axes[1] + z axes[2] with |x| <= half_sizes[0] and so on."""
+
+    center: NDArray[np.float64]  #: (3,)
+    axes: NDArray[np.float64]  #: (3, 3), one axis in each row: of length 1, at right angles, right-handed
+    half_sizes: NDArray[np.float64]  #: (3,)
+
+
+_PRIMITIVES: dict[str, Callable[..., Union[OrientedBox, Capsule, Ball]]] = {"box": OrientedBox, "capsule": Capsule, "sphere": Ball}
+
+
+class ConvexPiece(Mesh):
+    """A piece of a cover: a convex polytope, closed, with faces that look outwards. Everything that a Mesh does, it does."""
+
+    primitive: Optional[Union[OrientedBox, Capsule, Ball]]  #: a box, capsule or ball that encloses the polytope, if `shape` asked for one
+
+    @classmethod
+    def _made(cls, core: _prohull.Mesh, primitive: Optional[tuple[Any, ...]]) -> "ConvexPiece":
+        piece = cls.__new__(cls)
+        piece._set(core)
+        piece.primitive = _PRIMITIVES[primitive[0]](*primitive[1:]) if primitive else None
+        return piece
+
+
+@dataclass(frozen=True)
+class ConvexCover:
+    """Convex pieces whose union covers a mesh; convex_pieces() makes it."""
+
+    pieces: list[ConvexPiece]
+    certified: bool  #: whether it is proven, exactly, that the pieces cover the mesh
+    covers_inside: bool  #: whether the inside of the mesh is covered too, because it bounds a solid; else its triangles
+    volume: float  #: of the union, in cubic units; overlaps count once
+    original_volume: float  #: of what lies inside of the mesh, in cubic units
+    reach: tuple[float, float]  #: bounds of how far the union reaches out of the mesh, in its unit; the second is proven
+    within_bounds: bool  #: whether max_distance and max_void_percent hold
+    notes: list[str]  #: what is not as it was asked for, and what is worth a look
+    seconds: float
+    verify_seconds: float
+
+    @property
+    def void_ratio(self) -> float:
+        """The void, as a share of the volume of the mesh; nan if the mesh encloses no space."""
+        return _void_ratio(self)
+
+    def save(self, path: Path) -> None:
+        """Writes all pieces to an .obj or .glb file, as an object or a mesh each. The file is written whole or not at all.
+
+        A GLB file keeps float32 coordinates only. Each of `pieces` has a save() of its own, for a file for each.
+
+        Raises InputError for another suffix, if the file cannot be written, and for .glb unless the pieces were made
+        with float32_coordinates=True.
+        """
+        is_float32 = all(np.array_equal(piece.vertices, piece.vertices.astype(np.float32)) for piece in self.pieces)
+        if _prohull.stores_float32(path) and not is_float32:
+            raise InputError(f"{os.fspath(path)}: the file keeps float32 coordinates; make the pieces with "
+                             "float32_coordinates=True, or save them as .obj")
+        _prohull.write_pieces(path, [piece._core for piece in self.pieces])
+
+    def __repr__(self) -> str:
+        return _described(self, len(self.pieces), "convex piece")
+
+
+@dataclass(frozen=True)
+class SphereCover:
+    """Balls whose union covers a mesh; spheres() makes it."""
+
+    balls: NDArray[np.float64] = field(repr=False)  #: (n, 4): center and radius of each, in the mesh's unit
+    certified: bool  #: whether it is proven, exactly, that the balls cover the mesh
+    covers_inside: bool  #: whether the inside of the mesh is covered too, as fill=True asks; else its triangles
+    volume: float  #: of the union, in cubic units; overlaps count once
+    original_volume: float  #: of what lies inside of the mesh, in cubic units
+    reach: tuple[float, float]  #: bounds of how far the balls reach out of the mesh, in its unit; the second is proven
+    within_bounds: bool  #: whether max_distance holds
+    notes: list[str]  #: what is not as it was asked for, and what is worth a look
+    seconds: float
+    verify_seconds: float
+
+    @property
+    def centers(self) -> NDArray[np.float64]:
+        """(n, 3), the centers of the balls, in the mesh's unit."""
+        return self.balls[:, :3]
+
+    @property
+    def radii(self) -> NDArray[np.float64]:
+        """(n,), the radii of the balls, in the mesh's unit."""
+        return self.balls[:, 3]
+
+    @property
+    def void_ratio(self) -> float:
+        """Volume of the union / volume of the mesh - 1; nan if the mesh encloses no space.
+
+        Without fill=True the balls need not cover the inside, so that it may be less than 0.
+        """
+        return _void_ratio(self)
+
+    def save(self, path: Path, *, link: Optional[str] = None) -> None:
+        """Writes the balls to a .yaml file of collision spheres, which cuRobo reads. The file is written whole or not at all.
+
+        link: the name of the link that the balls belong to. Unless given, it is the name of the file without its suffix.
+
+        Raises InputError for another suffix, and if the file cannot be written.
+        """
+        target = pathlib.Path(path)
+        if target.suffix.lower() not in (".yaml", ".yml"):
+            raise InputError(f"{os.fspath(path)}: spheres are written to files that end in .yaml or .yml")
+        _write_whole(target, _prohull.sphere_file(target.stem if link is None else link, self.balls))
+
+    def __repr__(self) -> str:
+        return _described(self, len(self.balls), "ball")
+
+
+@dataclass(frozen=True)
+class UnionVerification:
+    """What verify_union() found. It counts as true if the union covers the original."""
+
+    covers: bool  #: the verdict, exact
+    original_closed: bool  #: whether the original bounds a solid; only then its inside must be covered
+    why_not: str  #: why the verdict is no; empty if it is yes
+    faces_outside: int  #: number of triangles of the original of which a part lies outside of all pieces; exact
+    worst: list[Offender]  #: the farthest of these, farthest first
+    holes: int  #: number of connected parts of the union's surface that leave a hole in the solid
+    turned_pieces: int  #: number of pieces that were inside out and count as turned
+    union_volume: float  #: in cubic units; overlaps count once; nan if a piece is not convex
+    original_volume: float  #: in cubic units; nan if the original is not closed
+    void_ratio: float  #: union_volume / original_volume - 1; nan if one of the two is
+    notes: list[str]  #: what was left out of the original or turned
+
+    def __bool__(self) -> bool:
+        return self.covers
+
+
+def convex_pieces(mesh: MeshLike, pieces: int = 16, *, vertices: int = 64, max_distance: float = math.inf,
+                  max_void_percent: float = math.inf, shape: PieceShape = "polytope", float32_coordinates: bool = False,
+                  threads: int = 0, progress: Optional[Progress] = None) -> ConvexCover:
+    """Covers any triangles by a few convex pieces, as `prohull convex` does.
+
+    Guaranteed: if `certified` is True, the union of the pieces covers every finite triangle of the mesh, and its inside
+    too where the mesh bounds a solid. This is decided exactly, on the very numbers in `vertices` of the pieces. The same
+    input gives the same bits, whatever `threads` is. The search looks for the least volume of the union.
+
+    mesh: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
+    pieces: the largest number of pieces, at least 1.
+    vertices: the largest number of vertices of a piece, at least 4.
+    max_distance: how far the union may reach out of the mesh, in the mesh's unit, at least 0. It is proven. With this
+        bound or the next, the cover has as few pieces as keep both; if as many as `pieces` do not, `within_bounds` is
+        False.
+    max_void_percent: how much more volume than the mesh the union may have, in per cent, at least 0.
+    shape: "polytope", or "box", "capsule" or "sphere" for pieces that have such a `primitive` around them where the
+        bounds allow it.
+    float32_coordinates: whether all coordinates shall be numbers that float32 keeps, as STL and GLB files do.
+    threads: the largest number of threads; 0 means one for each core.
+    progress: called as build() calls it. If it returns False, the work stops with KeyboardInterrupt, as for Ctrl-C.
+
+    Raises InputError, a ValueError, for a file that cannot be read, a mesh without a finite triangle, and arguments that
+    are not as above.
+
+        cover = prohull.convex_pieces("part.stl", 8)
+        vertices_of_pieces = [piece.vertices for piece in cover.pieces]
+    """
+    keywords = dict(pieces=pieces, vertices=vertices, max_distance=max_distance, max_void_percent=max_void_percent,
+                    shape=shape, float32_coordinates=float32_coordinates, threads=threads)
+    facts = _covered(_prohull.convex_pieces, mesh, progress, keywords)
+    facts["pieces"] = [ConvexPiece._made(*piece) for piece in facts["pieces"]]
+    return ConvexCover(**facts)
+
+
+def spheres(mesh: MeshLike, count: int = 64, *, max_distance: float = math.inf, fill: bool = False, threads: int = 0,
+            progress: Optional[Progress] = None) -> SphereCover:
+    """Covers any triangles by balls that reach out of the mesh as little as possible, as `prohull spheres` does.
+
+    Guaranteed: if `certified` is True, the union of the balls covers every finite triangle of the mesh, with fill=True
+    also its inside where the mesh bounds a solid. This is decided exactly, on the very numbers in `balls`. The same input
+    gives the same bits, whatever `threads` is.
+
+    mesh: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
+    count: the largest number of balls, at least 1.
+    max_distance: how far the balls may reach out of the mesh, in the mesh's unit, greater than 0. It is proven. The cover
+        then has as few balls as keep it; if as many as `count` do not, `within_bounds` is False.
+    fill: whether to cover the inside of the mesh too, not only its triangles.
+    threads: the largest number of threads; 0 means one for each core.
+    progress: called as build() calls it. If it returns False, the work stops with KeyboardInterrupt, as for Ctrl-C.
+
+    Raises InputError, a ValueError, for a file that cannot be read, a mesh without a finite triangle, and arguments that
+    are not as above.
+
+        cover = prohull.spheres("forearm.stl", 64)
+        cover.save("forearm.yaml")
+    """
+    keywords = dict(count=count, max_distance=max_distance, fill=fill, threads=threads)
+    return SphereCover(**_covered(_prohull.spheres, mesh, progress, keywords))
+
+
+def verify_union(pieces: Union[ConvexCover, SphereCover, Sequence[MeshLike], Rows], original: MeshLike, *,
+                 inside: bool = False, solid_only: bool = False,
+                 progress: Optional[Progress] = None) -> UnionVerification:
+    """Decides exactly whether convex pieces, or balls, cover `original`, as `prohull verify --union` does.
+
+    It does not matter which program made them. Pieces may touch, share walls and overlap. Every triangle of the original
+    must be covered. Convex pieces must also cover its inside, if it is closed.
+
+    pieces: a cover; or a sequence of meshes, each of which is one convex piece, and is given as `original` is; or balls
+        as an array, (n, 4), with the center and the radius of each.
+    original: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
+    inside: whether balls must cover the inside of a closed original, too. Convex pieces always must.
+    solid_only: whether only the solid must be covered that a closed original bounds, as in verify().
+    progress: called as build() calls it, with the stage "verify".
+
+    Raises InputError if there is no piece, if a piece is not closed, not finite or has no volume, and if the original
+    is empty.
+
+        assert prohull.verify_union(["hull_1.stl", "hull_2.stl"], "part.stl")
+    """
+    second = mesh_of(original, keep_non_finite=True)._core
+    balls = _balls(pieces)
+    if balls is not None:
+        facts = _prohull.verify_balls(balls, second, inside, solid_only, progress)
+    else:
+        given: Any = pieces.pieces if isinstance(pieces, ConvexCover) else pieces
+        facts = _prohull.verify_pieces([mesh_of(piece)._core for piece in given], second, solid_only, progress)
+    facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
+    return UnionVerification(**facts)
+
+
+def _covered(cover: Callable[..., dict[str, Any]], mesh: MeshLike, progress: Optional[Progress],
+             keywords: dict[str, Any]) -> dict[str, Any]:
+    """What `cover` makes of the mesh; errors name the file."""
+    given = mesh_of(mesh, keep_non_finite=True)
+    try:
+        return cover(given._core, progress, keywords)
+    except InputError as error:
+        if isinstance(mesh, (str, os.PathLike)):
+            raise InputError(f"{os.fspath(mesh)}: {error}") from None
+        raise
+
+
+def _balls(pieces: Any) -> Optional[NDArray[np.float64]]:
+    """Balls, of shape (n, 4); None if meshes were given."""
+    if isinstance(pieces, SphereCover):
+        return pieces.balls
+    if isinstance(pieces, ConvexCover):
+        return None
+    is_sequence = isinstance(pieces, Sequence) and not isinstance(pieces, str)
+    if is_sequence and all(_arrays.is_mesh(piece) for piece in pieces):
+        return None
+    if _arrays.is_mesh(pieces):
+        raise InputError(f"pieces: {_arrays.described(pieces)} is one mesh; expected a sequence of them, or balls")
+    return _arrays.rows("balls", pieces, (4,))
+
+
+def _void_ratio(cover: Union[ConvexCover, SphereCover]) -> float:
+    return cover.volume / cover.original_volume - 1 if cover.original_volume else math.nan
+
+
+def _described(cover: Union[ConvexCover, SphereCover], count: int, what: str) -> str:
+    void = "" if math.isnan(cover.void_ratio) else f"void {100 * cover.void_ratio:.3g} %, "
+    notes = {0: "", 1: ", 1 note"}.get(len(cover.notes), f", {len(cover.notes)} notes")
+    return (f"<prohull.{type(cover).__name__}: {count:,} {what}{'' if count == 1 else 's'}, {void}"
+            f"{'certified' if cover.certified else 'NOT CERTIFIED'}{notes}>")
+
+
+def _write_whole(path: pathlib.Path, text: str) -> None:
+    """The file is written beside `path`, then it is renamed."""
+    try:
+        with tempfile.TemporaryDirectory(dir=path.parent) as beside:
+            whole = pathlib.Path(beside) / path.name
+            whole.write_text(text)
+            os.replace(whole, path)
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}") from None
