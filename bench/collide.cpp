@@ -56,12 +56,6 @@ struct Microseconds {
   double hit = kUnknown, miss = kUnknown;
 };
 
-double median(std::vector<double> numbers) {
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::ranges::nth_element(numbers, middle);
-  return *middle;
-}
-
 /// Medians of rounds in which the contestants take turns.
 std::vector<Microseconds> race(const std::vector<Contestant>& contestants, const std::vector<PosePair>& hits,
                                const std::vector<PosePair>& misses, std::size_t rounds) {

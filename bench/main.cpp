@@ -26,6 +26,8 @@ int main(int argc, char** argv) {
   add_looser(app, run);
   add_memory(app, run);
   add_peers(app, run);
+  add_covers(app, run);
+  add_link_covers(app, run);
   add_scale(app, run);
   add_corpus(app, run);
   add_robots(app, run);

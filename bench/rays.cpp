@@ -68,12 +68,6 @@ struct ModelFacts {
   std::vector<TreeFacts> trees = {};
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// The contestants take turns, and the median of the rounds counts. A round before is not timed: it warms the caches.
 std::vector<Result> compared(const std::vector<Contestant>& contestants, std::size_t rounds) {
   std::vector<Result> results;

@@ -1,19 +1,14 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <vector>
 
 #include "command.h"
 #include "machine.h"
 #include "program.h"
 #include "prohull/error.h"
-#include "prohull/mesh_io.h"
 #include "robot/check/check.h"
 #include "robot/motion/bodies.h"
-#include "robot/samples/sample_robots.h"
+#include "sample_robot_files.h"
 #include "table.h"
 
 namespace prohull::bench {
@@ -31,32 +26,6 @@ struct Options {
   std::size_t faces = 500, configurations = 2000;
   path out;
 };
-
-/// A folder for robots and what the program makes of them; it vanishes with the object.
-class WorkFolder {
- public:
-  WorkFolder() { std::filesystem::create_directories(path_); }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  ~WorkFolder() { std::filesystem::remove_all(path_); }
-  const path& get() const { return path_; }
-
- private:
-  const path path_ = std::filesystem::temp_directory_path() / fmt::format("prohull-robots-{}", getpid());
-};
-
-/// The URDF file of a bundled robot.
-path sample_in(const path& folder, std::string_view name) {
-  const SampleRobot robot = make_sample_robot(name);
-  const path home = folder / name;
-  for (const auto& [file, mesh] : robot.meshes) {
-    std::filesystem::create_directories((home / file).parent_path());
-    write_mesh(home / file, mesh);
-  }
-  const path file = home / fmt::format("{}.urdf", name);
-  std::ofstream(file) << robot.urdf;
-  return file;
-}
 
 double ratio(double a, double b) { return b > 0 ? a / b : kUnknown; }
 
@@ -132,17 +101,10 @@ void measure(const path& path_of_robot, const Options& options, const path& fold
   add_runs(name, path_of_robot, options, folder, tables);
 }
 
-double median(std::vector<double> numbers) {
-  std::erase_if(numbers, [](double number) { return !std::isfinite(number); });
-  if (numbers.empty()) return kUnknown;
-  std::ranges::sort(numbers);
-  return numbers[numbers.size() / 2];
-}
-
 int run_robots(const Options& options) {
   const WorkFolder folder;
   std::vector<path> robots = options.robots;
-  for (const std::string& sample : options.samples) robots.push_back(sample_in(folder.get(), sample));
+  for (const std::string& sample : options.samples) robots.push_back(sample_robot_in(folder.get(), sample));
   Tables tables;
   for (const path& robot : robots) measure(robot, options, folder.get(), tables);
   publish(options.out, "robots",

@@ -16,6 +16,9 @@ std::string as_cell(std::string text);
 /// Of ours from the paper's: "+1.5 %".
 std::string difference(double ours, double papers);
 
+/// Of those numbers that are finite, the upper one of two in the middle; kUnknown if there is none.
+double median(std::vector<double> numbers);
+
 /// Rows of text under named columns, for readers and for programs.
 class Table {
  public:
