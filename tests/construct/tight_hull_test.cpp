@@ -74,7 +74,7 @@ TEST(TightHull, IsTheSameEveryTime) {
 }
 
 TEST(TightHull, GoesForwardAndCancels) {
-  const TriangleMesh mesh = make_sample("asteroid", 2000);
+  const TriangleMesh mesh = make_sample("asteroid", effort(2000, 500));
   for (const unsigned best_of : {1u, 2u})
     expect_progress("tighten", 20, [&](const Progress& progress) {
       build_tight_hull(mesh, {.target_faces = 100, .best_of = best_of, .threads = 1, .progress = progress});
@@ -82,7 +82,7 @@ TEST(TightHull, GoesForwardAndCancels) {
 }
 
 TEST(TightHullWithin, KeepsTheDistanceWithFewerFacesThanLevelsHave) {
-  const TriangleMesh mesh = make_sample("asteroid", effort(1000, 500));
+  const TriangleMesh mesh = make_sample("asteroid", effort(1000, 300));
   std::size_t faces = 0, faces_of_levels = 0;
   for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
     const bool float32 = side == HullSide::Outer;
@@ -110,7 +110,7 @@ TEST(TightHullWithin, StopsAtTheTargetOrAtTheMeshItself) {
 }
 
 TEST(TightHullWithin, GoesForwardAndCancels) {
-  const TriangleMesh mesh = make_sample("asteroid", 500);
+  const TriangleMesh mesh = make_sample("asteroid", effort(500, 200));
   const double distance = 0.01 * bounding_box(mesh).diagonal();
   const auto is_near = [&](const TriangleMesh& h) { return distance_bounds(h, mesh).upper <= distance; };
   expect_progress("search", 20, [&](const Progress& progress) {

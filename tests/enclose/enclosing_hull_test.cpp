@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "effort.h"
 #include "geometry/float32.h"
 #include "meshes.h"
 #include "progress.h"
@@ -71,7 +72,7 @@ TEST(EnclosingHull, HasALevelForEachBudgetInTheirOrder) {
 }
 
 TEST(EnclosingHull, KeepsTheBoundsWithAsFewFacesAsItCan) {
-  const TriangleMesh mesh = make_sample("asteroid", 800);
+  const TriangleMesh mesh = make_sample("asteroid", effort<std::size_t>(800, 300));
   const double volume = signed_volume(mesh);
   for (const bool tight : {false, true}) {
     EnclosingOptions options{.bounds = {.max_void_ratio = 0.05}, .tight = tight};
@@ -203,7 +204,7 @@ TEST(EnclosingHull, OfARoomOfPanelsIsSolidAndCoversItsDoors) {
 }
 
 TEST(EnclosingHull, OfAWrapMovesTowardsTheTriangles) {
-  const TriangleMesh knot = make_sample("knot", 2000);
+  const TriangleMesh knot = make_sample("knot", effort<std::size_t>(2000, 600));
   const EnclosingHulls made = hull_of(knot, 300, {.repair = Repair::Wrap});
   const EnclosingHull hull = only(made);
   ASSERT_EQ(hull.source, Source::Wrap);
@@ -232,7 +233,7 @@ TEST(EnclosingHull, OfPartsThatCrossIsThatOfTheirUnion) {
 
 TEST(EnclosingHull, OfFewFacesIsHardlyLargerThanTheConvexHull) {
   for (const char* const name : {"torus", "asteroid", "bracket"}) {
-    const TriangleMesh mesh = make_sample(name, 2000);
+    const TriangleMesh mesh = make_sample(name, effort<std::size_t>(2000, 500));
     const EnclosingHull hull = only(hull_of(mesh, 100, {.hull = {.relax_guards = true}}));
     EXPECT_TRUE(hull.certified && hull.target_reached) << name;
     EXPECT_LE(signed_volume(hull.mesh), 1.06 * signed_volume(convex_hull(mesh))) << name;
@@ -241,7 +242,7 @@ TEST(EnclosingHull, OfFewFacesIsHardlyLargerThanTheConvexHull) {
 
 TEST(EnclosingHull, LiftsItsVerticesOverFolds) {
   // A fold that is inside out and sticks out: it bounds no part of the solid, but is to be covered.
-  const TriangleMesh rock = make_sample("asteroid", 1000);
+  const TriangleMesh rock = make_sample("asteroid", effort<std::size_t>(1000, 300));
   const TriangleMesh mesh = together(rock, inside_out(moved(scaled(octahedron(), 0.2), rock.positions[VertexId(5)])));
   const EnclosingHull hull = only(hull_of(mesh, 200, {.hull = {.relax_guards = true}}));
   EXPECT_TRUE(hull.certified);
@@ -277,14 +278,14 @@ TEST(EnclosingHull, SaysWhatItsFinestLevelIs) {
 }
 
 TEST(EnclosingHull, CanBeCancelledAnywhere) {
-  const TriangleMesh open = without_a_face(make_sample("asteroid", 1000));
+  const TriangleMesh open = without_a_face(make_sample("asteroid", effort<std::size_t>(1000, 200)));
   const UnthrottledProgress unthrottled;
   int calls = 0;
   EnclosingOptions options{.hull = {.threads = 1}};
   options.progress = [&](std::string_view, double) { return ++calls > 0; };
   hull_of(open, 40, options);
   const int all = calls;
-  for (int most = 0; most < all; most += 1 + all / 20) {
+  for (int most = 0; most < all; most += 1 + all / effort(20, 7)) {
     calls = 0;
     options.progress = [&](std::string_view, double) { return ++calls <= most; };
     EXPECT_THROW(hull_of(open, 40, options), Cancelled) << most << " of " << all;
@@ -293,7 +294,7 @@ TEST(EnclosingHull, CanBeCancelledAnywhere) {
 
 /// Everything that is wrong with meshes.
 std::vector<std::pair<std::string, TriangleMesh>> defective_meshes() {
-  const TriangleMesh rock = make_sample("asteroid", 1000);
+  const TriangleMesh rock = make_sample("asteroid", effort<std::size_t>(1000, 200));
   TriangleMesh duplicated = together(octahedron(), octahedron());
   TriangleMesh sheet = make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   TriangleMesh two_sided = make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}});

@@ -76,20 +76,19 @@ TEST(Padding, OfACubeIsALargerCube) {
 }
 
 TEST(Padding, OfSamplesIsProven) {
-  if (kTestsAreSlow) GTEST_SKIP() << "takes minutes under sanitizers; the other tests run the same code";
   SoupMaker random(test_seed());
   for (const std::string_view name : {"asteroid", "bracket", "box", "knot", "pony", "sphere", "torus"})
     for (const double share : {0.002, 0.05}) {
       SCOPED_TRACE(std::string(name) + " " + std::to_string(share));
-      const TriangleMesh mesh = make_sample(name, effort<std::size_t>(800, 300));
+      const TriangleMesh mesh = make_sample(name, effort<std::size_t>(800, 60));
       const double padding = share * bounding_box(mesh).diagonal();
-      expect_padding(mesh, padded(mesh, 100, padding), padding, random);
+      expect_padding(mesh, padded(mesh, effort<std::size_t>(100, 40), padding), padding, random);
     }
 }
 
 TEST(Padding, OfSoupsIsProven) {
   SoupMaker random(test_seed());
-  for (int i = 0; i < rounds(15); ++i) {
+  for (int i = 0; i < effort(15, 6); ++i) {
     const Soup soup = random.soup();
     const double padding = soup.size() * std::pow(10.0, random.real(-4, 0.5));
     SCOPED_TRACE("soup " + std::to_string(i) + " padding " + std::to_string(padding / soup.size()));
@@ -126,24 +125,23 @@ TEST(Padding, OfNeedlesAndSheetsIsProven) {
 }
 
 TEST(Padding, HoldsForTheCoordinatesOfTheFile) {
-  if (kTestsAreSlow) GTEST_SKIP() << "takes minutes under sanitizers; the other tests run the same code";
   SoupMaker random(test_seed());
-  const TriangleMesh mesh = make_sample("pony", effort<std::size_t>(800, 300));
+  const TriangleMesh mesh = make_sample("pony", effort<std::size_t>(800, 80));
   const double diagonal = bounding_box(mesh).diagonal();
   for (const double away : {0.0, 100.0})
     for (const double padding : {1e-4 * diagonal, 0.02 * diagonal}) {
       SCOPED_TRACE(std::to_string(away) + " " + std::to_string(padding));
       const TriangleMesh there = moved(mesh, Vec3{1, -2, 3} * (away * diagonal));
-      const EnclosingHull hull = padded(there, 200, padding, {.hull = {.float32_coordinates = true}});
+      const EnclosingHull hull =
+          padded(there, effort<std::size_t>(200, 80), padding, {.hull = {.float32_coordinates = true}});
       expect_padding(there, hull, padding, random);
       EXPECT_TRUE(std::ranges::all_of(hull.mesh.positions, is_float32));
     }
 }
 
 TEST(Padding, IsKeptByTightHullsAndWithBounds) {
-  if (kTestsAreSlow) GTEST_SKIP() << "takes minutes under sanitizers; the other tests run the same code";
   SoupMaker random(test_seed());
-  const TriangleMesh mesh = make_sample("asteroid", 500);
+  const TriangleMesh mesh = make_sample("asteroid", effort<std::size_t>(500, 80));
   const double diagonal = bounding_box(mesh).diagonal(), padding = 0.02 * diagonal;
   for (const Repair repair : {Repair::Auto, Repair::Wrap}) {
     const EnclosingHull tight = padded(mesh, 60, padding, {.tight = true, .repair = repair});
