@@ -175,6 +175,11 @@ class Covering {
     Solid solid(material.solid, material.beside, kTolerances[0]);
     const std::size_t most = fewest_for(tree, least_volumes(tree)[std::min(leaves(tree), options_.max_pieces)]);
     ConvexCover best = fitted(tree, most, solid, material);
+    // Fewer pieces do without the cut that defeats the proof.
+    for (std::size_t count = most; !best.certified && count > 2;) {
+      count -= std::max<std::size_t>(1, count / 6);
+      best = fitted(tree, count, solid, material);
+    }
     if (best.pieces.size() > 1) {
       std::vector<ConvexPiece> one = pieces(tree, 1, solid);
       if (signed_volume(one[0].mesh) <= best.volume) return shaped(certified(std::move(one), material), material);
