@@ -36,12 +36,17 @@ class TileCounter {
   TileCounter(std::size_t all, const Progress& progress) : all_(all), progress_(progress) {}
   void next() {
     const std::size_t done = ++done_;
-    if (progress_ && std::this_thread::get_id() == caller_ &&
-        !progress_("render", static_cast<double>(done) / static_cast<double>(all_)))
-      throw Cancelled();
+    if (done < all_ && std::this_thread::get_id() == caller_)
+      tell(static_cast<double>(done) / static_cast<double>(all_));
   }
+  /// On the caller's thread: the last tile may have been another's.
+  void finish() { tell(1); }
 
  private:
+  void tell(double fraction) {
+    if (progress_ && !progress_("render", fraction)) throw Cancelled();
+  }
+
   const std::thread::id caller_ = std::this_thread::get_id();
   std::atomic<std::size_t> done_ = 0;
   const std::size_t all_;
@@ -69,6 +74,7 @@ Image draw(int width, int height, const std::vector<Panel>& panels, const DrawOp
   const int cores = oneapi::tbb::this_task_arena::max_concurrency();
   oneapi::tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, cores) : cores);
   arena.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, tasks.size(), draw_tile); });
+  counter.finish();
   return image;
 }
 
