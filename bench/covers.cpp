@@ -327,13 +327,8 @@ int run_covers(Options options) {
   std::ranges::sort(options.pieces);
   Bench bench(options);
   std::vector<ModelFacts> models;
-  std::vector<Refused> refused;
-  for (const ModelSource& source : model_sources(options.models)) try {
-      models.push_back(bench.measure(source));
-    } catch (const std::runtime_error& error) {
-      fmt::print(stderr, "{}: {}\n", source.name, error.what());
-      refused.push_back({source.name, error.what()});
-    }
+  const std::vector<Refused> refused =
+      measure_each(options.models, [&](const ModelSource& source) { models.push_back(bench.measure(source)); });
   std::string text = fmt::format("# Covers\n\n{}\n\n", machine());
   for (const ModelFacts& m : models) text += pieces_section(m);
   publish(options.out, "covers", text + listed(refused), pieces_csv(models));

@@ -82,7 +82,7 @@ std::vector<Refused> measure_each(const ModelOptions& options, const std::functi
   std::vector<Refused> refused;
   for (const ModelSource& source : model_sources(options)) try {
       measure(source);
-    } catch (const InputError& error) {
+    } catch (const std::runtime_error& error) {
       if (options.folder.empty()) throw;
       refused.push_back({source.name, error.what()});
       fmt::print(stderr, "{}: refused, {}\n", source.name, error.what());

@@ -46,8 +46,8 @@ struct Refused {
   std::string name, reason;
 };
 
-/// Calls `measure` with each model in turn. An InputError of a mesh of the folder is told on stderr and kept; one of a
-/// sample is thrown on.
+/// Calls `measure` with each model in turn. A std::runtime_error of a mesh of the folder, such as an InputError, is
+/// told on stderr and kept; one of a sample is thrown on.
 std::vector<Refused> measure_each(const ModelOptions& options, const std::function<void(const ModelSource&)>& measure);
 
 /// A section of markdown; empty if nothing was refused.

@@ -180,7 +180,6 @@ ConvexCover cover_of(TriangleMesh mesh, const Options& options) {
   ConvexCoverOptions cover = options.cover;
   cover.progress = std::ref(line);
   try {
-    if (cover.float32_coordinates) check_float32_spacing(mesh);
     return convex_cover(std::move(mesh), cover);
   } catch (const InputError& error) {
     throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));

@@ -1,12 +1,12 @@
 #include "robot/files/sphere_file.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "prohull/error.h"
+#include "robot/files/yaml_reader.h"
 
 namespace prohull::robot {
 namespace {
@@ -21,18 +21,17 @@ std::string decimal(double number) {
   return text;
 }
 
-std::string quoted(const std::string& name) {
-  YAML::Emitter out;
-  out << YAML::DoubleQuoted << name;
-  if (YAML::Load(out.c_str()).as<std::string>() != name)
+std::string quoted_utf8(const std::string& name) {
+  std::string text = quoted(name);
+  if (YAML::Load(text).as<std::string>() != name)
     throw InputError(Defect::InvalidOption, fmt::format("'{}' is no name of a link: it is not UTF-8", name));
-  return out.c_str();
+  return text;
 }
 
-/// Reads one file; its errors name the line.
-class SphereReader {
+class SphereReader : YamlReader {
  public:
-  explicit SphereReader(std::string name) : name_(std::move(name)) {}
+  using YamlReader::parse;
+  using YamlReader::YamlReader;
 
   std::vector<LinkBalls> links(const YAML::Node& file) {
     if (!file.IsMap() || !file[kSpheres]) refuse(file, "expected collision_spheres: and below it links");
@@ -49,10 +48,6 @@ class SphereReader {
   }
 
  private:
-  [[noreturn]] void refuse(const YAML::Node& node, const std::string& what) const {
-    throw InputError(Defect::Malformed, fmt::format("{}: line {}: {}", name_, std::max(node.Mark().line, 0) + 1, what));
-  }
-
   std::vector<Ball> balls(const YAML::Node& list) {
     std::vector<Ball> balls;
     if (list.IsNull()) return balls;
@@ -79,16 +74,6 @@ class SphereReader {
     return number;
   }
 
-  template <class Value>
-  Value value(const YAML::Node& node, const char* expected) const {
-    try {
-      return node.as<Value>();
-    } catch (const YAML::Exception&) {
-      refuse(node, fmt::format("'{}': expected {}", node.IsScalar() ? node.Scalar() : "...", expected));
-    }
-  }
-
-  const std::string name_;
   std::size_t count_ = 0;
 };
 
@@ -97,7 +82,7 @@ class SphereReader {
 std::string sphere_file(std::span<const LinkBalls> links) {
   std::string text = fmt::format("{}:{}\n", kSpheres, links.empty() ? " {}" : "");
   for (const auto& [link, balls] : links) {
-    text += fmt::format("  {}:{}\n", quoted(link), balls.empty() ? " []" : "");
+    text += fmt::format("  {}:{}\n", quoted_utf8(link), balls.empty() ? " []" : "");
     for (const auto& [center, radius] : balls)
       text += fmt::format("    - {{center: [{}, {}, {}], radius: {}}}\n", decimal(center.x), decimal(center.y),
                           decimal(center.z), decimal(radius));
@@ -106,12 +91,8 @@ std::string sphere_file(std::span<const LinkBalls> links) {
 }
 
 std::vector<LinkBalls> read_sphere_file(const std::string& text, const std::filesystem::path& path) {
-  try {
-    return SphereReader(path.string()).links(YAML::Load(text));
-  } catch (const YAML::Exception& error) {
-    throw InputError(Defect::Malformed, fmt::format("{}: line {}: no YAML: {}", path.string(),
-                                                    std::max(error.mark.line, 0) + 1, error.msg));
-  }
+  SphereReader reader(path.string());
+  return reader.parse(text, [&](const YAML::Node& file) { return reader.links(file); });
 }
 
 }  // namespace prohull::robot

@@ -1,7 +1,6 @@
 #include "robot/hulls/budgets.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <charconv>
@@ -10,15 +9,16 @@
 
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
+#include "robot/files/yaml_reader.h"
 
 namespace prohull::robot {
 namespace {
 
-/// Reads one file; its errors name the line.
-class BudgetReader {
+class BudgetReader : YamlReader {
  public:
+  using YamlReader::parse;
   BudgetReader(const std::string& name, const Robot& robot, LinkHullOptions& options)
-      : name_(name), robot_(robot), options_(options) {}
+      : YamlReader(name), robot_(robot), options_(options) {}
 
   void read(const YAML::Node& file) {
     if (file.IsNull()) return;
@@ -31,10 +31,6 @@ class BudgetReader {
   }
 
  private:
-  [[noreturn]] void refuse(const YAML::Node& node, const std::string& what) const {
-    throw InputError(Defect::Malformed, fmt::format("{}: line {}: {}", name_, node.Mark().line + 1, what));
-  }
-
   void require_keys(const YAML::Node& map, const std::set<std::string>& known) const {
     if (!map.IsMap()) refuse(map, fmt::format("expected {}", fmt::join(known, ", ")));
     for (const auto& entry : map)
@@ -64,15 +60,6 @@ class BudgetReader {
     if (node["skip"]) budget.skip = value<bool>(node["skip"], "true or false");
   }
 
-  template <class Value>
-  Value value(const YAML::Node& node, const char* expected) const {
-    try {
-      return node.as<Value>();
-    } catch (const YAML::Exception&) {
-      refuse(node, fmt::format("'{}': expected {}", node.IsScalar() ? node.Scalar() : "...", expected));
-    }
-  }
-
   double length(const YAML::Node& node, const std::string& what) const {
     try {
       return length_of(value<std::string>(node, "a length, such as 2mm"), what);
@@ -83,15 +70,15 @@ class BudgetReader {
   }
 
   Collision collision(const YAML::Node& node) const {
-    const auto said = value<std::string>(node, "hull, convex or spheres");
-    for (const auto& [name, kind] : collision_names())
-      if (name == said) return kind;
-    refuse(node, fmt::format("'{}': expected hull, convex or spheres", said));
+    const char* const expected = "hull, convex or spheres";
+    const auto said = value<std::string>(node, expected);
+    if (const auto kind = value_of(collision_names(), said)) return *kind;
+    refuse(node, fmt::format("'{}': expected {}", said, expected));
   }
 
   std::size_t count(const YAML::Node& node, long long least, std::string_view of) const {
     const std::string expected = fmt::format("at least {} {}", least, of);
-    const auto said = value<long long>(node, expected.c_str());
+    const auto said = value<long long>(node, expected);
     if (said < least || said > 1'000'000'000) refuse(node, fmt::format("'{}': expected {}", said, expected));
     return static_cast<std::size_t>(said);
   }
@@ -109,7 +96,6 @@ class BudgetReader {
     return counts;
   }
 
-  const std::string& name_;
   const Robot& robot_;
   LinkHullOptions& options_;
 };
@@ -142,21 +128,11 @@ std::string text_of(const Budget& budget, const Budget& anyhow) {
   return text + "}";
 }
 
-/// A name as YAML writes a string in double quotes.
-std::string quoted(const std::string& name) {
-  YAML::Emitter out;
-  out << YAML::DoubleQuoted << name;
-  return out.c_str();
-}
-
 }  // namespace
 
 void read_budgets(std::string_view text, const std::string& name, const Robot& robot, LinkHullOptions& options) {
-  try {
-    BudgetReader(name, robot, options).read(YAML::Load(std::string(text)));
-  } catch (const YAML::Exception& error) {
-    throw InputError(Defect::Malformed, fmt::format("{}: line {}: no YAML: {}", name, error.mark.line + 1, error.msg));
-  }
+  BudgetReader reader(name, robot, options);
+  reader.parse(std::string(text), [&](const YAML::Node& file) { reader.read(file); });
 }
 
 std::string budgets_text(const Robot& robot, const LinkHullOptions& options) {

@@ -167,7 +167,6 @@ ConvexCover pieces_around(const TriangleMesh& triangles, const Budget& budget, c
   if (budget.max_distance > 0) how.bounds.max_distance = budget.max_distance;
   how.float32_coordinates = stores_float32(mesh_format("hull." + options.format));
   how.threads = options.threads, how.progress = go_on;
-  if (how.float32_coordinates) check_float32_spacing(triangles);
   return convex_cover(triangles, how);
 }
 

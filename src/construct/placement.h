@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "construct/star.h"
+#include "geometry/largest_coordinate.h"
 
 namespace prohull {
 
@@ -21,9 +22,7 @@ std::optional<Placement> place_outside(const Star& star, double margin);
 
 /// The most by which storing a vertex moves a coordinate, with some room, where all are in `bounds`.
 inline double storage_rounding(const Box& bounds, bool float32_coordinates) {
-  const double largest = std::max({std::abs(bounds.min.x), std::abs(bounds.min.y), std::abs(bounds.min.z),
-                                   std::abs(bounds.max.x), std::abs(bounds.max.y), std::abs(bounds.max.z)});
-  return largest * (float32_coordinates ? 0x1p-23 : 0x1p-52);
+  return largest_coordinate(bounds) * (float32_coordinates ? 0x1p-23 : 0x1p-52);
 }
 
 /// P&T formula 3: what a collapse to the local point adds, in the input's unit; less than 0 where it removes more.

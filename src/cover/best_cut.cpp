@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "cover/growing_hull.h"
+#include "geometry/directions.h"
 
 namespace prohull::cover {
 namespace {
@@ -37,10 +38,6 @@ Cut no_cut() {
 }
 
 using Edges = std::vector<std::array<std::uint32_t, 2>>;
-
-Vec3 crossing(const Vec3& p, const Vec3& q, double height_p, double height_q) {
-  return p + (q - p) * (height_p / (height_p - height_q));
-}
 
 /// Heights of the polygons that are at right angles to `normal`, those of the largest area first: where parts that were
 /// built of blocks come apart.
@@ -217,8 +214,7 @@ Cut refined(const Part& part, const Cut& cut, const Solid& solid) {
     for (bool improved = true; improved;) {
       improved = false;
       const Vec3 n = best.plane.normal;
-      const Vec3 u0 = std::abs(n.x) < 0.6 ? cross(n, Vec3{1, 0, 0}) : cross(n, Vec3{0, 1, 0});
-      const Vec3 u = u0 / norm(u0), v = cross(n, u);
+      const Vec3 u = any_normal(n), v = cross(n, u);
       // The plane turns about the middle of its meeting with the part: about the foot of the part's centre.
       const Vec3 pivot = box.center() - n * best.plane.height(box.center());
       std::vector<Plane> tries{{n, best.plane.offset + shift}, {n, best.plane.offset - shift}};

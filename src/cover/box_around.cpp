@@ -9,7 +9,7 @@
 
 #include "cover/extreme_points.h"
 #include "cover/primitives.h"
-#include "cover/spread_directions.h"
+#include "geometry/directions.h"
 
 namespace prohull::cover {
 namespace {
@@ -35,14 +35,6 @@ struct Axes {
   Vec3 u, v, w;
   double volume = std::numeric_limits<double>::infinity();  ///< of the box along them
 };
-
-/// Two directions at right angles to a direction of length 1, and to each other.
-std::pair<Vec3, Vec3> normals_to(const Vec3& u) {
-  const Vec3 axis = std::abs(u.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  Vec3 v = cross(u, axis);
-  v = v / norm(v);
-  return {v, cross(u, v)};
-}
 
 /// Looks for the box of least volume: along a direction u it is the least rectangle around the shadow that the polytope
 /// casts along u, which is flush with an edge of the shadow. So only u is searched for.
@@ -102,7 +94,7 @@ class BoxSearch {
     constexpr double kFirst = 0.2, kLast = 1e-5, kTurn = 0.7;
     double angle = 0;
     for (double step = kFirst; step > kLast; angle += kTurn) {
-      const auto [v, w] = normals_to(axes.u);
+      const Vec3 v = any_normal(axes.u), w = cross(axes.u, v);
       Axes best = axes;
       for (int k = 0; k < 4; ++k) {
         const double a = angle + k * std::numbers::pi / 2;
@@ -118,7 +110,7 @@ class BoxSearch {
   Axes along(const Vec3& direction) {
     const Vec3 u = direction / norm(direction);
     find_shadow(u);
-    const auto [v, w] = normals_to(u);
+    const Vec3 v = any_normal(u), w = cross(u, v);
     corners_.clear();
     sides_.clear();
     for (const HullEdge& e : shadow_) {

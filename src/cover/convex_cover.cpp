@@ -3,7 +3,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -11,12 +10,13 @@
 #include <optional>
 #include <set>
 
+#include "base/stopwatch.h"
 #include "cover/cut_tree.h"
+#include "cover/enclosing_options.h"
 #include "cover/piece_hull.h"
 #include "cover/shape_choice.h"
 #include "parallel/arena.h"
 #include "prohull/convex_hull.h"
-#include "prohull/enclosing_hull.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/union_verification.h"
@@ -28,11 +28,9 @@ namespace {
 /// Cuts are looked for on a hull of so many faces: more make them hardly better.
 constexpr std::size_t kSearchFaces = 1500;
 constexpr double kSearchTolerance = 1e-6;
+/// How near a corner is to a plane that counts as on it, of the diagonal: the first is no more than rounding; each
+/// further one is tried where the proof of the cover fails.
 constexpr double kTolerances[]{1e-9, 1e-6, 1e-4};
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 void check(const ConvexCoverOptions& options) {
   const auto require = [](bool holds, const char* what) {
@@ -105,33 +103,25 @@ std::vector<TriangleMesh> meshes_around(const std::vector<ConvexPiece>& pieces) 
   return meshes;
 }
 
-EnclosingOptions enclosing_options(const ConvexCoverOptions& options) {
-  EnclosingOptions result;
-  result.hull.threads = options.threads;
-  result.progress = options.progress;
-  return result;
-}
-
 class Covering {
  public:
   Covering(TriangleMesh triangles, const ConvexCoverOptions& options)
-      : options_(options), prepared_(prepared_for_hulls(std::move(triangles), enclosing_options(options))) {
-    if (options.float32_coordinates) check_float32_spacing(prepared_.original);
-  }
+      : options_(options),
+        prepared_(prepared_for_hulls(std::move(triangles), enclosing_options(options.threads, options.progress))) {}
 
   ConvexCover run() {
     std::optional<ConvexCover> cover;
-    if (prepared_.closed) cover = best_of(of_closed_mesh());
+    if (prepared_.closed) cover = best_cover(of_closed_mesh());
     if (!cover || !cover->certified) {
       const Material material = of_enclosing_hull();
-      cover = best_of(material);
+      cover = best_cover(material);
       if (prepared_.closed) cover->notes.emplace_back("no cover of the mesh itself was certified");
       cover->notes.emplace_back(material.solid.face_count() > 0
                                     ? "a hull around the mesh was cut into pieces"
                                     : "the triangles are covered, but not what lies between them");
     }
     if (!cover->certified) {
-      cover = best_of(of_convex_hull());
+      cover = best_cover(of_convex_hull());
       cover->notes.emplace_back("no cover of several pieces was certified; this is the convex hull");
     }
     if (!cover->certified) throw InputError(Defect::NoCertificate, "no cover of these triangles was certified");
@@ -155,7 +145,8 @@ class Covering {
   Material of_enclosing_hull() const {
     if (convex_hull(prepared_.original).face_count() == 0) return {{}, prepared_.original, prepared_.original, 0};
     const std::size_t faces[]{kSearchFaces};
-    EnclosingHulls made = enclosing_hulls(prepared_.original, faces, enclosing_options(options_));
+    EnclosingHulls made =
+        enclosing_hulls(prepared_.original, faces, enclosing_options(options_.threads, options_.progress));
     TriangleMesh& hull = made.hulls[0].mesh;
     // Where no better solid than the convex hull is found, the triangles themselves are cut.
     if (made.hulls[0].source == Source::ConvexHull)
@@ -170,7 +161,7 @@ class Covering {
   }
 
   /// The most pieces, or as few as keep the bounds.
-  ConvexCover best_of(const Material& material) {
+  ConvexCover best_cover(const Material& material) {
     const CutTree tree = tree_of(material);
     Solid solid(material.solid, material.beside, kTolerances[0]);
     const std::size_t most = fewest_for(tree, least_volumes(tree)[std::min(leaves(tree), options_.max_pieces)]);
@@ -263,39 +254,41 @@ class Covering {
     };
     std::stable_sort(by_growth.begin(), by_growth.end(),
                      [&](std::size_t i, std::size_t j) { return growth(i) < growth(j); });
+    std::vector<ConvexPiece> chosen = polytopes.pieces;
     for (const std::size_t i : by_growth) {
-      std::vector<ConvexPiece> pieces = polytopes.pieces;
+      std::vector<ConvexPiece> pieces = chosen;
       pieces[i] = all[i];
-      ConvexCover next = certified(std::move(pieces), material);
-      if (next.within_bounds) polytopes = std::move(next);
+      if (measured(pieces, material).within_bounds) chosen = std::move(pieces);
     }
-    return polytopes;
+    return certified(std::move(chosen), material);
   }
 
   ConvexCover certified(std::vector<ConvexPiece> pieces, const Material& material) const {
-    ConvexCover cover;
-    prove(cover, meshes_of(pieces));
-    cover.original_volume = material.volume;
-    measure(cover, meshes_around(pieces));
-    cover.pieces = std::move(pieces);
+    ConvexCover cover = measured(std::move(pieces), material);
+    prove(cover);
     return cover;
   }
 
-  void prove(ConvexCover& cover, const std::vector<TriangleMesh>& meshes) const {
-    const auto start = std::chrono::steady_clock::now();
+  void prove(ConvexCover& cover) const {
+    const Stopwatch watch;
     const UnionVerification found =
-        verify_union(meshes, prepared_.original, {.max_offenders = 1, .progress = options_.progress});
+        verify_union(meshes_of(cover.pieces), prepared_.original, {.max_offenders = 1, .progress = options_.progress});
     cover.certified = found.covers;
     cover.covers_inside = found.covers && found.original_closed;
-    cover.verify_seconds = seconds_since(start);
+    cover.verify_seconds = watch.seconds();
   }
 
-  void measure(ConvexCover& cover, const std::vector<TriangleMesh>& meshes) const {
+  ConvexCover measured(std::vector<ConvexPiece> pieces, const Material& material) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    const std::vector<TriangleMesh> meshes = meshes_around(pieces);
+    ConvexCover cover;
+    cover.pieces = std::move(pieces);
+    cover.original_volume = material.volume;
     cover.volume = union_volume(meshes);
     cover.void_ratio = cover.original_volume > 0 ? cover.volume / cover.original_volume - 1 : infinity;
     cover.reach = union_reach(meshes, prepared_.original, {.progress = options_.progress});
     cover.within_bounds = keeps_bounds(cover);
+    return cover;
   }
 
   bool keeps_bounds(const ConvexCover& cover) const {
@@ -320,10 +313,11 @@ Names<PieceShape> piece_shape_names() {
 }
 
 ConvexCover convex_cover(TriangleMesh triangles, const ConvexCoverOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   cover::check(options);
+  if (options.float32_coordinates) check_float32_spacing(triangles);
   ConvexCover result = cover::Covering(std::move(triangles), options).run();
-  result.seconds = cover::seconds_since(start);
+  result.seconds = watch.seconds();
   return result;
 }
 

@@ -107,16 +107,20 @@ class Cutting {
   double least_gain_ = 0;
 };
 
-/// By number of parts, from 1 on; [0] is infinite.
-std::vector<double> volumes_below(const CutTree& tree, std::size_t node) {
-  const CutTree::Node& n = tree.nodes[node];
-  std::vector<double> least{std::numeric_limits<double>::infinity(), n.volume};
-  if (n.below == 0) return least;
-  const std::vector<double> below = volumes_below(tree, n.below), above = volumes_below(tree, n.above);
-  least.resize(below.size() + above.size() - 1, least[0]);
-  for (std::size_t i = 1; i < below.size(); ++i)
-    for (std::size_t j = 1; j < above.size(); ++j) least[i + j] = std::min(least[i + j], below[i] + above[j]);
-  return least;
+/// Of each node: the least volumes of the parts it is divided into, by their number from 1 on; [0] is infinite.
+std::vector<std::vector<double>> volumes_below(const CutTree& tree) {
+  std::vector<std::vector<double>> all(tree.nodes.size());
+  for (std::size_t node = tree.nodes.size(); node-- > 0;) {  // children come after their parents
+    const CutTree::Node& n = tree.nodes[node];
+    std::vector<double>& least = all[node];
+    least = {std::numeric_limits<double>::infinity(), n.volume};
+    if (n.below == 0) continue;
+    const std::vector<double>&below = all[n.below], &above = all[n.above];
+    least.resize(below.size() + above.size() - 1, least[0]);
+    for (std::size_t i = 1; i < below.size(); ++i)
+      for (std::size_t j = 1; j < above.size(); ++j) least[i + j] = std::min(least[i + j], below[i] + above[j]);
+  }
+  return all;
 }
 
 /// The planes of flat regions of the surface that lie close to a plane, those of the largest area first.
@@ -181,21 +185,42 @@ class Halving {
   double least_ = std::numeric_limits<double>::infinity();
 };
 
-void divide(const CutTree& tree, std::size_t node, std::size_t k, const Part& part, const Solid& solid,
-            std::vector<Part>& parts) {
-  if (part.empty()) return;
-  const CutTree::Node& n = tree.nodes[node];
-  if (k == 1 || n.below == 0) return parts.push_back(part);
-  const std::vector<double> below = volumes_below(tree, n.below), above = volumes_below(tree, n.above);
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < below.size(); ++i)
-    if (i < k && k - i < above.size() && below[i] + above[k - i] < least) best = i, least = below[i] + above[k - i];
-  const auto [lower, upper] =
-      Halving(part, solid).near(n.plane, tree.nodes[n.below].volume + tree.nodes[n.above].volume);
-  divide(tree, n.below, best, lower, solid, parts);
-  divide(tree, n.above, k - best, upper, solid, parts);
-}
+class Division {
+ public:
+  Division(const CutTree& tree, const Solid& solid) : tree_(tree), solid_(solid), volumes_(volumes_below(tree)) {}
+
+  std::vector<Part> run(std::size_t k) {
+    divide(0, k, whole(solid_));
+    return std::move(parts_);
+  }
+
+ private:
+  void divide(std::size_t node, std::size_t k, const Part& part) {
+    if (part.empty()) return;
+    const CutTree::Node& n = tree_.nodes[node];
+    if (k == 1 || n.below == 0) return parts_.push_back(part);
+    const std::size_t below = parts_below(n, k);
+    const double expected = tree_.nodes[n.below].volume + tree_.nodes[n.above].volume;
+    const auto [lower, upper] = Halving(part, solid_).near(n.plane, expected);
+    divide(n.below, below, lower);
+    divide(n.above, k - below, upper);
+  }
+
+  /// How many of the node's k parts lie below its plane.
+  std::size_t parts_below(const CutTree::Node& node, std::size_t k) const {
+    const std::vector<double>&below = volumes_[node.below], &above = volumes_[node.above];
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < std::min(k, below.size()); ++i)
+      if (k - i < above.size() && below[i] + above[k - i] < least) best = i, least = below[i] + above[k - i];
+    return best;
+  }
+
+  const CutTree& tree_;
+  const Solid& solid_;
+  const std::vector<std::vector<double>> volumes_;  // by node
+  std::vector<Part> parts_;
+};
 
 }  // namespace
 
@@ -203,12 +228,10 @@ CutTree cut_tree(const Solid& solid, std::size_t leaves, ProgressMeter& meter) {
   return Cutting(solid, leaves, meter).run();
 }
 
-std::vector<double> least_volumes(const CutTree& tree) { return volumes_below(tree, 0); }
+std::vector<double> least_volumes(const CutTree& tree) { return volumes_below(tree).front(); }
 
 std::vector<Part> divided(const CutTree& tree, std::size_t k, const Solid& solid) {
-  std::vector<Part> parts;
-  divide(tree, 0, k, whole(solid), solid, parts);
-  return parts;
+  return Division(tree, solid).run(k);
 }
 
 }  // namespace prohull::cover

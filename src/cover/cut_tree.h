@@ -13,7 +13,7 @@ struct CutTree {
   struct Node {
     double volume = 0;  ///< of the convex hull of its part
     Plane plane = {};
-    std::size_t below = 0, above = 0;  ///< its children; 0: it is a leaf
+    std::size_t below = 0, above = 0;  ///< its children; numbered after their parent; 0: it is a leaf
   };
   std::vector<Node> nodes;  ///< the first is the root
 };

@@ -8,10 +8,12 @@
 #include <optional>
 #include <vector>
 
+#include "cover/polytope.h"
 #include "cover/primitives.h"
-#include "cover/spread_directions.h"
 #include "cover/tightening.h"
+#include "geometry/directions.h"
 #include "geometry/float32.h"
+#include "geometry/largest_coordinate.h"
 #include "geometry/predicates.h"
 #include "prohull/convex_hull.h"
 #include "prohull/error.h"
@@ -37,9 +39,7 @@ struct Storage {
 
   /// No less than what storing a vertex near the box moves its coordinates, with the arithmetic before it.
   double rounding(const Box& box) const {
-    double largest = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
+    const double largest = largest_coordinate(box);
     return float32 ? std::max(largest * 0x1.1p-24, 0x1p-149) : std::max(largest * 0x1p-49, 0x1p-1070);
   }
 };
@@ -167,8 +167,7 @@ class Reduction {
 
 /// The polytope, grown about its middle until it encloses the other one with float32 coordinates.
 std::optional<TriangleMesh> rounded_outwards(const TriangleMesh& polytope, const TriangleMesh& enclosed) {
-  Vec3 center{};
-  for (const Vec3& p : polytope.positions) center += p / static_cast<double>(polytope.vertex_count());
+  const Vec3 center = middle(polytope);
   for (double growth = 0x1p-24; growth < 0.05; growth *= 2) {
     std::vector<Vec3> corners;
     for (const Vec3& p : polytope.positions) corners.push_back(nearest_float32(center + (p - center) * (1 + growth)));

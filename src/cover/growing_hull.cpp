@@ -109,39 +109,47 @@ void GrowingHull::insert(const Vec3& exact) {
   for (std::uint32_t f = 0; f < count; ++f)
     if (const double h = height(f, p); h > highest) highest = h, first = f;
   if (first == kNone) return;
+  find_visible(p, first);
+  if (!find_horizon()) return;
+  points_.push_back(p);
+  next_at_.push_back(kNone);
+  for (const std::uint32_t f : visible_) remove_face(f);
+  add_fan();
+}
+
+/// The faces around `first` that see p.
+void GrowingHull::find_visible(const Vec3& p, std::uint32_t first) {
   ++stamp_;
   visible_.assign(1, first);
   seen_[first] = stamp_;
-  std::size_t horizon = 0;
   for (std::size_t i = 0; i < visible_.size(); ++i)
     for (const std::uint32_t g : faces_[visible_[i]].beyond) {
       if (seen_[g] == stamp_) continue;
       if (height(g, p) > 0) seen_[g] = stamp_, visible_.push_back(g);
     }
-  const auto apex = static_cast<std::uint32_t>(points_.size());
-  // The horizon, edge by edge. Where rounding makes it pass a vertex twice, the point is left out.
-  struct Edge {
-    std::uint32_t a, b, beyond;
-  };
-  static thread_local std::vector<Edge> edges;
-  edges.clear();
+}
+
+/// False where rounding makes it pass a vertex twice: such a point is left out.
+bool GrowingHull::find_horizon() {
+  horizon_.clear();
   for (const std::uint32_t f : visible_)
     for (int e = 0; e < 3; ++e)
       if (const std::uint32_t g = faces_[f].beyond[e]; seen_[g] != stamp_)
-        edges.push_back({faces_[f].corners[e], faces_[f].corners[(e + 1) % 3], g});
+        horizon_.push_back({faces_[f].corners[e], faces_[f].corners[(e + 1) % 3], g});
   bool simple = true;
-  for (const Edge& e : edges) {
+  for (const Edge& e : horizon_) {
     if (next_at_[e.a] != kNone) simple = false;
     next_at_[e.a] = 0;
-    ++horizon;
   }
-  for (const Edge& e : edges) next_at_[e.a] = kNone;
-  if (!simple || horizon < 3) return;
-  points_.push_back(p);
-  next_at_.push_back(kNone);
-  for (const std::uint32_t f : visible_) remove_face(f);
+  for (const Edge& e : horizon_) next_at_[e.a] = kNone;
+  return simple && horizon_.size() >= 3;
+}
+
+/// From the newest point to the horizon.
+void GrowingHull::add_fan() {
+  const auto apex = static_cast<std::uint32_t>(points_.size() - 1);
   fan_.clear();
-  for (const Edge& e : edges) {
+  for (const Edge& e : horizon_) {
     const std::uint32_t f = new_face(e.a, e.b, apex);
     faces_[f].beyond[0] = e.beyond;
     Face& other = faces_[e.beyond];

@@ -25,6 +25,11 @@ class GrowingHull {
     std::array<std::uint32_t, 3> beyond;  ///< the face beyond the edge from corner i to corner i + 1
   };
 
+  /// Of the horizon: from a to b, and the face beyond it.
+  struct Edge {
+    std::uint32_t a, b, beyond;
+  };
+
   /// In [-1, 1], the same sequence for every hull.
   struct Random {
     double operator()() {
@@ -37,6 +42,9 @@ class GrowingHull {
   Vec3 shifted(const Vec3& p);
   bool start();
   void insert(const Vec3& p);
+  void find_visible(const Vec3& p, std::uint32_t first);
+  bool find_horizon();
+  void add_fan();
   std::uint32_t new_face(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   void remove_face(std::uint32_t f);
   double height(std::uint32_t f, const Vec3& p) const {
@@ -51,6 +59,7 @@ class GrowingHull {
   std::vector<double> normal_x_, normal_y_, normal_z_, offset_;  // free faces see no point
   std::vector<std::uint32_t> free_;
   std::vector<std::uint32_t> visible_, fan_;
+  std::vector<Edge> horizon_;
   std::vector<std::uint32_t> seen_;     // by face: the last point that saw it
   std::vector<std::uint32_t> next_at_;  // by point: the face of the fan whose edge begins there
   std::uint32_t stamp_ = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/directions.h"
+
 namespace prohull::cover {
 namespace {
 
@@ -20,12 +22,6 @@ Vec3 farthest_direction(const PerVertex<Vec3>& positions, const Vec3& from, doub
 }
 
 /// At a right angle to a direction of length 1.
-Vec3 any_normal(const Vec3& u) {
-  const Vec3 axis = std::abs(u.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 n = cross(u, axis);
-  return n / norm(n);
-}
-
 /// Of the solid inside of a closed mesh.
 Vec3 centroid(const TriangleMesh& mesh) {
   const Vec3 from = mesh.positions[VertexId{0}];

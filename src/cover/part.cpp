@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cover/spread_directions.h"
-#include "cover/tightening.h"
+#include "cover/polytope.h"
+#include "geometry/directions.h"
 
 namespace prohull::cover {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
-
-Vec3 crossing(const Vec3& p, const Vec3& q, double height_p, double height_q) {
-  return p + (q - p) * (height_p / (height_p - height_q));
-}
 
 /// The part of a segment that is not above a plane.
 bool clip(Segment& s, const Plane& plane) {
@@ -69,9 +65,9 @@ void append_used(TriangleMesh& surface, const TriangleMesh& mesh) {
 }
 
 /// Collects the points and polygons of one side.
-class Side {
+class Half {
  public:
-  explicit Side(std::size_t points) : number_(points, kNone) {}
+  explicit Half(std::size_t points) : number_(points, kNone) {}
 
   void add_corner(const Part& part, std::uint32_t v) {
     if (number_[v] == kNone) {
@@ -117,7 +113,6 @@ Part whole(const Solid& solid) {
     for (const VertexId v : t) part.corners.push_back(static_cast<std::uint32_t>(index(v)));
     part.ends.push_back(static_cast<std::uint32_t>(part.corners.size()));
   }
-  part.cells.emplace_back();
   return part;
 }
 
@@ -146,13 +141,12 @@ std::vector<std::array<std::uint32_t, 2>> edges(const Part& part) {
 
 std::vector<Vec3> new_corners(const Part& part, const Plane& plane, const Solid& solid) {
   std::vector<Vec3> result;
-  for (const Cell& cell : part.cells)
-    for (const Segment& s : cell.edges) {
-      const double a = plane.height(s.a), b = plane.height(s.b);
-      if ((a < 0) == (b < 0)) continue;
-      const Vec3 p = crossing(s.a, s.b, a, b);
-      if (solid.contains(p)) result.push_back(p);
-    }
+  for (const Segment& s : part.cell.edges) {
+    const double a = plane.height(s.a), b = plane.height(s.b);
+    if ((a < 0) == (b < 0)) continue;
+    const Vec3 p = crossing(s.a, s.b, a, b);
+    if (solid.contains(p)) result.push_back(p);
+  }
   return result;
 }
 
@@ -227,8 +221,7 @@ class Cutter {
     return std::any_of(directions.begin(), directions.end(), [&](const Vec3& d) {
       if (sign * dot(plane_.normal, d) < 0.05) return false;
       const Vec3 p = part_.points[v] + d * step;
-      return std::any_of(part_.cells.begin(), part_.cells.end(), [&](const Cell& cell) { return holds(cell, p); }) &&
-             solid_.contains(p);
+      return holds(part_.cell, p) && solid_.contains(p);
     });
   }
 
@@ -246,7 +239,7 @@ class Cutter {
   const Solid& solid_;
   std::vector<double> heights_;
   std::vector<std::array<std::uint32_t, 2>> crossed_;
-  Side lower_, upper_;
+  Half lower_, upper_;
 };
 
 }  // namespace
@@ -257,10 +250,8 @@ std::pair<Part, Part> cut(const Part& part, const Plane& plane, const Solid& sol
     lower.inside.push_back(p);
     upper.inside.push_back(p);
   }
-  for (const Cell& cell : part.cells) {
-    lower.cells.push_back(below(cell, plane, solid.box()));
-    upper.cells.push_back(below(cell, Plane{-plane.normal, -plane.offset}, solid.box()));
-  }
+  lower.cell = below(part.cell, plane, solid.box());
+  upper.cell = below(part.cell, Plane{-plane.normal, -plane.offset}, solid.box());
   return {std::move(lower), std::move(upper)};
 }
 

@@ -20,6 +20,11 @@ struct Plane {
   double height(const Vec3& p) const { return dot(normal, p) - offset; }
 };
 
+/// Where a segment crosses a plane that its ends have these heights over.
+inline Vec3 crossing(const Vec3& p, const Vec3& q, double height_p, double height_q) {
+  return p + (q - p) * (height_p / (height_p - height_q));
+}
+
 /// The surface of a solid, and what is inside of it.
 class Solid {
  public:
@@ -47,13 +52,13 @@ struct Cell {
   std::vector<Segment> edges;  ///< where two planes meet, as far as the box of the solid reaches
 };
 
-/// What a convex piece has to cover: the part of a solid within some cells. The convex hull of it is that of the
-/// corners of the surface within the cells, and of those corners of the cells that lie in the solid.
+/// What a convex piece has to cover: the part of a solid within a cell. The convex hull of it is that of the corners of
+/// the surface within the cell, and of those corners of the cell that lie in the solid.
 struct Part {
   std::vector<Vec3> points;                  ///< of the surface
   std::vector<std::uint32_t> corners, ends;  ///< polygon i has the corners [ends[i - 1], ends[i])
-  std::vector<Vec3> inside;                  ///< corners of cells in the solid
-  std::vector<Cell> cells;
+  std::vector<Vec3> inside;                  ///< corners of the cell in the solid
+  Cell cell;
 
   bool empty() const { return points.empty(); }
   std::size_t polygon_count() const { return ends.size(); }
@@ -69,7 +74,7 @@ Part whole(const Solid& solid);
 /// have it; a polygon in the plane to the side where the solid is.
 std::pair<Part, Part> cut(const Part& part, const Plane& plane, const Solid& solid);
 
-/// Where the plane meets edges of the part's cells in the solid.
+/// Where the plane meets edges of the part's cell in the solid.
 std::vector<Vec3> new_corners(const Part& part, const Plane& plane, const Solid& solid);
 
 /// All points that its convex hull is that of.

@@ -2,20 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cover/few_vertices.h"
-#include "cover/tightening.h"
+#include "cover/polytope.h"
 
 namespace prohull::cover {
 namespace {
 
 /// Corners of the surface itself are exact; those on the planes are rounded.
 bool is_on_a_plane(const Vec3& p, const Part& part, double near) {
-  return std::any_of(part.cells.begin(), part.cells.end(), [&](const Cell& cell) {
-    return std::any_of(cell.planes.begin(), cell.planes.end(),
-                       [&](const Plane& plane) { return std::abs(plane.height(p)) <= near; });
-  });
+  return std::any_of(part.cell.planes.begin(), part.cell.planes.end(),
+                     [&](const Plane& plane) { return std::abs(plane.height(p)) <= near; });
 }
 
 /// The convex hull of octahedra around the points.
@@ -33,14 +30,8 @@ TriangleMesh thick_hull(const std::vector<Vec3>& points, double radius) {
 
 /// Scaled so that every face moves outwards by at least `hair`; without faces if the polytope is too flat for that.
 TriangleMesh grown(const TriangleMesh& polytope, double hair) {
-  Vec3 center{};
-  for (const Vec3& p : polytope.positions) center += p / static_cast<double>(polytope.vertex_count());
-  double inner_radius = std::numeric_limits<double>::infinity();
-  for (const FaceId f : polytope.triangles.ids()) {
-    const auto [a, b, c] = polytope.triangle(f);
-    const Vec3 normal = cross(b - a, c - a);
-    inner_radius = std::min(inner_radius, dot(a - center, normal) / norm(normal));
-  }
+  const Vec3 center = middle(polytope);
+  const double inner_radius = depth(center, polytope);
   if (!(inner_radius > 1e3 * hair)) return {};
   std::vector<Vec3> points;
   for (const Vec3& p : polytope.positions) points.push_back(p + (p - center) * (hair / inner_radius));

@@ -1,12 +1,10 @@
 #include "cover/shape_choice.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
+#include "cover/polytope.h"
 #include "cover/primitives.h"
-#include "cover/spread_directions.h"
-#include "cover/tightening.h"
+#include "geometry/directions.h"
 
 namespace prohull::cover {
 namespace {
@@ -17,17 +15,6 @@ TriangleMesh hull_of_spheres(const Capsule& capsule, double radius) {
   for (const Vec3& center : {capsule.a, capsule.b})
     for (const Vec3& d : directions) points.push_back(center + d * radius);
   return convex_hull_of(std::move(points));
-}
-
-/// The distance of a point inside to the nearest plane of a face.
-double depth(const Vec3& p, const TriangleMesh& polytope) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const FaceId f : polytope.triangles.ids()) {
-    const auto [a, b, c] = polytope.triangle(f);
-    const Vec3 normal = cross(b - a, c - a);
-    least = std::min(least, dot(a - p, normal) / norm(normal));
-  }
-  return least;
 }
 
 TriangleMesh mesh_around(const Capsule& capsule) {

@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "cover/ball_search.h"
 #include "cover/depth.h"
+#include "cover/enclosing_options.h"
 #include "cover/inside_cubes.h"
 #include "cover/patches.h"
+#include "geometry/largest_coordinate.h"
+#include "mesh/area.h"
 #include "parallel/arena.h"
-#include "prohull/enclosing_hull.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
@@ -26,44 +28,15 @@ using cover::BallCover;
 using cover::BallTask;
 using cover::CubeGrid;
 using cover::Depth;
+using cover::enclosing_options;
 using cover::Patches;
 using cover::Place;
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void check(const SphereCoverOptions& options) {
   if (options.max_balls == 0) throw InputError(Defect::InvalidOption, "max_balls is 0; a cover has at least one ball");
   if (!(options.max_distance > 0))
     throw InputError(Defect::InvalidOption,
                      fmt::format("max_distance is {}; it must be greater than 0", options.max_distance));
-}
-
-EnclosingOptions enclosing_options(const SphereCoverOptions& options) {
-  EnclosingOptions enclosing;
-  enclosing.hull.threads = options.threads;
-  enclosing.progress = options.progress;
-  return enclosing;
-}
-
-double area_of(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const FaceId f : mesh.triangles.ids()) {
-    const Triangle t = mesh.triangle(f);
-    sum += norm(cross(t.b - t.a, t.c - t.a)) / 2;
-  }
-  return sum;
-}
-
-double largest_coordinate(const Box& box) {
-  double most = 0;
-  for (int axis = 0; axis < 3; ++axis) most = std::max({most, std::abs(box.min[axis]), std::abs(box.max[axis])});
-  return most;
 }
 
 /// What is to be covered, cut into patches, and places for balls.
@@ -77,7 +50,7 @@ class SphereCoverer {
  public:
   SphereCoverer(TriangleMesh triangles, const SphereCoverOptions& options)
       : options_(options),
-        input_(prepared_for_hulls(std::move(triangles), enclosing_options(options))),
+        input_(prepared_for_hulls(std::move(triangles), enclosing_options(options.threads, options.progress))),
         diagonal_(bounding_box(input_.original).diagonal()) {
     constexpr double kOfDiagonal = 1e-7, kOfCoordinate = 1e-14;
     least_margin_ =

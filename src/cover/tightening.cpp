@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "prohull/convex_hull.h"
+#include "cover/polytope.h"
 
 namespace prohull::cover {
 namespace {
@@ -274,14 +274,6 @@ double Target::greatest_product(const Vec3& normal, std::vector<double>& product
     for (std::size_t k = 0; k < 4; ++k) most[k] = products[i + k] > most[k] ? products[i + k] : most[k];
   for (std::size_t i = count / 4 * 4; i < count; ++i) most[0] = std::max(most[0], products[i]);
   return std::max({most[0], most[1], most[2], most[3]});
-}
-
-TriangleMesh convex_hull_of(std::vector<Vec3> points) {
-  TriangleMesh mesh;
-  mesh.positions = PerVertex<Vec3>(std::move(points));
-  for (std::uint32_t i = 2; i < mesh.vertex_count(); ++i)
-    mesh.triangles.push_back({VertexId{0}, VertexId{i - 1}, VertexId{i}});
-  return convex_hull(mesh);
 }
 
 std::optional<TriangleMesh> scaled_around(TriangleMesh polytope, const Target& target) {

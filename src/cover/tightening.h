@@ -29,9 +29,6 @@ class Target {
   std::vector<double> x_, y_, z_;
 };
 
-/// The convex hull of points. No faces if they lie in a plane.
-TriangleMesh convex_hull_of(std::vector<Vec3> points);
-
 /// The convex polytope, scaled about the origin so that it just encloses the target; nothing if the origin is not
 /// inside of it.
 std::optional<TriangleMesh> scaled_around(TriangleMesh polytope, const Target& target);

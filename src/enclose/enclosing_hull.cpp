@@ -4,16 +4,17 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <tuple>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "construct/lifting.h"
 #include "construct/shape_guards.h"
 #include "geometry/float32.h"
 #include "geometry/usable_size.h"
+#include "mesh/area.h"
 #include "parallel/progress_meter.h"
 #include "prohull/collide.h"
 #include "prohull/convex_hull.h"
@@ -48,17 +49,6 @@ constexpr std::array<std::pair<std::string_view, Repair>, 3> kRepairNames{
 
 constexpr std::array<std::pair<std::string_view, Source>, 3> kSourceNames{
     {{"mesh", Source::Mesh}, {"convex-hull", Source::ConvexHull}, {"wrap", Source::Wrap}}};
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-double area_of(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const FaceId f : mesh.triangles.ids()) {
-    const Triangle t = mesh.triangle(f);
-    sum += norm(cross(t.b - t.a, t.c - t.a)) / 2;
-  }
-  return sum;
-}
 
 /// Of the faces alone: a closed mesh would stand for its solid, too. With a face given twice it is not closed.
 CollisionIndex surface_of(TriangleMesh mesh) {
@@ -127,11 +117,11 @@ class Ladder {
     explicit Timer(double& seconds) : seconds_(seconds) {}
     Timer(const Timer&) = delete;
     Timer& operator=(const Timer&) = delete;
-    ~Timer() { seconds_ += now() - start_; }
+    ~Timer() { seconds_ += watch_.seconds(); }
 
    private:
     double& seconds_;
-    double start_ = now();
+    const Stopwatch watch_;
   };
 
   bool is_outer() const { return options_.hull.side == HullSide::Outer; }
@@ -409,7 +399,7 @@ bool Ladder::is_within_as_stored(const TriangleMesh& hull, std::size_t solid) {
 }
 
 Ladder::Attempt Ladder::build(std::size_t solid, std::size_t target_faces) {
-  const double start = now();
+  const Stopwatch building;
   const bool solid_is_moved = made_.solids[solid].source != Source::Mesh && !options_.levels && is_outer();
   EnclosingHull hull =
       options_.tight && !is_moved_ ? build_tight(solid, target_faces) : build_levels(solid, target_faces);
@@ -418,7 +408,8 @@ Ladder::Attempt Ladder::build(std::size_t solid, std::size_t target_faces) {
   hull.source = made_.solids[solid].source;
   auto file = as_stored(hull.mesh, solid);
   if (file) hull.mesh = std::move(file->mesh), hull.rounded_vertices = file->rounded_vertices;
-  const double built = now();
+  hull.build_seconds = building.seconds();
+  const Stopwatch verifying;
   if (file && options_.bounds.any() && is_padded()) hull.excess = excess_of(hull.mesh, solid);
   if (file) is_padded() ? certify_with_padding(hull) : certify(hull);
   if (!hull.certified && solid_is_moved && is_moved_closely(solid)) {
@@ -430,7 +421,7 @@ Ladder::Attempt Ladder::build(std::size_t solid, std::size_t target_faces) {
   hull.self_intersections = count_self_intersections(hull.mesh);
   if (file && options_.bounds.any() && !is_padded()) hull.excess = excess_of(hull.mesh, solid);
   hull.within_bounds = hull.excess <= 1;
-  hull.build_seconds = built - start, hull.verify_seconds = now() - built;
+  hull.verify_seconds = verifying.seconds();
   return {std::move(hull), file.has_value()};
 }
 

@@ -8,6 +8,7 @@
 
 #include "geometry/bvh.h"
 #include "geometry/closest_point.h"
+#include "geometry/largest_coordinate.h"
 #include "parallel/progress_meter.h"
 #include "prohull/error.h"
 #include "verify/distance.h"
@@ -34,11 +35,8 @@ class Search {
     double largest = 0;
     for (const FaceId f : to.triangles.ids()) boxes.push_back(box_of(to.triangle(f)));
     tree_ = Bvh(boxes);
-    for (const TriangleMesh* mesh : {&from, &to}) {
-      const Box box = bounding_box(*mesh);
-      for (int axis = 0; axis < 3; ++axis)
-        largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
-    }
+    for (const TriangleMesh* mesh : {&from, &to})
+      if (const Box box = bounding_box(*mesh); !box.is_empty()) largest = std::max(largest, largest_coordinate(box));
     // A closest point is computed from differences, within 16 eps of the largest coordinate for each of its own (a sum
     // of three with factors in [0, 1]); its distance to p, and cells cut at rounded midpoints, add as much again.
     rounding_ = 64 * 0x1p-53 * largest;

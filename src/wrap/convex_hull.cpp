@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "geometry/directions.h"
 #include "geometry/predicates.h"
 
 namespace prohull {
@@ -142,23 +142,12 @@ class Quickhull {
   std::uint32_t points_ = 0;
 };
 
-/// Points on the unit sphere, evenly spread: a spiral whose turns are the golden angle apart.
-std::vector<Vec3> directions(int count) {
-  const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
-  std::vector<Vec3> result;
-  for (int i = 0; i < count; ++i) {
-    const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - z * z);
-    result.push_back({r * std::cos(i * golden_angle), r * std::sin(i * golden_angle), z});
-  }
-  return result;
-}
-
 /// The corners of a polyhedron around the ball of radius 1.
-std::vector<Vec3> ball_corners(int count) {
+std::vector<Vec3> ball_corners(std::size_t count) {
+  std::vector<Vec3> corners = spread_directions(count);
   TriangleMesh inscribed;
-  for (const Vec3& p : directions(count)) inscribed.positions.push_back(p);
-  for (std::uint32_t i = 2; i < std::uint32_t(count); ++i)
-    inscribed.triangles.push_back({VertexId{0}, VertexId{i - 1}, VertexId{i}});
+  inscribed.positions = PerVertex<Vec3>(corners);
+  for (std::uint32_t i = 2; i < count; ++i) inscribed.triangles.push_back({VertexId{0}, VertexId{i - 1}, VertexId{i}});
   double radius = 1;
   const TriangleMesh hull = convex_hull(inscribed);
   for (const FaceId f : hull.triangles.ids()) {
@@ -166,7 +155,6 @@ std::vector<Vec3> ball_corners(int count) {
     const Vec3 n = cross(t.b - t.a, t.c - t.a);
     radius = std::min(radius, dot(n, t.a) / norm(n));
   }
-  std::vector<Vec3> corners = directions(count);
   for (Vec3& p : corners) p = p / radius;
   return corners;
 }

@@ -1,6 +1,11 @@
 # Checks of commands, for the tests that are written in sh. Each check names what it defends.
+# They run in a folder of their own, which is removed at the end.
 checks=0
 failures=0
+work=$(mktemp -d)
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export XDG_CACHE_HOME="$work/caches"
 
 fail() {
   failures=$((failures + 1))

@@ -4,9 +4,6 @@
 set -u
 prohull=$1 divisor=$2
 . "$(dirname "$0")/checks.sh"
-work=$(mktemp -d)
-trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
-cd "$work" || exit 1
 engines="bvh kdop6 kdop14 kdop18 kdop26 kdop6-overlap kdop14-overlap kdop18-overlap kdop26-overlap brute"
 
 # --- the main job ---

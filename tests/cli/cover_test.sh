@@ -4,10 +4,6 @@
 set -u
 prohull=$1
 . "$(dirname "$0")/checks.sh"
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-export XDG_CACHE_HOME="$work/caches"
 
 # slab FILE FROM TO FIRST: a box [FROM, TO] x [0, 1] x [0, 1] as OBJ; FIRST is the number before its first vertex
 slab() {

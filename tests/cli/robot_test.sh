@@ -4,10 +4,6 @@
 set -u
 prohull=$1
 . "$(dirname "$0")/checks.sh"
-work=$(mktemp -d)
-trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
-cd "$work" || exit 1
-export XDG_CACHE_HOME="$work/caches"
 # --- a robot of three links, the collision mesh of which is too small for the first ---
 mkdir -p robot/meshes
 $prohull sample bracket --faces 600 -o robot/meshes/bracket.stl >/dev/null

@@ -7,7 +7,7 @@
 
 #include "prohull/geometry.h"
 
-namespace prohull::cover {
+namespace prohull {
 
 /// Directions of length 1, evenly spread over the sphere: along a spiral whose turns are the golden angle apart.
 inline std::vector<Vec3> spread_directions(std::size_t count) {
@@ -21,4 +21,11 @@ inline std::vector<Vec3> spread_directions(std::size_t count) {
   return directions;
 }
 
-}  // namespace prohull::cover
+/// A direction of length 1 at right angles to `u`, which has that length, too.
+inline Vec3 any_normal(const Vec3& u) {
+  const Vec3 axis = std::abs(u.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 n = cross(u, axis);
+  return n / norm(n);
+}
+
+}  // namespace prohull

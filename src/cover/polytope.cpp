@@ -1,0 +1,35 @@
+#include "cover/polytope.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "prohull/convex_hull.h"
+
+namespace prohull::cover {
+
+TriangleMesh convex_hull_of(std::vector<Vec3> points) {
+  TriangleMesh mesh;
+  mesh.positions = PerVertex<Vec3>(std::move(points));
+  for (std::uint32_t i = 2; i < mesh.vertex_count(); ++i)
+    mesh.triangles.push_back({VertexId{0}, VertexId{i - 1}, VertexId{i}});
+  return convex_hull(mesh);
+}
+
+Vec3 middle(const TriangleMesh& polytope) {
+  Vec3 sum{};
+  for (const Vec3& p : polytope.positions) sum += p / static_cast<double>(polytope.vertex_count());
+  return sum;
+}
+
+double depth(const Vec3& p, const TriangleMesh& polytope) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const FaceId f : polytope.triangles.ids()) {
+    const auto [a, b, c] = polytope.triangle(f);
+    const Vec3 normal = cross(b - a, c - a);
+    least = std::min(least, dot(a - p, normal) / norm(normal));
+  }
+  return least;
+}
+
+}  // namespace prohull::cover
