@@ -13,7 +13,7 @@
 namespace prohull::cover {
 namespace {
 
-constexpr int kOffsets = 15;
+constexpr double kLeastImprovement = 1e-6;  // relative
 
 std::vector<Vec3> directions() {
   std::vector<Vec3> all;
@@ -67,7 +67,7 @@ std::vector<double> heights_of_steps(const Part& part, const Vec3& normal) {
 /// them cost little more than one.
 class Sweep {
  public:
-  Sweep(const Part& part, const Edges& edges, const Vec3& normal, const Solid& solid)
+  Sweep(const Part& part, const Edges& edges, const Vec3& normal, const Solid& solid, int offsets)
       : part_(part),
         normal_(normal),
         tolerance_(solid.tolerance()),
@@ -77,7 +77,7 @@ class Sweep {
     std::iota(order_.begin(), order_.end(), 0u);
     std::sort(order_.begin(), order_.end(),
               [&](std::uint32_t i, std::uint32_t j) { return heights_[i] < heights_[j]; });
-    choose_offsets();
+    choose_offsets(offsets);
     slabs_.resize(offsets_.size());
     for (const auto& [a, b] : edges) heights_[a] < heights_[b] ? add_edge(a, b) : add_edge(b, a);
     for (std::size_t i = 0; i < offsets_.size(); ++i)
@@ -102,9 +102,9 @@ class Sweep {
     std::vector<Vec3> both, lower, upper;  // of both sides, or only of the faces below, or above
   };
 
-  void choose_offsets() {
+  void choose_offsets(int count) {
     const double low = heights_[order_.front()], high = heights_[order_.back()];
-    for (int i = 1; i <= kOffsets; ++i) offsets_.push_back(low + (high - low) * i / (kOffsets + 1));
+    for (int i = 1; i <= count; ++i) offsets_.push_back(low + (high - low) * i / (count + 1));
     for (const double height : heights_of_steps(part_, normal_)) offsets_.push_back(height);
     std::sort(offsets_.begin(), offsets_.end());
     std::erase_if(offsets_, [&](double t) { return t < low + 10 * tolerance_ || t > high - 10 * tolerance_; });
@@ -158,29 +158,56 @@ class Sweep {
   std::vector<Slab> slabs_;  // by offset
 };
 
-Cut cut_along(const Part& part, const Edges& edges, const Plane& plane, const Solid& solid) {
+/// The plane shifted, and turned about the middle of its meeting with a part: about the foot of the part's centre.
+std::vector<Plane> neighbors(const Plane& plane, const Vec3& center, double angle, double shift) {
+  const Vec3 n = plane.normal, u = any_normal(n), v = cross(n, u);
+  const Vec3 pivot = center - n * plane.height(center);
+  std::vector<Plane> result{{n, plane.offset + shift}, {n, plane.offset - shift}};
+  for (const Vec3& side : {u, -u, v, -v}) {
+    const Vec3 m = n + side * angle, unit = m / norm(m);
+    result.push_back({unit, dot(unit, pivot)});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets) {
+  static const std::vector<Vec3> all = directions();
+  const auto part_edges = edges(part);
+  std::vector<Cut> result;
+  if (part.points.size() < 4) return result;
+  result.resize(all.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, all.size(),
+                            [&](std::size_t i) { result[i] = Sweep(part, part_edges, all[i], solid, offsets).best(); });
+  std::erase_if(result, [](const Cut& c) { return !std::isfinite(c.volume); });
+  std::stable_sort(result.begin(), result.end(), [](const Cut& a, const Cut& b) { return a.merit < b.merit; });
+  return result;
+}
+
+Cut HalvesVolume::operator()(const Plane& plane) const {
   static thread_local GrowingHull hull;
   static thread_local std::vector<Vec3> lower, upper;
   static thread_local std::vector<double> heights;
   lower.clear(), upper.clear(), heights.clear();
-  const double near = solid.tolerance();
-  for (const Vec3& p : part.points) {
+  const double near = solid_.tolerance();
+  for (const Vec3& p : part_.points) {
     heights.push_back(plane.height(p));
     if (std::abs(heights.back()) > near) (heights.back() < 0 ? lower : upper).push_back(p);
   }
-  for (const Vec3& p : part.inside) (plane.height(p) < 0 ? lower : upper).push_back(p);
+  for (const Vec3& p : part_.inside) (plane.height(p) < 0 ? lower : upper).push_back(p);
   if (lower.empty() || upper.empty()) return no_cut();
-  for (const auto& [a, b] : edges) {
+  for (const auto& [a, b] : edges_) {
     const bool a_on = std::abs(heights[a]) <= near, b_on = std::abs(heights[b]) <= near;
     if (a_on != b_on) {
       const double other = heights[a_on ? b : a];
-      (other < 0 ? lower : upper).push_back(part.points[a_on ? a : b]);
+      (other < 0 ? lower : upper).push_back(part_.points[a_on ? a : b]);
     } else if (!a_on && (heights[a] < 0) != (heights[b] < 0)) {
-      lower.push_back(crossing(part.points[a], part.points[b], heights[a], heights[b]));
+      lower.push_back(crossing(part_.points[a], part_.points[b], heights[a], heights[b]));
       upper.push_back(lower.back());
     }
   }
-  for (const Vec3& p : new_corners(part, plane, solid)) lower.push_back(p), upper.push_back(p);
+  for (const Vec3& p : new_corners(part_, plane, solid_)) lower.push_back(p), upper.push_back(p);
   hull.clear();
   hull.add(lower);
   const double below = hull.volume();
@@ -189,45 +216,22 @@ Cut cut_along(const Part& part, const Edges& edges, const Plane& plane, const So
   return cut_of(plane, below, hull.volume());
 }
 
-}  // namespace
-
-std::vector<Cut> cuts(const Part& part, const Solid& solid) {
-  static const std::vector<Vec3> all = directions();
-  const auto part_edges = edges(part);
-  std::vector<Cut> result;
-  if (part.points.size() < 4) return result;
-  result.resize(all.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, all.size(),
-                            [&](std::size_t i) { result[i] = Sweep(part, part_edges, all[i], solid).best(); });
-  std::erase_if(result, [](const Cut& c) { return !std::isfinite(c.volume); });
-  std::stable_sort(result.begin(), result.end(), [](const Cut& a, const Cut& b) { return a.merit < b.merit; });
-  return result;
+Cut refined(const Part& part, const Cut& cut, const Solid& solid) {
+  const HalvesVolume halves(part, solid);
+  return halves(moved(cut.plane, box_of(part), [&](const Plane& plane) { return halves(plane).merit; }));
 }
 
-Cut refined(const Part& part, const Cut& cut, const Solid& solid) {
-  const auto part_edges = edges(part);
-  Box box;
-  for (const Vec3& p : part.points) box.extend(p);
-  Cut best = cut_along(part, part_edges, cut.plane, solid);
-  double angle = 0.25, shift = box.diagonal() / 30;
+Plane moved(const Plane& plane, const Box& box, const std::function<double(const Plane&)>& value) {
+  Plane best = plane;
+  double least = value(plane), angle = 0.25, shift = box.diagonal() / 30;
   for (int round = 0; round < 5; ++round, angle /= 2, shift /= 2) {
     for (bool improved = true; improved;) {
-      improved = false;
-      const Vec3 n = best.plane.normal;
-      const Vec3 u = any_normal(n), v = cross(n, u);
-      // The plane turns about the middle of its meeting with the part: about the foot of the part's centre.
-      const Vec3 pivot = box.center() - n * best.plane.height(box.center());
-      std::vector<Plane> tries{{n, best.plane.offset + shift}, {n, best.plane.offset - shift}};
-      for (const Vec3& side : {u, -u, v, -v}) {
-        const Vec3 m = n + side * angle;
-        const Vec3 unit = m / norm(m);
-        tries.push_back({unit, dot(unit, pivot)});
-      }
-      Cut found = best;
-      for (const Plane& plane : tries)
-        if (const Cut next = cut_along(part, part_edges, plane, solid); next.merit < found.merit * (1 - 1e-6))
-          found = next, improved = true;
-      best = found;
+      const std::vector<Plane> tries = neighbors(best, box.center(), angle, shift);
+      std::vector<double> values(tries.size());
+      oneapi::tbb::parallel_for(std::size_t{0}, tries.size(), [&](std::size_t i) { values[i] = value(tries[i]); });
+      const auto found = std::min_element(values.begin(), values.end());
+      improved = *found < least * (1 - kLeastImprovement);
+      if (improved) least = *found, best = tries[static_cast<std::size_t>(found - values.begin())];
     }
   }
   return best;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "cover/part.h"
@@ -14,10 +15,28 @@ struct Cut {
   double merit = 0;
 };
 
-/// The best cuts of a part among planes of many directions and offsets, the best first: at most one for each direction.
-std::vector<Cut> cuts(const Part& part, const Solid& solid);
+/// The best cuts of a part among planes of many directions and of so many even offsets, and those of steps of the
+/// surface; the best first: at most one for each direction.
+std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets);
 
 /// Turns and moves the plane as long as that makes the volume less.
 Cut refined(const Part& part, const Cut& cut, const Solid& solid);
+
+/// Turns and moves the plane, which meets the box, as long as that makes its value less. `value` is called on several
+/// threads.
+Plane moved(const Plane& plane, const Box& box, const std::function<double(const Plane&)>& value);
+
+/// The volumes of the convex hulls of both sides of a plane together, for many planes.
+class HalvesVolume {
+ public:
+  HalvesVolume(const Part& part, const Solid& solid) : part_(part), solid_(solid), edges_(edges(part)) {}
+  /// Its volume is infinite if all is on one side.
+  Cut operator()(const Plane& plane) const;
+
+ private:
+  const Part& part_;
+  const Solid& solid_;
+  const std::vector<std::array<std::uint32_t, 2>> edges_;
+};
 
 }  // namespace prohull::cover

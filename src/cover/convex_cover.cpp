@@ -27,6 +27,8 @@ namespace {
 
 /// Cuts are looked for on a hull of so many faces: more make them hardly better.
 constexpr std::size_t kSearchFaces = 1500;
+/// Those of the wide search, which is costlier.
+constexpr std::size_t kWideSearchFaces = 800;
 constexpr double kSearchTolerance = 1e-6;
 /// How near a corner is to a plane that counts as on it, of the diagonal: the first is no more than rounding; each
 /// further one is tried where the proof of the cover fails.
@@ -45,9 +47,10 @@ void check(const ConvexCoverOptions& options) {
 
 /// What is cut into pieces.
 struct Material {
-  TriangleMesh solid;   ///< closed, outwards; or without faces
-  TriangleMesh beside;  ///< triangles to cover that bound nothing
-  TriangleMesh coarse;  ///< like both, of few faces: the cuts are looked for in it
+  TriangleMesh solid;    ///< closed, outwards; or without faces
+  TriangleMesh beside;   ///< triangles to cover that bound nothing
+  TriangleMesh coarse;   ///< like both, of few faces: the cuts are looked for in it
+  TriangleMesh coarser;  ///< around `coarse`, for the wide search
   double volume = 0;
 };
 
@@ -131,45 +134,53 @@ class Covering {
  private:
   Material of_closed_mesh() const {
     const TriangleMesh& closed = prepared_.closed->mesh;
-    Material result{closed, prepared_.dropped, closed, signed_volume(closed)};
-    if (result.solid.face_count() > kSearchFaces)
-      result.coarse = build_hull(result.solid, {.target_faces = kSearchFaces,
-                                                .relax_guards = true,
-                                                .threads = options_.threads,
-                                                .progress = options_.progress})
-                          .hull.base();
-    return result;
+    TriangleMesh coarse = with_faces(closed, kSearchFaces), coarser = with_faces(coarse, kWideSearchFaces);
+    return {closed, prepared_.dropped, std::move(coarse), std::move(coarser), signed_volume(closed)};
+  }
+
+  /// The mesh, or a hull around it of so many faces.
+  TriangleMesh with_faces(const TriangleMesh& mesh, std::size_t faces) const {
+    if (mesh.face_count() <= faces) return mesh;
+    return build_hull(mesh, {.target_faces = faces,
+                             .relax_guards = true,
+                             .threads = options_.threads,
+                             .progress = options_.progress})
+        .hull.base();
   }
 
   /// Of triangles that bound no solid by themselves.
   Material of_enclosing_hull() const {
-    if (convex_hull(prepared_.original).face_count() == 0) return {{}, prepared_.original, prepared_.original, 0};
+    if (convex_hull(prepared_.original).face_count() == 0)
+      return {{}, prepared_.original, prepared_.original, prepared_.original, 0};
     const std::size_t faces[]{kSearchFaces};
     EnclosingHulls made =
         enclosing_hulls(prepared_.original, faces, enclosing_options(options_.threads, options_.progress));
     TriangleMesh& hull = made.hulls[0].mesh;
     // Where no better solid than the convex hull is found, the triangles themselves are cut.
-    if (made.hulls[0].source == Source::ConvexHull)
-      return {{}, prepared_.original, clustered(prepared_.original), made.volume};
-    return {hull, {}, hull, made.volume};
+    if (made.hulls[0].source == Source::ConvexHull) {
+      const TriangleMesh coarse = clustered(prepared_.original);
+      return {{}, prepared_.original, coarse, coarse, made.volume};
+    }
+    return {hull, {}, hull, hull, made.volume};
   }
 
   /// One piece.
   Material of_convex_hull() const {
     const TriangleMesh hull = convex_hull(prepared_.original);
-    return {hull, {}, hull, prepared_.closed ? signed_volume(prepared_.closed->mesh) : 0};
+    return {hull, {}, hull, hull, prepared_.closed ? signed_volume(prepared_.closed->mesh) : 0};
   }
 
   /// The most pieces, or as few as keep the bounds.
   ConvexCover best_cover(const Material& material) {
-    const CutTree tree = tree_of(material);
+    const CutSearch search = search_of(material);
+    const CutTree tree = tree_of(search, options_.max_pieces, material);
     Solid solid(material.solid, material.beside, kTolerances[0]);
-    const std::size_t most = fewest_for(tree, least_volumes(tree)[std::min(leaves(tree), options_.max_pieces)]);
+    const std::size_t most = fewest_for(tree, least_volumes(tree)[leaves(tree)]);
     ConvexCover best = fitted(tree, most, solid, material);
     // Fewer pieces do without the cut that defeats the proof.
     for (std::size_t count = most; !best.certified && count > 2;) {
       count -= std::max<std::size_t>(1, count / 6);
-      best = fitted(tree, count, solid, material);
+      best = fitted(tree_of(search, count, material), count, solid, material);
     }
     if (best.pieces.size() > 1) {
       std::vector<ConvexPiece> one = pieces(tree, 1, solid);
@@ -179,7 +190,7 @@ class Covering {
     std::size_t low = 0, high = most;  // the cover of `low` pieces does not keep the bounds
     while (best.within_bounds && high - low > 1) {
       const std::size_t middle = (low + high) / 2;
-      ConvexCover cover = fitted(tree, middle, solid, material);
+      ConvexCover cover = fitted(tree_of(search, middle, material), middle, solid, material);
       if (cover.certified && cover.within_bounds)
         best = std::move(cover), high = middle;
       else
@@ -188,14 +199,20 @@ class Covering {
     return shaped(std::move(best), material);
   }
 
-  /// In the frame of the material.
-  CutTree tree_of(const Material& material) const {
+  CutSearch search_of(const Material& material) const {
     ProgressMeter meter(options_.progress, "cut");
     const Frame frame(bounding_box(material.coarse));
-    CutTree tree = arena_of(options_.threads).execute([&] {
-      return cut_tree(search_solid(material, frame), options_.max_pieces + options_.max_pieces / 4 + 8, meter);
+    const auto solid = [&](const TriangleMesh& mesh) { return search_solid(mesh, material, frame); };
+    return arena_of(options_.threads).execute([&] {
+      return CutSearch(solid(material.coarse), solid(material.coarser), options_.max_pieces, meter);
     });
-    frame.unscale(tree);
+  }
+
+  /// In the frame of the material; of `count` leaves, or of fewer.
+  CutTree tree_of(const CutSearch& search, std::size_t count, const Material& material) const {
+    ProgressMeter meter(options_.progress, "cut");
+    CutTree tree = arena_of(options_.threads).execute([&] { return search.tree(count, meter); });
+    Frame(bounding_box(material.coarse)).unscale(tree);
     meter.at(1);
     return tree;
   }
@@ -205,15 +222,15 @@ class Covering {
     ConvexCover cover;
     for (const double tolerance : kTolerances) {
       solid.set_tolerance(tolerance);
-      cover = certified(pieces(tree, count, solid), material);
+      cover = certified(pieces(tree, std::min(count, leaves(tree)), solid), material);
       if (cover.certified) break;
     }
     return cover;
   }
 
-  static Solid search_solid(const Material& material, const Frame& frame) {
-    const TriangleMesh coarse = frame.scaled(material.coarse);
-    return material.solid.face_count() > 0 ? Solid(coarse, {}, kSearchTolerance) : Solid({}, coarse, kSearchTolerance);
+  static Solid search_solid(const TriangleMesh& mesh, const Material& material, const Frame& frame) {
+    const TriangleMesh scaled = frame.scaled(mesh);
+    return material.solid.face_count() > 0 ? Solid(scaled, {}, kSearchTolerance) : Solid({}, scaled, kSearchTolerance);
   }
 
   static std::size_t leaves(const CutTree& tree) { return (tree.nodes.size() + 1) / 2; }

@@ -4,16 +4,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "cover/best_cut.h"
+#include "cover/growing_hull.h"
 
 namespace prohull::cover {
 namespace {
 
-constexpr std::size_t kTried = 3;  // cuts of a part
+/// How a part's cut is looked for.
+struct Effort {
+  int offsets;        ///< of planes of one direction
+  std::size_t tried;  ///< cuts of a part
+  int ahead;          ///< further cuts that are looked ahead
+};
+constexpr Effort kNarrow{15, 3, 1}, kWide{7, 8, 2};
+/// The first cuts decide most: after so many, the wide search tries no more cuts than the narrow one.
+constexpr std::size_t kWideLeaves = 8;
+/// For more pieces the wide search takes too long for what it saves.
+constexpr std::size_t kMostPiecesOfWide = 40;
 /// A cut that saves less, of the volume of the whole convex hull, is not made.
 constexpr double kLeastGain = 1e-5;
 
@@ -24,34 +37,31 @@ struct Candidate {
   Part part;
   double volume;
   std::vector<Cut> first_cuts;  ///< the best first
+
+  /// What the best cut saves.
+  double gain() const { return first_cuts.empty() ? 0 : volume - first_cuts.front().volume; }
 };
 
 /// A cut of a part, made.
 struct Halves {
   Cut cut;
   std::vector<Candidate> sides;
-
-  /// The volume after one more cut.
-  double volume_later() const {
-    double most = 0;
-    for (const Candidate& side : sides)
-      if (!side.first_cuts.empty()) most = std::max(most, side.volume - side.first_cuts.front().volume);
-    return sides[0].volume + sides[1].volume - most;
-  }
+  double volume_later = 0;  ///< after the further cuts that are looked ahead
 };
 
 class Cutting {
  public:
-  Cutting(const Solid& solid, std::size_t leaves, ProgressMeter& meter)
-      : solid_(solid), leaves_(leaves), meter_(meter) {}
+  Cutting(const Solid& solid, std::size_t leaves, const Effort& effort, ProgressMeter& meter)
+      : solid_(solid), leaves_(leaves), effort_(effort), meter_(meter) {}
 
   CutTree run() {
     Candidate root(whole(solid_));
-    root.first_cuts = cuts(root.part, solid_);
+    root.first_cuts = cuts(root.part, solid_, effort_.offsets);
     least_gain_ = kLeastGain * root.volume;
     add(std::move(root));
     for (std::size_t leaves = 1; leaves < leaves_; ++leaves) {
       meter_.at(leaves, leaves_);
+      if (leaves == kWideLeaves) effort_ = {effort_.offsets, kNarrow.tried, kNarrow.ahead};
       const auto best =
           std::max_element(open_.begin(), open_.end(), [](const Open& a, const Open& b) { return a.gain < b.gain; });
       if (best == open_.end()) break;
@@ -70,37 +80,57 @@ class Cutting {
   struct Open {
     std::size_t node;
     Halves halves;
-    double gain;  ///< for each of two cuts
+    double gain;  ///< for each cut, those ahead included
   };
 
   void add(Candidate candidate) {
     const std::size_t node = tree_.nodes.size();
     tree_.nodes.push_back({candidate.volume});
     if (candidate.first_cuts.empty()) return;
-    const std::size_t count = std::min(kTried, candidate.first_cuts.size());
+    const std::size_t count = std::min(effort_.tried, candidate.first_cuts.size());
     std::vector<std::optional<Halves>> tried(count);
     oneapi::tbb::parallel_for(std::size_t{0}, count,
                               [&](std::size_t i) { tried[i] = halves(candidate, candidate.first_cuts[i]); });
-    const auto best = std::min_element(
-        tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a->volume_later() < b->volume_later(); });
-    const double gain = (candidate.volume - (*best)->volume_later()) / 2;
+    const auto best = std::min_element(tried.begin(), tried.end(),
+                                       [](const auto& a, const auto& b) { return a->volume_later < b->volume_later; });
+    const double gain = (candidate.volume - (*best)->volume_later) / (1 + effort_.ahead);
     if (gain > least_gain_) open_.push_back({node, std::move(**best), gain});
   }
 
   Halves halves(const Candidate& candidate, const Cut& coarse) const {
     Halves result{refined(candidate.part, coarse, solid_), {}};
-    auto [below, above] = cut(candidate.part, result.cut.plane, solid_);
-    result.sides.emplace_back(std::move(below));
-    result.sides.emplace_back(std::move(above));
+    result.sides = sides(candidate.part, result.cut.plane);
+    result.volume_later = volume_after(effort_.ahead, result.sides);
+    return result;
+  }
+
+  std::vector<Candidate> sides(const Part& part, const Plane& plane) const {
+    auto [below, above] = cut(part, plane, solid_);
+    std::vector<Candidate> result;
+    result.emplace_back(std::move(below));
+    result.emplace_back(std::move(above));
     oneapi::tbb::parallel_for(std::size_t{0}, std::size_t{2}, [&](std::size_t i) {
-      Candidate& side = result.sides[i];
-      side.first_cuts = cuts(side.part, solid_);
+      result[i].first_cuts = cuts(result[i].part, solid_, effort_.offsets);
     });
     return result;
   }
 
+  /// The volume of the parts after so many further cuts, each of which is the one that saves most.
+  double volume_after(int further, std::vector<Candidate> parts) const {
+    const auto best = std::max_element(parts.begin(), parts.end(),
+                                       [](const Candidate& a, const Candidate& b) { return a.gain() < b.gain(); });
+    if (further == 1 || best->gain() <= 0)
+      return std::accumulate(parts.begin(), parts.end(), -best->gain(),
+                             [](double sum, const Candidate& part) { return sum + part.volume; });
+    std::vector<Candidate> halves = sides(best->part, best->first_cuts.front().plane);
+    parts.erase(best);
+    std::move(halves.begin(), halves.end(), std::back_inserter(parts));
+    return volume_after(further - 1, std::move(parts));
+  }
+
   const Solid& solid_;
   const std::size_t leaves_;
+  Effort effort_;
   ProgressMeter& meter_;
   CutTree tree_;
   std::vector<Open> open_;
@@ -122,6 +152,98 @@ std::vector<std::vector<double>> volumes_below(const CutTree& tree) {
   }
   return all;
 }
+
+/// The tree without the cuts below the k leaves of least volume.
+class Pruning {
+ public:
+  explicit Pruning(const CutTree& tree) : tree_(tree), volumes_(volumes_below(tree)) {}
+
+  CutTree run(std::size_t k) {
+    add(0, k);
+    return std::move(result_);
+  }
+
+ private:
+  std::size_t add(std::size_t node, std::size_t k) {
+    const CutTree::Node& n = tree_.nodes[node];
+    const std::size_t number = result_.nodes.size();
+    result_.nodes.push_back({n.volume, n.plane});
+    if (k == 1 || n.below == 0) return number;
+    const std::size_t parts = parts_below(n, k);
+    const std::size_t below = add(n.below, parts), above = add(n.above, k - parts);
+    result_.nodes[number].below = below;
+    result_.nodes[number].above = above;
+    return number;
+  }
+
+  /// How many of the node's k parts lie below its plane.
+  std::size_t parts_below(const CutTree::Node& node, std::size_t k) const {
+    const std::vector<double>&below = volumes_[node.below], &above = volumes_[node.above];
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < std::min(k, below.size()); ++i)
+      if (k - i < above.size() && below[i] + above[k - i] < least) best = i, least = below[i] + above[k - i];
+    return best;
+  }
+
+  const CutTree& tree_;
+  const std::vector<std::vector<double>> volumes_;  // by node
+  CutTree result_;
+};
+
+double quick_volume(const Part& part) {
+  static thread_local GrowingHull hull;
+  hull.clear();
+  hull.add(hull_points(part));
+  return hull.volume();
+}
+
+/// Moves each plane of a tree as long as that makes the volume of all leaves less; from the root on. One node after
+/// another: the meter throws, and what is thrown in one parallel loop would end others half done.
+class Settling {
+ public:
+  Settling(CutTree& tree, const Solid& solid, ProgressMeter& meter) : tree_(tree), solid_(solid), meter_(meter) {}
+  void run() { settle(0, whole(solid_)); }
+
+ private:
+  void settle(std::size_t node, const Part& part) {
+    meter_.at(0);
+    CutTree::Node& n = tree_.nodes[node];
+    n.volume = part.empty() ? 0 : hull_volume(part);
+    if (n.below == 0) return;
+    if (!part.empty()) n.plane = moved_plane(n, part);
+    const auto sides = cut(part, n.plane, solid_);
+    settle(n.below, sides.first);
+    settle(n.above, sides.second);
+  }
+
+  Plane moved_plane(const CutTree::Node& node, const Part& part) const {
+    const HalvesVolume halves(part, solid_);
+    const bool is_last = is_leaf(node.below) && is_leaf(node.above);
+    return moved(node.plane, box_of(part), [&](const Plane& plane) {
+      return is_last ? halves(plane).volume : volume_of_leaves(node, part, plane);
+    });
+  }
+
+  double volume_of_leaves(const CutTree::Node& node, const Part& part, const Plane& plane) const {
+    const auto [below, above] = cut(part, plane, solid_);
+    return volume_of_leaves(node.below, below) + volume_of_leaves(node.above, above);
+  }
+
+  double volume_of_leaves(std::size_t node, const Part& part) const {
+    if (part.empty()) return 0;
+    const CutTree::Node& n = tree_.nodes[node];
+    return n.below == 0 ? quick_volume(part) : volume_of_leaves(n, part, n.plane);
+  }
+
+  bool is_leaf(std::size_t node) const { return tree_.nodes[node].below == 0; }
+
+  CutTree& tree_;
+  const Solid& solid_;
+  ProgressMeter& meter_;
+};
+
+std::size_t leaves(const CutTree& tree) { return (tree.nodes.size() + 1) / 2; }
 
 /// The planes of flat regions of the surface that lie close to a plane, those of the largest area first.
 std::vector<Plane> flat_regions_near(const Part& part, const Plane& plane, double distance) {
@@ -187,51 +309,53 @@ class Halving {
 
 class Division {
  public:
-  Division(const CutTree& tree, const Solid& solid) : tree_(tree), solid_(solid), volumes_(volumes_below(tree)) {}
+  Division(const CutTree& tree, const Solid& solid) : tree_(tree), solid_(solid) {}
 
-  std::vector<Part> run(std::size_t k) {
-    divide(0, k, whole(solid_));
+  std::vector<Part> run() {
+    divide(0, whole(solid_));
     return std::move(parts_);
   }
 
  private:
-  void divide(std::size_t node, std::size_t k, const Part& part) {
+  void divide(std::size_t node, const Part& part) {
     if (part.empty()) return;
     const CutTree::Node& n = tree_.nodes[node];
-    if (k == 1 || n.below == 0) return parts_.push_back(part);
-    const std::size_t below = parts_below(n, k);
+    if (n.below == 0) return parts_.push_back(part);
     const double expected = tree_.nodes[n.below].volume + tree_.nodes[n.above].volume;
     const auto [lower, upper] = Halving(part, solid_).near(n.plane, expected);
-    divide(n.below, below, lower);
-    divide(n.above, k - below, upper);
-  }
-
-  /// How many of the node's k parts lie below its plane.
-  std::size_t parts_below(const CutTree::Node& node, std::size_t k) const {
-    const std::vector<double>&below = volumes_[node.below], &above = volumes_[node.above];
-    std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < std::min(k, below.size()); ++i)
-      if (k - i < above.size() && below[i] + above[k - i] < least) best = i, least = below[i] + above[k - i];
-    return best;
+    divide(n.below, lower);
+    divide(n.above, upper);
   }
 
   const CutTree& tree_;
   const Solid& solid_;
-  const std::vector<std::vector<double>> volumes_;  // by node
   std::vector<Part> parts_;
 };
 
 }  // namespace
 
-CutTree cut_tree(const Solid& solid, std::size_t leaves, ProgressMeter& meter) {
-  return Cutting(solid, leaves, meter).run();
+CutSearch::CutSearch(Solid solid, const Solid& coarser, std::size_t pieces, ProgressMeter& meter)
+    : solid_(std::move(solid)) {
+  const std::size_t most = pieces + pieces / 4 + 8;  // so that there is a choice of leaves
+  trees_.push_back(Cutting(solid_, most, kNarrow, meter).run());
+  if (pieces <= kMostPiecesOfWide) trees_.push_back(Cutting(coarser, most, kWide, meter).run());
+}
+
+CutTree CutSearch::tree(std::size_t pieces, ProgressMeter& meter) const {
+  std::vector<CutTree> trees;
+  for (const CutTree& found : trees_) {
+    trees.push_back(Pruning(found).run(std::min(pieces, leaves(found))));
+    Settling(trees.back(), solid_, meter).run();
+  }
+  return std::move(*std::min_element(trees.begin(), trees.end(), [](const CutTree& a, const CutTree& b) {
+    return least_volumes(a).back() < least_volumes(b).back();
+  }));
 }
 
 std::vector<double> least_volumes(const CutTree& tree) { return volumes_below(tree).front(); }
 
 std::vector<Part> divided(const CutTree& tree, std::size_t k, const Solid& solid) {
-  return Division(tree, solid).run(k);
+  return Division(Pruning(tree).run(k), solid).run();
 }
 
 }  // namespace prohull::cover

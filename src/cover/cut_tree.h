@@ -18,13 +18,28 @@ struct CutTree {
   std::vector<Node> nodes;  ///< the first is the root
 };
 
-/// Cuts where that saves most volume, until there are so many leaves or no cut saves anything worth it. Coordinates are
-/// of the order of 1. Deterministic; uses the threads of the arena that it runs in.
+/// Looks for trees whose leaves have little volume. Deterministic; uses the threads of the arena that it runs in.
 ///
-/// How it works: of each part the best cuts in many directions are tried, and of those the one is taken after which a
-/// further cut saves most (as the tree search of CoACD does, Wei et al. 2022, with two steps). What a cut saves is the
-/// difference of volumes of convex hulls; they share only the cut, so their sum is the volume of their union.
-CutTree cut_tree(const Solid& solid, std::size_t leaves, ProgressMeter& meter);
+/// How it works: of each part the best cuts in many directions are tried, and of those the one is taken after which
+/// further cuts save most (as the tree search of CoACD does, Wei et al. 2022). What a cut saves is the difference of
+/// volumes of convex hulls; they share only the cut, so their sum is the volume of their union. Cuts are made where
+/// they save most. More are made than are needed, and the best ones are kept.
+/// Such a search often ends in a poor tree. So there are two: a narrow one tries few cuts, of `solid`, and looks one
+/// cut ahead; a wide one tries many, of `coarser`, and looks two cuts ahead. Then each plane of a tree moves as long as
+/// that makes the volume of all leaves less. The tree of less volume wins. For many pieces only the narrow search runs.
+class CutSearch {
+ public:
+  /// For trees of up to so many leaves. `coarser` is a solid of fewer faces around `solid`, or the same. Coordinates
+  /// are of the order of 1.
+  CutSearch(Solid solid, const Solid& coarser, std::size_t pieces, ProgressMeter& meter);
+
+  /// A tree of so many leaves, or of fewer if no cut saves anything worth it.
+  CutTree tree(std::size_t pieces, ProgressMeter& meter) const;
+
+ private:
+  Solid solid_;
+  std::vector<CutTree> trees_;
+};
 
 /// least[k]: the least volume of k parts that the tree divides its solid into, for k from 1 to its number of leaves.
 /// By dynamic programming, so that a cut counts by all that its further cuts save.

@@ -261,6 +261,12 @@ std::vector<Vec3> hull_points(const Part& part) {
   return points;
 }
 
+Box box_of(const Part& part) {
+  Box box;
+  for (const Vec3& p : part.points) box.extend(p);
+  return box;
+}
+
 double hull_volume(const Part& part) { return signed_volume(convex_hull_of(hull_points(part))); }
 
 }  // namespace prohull::cover

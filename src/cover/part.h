@@ -83,6 +83,9 @@ std::vector<Vec3> hull_points(const Part& part);
 /// Of the convex hull.
 double hull_volume(const Part& part);
 
+/// Of its surface.
+Box box_of(const Part& part);
+
 /// The normal of a polygon of the part, as long as twice its area.
 Vec3 area_vector(const Part& part, std::span<const std::uint32_t> polygon);
 
