@@ -54,13 +54,12 @@ const Link& picked(const std::vector<Link>& links, Name name, const std::string&
   if (link.empty() && links.size() == 1) return links[0];
   const auto found = std::ranges::find(links, link, name);
   if (found != links.end()) return *found;
+  if (links.empty()) throw InputError(Defect::EmptyMesh, fmt::format("{}: no link has any pieces", input_name(file)));
   std::vector<std::string> names;
   for (const Link& each : links) names.push_back(each.*name);
-  const std::string has = links.empty() ? "no link has any" : fmt::format("it has {}", fmt::join(names, ", "));
-  if (link.empty())
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("{}: pieces of which link? {}; say --link NAME", input_name(file), has));
-  throw InputError(Defect::InvalidOption, fmt::format("{}: no link '{}' has pieces; {}", input_name(file), link, has));
+  const std::string which = link.empty() ? "pieces of which link?" : fmt::format("no link '{}' has pieces;", link);
+  throw InputError(Defect::InvalidOption,
+                   fmt::format("{}: {} it has {}; say --link NAME", input_name(file), which, fmt::join(names, ", ")));
 }
 
 /// Reads one file after the other.

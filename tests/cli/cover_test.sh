@@ -96,6 +96,9 @@ says err "a link without pieces" "no link 'c' has pieces; it has a, b"
 sed 's/<box size="1 1 1"/<cylinder radius="1" length="2"/' unit.urdf >cylinder.urdf
 expect 2 "a cylinder" $prohull verify --union cylinder.urdf part.obj --link a
 says err "a cylinder" "cylinder.urdf: line 1: cylinders and capsules are not decided exactly"
+echo '<robot name="r"><link name="a"/></robot>' >bare.urdf
+expect 3 "a robot without pieces" $prohull verify --union bare.urdf part.obj
+says err "a robot without pieces" "bare.urdf: no link has any pieces"
 cat >mesh.urdf <<'XML'
 <robot name="r"><link name="a"><collision><origin xyz="0.5 0 0" rpy="0 0 1"/><geometry><mesh filename="part.obj"/></geometry>
 </collision></link></robot>
