@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
@@ -77,6 +78,15 @@ void add_unit_options(CLI::App& command, InputOptions& options, const std::strin
           ", which are converted to metres when it is read; lengths in other options are then in metres, too. For "
           "files that do not say their unit, such as STL, OBJ, PLY and OFF.")
       ->excludes(scale);
+}
+
+bool is_robot_file(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 5> kSuffixes{".urdf", ".xacro", ".sdf", ".mjcf", ".xml"};
+  return std::ranges::find(kSuffixes, path.extension().string()) != kSuffixes.end();
+}
+
+bool is_sphere_file(const std::filesystem::path& path) {
+  return path.extension() == ".yaml" || path.extension() == ".yml";
 }
 
 std::string read_bytes(const std::filesystem::path& path) {

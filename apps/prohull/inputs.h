@@ -27,6 +27,11 @@ void add_format_option(CLI::App& command, InputOptions& options);
 /// --scale and --unit, which apply to `what`.
 void add_unit_options(CLI::App& command, InputOptions& options, const std::string& what);
 
+/// By the suffix: URDF, xacro, SDF or MJCF.
+bool is_robot_file(const std::filesystem::path& path);
+/// By the suffix: YAML.
+bool is_sphere_file(const std::filesystem::path& path);
+
 /// The bytes of a file, or of standard input for "-". Throws InputError(CannotRead).
 std::string read_bytes(const std::filesystem::path& path);
 

@@ -109,13 +109,6 @@ std::optional<Value> for_panel(const std::vector<Value>& values, std::size_t i) 
   return values[values.size() == 1 ? 0 : i];
 }
 
-bool is_robot(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 5> kSuffixes{".urdf", ".xacro", ".sdf", ".mjcf", ".xml"};
-  return std::ranges::find(kSuffixes, path.extension().string()) != kSuffixes.end();
-}
-
-bool is_spheres(const std::filesystem::path& path) { return path.extension() == ".yaml" || path.extension() == ".yml"; }
-
 /// All spheres of a file where the robot has its links at rest. Throws InputError that names `path`.
 std::vector<Ball> posed(const std::vector<robot::LinkBalls>& links, const robot::Robot& robot,
                         const std::filesystem::path& path) {
@@ -172,7 +165,7 @@ class Planner {
   }
 
   /// A mesh or .phull file.
-  static bool is_mesh(const std::filesystem::path& path) { return !is_robot(path) && !is_spheres(path); }
+  static bool is_mesh(const std::filesystem::path& path) { return !is_robot_file(path) && !is_sphere_file(path); }
 
   std::vector<std::size_t> levels(const std::filesystem::path& path) {
     if (!is_mesh(path) || !table_.is_hull(path)) return {MeshTable::kFinest};
@@ -184,8 +177,8 @@ class Planner {
 
   void add(const std::filesystem::path& path, std::size_t level) {
     PanelPlan plan;
-    if (is_robot(path)) return add_robot(path, std::move(plan));
-    if (is_spheres(path)) return add_spheres(path, std::move(plan));
+    if (is_robot_file(path)) return add_robot(path, std::move(plan));
+    if (is_sphere_file(path)) return add_spheres(path, std::move(plan));
     plan.inside = companion(options_.over, path);
     plan.right = companion(options_.split, path);
     if (options_.refine) {
@@ -238,7 +231,7 @@ class Planner {
     const std::vector<robot::LinkBalls> links = robot::read_sphere_file(read_bytes(path), path);
     const std::filesystem::path over = for_panel(options_.over, plans_.size()).value_or(std::string(kNone));
     std::vector<Ball> balls;
-    if (is_robot(over)) {
+    if (is_robot_file(over)) {
       const robot::Robot robot = robot::read_robot(over, options_.robots).robot;
       balls = posed(links, robot, path);
       TriangleMesh visual = robot_mesh(robot, robot::Geometry::Visual, over);

@@ -71,7 +71,7 @@ std::string notes_text(const std::string& link, const LinkHull& hull, bool has_o
 std::string hulls_text(const ReportInput& facts) {
   Table table;
   const bool has_hulls = cover_words(facts.hulls) == "hulls";
-  table.add({"link", "faces", has_hulls ? "hull" : "cover", "/ part", "/ convex", "distance", "certified"});
+  table.add({"link", "faces", has_hulls ? "hull" : "cover", "/ part", "/ convex", "reach", "certified"});
   for (const LinkHulls& made : facts.hulls) add_hulls(table, facts.file.robot.links[made.link], made);
   std::string text = table.text();
   for (const LinkHulls& made : facts.hulls) {
@@ -181,7 +181,7 @@ bool has_measures(const LinkCheck& check) {
 void say_notes(const RobotFile& file, const LinkCheck& check) {
   const std::string& name = file.robot.links[check.link].name;
   if (check.sticks_out_at_least > 0)
-    say("  {}: sticks out farthest at ({:.5g}, {:.5g}, {:.5g}), in the frame of the link\n", name, check.worst_point.x,
+    say("  {}: leaks farthest at ({:.5g}, {:.5g}, {:.5g}), in the frame of the link\n", name, check.worst_point.x,
         check.worst_point.y, check.worst_point.z);
   for (const std::string& note : check.notes) say("  {}: {}\n", name, note);
 }
@@ -205,7 +205,7 @@ void say_plan(const RobotFile& file, const LinkHullOptions& options) {
 
 void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double allow) {
   Table table;
-  table.add({"link", "sticks out", "/ part", "/ convex", "farthest", "verdict"});
+  table.add({"link", "leaks by", "/ part", "/ convex", "reach", "verdict"});
   for (const LinkCheck& check : checks) {
     const std::string& name = file.robot.links[check.link].name;
     if (has_measures(check))

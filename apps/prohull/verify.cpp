@@ -107,6 +107,8 @@ int run_verify(const Options& options) {
   if (!options.more.empty())
     throw InputError(Defect::InvalidOption,
                      "these are more than two files: with --union the last one is ORIGINAL, and all others are pieces");
+  if (!options.link.empty())
+    throw InputError(Defect::InvalidOption, "--link picks a link of files of pieces: use it with --union");
   if (options.inside) throw InputError(Defect::InvalidOption, "--inside is for spheres: use it with --union");
   check_files({options.hull, options.original}, {options.report});
   const std::vector<double> numbers = numbers_of(options.offset, 3, "offset");
@@ -168,8 +170,13 @@ void add_verify(CLI::App& app, Run& run) {
       "--union", options->is_union,
       "Decide whether the union of pieces covers every triangle of ORIGINAL and, if that is closed, its "
       "inside. Pieces may touch and overlap. Each connected component of a mesh file is a piece; STL "
-      "joins those that share corners. A .yaml file of collision spheres, as cuRobo reads it, holds the spheres of "
-      "one link.");
+      "joins those that share corners. Of a robot (.urdf, .sdf, .xml) the pieces are the collision geometry of a link: "
+      "meshes, boxes and spheres. A .yaml file of collision spheres, as cuRobo reads it, and the .json file of "
+      "`prohull spheres` hold spheres.");
+  command
+      .add_option("--link", options->link,
+                  "With --union: the link whose pieces are meant, where a robot or a file of spheres has several.")
+      ->type_name("NAME");
   command.add_flag("--inside", options->inside,
                    "With --union and spheres: the inside of ORIGINAL must be covered too, not only its triangles.");
   add_format_option(command, options->original_input);
@@ -192,7 +199,9 @@ void add_verify(CLI::App& app, Run& run) {
        "prohull verify occluder.obj rock.obj --side inner", "prohull verify hull.stl soup.stl",
        "prohull verify arm_collision.stl arm.stl --unit mm",
        "prohull verify house.glb house_utm.ply --offset 500010,5400000,0", "prohull verify --union pieces.obj part.stl",
-       "prohull verify --union a.stl b.stl c.stl part.stl", "prohull verify --union spheres.yaml part.stl --inside"});
+       "prohull verify --union a.stl b.stl c.stl part.stl", "prohull verify --union spheres.yaml part.stl --inside",
+       "prohull verify --union arm_pieces.urdf arm.stl",
+       "prohull verify --union robot_spheres.yaml forearm.stl --link forearm"});
   command.callback([options, &run] {
     options->hull_input.format = options->original_input.format;  // one of them may be standard input
     run = [options] { return options->is_union ? run_verify_union(*options) : run_verify(*options); };

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
-#include <numeric>
 #include <utility>
 
 #include "command.h"
@@ -11,80 +9,10 @@
 #include "prohull/mesh_io.h"
 #include "prohull/union_verification.h"
 #include "recenter.h"
-#include "robot/files/sphere_file.h"
+#include "union_files.h"
 
 namespace prohull::cli {
 namespace {
-
-/// What the files of pieces hold: meshes or balls.
-struct Union {
-  std::vector<TriangleMesh> pieces;
-  std::vector<Ball> balls;
-
-  std::string description() const {
-    return balls.empty() ? counted(pieces.size(), "piece", "pieces") : counted(balls.size(), "sphere", "spheres");
-  }
-};
-
-bool is_sphere_file(const std::filesystem::path& path) {
-  return path.extension() == ".yaml" || path.extension() == ".yml";
-}
-
-/// The parts of a mesh whose faces are connected by shared vertices, in the order of their first faces.
-std::vector<TriangleMesh> components(const TriangleMesh& mesh) {
-  std::vector<std::size_t> parent(mesh.vertex_count());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](VertexId v) {
-    std::size_t i = index(v);
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    parent[root(b)] = root(a);
-    parent[root(c)] = root(a);
-  }
-  std::vector<TriangleMesh> parts;
-  std::map<std::size_t, std::size_t> part_of;
-  PerVertex<VertexId> place(mesh.vertex_count(), VertexId(0));
-  PerVertex<char> is_placed(mesh.vertex_count(), 0);
-  for (const auto& corners : mesh.triangles) {
-    const auto [entry, is_new] = part_of.try_emplace(root(corners[0]), parts.size());
-    if (is_new) parts.emplace_back();
-    TriangleMesh& part = parts[entry->second];
-    auto moved = corners;
-    for (VertexId& v : moved) {
-      if (is_placed[v] == 0) place[v] = part.positions.push_back(mesh.positions[v]), is_placed[v] = 1;
-      v = place[v];
-    }
-    part.triangles.push_back(moved);
-  }
-  return parts;
-}
-
-std::vector<Ball> read_balls(const std::filesystem::path& path) {
-  std::vector<robot::LinkBalls> links = robot::read_sphere_file(read_bytes(path), path);
-  if (links.size() != 1)
-    throw InputError(Defect::Malformed,
-                     fmt::format("{}: it has the spheres of {} links; write those of one link to a file of its own",
-                                 input_name(path), links.size()));
-  return std::move(links[0].balls);
-}
-
-Union read_union(const std::vector<std::filesystem::path>& files, const InputOptions& input) {
-  Union all;
-  for (const std::filesystem::path& file : files) {
-    if (is_sphere_file(file)) {
-      for (const Ball& ball : read_balls(file)) all.balls.push_back(ball);
-    } else {
-      for (TriangleMesh& piece : components(read_input(file, input))) all.pieces.push_back(std::move(piece));
-    }
-    stop_if_interrupted();
-  }
-  if (!all.balls.empty() && !all.pieces.empty())
-    throw InputError(Defect::InvalidOption,
-                     "these are both spheres and meshes: verify a union of spheres, or one of meshes");
-  return all;
-}
 
 UnionVerification verify(const Union& all, TriangleMesh original, const VerifyOptions& options) {
   ProgressLine line;
@@ -134,10 +62,11 @@ void print_offenders(const UnionVerification& found, const std::string& original
     say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
 }
 
-void print_summary(const UnionVerification& found, const DistanceBounds& reach) {
+void print_summary(const Union& all, const UnionVerification& found, const DistanceBounds& reach) {
   if (found.turned_pieces > 0)
     say("  {} inwards and count as turned\n", counted(found.turned_pieces, "piece looks", "pieces look"));
-  for (const std::string& note : found.notes) say("  {}\n", note);
+  for (const auto* notes : {&all.notes, &found.notes})
+    for (const std::string& note : *notes) say("  {}\n", note);
   if (!std::isnan(found.union_volume))
     say("  union: volume {:.9g}{}\n", found.union_volume,
         found.original_closed ? fmt::format(", {:.3f} % more than the original", 100 * found.void_ratio) : "");
@@ -151,6 +80,8 @@ nlohmann::json report_of(const std::vector<std::filesystem::path>& files, const 
   nlohmann::json names = nlohmann::json::array();
   for (const std::filesystem::path& file : files) names.push_back(file.string());
   const Vec3& p = reach.farthest;
+  std::vector<std::string> notes = all.notes;
+  notes.insert(notes.end(), found.notes.begin(), found.notes.end());
   return {{"union", names},
           {"pieces", all.pieces.size()},
           {"spheres", all.balls.size()},
@@ -165,7 +96,7 @@ nlohmann::json report_of(const std::vector<std::filesystem::path>& files, const 
           {"original_volume", number_or_null(found.original_volume)},
           {"void_ratio", number_or_null(found.void_ratio)},
           {"reach", {{"lower", reach.lower}, {"upper", reach.upper}, {"farthest", {p.x, p.y, p.z}}}},
-          {"notes", found.notes}};
+          {"notes", notes}};
 }
 
 /// All but the last file, which is the original.
@@ -188,7 +119,7 @@ int run_verify_union(const VerifyOptions& options) {
   inputs.push_back(last);
   check_files(inputs, {options.report});
   const std::vector<double> numbers = numbers_of(options.offset, 3, "offset");
-  const Union all = read_union(files, options.hull_input);
+  const Union all = read_union(files, options.hull_input, options.link);
   const TriangleMesh original =
       minus(read_input(last, options.original_input, NonFinite::Keep), Vec3{numbers[0], numbers[1], numbers[2]});
   const Stopwatch verifying;
@@ -198,13 +129,14 @@ int run_verify_union(const VerifyOptions& options) {
   nlohmann::json report = report_of(files, all, found, reach);
   report["original"] = last.string();
   report["offset"] = numbers;
+  report["link"] = options.link.empty() ? nlohmann::json() : nlohmann::json(options.link);
   report["seconds"] = seconds;
   Outputs outputs;
   outputs.add_report(options.report, report);
   outputs.commit();
   say("{}, {:.2f} s\n", verdict(all, options, found, input_name(last)), seconds);
   print_offenders(found, input_name(last));
-  print_summary(found, reach);
+  print_summary(all, found, reach);
   return found.covers ? kDone : kAnswerIsNo;
 }
 

@@ -18,6 +18,7 @@ struct VerifyOptions {
   HullSide side = HullSide::Outer;
   bool solid_only = false, is_union = false, inside = false;
   std::string offset = "0,0,0";
+  std::string link;  ///< of the files of pieces, with --union
 };
 
 /// "(1, 2, 3)"

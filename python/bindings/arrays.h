@@ -12,6 +12,7 @@
 #include "prohull/enclosure.h"
 #include "prohull/names.h"
 #include "prohull/progressive_hull.h"
+#include "prohull/shapes.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull::python {
@@ -46,6 +47,13 @@ pybind11::array array_of(std::vector<T> values, std::vector<pybind11::ssize_t> s
 
 /// Shape (3,).
 inline pybind11::array point_of(const Vec3& p) { return array_of(std::vector<double>{p.x, p.y, p.z}, {3}); }
+
+/// Shape (n, 4): center and radius of each.
+inline pybind11::array rows_of_balls(const std::vector<Ball>& balls) {
+  std::vector<double> values;
+  for (const Ball& b : balls) values.insert(values.end(), {b.center.x, b.center.y, b.center.z, b.radius});
+  return array_of(std::move(values), {static_cast<pybind11::ssize_t>(balls.size()), 4});
+}
 
 /// Of each the face, the point and the distance.
 inline pybind11::list offenders_of(const std::vector<Offender>& worst) {

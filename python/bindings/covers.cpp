@@ -31,12 +31,6 @@ std::vector<Ball> balls_of(const Array<double>& rows) {
   return {first, first + rows.shape(0)};
 }
 
-py::array rows_of_balls(const std::vector<Ball>& balls) {
-  std::vector<double> values;
-  for (const Ball& b : balls) values.insert(values.end(), {b.center.x, b.center.y, b.center.z, b.radius});
-  return array_of(std::move(values), {static_cast<py::ssize_t>(balls.size()), 4});
-}
-
 /// The name of its class in Python, and the values of its fields; None if the piece is none of them.
 struct PrimitiveFacts {
   py::object operator()(std::monostate) const { return py::none(); }

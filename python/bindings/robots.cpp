@@ -112,7 +112,11 @@ struct RobotHulls {
 LinkHullOptions options_of(const Robot& robot, const py::dict& given) {
   LinkHullOptions options;
   options.from = geometry_called(given["from"].cast<std::string>());
+  options.budget.collision = *value_of(collision_names(), given["collision"].cast<std::string>());
   options.budget.faces = given["faces"].cast<std::vector<std::size_t>>();
+  options.budget.pieces = given["pieces"].cast<std::size_t>();
+  options.budget.vertices = given["vertices"].cast<std::size_t>();
+  options.budget.spheres = given["spheres"].cast<std::size_t>();
   options.budget.max_distance = given["max_distance"].cast<double>();
   options.budget.padding = given["padding"].cast<double>();
   options.format = given["format"].cast<std::string>();
@@ -140,6 +144,10 @@ py::dict facts_of(const LinkHull& hull, const LinkHulls& link) {
   py::dict facts;
   facts["target_faces"] = hull.target_faces;
   facts["mesh"] = shared(hull.mesh);
+  py::list pieces;
+  for (const TriangleMesh& piece : hull.pieces) pieces.append(shared(piece));
+  facts["pieces"] = pieces;
+  facts["spheres"] = rows_of_balls(hull.balls);
   facts["origin"] = matrix(link.frame.in_link);
   facts["certified"] = hull.certified;
   facts["proof"] = hull.proof;

@@ -25,6 +25,7 @@ from ._types import Path, Progress, Proof, Source
 __all__ = ["Check", "Hulls", "Joint", "Link", "LinkCheck", "LinkHull", "LinkHulls", "Motion", "MotionPair", "Robot"]
 
 Geometry = Literal["visual", "collision"]
+Collision = Literal["hull", "convex", "spheres"]
 Format = Literal["stl", "obj", "glb"]
 JointType = Literal["fixed", "revolute", "continuous", "prismatic", "ball", "planar", "floating"]
 Status = Literal["hulled", "primitives", "skipped", "unread", "empty"]
@@ -78,13 +79,15 @@ class Joint(NamedTuple):
 
 
 class LinkHull(NamedTuple):
-    """A hull of a link."""
+    """A hull of a link; or its convex pieces, or its spheres."""
 
-    target_faces: int  #: number of faces that was asked for
-    mesh: Mesh  #: with the coordinates that the file keeps
+    target_faces: int  #: number of faces that was asked for; 0 of pieces and spheres
+    mesh: Mesh  #: with the coordinates that the file keeps; of all pieces, or of meshes around the spheres
+    pieces: list[Mesh]  #: convex pieces, if they were asked for; else empty
+    spheres: NDArray[np.float64]  #: (n, 4), the center and the radius of each in the frame of the link; else empty
     origin: NDArray[np.float64]  #: (4, 4), the frame of the mesh in that of the link
-    certified: bool  #: whether it is proven, exactly, that the hull encloses the geometry
-    proof: Proof  #: how it is proven
+    certified: bool  #: whether it is proven, exactly, that the hull encloses the geometry, or that the pieces cover it
+    proof: Union[Proof, Literal["union"]]  #: how it is proven; of pieces and spheres "union"
     target_reached: bool  #: whether the hull has at most target_faces faces, or max_distance allows no fewer
     within_bounds: bool  #: whether max_distance holds
     source: Source  #: what it was built from
@@ -300,17 +303,27 @@ class Robot:
         """(links, 4, 4): where each link is, in the frame of the root, for positions of the joints."""
         return self._core.poses(self._positions(positions))
 
-    def hulls(self, faces: Union[int, Sequence[int]] = 500, *, padding: float = 0, max_distance: Optional[float] = None,
+    def hulls(self, faces: Union[int, Sequence[int]] = 500, *, collision: Collision = "hull", pieces: int = 8,
+              vertices: int = 64, spheres: int = 64, padding: float = 0, max_distance: Optional[float] = None,
               tight: bool = False, budgets: Optional[Path] = None, cache: Optional[Path] = None,
               from_: Geometry = "visual", format: Format = "stl", skip_missing: bool = False, threads: int = 0,
               progress: Optional[Progress] = None) -> Hulls:
-        """Builds certified hulls of all links that have meshes. Links are worked on side by side.
+        """Builds certified hulls of all links that have meshes, or convex pieces or spheres that cover them.
+
+        Links are worked on side by side.
 
         faces: the largest number of faces of each hull, at least 4; several numbers make a hull each.
-        padding: least distance that hulls keep from the geometry, proven.
+        collision: what covers each link: one "hull", "convex" pieces, or "spheres". Of spheres, Hulls.save() also
+            writes ROBOT_spheres.yaml, as cuRobo reads it.
+        pieces, vertices: with collision="convex", the largest number of pieces of each link, at least 1, and of
+            vertices of each piece, at least 4.
+        spheres: with collision="spheres", the largest number of spheres of each link, at least 1.
+        padding: least distance that hulls keep from the geometry, proven. Not for pieces and spheres.
         max_distance: largest distance of a point of a hull from the geometry, proven; greater than 0. None: no bound.
-        tight: whether to build tight hulls, which takes some twenty times as long.
-        budgets: a YAML file with faces, max_distance, padding and skip for single links.
+            Pieces and spheres are as few as keep it.
+        tight: whether to build tight hulls, which takes some twenty times as long. Not for pieces and spheres.
+        budgets: a YAML file with collision, faces, pieces, vertices, spheres, max_distance, padding and skip for single
+            links.
         cache: a folder that keeps hulls for the next time.
         from_: the geometry that the hulls enclose, "visual" or "collision".
         format: of the hulls' files, "stl", "obj" or "glb"; hulls for stl and glb have float32 coordinates.
@@ -320,14 +333,20 @@ class Robot:
 
         Raises InputError for mesh files that are not found or cannot be read, and for options that are not as above.
         """
-        for name, value, choices in (("from_", from_, Geometry), ("format", format, Format)):
+        for name, value, choices in (("from_", from_, Geometry), ("format", format, Format),
+                                     ("collision", collision, Collision)):
             if value not in get_args(choices):
                 raise InputError(f"{name}={value!r}: expected one of {', '.join(get_args(choices))}")
+        sizes = {"pieces": (pieces, 1), "vertices": (vertices, 4), "spheres": (spheres, 1)}
+        for name, (size, least) in sizes.items():
+            if _arrays.count(name, size) < least:
+                raise InputError(f"{name}={size!r}: expected a whole number, at least {least}")
         counts = np.atleast_1d(_arrays.face_counts("faces", faces))
         distance = 0.0 if max_distance is None else _arrays.not_negative("max_distance", max_distance)
         if max_distance is not None and distance == 0:
             raise InputError(f"max_distance={max_distance!r}: expected a number greater than 0, or None for no bound")
-        given = {"faces": counts.tolist(), "padding": _arrays.not_negative("padding", padding),
+        given = {"faces": counts.tolist(), "collision": collision, "pieces": int(pieces), "vertices": int(vertices),
+                 "spheres": int(spheres), "padding": _arrays.not_negative("padding", padding),
                  "max_distance": distance, "tight": bool(tight), "cache": cache, "from": from_, "format": format,
                  "skip_missing": bool(skip_missing), "threads": _arrays.count("threads", threads),
                  "budgets": None if budgets is None else pathlib.Path(budgets).read_text(encoding="utf-8"),
@@ -373,4 +392,5 @@ def _link_hulls(facts: dict[str, Any]) -> LinkHulls:
 
 def _link_hull(facts: dict[str, Any]) -> LinkHull:
     facts["mesh"] = Mesh._of(facts["mesh"])
+    facts["pieces"] = [Mesh._of(piece) for piece in facts["pieces"]]
     return LinkHull(**facts)

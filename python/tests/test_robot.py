@@ -97,6 +97,29 @@ def path_of(robot):
     return str(robot.path).replace("crane.urdf", "")
 
 
+def test_links_get_convex_pieces(robot, tmp_path):
+    made = robot.hulls(collision="convex", pieces=3, vertices=20)
+    assert made.certified and [link.status for link in made] == ["hulled", "hulled", "primitives"]
+    for link in robot.links[:2]:
+        hull, = made[link.name].hulls
+        assert 1 <= len(hull.pieces) <= 3 and hull.proof == "union" and hull.spheres.shape == (0, 4)
+        assert all(len(piece.vertices) <= 20 for piece in hull.pieces)
+        assert len(hull.mesh.faces) == sum(len(piece.faces) for piece in hull.pieces)
+        if np.array_equal(hull.origin, np.eye(4)):
+            assert prohull.verify_union(hull.pieces, link.visual)
+    written = made.save(tmp_path / "convex")
+    assert any(name.endswith("base_01.stl") for name in written)
+    assert prohull.robot.Robot.load(tmp_path / "convex" / "crane.urdf").check().passes
+
+
+def test_links_get_spheres(robot, tmp_path):
+    made = robot.hulls(collision="spheres", spheres=12)
+    assert made.certified and made["tool"].hulls == [] and made["base"].hulls[0].pieces == []
+    balls = made["base"].hulls[0].spheres
+    assert balls.shape[1] == 4 and 1 <= len(balls) <= 12 and prohull.verify_union(balls, robot.links[0].visual)
+    assert any(name.endswith("crane_spheres.yaml") for name in made.save(tmp_path / "spheres"))
+
+
 def test_motion_misses_nothing(hulls):
     motion = hulls.motion(50, seed=3)
     assert motion.missed == 0 and "disable_collisions" in motion.srdf
@@ -136,6 +159,11 @@ def test_what_is_wrong_is_told(path, robot, tmp_path):
     ({"threads": -1}, "threads=-1: expected a whole number, at least 0"),
     ({"threads": 1.5}, "threads=1.5: expected a whole number"),
     ({"format": "fbx"}, "format='fbx': expected one of stl, obj, glb"),
+    ({"collision": "boxes"}, "collision='boxes': expected one of hull, convex, spheres"),
+    ({"collision": "convex", "pieces": 0}, "pieces=0: expected a whole number, at least 1"),
+    ({"collision": "convex", "vertices": 3}, "vertices=3: expected a whole number, at least 4"),
+    ({"collision": "spheres", "spheres": 1.5}, "spheres=1.5: expected a whole number"),
+    ({"collision": "spheres", "padding": 0.1}, "padding"),
     ({"from_": "inertial"}, "from_='inertial': expected one of visual, collision"),
 ])
 def test_wrong_options_are_named(robot, options, message):

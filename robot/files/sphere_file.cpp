@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "prohull/error.h"
 #include "robot/files/yaml_reader.h"
@@ -28,6 +29,13 @@ std::string quoted_utf8(const std::string& name) {
   return text;
 }
 
+void add(const Ball& ball, LinkBalls& link) {
+  if (ball.radius > 0)
+    link.balls.push_back(ball);
+  else
+    ++link.switched_off;
+}
+
 class SphereReader : YamlReader {
  public:
   using YamlReader::parse;
@@ -42,22 +50,20 @@ class SphereReader : YamlReader {
       const auto link = value<std::string>(entry.first, "the name of a link");
       if (std::ranges::find(links, link, &LinkBalls::link) != links.end())
         refuse(entry.first, fmt::format("the link {} occurs twice", link));
-      links.push_back({link, balls(entry.second)});
+      links.push_back({link, {}});
+      add_balls(entry.second, links.back());
     }
     return links;
   }
 
  private:
-  std::vector<Ball> balls(const YAML::Node& list) {
-    std::vector<Ball> balls;
-    if (list.IsNull()) return balls;
+  void add_balls(const YAML::Node& list, LinkBalls& link) {
+    if (list.IsNull()) return;
     if (!list.IsSequence()) refuse(list, "expected a list of spheres, each with a center and a radius");
     for (const YAML::Node& node : list) {
-      const Ball found = ball(node);
-      if (found.radius > 0) balls.push_back(found);
+      add(ball(node), link);
       if (++count_ > kMostBalls) refuse(node, fmt::format("there are more than {} spheres", kMostBalls));
     }
-    return balls;
   }
 
   Ball ball(const YAML::Node& node) const {
@@ -77,13 +83,42 @@ class SphereReader : YamlReader {
   std::size_t count_ = 0;
 };
 
+[[noreturn]] void refuse_json(const std::filesystem::path& path, const std::string& why) {
+  throw InputError(Defect::Malformed, fmt::format("{}: {}", path.string(), why));
+}
+
+double finite_number(const nlohmann::json& value, const std::filesystem::path& path) {
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+    refuse_json(path, "a coordinate or radius is no finite number");
+  return value.get<double>();
+}
+
+Ball ball_of(const nlohmann::json& sphere, const std::filesystem::path& path) {
+  const auto at = [&](const char* key) {
+    return sphere.is_object() ? sphere.value(key, nlohmann::json()) : nlohmann::json();
+  };
+  const nlohmann::json center = at("center");
+  if (!center.is_array() || center.size() != 3)
+    refuse_json(path, "expected spheres as {\"center\": [x, y, z], \"radius\": r}");
+  return {{finite_number(center[0], path), finite_number(center[1], path), finite_number(center[2], path)},
+          finite_number(at("radius"), path)};
+}
+
+nlohmann::json parsed(const std::string& text, const std::filesystem::path& path) {
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception& error) {
+    refuse_json(path, fmt::format("no JSON: {}", error.what()));
+  }
+}
+
 }  // namespace
 
 std::string sphere_file(std::span<const LinkBalls> links) {
   std::string text = fmt::format("{}:{}\n", kSpheres, links.empty() ? " {}" : "");
-  for (const auto& [link, balls] : links) {
-    text += fmt::format("  {}:{}\n", quoted_utf8(link), balls.empty() ? " []" : "");
-    for (const auto& [center, radius] : balls)
+  for (const LinkBalls& link : links) {
+    text += fmt::format("  {}:{}\n", quoted_utf8(link.link), link.balls.empty() ? " []" : "");
+    for (const auto& [center, radius] : link.balls)
       text += fmt::format("    - {{center: [{}, {}, {}], radius: {}}}\n", decimal(center.x), decimal(center.y),
                           decimal(center.z), decimal(radius));
   }
@@ -93,6 +128,29 @@ std::string sphere_file(std::span<const LinkBalls> links) {
 std::vector<LinkBalls> read_sphere_file(const std::string& text, const std::filesystem::path& path) {
   SphereReader reader(path.string());
   return reader.parse(text, [&](const YAML::Node& file) { return reader.links(file); });
+}
+
+std::string sphere_json(const LinkBalls& link) {
+  nlohmann::json spheres = nlohmann::json::array();
+  for (const auto& [center, radius] : link.balls)
+    spheres.push_back({{"center", {center.x, center.y, center.z}}, {"radius", radius}});
+  try {
+    return nlohmann::json{{"link", link.link}, {"spheres", spheres}}.dump(2) + "\n";
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(Defect::InvalidOption, fmt::format("'{}' is no name of a link: it is not UTF-8", link.link));
+  }
+}
+
+LinkBalls read_sphere_json(const std::string& text, const std::filesystem::path& path) {
+  const nlohmann::json file = parsed(text, path);
+  const auto spheres = file.is_object() ? file.find("spheres") : file.end();
+  if (spheres == file.end() || !spheres->is_array())
+    refuse_json(path,
+                "expected a list of spheres, as `prohull spheres` writes it: {\"link\": NAME, \"spheres\": [...]}");
+  LinkBalls link;
+  if (const auto name = file.find("link"); name != file.end() && name->is_string()) link.link = *name;
+  for (const nlohmann::json& sphere : *spheres) add(ball_of(sphere, path), link);
+  return link;
 }
 
 }  // namespace prohull::robot

@@ -1,5 +1,6 @@
 #include "prohull/convex_cover.h"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -260,6 +261,15 @@ class Covering {
   /// In the shape that is asked for, as far as the bounds allow it.
   ConvexCover shaped(ConvexCover polytopes, const Material& material) const {
     if (options_.shape == PieceShape::Polytope || !polytopes.within_bounds) return polytopes;
+    ConvexCover cover = in_shape(polytopes, material);
+    // The mesh of a box is larger than the box: what it covers proves less than that the polytope in the box covers it.
+    cover.certified = cover.certified && polytopes.certified;
+    cover.covers_inside = cover.certified && polytopes.covers_inside;
+    note_size(cover);
+    return cover;
+  }
+
+  ConvexCover in_shape(const ConvexCover& polytopes, const Material& material) const {
     std::vector<ConvexPiece> all = polytopes.pieces;
     for (ConvexPiece& piece : all) take_shape(piece, options_.shape, options_.float32_coordinates);
     ConvexCover cover = certified(all, material);
@@ -278,6 +288,18 @@ class Covering {
       if (measured(pieces, material).within_bounds) chosen = std::move(pieces);
     }
     return certified(std::move(chosen), material);
+  }
+
+  /// Shapes that are worse than one polytope are hardly meant.
+  void note_size(ConvexCover& cover) const {
+    constexpr double kClearly = 1.05;  // the polytopes around capsules and spheres are some per cent larger than these
+    const double one = signed_volume(convex_hull(prepared_.original));
+    if (!(one > 0) || cover.volume <= kClearly * one) return;
+    cover.notes.push_back(
+        fmt::format("together the pieces in the shape of a {} have {:.2g} times the volume of the convex hull of the "
+                    "whole mesh; ask for more pieces, for another shape, or for a bound of the void, with which pieces "
+                    "stay polytopes",
+                    name_of(piece_shape_names(), options_.shape), cover.volume / one));
   }
 
   ConvexCover certified(std::vector<ConvexPiece> pieces, const Material& material) const {

@@ -72,6 +72,7 @@ for suffix in urdf xml; do
   done
   rm s.$suffix
 done
+says s.json "spheres larger than the convex hull, in the report" "times the volume of the convex hull of the whole mesh"
 says r.xml "MJCF" '<geom name="r_01"'
 if command -v check_urdf >/dev/null; then
   expect 0 "urdfdom reads it" check_urdf r.urdf

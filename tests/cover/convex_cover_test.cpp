@@ -177,6 +177,17 @@ TEST(ConvexCover, TakesAShapeOnlyAsFarAsTheBoundsAllow) {
   EXPECT_EQ(boxes, 1) << "the box is one, the tetrahedron is not";
 }
 
+TEST(ConvexCover, SaysWhereShapesAreLargerThanTheConvexHull) {
+  const TriangleMesh plate = meshes::box({0, 0, 0}, {4, 4, 0.1});
+  const auto notes = [&](const ConvexCoverOptions& options) { return convex_cover(plate, options).notes; };
+  EXPECT_TRUE(notes({.max_pieces = 1, .shape = PieceShape::Box}).empty());
+  const std::vector<std::string> found = notes({.max_pieces = 1, .shape = PieceShape::Ball});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("in the shape of a sphere have"), std::string::npos) << found[0];
+  EXPECT_TRUE(
+      notes({.max_pieces = 1, .bounds = {.max_void_ratio = 0.1}, .shape = PieceShape::Ball}).empty());  // a polytope
+}
+
 TEST(ConvexCover, IsTheSameForAnyNumberOfThreads) {
   const TriangleMesh mesh = meshes::torus(effort(24u, 12u), effort(10u, 6u));
   const ConvexCover one = convex_cover(mesh, {.max_pieces = 6, .threads = 1});

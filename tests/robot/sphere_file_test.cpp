@@ -59,6 +59,37 @@ TEST(SphereFile, IsReadAsOthersWriteIt) {
   ASSERT_EQ(links.size(), 1U);
   EXPECT_EQ(links[0].link, "tool0");
   EXPECT_EQ(links[0].balls, (std::vector<Ball>{{{0, 0.5, 1e-3}, 0.1}}));
+  EXPECT_EQ(links[0].switched_off, 1U);
+}
+
+TEST(SphereJson, ReadsBackAsTheSameDoubles) {
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  const LinkBalls link{"a \"\xC3\xA9", {{{0.1, -1.0 / 3, 1e-5}, 2e22}, {{1e300, kLeast, -0.0}, 1}}};
+  const LinkBalls read = read_sphere_json(sphere_json(link), "a.json");
+  EXPECT_EQ(read.link, link.link);
+  EXPECT_EQ(read.balls, link.balls);
+  EXPECT_EQ(read.switched_off, 0U);
+  EXPECT_THROW(sphere_json({"a\xFF", {}}), InputError);
+}
+
+TEST(SphereJson, LeavesOutWhatIsSwitchedOff) {
+  const LinkBalls read = read_sphere_json(R"({"spheres": [{"center": [0, 0, 0], "radius": -1}]})", "a.json");
+  EXPECT_TRUE(read.balls.empty());
+  EXPECT_EQ(read.switched_off, 1U);
+}
+
+TEST(SphereJson, RefusesAnythingElse) {
+  for (const char* text :
+       {"", "{", "[]", "{}", R"({"spheres": 1})", R"({"spheres": [1]})", R"({"spheres": [{}]})",
+        R"({"spheres": [{"center": [0, 0], "radius": 1}]})", R"({"spheres": [{"center": [0, 0, "x"], "radius": 1}]})",
+        R"({"spheres": [{"center": [0, 0, 0]}]})", R"({"spheres": [{"center": [0, 0, 1e999], "radius": 1}]})"}) {
+    try {
+      read_sphere_json(text, "a.json");
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("a.json: ")) << error.what();
+    }
+  }
 }
 
 TEST(SphereFile, RefusesAnythingElseWithTheLine) {
