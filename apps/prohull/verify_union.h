@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "inputs.h"
+#include "options.h"
 #include "prohull/enclosure.h"
 
 namespace prohull::cli {
@@ -18,6 +19,7 @@ struct VerifyOptions {
   HullSide side = HullSide::Outer;
   bool solid_only = false, is_union = false, inside = false;
   std::string offset = "0,0,0";
+  Gap gap;
 };
 
 /// "(1, 2, 3)"
