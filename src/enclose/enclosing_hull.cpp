@@ -218,10 +218,10 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
         made_.input.closed ? Defect::NoVolume : Defect::OpenEdge,
         fmt::format("nothing could be wrapped: {}", notes_.empty() ? made_.input.obstacle : notes_.back()));
   if (!best->certified && !is_outer() && is_padded())
-    throw InputError(Defect::NoCertificate,
-                     fmt::format("no inner hull of {} faces keeps the gap of {:g}: the mesh must be thicker than twice "
-                                 "the gap somewhere; use a smaller gap, or more faces",
-                                 target_faces, options_.padding));
+    throw InputError(
+        Defect::NoCertificate,
+        fmt::format("no inner hull of {} faces keeps the gap of {:g}{}; use a smaller gap, or more faces", target_faces,
+                    options_.padding, has_wrap_ ? "" : ": the mesh must be thicker than twice the gap somewhere"));
   if (!best->certified) {
     if (notes_.empty()) note_why_not(*best);
     throw InputError(Defect::NoCertificate,
