@@ -22,6 +22,7 @@ void add_construction(CLI::App& app, Run& run);
 void add_corpus(CLI::App& app, Run& run);
 void add_covers(CLI::App& app, Run& run);
 void add_filters(CLI::App& app, Run& run);
+void add_gaps(CLI::App& app, Run& run);
 void add_intersections(CLI::App& app, Run& run);
 void add_leaks(CLI::App& app, Run& run);
 void add_link_covers(CLI::App& app, Run& run);

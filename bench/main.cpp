@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   add_aimed(app, run);
   add_collide(app, run);
   add_filters(app, run);
+  add_gaps(app, run);
   add_intersections(app, run);
   add_leaks(app, run);
   add_looser(app, run);

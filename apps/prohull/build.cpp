@@ -40,8 +40,6 @@ std::string check_options(const BuildOptions& options) {
                     options.out.string()));
   if (options.faces.size() > 1 && !options.hierarchy.empty())
     refuse("--hierarchy is for one number of --faces only; its file holds all finer levels anyway");
-  if (options.enclosing.padding > 0 && !options.is_outer())
-    refuse("--padding is for outer hulls only: an inner hull does not move outwards");
   if (options.allow_self_intersections && !options.is_outer())
     refuse("--allow-self-intersections is not for inner hulls: one that intersects itself could stick out of the mesh");
   std::vector<std::filesystem::path> files{options.hierarchy, options.report};
@@ -114,7 +112,9 @@ int run_build(BuildOptions options) {
   TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
   outcome.read_seconds = reading.seconds();
   if (options.recenter) outcome.offset = recentering_offset(mesh);
-  outcome.made = build(minus(std::move(mesh), outcome.offset), options);
+  mesh = minus(std::move(mesh), outcome.offset);
+  options.enclosing.padding = options.gap.of(mesh);
+  outcome.made = build(mesh, options);
   Outputs outputs;
   for (EnclosingHull& made : outcome.made.hulls) {
     const FinestLevel finest = finest_level(outcome.made, made);
@@ -231,13 +231,13 @@ void add_build(CLI::App& app, Run& run) {
       "--tight", enclosing.tight,
       "Also move vertices towards the mesh between collapses. Such a hull has the least void and never intersects "
       "itself, but takes 20 to 70 times as long to build.");
-  CLI::Option* const padding =
-      add_number(
-          command, "--padding", enclosing.padding, kPositive,
-          "Distance that the hull keeps from the mesh, at least, in the mesh's unit. All points within this "
-          "distance are inside of the hull, which is proven. Bounds such as --max-distance count from there. For "
-          "outer hulls without --hierarchy only.")
-          ->type_name("D");
+  CLI::Option* const gap = add_gap(
+      command, "--gap,--padding", options->gap,
+      "Least distance between hull and mesh, in the mesh's unit, or as in 0.5% of the diagonal of the mesh's bounding "
+      "box. It is proven. All points within this distance of the mesh are inside of an outer hull. An inner hull "
+      "leaves "
+      "out what is thinner than two gaps. Bounds such as --max-distance count from the gap on. Use --tight for the "
+      "least void. Not for hulls with --hierarchy.");
   add_choice(command, "--repair", enclosing.repair, repair_names(),
              "What to do with a mesh that is not clean. auto repairs it, builds hulls of the mesh, of its convex hull "
              "and of a wrap, a new closed surface around it, and takes the best; none refuses what is not closed; "
@@ -258,7 +258,7 @@ void add_build(CLI::App& app, Run& run) {
       .add_option("--hierarchy", options->hierarchy,
                   "Also write all levels between hull and mesh to this file, for lod, verify, query and render.")
       ->excludes(tight)
-      ->excludes(padding)
+      ->excludes(gap)
       ->type_name("H.phull");
   add_self_intersections(command, *options, tight);
   add_number(command, "--best-of", hull.best_of, {1, 1e6},
@@ -278,7 +278,9 @@ void add_build(CLI::App& app, Run& run) {
                          "prohull build arm.stl --faces 200 --tight -o arm_collision.stl",
                          "prohull build arm.stl --faces 200 --tight --best-of 9 -o arm_collision.stl",
                          "prohull build arm.stl --faces 50 --tight --max-distance 2 -o arm_collision.stl",
-                         "prohull build arm.stl --unit mm --faces 300 --padding 5 -o arm_collision.stl",
+                         "prohull build arm.stl --unit mm --faces 300 --gap 5 -o arm_collision.stl",
+                         "prohull build horse.ply --faces 300 --tight --gap 0.5% -o cage.obj",
+                         "prohull build horse.ply --faces 300 --gap 0.5% --side inner -o core.obj",
                          "prohull build arm.dae --faces 1000,300,100 -o arm_{faces}.stl",
                          "prohull build open_scan.obj --faces 500 --seal-holes 0.02 -o scan.glb",
                          "prohull build house_utm.ply --recenter --faces 200 -o house.glb --report house.json",

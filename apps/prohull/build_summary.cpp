@@ -105,8 +105,8 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
         : is_cover  ? "every triangle of "
                     : "");
   if (written.certified && hull.padding > 0)
-    say("  padding: the least distance from the mesh is at least {:.6g}, proven; all points within it are inside\n",
-        hull.padding);
+    say("  gap: the least distance from the mesh is at least {:.6g}, proven{}\n", hull.padding,
+        options.is_outer() ? "; all points within it are inside" : "");
 }
 
 nlohmann::json facts_of(const RefusalCounts& counts) {

@@ -16,6 +16,7 @@ struct BuildOptions {
   std::string out_format;
   double normal_deviation_degrees = 45;
   double max_void_percent = 0;  ///< 0: any
+  Gap gap;                      ///< enclosing.padding follows from it
   bool recenter = false, strict = false, allow_self_intersections = false, no_self_intersections = false;
 
   bool is_outer() const { return enclosing.hull.side == HullSide::Outer; }

@@ -74,6 +74,34 @@ CLI::Validator number_in(const std::string& name, const Range& range, bool whole
       "");
 }
 
+double Gap::of(const TriangleMesh& mesh) const {
+  if (!is_percent) return number;
+  Box box;
+  for (const FaceId f : mesh.triangles.ids())
+    if (const Triangle t = mesh.triangle(f); is_finite(t.a) && is_finite(t.b) && is_finite(t.c))
+      for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
+  return number / 100 * box.diagonal();
+}
+
+CLI::Option* add_gap(CLI::App& command, const std::string& names, Gap& gap, const std::string& description) {
+  const CLI::Validator number = number_in(main_name(names), kPositive, false);
+  const auto without_sign = [](std::string text) {
+    if (text.ends_with('%')) text.pop_back();
+    return text;
+  };
+  const auto set = [&gap, without_sign](const std::string& text) {
+    gap = {parsed<double>(without_sign(text)).value_or(0), text.ends_with('%')};
+  };
+  return command.add_option_function<std::string>(names, set, description)
+      ->check(CLI::Validator(
+          [=](std::string& text) {
+            std::string rest = without_sign(text);
+            return number(rest);
+          },
+          ""))
+      ->type_name("D");
+}
+
 std::vector<double> numbers_of(const std::string& text, std::size_t count, const char* what) {
   const auto refuse = [&](const std::string& why) {
     throw InputError(Defect::InvalidOption, fmt::format("'{}' is no {}; {}", text, what, why));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "prohull/names.h"
+#include "prohull/triangle_mesh.h"
 
 namespace prohull::cli {
 
@@ -63,6 +64,18 @@ CLI::Option* add_choice(CLI::App& command, const std::string& names, Value& valu
       ->type_name(CLI::detail::join(words, "|"))
       ->default_str(std::string(name_of(choices, value)));
 }
+
+/// A distance in the mesh's unit, or in per cent of the diagonal of the mesh's bounding box.
+struct Gap {
+  double number = 0;
+  bool is_percent = false;
+
+  /// In the unit of the mesh. Vertices of faces that are not finite do not count.
+  double of(const TriangleMesh& mesh) const;
+};
+
+/// An option that takes a distance greater than 0: 0.5, or 0.5%.
+CLI::Option* add_gap(CLI::App& command, const std::string& names, Gap& gap, const std::string& description);
 
 /// `note` says what the threads do not change.
 void add_threads_option(CLI::App& command, unsigned& threads, const std::string& note);

@@ -21,9 +21,17 @@ void print_offenders(const Verification& found, const std::string& mesh) {
     say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
 }
 
-Verification verify(const Options& options, const MeshOrHull& hull, TriangleMesh original) {
+void print_near_faces(const Verification& found, const std::string& hull) {
+  if (found.faces_too_near > 0)
+    say("  {} faces of {} are too near; the nearest:\n", grouped(found.faces_too_near), hull);
+  for (const NearFace& near : found.nearest)
+    say("    face {} at {}, {:.6g} from face {} of the mesh\n", index(near.face), text_of_point(near.point),
+        near.distance, index(near.original_face));
+}
+
+Verification verify(const Options& options, const MeshOrHull& hull, TriangleMesh original, double gap) {
   ProgressLine line;
-  const VerificationOptions how{.solid_only = options.solid_only, .progress = std::ref(line)};
+  const VerificationOptions how{.solid_only = options.solid_only, .gap = gap, .progress = std::ref(line)};
   try {
     const auto* const levels = std::get_if<ProgressiveHull>(&hull);
     return levels ? verify_hull(*levels, std::move(original), how)
@@ -37,7 +45,7 @@ Verification verify(const Options& options, const MeshOrHull& hull, TriangleMesh
 bool has_failed_replay(const Verification& found) { return std::isnan(found.hull_volume); }
 
 /// "yes: hull.stl encloses part.stl", or why not.
-std::string verdict(const Verification& found, const std::string& hull, const std::string& original) {
+std::string verdict(const Verification& found, const std::string& hull, const std::string& original, double gap) {
   const bool inner = found.side == HullSide::Inner, replayed = found.proof == "replay";
   if (has_failed_replay(found)) return fmt::format("NO: {} proves nothing about {}: {}", hull, original, found.why_not);
   const bool base_only = !found.encloses || found.faces_beside_solid > 0;
@@ -48,6 +56,10 @@ std::string verdict(const Verification& found, const std::string& hull, const st
   const std::string what = (covers ? "every triangle of " : solid_only ? "the solid of " : "") + object;
   if (!found.encloses)
     return fmt::format("NO: {} does not {} {}: {}", subject, covers ? "cover" : "enclose", what, found.why_not);
+  const std::string verb = covers ? "covers" : "encloses";
+  if (!found.keeps_gap)
+    return fmt::format("NO: {} {} {}, but {} does not keep the gap of {:.9g}: {}", subject, verb, what, hull, gap,
+                       found.why_not);
   std::string how = ", exactly";
   if (replayed)
     how = fmt::format("{}; {} splits replayed, {} signs exact",
@@ -55,23 +67,36 @@ std::string verdict(const Verification& found, const std::string& hull, const st
                       : inner    ? ", and the solid of every level"
                                  : ", and every level its solid",
                       grouped(found.splits), grouped(found.signs));
-  return fmt::format("yes: {} {} {}{}", subject, covers ? "covers" : "encloses", what, how);
+  if (gap > 0) how = fmt::format(" and keeps a gap of {:.9g}", gap) + how;
+  return fmt::format("yes: {} {} {}{}", subject, verb, what, how);
 }
 
-void print_summary(const Options& options, const Verification& found, double seconds) {
+void print_summary(const Options& options, const Verification& found, double gap, double seconds) {
   const std::string hull = input_name(options.hull), original = input_name(options.original);
-  say("{}, {:.2f} s\n", verdict(found, hull, original), seconds);
+  say("{}, {:.2f} s\n", verdict(found, hull, original, gap), seconds);
   print_offenders(found, found.side == HullSide::Outer ? original : hull);
+  print_near_faces(found, hull);
   if (found.cavities > 0 && found.faces_outside == 0)
     say("  {} cavities inside it are not covered\n", grouped(found.cavities));
   for (const std::string& note : found.notes) say("  {}\n", note);
   if (has_failed_replay(found)) return;
   say("  hull: volume {:.9g}{}\n", found.hull_volume,
       found.original_closed ? fmt::format(", void {:.3f} %", 100 * found.void_ratio) : "");
+  if (gap > 0) say("  least distance: {:.9g}\n", found.least_distance);
   say("  {} intersects itself in {} pairs of faces\n", hull, grouped(found.self_intersections));
 }
 
-nlohmann::json report_of(const Options& options, const Verification& found, double seconds) {
+nlohmann::json near_facts(const std::vector<NearFace>& nearest) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const NearFace& near : nearest)
+    all.push_back({{"face", index(near.face)},
+                   {"original_face", index(near.original_face)},
+                   {"point", {near.point.x, near.point.y, near.point.z}},
+                   {"distance", near.distance}});
+  return all;
+}
+
+nlohmann::json report_of(const Options& options, const Verification& found, double gap, double seconds) {
   nlohmann::json json = {{"hull", options.hull.string()},
                          {"original", options.original.string()},
                          {"original_closed", found.original_closed},
@@ -88,6 +113,13 @@ nlohmann::json report_of(const Options& options, const Verification& found, doub
                          {"faces_beside_solid", found.faces_beside_solid},
                          {"notes", found.notes},
                          {"seconds", seconds}};
+  if (gap > 0) {
+    json["gap"] = gap;
+    json["keeps_gap"] = found.keeps_gap;
+    json["least_distance"] = found.least_distance;
+    json["faces_too_near"] = found.faces_too_near;
+    json["nearest"] = near_facts(found.nearest);
+  }
   if (has_failed_replay(found)) return json;
   json["self_intersections"] = found.self_intersections;
   json["inverted_hull_faces"] = found.inverted_hull_faces;
@@ -118,19 +150,20 @@ int run_verify(const Options& options) {
   TriangleMesh original = minus(read_input(options.original, options.original_input, NonFinite::Keep), offset);
   const double read_seconds = reading.seconds();
   const std::size_t original_faces = original.face_count();
+  const double gap = options.gap.of(original);
   stop_if_interrupted();
   const Stopwatch verifying;
-  const Verification found = verify(options, hull, std::move(original));
+  const Verification found = verify(options, hull, std::move(original), gap);
   const double seconds = verifying.seconds();
   Outputs outputs;
-  nlohmann::json report = report_of(options, found, seconds);
+  nlohmann::json report = report_of(options, found, gap, seconds);
   report["offset"] = numbers;
   outputs.add_report(options.report, report);
   outputs.commit();
-  print_summary(options, found, seconds);
+  print_summary(options, found, gap, seconds);
   say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(face_count(hull), "face", "faces"),
            counted(original_faces, "face", "faces"), found.proof, read_seconds);
-  return found.encloses ? kDone : kAnswerIsNo;
+  return found.holds() ? kDone : kAnswerIsNo;
 }
 
 }  // namespace
@@ -166,7 +199,7 @@ void add_verify(CLI::App& app, Run& run) {
       ->type_name("ORIGINAL");
   command.add_option("more", options->more, "With --union: more files of pieces. The last file is ORIGINAL.")
       ->type_name("MORE");
-  command.add_flag(
+  CLI::Option* const is_union = command.add_flag(
       "--union", options->is_union,
       "Decide whether the union of pieces covers every triangle of ORIGINAL and, if that is closed, its "
       "inside. Pieces may touch and overlap. Each connected component of a mesh file is a piece; STL "
@@ -192,12 +225,16 @@ void add_verify(CLI::App& app, Run& run) {
   command.add_flag("--solid-only", options->solid_only,
                    "Ask only for the solid that a closed mesh bounds. Triangles of folds and of parts that are inside "
                    "out bound no part of it, and may stick out.");
+  add_gap(command, "--gap", options->gap,
+          "Also decide whether the hull keeps this distance from ORIGINAL everywhere, at least: in the unit of "
+          "ORIGINAL, or as in 0.5% of the diagonal of its bounding box. Not for .phull files, whose levels touch.")
+      ->excludes(is_union);
   add_report_option(command, options->report);
   add_examples(
       command,
       {"prohull verify hull.stl horse.ply", "prohull verify horse.phull horse.ply",
        "prohull verify occluder.obj rock.obj --side inner", "prohull verify hull.stl soup.stl",
-       "prohull verify arm_collision.stl arm.stl --unit mm",
+       "prohull verify cage.obj horse.ply --gap 0.5%", "prohull verify arm_collision.stl arm.stl --unit mm",
        "prohull verify house.glb house_utm.ply --offset 500010,5400000,0", "prohull verify --union pieces.obj part.stl",
        "prohull verify --union a.stl b.stl c.stl part.stl", "prohull verify --union spheres.yaml part.stl --inside",
        "prohull verify --union arm_pieces.urdf arm.stl",

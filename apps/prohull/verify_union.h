@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "inputs.h"
+#include "options.h"
 #include "prohull/enclosure.h"
 
 namespace prohull::cli {
@@ -19,6 +20,7 @@ struct VerifyOptions {
   bool solid_only = false, is_union = false, inside = false;
   std::string offset = "0,0,0";
   std::string link;  ///< of the files of pieces, with --union
+  Gap gap;
 };
 
 /// "(1, 2, 3)"

@@ -40,8 +40,8 @@ struct EnclosingOptions {
   HullOptions hull = {};  ///< enclosing_hulls sets its target_faces and its progress
   HullBounds bounds = {};
   bool tight = false;  ///< build tight hulls (tight_hull.h), which have no levels
-  /// The hull keeps at least this distance from the triangles, in the input's unit; outer hulls without levels only.
-  /// `bounds` then count from the hull before it is moved outwards.
+  /// The hull keeps at least this distance from the triangles, in the input's unit; without levels only. An inner hull
+  /// leaves out what is thinner than twice of it. `bounds` count from the hull before it is moved away.
   double padding = 0;
   bool levels = false;  ///< keep the levels of a hull of a wrap too: it then does not move towards the triangles
   Repair repair = Repair::Auto;

@@ -27,8 +27,9 @@ struct TightHull {
 ///
 /// With `wrapped`, `mesh` is a wrap of these triangles (wrap.h). Then vertices move towards the triangles, up to a
 /// millionth of their diagonal. The hull covers the triangles without touching them; it need not enclose the wrap.
-/// HullSide::Outer only. With `padding`, in the input's unit, no move brings a face nearer to the triangles than that,
-/// instead of the millionth.
+/// With `padding`, in the input's unit, no move brings a face nearer to the triangles than that, instead of the
+/// millionth. HullSide::Inner only with a padding: `mesh` then lies inside of closed triangles (inner_wrap), and so
+/// does the hull.
 ///
 ///   const TightHull hull = build_tight_hull(closed_mesh(read_mesh("arm.stl")).mesh, {.target_faces = 500});
 TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options = {},
@@ -40,6 +41,7 @@ struct MoveOptions {
   bool float32_coordinates = false;  ///< as in HullOptions
   unsigned max_rounds = 12;          ///< in each, all vertices move once that may; they end when none has moved
   double padding = 0;                ///< as of build_tight_hull; moved_towards only
+  HullSide side = HullSide::Outer;   ///< moved_towards only; an inner hull needs a padding
   Progress progress = {};            ///< stage "tighten"
 };
 

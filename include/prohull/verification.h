@@ -18,8 +18,19 @@ struct VerificationOptions {
   /// bounds. Triangles of folds and of parts that are inside out bound no part of the solid. By default they must be
   /// covered too; with this option they may stick out.
   bool solid_only = false;
+  /// The distance that every point of the hull must keep from every triangle of the original, at least, in the input's
+  /// unit. Not for a progressive hull: its levels touch.
+  double gap = 0;
   std::size_t max_offenders = 5;
   Progress progress = {};  ///< stage "verify"
+};
+
+/// A face of a hull that is nearer to the original than VerificationOptions::gap.
+struct NearFace {
+  FaceId face;           ///< its number in the hull
+  FaceId original_face;  ///< the nearest face of the original
+  Vec3 point;            ///< a point of the hull's face that is so near, rounded
+  double distance = 0;   ///< between the two faces, in the input's unit, rounded; 0 only if they meet
 };
 
 /// What verify_hull has found. Volumes and distances are in the input's unit.
@@ -36,6 +47,11 @@ struct Verification {
   std::size_t splits = 0;  ///< vertex splits replayed
   std::size_t signs = 0;   ///< signs of orient3d that the replay decided exactly
 
+  bool keeps_gap = true;           ///< the hull keeps VerificationOptions::gap; exact
+  std::size_t faces_too_near = 0;  ///< faces of the hull that do not; exact
+  std::vector<NearFace> nearest;   ///< the nearest of these, nearest first; max_offenders at most
+  double least_distance = std::numeric_limits<double>::quiet_NaN();  ///< of the hull, rounded; NaN without a gap
+
   std::size_t faces_outside = 0;  ///< faces of the inner mesh of which a part lies outside of the outer one; exact
   std::vector<Offender> worst;    ///< the farthest of these, farthest first
   std::size_t cavities = 0;       ///< as in EnclosureReport
@@ -50,6 +66,9 @@ struct Verification {
   double void_ratio = std::numeric_limits<double>::quiet_NaN();       ///< hull_volume / original_volume - 1
   /// Sentences for the user: what was left out of the original, and units that seem to differ.
   std::vector<std::string> notes;
+
+  /// The hull encloses, and keeps the gap if one was asked for.
+  bool holds() const { return encloses && keeps_gap; }
 };
 
 /// Decides whether `hull` encloses `original` (HullSide::Inner: whether `original` encloses `hull`). Guaranteed: the
@@ -59,12 +78,15 @@ struct Verification {
 ///   any other one     the hull covers every triangle of it
 ///   inner hull        the original encloses the solid of the hull, and its solid covers every triangle of the hull
 ///
+/// With options.gap it is also decided whether the hull keeps that distance from all finite triangles of the original,
+/// caps on its openings not included; `holds` says whether both is so.
+///
 /// Faces of the original that are not finite are left out, and components of a closed original that are inside out
 /// count as turned (turned_outwards); `notes` tell of both, and of meshes whose sizes differ as if their units did. A
 /// hull that is inside out, as a whole or in such a component, is refused: the verdict is no.
 ///
 /// Throws InputError if a mesh is empty, if the hull is not closed or not finite, if a coordinate is larger than 1e100,
-/// and for an inner hull if the original is not closed; Cancelled.
+/// if the gap is not a finite number of at least 0, and for an inner hull if the original is not closed; Cancelled.
 ///
 ///     const Verification found = verify_hull(read_mesh("hull.stl"), read_mesh("part.stl"));
 ///     if (!found.encloses && !found.worst.empty()) show(found.worst[0].point);
@@ -75,7 +97,7 @@ Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSi
 /// original, which must be the finest level. If the hull says that its finest level is not the input (FinestLevel),
 /// that level must enclose the solid of the original instead. Every triangle is asked of the base mesh; `notes` tell if
 /// the finest level itself leaves some of them uncovered. If the original is not closed, the finest level must cover
-/// its triangles; then every level does.
+/// its triangles; then every level does. Throws InputError(InvalidOption) if options.gap is not 0.
 Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, const VerificationOptions& options = {});
 
 }  // namespace prohull

@@ -43,7 +43,7 @@ Wrap wrap(const TriangleMesh& triangles, const WrapOptions& options);
 double inside_volume(const TriangleMesh& triangles, const WrapOptions& options);
 
 /// The boundary of what lies inside of a wrap, about a third of `spacing` away from the triangles on its boundary: they
-/// are outside of it. No faces if nothing is thick enough.
+/// are outside of it. `padding` moves it further inwards. No faces if nothing is thick enough.
 TriangleMesh inner_wrap(const TriangleMesh& triangles, const WrapOptions& options);
 
 }  // namespace prohull

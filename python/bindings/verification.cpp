@@ -34,6 +34,13 @@ py::dict facts_of(const Verification& found) {
   facts["self_intersections"] = found.self_intersections;
   facts["void_ratio"] = found.void_ratio;
   facts["notes"] = found.notes;
+  facts["keeps_gap"] = found.keeps_gap;
+  facts["faces_too_near"] = found.faces_too_near;
+  facts["least_distance"] = found.least_distance;
+  py::list nearest;
+  for (const NearFace& near : found.nearest)
+    nearest.append(py::make_tuple(index(near.face), index(near.original_face), point_of(near.point), near.distance));
+  facts["nearest"] = nearest;
   return facts;
 }
 
@@ -43,22 +50,22 @@ HullSide side_called(const std::string& name) {
 }
 
 template <class Decide>
-py::dict verified(bool solid_only, const py::object& progress, Decide decide) {
+py::dict verified(bool solid_only, double gap, const py::object& progress, Decide decide) {
   return facts_of(watched(progress, [&](Watch& watch) {
-    return decide(VerificationOptions{.solid_only = solid_only, .progress = watch.progress()});
+    return decide(VerificationOptions{.solid_only = solid_only, .gap = gap, .progress = watch.progress()});
   }));
 }
 
 py::dict verified_mesh(const TriangleMesh& hull, const TriangleMesh& original, const std::string& side_name,
-                       bool solid_only, const py::object& progress) {
+                       bool solid_only, double gap, const py::object& progress) {
   const HullSide side = side_called(side_name);
-  return verified(solid_only, progress,
+  return verified(solid_only, gap, progress,
                   [&](const VerificationOptions& options) { return verify_hull(hull, original, side, options); });
 }
 
-py::dict verified_levels(const ProgressiveHull& hull, const TriangleMesh& original, bool solid_only,
+py::dict verified_levels(const ProgressiveHull& hull, const TriangleMesh& original, bool solid_only, double gap,
                          const py::object& progress) {
-  return verified(solid_only, progress,
+  return verified(solid_only, gap, progress,
                   [&](const VerificationOptions& options) { return verify_hull(hull, original, options); });
 }
 

@@ -23,10 +23,10 @@ from ._files import load, read, sample
 from ._hull import Hull
 from ._meshes import AllHits, ClosestPoints, FacesMet, FirstHits, Mesh, Refinement, TwoHulls
 from ._prohull import InputError
-from ._verify import Offender, Verification, distance_bounds, verify
+from ._verify import NearFace, Offender, Verification, distance_bounds, verify
 
 __all__ = ["AllHits", "Ball", "Capsule", "ClosestPoints", "Collider", "ConvexCover", "ConvexPiece", "Distances", "ENGINES",
-           "FacePairs", "FacesMet", "FirstHits", "Hull", "InputError", "Mesh", "Offender", "OrientedBox", "Refinement",
+           "FacePairs", "FacesMet", "FirstHits", "Hull", "InputError", "Mesh", "NearFace", "Offender", "OrientedBox", "Refinement",
            "SphereCover", "TwoHulls", "UnionVerification", "Verification", "build", "convex_pieces", "distance_bounds",
            "load", "read", "sample", "spheres", "verify", "verify_union"]
 

@@ -9,16 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _prohull
-from ._files import mesh_of
+from ._files import distance_of, mesh_of
 from ._hull import Hull
 from ._meshes import Mesh
 from ._prohull import InputError
-from ._types import MeshLike, OpenShells, Progress, Repair, Rows, SelfIntersections, Side, Strategy
+from ._types import Gap, MeshLike, OpenShells, Progress, Repair, Rows, SelfIntersections, Side, Strategy
 
 
 @overload
 def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ..., levels: bool = ...,
-          max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: float = ...,
+          max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
           repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
@@ -27,7 +27,7 @@ def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tigh
           progress: Optional[Progress] = ...) -> Hull: ...
 @overload
 def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ..., levels: bool = ...,
-          max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: float = ...,
+          max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
           repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
@@ -37,7 +37,7 @@ def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., t
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          padding: float = ..., repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ...,
+          padding: Gap = ..., gap: Gap = ..., repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ...,
           seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
@@ -47,7 +47,7 @@ def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Sid
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          padding: float = ..., repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ...,
+          padding: Gap = ..., gap: Gap = ..., repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ...,
           seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
@@ -56,7 +56,7 @@ def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: 
           progress: Optional[Progress] = ...) -> list[Hull]: ...
 def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type: ignore[misc]  # the two ways of calls
           side: Side = "outer", tight: bool = False, levels: bool = False, max_distance: float = math.inf,
-          max_void_percent: float = math.inf, max_added_volume: float = math.inf, padding: float = 0.0,
+          max_void_percent: float = math.inf, max_added_volume: float = math.inf, padding: Gap = 0.0, gap: Gap = 0.0,
           repair: Repair = "auto",
           keep_cavities: bool = False, open_shells: OpenShells = "close", seal_holes: float = 0.0,
           float32_coordinates: bool = False,
@@ -88,8 +88,10 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
         The hull is the coarsest one, of at least target_faces faces, that keeps this bound and the next two.
     max_void_percent: largest void, in per cent of the mesh's volume, at least 0.
     max_added_volume: largest void, in cubic units, at least 0.
-    padding: least distance that the hull keeps from the mesh, in the mesh's unit, at least 0. It is proven: all points
-        that near are inside of the hull. The bounds above then count from there. For outer hulls without levels only.
+    gap: least distance between hull and mesh, in the mesh's unit, at least 0; or as in "0.5%" of the diagonal of the
+        mesh's bounding box. It is proven. All points that near are inside of an outer hull. An inner hull leaves out
+        what is thinner than two gaps. The bounds above then count from there. For hulls without levels only.
+    padding: another name of gap.
     repair: "auto" repairs the mesh and takes the best source; "none" refuses what is not closed; "wrap" does without
         the mesh itself as a source.
     keep_cavities: whether to keep components that lie inside of others. Inner hulls always keep them.
@@ -124,9 +126,11 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
         hull.save("part_collision.stl")
     """
     given, targets = _given(mesh, faces, target_faces)
+    if gap and padding:
+        raise InputError(f"gap={gap!r}, padding={padding!r}: these are two names of one number; give one of them")
     keywords = dict(
         side=side, tight=tight, levels=levels, max_distance=max_distance, max_void_percent=max_void_percent,
-        max_added_volume=max_added_volume, padding=padding, repair=repair, keep_cavities=keep_cavities,
+        max_added_volume=max_added_volume, padding=distance_of("gap" if gap else "padding", gap or padding, given), repair=repair, keep_cavities=keep_cavities,
         open_shells=open_shells, seal_holes=seal_holes,
         float32_coordinates=float32_coordinates, strategy=strategy, best_of=best_of, seed=seed, threads=threads,
         self_intersections=self_intersections, relax_guards=relax_guards, max_valence=max_valence,

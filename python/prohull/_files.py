@@ -2,11 +2,13 @@
 
 import os
 
+import numpy as np
+
 from . import _arrays, _prohull
 from ._hull import Hull
 from ._meshes import Mesh
 from ._prohull import InputError
-from ._types import MeshLike, Path
+from ._types import Gap, MeshLike, Path
 
 
 def mesh_of(mesh: MeshLike, keep_non_finite: bool = False) -> Mesh:
@@ -19,6 +21,21 @@ def mesh_of(mesh: MeshLike, keep_non_finite: bool = False) -> Mesh:
     if arrays is None:
         raise InputError(f"{_arrays.described(mesh)} is no mesh; {_arrays.MESHES}")
     return Mesh(*arrays)
+
+
+def distance_of(name: str, value: Gap, mesh: Mesh) -> float:
+    """A distance of at least 0; of "0.5%" that part of the diagonal of the box of the finite faces."""
+    if not isinstance(value, str):
+        return _arrays.not_negative(name, value)
+    try:
+        if not value.endswith("%"):
+            raise ValueError
+        share = _arrays.not_negative(name, float(value[:-1]))
+    except ValueError:
+        raise InputError(f'{name}={value!r}: expected a number, at least 0, or per cent as in "0.5%"') from None
+    corners = mesh.vertices[mesh.faces]
+    corners = corners[np.isfinite(corners).all(axis=(1, 2))].reshape(-1, 3)
+    return share / 100 * float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) > 0 else 0.0
 
 
 def read(path: Path, *, scale: float = 1.0) -> Mesh:
@@ -50,7 +67,7 @@ def load(path: Path) -> Hull:
     levels = _prohull.load(path)
     faces = levels.base_face_count
     original = levels.level(levels.original_face_count)
-    found = _prohull.verify_levels(levels, original, False, None)
+    found = _prohull.verify_levels(levels, original, False, 0.0, None)
     proven, why_not = found["encloses"], found["why_not"]
     finest = _FINEST.get(levels.finest_level)
     notes = ([why_not] if why_not else []) + ([f"the finest level is {finest}, not the input itself"] if finest else [])

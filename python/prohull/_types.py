@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 #: The name of a file.
 Path = Union[str, "os.PathLike[str]"]
+#: A distance in the mesh's unit; or as in "0.5%", of the diagonal of the mesh's bounding box.
+Gap = Union[float, str]
 #: A function that is called with the stage and a fraction in [0, 1]. If it returns False, what runs is stopped.
 Progress = Callable[[str, float], Optional[bool]]
 

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _prohull
-from ._files import mesh_of
+from ._files import distance_of, mesh_of
 from ._hull import Hull
-from ._types import MeshLike, Progress, Proof, Side
+from ._types import Gap, MeshLike, Progress, Proof, Side
 
 
 class Offender(NamedTuple):
@@ -21,9 +21,18 @@ class Offender(NamedTuple):
     distance: float  #: from that point to the outer mesh, in the meshes' unit
 
 
+class NearFace(NamedTuple):
+    """A face of a hull that is nearer to the original than the gap asked for."""
+
+    face: int  #: its row in the `faces` of the hull
+    original_face: int  #: the row of the nearest face in the `faces` of the original
+    point: NDArray[np.float64]  #: (3,), a point of the hull's face that is so near
+    distance: float  #: between the two faces, in the meshes' unit; 0 only if they meet
+
+
 @dataclass(frozen=True)
 class Verification:
-    """What verify() found. It counts as true if the hull encloses the original."""
+    """What verify() found. It counts as true if the hull encloses the original, and keeps the gap if one was asked for."""
 
     encloses: bool  #: the verdict, exact; of an inner hull, whether the original encloses it
     proof: Proof  #: "replay" of a .phull file, "enclosure" of closed meshes, or "coverage" of every triangle
@@ -38,13 +47,17 @@ class Verification:
     self_intersections: int  #: number of pairs of faces of the hull that meet beyond what they share; exact
     void_ratio: float  #: volume of the hull / volume of the original - 1; nan if the original is not closed
     notes: list[str]  #: what was left out of the original or turned, and units that seem to differ
+    keeps_gap: bool  #: whether the hull keeps the gap; exact
+    faces_too_near: int  #: number of faces of the hull that do not; exact
+    nearest: list[NearFace]  #: the nearest of these, nearest first
+    least_distance: float  #: between hull and original, rounded; nan without a gap
 
     def __bool__(self) -> bool:
-        return self.encloses
+        return self.encloses and self.keeps_gap
 
 
 def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, solid_only: bool = False,
-           progress: Optional[Progress] = None) -> Verification:
+           gap: Gap = 0.0, progress: Optional[Progress] = None) -> Verification:
     """Decides exactly whether `hull` encloses `original`, as `prohull verify` does.
 
     A .phull file is a proof, and is replayed. Any other hull must be closed, and is compared with the original. The
@@ -57,20 +70,24 @@ def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, s
         of the .phull file, and "outer" for any other mesh.
     solid_only: whether only the solid must be enclosed that a closed original bounds (of an inner hull: that the hull
         bounds). Triangles of folds and of parts that are inside out bound no part of it, and may then stick out.
+    gap: distance that the hull must keep from every triangle of the original, at least 0, in the meshes' unit; or as in
+        "0.5%" of the diagonal of the original's bounding box. Not for .phull files, whose levels touch.
     progress: called as build() calls it, with the stage "verify".
 
     Raises InputError if a mesh is empty, if it is not finite or not closed where it has to be, or if a coordinate is
     larger than 1e100.
 
-        assert prohull.verify("hull.stl", "part.stl")
+        assert prohull.verify("hull.stl", "part.stl", gap="0.5%")
     """
-    second = mesh_of(original, keep_non_finite=True)._core
+    mesh = mesh_of(original, keep_non_finite=True)
+    second, distance = mesh._core, distance_of("gap", gap, mesh)
     if isinstance(hull, (str, os.PathLike)) and _prohull.is_hull_file(hull):
-        facts = _prohull.verify_levels(_prohull.load(hull), second, solid_only, progress)
+        facts = _prohull.verify_levels(_prohull.load(hull), second, solid_only, distance, progress)
     else:
         first = mesh_of(hull)
         own_side = first.side if isinstance(first, Hull) else "outer"
-        facts = _prohull.verify_mesh(first._core, second, side or own_side, solid_only, progress)
+        facts = _prohull.verify_mesh(first._core, second, side or own_side, solid_only, distance, progress)
+    facts["nearest"] = [NearFace(*near) for near in facts["nearest"]]
     facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
     return Verification(**facts)
 

@@ -1,4 +1,5 @@
 import inspect
+import math
 import pickle
 import subprocess
 import sys
@@ -74,6 +75,36 @@ def test_padding_is_proven_and_kept_by_files(pony, tmp_path):
     rounded = hull.with_float32_coordinates()
     assert rounded.certified == (rounded.padding >= padding) and rounded.padding == pytest.approx(hull.padding, rel=1e-4)
     assert prohull.build(pony, 200).padding == 0
+
+
+@pytest.mark.parametrize("side", ["outer", "inner"])
+def test_gaps_are_kept_and_verified(pony, side):
+    diagonal = float(np.linalg.norm(np.ptp(pony.vertices, axis=0)))
+    hull = prohull.build(pony, 200, gap="1%", side=side)
+    assert hull.certified and hull.proof == "padding" and hull.padding >= 0.01 * diagonal
+    assert np.array_equal(hull.vertices, prohull.build(pony, 200, padding=0.01 * diagonal, side=side).vertices)
+    found = prohull.verify(hull, pony, gap="1%")
+    assert found and found.keeps_gap and not found.nearest and found.least_distance == pytest.approx(hull.padding)
+    more = prohull.verify(hull, pony, gap=1.01 * hull.padding)
+    assert not more and more.encloses and not more.keeps_gap and more.faces_too_near >= len(more.nearest) > 0
+    near = more.nearest[0]
+    assert near.distance == pytest.approx(hull.padding) and near.face < len(hull.faces)
+    assert near.original_face < len(pony.faces) and near.point.shape == (3,) and "nearer" in more.why_not
+
+
+def test_gaps_that_mean_nothing_are_refused(pony, tmp_path):
+    for gap in ["1", "%", "x%", "-1%", -1, math.inf, math.nan]:
+        with pytest.raises(prohull.InputError, match="gap="):
+            prohull.build(pony, 200, gap=gap)
+        with pytest.raises(prohull.InputError, match="gap="):
+            prohull.verify(pony, pony, gap=gap)
+    with pytest.raises(prohull.InputError, match="two names"):
+        prohull.build(pony, 200, gap=1, padding=1)
+    with pytest.raises(prohull.InputError, match="thicker than twice the gap"):
+        prohull.build(pony, 200, gap="60%", side="inner")
+    prohull.build(pony, 200, levels=True).save(tmp_path / "pony.phull")
+    with pytest.raises(prohull.InputError, match="touch each other"):
+        prohull.verify(tmp_path / "pony.phull", pony, gap=0.1)
 
 
 def test_inner_hulls_are_enclosed(pony):

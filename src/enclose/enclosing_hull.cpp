@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "construct/lifting.h"
 #include "construct/shape_guards.h"
+#include "construct/turned.h"
 #include "geometry/float32.h"
 #include "geometry/usable_size.h"
 #include "mesh/area.h"
@@ -192,7 +193,13 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
     if (!best || is_better(hull, *best)) best = std::move(hull);
   };
   if (is_worth_the_mesh()) try_solid(0);
-  if (!is_outer() && options_.repair != Repair::None && !options_.levels && !(options_.tight && best->certified)) {
+  if (!is_outer() && is_padded() && options_.repair != Repair::None) {
+    for (const WrapKind& kind : wraps()) {
+      if (best->source == Source::Wrap && is_as_asked(*best)) break;
+      if (const auto solid = wrap_with(kind, target_faces)) try_solid(*solid);
+    }
+  } else if (!is_outer() && options_.repair != Repair::None && !options_.levels &&
+             !(options_.tight && best->certified)) {
     constexpr double kLittleVoid = 0.1;
     is_moved_ = true;
     if (!is_as_asked(*best) || void_of(*best) < -kLittleVoid) try_solid(0);
@@ -210,6 +217,11 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
     throw InputError(
         made_.input.closed ? Defect::NoVolume : Defect::OpenEdge,
         fmt::format("nothing could be wrapped: {}", notes_.empty() ? made_.input.obstacle : notes_.back()));
+  if (!best->certified && !is_outer() && is_padded())
+    throw InputError(
+        Defect::NoCertificate,
+        fmt::format("no inner hull of {} faces keeps the gap of {:g}{}; use a smaller gap, or more faces", target_faces,
+                    options_.padding, has_wrap_ ? "" : ": the mesh must be thicker than twice the gap somewhere"));
   if (!best->certified) {
     if (notes_.empty()) note_why_not(*best);
     throw InputError(Defect::NoCertificate,
@@ -310,6 +322,7 @@ std::optional<std::size_t> Ladder::wrap_with(const WrapKind& kind, std::size_t t
     made.mesh = inner_wrap(made_.input.closed->mesh, how);
   if (options_.hull.float32_coordinates)  // the wrap is farther from the triangles than what that moves it
     for (Vec3& p : made.mesh.positions) p = nearest_float32(p);
+  if (!is_outer() && is_padded() && made.mesh.face_count() == 0) return std::nullopt;  // nothing is thick enough
   try {
     Solid solid{.source = Source::Wrap,
                 .mesh = closed_mesh(std::move(made.mesh)).mesh,
@@ -470,15 +483,15 @@ EnclosingHull Ladder::build_in_steps(std::size_t solid, std::size_t target_faces
 // A hull that touches a closed mesh is tighter than one that keeps away from single triangles, but where the mesh
 // intersects itself it may not cover them all.
 bool Ladder::is_moved_closely(std::size_t solid) const {
-  return !is_outer() ||
-         (!is_padded() && made_.input.closed && made_.solids[solid].doors.face_count() == 0 && !is_moved_loosely_);
+  if (is_padded()) return false;
+  return !is_outer() || (made_.input.closed && made_.solids[solid].doors.face_count() == 0 && !is_moved_loosely_);
 }
 
 // A level of a wrap or of the convex hull moves towards the triangles, if it need not be one of a hierarchy.
 TriangleMesh Ladder::placed(const TriangleMesh& level, std::size_t solid, unsigned max_rounds) const {
   if ((made_.solids[solid].source == Source::Mesh && !is_moved_) || options_.levels) return level;
   const HullOptions& hull = options_.hull;
-  const MoveOptions how{hull.guards, hull.float32_coordinates, max_rounds, aim(), options_.progress};
+  const MoveOptions how{hull.guards, hull.float32_coordinates, max_rounds, aim(), hull.side, options_.progress};
   return is_moved_closely(solid) ? moved_towards_closed(level, made_.input.closed->mesh, hull.side, how)
                                  : moved_towards(level, to_cover(solid), how);
 }
@@ -600,12 +613,15 @@ void Ladder::keep_away(EnclosingHull& hull) {
     hull.padding = distance_from(hull.mesh, hull.solid);
     if (hull.padding >= options_.padding || (i > 0 && hull.padding == 0) || i == kMostAttempts) break;
     added += (i == 0 ? 1 : 2) * (aim() - hull.padding);
-    hull.mesh = padded_hull(before, added, options_.hull.float32_coordinates).mesh;
+    hull.mesh = is_outer() ? padded_hull(before, added, options_.hull.float32_coordinates).mesh
+                           : turned(padded_hull(turned(before), added, options_.hull.float32_coordinates).mesh);
   }
+  // Where the solid is thin, the faces of an inner hull have passed through each other.
+  if (!is_outer() && count_self_intersections(hull.mesh) > 0) hull.padding = 0;
   if (added == 0 || hull.padding < options_.padding) return;
-  TriangleMesh moved =
-      moved_towards(hull.mesh, to_cover(hull.solid),
-                    {options_.hull.guards, options_.hull.float32_coordinates, kMostRounds, aim(), options_.progress});
+  TriangleMesh moved = moved_towards(hull.mesh, to_cover(hull.solid),
+                                     {options_.hull.guards, options_.hull.float32_coordinates, kMostRounds, aim(),
+                                      options_.hull.side, options_.progress});
   if (const double distance = distance_from(moved, hull.solid); distance >= options_.padding)
     hull.mesh = std::move(moved), hull.padding = distance;
 }
@@ -662,8 +678,6 @@ void require_usable_padding(const EnclosingOptions& options) {
   const double most = options.hull.float32_coordinates ? double(std::numeric_limits<float>::max()) : kLargestCoordinate;
   if (!(options.padding >= 0 && options.padding <= most / kRoom))
     refuse(fmt::format("the padding is {:g}; it must be a number from 0 to {:.3g}", options.padding, most / kRoom));
-  if (options.padding > 0 && options.hull.side == HullSide::Inner)
-    refuse("an inner hull has no padding: only outer hulls move outwards");
   if (options.padding > 0 && options.levels) refuse("a hull with padding has no levels: ask for one of the two");
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "parallel/progress_meter.h"
 #include "prohull/error.h"
 #include "prohull/replay.h"
+#include "verify/gap.h"
 #include "verify/original.h"
 #include "verify/self_intersection.h"
 #include "verify/solids.h"
@@ -123,6 +125,18 @@ class Judge {
                                          "of the original; its solid is enclosed");
   }
 
+  void keep_gap(const TriangleMesh& hull) {
+    verify::GapReport report = verify::verify_gap(hull, original_, options_.gap, next_step());
+    found.keeps_gap = report.faces_too_near == 0;
+    found.faces_too_near = report.faces_too_near;
+    found.nearest = std::move(report.nearest);
+    found.least_distance = report.least_distance;
+    if (found.encloses && !found.keeps_gap)
+      found.why_not =
+          fmt::format("{} of it {} nearer to the original than that", counted(found.faces_too_near, "face", "faces"),
+                      found.faces_too_near == 1 ? "is" : "are");
+  }
+
   void measure(const TriangleMesh& hull) {
     found.hull_volume = signed_volume(hull);
     found.void_ratio = found.hull_volume / found.original_volume - 1;
@@ -159,7 +173,10 @@ class Judge {
 
 Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSide side,
                          const VerificationOptions& options) {
-  Judge judge(original, side, options, 3);
+  if (!(options.gap >= 0 && std::isfinite(options.gap)))
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("the gap is {:g}; it must be a finite number of at least 0", options.gap));
+  Judge judge(original, side, options, options.gap > 0 ? 4 : 3);
   Verification& found = judge.found;
   found.proof = found.original_closed ? "enclosure" : "coverage";
   note_units(verify::usable_box(hull, "hull"), judge.original_box, found.notes);
@@ -170,11 +187,16 @@ Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSi
       judge.cover_all(hull);
     if (found.original_closed && found.encloses && found.every_triangle) judge.cover_the_rest(hull);
   }
+  if (options.gap > 0) judge.keep_gap(hull);
   judge.measure(hull);
   return std::move(judge.found);
 }
 
 Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, const VerificationOptions& options) {
+  if (options.gap != 0)
+    throw InputError(Defect::InvalidOption,
+                     "levels of a hull touch each other, so there is no gap to verify; name a mesh, as `prohull lod` "
+                     "writes it of one level");
   const bool is_of_input = hull.finest_level() == FinestLevel::Input;
   Judge judge(original, hull.side(), options, is_of_input ? 3 : 4);
   Verification& found = judge.found;

@@ -154,14 +154,15 @@ double inside_volume(const TriangleMesh& triangles, const WrapOptions& options) 
 TriangleMesh inner_wrap(const TriangleMesh& triangles, const WrapOptions& options) {
   const Grid grid = grid_for(triangles, options);
   ProgressMeter meter(options.progress, "wrap");
-  const auto level = static_cast<float>(options.offset);
+  const auto offset = static_cast<float>(options.offset);
+  const float level = offset + static_cast<float>(options.padding / options.spacing);
   const TriangleMesh boundary = without_hidden(grid, triangles, find_inside(grid, triangles, {}, meter), meter);
   if (boundary.face_count() == 0) return {};
   Inside inside = find_inside(grid, boundary, {}, meter);
   std::vector<float>& values = inside.signed_distances;
   sample(grid, boundary, meter, [&](const Vec3& p) {
     const InTetrahedron at(grid, p);
-    const float missing = (kClearance - level) - at.value(values);
+    const float missing = (kClearance - offset) - at.value(values);
     if (missing > 0)
       for (const std::size_t n : at.nodes) values[n] += missing;
   });

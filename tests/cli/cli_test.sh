@@ -40,6 +40,31 @@ expect 0 "inner hull verified" $prohull verify inner.obj rock.ply --side inner
 expect 0 "inner proof verified" $prohull verify inner.phull rock.ply
 expect 1 "an inner hull does not enclose" $prohull verify inner.obj rock.ply
 
+# --- gaps ---
+expect 0 "a gap" $prohull build rock.ply --faces 300 --gap 1% -o away.ply --report away.json
+says out "the gap is told" "gap: the least distance from the mesh is at least"
+says away.json "report: gap" '"proof": "padding"'
+expect 0 "a gap verified" $prohull verify away.ply rock.ply --gap 1%
+says out "verify tells the gap" "and keeps a gap of"
+expect 1 "a greater gap" $prohull verify away.ply rock.ply --gap 1.5% --report away.json
+says out "faces that are too near" "too near; the nearest"
+says away.json "report: near faces" '"original_face"'
+says away.json "report: it encloses" '"encloses": true'
+expect 0 "an inner gap" $prohull build rock.ply --faces 300 --side inner --gap 1% -o core.ply
+expect 0 "an inner gap verified" $prohull verify core.ply rock.ply --side inner --gap 1%
+expect 1 "no gap on the wrong side" $prohull verify core.ply rock.ply --gap 1%
+cp away.ply by_gap.ply
+expect 0 "padding is the same" $prohull build rock.ply --faces 300 --padding 1% -o away.ply
+checks=$((checks + 1))
+cmp -s away.ply by_gap.ply || fail "--padding is another name of --gap"
+expect 2 "a gap in another unit" $prohull build rock.ply --gap 1mm -o away.ply
+says err "a gap in another unit" "must be a number"
+expect 2 "a gap below 0" $prohull verify away.ply rock.ply --gap -1%
+expect 2 "a gap of levels" $prohull verify rock.phull rock.ply --gap 1%
+says err "a gap of levels" "touch each other"
+expect 3 "an inner gap without room" $prohull build rock.ply --side inner --gap 70% -o core.ply
+says err "an inner gap without room" "thicker than twice the gap"
+
 # --- the same mesh in metres and in millimetres ---
 awk '/^v / { printf "v %.17g %.17g %.17g\n", $2 / 1000, $3 / 1000, $4 / 1000; next } { print }' inner.obj >metres.obj
 expect 1 "another unit" $prohull verify metres.obj rock.ply

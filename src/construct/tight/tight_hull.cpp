@@ -72,7 +72,7 @@ TightHull build_towards(const Original& original, const TriangleMesh& mesh, cons
 
 Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, HullSide side, double padding) {
   if (!wrapped) return Original::closed(side == HullSide::Inner ? turned(mesh) : mesh, side);
-  if (side == HullSide::Inner)
+  if (side == HullSide::Inner && padding == 0)
     throw InputError(Defect::InvalidOption, "nothing is inside of triangles that are not closed: no inner hull");
   if (padding > 0) return Original::padded_triangles(*wrapped, padding);
   constexpr double kClearance = 1e-6;  // of the diagonal: more than a hull moves when it is rounded to float32
@@ -101,9 +101,10 @@ TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& 
 }
 
 TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options) {
-  HalfEdgeMesh moving(hull);
-  tighten(moving, original_of(hull, &triangles, HullSide::Outer, options.padding), options);
-  return moving.triangle_mesh();
+  const bool inner = options.side == HullSide::Inner;
+  HalfEdgeMesh moving(inner ? turned(hull) : hull);
+  tighten(moving, original_of(hull, &triangles, options.side, options.padding), options);
+  return inner ? turned(moving.triangle_mesh()) : moving.triangle_mesh();
 }
 
 }  // namespace prohull

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "prohull/enclosure.h"
+#include "prohull/verification.h"
+
+namespace prohull::verify {
+
+struct GapReport {
+  std::size_t faces_too_near = 0;  ///< exact
+  std::vector<NearFace> nearest;   ///< of these, the nearest first
+  double least_distance = 0;       ///< of all faces, rounded
+};
+
+/// Which faces of `hull` are nearer to `original` than `gap`, which is greater than 0. Both meshes may be any triangles
+/// that are finite.
+GapReport verify_gap(const TriangleMesh& hull, const TriangleMesh& original, double gap,
+                     const EnclosureOptions& options);
+
+}  // namespace prohull::verify
