@@ -1,0 +1,95 @@
+"""Fills the space between closed meshes with tetrahedra, by the program tetgen (Hang Si, Debian package tetgen)."""
+import pathlib
+import subprocess
+
+import numpy as np
+
+
+def read_off(path):
+    """Vertices and triangles of an OFF file."""
+    words = pathlib.Path(path).read_text().split()
+    assert words[0] == "OFF", path
+    vertices, faces = int(words[1]), int(words[2])
+    end = 4 + 3 * vertices
+    points = np.array(words[4:end], dtype=float).reshape(-1, 3)
+    return points, np.array(words[end:end + 4 * faces], dtype=int).reshape(-1, 4)[:, 1:]
+
+
+def components(faces):
+    """The faces of each connected part."""
+    label = np.arange(faces.max() + 1)
+    while True:
+        least = label[faces].min(axis=1)
+        smaller = label.copy()
+        np.minimum.at(smaller, faces, least[:, None])
+        smaller = smaller[smaller]
+        if (smaller == label).all():
+            break
+        label = smaller
+    of_face = label[faces[:, 0]]
+    return [faces[of_face == part] for part in np.unique(of_face)]
+
+
+def point_behind(points, part, faces):
+    """A point just inside of the surface of `part`: behind the middle of its largest face, half-way to what comes next."""
+    a, b, c = (points[part[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    largest = np.argmax((normals ** 2).sum(axis=1))
+    origin = (a[largest] + b[largest] + c[largest]) / 3
+    direction = -normals[largest] / np.linalg.norm(normals[largest])
+    a, ab, ac = points[faces[:, 0]], points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]]
+    p = np.cross(direction, ac)
+    determinant = (ab * p).sum(axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s = origin - a
+        q = np.cross(s, ab)
+        u, v, t = (s * p).sum(axis=1) / determinant, q @ direction / determinant, (ac * q).sum(axis=1) / determinant
+        near = np.abs(s).max(axis=1)
+        is_hit = (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1 + 1e-9) & (t > 1e-12 * near)
+    return origin + direction * t[is_hit].min() / 2
+
+
+def write_smesh(path, meshes, holes):
+    """The surfaces as a piecewise linear complex. meshes: (points, faces) each."""
+    lines = [f"{sum(len(points) for points, _ in meshes)} 3 0 0"]
+    number = 0
+    for points, _ in meshes:
+        for x, y, z in points:
+            lines.append(f"{number} {x:.17g} {y:.17g} {z:.17g}")
+            number += 1
+    lines.append(f"{sum(len(faces) for _, faces in meshes)} 1")
+    first = 0
+    for mark, (points, faces) in enumerate(meshes, 1):
+        lines += [f"3 {a + first} {b + first} {c + first} {mark}" for a, b, c in faces]
+        first += len(points)
+    lines.append(str(len(holes)))
+    lines += [f"{i} {x:.17g} {y:.17g} {z:.17g}" for i, (x, y, z) in enumerate(holes)]
+    lines.append("0")
+    pathlib.Path(path).write_text("\n".join(lines) + "\n")
+
+
+def tetrahedra_between(outer, inner, work, switches="-pYqQ", seconds=300):
+    """Runs tetgen on the space inside of `outer` and outside of `inner`: the number of tetrahedra, and their volume.
+    Raises RuntimeError with what tetgen says."""
+    work = pathlib.Path(work)
+    points, faces = inner
+    holes = [point_behind(points, part, faces) for part in components(faces)]
+    write_smesh(work / "between.smesh", [outer, inner], holes)
+    done = subprocess.run(["tetgen", switches, str(work / "between.smesh")], capture_output=True, text=True,
+                          timeout=seconds)
+    elements = work / "between.1.ele"
+    if done.returncode != 0 or not elements.exists():
+        raise RuntimeError(f"exit code {done.returncode}: {done.stdout[-500:]} {done.stderr[-500:]}")
+    table = np.loadtxt(elements, skiprows=1, comments="#", ndmin=2).astype(int)[:, 1:5]
+    nodes = np.loadtxt(work / "between.1.node", skiprows=1, comments="#", ndmin=2)[:, 1:4]
+    a, b, c, d = (nodes[table[:, i]] for i in range(4))
+    volumes = ((b - a) * np.cross(c - a, d - a)).sum(axis=1) / 6
+    for file in work.glob("between.1.*"):
+        file.unlink()
+    return len(table), float(np.abs(volumes).sum())
+
+
+def volume(mesh):
+    points, faces = mesh
+    a, b, c = (points[faces[:, i]] for i in range(3))
+    return float((a * np.cross(b, c)).sum() / 6)
