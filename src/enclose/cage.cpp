@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text.h"
 #include "construct/even/even_hull.h"
 #include "construct/tight/original.h"
 #include "construct/turned.h"
@@ -39,19 +40,23 @@ class CageMaker {
   }
 
   Cage run() {
-    add_outer();
-    if (options_.inner_faces > 0) add_inner();
+    const auto make = [&](HullSide side, std::size_t faces) {
+      return CageHull{.made = options_.even ? even_hull(side, faces) : hull(side, faces)};
+    };
+    cage_.outer = make(HullSide::Outer, options_.outer_faces);
+    if (options_.inner_faces > 0) cage_.inner = make(HullSide::Inner, options_.inner_faces);
     note_contacts();
     return std::move(cage_);
   }
 
  private:
-  void add_outer();
-  void add_inner();
-  EnclosingHulls build(HullSide side, Repair repair) const;
-  std::size_t faces_of(HullSide side) const;
+  EnclosingHulls build(HullSide side, Repair repair, std::size_t faces) const;
+  EnclosingHulls outer_hull(std::size_t faces) const;
+  EnclosingHulls inner_hull(std::size_t faces) const;
+  EnclosingHulls hull(HullSide side, std::size_t faces) const;
+  EnclosingHulls even_hull(HullSide side, std::size_t faces) const;
   void move_inwards(EnclosingHulls& made) const;
-  void make_even(EnclosingHulls& made, HullSide side);
+  void make_even(EnclosingHulls& made, HullSide side) const;
   bool accept(EnclosingHulls& made, HullSide side, TriangleMesh mesh) const;
   double distance_of(const EnclosingHulls& made, const TriangleMesh& mesh) const;
   bool is_proven(const EnclosingHulls& made, HullSide side, const TriangleMesh& mesh) const;
@@ -62,31 +67,49 @@ class CageMaker {
   Cage cage_;
 };
 
-void CageMaker::add_outer() {
-  cage_.outer.made = build(HullSide::Outer, Repair::Auto);
-  if (cage_.outer.hull().self_intersections > 0)  // as where faces have passed through each other in a narrow gap
-    if (EnclosingHulls wrapped = build(HullSide::Outer, Repair::Wrap); wrapped.hulls[0].self_intersections == 0)
-      cage_.outer.made = std::move(wrapped);
-  if (options_.even) make_even(cage_.outer.made, HullSide::Outer);
+EnclosingHulls CageMaker::outer_hull(std::size_t faces) const {
+  EnclosingHulls made = build(HullSide::Outer, Repair::Auto, faces);
+  if (made.hulls[0].self_intersections == 0) return made;
+  // As where faces have passed through each other in a narrow gap.
+  EnclosingHulls wrapped = build(HullSide::Outer, Repair::Wrap, faces);
+  return wrapped.hulls[0].self_intersections == 0 ? wrapped : made;
 }
 
-void CageMaker::add_inner() {
-  CageHull& inner = cage_.inner.emplace();
-  inner.made = build(HullSide::Inner, Repair::Auto);
-  move_inwards(inner.made);
-  if (options_.even) make_even(inner.made, HullSide::Inner);
+EnclosingHulls CageMaker::inner_hull(std::size_t faces) const {
+  EnclosingHulls made = build(HullSide::Inner, Repair::Auto, faces);
+  move_inwards(made);
+  return made;
 }
 
-std::size_t CageMaker::faces_of(HullSide side) const {
-  return side == HullSide::Outer ? options_.outer_faces : options_.inner_faces;
+EnclosingHulls CageMaker::hull(HullSide side, std::size_t faces) const {
+  return side == HullSide::Outer ? outer_hull(faces) : inner_hull(faces);
 }
 
-// Room is left for the splits that make triangles even.
-EnclosingHulls CageMaker::build(HullSide side, Repair repair) const {
-  constexpr double kBeforeSplits = 0.7;
-  const std::size_t asked = faces_of(side);
-  const std::size_t faces =
-      options_.even ? std::max<std::size_t>(4, std::size_t(std::llround(kBeforeSplits * double(asked)))) : asked;
+// Room is left for splits. A hull that begins with more faces, or with fewer, may do where this one does not.
+EnclosingHulls CageMaker::even_hull(HullSide side, std::size_t faces) const {
+  constexpr double kBegin[]{0.8, 1, 0.6, 0.4};
+  const auto rank = [&](const EnclosingHulls& made) {
+    const double compactness = mesh_quality(made.hulls[0].mesh).compactness.worst;
+    return std::pair(made.hulls[0].mesh.face_count() <= faces, std::min(compactness, kEvenCompactness));
+  };
+  std::optional<EnclosingHulls> best;
+  std::optional<InputError> why_not;
+  for (const double part : kBegin) try {
+      EnclosingHulls made = hull(side, std::max<std::size_t>(4, std::size_t(std::llround(part * double(faces)))));
+      made.hulls[0].target_faces = faces;
+      make_even(made, side);
+      if (!best || rank(made) > rank(*best)) best = std::move(made);
+      if (rank(*best) == std::pair(true, kEvenCompactness)) break;
+    } catch (const InputError& error) {
+      if (error.defect() != Defect::NoCertificate) throw;
+      why_not = error;
+    }
+  if (!best) throw InputError(*why_not);
+  best->hulls[0].target_reached = best->hulls[0].mesh.face_count() <= faces;
+  return std::move(*best);
+}
+
+EnclosingHulls CageMaker::build(HullSide side, Repair repair, std::size_t faces) const {
   EnclosingOptions how;
   how.hull.side = side;
   how.hull.relax_guards = true;
@@ -96,9 +119,7 @@ EnclosingHulls CageMaker::build(HullSide side, Repair repair) const {
   how.repair = repair;
   how.progress = options_.progress;
   if (side == HullSide::Outer) how.padding = cage_.gap;
-  EnclosingHulls made = enclosing_hulls(triangles_, {&faces, 1}, how);
-  made.hulls[0].target_faces = asked;
-  return made;
+  return enclosing_hulls(triangles_, {&faces, 1}, how);
 }
 
 double CageMaker::distance_of(const EnclosingHulls& made, const TriangleMesh& mesh) const {
@@ -155,7 +176,7 @@ void CageMaker::move_inwards(EnclosingHulls& made) const {
                                made.hulls[0].target_faces));
 }
 
-void CageMaker::make_even(EnclosingHulls& made, HullSide side) {
+void CageMaker::make_even(EnclosingHulls& made, HullSide side) const {
   const EnclosingHull& hull = made.hulls[0];
   const Original original =
       Original::padded_triangles(triangles_to_cover(made, hull), std::min(hull.padding, cage_.gap));
@@ -164,10 +185,8 @@ void CageMaker::make_even(EnclosingHulls& made, HullSide side) {
                         .float32_coordinates = options_.float32_coordinates,
                         .progress = options_.progress};
   const bool inner = side == HullSide::Inner;
-  const TriangleMesh even = even_hull(inner ? turned(hull.mesh) : hull.mesh, original, how);
-  if (!accept(made, side, inner ? turned(even) : even))
-    cage_.notes.push_back(
-        fmt::format("the triangles of the {} hull could not be made even", inner ? "inner" : "outer"));
+  const TriangleMesh even = prohull::even_hull(inner ? turned(hull.mesh) : hull.mesh, original, how);
+  accept(made, side, inner ? turned(even) : even);
 }
 
 void CageMaker::note_contacts() {
@@ -176,6 +195,12 @@ void CageMaker::note_contacts() {
     side.keeps_gap = hull.padding >= cage_.gap;
     side.is_disjoint = hull.padding > 0 && hull.self_intersections == 0;
     side.quality = mesh_quality(hull.mesh);
+    if (options_.even && side.quality.compactness.worst < kEvenCompactness)
+      cage_.notes.push_back(fmt::format(
+          "not all triangles of {} faces could be made even: the thinnest one of the {} hull has a compactness of "
+          "{:.2g}, below {:g}; allow more faces",
+          grouped(hull.mesh.face_count()), &side == &cage_.outer ? "outer" : "inner", side.quality.compactness.worst,
+          kEvenCompactness));
   };
   finish(cage_.outer);
   if (!cage_.inner) return;

@@ -53,10 +53,12 @@ bool turns_little(const Vec3& before, const Vec3& after) {
 
 class Evener {
  public:
-  Evener(HalfEdgeMesh& mesh, const Original& original, const EvenOptions& options)
+  /// No collapse adds more than this volume.
+  Evener(HalfEdgeMesh& mesh, const Original& original, const EvenOptions& options, double most_added)
       : mesh_(mesh),
         original_(original),
         options_(options),
+        most_added_(most_added),
         guard_(mesh, faces_along_curve(mesh)),
         placement_(original, options.float32_coordinates) {}
 
@@ -123,7 +125,9 @@ class Evener {
     if (!is_finite(from) || !is_outside(mesh_, star_, from)) return false;
     const HullOptions shape{.guards = {kMostValence, 1, options_.compactness, kMostTurn}};
     const auto is_accepted = [&](const Vec3& to) {
-      return !refused_shape(star_, star_.to_local(to), shape) && !guard_.would_add_intersections(mesh_, star_, to);
+      const Vec3 local = star_.to_local(to);
+      return added_volume(star_, local) <= most_added_ && !refused_shape(star_, local, shape) &&
+             !guard_.would_add_intersections(mesh_, star_, to);
     };
     placement_.set(from, mesh_, star_.link);
     std::optional<Vec3> to = placement_.first(is_accepted);
@@ -241,6 +245,7 @@ class Evener {
   HalfEdgeMesh& mesh_;
   const Original& original_;
   const EvenOptions& options_;
+  const double most_added_;
   SelfIntersectionGuard guard_;
   TightPlacement placement_;
   Star star_;
@@ -348,21 +353,29 @@ class Splitter {
 }  // namespace
 
 TriangleMesh even_hull(const TriangleMesh& hull, const Original& original, const EvenOptions& options) {
-  constexpr unsigned kRounds = 16, kMoves = 2;
-  const ShapeGuards strict{.min_compactness_ratio = 1, .sufficient_compactness = options.compactness};
+  constexpr unsigned kRounds = 16, kMoves = 2, kLastMoves = 8;
+  constexpr double kLeastAdded = 1e-5;  // by a collapse, of the volume; twice of it in each round
+  const auto move_closer = [&](HalfEdgeMesh& mesh, unsigned rounds) {
+    const ShapeGuards guards{.min_compactness_ratio = 1, .sufficient_compactness = options.compactness};
+    tighten(mesh, original,
+            {.guards = guards, .float32_coordinates = options.float32_coordinates, .max_rounds = rounds});
+  };
   ProgressMeter meter(options.progress, "even");
+  double most_added = kLeastAdded * std::abs(signed_volume(hull));
   TriangleMesh best = hull, now = hull;
   double best_compactness = least_compactness(hull);
   for (unsigned round = 0; round < kRounds && best_compactness < options.compactness; ++round) {
     meter.at(round, kRounds);
     HalfEdgeMesh mesh(Splitter(now, original, options).run());
-    Evener(mesh, original, options).run();
-    tighten(mesh, original,
-            {.guards = strict, .float32_coordinates = options.float32_coordinates, .max_rounds = kMoves});
+    Evener(mesh, original, options, most_added).run();
+    most_added *= 2;
+    move_closer(mesh, kMoves);
     now = mesh.triangle_mesh();
     if (const double least = least_compactness(now); least > best_compactness) best = now, best_compactness = least;
   }
-  return best;
+  HalfEdgeMesh mesh(best);
+  move_closer(mesh, kLastMoves);
+  return mesh.triangle_mesh();
 }
 
 }  // namespace prohull
