@@ -62,6 +62,12 @@ class Evener {
         guard_(mesh, faces_along_curve(mesh)),
         placement_(original, options.float32_coordinates) {}
 
+  /// Vertices move towards the middle of their link where that takes volume away: the shape stays good, or gets better.
+  void flatten() {
+    for (std::uint32_t v = 0; v < mesh_.positions().size(); ++v)
+      if (mesh_.has(VertexId{v})) flatten(VertexId{v});
+  }
+
   void run() {
     constexpr int kPasses = 4;
     for (int pass = 0; pass < kPasses; ++pass) {
@@ -144,9 +150,30 @@ class Evener {
       if (mesh_.has(VertexId{v})) changes_ += move(VertexId{v});
   }
 
-  bool move(VertexId v) {
+  void gather_link(VertexId v) {
     link_.clear();
     for (const HalfEdgeId h : mesh_.around(v)) link_.push_back(mesh_.tip(h));
+  }
+
+  void flatten(VertexId v) {
+    gather_link(v);
+    const Vec3 from = at(v);
+    Vec3 middle;
+    for (const VertexId u : link_) middle += (at(u) - from) / double(link_.size());
+    if (!(dot(middle, mean_normal(v)) < 0)) return;
+    const double least = std::min(least_with(from), options_.compactness);
+    placement_.set(from, mesh_, link_);
+    for (const double step : {1.0, 0.5, 0.25, 0.1})
+      if (const Vec3 to = placement_.as_stored(from + middle * step);
+          placement_.keeps_enclosing(to) && is_better(v, to, least)) {
+        mesh_.move(v, to);
+        guard_.changed(mesh_, v);
+        return;
+      }
+  }
+
+  bool move(VertexId v) {
+    gather_link(v);
     const double before = least_with(at(v));
     if (before >= options_.compactness) return false;
     placement_.set(at(v), mesh_, link_);
@@ -374,7 +401,10 @@ TriangleMesh even_hull(const TriangleMesh& hull, const Original& original, const
     if (const double least = least_compactness(now); least > best_compactness) best = now, best_compactness = least;
   }
   HalfEdgeMesh mesh(best);
-  move_closer(mesh, kLastMoves);
+  for (unsigned i = 0; i < kLastMoves; ++i) {
+    Evener(mesh, original, options, most_added).flatten();
+    move_closer(mesh, 1);
+  }
   return mesh.triangle_mesh();
 }
 
