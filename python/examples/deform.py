@@ -19,14 +19,14 @@ def mean_value_coordinates(points, vertices, faces):
         # Of the spherical triangle of each face: the side that faces each corner, and the cosine of the angle there.
         side = 2 * np.arcsin(np.clip(np.linalg.norm(following - last, axis=2) / 2, 0, 1))
         half = side.sum(axis=1, keepdims=True) / 2
-        before, after = np.roll(side, -1, axis=1), np.roll(side, 1, axis=1)
+        next_side, last_side = np.roll(side, -1, axis=1), np.roll(side, 1, axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):
-            cosine = np.clip(2 * np.sin(half) * np.sin(half - side) / (np.sin(before) * np.sin(after)) - 1, -1, 1)
+            cosine = 2 * np.sin(half) * np.sin(half - side) / (np.sin(next_side) * np.sin(last_side)) - 1
+            cosine = np.clip(cosine, -1, 1)
             turn = np.sign(np.linalg.det(unit))[:, None]
             sine = turn * np.sqrt(1 - cosine ** 2)
-            cosine_1, cosine_2 = np.roll(cosine, -1, axis=1), np.roll(cosine, 1, axis=1)
-            share = side - cosine_1 * after - cosine_2 * before
-            share /= distance[faces] * np.sin(before) * np.roll(sine, 1, axis=1)
+            share = side - np.roll(cosine, -1, axis=1) * last_side - np.roll(cosine, 1, axis=1) * next_side
+            share /= distance[faces] * np.sin(next_side) * np.roll(sine, 1, axis=1)
         # The plane of such a face goes through the point, which lies outside of the face: it has no share.
         share[~np.isfinite(share).all(axis=1) | (np.abs(sine) < 1e-9).any(axis=1)] = 0
         np.add.at(row, faces, share)
