@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "geometry/compactness.h"
@@ -88,7 +89,8 @@ class Measurement {
     std::ranges::sort(lengths);
     const double cosine = (lengths[1] * lengths[1] + lengths[2] * lengths[2] - lengths[0] * lengths[0]) / 2;
     smallest_angle_ = std::min(smallest_angle_, std::atan2(double_area, cosine));
-    worst_aspect_ratio_ = std::max(worst_aspect_ratio_, lengths[2] * lengths[2] / double_area);
+    worst_aspect_ratio_ = std::max(worst_aspect_ratio_, double_area > 0 ? lengths[2] * lengths[2] / double_area
+                                                                        : std::numeric_limits<double>::infinity());
   }
 
   bool has_area(FaceId f) const { return normals_[f] != Vec3{}; }
