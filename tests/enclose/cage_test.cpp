@@ -83,15 +83,15 @@ TEST(Cage, TrianglesAreEvenOnDemand) {
 }
 
 TEST(Cage, IsTheSameForAnyNumberOfThreads) {
-  const TriangleMesh mesh = make_sample("knot", effort<std::size_t>(1200, 500));
+  const TriangleMesh mesh = make_sample("torus", effort<std::size_t>(1200, 300));
   const auto outer = [&](unsigned threads) {
-    return build_cage(mesh, {.outer_faces = 150, .even = true, .threads = threads}).outer.hull().mesh;
+    return build_cage(mesh, {.outer_faces = 120, .even = true, .threads = threads}).outer.hull().mesh;
   };
   EXPECT_EQ(outer(1), outer(3));
 }
 
 TEST(Cage, KeepsFloat32Coordinates) {
-  const TriangleMesh mesh = make_sample("pony", effort<std::size_t>(1200, 700));
+  const TriangleMesh mesh = make_sample("asteroid", effort<std::size_t>(1200, 300));
   const Cage cage = build_cage(mesh, {.outer_faces = 200, .even = true, .float32_coordinates = true});
   expect_cage(mesh, cage);
   for (const Vec3& p : cage.outer.hull().mesh.positions) EXPECT_EQ(double(float(p.x)), p.x);
