@@ -31,7 +31,7 @@ room(verify    OWNS enclosure verification union_verification replay distance   
                                                                                      prohull/progressive_hull)
 room(sample    OWNS sample random_segments                                       MAY mesh geometry base)
 room(wrap      OWNS convex_hull wrap                                                         MAY mesh geometry parallel base)
-room(enclose   OWNS enclosing_hull                                               MAY construct repair verify wrap hull mesh
+room(enclose   OWNS cage enclosing_hull                                          MAY construct repair verify wrap hull mesh
                                                                                      geometry parallel base prohull/collide)
 
 room(cover     OWNS convex_cover sphere_cover                                    MAY enclose construct repair verify wrap hull mesh

@@ -38,6 +38,7 @@ std::string described(const MeshQuality& quality);
 // Each adds its subcommand to the program and leaves in `run` what to do when it is chosen; run returns the exit code.
 using Run = std::function<int()>;
 void add_build(CLI::App& app, Run& run);
+void add_cage(CLI::App& app, Run& run);
 void add_collide(CLI::App& app, Run& run);
 void add_completion(CLI::App& app, Run& run);
 void add_contains(CLI::App& app, Run& run);

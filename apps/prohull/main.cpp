@@ -12,6 +12,7 @@ using namespace prohull::cli;
 
 void add_commands(CLI::App& app, Run& run) {
   add_build(app, run);
+  add_cage(app, run);
   add_verify(app, run);
   add_info(app, run);
   add_lod(app, run);

@@ -24,8 +24,11 @@ struct MeshQuality {
   /// The dihedral angle of edges between two faces that have an area and agree about the outside. In radians: pi where
   /// the surface is flat, 0 where it is folded onto itself. Convex and concave edges are not told apart.
   Percentiles dihedral_angle;
-  std::size_t edges = 0;        ///< edges that have a dihedral angle
-  std::size_t sharp_edges = 0;  ///< edges below kSharpDihedralAngle
+  double smallest_angle = 0;      ///< of all corners of faces, in radians; 0 if a face has no area
+  double worst_aspect_ratio = 0;  ///< longest edge of a face / its shortest altitude; 1.15 if all are equilateral,
+                                  ///< infinite if a face has no area
+  std::size_t edges = 0;          ///< edges that have a dihedral angle
+  std::size_t sharp_edges = 0;    ///< edges below kSharpDihedralAngle
 };
 
 MeshQuality mesh_quality(const TriangleMesh& mesh);

@@ -1,13 +1,16 @@
 #include <pybind11/stl.h>
 
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arrays.h"
 #include "keywords.h"
 #include "module.h"
+#include "prohull/cage.h"
 #include "prohull/enclosing_hull.h"
 #include "watch.h"
 
@@ -151,10 +154,49 @@ py::list build(const TriangleMesh& mesh, const std::vector<std::size_t>& targets
   return facts_of(std::move(made), options);
 }
 
+py::dict facts_of(CageHull side) {
+  EnclosingHull& hull = side.made.hulls.front();
+  py::dict facts;
+  facts["certified"] = hull.certified;
+  facts["is_disjoint"] = side.is_disjoint;
+  facts["gap"] = hull.padding;
+  facts["keeps_gap"] = side.keeps_gap;
+  facts["void_ratio"] = side.made.volume > 0 ? hull.void_ratio : std::numeric_limits<double>::quiet_NaN();
+  facts["target_reached"] = hull.target_reached;
+  facts["smallest_angle_degrees"] = side.quality.smallest_angle * 180 / std::numbers::pi;
+  facts["worst_aspect_ratio"] = side.quality.worst_aspect_ratio;
+  facts["notes"] = hull.notes;
+  facts["mesh"] = std::move(hull.mesh);
+  return facts;
+}
+
+py::dict cage(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
+  const Keywords given(keywords);
+  CageOptions options;
+  options.outer_faces = given.count("faces");
+  options.inner_faces = given.count("inner_faces");
+  options.gap = given.not_negative("gap");
+  options.even = given.flag("even");
+  options.tight = given.flag("tight");
+  options.float32_coordinates = given.flag("float32_coordinates");
+  options.threads = given.count("threads");
+  Cage made = watched(progress, [&](Watch& watch) {
+    options.progress = watch.progress();
+    return build_cage(mesh, options);
+  });
+  py::dict facts;
+  facts["outer"] = facts_of(std::move(made.outer));
+  facts["inner"] = made.inner ? py::object(facts_of(std::move(*made.inner))) : py::none();
+  facts["gap"] = made.gap;
+  facts["notes"] = made.notes;
+  return facts;
+}
+
 }  // namespace
 
 void bind_construction(py::module_& module) {
   module.def("build", &build);
+  module.def("cage", &cage);
   module.attr("sides") = tuple_of(hull_side_names());
   module.attr("strategies") = tuple_of(strategy_names());
   module.attr("repairs") = tuple_of(repair_names());

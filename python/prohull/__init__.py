@@ -7,7 +7,7 @@
 
 A mesh is given as the path of a file, as vertices and faces, or as a mesh of prohull, trimesh or Open3D. Lengths are in
 the unit of the mesh, angles in degrees. What is wrong with an argument or a file is raised as InputError, a ValueError.
-Ctrl-C stops long work (build, convex_pieces, spheres, verify, distance_bounds, queries, read) with KeyboardInterrupt.
+Ctrl-C stops long work (build, cage, convex_pieces, spheres, verify, distance_bounds, queries, read) with KeyboardInterrupt.
 Files appear whole or not at all.
 """
 
@@ -16,6 +16,7 @@ from pathlib import Path as _Path
 
 from . import _prohull
 from ._build import build
+from ._cage import Cage, CageHull, cage
 from ._collide import Collider, Distances, FacePairs
 from ._covers import (Ball, Capsule, ConvexCover, ConvexPiece, OrientedBox, SphereCover, UnionVerification, convex_pieces,
                       spheres, verify_union)
@@ -25,10 +26,11 @@ from ._meshes import AllHits, ClosestPoints, FacesMet, FirstHits, Mesh, Refineme
 from ._prohull import InputError
 from ._verify import NearFace, Offender, Verification, distance_bounds, verify
 
-__all__ = ["AllHits", "Ball", "Capsule", "ClosestPoints", "Collider", "ConvexCover", "ConvexPiece", "Distances", "ENGINES",
-           "FacePairs", "FacesMet", "FirstHits", "Hull", "InputError", "Mesh", "NearFace", "Offender", "OrientedBox", "Refinement",
-           "SphereCover", "TwoHulls", "UnionVerification", "Verification", "build", "convex_pieces", "distance_bounds",
-           "load", "read", "sample", "spheres", "verify", "verify_union"]
+__all__ = ["AllHits", "Ball", "Cage", "CageHull", "Capsule", "ClosestPoints", "Collider", "ConvexCover",
+           "ConvexPiece", "Distances", "ENGINES", "FacePairs", "FacesMet", "FirstHits", "Hull", "InputError",
+           "Mesh", "NearFace", "Offender", "OrientedBox", "Refinement", "SphereCover", "TwoHulls", "UnionVerification",
+           "Verification", "build", "cage", "convex_pieces", "distance_bounds", "load", "read", "sample",
+           "spheres", "verify", "verify_union"]
 
 #: Names of the engines of queries.
 ENGINES: tuple[str, ...] = _prohull.engines

@@ -17,7 +17,8 @@ def run(name, *arguments):
                           stdout=subprocess.PIPE).stdout
 
 
-@pytest.mark.parametrize("name, arguments", [("batch.py", 0), ("collision_mesh.py", 1), ("levels_and_rays.py", 3),
+@pytest.mark.parametrize("name, arguments", [("batch.py", 0), ("collision_mesh.py", 1), ("deform.py", 3),
+                                             ("levels_and_rays.py", 3),
                                              ("void_plot.py", 0)])
 def test_wrong_arguments_get_the_usage(name, arguments):
     done = subprocess.run([sys.executable, str(EXAMPLES / name), *["x"] * arguments], text=True, stderr=subprocess.PIPE)
@@ -55,6 +56,17 @@ def test_links_with_openings_have_a_void(tmp_path):
 def test_without_arguments_examples_say_how_to_call_them(name):
     called = subprocess.run([sys.executable, str(EXAMPLES / name)], text=True, capture_output=True)
     assert called.returncode == 2 and called.stderr.startswith("usage: " + name), called.stderr
+
+
+def test_a_cage_carries_its_mesh_along(tmp_path):
+    prohull.sample("torus", 800).save(tmp_path / "torus.ply")
+    printed = run("deform.py", tmp_path / "torus.ply", tmp_path / "twisted.ply", "--cage", tmp_path / "cage")
+    error = float(printed.splitlines()[1].split(": ")[1])
+    assert error < 1e-8, printed
+    before, after = prohull.read(tmp_path / "torus.ply"), prohull.read(tmp_path / "twisted.ply")
+    assert after.volume == pytest.approx(before.volume, rel=0.2)
+    assert not (after.vertices == before.vertices).all()
+    assert prohull.verify(tmp_path / "cage_before.obj", tmp_path / "torus.ply")
 
 
 def test_levels_and_rays():

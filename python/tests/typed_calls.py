@@ -70,6 +70,10 @@ covers = bool(prohull.verify_union(["a.stl", "b.stl"], mesh, solid_only=True))
 covers = bool(prohull.verify_union([(v, f)], mesh))
 covers = prohull.verify_union(balls.balls, mesh, inside=True).covers
 
+made: prohull.Cage = prohull.cage("part.stl", 400, inner_faces=200, gap=0.01, even=True)
+corners = made.outer.vertices
+
+prohull.cage("part.stl", gap="wide")  # refused
 prohull.convex_pieces("part.stl", "8")  # refused
 prohull.convex_pieces("part.stl", 8, shape="egg")  # refused
 prohull.convex_pieces("part.stl", 8, 64)  # refused

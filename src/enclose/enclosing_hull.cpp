@@ -13,6 +13,7 @@
 #include "construct/lifting.h"
 #include "construct/shape_guards.h"
 #include "construct/turned.h"
+#include "enclose/surface_of.h"
 #include "geometry/float32.h"
 #include "geometry/usable_size.h"
 #include "mesh/area.h"
@@ -50,16 +51,6 @@ constexpr std::array<std::pair<std::string_view, Repair>, 3> kRepairNames{
 
 constexpr std::array<std::pair<std::string_view, Source>, 3> kSourceNames{
     {{"mesh", Source::Mesh}, {"convex-hull", Source::ConvexHull}, {"wrap", Source::Wrap}}};
-
-/// Of the faces alone: a closed mesh would stand for its solid, too. With a face given twice it is not closed.
-CollisionIndex surface_of(TriangleMesh mesh) {
-  for (const FaceId f : mesh.triangles.ids())
-    if (const Triangle t = mesh.triangle(f); t.a != t.b && t.b != t.c && t.c != t.a) {
-      mesh.triangles.push_back(mesh.triangles[f]);
-      break;
-    }
-  return CollisionIndex(mesh);
-}
 
 class Ladder {
  public:

@@ -1,8 +1,10 @@
 #include "prohull/mesh_quality.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "geometry/compactness.h"
@@ -57,6 +59,8 @@ class Measurement {
           has_area(uses[i + 1].face))
         angles.push_back(dihedral_angle(normals_[uses[i].face], normals_[uses[i + 1].face]));
     }
+    quality.smallest_angle = smallest_angle_;
+    quality.worst_aspect_ratio = worst_aspect_ratio_;
     quality.edges = angles.size();
     quality.sharp_edges = static_cast<std::size_t>(
         std::ranges::count_if(angles, [](double angle) { return angle < kSharpDihedralAngle; }));
@@ -74,8 +78,19 @@ class Measurement {
     const Vec3 normal = cross(sides.ab, sides.ac);
     const double double_area = norm(normal);
     if (double_area > 0) normals_[f] = normal / double_area;
+    measure_shape(sides, double_area);
     return compactness(double_area,
                        squared_norm(sides.ab) + squared_norm(sides.ac) + squared_norm(sides.ac - sides.ab));
+  }
+
+  // The smallest angle faces the shortest edge; the shortest altitude stands on the longest one.
+  void measure_shape(const Sides& sides, double double_area) {
+    std::array<double, 3> lengths{norm(sides.ab), norm(sides.ac), norm(sides.ac - sides.ab)};
+    std::ranges::sort(lengths);
+    const double cosine = (lengths[1] * lengths[1] + lengths[2] * lengths[2] - lengths[0] * lengths[0]) / 2;
+    smallest_angle_ = std::min(smallest_angle_, std::atan2(double_area, cosine));
+    worst_aspect_ratio_ = std::max(worst_aspect_ratio_, double_area > 0 ? lengths[2] * lengths[2] / double_area
+                                                                        : std::numeric_limits<double>::infinity());
   }
 
   bool has_area(FaceId f) const { return normals_[f] != Vec3{}; }
@@ -97,6 +112,7 @@ class Measurement {
   }
 
   const TriangleMesh& mesh_;
+  double smallest_angle_ = std::numbers::pi / 3, worst_aspect_ratio_ = 2 / std::numbers::sqrt3;
   PerFace<Vec3> normals_;  ///< of length 1; zero where there is none
 };
 

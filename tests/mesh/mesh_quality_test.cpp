@@ -31,6 +31,17 @@ TEST(MeshQuality, OfRegularSolids) {
   EXPECT_DOUBLE_EQ(cube.dihedral_angle.median, kPi / 2) << "twelve of eighteen";
 }
 
+TEST(MeshQuality, HasTheSmallestAngleAndTheWorstAspectRatio) {
+  const MeshQuality octa = mesh_quality(octahedron()), cube = mesh_quality(box({0, 0, 0}, {1, 1, 1}));
+  EXPECT_NEAR(octa.smallest_angle, kPi / 3, 1e-15);
+  EXPECT_NEAR(octa.worst_aspect_ratio, 2 / std::sqrt(3.0), 1e-15);
+  EXPECT_NEAR(cube.smallest_angle, kPi / 4, 1e-15);
+  EXPECT_NEAR(cube.worst_aspect_ratio, 2, 1e-15) << "half a square";
+  const MeshQuality needle = mesh_quality(make({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}));
+  EXPECT_EQ(needle.smallest_angle, 0);
+  EXPECT_EQ(needle.worst_aspect_ratio, std::numeric_limits<double>::infinity());
+}
+
 TEST(MeshQuality, DoesNotTellConvexEdgesFromConcaveOnes) {
   const TriangleMesh solid = subdivided(box({0, 0, 0}, {1, 1, 1}));
   const MeshQuality outside = mesh_quality(solid), inside = mesh_quality(inside_out(solid));

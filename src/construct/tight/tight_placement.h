@@ -36,11 +36,13 @@ class TightPlacement {
   Vec3 to_local(const Vec3& p) const { return (p - from_) / scale_; }
   std::size_t after(std::size_t i) const { return i + 1 == local_.size() ? 0 : i + 1; }
 
+  /// Whether the vertex may move there: the hull still encloses, and keeps its padding. Exact.
+  bool keeps_enclosing(const Vec3& to) const;
+
   Vec3 as_stored(const Vec3& p) const;
   double rounding() const { return rounding_; }
 
  private:
-  bool keeps_enclosing(const Vec3& to) const;
   std::optional<Vec3> propose(double margin);
   bool add_cuts(const Vec3& apex, double margin);
   std::optional<Vec3> deepest_point(const Vec3& apex, const Vec3& a, const Vec3& b);

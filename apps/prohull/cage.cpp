@@ -1,0 +1,207 @@
+#include "prohull/cage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "command.h"
+#include "prohull/error.h"
+#include "prohull/float32_hull.h"
+#include "prohull/mesh_io.h"
+
+namespace prohull::cli {
+namespace {
+
+struct Options {
+  std::filesystem::path in, out, inner, report;
+  InputOptions input;
+  std::string out_format;
+  CageOptions cage;
+  bool strict = false;
+};
+
+/// A hull and its file.
+struct File {
+  const char* side;
+  const CageHull* hull;
+  std::filesystem::path path;
+  std::string suffix;
+  bool certified = false;  ///< the hull, and the file holds its very bits
+
+  bool is_as_asked() const { return certified && hull->is_disjoint && hull->keeps_gap && hull->hull().target_reached; }
+};
+
+Cage cage_of(TriangleMesh mesh, const Options& options) {
+  ProgressLine line;
+  CageOptions cage = options.cage;
+  cage.progress = std::ref(line);
+  try {
+    if (cage.float32_coordinates) check_float32_spacing(mesh);
+    return build_cage(std::move(mesh), cage);
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
+  }
+}
+
+void write(File& file, Outputs& outputs) {
+  const EnclosingHull& hull = file.hull->hull();
+  file.certified = hull.certified && outputs.add(file.path, file.suffix, [&](const auto& path) {
+    write_mesh(path, hull.mesh);
+    return holds_triangles_of(path, hull.mesh);
+  });
+}
+
+// Summary and report
+
+void print_input(const Options& options, const Cage& cage) {
+  const RepairedMesh& input = cage.outer.made.input;
+  say("{}: {}, {}\n", input_name(options.in), counted(input.found.faces, "face", "faces"),
+      counted(input.found.components, "component", "components"));
+  for (const std::string& repair : describe(input.repairs)) say("  {}\n", repair);
+  if (!input.closed) say("  not closed: {}\n", input.obstacle);
+  for (const std::string& note : cage.notes) say("  {}\n", note);
+}
+
+void print_hull(const Cage& cage, const File& file) {
+  const EnclosingHull& hull = file.hull->hull();
+  say("{}: {} hull of {}, {}\n", output_name(file.path), file.side, counted(hull.mesh.face_count(), "face", "faces"),
+      file.hull->made.volume > 0 ? fmt::format("void {:.3f} %", 100 * hull.void_ratio)
+                                 : fmt::format("volume {:.4g}", signed_volume(hull.mesh)));
+  for (const std::string& note : hull.notes) say("  {}\n", note);
+  say("  triangles: smallest angle {:.3g} degrees, worst aspect ratio {:.3g}\n",
+      file.hull->quality.smallest_angle / kDegree, file.hull->quality.worst_aspect_ratio);
+  if (!hull.target_reached) say("  NOT the {} faces asked for: no fewer were possible\n", grouped(hull.target_faces));
+  if (hull.self_intersections > 0)
+    say("  NOT free of self-intersections: {}\n", counted(hull.self_intersections, "pair of faces", "pairs of faces"));
+  say("  gap: at least {:.6g}, proven{}\n", hull.padding,
+      file.hull->keeps_gap ? "" : fmt::format("; NOT the {:.6g} asked for: the mesh is too thin", cage.gap));
+  if (file.certified)
+    say("  certified: yes, the file as written {} the original\n",
+        file.side == std::string_view("inner") ? "is enclosed by" : "encloses");
+  else
+    say("  certified: NO: nothing was written; please report this mesh\n");
+}
+
+nlohmann::json facts_of(const File& file) {
+  const EnclosingHull& hull = file.hull->hull();
+  return {{"path", file.path.string()},
+          {"target_faces", hull.target_faces},
+          {"faces", hull.mesh.face_count()},
+          {"vertices", hull.mesh.vertex_count()},
+          {"volume", signed_volume(hull.mesh)},
+          {"void_ratio", file.hull->made.volume > 0 ? finite_or_null(hull.void_ratio) : nlohmann::json()},
+          {"source", name_of(source_names(), hull.source)},
+          {"certified", file.certified},
+          {"disjoint", file.hull->is_disjoint},
+          {"gap", hull.padding},
+          {"keeps_gap", file.hull->keeps_gap},
+          {"self_intersections", hull.self_intersections},
+          {"quality", facts(file.hull->quality)},
+          {"smallest_angle_degrees", file.hull->quality.smallest_angle / kDegree},
+          {"worst_aspect_ratio", finite_or_null(file.hull->quality.worst_aspect_ratio)},
+          {"target_reached", hull.target_reached},
+          {"notes", hull.notes}};
+}
+
+nlohmann::json report_of(const Options& options, const Cage& cage, const std::vector<File>& files) {
+  nlohmann::json in = facts(cage.outer.made.input.found);
+  in["path"] = options.in.string();
+  in["repairs"] = describe(cage.outer.made.input.repairs);
+  in["notes"] = cage.notes;
+  nlohmann::json report{{"input", in},
+                        {"gap", cage.gap},
+                        {"options",
+                         {{"faces", options.cage.outer_faces},
+                          {"inner_faces", options.cage.inner_faces},
+                          {"scale", options.input.factor()},
+                          {"gap", options.cage.gap},
+                          {"even", options.cage.even},
+                          {"tight", options.cage.tight},
+                          {"float32_coordinates", options.cage.float32_coordinates}}}};
+  for (const File& file : files) report[file.side] = facts_of(file);
+  return report;
+}
+
+std::string inner_suffix(const Options& options) {
+  return options.inner.empty() ? "" : output_suffix(options.inner, mesh_outputs());
+}
+
+int run_cage(Options options) {
+  const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
+  const std::string suffix_of_inner = inner_suffix(options);
+  check_files({options.in}, {options.out, options.inner, options.report});
+  const auto keeps_float32 = [](const std::string& ending) {
+    return !ending.empty() && stores_float32(mesh_format("hull" + ending));
+  };
+  options.cage.float32_coordinates = keeps_float32(suffix) || keeps_float32(suffix_of_inner);
+  if (options.inner.empty())
+    options.cage.inner_faces = 0;
+  else if (options.cage.inner_faces == 0)
+    options.cage.inner_faces = options.cage.outer_faces;
+  const Stopwatch building;
+  const Cage cage = cage_of(read_input(options.in, options.input, NonFinite::Keep), options);
+  const double build_seconds = building.seconds();
+  std::vector<File> files{{"outer", &cage.outer, options.out, suffix}};
+  if (cage.inner) files.push_back({"inner", &*cage.inner, options.inner, suffix_of_inner});
+  Outputs outputs;
+  for (File& file : files) write(file, outputs);
+  outputs.add_report(options.report, report_of(options, cage, files));
+  outputs.commit();
+  print_input(options, cage);
+  for (const File& file : files) print_hull(cage, file);
+  const bool is_disjoint = std::ranges::all_of(files, [](const File& file) { return file.hull->is_disjoint; });
+  if (is_disjoint)
+    say("disjoint: yes, no face touches {}or itself\n", cage.inner ? "the mesh, the other hull " : "the mesh ");
+  else
+    say("disjoint: NO\n");
+  say("  read, build and verify {:.2f} s\n", build_seconds);
+  const bool certified = std::ranges::all_of(files, &File::certified);
+  const bool as_asked = std::ranges::all_of(files, &File::is_as_asked);
+  return !certified || (options.strict && !as_asked) ? kAnswerIsNo : kDone;
+}
+
+}  // namespace
+
+void add_cage(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<Options>();
+  CageOptions& cage = options->cage;
+  CLI::App& command = *app.add_subcommand(
+      "cage",
+      "Builds a cage of a mesh: an outer hull, and with --inner an inner hull, that keep a gap from the mesh. No face "
+      "of one touches a face of another, which is decided exactly. So the space between them can be filled with "
+      "tetrahedra, and every point of the mesh has coordinates in the outer hull.");
+  command.add_option("in", options->in, std::string("Mesh to build a cage of. ") + kMeshFiles)
+      ->required()
+      ->type_name("IN");
+  add_format_option(command, options->input);
+  add_unit_options(command, options->input, "the mesh");
+  add_mesh_output_options(command, options->out, options->out_format, "the outer hull");
+  CLI::Option* const inner =
+      command.add_option("--inner", options->inner, "Also build an inner hull, and write it to this file.")
+          ->type_name("FILE");
+  add_number(command, "--faces", cage.outer_faces, {4, 1e9}, "Number of faces that a hull should have, at least 4.")
+      ->capture_default_str();
+  add_number(command, "--inner-faces", cage.inner_faces, {4, 1e9},
+             "Number of faces that the inner hull should have, if it is not that of --faces.")
+      ->needs(inner);
+  add_number(command, "--gap", cage.gap, kPositive,
+             "Distance that both hulls keep from the mesh, at least, in the mesh's unit. Without this option it is "
+             "0.1 % of the diagonal of the mesh's bounding box. Where the mesh is too thin, the inner hull keeps less.")
+      ->type_name("D");
+  command.add_flag("--even", cage.even,
+                   "Make all triangles of the hulls well shaped, as simulation needs them: split, flip and collapse "
+                   "edges, and move vertices. The hulls then have more void.");
+  command.add_flag("--tight", cage.tight,
+                   "Start from hulls of least void, as `prohull build --tight` makes them, which takes longer.");
+  add_threads_option(command, cage.threads, "The cage is the same for any number.");
+  command.add_flag("--strict", options->strict,
+                   "Exit with code 1 if a number of faces or the gap is not reached, or if a hull intersects itself.");
+  add_report_option(command, options->report);
+  add_examples(command, {"prohull cage horse.ply -o cage.obj",
+                         "prohull cage horse.ply --faces 600 -o outer.obj --inner inner.obj --inner-faces 300",
+                         "prohull cage organ.stl --unit mm --gap 0.002 --even -o outer.ply --report cage.json"});
+  command.callback([options, &run] { run = [options] { return run_cage(*options); }; });
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,227 @@
+#include "prohull/cage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/text.h"
+#include "construct/even/even_hull.h"
+#include "construct/tight/original.h"
+#include "construct/turned.h"
+#include "enclose/surface_of.h"
+#include "prohull/collide.h"
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
+#include "prohull/padded_hull.h"
+#include "prohull/tight_hull.h"
+#include "prohull/verification.h"
+
+namespace prohull {
+namespace {
+
+constexpr double kHair = 1 + 1e-6;  ///< on the gap, for rounding
+
+double finite_diagonal(const TriangleMesh& mesh) {
+  Box box;
+  for (const FaceId f : mesh.triangles.ids())
+    if (const Triangle t = mesh.triangle(f); is_finite(t.a) && is_finite(t.b) && is_finite(t.c))
+      box.extend(t.a), box.extend(t.b), box.extend(t.c);
+  return box.diagonal();
+}
+
+class CageMaker {
+ public:
+  CageMaker(TriangleMesh triangles, const CageOptions& options) : options_(options), triangles_(std::move(triangles)) {
+    cage_.gap = options.gap > 0 ? options.gap : kCageGap * finite_diagonal(triangles_);
+    if (!(cage_.gap > 0))
+      throw InputError(Defect::InvalidOption, "the mesh has no size that a gap could be taken from: give the gap");
+  }
+
+  Cage run() {
+    const auto make = [&](HullSide side, std::size_t faces) {
+      return CageHull{.made = options_.even ? even_hull(side, faces) : hull(side, faces)};
+    };
+    cage_.outer = make(HullSide::Outer, options_.outer_faces);
+    if (options_.inner_faces > 0) cage_.inner = make(HullSide::Inner, options_.inner_faces);
+    note_contacts();
+    return std::move(cage_);
+  }
+
+ private:
+  EnclosingHulls build(HullSide side, Repair repair, std::size_t faces) const;
+  EnclosingHulls outer_hull(std::size_t faces) const;
+  EnclosingHulls inner_hull(std::size_t faces) const;
+  EnclosingHulls hull(HullSide side, std::size_t faces) const;
+  EnclosingHulls even_hull(HullSide side, std::size_t faces) const;
+  void move_inwards(EnclosingHulls& made) const;
+  void make_even(EnclosingHulls& made, HullSide side) const;
+  bool accept(EnclosingHulls& made, HullSide side, TriangleMesh mesh) const;
+  double distance_of(const EnclosingHulls& made, const TriangleMesh& mesh) const;
+  bool is_proven(const EnclosingHulls& made, HullSide side, const TriangleMesh& mesh) const;
+  void note_contacts();
+
+  const CageOptions& options_;
+  TriangleMesh triangles_;
+  Cage cage_;
+};
+
+EnclosingHulls CageMaker::outer_hull(std::size_t faces) const {
+  EnclosingHulls made = build(HullSide::Outer, Repair::Auto, faces);
+  if (made.hulls[0].self_intersections == 0) return made;
+  // As where faces have passed through each other in a narrow gap.
+  EnclosingHulls wrapped = build(HullSide::Outer, Repair::Wrap, faces);
+  return wrapped.hulls[0].self_intersections == 0 ? wrapped : made;
+}
+
+EnclosingHulls CageMaker::inner_hull(std::size_t faces) const {
+  EnclosingHulls made = build(HullSide::Inner, Repair::Auto, faces);
+  move_inwards(made);
+  return made;
+}
+
+EnclosingHulls CageMaker::hull(HullSide side, std::size_t faces) const {
+  return side == HullSide::Outer ? outer_hull(faces) : inner_hull(faces);
+}
+
+// Room is left for splits. A hull that begins with more faces, or with fewer, may do where this one does not.
+EnclosingHulls CageMaker::even_hull(HullSide side, std::size_t faces) const {
+  constexpr double kBegin[]{0.8, 1, 0.6, 0.4};
+  const auto rank = [&](const EnclosingHulls& made) {
+    const double compactness = mesh_quality(made.hulls[0].mesh).compactness.worst;
+    return std::pair(made.hulls[0].mesh.face_count() <= faces, std::min(compactness, kEvenCompactness));
+  };
+  std::optional<EnclosingHulls> best;
+  std::optional<InputError> why_not;
+  for (const double part : kBegin) try {
+      EnclosingHulls made = hull(side, std::max<std::size_t>(4, std::size_t(std::llround(part * double(faces)))));
+      made.hulls[0].target_faces = faces;
+      make_even(made, side);
+      if (!best || rank(made) > rank(*best)) best = std::move(made);
+      if (rank(*best) == std::pair(true, kEvenCompactness)) break;
+    } catch (const InputError& error) {
+      if (error.defect() != Defect::NoCertificate) throw;
+      why_not = error;
+    }
+  if (!best) throw InputError(*why_not);
+  best->hulls[0].target_reached = best->hulls[0].mesh.face_count() <= faces;
+  return std::move(*best);
+}
+
+EnclosingHulls CageMaker::build(HullSide side, Repair repair, std::size_t faces) const {
+  EnclosingOptions how;
+  how.hull.side = side;
+  how.hull.relax_guards = true;
+  how.hull.float32_coordinates = options_.float32_coordinates;
+  how.hull.threads = options_.threads;
+  how.tight = options_.tight;
+  how.repair = repair;
+  how.progress = options_.progress;
+  if (side == HullSide::Outer) how.padding = cage_.gap;
+  return enclosing_hulls(triangles_, {&faces, 1}, how);
+}
+
+double CageMaker::distance_of(const EnclosingHulls& made, const TriangleMesh& mesh) const {
+  return separation(surface_of(mesh), {}, surface_of(triangles_to_cover(made, made.hulls[0])), {}).lower;
+}
+
+bool CageMaker::is_proven(const EnclosingHulls& made, HullSide side, const TriangleMesh& mesh) const {
+  const VerificationOptions options{.max_offenders = 0, .progress = options_.progress};
+  const auto& closed = made.input.closed;
+  const bool encloses =
+      !closed ||
+      verify_hull(mesh, is_closed(made.input.original) ? made.input.original : closed->mesh, side, options).encloses;
+  if (side == HullSide::Inner) return encloses;
+  const TriangleMesh all = triangles_to_cover(made, made.hulls[0]);
+  return encloses && verify_cover(all, mesh, {.max_offenders = 0, .progress = options_.progress}).encloses;
+}
+
+/// Takes the mesh for the hull if it is proven to be one, strictly apart from the triangles, and no worse.
+bool CageMaker::accept(EnclosingHulls& made, HullSide side, TriangleMesh mesh) const {
+  EnclosingHull& hull = made.hulls[0];
+  const std::size_t self_intersections = count_self_intersections(mesh);
+  if (self_intersections > hull.self_intersections) return false;
+  const double distance = distance_of(made, mesh);
+  if (!(distance > 0) || distance < std::min(hull.padding, cage_.gap) || !is_proven(made, side, mesh)) return false;
+  hull.mesh = std::move(mesh);
+  hull.levels.reset();
+  hull.padding = distance;
+  hull.self_intersections = self_intersections;
+  hull.proof = "padding";
+  hull.target_reached = hull.mesh.face_count() <= hull.target_faces;
+  if (made.volume > 0) hull.void_ratio = signed_volume(hull.mesh) / made.volume - 1;
+  return true;
+}
+
+// What is missing of the gap is added, and measured again. Where the mesh is too thin for that, as much of the gap is
+// kept as can be.
+void CageMaker::move_inwards(EnclosingHulls& made) const {
+  constexpr int kMostAttempts = 4;
+  constexpr double kLeast = 1e-3;  // of the gap
+  const TriangleMesh before = turned(made.hulls[0].mesh);
+  bool found = false;
+  for (double aim = kHair * cage_.gap; aim > kLeast * cage_.gap; aim /= 4) {
+    double added = aim - distance_of(made, turned(before));
+    for (int i = 0; i < kMostAttempts && added > 0; ++i) {
+      const TriangleMesh moved = turned(padded_hull(before, added, options_.float32_coordinates).mesh);
+      found |= accept(made, HullSide::Inner, moved);
+      if (found && made.hulls[0].padding >= cage_.gap) return;
+      added += 2 * std::max(0.0, aim - distance_of(made, moved));
+    }
+    if (found) return;
+  }
+  throw InputError(Defect::NoCertificate,
+                   fmt::format("no inner hull of {} faces lies strictly inside of the mesh; try more faces",
+                               made.hulls[0].target_faces));
+}
+
+void CageMaker::make_even(EnclosingHulls& made, HullSide side) const {
+  const EnclosingHull& hull = made.hulls[0];
+  const Original original =
+      Original::padded_triangles(triangles_to_cover(made, hull), std::min(hull.padding, cage_.gap));
+  const EvenOptions how{.max_faces = hull.target_faces,
+                        .compactness = kEvenCompactness,
+                        .float32_coordinates = options_.float32_coordinates,
+                        .progress = options_.progress};
+  const bool inner = side == HullSide::Inner;
+  const TriangleMesh even = prohull::even_hull(inner ? turned(hull.mesh) : hull.mesh, original, how);
+  accept(made, side, inner ? turned(even) : even);
+}
+
+void CageMaker::note_contacts() {
+  const auto finish = [&](CageHull& side) {
+    const EnclosingHull& hull = side.hull();
+    side.keeps_gap = hull.padding >= cage_.gap;
+    side.is_disjoint = hull.padding > 0 && hull.self_intersections == 0;
+    side.quality = mesh_quality(hull.mesh);
+    if (options_.even && side.quality.compactness.worst < kEvenCompactness)
+      cage_.notes.push_back(fmt::format(
+          "not all triangles of {} faces could be made even: the thinnest one of the {} hull has a compactness of "
+          "{:.2g}, below {:g}; allow more faces",
+          grouped(hull.mesh.face_count()), &side == &cage_.outer ? "outer" : "inner", side.quality.compactness.worst,
+          kEvenCompactness));
+  };
+  finish(cage_.outer);
+  if (!cage_.inner) return;
+  finish(*cage_.inner);
+  if (collide(surface_of(cage_.outer.hull().mesh), {}, surface_of(cage_.inner->hull().mesh), {}))
+    cage_.outer.is_disjoint = cage_.inner->is_disjoint = false;
+}
+
+void require_usable(const CageOptions& options) {
+  const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
+  if (!(options.gap >= 0 && std::isfinite(options.gap)))
+    refuse(fmt::format("the gap is {:g}; it must be a number of at least 0", options.gap));
+  if (options.outer_faces < 4 || (options.inner_faces > 0 && options.inner_faces < 4))
+    refuse("a hull has at least 4 faces");
+}
+
+}  // namespace
+
+Cage build_cage(TriangleMesh triangles, const CageOptions& options) {
+  require_usable(options);
+  return CageMaker(std::move(triangles), options).run();
+}
+
+}  // namespace prohull

@@ -1,0 +1,42 @@
+#!/bin/sh
+# Drives `prohull cage` as a user would: cage_test.sh PROHULL
+# Each check names what it defends; the last line counts them.
+set -u
+prohull=$1
+. "$(dirname "$0")/checks.sh"
+$prohull sample torus --faces 600 -o torus.ply >/dev/null
+cage="$prohull cage torus.ply --faces 150"
+
+# --- the main job ---
+expect 0 "a pair" $cage -o outer.obj --inner inner.obj --strict --report pair.json
+says out "a pair: the outer hull" "outer.obj: outer hull of 150 faces"
+says out "a pair: the inner hull" "inner.obj: inner hull of 150 faces"
+says out "a pair: shapes" "smallest angle"
+says out "a pair: the gap" "gap: at least"
+says out "a pair: disjoint" "disjoint: yes, no face touches the mesh, the other hull or itself"
+says pair.json "a pair: report" '"disjoint": true'
+expect 0 "the outer hull encloses" $prohull verify outer.obj torus.ply
+expect 0 "the inner hull is enclosed" $prohull verify torus.ply inner.obj
+expect 0 "an outer hull alone" $cage -o alone.obj
+is "it is that of the pair" cmp alone.obj outer.obj
+expect 0 "even" $cage --even -o even.obj --strict --report even.json
+is "even: no angle below 17 degrees" \
+  test "$(sed -n 's/.*"smallest_angle_degrees": \([0-9]*\)\..*/\1/p' even.json)" -ge 17
+expect 0 "a gap" $cage --gap 0.05 -o wide.stl --report wide.json
+says wide.json "a gap is kept" '"keeps_gap": true'
+expect 0 "fewer faces inside" $cage -o outer.obj --inner few.obj --inner-faces 100
+says out "fewer faces inside" "few.obj: inner hull of 100 faces"
+expect 0 "standard output" $cage -o - --out-format obj
+is "standard output has the same bytes" cmp out alone.obj
+
+# --- what cannot be ---
+expect 2 "no inner hull, but its faces" $cage -o a.obj --inner-faces 100
+says err "no inner hull, but its faces" "--inner"
+expect 2 "two hulls in one file" $cage -o a.obj --inner a.obj
+expect 2 "a gap of nothing" $cage -o a.obj --gap 0
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n' >sheet.off
+expect 0 "a sheet" $prohull cage sheet.off -o sheet.obj --strict
+expect 3 "an inner hull of a sheet" $prohull cage sheet.off -o a.obj --inner b.obj
+says err "an inner hull of a sheet: where" "sheet.off"
+is "nothing is written then" test ! -e a.obj -a ! -e b.obj
+count_checks
