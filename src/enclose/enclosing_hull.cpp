@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "construct/lifting.h"
 #include "construct/shape_guards.h"
+#include "enclose/tolerances.h"
 #include "geometry/float32.h"
 #include "geometry/usable_size.h"
 #include "mesh/area.h"
@@ -25,6 +26,7 @@
 #include "prohull/padded_hull.h"
 #include "prohull/replay.h"
 #include "prohull/tight_hull.h"
+#include "prohull/tolerances.h"
 #include "prohull/verification.h"
 #include "prohull/wrap.h"
 
@@ -66,7 +68,14 @@ class Ladder {
       : options_(options), target_faces_(target_faces), fewest_faces_(std::ranges::min(target_faces)) {
     Timer timer(made_.repair_seconds);
     ProgressMeter(options_.progress, "repair").at(0);
+    const TriangleMesh given = has_tolerances() ? triangles : TriangleMesh{};
     made_.input = prepared_for_hulls(std::move(triangles), options);
+    if (has_tolerances()) {
+      if (!made_.input.closed)
+        throw InputError(Defect::OpenEdge, made_.input.obstacle +
+                                               "; faces have tolerances, and only a closed mesh still has these faces");
+      tolerances_ = carried_tolerances(given, options.hull.tolerances, made_.input.closed->mesh);
+    }
     diagonal_ = bounding_box(made_.input.original).diagonal();
     if (made_.input.closed && options_.repair != Repair::Wrap) {
       const ClosedMesh& closed = *made_.input.closed;
@@ -126,7 +135,8 @@ class Ladder {
 
   bool is_outer() const { return options_.hull.side == HullSide::Outer; }
   bool is_padded() const { return options_.padding > 0; }
-  bool is_free() const { return is_outer() && options_.repair != Repair::None; }
+  bool has_tolerances() const { return !options_.hull.tolerances.empty(); }
+  bool is_free() const { return is_outer() && options_.repair != Repair::None && !has_tolerances(); }
 
   EnclosingHull hull_of(std::size_t target_faces);
   bool is_worth_the_convex_hull(const std::optional<EnclosingHull>& best);
@@ -165,8 +175,10 @@ class Ladder {
   double slack_of(const EnclosingHull& hull) const;
   double void_of(const EnclosingHull& hull) const { return signed_volume(hull.mesh) / made_.volume - 1; }
   HullOptions hull_options(std::size_t target_faces) const;
+  void require_tolerances(const TriangleMesh& hull) const;
 
   const EnclosingOptions& options_;
+  PerFace<double> tolerances_;  ///< of the closed mesh
   const std::span<const std::size_t> target_faces_;
   const std::size_t fewest_faces_;
   EnclosingHulls made_;
@@ -192,7 +204,8 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
     if (!best || is_better(hull, *best)) best = std::move(hull);
   };
   if (is_worth_the_mesh()) try_solid(0);
-  if (!is_outer() && options_.repair != Repair::None && !options_.levels && !(options_.tight && best->certified)) {
+  if (!is_outer() && options_.repair != Repair::None && !has_tolerances() && !options_.levels &&
+      !(options_.tight && best->certified)) {
     constexpr double kLittleVoid = 0.1;
     is_moved_ = true;
     if (!is_as_asked(*best) || void_of(*best) < -kLittleVoid) try_solid(0);
@@ -217,6 +230,7 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
                                  "--repair wrap, or another format if that keeps float32 only",
                                  target_faces, notes_.back()));
   }
+  if (has_tolerances()) require_tolerances(best->mesh);
   note_solid(made_.solids[best->solid]);
   return std::move(*best);
 }
@@ -367,8 +381,24 @@ bool Ladder::is_as_asked(const EnclosingHull& hull) const {
 HullOptions Ladder::hull_options(std::size_t target_faces) const {
   HullOptions options = options_.hull;
   options.target_faces = target_faces;
+  options.tolerances = tolerances_;
   options.progress = options_.progress;
   return options;
+}
+
+void Ladder::require_tolerances(const TriangleMesh& hull) const {
+  const ToleranceReport found = verify_tolerances(hull, made_.input.closed->mesh, tolerances_, options_.progress);
+  if (found.holds) return;
+  const std::string what =
+      found.missing_faces > 0
+          ? fmt::format("{} that should be kept {} not in the hull", counted(found.missing_faces, "face", "faces"),
+                        found.missing_faces == 1 ? "is" : "are")
+          : fmt::format("{} farther from the hull than allowed", counted(found.far_faces, "face is", "faces are"));
+  throw InputError(Defect::NoCertificate,
+                   what + (options_.hull.float32_coordinates
+                               ? ": the file has float32 coordinates, which move vertices a little; write a .ply, .obj "
+                                 "or .off file, which keep doubles"
+                               : "; please report this mesh"));
 }
 
 // The hull with the coordinates that a file keeps, if it has such.
@@ -541,7 +571,8 @@ bool Ladder::encloses_mesh(EnclosingHull& hull) const {
   }
   hull.proof = "enclosure";
   const TriangleMesh& mesh = is_original_closed_ ? made_.input.original : made_.input.closed->mesh;
-  const bool may_lift = is_outer() && solid.source == Source::Mesh && !options_.levels && hull.padding == 0;
+  const bool may_lift =
+      is_outer() && solid.source == Source::Mesh && !options_.levels && hull.padding == 0 && !has_tolerances();
   const VerificationOptions options{.max_offenders = may_lift ? kMostProtrusions : 0, .progress = options_.progress};
   const auto is_proven = [&](const Verification& found) {
     return found.encloses && (is_original_closed_ || !is_outer() || covers(hull.mesh, made_.input.dropped));
@@ -667,6 +698,21 @@ void require_usable_padding(const EnclosingOptions& options) {
   if (options.padding > 0 && options.levels) refuse("a hull with padding has no levels: ask for one of the two");
 }
 
+void require_usable_tolerances(const TriangleMesh& triangles, const EnclosingOptions& options) {
+  const std::size_t given = options.hull.tolerances.size();
+  if (given == 0) return;
+  const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
+  if (given != triangles.face_count())
+    refuse(fmt::format("{} tolerances for {} faces: there must be one for each face", given, triangles.face_count()));
+  if (!std::ranges::all_of(options.hull.tolerances, [](double tolerance) { return tolerance >= 0; }))
+    refuse("tolerances must be at least 0; 0 keeps a face, infinity allows any distance");
+  if (options.tight) refuse("a tight hull has no tolerances for single faces: build it without tight");
+  if (options.padding > 0)
+    refuse("a hull with padding has no tolerances for single faces: all its faces move outwards");
+  if (options.repair == Repair::Wrap)
+    refuse("a wrap has none of the faces that have a tolerance: choose another repair");
+}
+
 }  // namespace
 
 Names<Repair> repair_names() { return kRepairNames; }
@@ -704,6 +750,7 @@ EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size
   if (options.tight && options.levels)
     throw InputError(Defect::InvalidOption, "a tight hull has no levels: ask for one of the two");
   require_usable_padding(options);
+  require_usable_tolerances(triangles, options);
   if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
     throw InputError(Defect::InvalidOption, "nothing is known to be inside of a wrap: inner hulls do without");
   if (options.hull.float32_coordinates) check_float32_spacing(triangles);
