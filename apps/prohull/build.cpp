@@ -107,10 +107,19 @@ bool can_be_kept(const Triangle& t) {
   return is_finite(t.a) && is_finite(t.b) && is_finite(t.c) && t.a != t.b && t.b != t.c && t.c != t.a;
 }
 
+PerFace<std::uint32_t> faces_of_regions(const BuildOptions& options, const std::vector<Region>& regions,
+                                        const TriangleMesh& mesh, const MeshMarks& marks) {
+  try {
+    return regions_of_faces(mesh, marks, regions);
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.tolerance), error.what()));
+  }
+}
+
 void set_regions(BuildOptions& options, BuildOutcome& outcome, const TriangleMesh& mesh, const MeshMarks& marks) {
   Regions& regions = outcome.regions;
   regions.all = read_regions(options.tolerance);
-  const PerFace<std::uint32_t> region_of = regions_of_faces(mesh, marks, regions.all);
+  const PerFace<std::uint32_t> region_of = faces_of_regions(options, regions.all, mesh, marks);
   options.enclosing.hull.tolerances = tolerances_of(region_of, regions.all);
   const TriangleMesh placed = minus(mesh, outcome.offset);
   regions.faces.assign(regions.all.size(), {placed.positions, {}});

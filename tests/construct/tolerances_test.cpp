@@ -55,7 +55,8 @@ TEST(Tolerances, OfZeroKeepFacesBitForBit) {
     const TriangleMesh hull = result.hull.base();
     EXPECT_LT(hull.face_count(), kept + ball.face_count() / 5);
     EXPECT_EQ(verify_tolerances(hull, ball, tolerances).missing_faces, 0u);
-    EXPECT_TRUE(side == HullSide::Outer ? verify_enclosure(ball, hull).encloses : verify_enclosure(hull, ball).encloses);
+    EXPECT_TRUE(side == HullSide::Outer ? verify_enclosure(ball, hull).encloses
+                                        : verify_enclosure(hull, ball).encloses);
     EXPECT_GT(verify_tolerances(build_hull(ball, {.target_faces = 200, .side = side}).hull.base(), ball, tolerances)
                   .missing_faces,
               0u);

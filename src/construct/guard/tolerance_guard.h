@@ -13,8 +13,8 @@ namespace prohull {
 /// How far a hull under construction may go from the mesh, and how far it has gone. Empty without tolerances.
 ///
 /// Each point of the hull stands for a point of the mesh, and each point of the mesh has one that stands for it. A face
-/// has the least tolerance of the faces that its points stand for. On such faces the linear interpolation of
-/// `deviations` bounds the distance between the two points; elsewhere it says nothing.
+/// has the least tolerance of the faces that its points stand for. Where a point stands for a face with a tolerance,
+/// the linear interpolation of `deviations` bounds the distance between the two; elsewhere it says nothing.
 struct Tolerances {
   static constexpr double kAny = std::numeric_limits<double>::infinity();
 
@@ -28,11 +28,11 @@ struct Tolerances {
 ///
 /// Follows Cohen, Manocha and Olano 1997 (Simplifying polygonal models using successive mappings): where the star and
 /// its replacement both project to a plane without folds, the points that project to the same place stand for each
-/// other. The mapping is linear in each cell of the overlay of the two projections, so that the corners of the cells
-/// bound it everywhere: the ends of the edge, the new vertex, and the points where edges cross. Departs from the
-/// paper, which adds the greatest displacements: here deviations are interpolated.
+/// other, whichever plane it is. The mapping is linear in each cell of the overlay of the two projections, so that the
+/// corners of the cells bound it everywhere: the ends of the edge, the new vertex, and the points where edges cross.
+/// Departs from the paper, which adds the greatest displacements: here deviations are interpolated.
 ///
-/// Computes in floating point. What it lets pass is checked again when the hull is done (verify_region).
+/// Computes in floating point. What it lets pass is checked again when the hull is done (verify_tolerances).
 class ToleranceGuard {
  public:
   explicit ToleranceGuard(Tolerances& tolerances) : tolerances_(tolerances) {}
@@ -58,7 +58,8 @@ class ToleranceGuard {
   };
 
   void set_old_faces(const HalfEdgeMesh& mesh, const Star& star);
-  bool set_points(const Star& star, const Vec3& apex);
+  void set_points(const Star& star, const Vec3& apex);
+  bool holds_along(const Vec3& direction);
   bool project_without_folds(const Vec3& direction);
   Corners new_face(std::size_t i) const { return {&apex_, &link_[i], &link_[i + 1 == link_.size() ? 0 : i + 1]}; }
   void bound_apex();
@@ -69,6 +70,7 @@ class ToleranceGuard {
   void set_new_tolerances();
   bool is_within_tolerances() const;
 
+  static std::array<Vec3, 3> directions(const Star& star, const Vec3& apex);
   static double double_area(const Corners& corners);
   static Weights weights_at(const Point& p, const Corners& corners);
   static bool overlap(const Corners& a, const Corners& b);
