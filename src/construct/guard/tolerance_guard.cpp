@@ -12,6 +12,9 @@ constexpr double kRounding = 1e-9;
 // The rest is for the proof, which ends when it knows a distance to 1 %, and for the rounding of coordinates.
 constexpr double kUsedPart = 0.98;
 
+// Faces that are seen from the side have an area that is mostly rounding.
+constexpr double kLeastPartSeen = 0.02;
+
 }  // namespace
 
 bool ToleranceGuard::would_exceed(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex) {
@@ -24,8 +27,8 @@ bool ToleranceGuard::would_exceed(const HalfEdgeMesh& mesh, const Star& star, co
   return std::ranges::none_of(directions(star, apex), [&](const Vec3& direction) { return holds_along(direction); });
 }
 
-// Along any of them a mapping proves the bound. On machined parts three prove it for a quarter more of the collapses
-// than the first one alone.
+// A mapping along any of them proves the bound. On the sample bracket, three leave 24 % fewer faces within a tolerance
+// of 1 % of its diagonal than the first one alone.
 std::array<Vec3, 3> ToleranceGuard::directions(const Star& star, const Vec3& apex) {
   Vec3 by_area, by_face;
   for (std::size_t i = 0; i < star.planes.size(); ++i) {
@@ -86,12 +89,23 @@ bool ToleranceGuard::project_without_folds(const Vec3& direction) {
   const auto project = [&](Point& p) { p.x = dot(u, p.local), p.y = dot(v, p.local); };
   for (Point& p : link_) project(p);
   project(o_), project(d_), project(apex_);
-  const auto is_upright = [](const Corners& corners) { return double_area(corners) > kRounding * kRounding; };
+  const auto is_upright = [](const Corners& corners) {
+    const auto& [a, b, c] = corners;
+    return double_area(corners) > kLeastPartSeen * norm(cross(b->local - a->local, c->local - a->local));
+  };
   for (const OldFace& face : old_faces_)
     if (!is_upright(face.corners)) return false;
   for (std::size_t i = 0; i < link_.size(); ++i)
     if (!is_upright(new_face(i))) return false;
-  return true;
+  return winds_once();
+}
+
+// The link goes counter-clockwise around the new vertex, but may do so twice. If it does not, its projection is a
+// simple polygon, over which both stars lie once.
+bool ToleranceGuard::winds_once() const {
+  int turns = 0;
+  for (std::size_t i = 0; i < link_.size(); ++i) turns += link_[i].y <= apex_.y && new_face(i)[2]->y > apex_.y;
+  return turns == 1;
 }
 
 // The least deviation of the new vertex that bounds all corners of the overlay, where they lie in faces with a

@@ -61,6 +61,7 @@ class ToleranceGuard {
   void set_points(const Star& star, const Vec3& apex);
   bool holds_along(const Vec3& direction);
   bool project_without_folds(const Vec3& direction);
+  bool winds_once() const;
   Corners new_face(std::size_t i) const { return {&apex_, &link_[i], &link_[i + 1 == link_.size() ? 0 : i + 1]}; }
   void bound_apex();
   void bound_at_apex();
