@@ -398,7 +398,8 @@ void Ladder::require_tolerances(const TriangleMesh& hull) const {
                    what + (options_.hull.float32_coordinates
                                ? ": the file has float32 coordinates, which move vertices a little; write a .ply, .obj "
                                  "or .off file, which keep doubles"
-                               : "; please report this mesh"));
+                               : "; where the mesh intersects itself, vertices of the hull are lifted over its folds: "
+                                 "remove the folds, or allow a small distance there"));
 }
 
 // The hull with the coordinates that a file keeps, if it has such.
@@ -571,8 +572,7 @@ bool Ladder::encloses_mesh(EnclosingHull& hull) const {
   }
   hull.proof = "enclosure";
   const TriangleMesh& mesh = is_original_closed_ ? made_.input.original : made_.input.closed->mesh;
-  const bool may_lift =
-      is_outer() && solid.source == Source::Mesh && !options_.levels && hull.padding == 0 && !has_tolerances();
+  const bool may_lift = is_outer() && solid.source == Source::Mesh && !options_.levels && hull.padding == 0;
   const VerificationOptions options{.max_offenders = may_lift ? kMostProtrusions : 0, .progress = options_.progress};
   const auto is_proven = [&](const Verification& found) {
     return found.encloses && (is_original_closed_ || !is_outer() || covers(hull.mesh, made_.input.dropped));
