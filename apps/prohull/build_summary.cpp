@@ -122,9 +122,11 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
         hull.padding);
 }
 
+// Without regions the report is as it was before there were any.
 nlohmann::json facts_of(const RefusalCounts& counts) {
   nlohmann::json json;
-  for (const auto& [name, refusal] : refusal_names()) json[std::string(name)] = counts[refusal];
+  for (const auto& [name, refusal] : refusal_names())
+    if (refusal != Refusal::Tolerance || counts[refusal] > 0) json[std::string(name)] = counts[refusal];
   return json;
 }
 
