@@ -16,7 +16,7 @@ endmacro()
 room(base      OWNS error names progress)
 room(geometry  OWNS geometry shapes                                                     MAY base)
 room(parallel                                                                    MAY base)
-room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality      MAY geometry base)
+room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality mesh_marks regions MAY geometry base)
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
 room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base
                                                                                      prohull/enclosure)  # is_closed
@@ -25,7 +25,7 @@ room(io        OWNS mesh_io hull_file query_io                                  
 room(repair    OWNS openings repair                                              MAY mesh geometry base)
 room(construct OWNS hull_builder tight_hull float32_hull padded_hull             MAY hull mesh geometry parallel base)
 # Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges.
-room(verify    OWNS enclosure verification union_verification replay distance    MAY geometry parallel base prohull/ids
+room(verify    OWNS enclosure verification union_verification replay distance tolerances MAY geometry parallel base prohull/ids
                                                                                      prohull/triangle_mesh
                                                                                      prohull/vertex_split
                                                                                      prohull/progressive_hull)

@@ -13,6 +13,7 @@
 #include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
 #include "recenter.h"
+#include "regions_file.h"
 
 namespace prohull::cli {
 
@@ -44,7 +45,9 @@ std::string check_options(const BuildOptions& options) {
     refuse("--allow-self-intersections is not for inner hulls: one that intersects itself could stick out of the mesh");
   std::vector<std::filesystem::path> files{options.hierarchy, options.report};
   for (const std::size_t faces : options.faces) files.push_back(path_for(options.out, faces));
-  check_files({options.in}, files);
+  std::vector<std::filesystem::path> inputs{options.in};
+  if (!options.tolerance.empty()) inputs.push_back(options.tolerance);
+  check_files(inputs, files);
   return suffix;
 }
 
@@ -90,7 +93,37 @@ void measure(BuildOutcome& outcome) {
         written.hull.mesh, made.input.closed ? made.input.closed->mesh : triangles_to_cover(made, written.hull),
         {.progress = std::ref(line)});
     written.quality = mesh_quality(written.hull.mesh);
+    for (const TriangleMesh& faces : outcome.regions.faces)
+      written.regions.push_back(distance_bounds(
+          faces, written.hull.mesh,
+          {.max_cells = DistanceOptions{}.max_cells + 2 * faces.face_count(), .progress = std::ref(line)}));
   }
+}
+
+// A face whose corners are not three different ones has no place in a hull.
+bool can_be_kept(const Triangle& t) {
+  return is_finite(t.a) && is_finite(t.b) && is_finite(t.c) && t.a != t.b && t.b != t.c && t.c != t.a;
+}
+
+PerFace<std::uint32_t> faces_of_regions(const BuildOptions& options, const std::vector<Region>& regions,
+                                        const TriangleMesh& mesh, const MeshMarks& marks) {
+  try {
+    return regions_of_faces(mesh, marks, regions);
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.tolerance), error.what()));
+  }
+}
+
+void set_regions(BuildOptions& options, BuildOutcome& outcome, const TriangleMesh& mesh, const MeshMarks& marks) {
+  Regions& regions = outcome.regions;
+  regions.all = read_regions(options.tolerance);
+  const PerFace<std::uint32_t> region_of = faces_of_regions(options, regions.all, mesh, marks);
+  options.enclosing.hull.tolerances = tolerances_of(region_of, regions.all);
+  const TriangleMesh placed = minus(mesh, outcome.offset);
+  regions.faces.assign(regions.all.size(), {placed.positions, {}});
+  for (const FaceId f : region_of.ids())
+    if (region_of[f] < regions.all.size() && can_be_kept(placed.triangle(f)))
+      regions.faces[region_of[f]].triangles.push_back(placed.triangles[f]);
 }
 
 /// What the library is asked for, where options say it in other units or words.
@@ -109,9 +142,12 @@ int run_build(BuildOptions options) {
   complete(options, suffix);
   BuildOutcome outcome;
   Stopwatch reading;
-  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
+  MeshMarks marks;
+  TriangleMesh mesh =
+      read_input(options.in, options.input, NonFinite::Keep, options.tolerance.empty() ? nullptr : &marks);
   outcome.read_seconds = reading.seconds();
   if (options.recenter) outcome.offset = recentering_offset(mesh);
+  if (!options.tolerance.empty()) set_regions(options, outcome, mesh, marks);
   mesh = minus(std::move(mesh), outcome.offset);
   options.enclosing.padding = options.gap.of(mesh);
   outcome.made = build(mesh, options);
@@ -238,6 +274,15 @@ void add_build(CLI::App& app, Run& run) {
       "leaves "
       "out what is thinner than two gaps. Bounds such as --max-distance count from the gap on. Use --tight for the "
       "least void. Not for hulls with --hierarchy.");
+  command
+      .add_option(
+          "--tolerance", options->tolerance,
+          "YAML file of regions of the mesh: for each a box, color, group, or numbers of faces or vertices, and "
+          "how far its faces may be from the hull, or that they are kept as they are. See "
+          "docs/guides/regions.md. Not with --tight or --gap.")
+      ->excludes(tight)
+      ->excludes(gap)
+      ->type_name("FILE");
   add_choice(command, "--repair", enclosing.repair, repair_names(),
              "What to do with a mesh that is not clean. auto repairs it, builds hulls of the mesh, of its convex hull "
              "and of a wrap, a new closed surface around it, and takes the best; none refuses what is not closed; "
@@ -281,6 +326,7 @@ void add_build(CLI::App& app, Run& run) {
                          "prohull build arm.stl --unit mm --faces 300 --gap 5 -o arm_collision.stl",
                          "prohull build horse.ply --faces 300 --tight --gap 0.5% -o cage.obj",
                          "prohull build horse.ply --faces 300 --gap 0.5% --side inner -o core.obj",
+                         "prohull build arm.obj --faces 800 --tolerance regions.yaml -o arm_collision.obj",
                          "prohull build arm.dae --faces 1000,300,100 -o arm_{faces}.stl",
                          "prohull build open_scan.obj --faces 500 --seal-holes 0.02 -o scan.glb",
                          "prohull build house_utm.ply --recenter --faces 200 -o house.glb --report house.json",

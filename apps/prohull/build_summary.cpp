@@ -59,6 +59,18 @@ std::string described_topology(const TriangleMesh& hull) {
                      counted(handles, "handle", "handles"));
 }
 
+void print_regions(const BuildOutcome& outcome, const Written& written) {
+  for (std::size_t i = 0; i < written.regions.size(); ++i) {
+    const Region& region = outcome.regions.all[i];
+    const std::string faces = counted(outcome.regions.faces[i].face_count(), "face", "faces");
+    if (region.max_distance == 0)
+      say("  region {}: {}, kept: the hull has them with the same coordinates\n", region.name, faces);
+    else
+      say("  region {}: {}, at most {:.4g} from the hull, proven; {:.4g} are allowed\n", region.name, faces,
+          written.regions[i].upper, region.max_distance);
+  }
+}
+
 void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
   const EnclosingHull& hull = written.hull;
   const std::size_t faces = hull.mesh.face_count();
@@ -73,6 +85,7 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
   if (faces == outcome.solid(hull).mesh.face_count() && faces <= hull.target_faces)
     say("  {} has no more faces than were asked for: the hull is {}\n", source_of(outcome.solid(hull)),
         hull.source == Source::Mesh ? "the mesh itself" : "simplified no further");
+  print_regions(outcome, written);
   if (hull.rounded_vertices > 0)
     say("  moved {} to coordinates that the file keeps\n", counted(hull.rounded_vertices, "vertex", "vertices"));
   if (hull.relaxed_guards > 0)
@@ -109,9 +122,11 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
         options.is_outer() ? "; all points within it are inside" : "");
 }
 
+// Without regions the report is as it was before there were any.
 nlohmann::json facts_of(const RefusalCounts& counts) {
   nlohmann::json json;
-  for (const auto& [name, refusal] : refusal_names()) json[std::string(name)] = counts[refusal];
+  for (const auto& [name, refusal] : refusal_names())
+    if (refusal != Refusal::Tolerance || counts[refusal] > 0) json[std::string(name)] = counts[refusal];
   return json;
 }
 
@@ -144,7 +159,20 @@ nlohmann::json options_report(const BuildOptions& options) {
       {"float32_coordinates", hull.float32_coordinates}};
 }
 
-nlohmann::json hull_report(const BuildOutcome& outcome, const Written& written) {
+nlohmann::json regions_report(const BuildOutcome& outcome, const Written& written) {
+  nlohmann::json regions = nlohmann::json::array();
+  for (std::size_t i = 0; i < written.regions.size(); ++i) {
+    const Region& region = outcome.regions.all[i];
+    regions.push_back({{"name", region.name},
+                       {"faces", outcome.regions.faces[i].face_count()},
+                       {"kept", region.max_distance == 0},
+                       {"max_distance", finite_or_null(region.max_distance)},
+                       {"distance_bound", written.regions[i].upper}});
+  }
+  return regions;
+}
+
+nlohmann::json facts_of_hull(const BuildOutcome& outcome, const Written& written) {
   const EnclosingHull& hull = written.hull;
   return {{"path", written.path.string()},
           {"target_faces", hull.target_faces},
@@ -169,6 +197,12 @@ nlohmann::json hull_report(const BuildOutcome& outcome, const Written& written) 
           {"excess", finite_or_null(hull.excess)},
           {"refusals", facts_of(hull.refusals)},
           {"blocked", facts_of(hull.blocked)}};
+}
+
+nlohmann::json hull_report(const BuildOutcome& outcome, const Written& written) {
+  nlohmann::json report = facts_of_hull(outcome, written);
+  if (!written.regions.empty()) report["regions"] = regions_report(outcome, written);
+  return report;
 }
 
 std::string repair_of(const BuildOutcome& outcome) {

@@ -5,11 +5,12 @@
 
 #include "command.h"
 #include "prohull/enclosing_hull.h"
+#include "prohull/regions.h"
 
 namespace prohull::cli {
 
 struct BuildOptions {
-  std::filesystem::path in, out, hierarchy, report;
+  std::filesystem::path in, out, hierarchy, report, tolerance;
   std::vector<std::size_t> faces{2000};
   EnclosingOptions enclosing;
   InputOptions input;
@@ -29,9 +30,16 @@ struct Written {
   bool certified = false;        ///< the hull, and the file holds its very bits
   DistanceBounds distance = {};  ///< to the original
   MeshQuality quality = {};
+  std::vector<DistanceBounds> regions = {};  ///< of each region, from the hull
   double write_seconds = 0;
 
   bool is_as_asked() const { return certified && hull.target_reached && hull.within_bounds; }
+};
+
+/// The regions of --tolerance, and the faces of each.
+struct Regions {
+  std::vector<Region> all;
+  std::vector<TriangleMesh> faces;
 };
 
 struct BuildOutcome {
@@ -39,6 +47,7 @@ struct BuildOutcome {
   std::size_t input_self_intersections = 0;
   std::vector<Written> written;
   double read_seconds = 0;
+  Regions regions;
   Vec3 offset;  ///< that --recenter has subtracted
 
   const Solid& solid(const EnclosingHull& hull) const { return made.solids[hull.solid]; }

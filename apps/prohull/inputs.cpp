@@ -35,20 +35,20 @@ bool carries_its_unit(std::filesystem::path path) {
 }
 
 ReadOptions read_options(const std::filesystem::path& name, const InputOptions& options, NonFinite non_finite,
-                         const Progress& progress) {
+                         MeshMarks* marks, const Progress& progress) {
   if (options.unit > 0 && carries_its_unit(name))
     throw InputError(Defect::InvalidOption,
                      fmt::format("{}: --unit is for files that do not say their unit; COLLADA says it, and is read in "
                                  "metres; leave --unit out, or use --scale",
                                  name.string()));
-  return {.non_finite = non_finite, .scale = options.factor(), .progress = progress};
+  return {.non_finite = non_finite, .scale = options.factor(), .marks = marks, .progress = progress};
 }
 
 TriangleMesh mesh_in(std::string_view content, const std::filesystem::path& path, const InputOptions& options,
-                     NonFinite non_finite) {
+                     NonFinite non_finite, MeshMarks* marks = nullptr) {
   const std::filesystem::path name = known_as(path, options);
   ProgressLine line;
-  return read_mesh(content, name, read_options(name, options, non_finite, std::ref(line)));
+  return read_mesh(content, name, read_options(name, options, non_finite, marks, std::ref(line)));
 }
 
 std::vector<std::string> input_formats() {
@@ -110,8 +110,9 @@ std::string read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-TriangleMesh read_input(const std::filesystem::path& path, const InputOptions& options, NonFinite non_finite) {
-  return mesh_in(read_bytes(path), path, options, non_finite);
+TriangleMesh read_input(const std::filesystem::path& path, const InputOptions& options, NonFinite non_finite,
+                        MeshMarks* marks) {
+  return mesh_in(read_bytes(path), path, options, non_finite, marks);
 }
 
 MeshOrHull read_mesh_or_hull(const std::filesystem::path& path, const InputOptions& options, NonFinite non_finite) {

@@ -37,7 +37,10 @@ Names<Source> source_names();
 Names<Repair> repair_names();
 
 struct EnclosingOptions {
-  HullOptions hull = {};  ///< enclosing_hulls sets its target_faces and its progress
+  /// enclosing_hulls sets its target_faces and its progress. Its tolerances are those of the faces of `triangles`. A
+  /// hull with tolerances is built from the repaired input only, has no padding, is not tight, and is checked by
+  /// verify_tolerances.
+  HullOptions hull = {};
   HullBounds bounds = {};
   bool tight = false;  ///< build tight hulls (tight_hull.h), which have no levels
   /// The hull keeps at least this distance from the triangles, in the input's unit; without levels only. An inner hull

@@ -50,8 +50,9 @@ enum class Refusal : std::uint8_t {
   NormalDeviation,   ///< a face would turn too far
   SelfIntersection,  ///< faces would meet that share nothing there
   Overhang,          ///< the new vertex would lie too far outside of the mesh's box
+  Tolerance,         ///< the hull would go too far from faces of the mesh that have a tolerance
 };
-constexpr std::size_t kRefusalKinds = 8;
+constexpr std::size_t kRefusalKinds = 9;
 
 /// Identifiers for reports, which stay the same in later versions: "link_condition", "valence" and so on.
 Names<Refusal> refusal_names();
@@ -106,6 +107,10 @@ struct HullOptions {
   ShapeGuards guards = {};
   bool relax_guards = false;  ///< weaken the guards where the target is out of reach; see kRelaxedGuards
   SelfIntersections self_intersections = SelfIntersections::ByStrategy;
+  /// Of each face of the mesh, how far it may be from the hull: no point of it is farther away, in the input's unit. 0:
+  /// the face is kept, so that the hull has it with the same coordinates. Infinity: any distance. Empty: any distance,
+  /// of all faces.
+  PerFace<double> tolerances = {};
   bool float32_coordinates = false;  ///< give new vertices coordinates that a float32 file (STL, GLB) keeps
   QueueKind queue = QueueKind::Bucket;
   /// A seed other than 0 changes the order of the collapses a little, and so the hull. Strategy::Lazy only.

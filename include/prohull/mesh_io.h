@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "prohull/mesh_marks.h"
 #include "prohull/progress.h"
 #include "prohull/triangle_mesh.h"
 
@@ -41,8 +42,9 @@ enum class NonFinite {
 
 struct ReadOptions {
   NonFinite non_finite = NonFinite::Refuse;
-  double scale = 1;        ///< every coordinate is multiplied by this number and rounded to double; greater than 0
-  Progress progress = {};  ///< stage "read"
+  double scale = 1;            ///< every coordinate is multiplied by this number and rounded to double; greater than 0
+  MeshMarks* marks = nullptr;  ///< where to put what PLY and OBJ files say of vertices and faces beside the geometry
+  Progress progress = {};      ///< stage "read"
 };
 
 /// Reads a mesh file. Throws InputError with the file and the line or byte offset; Cancelled.
@@ -58,8 +60,9 @@ struct ReadOptions {
 /// What is read: all meshes of a scene, wherever it places them, in the coordinates and with the up direction of the
 /// file (docs/formats.md). Mirrored meshes are turned, so that their faces still look outwards. Polygons are
 /// triangulated, also polygons that are not convex. STL corners at equal positions become one vertex; other formats
-/// keep their vertices as they are. Normals, colours, textures, lines and points are skipped, and so is everything
-/// after the last record that a header counts. A file without faces gives a mesh without triangles.
+/// keep their vertices as they are. Normals, textures, lines and points are skipped, colours and groups too unless
+/// ReadOptions::marks asks for them, and so is everything after the last record that a header counts. A file without
+/// faces gives a mesh without triangles.
 ///
 /// COLLADA (.dae), 3MF, FBX, X3D and other formats are read by assimp, in a program of its own, prohull-import.
 /// Whatever that program does, crashes included, becomes an InputError. It may use 20 s and 2 s more for each MiB of

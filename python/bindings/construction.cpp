@@ -35,6 +35,7 @@ EnclosingOptions options_of(const Keywords& given) {
   hull.seed = given.get<std::uint64_t>("seed", "a whole number, at least 0");
   hull.best_of = given.count("best_of");
   hull.threads = given.count("threads");
+  hull.tolerances = PerFace<double>(given.get<std::vector<double>>("tolerances", "a number for each face"));
   options.bounds.max_distance = given.not_negative("max_distance");
   options.bounds.max_void_ratio = given.not_negative("max_void_percent") / 100;
   options.bounds.max_added_volume = given.not_negative("max_added_volume");

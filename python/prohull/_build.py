@@ -13,13 +13,14 @@ from ._files import distance_of, mesh_of
 from ._hull import Hull
 from ._meshes import Mesh
 from ._prohull import InputError
-from ._types import Gap, MeshLike, OpenShells, Progress, Repair, Rows, SelfIntersections, Side, Strategy
+from ._types import Gap, MeshLike, Numbers, OpenShells, Progress, Repair, Rows, SelfIntersections, Side, Strategy
 
 
 @overload
 def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ..., levels: bool = ...,
           max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
-          repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
+          tolerances: Optional[Numbers] = ..., repair: Repair = ..., keep_cavities: bool = ...,
+          open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
@@ -28,7 +29,8 @@ def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tigh
 @overload
 def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ..., levels: bool = ...,
           max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
-          repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ..., seal_holes: float = ...,
+          tolerances: Optional[Numbers] = ..., repair: Repair = ..., keep_cavities: bool = ...,
+          open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
@@ -37,8 +39,8 @@ def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., t
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          padding: Gap = ..., gap: Gap = ..., repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ...,
-          seal_holes: float = ...,
+          padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., repair: Repair = ..., keep_cavities: bool = ...,
+          open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
@@ -47,8 +49,8 @@ def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Sid
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          padding: Gap = ..., gap: Gap = ..., repair: Repair = ..., keep_cavities: bool = ..., open_shells: OpenShells = ...,
-          seal_holes: float = ...,
+          padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., repair: Repair = ..., keep_cavities: bool = ...,
+          open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
@@ -57,7 +59,7 @@ def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: 
 def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type: ignore[misc]  # the two ways of calls
           side: Side = "outer", tight: bool = False, levels: bool = False, max_distance: float = math.inf,
           max_void_percent: float = math.inf, max_added_volume: float = math.inf, padding: Gap = 0.0, gap: Gap = 0.0,
-          repair: Repair = "auto",
+          tolerances: Optional[Numbers] = None, repair: Repair = "auto",
           keep_cavities: bool = False, open_shells: OpenShells = "close", seal_holes: float = 0.0,
           float32_coordinates: bool = False,
           strategy: Strategy = "lazy", best_of: int = 1, seed: int = 0, threads: int = 0,
@@ -92,6 +94,10 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
         mesh's bounding box. It is proven. All points that near are inside of an outer hull. An inner hull leaves out
         what is thinner than two gaps. The bounds above then count from there. For hulls without levels only.
     padding: another name of gap.
+    tolerances: a number for each face of the mesh, at least 0: no point of the face is farther from the hull, in the
+        mesh's unit. It is proven. 0 keeps the face, so that the hull has it with the same coordinates; math.inf allows
+        any distance. Numbers for each vertex become such ones by `per_vertex[faces].min(axis=1)`. For hulls of meshes
+        that can be closed, without tight and gap. Save such a hull as .ply, .obj or .off: .stl and .glb round it.
     repair: "auto" repairs the mesh and takes the best source; "none" refuses what is not closed; "wrap" does without
         the mesh itself as a source.
     keep_cavities: whether to keep components that lie inside of others. Inner hulls always keep them.
@@ -130,7 +136,10 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
         raise InputError(f"gap={gap!r}, padding={padding!r}: these are two names of one number; give one of them")
     keywords = dict(
         side=side, tight=tight, levels=levels, max_distance=max_distance, max_void_percent=max_void_percent,
-        max_added_volume=max_added_volume, padding=distance_of("gap" if gap else "padding", gap or padding, given), repair=repair, keep_cavities=keep_cavities,
+        max_added_volume=max_added_volume,
+        padding=distance_of("gap" if gap else "padding", gap or padding, given),
+        tolerances=() if tolerances is None else tolerances,
+        repair=repair, keep_cavities=keep_cavities,
         open_shells=open_shells, seal_holes=seal_holes,
         float32_coordinates=float32_coordinates, strategy=strategy, best_of=best_of, seed=seed, threads=threads,
         self_intersections=self_intersections, relax_guards=relax_guards, max_valence=max_valence,

@@ -58,6 +58,8 @@ class _HasTensors(Protocol):
     def triangle(self) -> Any: ...
 
 
+#: A number for each of something.
+Numbers = Union[NDArray[Any], Sequence[float]]
 #: An array with two axes, or what numpy makes one of. ArrayLike would also take a file's name, and a number.
 Rows = Union[NDArray[Any], _BecomesArray, Sequence[Sequence[float]], Sequence[NDArray[Any]]]
 #: What is taken for a mesh: a path, vertices and faces, or a mesh of prohull, trimesh or Open3D.

@@ -303,3 +303,23 @@ def test_the_package_needs_nothing_but_numpy():
     code = ("import sys, prohull; "
             "print([m for m in ('trimesh', 'open3d', 'matplotlib', 'pytest', 'dask', 'distributed') if m in sys.modules], prohull.__all__)")
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.startswith("[]")
+
+
+def test_tolerances_keep_faces_and_bound_the_distance_of_others():
+    mesh = prohull.sample("bracket", 1500)
+    corners = np.asarray(mesh.vertices)[np.asarray(mesh.faces)]
+    tolerances = np.full(len(mesh.faces), np.inf)
+    tolerances[(corners[..., 2] >= 0.5).all(axis=1)] = 0.02
+    tolerances[(corners[..., 2] <= 0).all(axis=1)] = 0
+    hull = prohull.build(mesh, 600, tolerances=tolerances)
+    assert hull.certified
+    of_hull = {row.tobytes() for row in np.asarray(hull.vertices)[np.asarray(hull.faces)]}
+    kept = corners[tolerances == 0]
+    rolled = [{np.roll(t, k, axis=0).tobytes() for k in range(3)} for t in kept]
+    assert len(kept) > 10 and all(of_hull & of_face for of_face in rolled)
+
+
+@pytest.mark.parametrize("tolerances", [[0.1], "far", [[0.1, 0.2]], 0.1])
+def test_tolerances_that_are_none_are_refused(tolerances):
+    with pytest.raises(prohull.InputError, match="toleranc"):
+        prohull.build(prohull.sample("box", 100), 50, tolerances=tolerances)

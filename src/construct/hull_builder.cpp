@@ -1,5 +1,7 @@
 #include "prohull/hull_builder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -32,6 +34,22 @@ void check(const HullOptions& options) {
   require(guards.max_overhang >= 0, "max_overhang must be at least 0");
 }
 
+void check_tolerances(const TriangleMesh& mesh, const HullOptions& options) {
+  const PerFace<double>& tolerances = options.tolerances;
+  if (tolerances.empty()) return;
+  if (tolerances.size() != mesh.face_count())
+    throw InputError(Defect::InvalidOption, fmt::format("{} tolerances for {} faces: there must be one for each face",
+                                                        tolerances.size(), mesh.face_count()));
+  if (!std::ranges::all_of(tolerances, [](double tolerance) { return tolerance >= 0; }))
+    throw InputError(Defect::InvalidOption, "tolerances must be at least 0; 0 keeps a face, infinity allows anything");
+  const auto kept = static_cast<std::size_t>(std::ranges::count(tolerances, 0.0));
+  if (kept > options.target_faces)
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("{} faces are kept as they are, but the hull should have {}: ask for more faces, or "
+                                 "keep fewer",
+                                 kept, options.target_faces));
+}
+
 // Every face with its corners 1 and 2 exchanged: o and d exchange their roles, l and r their sides.
 HullResult turned(HullResult result) {
   const auto corner = [](std::uint32_t c) { return c % 3 == 0 ? c : c / 3 * 3 + 3 - c % 3; };
@@ -61,6 +79,7 @@ ShapeGuards weaker(const ShapeGuards& a, const ShapeGuards& b) {
 
 HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
   check(options);
+  check_tolerances(mesh, options);
   if (options.best_of > 1)
     return best_of(
         options, "build", [&](const HullOptions& one) { return build_hull(mesh, one); },

@@ -24,7 +24,8 @@ constexpr std::array<std::pair<std::string_view, Refusal>, kRefusalKinds> kRefus
      {"compactness", Refusal::Compactness},
      {"normal_deviation", Refusal::NormalDeviation},
      {"self_intersection", Refusal::SelfIntersection},
-     {"overhang", Refusal::Overhang}}};
+     {"overhang", Refusal::Overhang},
+     {"tolerance", Refusal::Tolerance}}};
 
 /// What collapsing the edge would do.
 constexpr std::string_view consequence(Refusal refusal) {
@@ -45,6 +46,8 @@ constexpr std::string_view consequence(Refusal refusal) {
       return "would make the hull intersect itself";
     case Refusal::Overhang:
       return "would make a spike";
+    case Refusal::Tolerance:
+      return "would go too far from faces with a tolerance";
   }
   return "";
 }

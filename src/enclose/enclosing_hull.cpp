@@ -14,6 +14,7 @@
 #include "construct/shape_guards.h"
 #include "construct/turned.h"
 #include "enclose/surface_of.h"
+#include "enclose/tolerances.h"
 #include "geometry/float32.h"
 #include "geometry/usable_size.h"
 #include "mesh/area.h"
@@ -27,6 +28,7 @@
 #include "prohull/padded_hull.h"
 #include "prohull/replay.h"
 #include "prohull/tight_hull.h"
+#include "prohull/tolerances.h"
 #include "prohull/verification.h"
 #include "prohull/wrap.h"
 
@@ -58,7 +60,14 @@ class Ladder {
       : options_(options), target_faces_(target_faces), fewest_faces_(std::ranges::min(target_faces)) {
     Timer timer(made_.repair_seconds);
     ProgressMeter(options_.progress, "repair").at(0);
+    const TriangleMesh given = has_tolerances() ? triangles : TriangleMesh{};
     made_.input = prepared_for_hulls(std::move(triangles), options);
+    if (has_tolerances()) {
+      if (!made_.input.closed)
+        throw InputError(Defect::OpenEdge, made_.input.obstacle +
+                                               "; faces have tolerances, and only a closed mesh still has these faces");
+      tolerances_ = carried_tolerances(given, options.hull.tolerances, made_.input.closed->mesh);
+    }
     diagonal_ = bounding_box(made_.input.original).diagonal();
     if (made_.input.closed && options_.repair != Repair::Wrap) {
       const ClosedMesh& closed = *made_.input.closed;
@@ -118,7 +127,8 @@ class Ladder {
 
   bool is_outer() const { return options_.hull.side == HullSide::Outer; }
   bool is_padded() const { return options_.padding > 0; }
-  bool is_free() const { return is_outer() && options_.repair != Repair::None; }
+  bool has_tolerances() const { return !options_.hull.tolerances.empty(); }
+  bool is_free() const { return is_outer() && options_.repair != Repair::None && !has_tolerances(); }
 
   EnclosingHull hull_of(std::size_t target_faces);
   bool is_worth_the_convex_hull(const std::optional<EnclosingHull>& best);
@@ -157,8 +167,10 @@ class Ladder {
   double slack_of(const EnclosingHull& hull) const;
   double void_of(const EnclosingHull& hull) const { return signed_volume(hull.mesh) / made_.volume - 1; }
   HullOptions hull_options(std::size_t target_faces) const;
+  void require_tolerances(const TriangleMesh& hull) const;
 
   const EnclosingOptions& options_;
+  PerFace<double> tolerances_;  ///< of the closed mesh
   const std::span<const std::size_t> target_faces_;
   const std::size_t fewest_faces_;
   EnclosingHulls made_;
@@ -189,7 +201,7 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
       if (best->source == Source::Wrap && is_as_asked(*best)) break;
       if (const auto solid = wrap_with(kind, target_faces)) try_solid(*solid);
     }
-  } else if (!is_outer() && options_.repair != Repair::None && !options_.levels &&
+  } else if (!is_outer() && options_.repair != Repair::None && !has_tolerances() && !options_.levels &&
              !(options_.tight && best->certified)) {
     constexpr double kLittleVoid = 0.1;
     is_moved_ = true;
@@ -220,6 +232,7 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
                                  "--repair wrap, or another format if that keeps float32 only",
                                  target_faces, notes_.back()));
   }
+  if (has_tolerances()) require_tolerances(best->mesh);
   note_solid(made_.solids[best->solid]);
   return std::move(*best);
 }
@@ -371,8 +384,25 @@ bool Ladder::is_as_asked(const EnclosingHull& hull) const {
 HullOptions Ladder::hull_options(std::size_t target_faces) const {
   HullOptions options = options_.hull;
   options.target_faces = target_faces;
+  options.tolerances = tolerances_;
   options.progress = options_.progress;
   return options;
+}
+
+void Ladder::require_tolerances(const TriangleMesh& hull) const {
+  const ToleranceReport found = verify_tolerances(hull, made_.input.closed->mesh, tolerances_, options_.progress);
+  if (found.holds) return;
+  const std::string what =
+      found.missing_faces > 0
+          ? fmt::format("{} that should be kept {} not in the hull", counted(found.missing_faces, "face", "faces"),
+                        found.missing_faces == 1 ? "is" : "are")
+          : fmt::format("{} farther from the hull than allowed", counted(found.far_faces, "face is", "faces are"));
+  throw InputError(Defect::NoCertificate,
+                   what + (options_.hull.float32_coordinates
+                               ? ": the file has float32 coordinates, which move vertices a little; write a .ply, .obj "
+                                 "or .off file, which keep doubles"
+                               : "; where the mesh intersects itself, vertices of the hull are lifted over its folds: "
+                                 "remove the folds, or allow a small distance there"));
 }
 
 // The hull with the coordinates that a file keeps, if it has such.
@@ -672,6 +702,21 @@ void require_usable_padding(const EnclosingOptions& options) {
   if (options.padding > 0 && options.levels) refuse("a hull with padding has no levels: ask for one of the two");
 }
 
+void require_usable_tolerances(const TriangleMesh& triangles, const EnclosingOptions& options) {
+  const std::size_t given = options.hull.tolerances.size();
+  if (given == 0) return;
+  const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
+  if (given != triangles.face_count())
+    refuse(fmt::format("{} tolerances for {} faces: there must be one for each face", given, triangles.face_count()));
+  if (!std::ranges::all_of(options.hull.tolerances, [](double tolerance) { return tolerance >= 0; }))
+    refuse("tolerances must be at least 0; 0 keeps a face, infinity allows any distance");
+  if (options.tight) refuse("a tight hull has no tolerances for single faces: build it without tight");
+  if (options.padding > 0)
+    refuse("a hull with padding has no tolerances for single faces: all its faces move outwards");
+  if (options.repair == Repair::Wrap)
+    refuse("a wrap has none of the faces that have a tolerance: choose another repair");
+}
+
 }  // namespace
 
 Names<Repair> repair_names() { return kRepairNames; }
@@ -709,6 +754,7 @@ EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size
   if (options.tight && options.levels)
     throw InputError(Defect::InvalidOption, "a tight hull has no levels: ask for one of the two");
   require_usable_padding(options);
+  require_usable_tolerances(triangles, options);
   if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
     throw InputError(Defect::InvalidOption, "nothing is known to be inside of a wrap: inner hulls do without");
   if (options.hull.float32_coordinates) check_float32_spacing(triangles);

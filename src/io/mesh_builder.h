@@ -24,6 +24,7 @@ class MeshBuilder {
   void reserve_vertices(std::size_t count) { mesh_.positions.reserve(count); }
   void reserve_triangles(std::size_t count) { mesh_.triangles.reserve(count); }
   std::size_t vertex_count() const { return mesh_.vertex_count(); }
+  std::size_t triangle_count() const { return mesh_.face_count(); }
   const PerVertex<Vec3>& positions() const { return mesh_.positions; }
 
   void add_vertex(const Vec3& position, Place place);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "io/mesh_builder.h"
@@ -22,7 +25,9 @@ constexpr auto kIgnoredKeywords = std::to_array<std::string_view>(
 class ObjReader {
  public:
   ObjReader(std::string_view content, const std::string& file, const ReadOptions& options)
-      : scanner_(content, file, {.comments = true, .continued_lines = true}), builder_(file, 1, content, options) {}
+      : scanner_(content, file, {.comments = true, .continued_lines = true}),
+        builder_(file, 1, content, options),
+        marks_(options.marks) {}
 
   TriangleMesh read() {
     while (scanner_.next_line()) {
@@ -31,6 +36,8 @@ class ObjReader {
         read_vertex();
       else if (keyword == "f" || keyword == "fo")
         read_face();
+      else if (marks_ && (keyword == "g" || keyword == "o" || keyword == "usemtl"))
+        read_names(keyword == "g" ? groups_ : keyword == "o" ? object_ : material_);
       else if (!is_obj_keyword(keyword))
         scanner_.fail(fmt::format("{} is not a record of an OBJ file", quoted(keyword)));
     }
@@ -49,6 +56,26 @@ class ObjReader {
     corners_.clear();
     while (!scanner_.at_line_end()) corners_.push_back(read_corner());
     builder_.add_polygon(corners_, place);
+    if (marks_) marks_->names_of.resize(builder_.triangle_count(), names_in_force());
+  }
+
+  void read_names(std::vector<std::string>& names) {
+    names.clear();
+    while (!scanner_.at_line_end()) names.emplace_back(scanner_.word());
+    has_new_names_ = true;
+  }
+
+  // Their number among the combinations that have occurred.
+  std::uint32_t names_in_force() {
+    if (std::exchange(has_new_names_, false)) {
+      std::vector<std::string> all = groups_;
+      all.insert(all.end(), object_.begin(), object_.end());
+      all.insert(all.end(), material_.begin(), material_.end());
+      const auto [known, is_new] = known_names_.try_emplace(all, static_cast<std::uint32_t>(marks_->names.size()));
+      if (is_new) marks_->names.push_back(std::move(all));
+      names_number_ = known->second;
+    }
+    return names_number_;
   }
 
   /// vertex, vertex/texture, vertex//normal or vertex/texture/normal; a negative vertex counts back from the last one.
@@ -69,6 +96,11 @@ class ObjReader {
   TextScanner scanner_;
   MeshBuilder builder_;
   std::vector<std::int64_t> corners_;
+  MeshMarks* const marks_;
+  std::vector<std::string> groups_, object_, material_;
+  std::map<std::vector<std::string>, std::uint32_t> known_names_;
+  bool has_new_names_ = true;
+  std::uint32_t names_number_ = 0;
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "geometry/float32.h"
@@ -143,7 +145,11 @@ class PlyReader {
  public:
   PlyReader(const PlyHeader& header, Body body, std::string_view content, const std::string& file,
             const ReadOptions& options)
-      : header_(header), body_(std::move(body)), file_(file), builder_(file, 0, content, options) {}
+      : header_(header),
+        body_(std::move(body)),
+        file_(file),
+        builder_(file, 0, content, options),
+        marks_(options.marks) {}
 
   TriangleMesh read() {
     for (const PlyElement& element : header_.elements) {
@@ -151,17 +157,50 @@ class PlyReader {
       if (element.name == "vertex")
         read_vertices(element);
       else if (element.name == "face")
-        read_lists(element, [&](auto corners, Place place) { builder_.add_polygon(corners, place); });
+        read_lists(element, [&](auto corners, Place place) {
+          builder_.add_polygon(corners, place);
+          if (has_face_colors_) marks_->face_colors.resize(builder_.triangle_count(), color_);
+        });
       else if (element.name == "tristrips")
         read_lists(element, [&](auto corners, Place place) { builder_.add_triangle_strips(corners, place); });
       else
         for_each_record(
             element, [&](const PlyProperty& property, std::size_t) { skip(property); }, [](Place) {});
     }
+    if (has_face_colors_) marks_->face_colors.resize(builder_.triangle_count());  // strips may follow
     return builder_.finish();
   }
 
  private:
+  /// Which of its properties are red, green and blue, if they are asked for: 0 to 255, or 0 to 1 in floats.
+  class ColorProperties {
+   public:
+    ColorProperties(const PlyElement& element, bool is_asked) {
+      constexpr std::array kNames{"red", "green", "blue"};
+      for (std::size_t channel = 0; is_asked && channel < 3; ++channel)
+        if (const auto found = element.find(kNames[channel]); found && !element.properties[*found].count_type)
+          places_[channel] = *found, ++found_;
+    }
+    bool all() const { return found_ == 3; }
+    std::optional<std::size_t> channel_at(std::size_t i) const {
+      const auto at = std::ranges::find(places_, i);
+      return all() && at != places_.end() ? std::optional(static_cast<std::size_t>(at - places_.begin()))
+                                          : std::nullopt;
+    }
+
+   private:
+    std::array<std::size_t, 3> places_{};
+    std::size_t found_ = 0;
+  };
+
+  void read_channel(std::size_t channel, PlyType type) {
+    const double value = body_.number(type) * (is_integer(type) ? 1 : 255);
+    const auto byte = static_cast<std::uint8_t>(std::lround(value >= 0 && value <= 255 ? value
+                                                            : value > 255              ? 255
+                                                                                       : 0));
+    (channel == 0 ? color_.red : channel == 1 ? color_.green : color_.blue) = byte;
+  }
+
   void read_vertices(const PlyElement& element) {
     constexpr std::size_t kNoAxis = 3;
     std::vector<std::size_t> axis_of(element.properties.size(), kNoAxis);
@@ -174,13 +213,19 @@ class PlyReader {
     }
     builder_.reserve_vertices(std::min(element.count, body_.fits(element, 0, PlyType::Int8)));
     Vec3 position;
+    const ColorProperties colors(element, marks_ != nullptr);
     const auto read_property = [&](const PlyProperty& property, std::size_t i) {
-      if (axis_of[i] == kNoAxis)
+      if (const auto channel = colors.channel_at(i))
+        read_channel(*channel, property.type);
+      else if (axis_of[i] == kNoAxis)
         skip(property);
       else
         position[static_cast<int>(axis_of[i])] = body_.number(property.type);
     };
-    for_each_record(element, read_property, [&](Place place) { builder_.add_vertex(position, place); });
+    for_each_record(element, read_property, [&](Place place) {
+      builder_.add_vertex(position, place);
+      if (colors.all()) marks_->vertex_colors.push_back(color_);
+    });
   }
 
   template <class Add>
@@ -190,7 +235,10 @@ class PlyReader {
       fail_on_header(element, fmt::format("element {} has no list of integers named vertex_indices", element.name));
     builder_.reserve_triangles(std::min(element.count, body_.fits(element, 3, element.properties[*wanted].type)));
     std::vector<std::int64_t> corners;
+    const ColorProperties colors(element, marks_ != nullptr);
+    has_face_colors_ |= colors.all();
     const auto read_property = [&](const PlyProperty& property, std::size_t i) {
+      if (const auto channel = colors.channel_at(i)) return read_channel(*channel, property.type);
       if (i != *wanted) return skip(property);
       corners.clear();
       for (std::size_t left = body_.list_length(*property.count_type, property.type); left > 0; --left)
@@ -222,6 +270,9 @@ class PlyReader {
   Body body_;
   const std::string& file_;
   MeshBuilder builder_;
+  MeshMarks* const marks_;
+  Color color_;  ///< of the record that is read
+  bool has_face_colors_ = false;
 };
 
 }  // namespace

@@ -37,6 +37,18 @@ TEST(Obj, SkipsColoursAndRecordsThatAreNoFaces) {
       "g a b\ns off\nusemtl\nl 1 2\np 1\nf 1 2 3\n");
 }
 
+TEST(Obj, TellsTheGroupObjectAndMaterialOfEachTriangle) {
+  MeshMarks marks;
+  const TriangleMesh mesh = read_mesh(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\ng lid top\nusemtl steel\nf 1 2 3 4\ng\nf 1 2 3\ng lid top\nf 1 2 "
+      "3\n",
+      "a.obj", {.marks = &marks});
+  ASSERT_EQ(mesh.face_count(), 5u);
+  const std::vector<std::vector<std::string>> names{{}, {"lid", "top", "steel"}, {"steel"}};
+  EXPECT_EQ(marks.names, names);
+  EXPECT_EQ(marks.names_of, PerFace<std::uint32_t>({0, 1, 1, 2, 1})) << "both triangles of the square";
+}
+
 TEST(Obj, ReadsAFileWithoutFacesAsItIs) {
   EXPECT_EQ(read_mesh("", "a.obj"), TriangleMesh());
   EXPECT_EQ(read_mesh(kThreeVertices, "a.obj").vertex_count(), 3u);

@@ -37,6 +37,23 @@ void expect_one_triangle(std::string_view content) {
   EXPECT_EQ(mesh.triangles[FaceId(0)], corners(0, 1, 2)) << content;
 }
 
+// Of vertices in floats and of faces in bytes, as different programs write them.
+TEST(Ply, TellsColorsOnRequest) {
+  const std::string content =
+      "ply\nformat ascii 1.0\nelement vertex 4\n" + kVertices +
+      "property float red\nproperty float green\nproperty float blue\nelement face 2\nproperty uchar blue\n" + kFaces +
+      "property uchar red\nproperty uchar green\nproperty uchar alpha\nend_header\n"
+      "0 0 0 1 0 0\n1 0 0 0 0.5 2\n1 1 0 0 0 0\n0 1 0 -1 0 0\n7 4 0 1 2 3 255 0 9\n8 3 0 1 2 1 2 9\n";
+  MeshMarks marks;
+  const TriangleMesh mesh = read_mesh(content, "a.ply", {.marks = &marks});
+  EXPECT_EQ(mesh, read_mesh(content, "a.ply")) << "colours change nothing else";
+  EXPECT_EQ(marks.vertex_colors, PerVertex<Color>({{255, 0, 0}, {0, 128, 255}, {0, 0, 0}, {0, 0, 0}}));
+  EXPECT_EQ(marks.face_colors, PerFace<Color>({{255, 0, 7}, {255, 0, 7}, {1, 2, 8}})) << "a square is two triangles";
+  MeshMarks none;
+  read_mesh(header("ascii", 3, 1) + kAsciiBody, "a.ply", {.marks = &none});
+  EXPECT_TRUE(none.vertex_colors.empty() && none.face_colors.empty());
+}
+
 TEST(Ply, ReadsAsciiAndBothByteOrders) {
   expect_one_triangle(header("ascii", 3, 1) + kAsciiBody);
   expect_one_triangle(header("binary_little_endian", 3, 1) + binary_body(std::endian::little));

@@ -60,6 +60,7 @@ class CollapseLoop {
         queue_(mesh_.edge_id_count()),
         noise_(patch.seed) {
     if (options_.refuses_self_intersections()) guard_.emplace(mesh_, all_faces(mesh_));
+    if (!patch.tolerances.empty()) tolerance_guard_.emplace(patch.tolerances);
   }
 
   void run() {
@@ -104,7 +105,7 @@ class CollapseLoop {
       tell();
       const EdgeId edge{i};
       const VertexId v = mesh_.tail(mesh_.half_edge(edge)), w = mesh_.tip(mesh_.half_edge(edge));
-      if (!vertices_[v].is_free || !vertices_[w].is_free) continue;
+      if (!vertices_[v].may_go() || !vertices_[w].may_go()) continue;
       if (options_.strategy != Strategy::Lazy) {
         evaluate_and_queue(edge);
       } else if (!edges_[edge].is_refused || !is_fresh(edge, v, w)) {
@@ -174,7 +175,8 @@ class CollapseLoop {
       const bool is_flat = any_flat_end(mesh_, star_, placement, [&](const Vec3& end, const Vec3& local) {
         apex = end;
         why = refused_shape(star_, local, options_);
-        return !why && as_stored(end) == end && !(guard_ && guard_->would_add_intersections(mesh_, star_, end));
+        return !why && as_stored(end) == end && !would_exceed_tolerance(local) &&
+               !(guard_ && guard_->would_add_intersections(mesh_, star_, end));
       });
       if (is_flat || why) return why;
     }
@@ -182,8 +184,13 @@ class CollapseLoop {
     if (hangs_over(apex)) return Refusal::Overhang;
     if (const auto why = refused_shape(star_, placement.local, options_)) return why;
     if (!is_finite(apex) || !is_outside(mesh_, star_, apex)) return Refusal::Certificate;
+    if (would_exceed_tolerance(star_.to_local(apex))) return Refusal::Tolerance;
     if (guard_ && guard_->would_add_intersections(mesh_, star_, apex)) return Refusal::SelfIntersection;
     return std::nullopt;
+  }
+
+  bool would_exceed_tolerance(const Vec3& local) {
+    return tolerance_guard_ && tolerance_guard_->would_exceed(mesh_, star_, local);
   }
 
   bool hangs_over(const Vec3& p) const {
@@ -215,6 +222,7 @@ class CollapseLoop {
     const bool has_refused = vertices_[star_.o].has_refused || vertices_[star_.d].has_refused;
     vertices_.push_back({.changed = patch_.time, .has_refused = has_refused});
     if (guard_) guard_->changed(mesh_, s);
+    if (tolerance_guard_) tolerance_guard_->collapsed();
     return s;
   }
 
@@ -259,6 +267,8 @@ class CollapseLoop {
   }
 
   void evaluate_and_queue(EdgeId edge) {
+    const HalfEdgeId h = mesh_.half_edge(edge);
+    if (vertices_[mesh_.tail(h)].is_kept || vertices_[mesh_.tip(h)].is_kept) return;
     if (ends_at_hub(edge)) return refuse(edge, Refusal::Valence);
     gather(edge);
     if (const auto why = refusal_of_topology()) return refuse(edge, *why);
@@ -288,6 +298,7 @@ class CollapseLoop {
   Queue queue_;
   Noise noise_;
   std::optional<SelfIntersectionGuard> guard_;
+  std::optional<ToleranceGuard> tolerance_guard_;
   Star star_;
   std::size_t steps_ = 0, told_ = 0;
 };
@@ -303,7 +314,7 @@ void estimate_priorities(Patch& patch, const CollapseRules& rules) {
     if (patch.edges[edge].priority != EdgeFacts::kUnknown) continue;
     const HalfEdgeId h = patch.mesh.half_edge(edge);
     const VertexId v = patch.mesh.tail(h), w = patch.mesh.tip(h);
-    if (!patch.vertices[v].is_free || !patch.vertices[w].is_free) continue;
+    if (!patch.vertices[v].may_go() || !patch.vertices[w].may_go()) continue;
     if (is_hub(patch.mesh, v, rules.options) || is_hub(patch.mesh, w, rules.options)) {
       patch.edges[edge].priority = 0;  // refused at once
       continue;

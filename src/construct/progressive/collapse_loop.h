@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "construct/guard/tolerance_guard.h"
 #include "geometry/unit_cube.h"
 #include "mesh/half_edge_mesh.h"
 #include "prohull/hull_builder.h"
@@ -23,6 +24,9 @@ struct VertexFacts {
   std::uint32_t changed = 1;  ///< when a face around it last did
   bool is_free = true;        ///< strictly inside of the patch
   bool has_refused = false;   ///< an edge that ends here may be refused
+  bool is_kept = false;       ///< a corner of a face that stays as it is
+
+  bool may_go() const { return is_free && !is_kept; }
 };
 
 /// A part of a surface, or all of it, to be simplified on its own: only stars that lie strictly inside of a box, before
@@ -36,6 +40,7 @@ struct Patch {
   double max_priority;  ///< edges of greater priorities are left
   std::uint32_t time;   ///< of the next collapse
   std::uint64_t seed;   ///< of the noise in the priorities; 0: none
+  Tolerances tolerances = {};
 
   // What the loop brings forth.
   std::vector<VertexSplit> record = {};

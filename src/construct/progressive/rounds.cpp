@@ -131,7 +131,13 @@ class Rounds {
   static RefusalCounts refusals_of_what_is_left(const Patch& patch) {
     RefusalCounts blocked;
     for (const EdgeId e : patch.edges.ids())
-      if (patch.mesh.has(e) && patch.edges[e].is_refused) blocked.count(patch.edges[e].last_refusal);
+      if (patch.mesh.has(e)) {
+        const HalfEdgeId h = patch.mesh.half_edge(e);
+        if (patch.vertices[patch.mesh.tail(h)].is_kept || patch.vertices[patch.mesh.tip(h)].is_kept)
+          blocked.count(Refusal::Tolerance);
+        else if (patch.edges[e].is_refused)
+          blocked.count(patch.edges[e].last_refusal);
+      }
     return blocked;
   }
 

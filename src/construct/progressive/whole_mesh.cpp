@@ -22,6 +22,7 @@ WholeMesh::WholeMesh(const TriangleMesh& mesh, const HullOptions& options, const
     : options_(options), unit_cube_(unit_cube) {
   number_along_curve(mesh);
   find_twins(mesh);
+  set_tolerances(options.tolerances);
   changed_.assign(positions_.size(), 1);
   edges_.resize(corners_.size());
   made_.reserve(mesh.vertex_count() + (mesh.face_count() - std::min(mesh.face_count(), options.target_faces)) / 2);
@@ -57,6 +58,12 @@ void WholeMesh::find_twins(const TriangleMesh& mesh) {
   if (first_defect(whole)) require_closed_manifold(mesh);  // says which, in the mesh's own numbers
   twins_.reserve(corners_.size());
   for (std::uint32_t c = 0; c < corners_.size(); ++c) twins_.push_back(whole.twin(HalfEdgeId{c}));
+}
+
+void WholeMesh::set_tolerances(const PerFace<double>& tolerances) {
+  if (tolerances.empty()) return;
+  for (const FaceId f : given_) tolerances_.faces.push_back(tolerances[f]);
+  tolerances_.deviations.resize(positions_.size());
 }
 
 std::vector<BoxedFace> WholeMesh::boxed_faces() const {
@@ -108,7 +115,18 @@ WholeMesh::Cut WholeMesh::cut(Cell cell, std::size_t target_faces, double max_pr
   for (const EdgeId e : cut.patch.edges.ids())
     if (const HalfEdgeId h = cut.patch.mesh.half_edge(e); cut.is_free(h))
       cut.patch.edges[e] = edges_[cut.edge_place(h)];
+  if (!tolerances_.empty()) cut_tolerances(cut);
   return cut;
+}
+
+void WholeMesh::cut_tolerances(Cut& cut) const {
+  Patch& patch = cut.patch;
+  for (std::uint32_t f = 0; f < cut.faces.size(); ++f) {
+    patch.tolerances.faces.push_back(tolerances_.faces[cut.faces[f]]);
+    if (patch.tolerances.faces.back() > 0) continue;
+    for (const VertexId v : patch.mesh.corners(FaceId{f})) patch.vertices[v].is_kept = true;
+  }
+  for (const VertexId v : cut.vertices) patch.tolerances.deviations.push_back(tolerances_.deviations[v]);
 }
 
 WholeMesh::Cut WholeMesh::cut_everything(std::size_t target_faces) {
@@ -151,7 +169,18 @@ WholeMesh::Collapses WholeMesh::put_back(Cut cut) {
   for (const EdgeId e : patch.edges.ids())
     if (patch.mesh.has(e))
       if (const HalfEdgeId h = patch.mesh.half_edge(e); cut.is_free(h)) edges_[cut.edge_place(h)] = patch.edges[e];
+  if (!tolerances_.empty()) put_back_tolerances(cut);
   return result;
+}
+
+void WholeMesh::put_back_tolerances(const Cut& cut) {
+  const Patch& patch = cut.patch;
+  for (std::uint32_t f = 0; f < cut.faces.size(); ++f)
+    if (double& was = tolerances_.faces[cut.faces[f]]; was != patch.tolerances.faces[FaceId{f}])
+      was = patch.tolerances.faces[FaceId{f}];
+  for (const VertexId v : patch.vertices.ids())
+    if (patch.mesh.has(v) && patch.vertices[v].is_free)
+      tolerances_.deviations[cut.vertices[index(v)]] = patch.tolerances.deviations[v];
 }
 
 void WholeMesh::add(const std::vector<Collapses>& patches) {

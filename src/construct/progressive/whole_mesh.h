@@ -90,6 +90,9 @@ class WholeMesh {
 
   void number_along_curve(const TriangleMesh& mesh);
   void find_twins(const TriangleMesh& mesh);
+  void set_tolerances(const PerFace<double>& tolerances);
+  void cut_tolerances(Cut& cut) const;
+  void put_back_tolerances(const Cut& cut);
   std::uint32_t given_corner(std::uint32_t corner) const { return 3 * index(given_[FaceId{corner / 3}]) + corner % 3; }
 
   const HullOptions& options_;
@@ -103,6 +106,7 @@ class WholeMesh {
   PerVertex<Vec3> positions_;
   PerVertex<std::uint32_t> changed_;
   PerVertex<VertexId> names_;
+  Tolerances tolerances_;
   std::uint32_t time_ = 1;
   oneapi::tbb::enumerable_thread_specific<LocalNumbers> local_numbers_;
 
