@@ -25,7 +25,7 @@ using Corners = std::array<std::array<double, 3>, 3>;
 Corners key_of(const Triangle& t) {
   const auto corner = [](const Vec3& p) { return std::array{p.x, p.y, p.z}; };
   Corners key{corner(t.a), corner(t.b), corner(t.c)};
-  std::ranges::rotate(key, std::ranges::min_element(key));
+  std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
   return key;
 }
 
