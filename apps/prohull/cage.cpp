@@ -18,6 +18,7 @@ struct Options {
   InputOptions input;
   std::string out_format;
   CageOptions cage;
+  Gap gap;
   bool strict = false;
 };
 
@@ -140,7 +141,9 @@ int run_cage(Options options) {
   else if (options.cage.inner_faces == 0)
     options.cage.inner_faces = options.cage.outer_faces;
   const Stopwatch building;
-  const Cage cage = cage_of(read_input(options.in, options.input, NonFinite::Keep), options);
+  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
+  options.cage.gap = options.gap.of(mesh);
+  const Cage cage = cage_of(std::move(mesh), options);
   const double build_seconds = building.seconds();
   std::vector<File> files{{"outer", &cage.outer, options.out, suffix}};
   if (cage.inner) files.push_back({"inner", &*cage.inner, options.inner, suffix_of_inner});
@@ -185,10 +188,10 @@ void add_cage(CLI::App& app, Run& run) {
   add_number(command, "--inner-faces", cage.inner_faces, {4, 1e9},
              "Number of faces that the inner hull should have, if it is not that of --faces.")
       ->needs(inner);
-  add_number(command, "--gap", cage.gap, kPositive,
-             "Distance that both hulls keep from the mesh, at least, in the mesh's unit. Without this option it is "
-             "0.1 % of the diagonal of the mesh's bounding box. Where the mesh is too thin, the inner hull keeps less.")
-      ->type_name("D");
+  add_gap(command, "--gap", options->gap,
+          "Distance that both hulls keep from the mesh, at least, in the mesh's unit, or as in 0.5% of the diagonal of "
+          "the mesh's bounding box. Without this option it is 0.1%. Where the mesh is too thin, the inner hull keeps "
+          "less.");
   command.add_flag("--even", cage.even,
                    "Make all triangles of the hulls well shaped, as simulation needs them: split, flip and collapse "
                    "edges, and move vertices. The hulls then have more void.");

@@ -167,14 +167,6 @@ struct Outcome {
   int exit_code() const { return certified && cover.within_bounds ? kDone : kAnswerIsNo; }
 };
 
-double diagonal_of(const TriangleMesh& mesh) {
-  Box box;
-  for (const auto& triangle : mesh.triangles)
-    for (const VertexId v : triangle)
-      if (is_finite(mesh.positions[v])) box.extend(mesh.positions[v]);
-  return box.diagonal();
-}
-
 ConvexCover cover_of(TriangleMesh mesh, const Options& options) {
   ProgressLine line;
   ConvexCoverOptions cover = options.cover;
@@ -310,7 +302,7 @@ int run_convex(Options options) {
   TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
   outcome.read_seconds = reading.seconds();
   outcome.input = inspect(mesh);
-  outcome.diagonal = diagonal_of(mesh);
+  outcome.diagonal = finite_bounding_box(mesh).diagonal();
   outcome.cover = cover_of(std::move(mesh), options);
   Outputs pieces, report;
   const Stopwatch writing;

@@ -75,12 +75,7 @@ CLI::Validator number_in(const std::string& name, const Range& range, bool whole
 }
 
 double Gap::of(const TriangleMesh& mesh) const {
-  if (!is_percent) return number;
-  Box box;
-  for (const FaceId f : mesh.triangles.ids())
-    if (const Triangle t = mesh.triangle(f); is_finite(t.a) && is_finite(t.b) && is_finite(t.c))
-      for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
-  return number / 100 * box.diagonal();
+  return is_percent ? number / 100 * finite_bounding_box(mesh).diagonal() : number;
 }
 
 CLI::Option* add_gap(CLI::App& command, const std::string& names, Gap& gap, const std::string& description) {

@@ -9,14 +9,6 @@
 namespace prohull::cli {
 namespace {
 
-Box finite_box(const TriangleMesh& mesh) {
-  Box box;
-  for (const FaceId f : mesh.triangles.ids())
-    if (const Triangle t = mesh.triangle(f); is_finite(t.a) && is_finite(t.b) && is_finite(t.c))
-      for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
-  return box;
-}
-
 /// The decimal number nearest to x that is a multiple of the power of ten below `size`.
 double rounded(double x, double size) {
   const int digits = static_cast<int>(std::floor(std::log10(std::abs(x))) - std::floor(std::log10(size)));
@@ -28,7 +20,7 @@ double rounded(double x, double size) {
 // With |middle| > 4 size every coordinate is between half and twice the offset, which differs from the middle by at
 // most half of the size: by Sterbenz' lemma the difference is a double.
 Vec3 recentering_offset(const TriangleMesh& mesh) {
-  const Box box = finite_box(mesh);
+  const Box box = finite_bounding_box(mesh);
   if (box.is_empty()) return {};
   const double size = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
   const Vec3 middle = box.center();

@@ -127,7 +127,7 @@ int run_spheres(const Options& options) {
   const Stopwatch reading;
   TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
   outcome.read_seconds = reading.seconds();
-  outcome.faces = mesh.face_count(), outcome.diagonal = bounding_box(mesh).diagonal();
+  outcome.faces = mesh.face_count(), outcome.diagonal = finite_bounding_box(mesh).diagonal();
   outcome.cover = cover_of(std::move(mesh), options);
   Outputs outputs;
   if (outcome.cover.certified) outputs.add(options.out, text_of(options, suffix, outcome.cover.balls));

@@ -29,6 +29,9 @@ void append(TriangleMesh& mesh, const TriangleMesh& part);
 /// The bounding box of the vertices that triangles use.
 Box bounding_box(const TriangleMesh& mesh);
 
+/// The same of the triangles whose corners are all finite; empty if there is none.
+Box finite_bounding_box(const TriangleMesh& mesh);
+
 /// The sum of the signed volumes of the tetrahedra between each triangle and a common point: for a closed mesh its
 /// volume, which is positive if the mesh is oriented outwards. Computed in double precision about the centre of the
 /// bounding box. For huge coordinates it may overflow to infinity, but never to NaN.

@@ -11,6 +11,7 @@
 #include "construct/collapse_away.h"
 #include "construct/turned.h"
 #include "geometry/float32.h"
+#include "geometry/largest_coordinate.h"
 #include "geometry/linear_program.h"
 #include "geometry/predicates.h"
 #include "mesh/half_edge_mesh.h"
@@ -170,13 +171,9 @@ class VertexMover {
 }  // namespace
 
 void check_float32_spacing(const TriangleMesh& mesh) {
-  Box box;
-  for (const FaceId f : mesh.triangles.ids())
-    if (const Triangle t = mesh.triangle(f); is_finite(t.a) && is_finite(t.b) && is_finite(t.c))
-      for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
+  const Box box = finite_bounding_box(mesh);
   if (box.is_empty()) return;
-  double most = 0;
-  for (int axis = 0; axis < 3; ++axis) most = std::max({most, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  const double most = largest_coordinate(box);
   if (constexpr double kMost = std::numeric_limits<float>::max(); most > kMost)
     throw InputError(Defect::NonFiniteCoordinate,
                      fmt::format("coordinates beyond {:g} do not fit the float32 of the file; write a .ply, .obj or "

@@ -176,7 +176,7 @@ class Covering {
     const CutSearch search = search_of(material);
     const CutTree tree = tree_of(search, options_.max_pieces, material);
     Solid solid(material.solid, material.beside, kTolerances[0]);
-    const std::size_t most = fewest_for(tree, least_volumes(tree)[leaves(tree)]);
+    const std::size_t most = fewest_parts(tree);
     ConvexCover best = fitted(tree, most, solid, material);
     // Fewer pieces do without the cut that defeats the proof.
     for (std::size_t count = most; !best.certified && count > 2;) {
@@ -234,12 +234,11 @@ class Covering {
     return material.solid.face_count() > 0 ? Solid(scaled, {}, kSearchTolerance) : Solid({}, scaled, kSearchTolerance);
   }
 
-  static std::size_t leaves(const CutTree& tree) { return (tree.nodes.size() + 1) / 2; }
-
   /// Pieces that save nothing are not made.
-  static std::size_t fewest_for(const CutTree& tree, double volume) {
+  static std::size_t fewest_parts(const CutTree& tree) {
     const std::vector<double> least = least_volumes(tree);
-    const auto first = std::find_if(least.begin(), least.end(), [&](double v) { return v <= volume * (1 + 1e-6); });
+    const auto first =
+        std::find_if(least.begin(), least.end(), [&](double v) { return v <= least.back() * (1 + 1e-6); });
     return static_cast<std::size_t>(first - least.begin());
   }
 

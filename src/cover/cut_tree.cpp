@@ -243,8 +243,6 @@ class Settling {
   ProgressMeter& meter_;
 };
 
-std::size_t leaves(const CutTree& tree) { return (tree.nodes.size() + 1) / 2; }
-
 /// The planes of flat regions of the surface that lie close to a plane, those of the largest area first.
 std::vector<Plane> flat_regions_near(const Part& part, const Plane& plane, double distance) {
   constexpr std::size_t kMost = 4;
@@ -336,6 +334,10 @@ class Division {
 
 CutSearch::CutSearch(Solid solid, const Solid& coarser, std::size_t pieces, ProgressMeter& meter)
     : solid_(std::move(solid)) {
+  if (pieces == 1) {
+    trees_.push_back({{CutTree::Node{}}});
+    return;
+  }
   const std::size_t most = pieces + pieces / 4 + 8;  // so that there is a choice of leaves
   trees_.push_back(Cutting(solid_, most, kNarrow, meter).run());
   if (pieces <= kMostPiecesOfWide) trees_.push_back(Cutting(coarser, most, kWide, meter).run());

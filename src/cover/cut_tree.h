@@ -41,6 +41,9 @@ class CutSearch {
   std::vector<CutTree> trees_;
 };
 
+/// How many leaves it has.
+inline std::size_t leaves(const CutTree& tree) { return (tree.nodes.size() + 1) / 2; }
+
 /// least[k]: the least volume of k parts that the tree divides its solid into, for k from 1 to its number of leaves.
 /// By dynamic programming, so that a cut counts by all that its further cuts save.
 std::vector<double> least_volumes(const CutTree& tree);

@@ -23,18 +23,10 @@ namespace {
 
 constexpr double kHair = 1 + 1e-6;  ///< on the gap, for rounding
 
-double finite_diagonal(const TriangleMesh& mesh) {
-  Box box;
-  for (const FaceId f : mesh.triangles.ids())
-    if (const Triangle t = mesh.triangle(f); is_finite(t.a) && is_finite(t.b) && is_finite(t.c))
-      box.extend(t.a), box.extend(t.b), box.extend(t.c);
-  return box.diagonal();
-}
-
 class CageMaker {
  public:
   CageMaker(TriangleMesh triangles, const CageOptions& options) : options_(options), triangles_(std::move(triangles)) {
-    cage_.gap = options.gap > 0 ? options.gap : kCageGap * finite_diagonal(triangles_);
+    cage_.gap = options.gap > 0 ? options.gap : kCageGap * finite_bounding_box(triangles_).diagonal();
     if (!(cage_.gap > 0))
       throw InputError(Defect::InvalidOption, "the mesh has no size that a gap could be taken from: give the gap");
   }

@@ -16,6 +16,14 @@ Box bounding_box(const TriangleMesh& mesh) {
   return box;
 }
 
+Box finite_bounding_box(const TriangleMesh& mesh) {
+  Box box;
+  for (const FaceId f : mesh.triangles.ids())
+    if (const Triangle t = mesh.triangle(f); is_finite(t.a) && is_finite(t.b) && is_finite(t.c))
+      for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
+  return box;
+}
+
 double signed_volume(const TriangleMesh& mesh) {
   const Box box = bounding_box(mesh);
   if (box.is_empty()) return 0;

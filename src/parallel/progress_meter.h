@@ -36,7 +36,7 @@ class ProgressMeter {
     throw Cancelled();
   }
   /// Asks whether to go on where a step takes long.
-  void go_on() { at(fraction_); }
+  void go_on() { at(0.0); }
   void at(std::size_t done, std::size_t all) {
     at(static_cast<double>(done) / static_cast<double>(std::max({done, all, std::size_t{1}})));
   }

@@ -16,6 +16,7 @@
 #include "construct/tight/tight_placement.h"
 #include "construct/tight/tightening.h"
 #include "geometry/compactness.h"
+#include "geometry/directions.h"
 #include "geometry/float32.h"
 #include "geometry/predicates.h"
 #include "mesh/half_edge_mesh.h"
@@ -211,8 +212,7 @@ class Evener {
     for (const VertexId u : link_)
       middle += (at(u) - from) / double(link_.size()), size += norm(at(u) - from) / double(link_.size());
     middle = middle - up * dot(middle, up);
-    const Vec3 seed = std::abs(up.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 across = cross(up, seed), e1 = norm(across) > 0 ? across / norm(across) : Vec3{}, e2 = cross(up, e1);
+    const Vec3 e1 = norm(up) > 0 ? any_normal(up) : Vec3{}, e2 = cross(up, e1);
     std::vector<std::pair<double, Vec3>> places;
     const auto consider = [&](const Vec3& p) {
       if (const double q = least_with(p); q >= least) places.emplace_back(-q, p);
