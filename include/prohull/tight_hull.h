@@ -42,6 +42,7 @@ struct MoveOptions {
   unsigned max_rounds = 12;          ///< in each, all vertices move once that may; they end when none has moved
   double padding = 0;                ///< as of build_tight_hull; moved_towards only
   HullSide side = HullSide::Outer;   ///< moved_towards only; an inner hull needs a padding
+  unsigned threads = 0;              ///< as in HullOptions
   Progress progress = {};            ///< stage "tighten"
 };
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <set>
 #include <utility>
@@ -23,7 +24,9 @@ class EdgeHeap {
 
   bool empty() const { return heap_.empty(); }
   bool contains(EdgeId e) const { return place_[e] != kNowhere; }
-  bool precedes_all(double priority) const { return heap_.empty() || priority <= priority_[heap_.front()]; }
+  bool precedes_all(double priority) const { return priority <= least(); }
+  /// Infinity if there is none.
+  double least() const { return heap_.empty() ? std::numeric_limits<double>::infinity() : priority_[heap_.front()]; }
 
   void insert(EdgeId e, double priority) {
     assert(!contains(e));

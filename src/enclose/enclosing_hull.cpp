@@ -147,6 +147,7 @@ class Ladder {
   Attempt build(std::size_t solid, std::size_t target_faces);
   EnclosingHull build_levels(std::size_t solid, std::size_t target_faces);
   EnclosingHull build_in_steps(std::size_t solid, std::size_t target_faces);
+  MoveOptions move_options(unsigned max_rounds) const;
   TriangleMesh placed(const TriangleMesh& level, std::size_t solid, unsigned max_rounds = kMostRounds) const;
   bool is_moved_closely(std::size_t solid) const;
   EnclosingHull build_tight(std::size_t solid, std::size_t target_faces);
@@ -508,12 +509,22 @@ bool Ladder::is_moved_closely(std::size_t solid) const {
   return !is_outer() || (made_.input.closed && made_.solids[solid].doors.face_count() == 0 && !is_moved_loosely_);
 }
 
+MoveOptions Ladder::move_options(unsigned max_rounds) const {
+  const HullOptions& hull = options_.hull;
+  return {.guards = hull.guards,
+          .float32_coordinates = hull.float32_coordinates,
+          .max_rounds = max_rounds,
+          .padding = aim(),
+          .side = hull.side,
+          .threads = hull.threads,
+          .progress = options_.progress};
+}
+
 // A level of a wrap or of the convex hull moves towards the triangles, if it need not be one of a hierarchy.
 TriangleMesh Ladder::placed(const TriangleMesh& level, std::size_t solid, unsigned max_rounds) const {
   if ((made_.solids[solid].source == Source::Mesh && !is_moved_) || options_.levels) return level;
-  const HullOptions& hull = options_.hull;
-  const MoveOptions how{hull.guards, hull.float32_coordinates, max_rounds, aim(), hull.side, options_.progress};
-  return is_moved_closely(solid) ? moved_towards_closed(level, made_.input.closed->mesh, hull.side, how)
+  const MoveOptions how = move_options(max_rounds);
+  return is_moved_closely(solid) ? moved_towards_closed(level, made_.input.closed->mesh, how.side, how)
                                  : moved_towards(level, to_cover(solid), how);
 }
 
@@ -640,9 +651,7 @@ void Ladder::keep_away(EnclosingHull& hull) {
   // Where the solid is thin, the faces of an inner hull have passed through each other.
   if (!is_outer() && count_self_intersections(hull.mesh) > 0) hull.padding = 0;
   if (added == 0 || hull.padding < options_.padding) return;
-  TriangleMesh moved = moved_towards(hull.mesh, to_cover(hull.solid),
-                                     {options_.hull.guards, options_.hull.float32_coordinates, kMostRounds, aim(),
-                                      options_.hull.side, options_.progress});
+  TriangleMesh moved = moved_towards(hull.mesh, to_cover(hull.solid), move_options(kMostRounds));
   if (const double distance = distance_from(moved, hull.solid); distance >= options_.padding)
     hull.mesh = std::move(moved), hull.padding = distance;
 }

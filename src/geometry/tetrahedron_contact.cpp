@@ -29,6 +29,13 @@ bool strictly_on_one_side(const Triangle& t, const std::array<Vec3, N>& points, 
   return std::ranges::all_of(points, [&](const Vec3& p) { return side(t.a, t.b, t.c, p) == beside; });
 }
 
+/// Bit i is set if corner i is strictly inside of the plane of the face.
+unsigned corners_inside(const Triangle& face, const Corners& corners) {
+  unsigned inside = 0;
+  for (std::size_t i = 0; i < 3; ++i) inside |= unsigned{side(face.a, face.b, face.c, corners[i]) == Side::Inside} << i;
+  return inside;
+}
+
 /// Whether planes along the edges pq of the triangle, t its third corner, and rs of the tetrahedron, u and v the
 /// others, have the triangle on one side and the tetrahedron on the other; `strictly`, with room between the two edges.
 bool separated_along_edges(const Vec3& p, const Vec3& q, const Vec3& t, const Vec3& r, const Vec3& s, const Vec3& u,
@@ -57,8 +64,13 @@ bool separated_along_edges(const Corners& triangle, const std::array<Vec3, 4>& t
 bool meets_interior(const Triangle& triangle, const Tetrahedron& tetrahedron) {
   const Corners corners{triangle.a, triangle.b, triangle.c};
   const auto& [a, b, c, d] = tetrahedron;
-  for (const Triangle& face : faces_of(tetrahedron))
-    if (on_one_side(face, corners, Side::Outside)) return false;
+  unsigned inside = 0b111;  // corners that are strictly inside of all faces so far
+  for (const Triangle& face : faces_of(tetrahedron)) {
+    const unsigned now = corners_inside(face, corners);
+    if (now == 0) return false;
+    inside &= now;
+  }
+  if (inside != 0) return true;
   const std::array<Vec3, 4> v{a, b, c, d};
   if (on_one_side(triangle, v, Side::Outside) || on_one_side(triangle, v, Side::Inside)) {
     // A triangle without area has no plane: everything is on it.

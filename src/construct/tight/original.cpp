@@ -19,91 +19,15 @@ std::vector<Triangle> triangles_of(const TriangleMesh& mesh) {
   return triangles;
 }
 
-Bvh tree_of(const TriangleMesh& mesh) {
-  std::vector<Box> boxes;
-  boxes.reserve(mesh.face_count());
-  for (const FaceId f : mesh.triangles.ids()) boxes.push_back(box_of(mesh.triangle(f)));
-  return Bvh(boxes);
+/// Whether they are so far apart for certain: one lies beyond the plane of the other. False for some that are.
+bool is_certainly_beyond(const Triangle& plane, const Triangle& t, double distance) {
+  constexpr double kLittleMore = 1 + 1e-9;
+  const Vec3 n = cross(plane.b - plane.a, plane.c - plane.a);
+  const double length = norm(n);
+  if (!(length > 0)) return false;
+  const double a = dot(n, t.a - plane.a), b = dot(n, t.b - plane.a), c = dot(n, t.c - plane.a);
+  return std::max(std::min({a, b, c}), -std::max({a, b, c})) >= kLittleMore * distance * length;
 }
-
-/// Finds boxes that lie beside a tetrahedron, most of them, also where its box overlaps them.
-class Beside {
- public:
-  explicit Beside(const Tetrahedron& t) {
-    const std::array corners{t.a, t.b, t.c, t.d};
-    for (const Vec3& p : corners) {
-      box_.extend(p);
-      largest_ = std::max({largest_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3 &p = corners[i], &q = corners[(i + 1) % 4], &r = corners[(i + 2) % 4], &inside = corners[(i + 3) % 4];
-      const Vec3 n = cross(q - p, r - p);
-      planes_[i] = dot(n, inside - p) > 0 ? -n : n;
-      offsets_[i] = dot(planes_[i], p);
-    }
-  }
-
-  bool operator()(const Box& other) const {
-    if (!other.overlaps(box_)) return true;
-    constexpr double kRounding = 1e-13;  // far more than what the sums below are wrong by
-    const Vec3 &a = other.min, &b = other.max;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3& n = planes_[i];
-      double least = -offsets_[i], size = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        least += std::min(n[axis] * a[axis], n[axis] * b[axis]);
-        size += std::abs(n[axis]) * std::max({largest_, std::abs(a[axis]), std::abs(b[axis])});
-      }
-      if (least > kRounding * size && is_certain(n)) return true;
-    }
-    return false;
-  }
-
- private:
-  /// The normal of a needle may be rounded away.
-  bool is_certain(const Vec3& n) const {
-    const double diagonal = box_.diagonal();
-    return norm(n) > 1e-6 * diagonal * diagonal && diagonal > 1e-6 * largest_;
-  }
-
-  Box box_;
-  double largest_ = 0;
-  std::array<Vec3, 4> planes_;  ///< normals outwards
-  std::array<double, 4> offsets_{};
-};
-
-/// How far a box is from a triangle, at least, but for rounding.
-class Beyond {
- public:
-  explicit Beyond(const Triangle& t) : corner_(t.a), box_(box_of(t)) {
-    const Vec3 n = cross(t.b - t.a, t.c - t.a);
-    const double length = norm(n);
-    if (length > 0) normal_ = n / length;
-  }
-
-  double operator()(const Box& box) const {
-    const Vec3 a = box.min - corner_, b = box.max - corner_;
-    double squared = 0, least = 0, most = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double gap = std::max({0.0, box.min[axis] - box_.max[axis], box_.min[axis] - box.max[axis]});
-      squared += gap * gap;
-      least += std::min(normal_[axis] * a[axis], normal_[axis] * b[axis]);
-      most += std::max(normal_[axis] * a[axis], normal_[axis] * b[axis]);
-    }
-    return std::max({std::sqrt(squared), least, -most});
-  }
-
-  /// Whether a triangle is so far away; false for some that are.
-  bool is_certain(const Triangle& t, double distance) const {
-    constexpr double kLittleMore = 1 + 1e-9;
-    const double a = dot(normal_, t.a - corner_), b = dot(normal_, t.b - corner_), c = dot(normal_, t.c - corner_);
-    return std::max(std::min({a, b, c}), -std::max({a, b, c})) >= kLittleMore * distance;
-  }
-
- private:
-  Vec3 corner_, normal_;
-  Box box_;
-};
 
 /// A point in the inside of the tetrahedron, if rounding leaves one there.
 std::optional<Vec3> point_inside(const Tetrahedron& t) {
@@ -117,11 +41,11 @@ std::optional<Vec3> point_inside(const Tetrahedron& t) {
 }  // namespace
 
 Original::Original(TriangleMesh mesh, double clearance)
-    : mesh_(std::move(mesh)), tree_(tree_of(mesh_)), bounds_(bounding_box(mesh_)), clearance_(clearance) {}
+    : sieve_(std::move(mesh)), bounds_(bounding_box(sieve_.mesh())), clearance_(clearance) {}
 
 Original Original::closed(TriangleMesh mesh, HullSide side) {
   Original original(std::move(mesh), 0);
-  original.winding_.emplace(triangles_of(original.mesh_));
+  original.winding_.emplace(triangles_of(original.mesh()));
   original.least_covered_ = side == HullSide::Outer ? 1 : 0;
   return original;
 }
@@ -138,26 +62,39 @@ Original Original::padded_triangles(TriangleMesh mesh, double padding) {
 bool Original::keeps_padding(const Triangle& face) const {
   if (padding_ == 0) return true;
   bool keeps = true;
-  const Beyond beyond(face);
-  tree_.visit([&](const Box& box) { return keeps && beyond(box) < padding_; },
-              [&](std::uint32_t f) {
-                const Triangle t = mesh_.triangle(FaceId{f});
-                keeps = keeps && (beyond.is_certain(t, padding_) || triangle_distance(face, t).lower >= padding_);
-              });
+  sieve_.visit(sieve_.around(face, padding_), [&](FaceId f) {
+    const Triangle t = mesh().triangle(f);
+    return keeps = is_certainly_beyond(face, t, padding_) || triangle_distance(face, t).lower >= padding_;
+  });
   return keeps;
 }
 
-bool Original::lies_outside_of(const Tetrahedron& removed) const {
-  const Beside is_beside(removed);
-  bool met = false;
-  tree_.visit([&](const Box& box) { return !met && !is_beside(box); },
-              [&](std::uint32_t f) {
-                met = met || (winding_ ? meets_interior(mesh_.triangle(FaceId{f}), removed)
-                                       : may_touch(mesh_.triangle(FaceId{f}), removed));
-              });
-  if (met || !winding_) return !met;
+void Original::find_near(const Tetrahedron& removed, std::vector<FaceId>& near) const {
+  sieve_.visit(sieve_.around(removed, clearance_), [&](FaceId f) {
+    near.push_back(f);
+    return true;
+  });
+}
+
+bool Original::is_in_the_way(FaceId f, const Tetrahedron& removed) const {
+  const Triangle t = mesh().triangle(f);
+  return winding_ ? meets_interior(t, removed) : may_touch(t, removed);
+}
+
+bool Original::is_outside_at(const Vec3& p) const {
+  return !winding_ || winding_->at(p).value_or(least_covered_) < least_covered_;
+}
+
+bool Original::is_outside_inside_of(const Tetrahedron& removed) const {
+  if (!winding_) return true;
   const auto inside = point_inside(removed);
-  return inside && winding_->at(*inside).value_or(least_covered_) < least_covered_;
+  return inside && is_outside_at(*inside);
+}
+
+bool Original::lies_outside_of(const Tetrahedron& removed) const {
+  bool met = false;
+  sieve_.visit(sieve_.around(removed, 0), [&](FaceId f) { return !(met = is_in_the_way(f, removed)); });
+  return !met && is_outside_inside_of(removed);
 }
 
 }  // namespace prohull

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
-#include "geometry/bvh.h"
+#include "construct/tight/triangle_sieve.h"
 #include "geometry/tetrahedron_contact.h"
 #include "geometry/winding_number.h"
 #include "prohull/progressive_hull.h"
@@ -20,13 +21,22 @@ class Original {
   /// New faces of hulls keep this distance from triangles.
   static Original padded_triangles(TriangleMesh mesh, double padding);
 
-  const Bvh& tree() const { return tree_; }  ///< over the boxes of faces
-  const TriangleMesh& mesh() const { return mesh_; }
+  const TriangleMesh& mesh() const { return sieve_.mesh(); }
   const Box& bounds() const { return bounds_; }
   double clearance() const { return clearance_; }  ///< 0: faces may touch
 
   /// Whether the hull may give up the tetrahedron. Exact; false where that is not certain.
   bool lies_outside_of(const Tetrahedron& removed) const;
+
+  // The same in steps, for tetrahedra that share a corner.
+  /// Adds the triangles that may be within the clearance of the tetrahedron.
+  void find_near(const Tetrahedron& removed, std::vector<FaceId>& near) const;
+  /// Whether the triangle is in the way. Exact.
+  bool is_in_the_way(FaceId f, const Tetrahedron& removed) const;
+  /// Whether tetrahedra at p are outside where no triangle is in the way; false where that is not certain.
+  bool is_outside_at(const Vec3& p) const;
+  /// Whether one such tetrahedron is.
+  bool is_outside_inside_of(const Tetrahedron& removed) const;
 
   double padding() const { return padding_; }
   /// Whether a face of the hull keeps the padding. True without one.
@@ -35,8 +45,7 @@ class Original {
  private:
   Original(TriangleMesh mesh, double clearance);
 
-  TriangleMesh mesh_;
-  Bvh tree_;
+  TriangleSieve sieve_;
   Box bounds_;
   double clearance_;
   double padding_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "construct/tight/contacts.h"
 #include "construct/tight/original.h"
 #include "mesh/half_edge_mesh.h"
 #include "prohull/hull_builder.h"
@@ -10,6 +11,6 @@ namespace prohull {
 /// Unlike build_hull, the new vertex need not lie outside of the star that it replaces, but only of the original: from
 /// where the linear program of the star puts it, outside of all faces, it moves at once as far as tight_placement.h
 /// lets it. The volume in which collapses are ordered is what is added then. docs/performance.md has what that gains.
-void collapse_tightly(HalfEdgeMesh& hull, const Original& original, const HullOptions& options);
+void collapse_tightly(HalfEdgeMesh& hull, const Original& original, const HullOptions& options, Contacts& contacts);
 
 }  // namespace prohull

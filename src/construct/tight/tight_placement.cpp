@@ -21,9 +21,7 @@ double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, 
 struct Removed {
   Removed(const Vec3& apex, const Vec3& a, const Vec3& b)
       : new_face(plane(apex, a, b, Vec3{})),
-        others{plane(Vec3{}, a, b, apex), plane(Vec3{}, apex, a, b), plane(Vec3{}, apex, b, a)} {
-    for (const Vec3& p : {Vec3{}, apex, a, b}) box.extend(p);
-  }
+        others{plane(Vec3{}, a, b, apex), plane(Vec3{}, apex, a, b), plane(Vec3{}, apex, b, a)} {}
   static HalfSpace plane(const Vec3& u, const Vec3& v, const Vec3& w, const Vec3& inside) {
     const Vec3 n = cross(v - u, w - u);
     const double length = norm(n);
@@ -32,18 +30,9 @@ struct Removed {
   }
   HalfSpace new_face;
   std::array<HalfSpace, 3> others;
-  Box box;
 };
 
 double depth(const HalfSpace& plane, const Vec3& p) { return dot(plane.normal, p) - plane.offset; }
-
-/// Of the points of a box.
-double greatest_depth(const HalfSpace& plane, const Box& box) {
-  double sum = -plane.offset;
-  for (int axis = 0; axis < 3; ++axis)
-    sum += std::max(plane.normal[axis] * box.min[axis], plane.normal[axis] * box.max[axis]);
-  return sum;
-}
 
 bool is_beyond(const std::array<HalfSpace, 3>& planes, const Vec3& p, double least_depth) {
   return std::ranges::all_of(planes, [&](const HalfSpace& plane) { return depth(plane, p) > least_depth; });
@@ -72,7 +61,8 @@ Vec3 TightPlacement::as_stored(const Vec3& p) const { return float32_coordinates
 
 void TightPlacement::set(const Vec3& from, const HalfEdgeMesh& mesh, const std::vector<VertexId>& link) {
   from_ = from;
-  link_.clear(), local_.clear();
+  link_.clear(), local_.clear(), found_.clear();
+  for (auto& coordinates : known_) coordinates.clear();
   for (const VertexId v : link) link_.push_back(mesh.position(v));
   scale_ = 0;
   for (const Vec3& p : link_) scale_ = std::max(scale_, norm(p - from));
@@ -81,18 +71,32 @@ void TightPlacement::set(const Vec3& from, const HalfEdgeMesh& mesh, const std::
   for (std::size_t i = 0; i < link_.size(); ++i) objective_ += cross(local_[i], local_[after(i)]);
 }
 
+void TightPlacement::know(const std::vector<Vec3>& points) {
+  for (const Vec3& p : points) add_known(to_local(p));
+}
+
 /// Up to which depth a point of the original in a removed tetrahedron counts as outside of it; local.
 double TightPlacement::allowed_depth() const {
   constexpr double kTouching = 1e-10;  // the exact test decides
   return original_.clearance() > 0 ? -original_.clearance() / scale_ : kTouching;
 }
 
-// Cutting planes: the linear program without the original, then again and again with the points of the original that
-// its answer would leave outside.
-std::optional<Vec3> TightPlacement::propose(double margin) {
-  constexpr int kMaxPrograms = 16;
-  constexpr double kLeastGain = 1e-4;  // of the objective
-  if (!(norm(objective_) > 0)) return std::nullopt;
+double TightPlacement::least_margin() const {
+  constexpr double kLeast = 1e-10;
+  return (original_.clearance() + 2 * rounding_) / scale_ + kLeast;
+}
+
+// For what rounding and the tolerances of the proposal have got wrong.
+double TightPlacement::wide_margin() const {
+  constexpr double kWide = 1e-7;
+  return (original_.clearance() + 8 * rounding_) / scale_ + kWide;
+}
+
+void TightPlacement::begin(double margin) {
+  constexpr int kMaxPrograms = 32;
+  margin_ = margin;
+  programs_left_ = kMaxPrograms;
+  encloses_ = false;
   constraints_.clear();
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {1.0, -1.0}) {
@@ -100,91 +104,166 @@ std::optional<Vec3> TightPlacement::propose(double margin) {
       normal[axis] = sign;
       constraints_.push_back({normal, -kReach});
     }
-  for (int i = 0; i < kMaxPrograms; ++i) {
+}
+
+// Cutting planes: the linear program without the original, then again and again with the points of the original that
+// its answer would leave outside.
+std::optional<Vec3> TightPlacement::propose() {
+  constexpr double kLeastGain = 3e-4;  // of the objective
+  if (!(norm(objective_) > 0)) return std::nullopt;
+  while (programs_left_-- > 0) {
     const auto best = optimum_or_nearest(objective_, constraints_);
     if (!best || dot(objective_, *best) > -kLeastGain * norm(objective_)) return std::nullopt;
-    if (!add_cuts(*best, margin)) return best;
+    if (!add_known_cuts(*best)) return best;
   }
   return std::nullopt;
 }
 
-// For each face of the star, the point of the original that would be farthest outside.
-bool TightPlacement::add_cuts(const Vec3& apex, double margin) {
+// Nothing if there is nothing to gain. Sets encloses_ unless the exact test is against it but no point is to be seen
+// that is in the way.
+std::optional<Vec3> TightPlacement::propose_enclosing() {
+  for (;;) {
+    const auto apex = propose();
+    if (!apex) return std::nullopt;
+    const Vec3 to = as_stored(from_ + *apex * scale_);
+    if (!is_finite(to)) return apex;
+    const std::size_t cuts = constraints_.size();
+    encloses_ = !cut_where_met(*apex, to);
+    if (constraints_.size() > cuts) continue;
+    encloses_ = encloses_ && is_outside(to) && keeps_padding(to);
+    return apex;
+  }
+}
+
+std::optional<Vec3> TightPlacement::guess() {
+  begin(least_margin());
+  const auto apex = propose();
+  if (!apex) return std::nullopt;
+  return as_stored(from_ + *apex * scale_);
+}
+
+// The face (x, a, b) has q inside where dot(x - q, (a - q) cross (b - q)) is positive: linear in x.
+bool TightPlacement::add_cut(std::size_t i, const Vec3& q) {
+  const Vec3 n = cross(local_[i] - q, local_[after(i)] - q);
+  const double length = norm(n);
+  if (!(length > 0)) return false;
+  constraints_.push_back({n / length, dot(n, q) / length + margin_});
+  return true;
+}
+
+void TightPlacement::add_known(const Vec3& local) {
+  for (int axis = 0; axis < 3; ++axis) known_[static_cast<std::size_t>(axis)].push_back(local[axis]);
+}
+
+// For each face of the star, the known point that would be farthest outside.
+bool TightPlacement::add_known_cuts(const Vec3& apex) {
+  const auto& [x, y, z] = known_;
   bool added = false;
-  for (std::size_t i = 0; i < local_.size(); ++i) {
+  const double allowed = allowed_depth();
+  depths_.resize(x.size());
+  for (std::size_t i = 0; i < local_.size() && !x.empty(); ++i) {
     const Vec3 &a = local_[i], &b = local_[after(i)];
     if (determinant(a, b, apex) >= 0) continue;  // adds
-    const auto cut = deepest_point(apex, a, b);
-    if (!cut) continue;
-    // The face (x, a, b) has q inside where dot(x - q, (a - q) cross (b - q)) is positive: linear in x.
-    const Vec3 n = cross(a - *cut, b - *cut);
-    const double length = norm(n);
-    if (!(length > 0)) continue;
-    constraints_.push_back({n / length, dot(n, *cut) / length + margin});
-    added = true;
+    const Removed removed(apex, a, b);
+    const auto& [n, offset] = removed.new_face;
+    for (std::size_t k = 0; k < x.size(); ++k) depths_[k] = n.x * x[k] + n.y * y[k] + n.z * z[k] - offset;
+    double deepest = allowed;
+    std::optional<Vec3> point;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      if (!(depths_[k] > deepest)) continue;
+      const Vec3 p{x[k], y[k], z[k]};
+      if (is_beyond(removed.others, p, allowed)) deepest = depths_[k], point = p;
+    }
+    if (point && add_cut(i, *point)) added = true;
   }
   return added;
 }
 
-// Of the original, in the removed tetrahedron, the point farthest outside of the new face (apex, a, b): a corner, or
-// where there is none a point of an edge or face.
-std::optional<Vec3> TightPlacement::deepest_point(const Vec3& apex, const Vec3& a, const Vec3& b) {
-  const Removed removed(apex, a, b);
-  const double allowed = allowed_depth();
-  const double padding = original_.padding() > 0 ? -allowed : 0;
-  const Vec3 margin{padding, padding, padding};
-  const Box near{removed.box.min - margin, removed.box.max + margin};
-  double deepest = allowed;
-  std::optional<Vec3> point;
-  const auto take = [&](const Vec3& p) {
-    if (const double d = depth(removed.new_face, p); d > deepest) deepest = d, point = p;
-  };
-  const auto bound = [&](const Box& box) {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    const Box here{to_local(box.min), to_local(box.max)};
-    if (!here.overlaps(near)) return kNone;
-    for (const HalfSpace& plane : removed.others)
-      if (greatest_depth(plane, here) <= allowed) return kNone;
-    return -greatest_depth(removed.new_face, here);
-  };
-  const auto local = [&](std::uint32_t f) {
-    const Triangle t = original_.mesh().triangle(FaceId{f});
-    return Triangle{to_local(t.a), to_local(t.b), to_local(t.c)};
-  };
-  original_.tree().least(
-      bound,
-      [&](std::uint32_t f) {
-        const Triangle t = local(f);
-        for (const Vec3& p : {t.a, t.b, t.c})
-          if (is_beyond(removed.others, p, allowed)) take(p);
-        return -deepest;
-      },
-      -allowed);
-  if (point) return point;
-  original_.tree().least(
-      bound,
-      [&](std::uint32_t f) {
-        const Triangle t = local(f);
-        polygon_ = {t.a, t.b, t.c};
-        clip(polygon_, removed.new_face, allowed, clipped_);
-        for (const HalfSpace& plane : removed.others) clip(polygon_, plane, allowed, clipped_);
-        if (polygon_.size() >= 3)
-          for (const Vec3& p : polygon_) take(p);
-        return -deepest;
-      },
-      -allowed);
-  return point;
+/// In the removed tetrahedron, the point that is farthest outside of the new face.
+class TightPlacement::Deepest {
+ public:
+  Deepest(const Removed& removed, double allowed) : removed_(removed), allowed_(allowed), deepest_(allowed) {}
+
+  void take_if_inside(const Vec3& p) {
+    if (is_beyond(removed_.others, p, allowed_)) take(p);
+  }
+  void take_part_of(std::vector<Vec3>& polygon, std::vector<Vec3>& scratch) {
+    clip(polygon, removed_.new_face, allowed_, scratch);
+    for (const HalfSpace& plane : removed_.others) clip(polygon, plane, allowed_, scratch);
+    if (polygon.size() >= 3)
+      for (const Vec3& p : polygon) take(p);
+  }
+  const std::optional<Vec3>& point() const { return point_; }
+
+ private:
+  void take(const Vec3& p) {
+    if (const double d = depth(removed_.new_face, p); d > deepest_) deepest_ = d, point_ = p;
+  }
+
+  const Removed& removed_;
+  const double allowed_;
+  double deepest_;
+  std::optional<Vec3> point_;
+};
+
+std::array<Vec3, 3> TightPlacement::local_corners(FaceId f) const {
+  const Triangle t = original_.mesh().triangle(f);
+  return {to_local(t.a), to_local(t.b), to_local(t.c)};
+}
+
+// Adds a cut for each removed tetrahedron that the original is in the way of: at a corner, or where there is none at a
+// point of an edge or face. Whether it is in the way of none; exact.
+bool TightPlacement::cut_where_met(const Vec3& apex, const Vec3& to) {
+  bool met = false;
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    const Tetrahedron tetrahedron{link_[i], to, link_[after(i)], from_};
+    if (side(from_, link_[i], link_[after(i)], to) != Side::Inside) continue;  // adds, or is flat
+    near_.clear();
+    original_.find_near(tetrahedron, near_);
+    const Removed removed(apex, local_[i], local_[after(i)]);
+    Deepest deepest(removed, allowed_depth());
+    for (const FaceId f : near_)
+      for (const Vec3& p : local_corners(f)) deepest.take_if_inside(p);
+    if (!deepest.point()) {
+      const bool is_met = std::ranges::any_of(near_, [&](FaceId f) { return original_.is_in_the_way(f, tetrahedron); });
+      met = met || is_met;
+      if (!is_met && original_.clearance() == 0) continue;
+      for (const FaceId f : near_) {
+        const auto corners = local_corners(f);
+        polygon_.assign(corners.begin(), corners.end());
+        deepest.take_part_of(polygon_, clipped_);
+      }
+    }
+    if (!deepest.point()) continue;
+    met = true;
+    if (add_cut(i, *deepest.point())) found_.push_back(from_ + *deepest.point() * scale_), add_known(*deepest.point());
+  }
+  return met;
+}
+
+// Of tetrahedra that no triangle meets.
+bool TightPlacement::is_outside(const Vec3& to) const {
+  if (original_.is_outside_at(from_)) return true;
+  for (std::size_t i = 0; i < link_.size(); ++i)
+    if (const Tetrahedron removed{from_, link_[i], link_[after(i)], to};
+        side(removed.a, removed.b, removed.c, removed.d) == Side::Inside && !original_.is_outside_inside_of(removed))
+      return false;
+  return true;
+}
+
+bool TightPlacement::keeps_padding(const Vec3& to) const {
+  for (std::size_t i = 0; i < link_.size(); ++i)
+    if (!original_.keeps_padding({to, link_[i], link_[after(i)]})) return false;
+  return true;
 }
 
 bool TightPlacement::keeps_enclosing(const Vec3& to) const {
   for (std::size_t i = 0; i < link_.size(); ++i) {
     const Vec3 &a = link_[i], &b = link_[after(i)];
-    if (side(from_, a, b, to) != Side::Inside) continue;  // adds, or is flat
+    if (side(from_, a, b, to) != Side::Inside) continue;
     if (!original_.lies_outside_of({from_, a, b, to})) return false;
   }
-  for (std::size_t i = 0; i < link_.size(); ++i)
-    if (!original_.keeps_padding({to, link_[i], link_[after(i)]})) return false;
-  return true;
+  return keeps_padding(to);
 }
 
 }  // namespace prohull

@@ -20,16 +20,26 @@ namespace prohull {
 /// triangle meets the inside, and some point of it is outside of the original. It still covers triangles of any kind if
 /// none touches a removed tetrahedron: one between two of them would meet the inside of neither. All this is decided
 /// exactly, on stored coordinates.
+///
+/// What keeps a vertex are few points of the original, and mostly those that kept it, or its neighbours, before. So the
+/// caller keeps these, and the original is searched only where the exact test says that others are in the way.
 class TightPlacement {
  public:
   TightPlacement(const Original& original, bool float32_coordinates);
 
   /// The vertex, which need not be in the mesh, and its link in order around it.
   void set(const Vec3& from, const HalfEdgeMesh& mesh, const std::vector<VertexId>& link);
+  /// Points of the original that cut before, near here.
+  void know(const std::vector<Vec3>& points);
+  /// The points that have cut since then.
+  const std::vector<Vec3>& found() const { return found_; }
 
   /// The first of its proposals, as stored, that is_accepted(to) accepts and where the hull still encloses. Exact.
   template <class IsAccepted>
   std::optional<Vec3> first(IsAccepted&& is_accepted);
+
+  /// Where the vertex would go if only the known points were in the way; as stored.
+  std::optional<Vec3> guess();
 
   /// A frame with the origin at the vertex and the farthest link vertex at distance 1.
   const std::vector<Vec3>& local_link() const { return local_; }
@@ -43,9 +53,19 @@ class TightPlacement {
   double rounding() const { return rounding_; }
 
  private:
-  std::optional<Vec3> propose(double margin);
-  bool add_cuts(const Vec3& apex, double margin);
-  std::optional<Vec3> deepest_point(const Vec3& apex, const Vec3& a, const Vec3& b);
+  double least_margin() const;
+  double wide_margin() const;
+  void begin(double margin);
+  std::optional<Vec3> propose();
+  std::optional<Vec3> propose_enclosing();
+  void add_known(const Vec3& local);
+  bool add_known_cuts(const Vec3& apex);
+  bool add_cut(std::size_t i, const Vec3& point);
+  class Deepest;
+  std::array<Vec3, 3> local_corners(FaceId f) const;
+  bool cut_where_met(const Vec3& apex, const Vec3& to);
+  bool is_outside(const Vec3& to) const;
+  bool keeps_padding(const Vec3& to) const;
   double allowed_depth() const;
 
   const Original& original_;
@@ -56,23 +76,32 @@ class TightPlacement {
   double scale_ = 1;
   std::vector<Vec3> link_, local_;
   Vec3 objective_;
+  std::array<std::vector<double>, 3> known_;  ///< coordinates of points, local
+  std::vector<Vec3> found_;
+
+  // Of the proposal in hand.
+  double margin_ = 0;
+  int programs_left_ = 0;
+  bool encloses_ = false;
   std::vector<HalfSpace> constraints_;
 
-  std::vector<Vec3> polygon_, clipped_;  ///< scratch
+  // Scratch.
+  std::vector<FaceId> near_;
+  std::vector<Vec3> polygon_, clipped_;
+  std::vector<double> depths_;
 };
 
 template <class IsAccepted>
 std::optional<Vec3> TightPlacement::first(IsAccepted&& is_accepted) {
-  // The second margin is for what rounding and the tolerances of the proposal have got wrong.
-  constexpr double kLeastMargin = 1e-10, kWideMargin = 1e-7;
-  const double clearance = original_.clearance() / scale_, rounding = rounding_ / scale_;
-  for (const double margin : {clearance + kLeastMargin + 2 * rounding, clearance + kWideMargin + 8 * rounding}) {
-    const auto apex = propose(margin);
+  for (const double margin : {least_margin(), wide_margin()}) {
+    begin(margin);
+    const auto apex = propose_enclosing();
     if (!apex) return std::nullopt;
-    for (const double step : {1.0, 0.5, 0.25})
-      if (const Vec3 to = as_stored(from_ + *apex * (step * scale_));
-          is_finite(to) && is_accepted(to) && keeps_enclosing(to))
-        return to;
+    const auto at = [&](double step) { return as_stored(from_ + *apex * (step * scale_)); };
+    if (encloses_ && is_accepted(at(1))) return at(1);
+    for (const double step : {0.5, 0.25})
+      if (const Vec3 to = at(step); is_finite(to) && is_accepted(to) && keeps_enclosing(to)) return to;
+    if (encloses_) return std::nullopt;  // a wider margin would change nothing
   }
   return std::nullopt;
 }

@@ -1,5 +1,8 @@
 #include "construct/tight/tightening.h"
 
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,43 +13,89 @@
 #include "construct/tight/tight_placement.h"
 #include "geometry/compactness.h"
 #include "geometry/predicates.h"
+#include "parallel/arena.h"
 #include "parallel/progress_meter.h"
 
 namespace prohull {
 namespace {
 
+/// Where a vertex goes, and what has kept it from going farther.
+struct Move {
+  VertexId vertex;
+  std::optional<Vec3> to = {};
+  std::vector<Vec3> found = {};
+};
+
+/// Finds where vertices may go; one for each thread.
+class Placer {
+ public:
+  Placer(const HalfEdgeMesh& mesh, const Original& original, const MoveOptions& options)
+      : mesh_(mesh), options_(options), placement_(original, options.float32_coordinates) {}
+
+  void place(Move& move, const Contacts& contacts, auto&& is_accepted) {
+    link_.clear();
+    for (const HalfEdgeId h : mesh_.around(move.vertex)) link_.push_back(mesh_.tip(h));
+    placement_.set(mesh_.position(move.vertex), mesh_, link_);
+    contacts.gather(move.vertex, link_, known_);
+    placement_.know(known_);
+    move.to = placement_.first([&](const Vec3& to) { return has_good_shape(to) && is_accepted(to); });
+    move.found = placement_.found();
+  }
+  const std::vector<VertexId>& link() const { return link_; }  ///< of the vertex placed last
+
+ private:
+  bool has_good_shape(const Vec3& to) const;
+
+  const HalfEdgeMesh& mesh_;
+  const MoveOptions& options_;
+  TightPlacement placement_;
+  std::vector<VertexId> link_;
+  std::vector<Vec3> known_;
+};
+
 class Tightener {
  public:
-  Tightener(HalfEdgeMesh& mesh, const Original& original, const MoveOptions& options)
+  Tightener(HalfEdgeMesh& mesh, const Original& original, const MoveOptions& options, Contacts& contacts)
       : mesh_(mesh),
         original_(original),
         options_(options),
+        contacts_(contacts),
         guard_(mesh, faces_along_curve(mesh)),
-        placement_(original, options.float32_coordinates),
+        placers_([&] { return Placer(mesh, original, options); }),
         waiting_(mesh.positions().size(), 1),
         changed_(waiting_),
-        meter_(options.progress, "tighten") {}
+        batch_(mesh.positions().size(), 0),
+        meter_(options.progress, "tighten") {
+    PerVertex<char> is_listed(mesh.positions().size(), 0);
+    for (const FaceId f : faces_along_curve(mesh))
+      for (const VertexId v : mesh.corners(f))
+        if (!std::exchange(is_listed[v], 1)) order_.push_back(v);
+  }
 
   std::size_t run();
 
  private:
   void move_vertices(unsigned round);
+  std::vector<Move> take_independent(std::vector<VertexId>& vertices);
+  bool apply(Move& move);
   void flip_edges();
-  bool move(VertexId v);
   bool flip(HalfEdgeId h);
   void mark_changed(VertexId v) { waiting_[v] = changed_[v] = 1; }
   std::array<VertexId, 4> corners_beside(HalfEdgeId h) const;
-  bool has_good_shape(const Vec3& to) const;
   bool has_good_shape_without(const Tetrahedron& removed) const;
 
   HalfEdgeMesh& mesh_;
   const Original& original_;
   const MoveOptions& options_;
+  Contacts& contacts_;
   SelfIntersectionGuard guard_;
-  TightPlacement placement_;
-  std::vector<VertexId> link_;  ///< of the vertex in hand
-  PerVertex<char> waiting_;     ///< to be moved
-  PerVertex<char> changed_;     ///< since edges were flipped last, or a neighbour has
+  oneapi::tbb::enumerable_thread_specific<Placer> placers_;
+  std::vector<VertexId> link_;      ///< of the vertex in hand
+  std::vector<VertexId> order_;     ///< what lies together in space does so in the list, mostly
+  PerVertex<char> waiting_;         ///< to be moved
+  PerVertex<char> changed_;         ///< since edges were flipped last, or a neighbour has
+  PerVertex<std::uint32_t> batch_;  ///< the last one that it, or a neighbour, was in
+  std::uint32_t batches_ = 0;
   ProgressMeter meter_;
   std::size_t changes_ = 0, moves_ = 0;
 };
@@ -61,16 +110,54 @@ std::size_t Tightener::run() {
   return moves_;
 }
 
+// Vertices that are not neighbours are placed at the same time: what their stars lose and gain is apart. Only whether
+// new faces meet others is asked of one after the other.
 void Tightener::move_vertices(unsigned round) {
-  for (const VertexId v : mesh_.positions().ids()) {
-    if (!mesh_.has(v) || !waiting_[v]) continue;
-    meter_.at(round * mesh_.positions().size() + index(v), options_.max_rounds * mesh_.positions().size());
-    waiting_[v] = 0;
-    if (!move(v)) continue;
-    ++changes_, ++moves_;
-    mark_changed(v);
-    for (const VertexId u : link_) mark_changed(u);
+  std::vector<VertexId> vertices;
+  for (const VertexId v : order_)
+    if (waiting_[v]) vertices.push_back(v);
+  const std::size_t all = vertices.size();
+  while (!vertices.empty()) {
+    std::vector<Move> moves = take_independent(vertices);
+    oneapi::tbb::parallel_for(std::size_t{0}, moves.size(), [&](std::size_t i) {
+      meter_.at(round * all + (all - vertices.size()), options_.max_rounds * all);
+      placers_.local().place(moves[i], contacts_, [](const Vec3&) { return true; });
+    });
+    for (Move& move : moves) {
+      if (!apply(move)) continue;
+      ++changes_, ++moves_;
+      mark_changed(move.vertex);
+      for (const VertexId u : link_) mark_changed(u);
+    }
   }
+}
+
+// Takes vertices of which no two are neighbours, in their order.
+std::vector<Move> Tightener::take_independent(std::vector<VertexId>& vertices) {
+  ++batches_;
+  std::vector<Move> moves;
+  std::erase_if(vertices, [&](VertexId v) {
+    if (batch_[v] == batches_) return false;
+    for (const HalfEdgeId h : mesh_.around(v)) batch_[mesh_.tip(h)] = batches_;
+    waiting_[v] = 0;
+    moves.push_back({v});
+    return true;
+  });
+  return moves;
+}
+
+bool Tightener::apply(Move& move) {
+  const VertexId v = move.vertex;
+  contacts_.keep(v, move.found);
+  if (!move.to) return false;
+  link_.clear();
+  for (const HalfEdgeId h : mesh_.around(v)) link_.push_back(mesh_.tip(h));
+  const auto is_free = [&](const Vec3& to) { return !guard_.would_add_intersections(mesh_, v, link_, to); };
+  if (!is_free(*move.to)) placers_.local().place(move, contacts_, is_free);
+  if (!move.to) return false;
+  mesh_.move(v, *move.to);
+  guard_.changed(mesh_, v);
+  return true;
 }
 
 void Tightener::flip_edges() {
@@ -84,18 +171,6 @@ void Tightener::flip_edges() {
     ++changes_;
     for (const VertexId v : corners) mark_changed(v);
   }
-}
-
-bool Tightener::move(VertexId v) {
-  link_.clear();
-  for (const HalfEdgeId h : mesh_.around(v)) link_.push_back(mesh_.tip(h));
-  placement_.set(mesh_.position(v), mesh_, link_);
-  const auto to = placement_.first(
-      [&](const Vec3& p) { return has_good_shape(p) && !guard_.would_add_intersections(mesh_, v, link_, p); });
-  if (!to) return false;
-  mesh_.move(v, *to);
-  guard_.changed(mesh_, v);
-  return true;
 }
 
 // The ends of the edge and the third corners of its faces: o, d, l, r.
@@ -119,7 +194,7 @@ bool Tightener::flip(HalfEdgeId h) {
   return true;
 }
 
-bool Tightener::has_good_shape(const Vec3& to) const {
+bool Placer::has_good_shape(const Vec3& to) const {
   const double least_cosine = std::cos(options_.guards.max_normal_deviation);
   const Vec3 apex = placement_.to_local(to);
   double least_before = 1, least_after = 1;
@@ -157,8 +232,13 @@ bool Tightener::has_good_shape_without(const Tetrahedron& removed) const {
 
 }  // namespace
 
+std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts) {
+  return arena_of(options.threads).execute([&] { return Tightener(hull, original, options, contacts).run(); });
+}
+
 std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options) {
-  return Tightener(hull, original, options).run();
+  Contacts contacts(hull.positions().size());
+  return tighten(hull, original, options, contacts);
 }
 
 }  // namespace prohull
