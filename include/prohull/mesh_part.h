@@ -29,7 +29,7 @@ struct SimplifiedPart {
 /// mesh: one that build_hull could have reached by the same collapses. It does not intersect itself if the mesh does
 /// not, unless options.self_intersections allows that.
 ///
-/// options.target_faces counts own faces; what lies on the sides of the box cannot be removed, so more may be left.
+/// options.target_faces counts the own faces that lie strictly inside of the box; the others stay in any case.
 /// Strategy::Lazy only, without tolerances and best_of.
 ///
 /// Throws InputError if faces around a vertex strictly inside of the box are missing, or are not one disk; for a face

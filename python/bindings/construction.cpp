@@ -206,9 +206,7 @@ py::tuple simplified_part(TriangleMesh mesh, std::size_t own_faces, const Array<
   HullOptions options;
   options.target_faces = given.count("target_faces");
   options.side = given.choice("side", hull_side_names());
-  options.self_intersections = given.choice("self_intersections", self_intersections_names());
   options.float32_coordinates = given.flag("float32_coordinates");
-  options.seed = given.get<std::uint64_t>("seed", "a whole number, at least 0");
   options.threads = given.count("threads");
   const MeshPart part{std::move(mesh), own_faces, box_of(box)};
   SimplifiedPart made = watched(progress, [&](Watch& watch) {

@@ -26,6 +26,17 @@ void check(const MeshPart& part, const HullOptions& options) {
           "the part has coordinates that are not finite");
 }
 
+bool is_strictly_inside(const Box& box, const Vec3& p) {
+  return box.min.x < p.x && p.x < box.max.x && box.min.y < p.y && p.y < box.max.y && box.min.z < p.z && p.z < box.max.z;
+}
+
+std::size_t faces_that_stay(const MeshPart& part) {
+  return static_cast<std::size_t>(std::ranges::count_if(part.mesh.triangles, [&](const auto& corners) {
+    return !std::ranges::all_of(corners,
+                                [&](VertexId v) { return is_strictly_inside(part.box, part.mesh.positions[v]); });
+  }));
+}
+
 SimplifiedPart own_faces(const ProgressiveHull& hull, std::size_t count) {
   SimplifiedPart made;
   const std::vector<VertexId>& corners = hull.base_corners();
@@ -49,7 +60,7 @@ SimplifiedPart simplify_part(const MeshPart& part, const HullOptions& options) {
   check(part, options);
   if (part.own_faces == 0) return {};
   HullOptions of_all = options;
-  of_all.target_faces += part.mesh.face_count() - part.own_faces;
+  of_all.target_faces += faces_that_stay(part);
   const bool is_inner = options.side == HullSide::Inner;
   SimplifiedPart made = arena_of(options.threads).execute([&] {
     const HullResult result = simplify_in_rounds(is_inner ? turned(part.mesh) : part.mesh, of_all, &part.box);
