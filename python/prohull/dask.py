@@ -295,28 +295,29 @@ def _require_closed(mesh: Mesh) -> None:
 
 
 def _boxes(mesh: Mesh, count: int) -> Iterator[tuple[Any, Any, Any]]:
-    """Splits space into boxes with about as many faces: of each, the faces of its own, the others that reach into it,
-    and its corners. What a face belongs to is decided by its least coordinates, without any arithmetic, so that it
-    belongs to a box that it lies inside of."""
+    """Splits space into boxes of about as many faces each, and tells of each its own faces, the others that reach into
+    it, and its two corners. The least coordinates of a face decide whose it is, without arithmetic: a face that lies
+    inside of a box is its own."""
     vertices, faces = mesh.vertices, mesh.faces
 
     def split(near: Any, is_own: Any, box: Any, count: int) -> Iterator[tuple[Any, Any, Any]]:
-        if count == 1:
+        if count == 1 or not is_own.any():
             yield near[is_own], near[~is_own], box
+            yield from [(near[:0], near[:0], box)] * (count - 1)
             return
-        least = [vertices[faces[near[is_own]], axis].min(axis=1, initial=np.inf) for axis in range(3)]
-        axis = int(np.argmax([np.ptp(along) if len(along) > 0 else 0 for along in least]))
+        axis = int(np.argmax([np.ptp(low_and_high(near[is_own], axis)[0]) for axis in range(3)]))
+        low, high = low_and_high(near, axis)
         below = count // 2
-        at = np.partition(least[axis], len(least[axis]) * below // count)[len(least[axis]) * below // count] \
-            if len(least[axis]) > 0 else 0.0
-        del least
-        along = vertices[faces[near], axis]
-        low, high = along.min(axis=1), along.max(axis=1)
-        del along
+        median = is_own.sum() * below // count
+        at = np.partition(low[is_own], median)[median]
         for is_near, of_half, side, parts in ((low <= at, low < at, 1, below), (high >= at, low >= at, 0, count - below)):
             half = box.copy()
             half[side, axis] = at
             yield from split(near[is_near], (is_own & of_half)[is_near], half, parts)
+
+    def low_and_high(some: Any, axis: int) -> Any:
+        a, b, c = (vertices[:, axis][faces[some, corner]] for corner in range(3))
+        return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
 
     everything = np.arange(len(faces), dtype=np.uint32)
     whole = np.array([[-np.inf] * 3, [np.inf] * 3])
