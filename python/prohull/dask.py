@@ -183,7 +183,8 @@ def build_partitioned(client: "distributed.Client", mesh: MeshLike, target_faces
     whole, as prohull.build() does. The same mesh and the same number of parts give the same bits, whatever workers do
     the work, and also if some of them die.
 
-    The hull has no levels. It is another one than that of prohull.build(), with about as much void.
+    The hull has no levels. It is another one than that of prohull.build(), with about as much void. The caller is left
+    with some 32 faces for each of the hull, and those at borders: this pays where the mesh has many more.
 
     client: of a cluster. Its workers get the parts as arrays, and need not see any file.
     mesh: a closed 2-manifold, oriented outwards. The caller reads a path.
@@ -265,8 +266,10 @@ def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kin
     return _together(kind, [answers[start] for start in chunks])
 
 
-#: What parts make up has so many faces for each of the hull (docs/guides/dask.md has the void that more or fewer give).
+#: What the parts make up has so many faces for each face of the hull,
 _JOINED = 32
+#: and so many beside each face at a border, from where faces can only grow slowly.
+_BORDER = 4
 
 
 class _Part(NamedTuple):
@@ -333,8 +336,11 @@ def _joined(client: "distributed.Client", mesh: Mesh, count: int, target_faces: 
         for i, (own, others, box) in enumerate(_boxes(mesh, count)):
             faces = mesh.faces[np.concatenate([own, others])]
             numbers[i], faces = _compact(faces, len(mesh.vertices))
-            share = max(4, target_faces * len(own) // len(mesh.faces))
-            yield i, _Part(mesh.vertices[numbers[i]], faces, len(own), box, share)
+            vertices = mesh.vertices[numbers[i]]
+            is_inside = ((vertices > box[0]) & (vertices < box[1])).all(axis=1)
+            at_border = len(own) - np.count_nonzero(is_inside[faces[:len(own)]].all(axis=1))
+            target = target_faces * len(own) // max(1, len(mesh.faces)) + _BORDER * at_border
+            yield i, _Part(vertices, faces, len(own), box, max(4, target))
 
     made: dict[int, _Simplified] = {}
     with contextlib.closing(_completed(client, _simplify, parts(), functools.partial(_limit, client), options)) as completed:
