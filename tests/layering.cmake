@@ -23,7 +23,7 @@ room(query     OWNS mesh_query refine_along                                     
 room(io        OWNS mesh_io hull_file query_io                                   MAY hull mesh geometry parallel base
                                                                                      prohull/collide prohull/mesh_query)
 room(repair    OWNS openings repair                                              MAY mesh geometry base)
-room(construct OWNS hull_builder tight_hull float32_hull padded_hull             MAY hull mesh geometry parallel base)
+room(construct OWNS hull_builder tight_hull float32_hull padded_hull mesh_part   MAY hull mesh geometry parallel base)
 # Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges.
 room(verify    OWNS enclosure verification union_verification replay distance tolerances MAY geometry parallel base prohull/ids
                                                                                      prohull/triangle_mesh

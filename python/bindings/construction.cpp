@@ -12,6 +12,7 @@
 #include "module.h"
 #include "prohull/cage.h"
 #include "prohull/enclosing_hull.h"
+#include "prohull/mesh_part.h"
 #include "watch.h"
 
 namespace py = pybind11;
@@ -193,11 +194,38 @@ py::dict cage(const TriangleMesh& mesh, const py::object& progress, const py::di
   return facts;
 }
 
+Box box_of(const Array<double>& sides) {
+  const Vec3* const rows = rows_of<Vec3>(sides);
+  return {rows[0], rows[1]};
+}
+
+/// The own faces, and the numbers in the part of their first vertices.
+py::tuple simplified_part(TriangleMesh mesh, std::size_t own_faces, const Array<double>& box,
+                          const py::object& progress, const py::dict& keywords) {
+  const Keywords given(keywords);
+  HullOptions options;
+  options.target_faces = given.count("target_faces");
+  options.side = given.choice("side", hull_side_names());
+  options.float32_coordinates = given.flag("float32_coordinates");
+  options.threads = given.count("threads");
+  const MeshPart part{std::move(mesh), own_faces, box_of(box)};
+  SimplifiedPart made = watched(progress, [&](Watch& watch) {
+    options.progress = watch.progress();
+    return simplify_part(part, options);
+  });
+  std::vector<std::uint32_t> kept;
+  kept.reserve(made.kept.size());
+  for (const VertexId v : made.kept) kept.push_back(index(v));
+  const auto count = static_cast<py::ssize_t>(kept.size());
+  return py::make_tuple(std::make_shared<TriangleMesh>(std::move(made.mesh)), array_of(std::move(kept), {count}));
+}
+
 }  // namespace
 
 void bind_construction(py::module_& module) {
   module.def("build", &build);
   module.def("cage", &cage);
+  module.def("simplified_part", &simplified_part);
   module.attr("sides") = tuple_of(hull_side_names());
   module.attr("strategies") = tuple_of(strategy_names());
   module.attr("repairs") = tuple_of(repair_names());

@@ -1,7 +1,9 @@
-"""Builds hulls of many meshes, and asks many segments, on the workers of a dask cluster (docs/guides/dask.md).
+"""Builds hulls of many meshes or of a huge one, and asks many segments, on the workers of a dask cluster
+(docs/guides/dask.md).
 
     client = distributed.Client("scheduler:8786")
     rows = prohull.dask.build_folder(client, "meshes", "hulls", 500)
+    hull = prohull.dask.build_partitioned(client, "scan.ply", 2000, parts=16)
     rows = prohull.dask.build_robots(client, ["arm.urdf", "gripper.urdf"], "safe", padding=0.005)
     hits = prohull.dask.query(client, hull.original, segments)
 
@@ -23,7 +25,7 @@ import sys
 import time
 import uuid
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, Optional, Union, get_args, overload
 
 import numpy as np
@@ -37,12 +39,12 @@ except ImportError as error:
 
 import prohull
 
-from . import AllHits, FirstHits, InputError, Mesh, _arrays, robot
+from . import AllHits, FirstHits, Hull, InputError, Mesh, _arrays, _prohull, robot
 from ._files import mesh_of
 from ._meshes import Engine
-from ._types import MeshLike, Path
+from ._types import MeshLike, Path, Side
 
-__all__ = ["RobotRow", "Row", "build_folder", "build_robots", "query", "show"]
+__all__ = ["RobotRow", "Row", "build_folder", "build_partitioned", "build_robots", "query", "show"]
 
 #: What Hull.save() writes.
 Suffix = Literal[".ply", ".obj", ".off", ".stl", ".glb", ".phull"]
@@ -171,6 +173,51 @@ def build_robots(client: "distributed.Client", files: Union[Sequence[Path], Mapp
     return in_order
 
 
+def build_partitioned(client: "distributed.Client", mesh: MeshLike, target_faces: int = 2000, *, parts: int = 8,
+                      side: Side = "outer", tight: bool = False, float32_coordinates: bool = False, threads: int = 1,
+                      progress: Optional[Progress] = show) -> Hull:
+    """Builds a certified hull of one huge mesh. Each part of the mesh is simplified on a worker, with its border kept;
+    the caller joins the parts, and builds the hull of what they make up.
+
+    Guaranteed: `certified` says that the hull encloses the mesh as it was given, which is decided exactly and on the
+    whole, as prohull.build() does. The same mesh and the same number of parts give the same bits, whatever workers do
+    the work, and also if some of them die.
+
+    The hull has no levels. It is another one than that of prohull.build(), with about as much void. The caller is left
+    with some 32 faces for each of the hull, and those at borders: this pays where the mesh has many more.
+
+    client: of a cluster. Its workers get the parts as arrays, and need not see any file.
+    mesh: a closed 2-manifold, oriented outwards. The caller reads a path.
+    target_faces: the largest number of faces of the hull, at least 4.
+    parts: number of parts, at least 1: two or three for each worker, so that all have work until the end, and so many
+        that a worker has room for one. With very many, much of the mesh lies at borders.
+    side, tight, float32_coordinates: as of prohull.build().
+    threads: the largest number of threads of each part on its worker; 0 means one for each core. The caller uses all of
+        its cores for the rest.
+    progress: see Progress; it counts parts, and the rest as one more.
+
+    Raises InputError if the mesh is no closed 2-manifold, or is inside out, and for numbers outside of their ranges;
+    distributed.KilledWorker if all workers died that a part was given to.
+    """
+    given, count = mesh_of(mesh), _arrays.face_counts("target_faces", target_faces)
+    if count.ndim > 0:
+        raise InputError(f"target_faces={target_faces!r}: expected one number")
+    if not isinstance(parts, int) or parts < 1:
+        raise InputError(f"parts={parts!r}: expected a whole number, at least 1")
+    start = time.perf_counter()
+    _require_closed(given)
+    told = _Told(progress, parts + 1)
+    options = {"side": side, "float32_coordinates": float32_coordinates, "threads": threads}
+    joined = _joined(client, given, parts, max(_JOINED * int(count), 4 * parts), options, told)
+    hull = prohull.build(joined, int(count), side=side, tight=tight, float32_coordinates=float32_coordinates)
+    built = time.perf_counter()
+    proof = _prohull.proof_of(hull._core, given._core, None, side)
+    told.add(1)
+    return hull._as(hull._core, certified=bool(proof), proof=proof, repairs=[], build_seconds=built - start,
+                    verify_seconds=time.perf_counter() - built, _original=given, _levels=None, _covered=None,
+                    _volume_inside=given.volume, _replay_suffices=False)
+
+
 @overload
 def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kind: Literal["first_hit"] = ..., *,
           chunk: int = ..., engine: Engine = ..., threads: int = ..., progress: Optional[Progress] = ...) -> FirstHits: ...
@@ -212,11 +259,114 @@ def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kin
     told = _Told(progress, len(rows))
     answers: dict[int, Any] = {}
     limit = functools.partial(_limit, client)
-    with contextlib.closing(_completed(client, _ask, chunks, limit, held, kind, engine, threads)) as completed:
+    with contextlib.closing(_completed(client, _ask, chunks.items(), limit, held, kind, engine, threads)) as completed:
         for start, future in completed:
             answers[start] = future.result()
             told.add(len(chunks[start]))
     return _together(kind, [answers[start] for start in chunks])
+
+
+#: What the parts make up has so many faces for each face of the hull,
+_JOINED = 32
+#: and so many beside each face at a border, from where faces can only grow slowly.
+_BORDER = 4
+
+
+class _Part(NamedTuple):
+    """The faces that reach into a box; first its own, then those that belong to other parts."""
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.uint32]
+    own_faces: int
+    box: NDArray[np.float64]  # its least and its greatest corner
+    target_faces: int
+
+
+class _Simplified(NamedTuple):
+    kept: NDArray[np.uint32]  # the vertices of the part that are left: the first that the faces count
+    vertices: NDArray[np.float64]  # those that are new
+    faces: NDArray[np.uint32]
+
+
+def _require_closed(mesh: Mesh) -> None:
+    report = mesh.report()
+    if not report["closed_manifold"]:
+        raise InputError(f"build_partitioned() takes a closed 2-manifold, and this mesh is none: {report['first_defect']}; "
+                         "prohull.build() repairs meshes")
+    if not report["volume"] > 0:
+        raise InputError("the mesh is inside out or encloses nothing; prohull.build() turns what it can")
+
+
+def _boxes(mesh: Mesh, count: int) -> Iterator[tuple[Any, Any, Any]]:
+    """Splits space into boxes of about as many faces each, and tells of each its own faces, the others that reach into
+    it, and its two corners. The least coordinates of a face decide whose it is, without arithmetic: a face that lies
+    inside of a box is its own."""
+    vertices, faces = mesh.vertices, mesh.faces
+
+    def split(near: Any, is_own: Any, box: Any, count: int) -> Iterator[tuple[Any, Any, Any]]:
+        if count == 1 or not is_own.any():
+            yield near[is_own], near[~is_own], box
+            yield from [(near[:0], near[:0], box)] * (count - 1)
+            return
+        axis = int(np.argmax([np.ptp(low_and_high(near[is_own], axis)[0]) for axis in range(3)]))
+        low, high = low_and_high(near, axis)
+        below = count // 2
+        median = is_own.sum() * below // count
+        at = np.partition(low[is_own], median)[median]
+        for is_near, of_half, side, parts in ((low <= at, low < at, 1, below), (high >= at, low >= at, 0, count - below)):
+            half = box.copy()
+            half[side, axis] = at
+            yield from split(near[is_near], (is_own & of_half)[is_near], half, parts)
+
+    def low_and_high(some: Any, axis: int) -> Any:
+        a, b, c = (vertices[:, axis][faces[some, corner]] for corner in range(3))
+        return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+
+    everything = np.arange(len(faces), dtype=np.uint32)
+    whole = np.array([[-np.inf] * 3, [np.inf] * 3])
+    yield from split(everything, np.ones(len(faces), bool), whole, count)
+
+
+def _joined(client: "distributed.Client", mesh: Mesh, count: int, target_faces: int, options: dict[str, Any],
+            told: "_Told") -> Mesh:
+    """What the parts make up when each is simplified."""
+    numbers: dict[int, Any] = {}  # of the vertices of each part, in the mesh
+
+    def parts() -> Iterator[tuple[int, Any]]:
+        for i, (own, others, box) in enumerate(_boxes(mesh, count)):
+            faces = mesh.faces[np.concatenate([own, others])]
+            numbers[i], faces = _compact(faces, len(mesh.vertices))
+            vertices = mesh.vertices[numbers[i]]
+            is_inside = ((vertices > box[0]) & (vertices < box[1])).all(axis=1)
+            at_border = len(own) - np.count_nonzero(is_inside[faces[:len(own)]].all(axis=1))
+            target = target_faces * len(own) // max(1, len(mesh.faces)) + _BORDER * at_border
+            yield i, _Part(vertices, faces, len(own), box, max(4, target))
+
+    made: dict[int, _Simplified] = {}
+    with contextlib.closing(_completed(client, _simplify, parts(), functools.partial(_limit, client), options)) as completed:
+        for i, future in completed:
+            made[i] = future.result()
+            told.add(1)
+    return _together_again(mesh, [(numbers[i], made[i]) for i in range(count)])
+
+
+def _compact(faces: Any, vertices: int) -> tuple[Any, Any]:
+    """The numbers of the vertices that the faces have, in their order, and the faces in places of this list."""
+    is_used = np.zeros(vertices, bool)
+    is_used[faces] = True
+    places = np.cumsum(is_used, dtype=np.uint32) - np.uint32(1)
+    return np.flatnonzero(is_used), places[faces]
+
+
+def _together_again(mesh: Mesh, parts: Sequence[tuple[Any, _Simplified]]) -> Mesh:
+    vertices, faces, count = [mesh.vertices], [], len(mesh.vertices)
+    for numbers, made in parts:
+        new = np.arange(count, count + len(made.vertices))
+        faces.append(np.concatenate([numbers[made.kept], new])[made.faces])
+        vertices.append(made.vertices)
+        count += len(made.vertices)
+    kept, joined = _compact(np.concatenate(faces), count)
+    return Mesh(np.concatenate(vertices)[kept], joined)
 
 
 class _RobotJob(NamedTuple):
@@ -383,6 +533,13 @@ def _build_robot(job: _RobotJob) -> RobotRow:
         return _row_of_error(job.name, error, RobotRow)
 
 
+def _simplify(part: "_Part", options: dict[str, Any]) -> "_Simplified":
+    mesh = _prohull.Mesh(part.vertices, part.faces.astype(np.int64))
+    made, kept = _prohull.simplified_part(mesh, part.own_faces, part.box, None,
+                                            {**options, "target_faces": part.target_faces})
+    return _Simplified(kept, made.vertices[len(kept):], made.faces)
+
+
 def _held(mesh: Mesh) -> Mesh:
     """A result that workers hand on to each other and keep, and that is there anew if all that had it died."""
     return mesh
@@ -399,11 +556,11 @@ def _limit(client: "distributed.Client") -> int:
     return 2 * max(1, sum(client.nthreads().values()))
 
 
-def _completed(client: "distributed.Client", function: Callable[..., Any], jobs: Mapping[int, Any],
+def _completed(client: "distributed.Client", function: Callable[..., Any], jobs: Iterable[tuple[int, Any]],
                limit: Callable[[], int], *arguments: Any) -> Iterator[tuple[int, "distributed.Future"]]:
-    """The futures of function(job, *arguments), as they come, under the keys of jobs. No more than limit() are
+    """The futures of function(job, *arguments), as they come, under the keys of the jobs. No more than limit() are
     under way at once, for the sake of the scheduler's memory; when this is closed, none begins any more."""
-    waiting = iter(jobs.items())
+    waiting = iter(jobs)
     under_way: dict["distributed.Future", int] = {}
     pool = distributed.as_completed(loop=client.loop)
 
@@ -454,7 +611,7 @@ def _all_rows(client: "distributed.Client", build: Callable[..., Any], jobs: Map
     for alone in (False, True):  # what was lost with its worker again: something beside it may have killed that
         todo = {i: job for i, job in jobs.items() if i not in rows}
         limit = (lambda: 1) if alone else functools.partial(_limit, client)
-        with contextlib.closing(_completed(client, build, todo, limit)) as completed:
+        with contextlib.closing(_completed(client, build, todo.items(), limit)) as completed:
             for i, future in completed:
                 if alone or not _is_killed(future):
                     rows[i] = _row(jobs[i].name, future, row)

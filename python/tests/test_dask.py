@@ -231,6 +231,79 @@ def test_wrong_arguments_are_named(tmp_path, meshes, options, error, message):
 
 
 @pytest.fixture(scope="module")
+def huge():
+    """As huge as a test can have it."""
+    return prohull.sample("pony", 60_000)
+
+
+def same_bits(hull, other):
+    return hull.vertices.tobytes() == other.vertices.tobytes() and hull.faces.tobytes() == other.faces.tobytes()
+
+
+@needs_dask
+def test_a_huge_mesh_in_parts(client, huge):
+    told = []
+    hull = prohull.dask.build_partitioned(client, huge, 500, parts=5, progress=lambda *state: told.append(state))
+    assert hull.certified and hull.proof == "enclosure" and len(hull.faces) == 500 and hull.self_intersections == 0
+    assert hull.original is huge and not hull.levels and hull.verify_seconds > 0 and prohull.verify(hull, huge)
+    assert told == [(n, 6, 0) for n in range(1, 7)]
+    voids = [prohull.build(huge, 500, seed=seed).void_ratio for seed in range(9)]
+    assert hull.void_ratio < 1.02 * max(voids), "no more than one build has by chance"
+
+    kill = KillOneAtWork(client)
+    other = prohull.dask.build_partitioned(client, huge, 500, parts=5, progress=kill)
+    assert kill.killed and kill.pids[kill.killed] not in client.run(os.getpid).values()
+    assert same_bits(hull, other)
+
+
+@needs_dask
+def test_parts_share_no_vertex_and_lose_no_face(huge):
+    home = np.full(len(huge.faces), -1)
+    lowest, highest = (getattr(huge.vertices[huge.faces], name)(axis=1) for name in ("min", "max"))
+    for i, (own, others, box) in enumerate(prohull.dask._boxes(huge, 7)):
+        assert (home[own] == -1).all() and abs(len(own) - len(home) / 7) < 20
+        home[own] = i
+        inside = ((lowest > box[0]) & (highest < box[1])).all(axis=1)
+        reaching = ((highest >= box[0]) & (lowest <= box[1])).all(axis=1)
+        assert inside[own].sum() == inside.sum() > len(own) / 2, "what may change is its own"
+        assert np.array_equal(np.sort(np.concatenate([own, others])), np.flatnonzero(reaching))
+    assert (home >= 0).all()
+
+
+@needs_dask
+def test_parts_of_other_hulls(client, huge, cube, tmp_path):
+    build = prohull.dask.build_partitioned
+    huge.save(tmp_path / "huge.ply")
+    inner = build(client, tmp_path / "huge.ply", 500, parts=3, side="inner", progress=None)
+    assert inner.certified and inner.side == "inner" and inner.void_ratio < 0 and prohull.verify(inner, huge)
+    rounded = build(client, huge, 500, parts=2, float32_coordinates=True, threads=2, progress=None)
+    assert rounded.certified and (rounded.vertices == rounded.vertices.astype(np.float32)).all()
+    tight = build(client, prohull.sample("torus", 8000), 200, parts=2, tight=True, progress=None)
+    assert tight.certified and len(tight.faces) <= 200
+    for parts in (1, 20):  # also more than there are faces
+        small = build(client, cube, 12, parts=parts, progress=None)
+        assert small.certified and small.void_ratio == 0
+
+
+@needs_dask
+def test_wrong_huge_meshes(client, cube):
+    vertices, faces = cube
+    build = prohull.dask.build_partitioned
+    with pytest.raises(prohull.InputError, match="takes a closed 2-manifold"):
+        build(client, (vertices, faces[1:]))
+    with pytest.raises(prohull.InputError, match="inside out"):
+        build(client, (vertices, faces[:, ::-1]))
+    with pytest.raises(prohull.InputError, match="parts=0"):
+        build(client, cube, parts=0)
+    with pytest.raises(prohull.InputError, match="expected one number"):
+        build(client, cube, [100, 200])
+    with pytest.raises(prohull.InputError, match="side='up'"):
+        build(client, cube, side="up", progress=None)
+    with pytest.raises(KeyboardInterrupt):
+        build(client, cube, progress=lambda *state: False)
+
+
+@pytest.fixture(scope="module")
 def segments(random):
     return random().uniform(-1.5, 1.5, size=(5000, 6))
 

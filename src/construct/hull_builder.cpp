@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "construct/best_of.h"
+#include "construct/checked_options.h"
 #include "construct/closed_manifold.h"
 #include "construct/progressive/rounds.h"
 #include "construct/turned.h"
@@ -13,7 +14,6 @@
 #include "prohull/error.h"
 
 namespace prohull {
-namespace {
 
 void check(const HullOptions& options) {
   const auto require = [](bool holds, const char* what) {
@@ -33,6 +33,8 @@ void check(const HullOptions& options) {
           "max_normal_deviation must be in [0, pi/2] radians");
   require(guards.max_overhang >= 0, "max_overhang must be at least 0");
 }
+
+namespace {
 
 void check_tolerances(const TriangleMesh& mesh, const HullOptions& options) {
   const PerFace<double>& tolerances = options.tolerances;

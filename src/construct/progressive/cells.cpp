@@ -80,8 +80,9 @@ FloatBox everywhere() {
   return {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
 }
 
-std::vector<Cell> split_into_cells(std::vector<BoxedFace> faces, std::size_t most_faces, double shift) {
-  return split(std::move(faces), everywhere(), most_faces, shift);
+std::vector<Cell> split_into_cells(std::vector<BoxedFace> faces, std::size_t most_faces, double shift,
+                                   const FloatBox& box) {
+  return split(std::move(faces), box, most_faces, shift);
 }
 
 std::vector<FaceId> along_curve(const std::vector<BoxedFace>& faces) {

@@ -17,7 +17,7 @@ namespace {
 
 class Rounds {
  public:
-  Rounds(const TriangleMesh& mesh, const HullOptions& options)
+  Rounds(const TriangleMesh& mesh, const HullOptions& options, const Box* part)
       : options_(options),
         bounds_(bounding_box(mesh)),
         unit_cube_(bounds_),
@@ -25,7 +25,7 @@ class Rounds {
         excess_(mesh.face_count() - std::min(mesh.face_count(), options.target_faces)),
         rules_{options_, unit_cube_, bounds_, storage_rounding(bounds_, options.float32_coordinates),
                [this](std::size_t removed_faces) { meter_.at(removed_ += removed_faces, excess_); }},
-        whole_(mesh, options_, unit_cube_) {}
+        whole_(mesh, options_, unit_cube_, part) {}
 
   HullResult run() {
     std::size_t round = 0;
@@ -68,8 +68,8 @@ class Rounds {
     constexpr double kGoldenRatio = 0.6180339887498949;
     const std::size_t before = whole_.face_count();
     const std::size_t cell_faces = std::clamp(before / (2 * kLeastCells), kLeastCellFaces, kMostCellFaces);
-    std::vector<Cell> cells =
-        split_into_cells(whole_.boxed_faces(), cell_faces, std::fmod(static_cast<double>(round) * kGoldenRatio, 1));
+    std::vector<Cell> cells = split_into_cells(whole_.boxed_faces(), cell_faces,
+                                               std::fmod(static_cast<double>(round) * kGoldenRatio, 1), whole_.box());
     if (cells.size() < kLeastCells / 2) return false;  // they would gain nothing
     const double max_priority = priority_for_a_round(cells), most = most_removed(cells);
     std::vector<WholeMesh::Collapses> collapses(cells.size());
@@ -155,8 +155,8 @@ class Rounds {
 
 }  // namespace
 
-HullResult simplify_in_rounds(const TriangleMesh& mesh, const HullOptions& options) {
-  return Rounds(mesh, options).run();
+HullResult simplify_in_rounds(const TriangleMesh& mesh, const HullOptions& options, const Box* part) {
+  return Rounds(mesh, options, part).run();
 }
 
 }  // namespace prohull

@@ -9,6 +9,9 @@ namespace prohull {
 /// other cells. All cells of a round are independent of each other, so that their threads never meet, and each fits
 /// into the cache. What is left, mostly the last sixteen thousand faces, is simplified as a whole. Throws InputError
 /// unless the mesh is a closed 2-manifold; Cancelled.
-HullResult simplify_in_rounds(const TriangleMesh& mesh, const HullOptions& options);
+///
+/// With `part`, the mesh is a part of a closed mesh: all faces that reach into that box. Only stars that lie strictly
+/// inside of it change. The hull of the result is then no closed mesh.
+HullResult simplify_in_rounds(const TriangleMesh& mesh, const HullOptions& options, const Box* part = nullptr);
 
 }  // namespace prohull

@@ -1,5 +1,6 @@
 #include "construct/progressive/whole_mesh.h"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -18,10 +19,10 @@ std::uint64_t seed_of(const HullOptions& options, std::uint32_t time, FaceId fir
 
 }  // namespace
 
-WholeMesh::WholeMesh(const TriangleMesh& mesh, const HullOptions& options, const UnitCube& unit_cube)
-    : options_(options), unit_cube_(unit_cube) {
+WholeMesh::WholeMesh(const TriangleMesh& mesh, const HullOptions& options, const UnitCube& unit_cube, const Box* part)
+    : options_(options), unit_cube_(unit_cube), box_(part ? unit_cube.at(*part) : everywhere()) {
   number_along_curve(mesh);
-  find_twins(mesh);
+  find_twins(mesh, part != nullptr);
   set_tolerances(options.tolerances);
   changed_.assign(positions_.size(), 1);
   edges_.resize(corners_.size());
@@ -53,11 +54,37 @@ void WholeMesh::number_along_curve(const TriangleMesh& mesh) {
   for (const VertexId v : mesh.positions.ids()) number(v);
 }
 
-void WholeMesh::find_twins(const TriangleMesh& mesh) {
+void WholeMesh::find_twins(const TriangleMesh& mesh, bool is_part) {
   const HalfEdgeMesh whole(positions_, corners_);
-  if (first_defect(whole)) require_closed_manifold(mesh);  // says which, in the mesh's own numbers
+  if (is_part)
+    require_whole_stars(whole);
+  else if (first_defect(whole))
+    require_closed_manifold(mesh);  // says which, in the mesh's own numbers
   twins_.reserve(corners_.size());
   for (std::uint32_t c = 0; c < corners_.size(); ++c) twins_.push_back(whole.twin(HalfEdgeId{c}));
+}
+
+void WholeMesh::require_whole_stars(const HalfEdgeMesh& part) const {
+  PerVertex<VertexId> met_from(positions_.size(), kNoVertex);
+  const auto is_one_disk = [&](VertexId v) {
+    std::uint32_t faces = 0;
+    HalfEdgeId h = part.out(v);
+    do {
+      if (part.twin(h) == kNoHalfEdge || part.twin(part.twin(h)) != h || part.tail(h) != v) return false;
+      const VertexId tip = part.tip(h);
+      if (tip == v || met_from[tip] == v) return false;
+      met_from[tip] = v;
+      ++faces;
+      h = part.rotated(h);
+    } while (h != part.out(v) && h != kNoHalfEdge);
+    return h != kNoHalfEdge && faces == part.valence(v);
+  };
+  for (const VertexId v : positions_.ids())
+    if (part.has(v) && box_.has_inside(unit_cube_.at(positions_[v])) && !is_one_disk(v))
+      throw InputError(Defect::NonManifoldVertex,
+                       fmt::format("vertex {} lies inside of the box of the part, but the faces around it are not one "
+                                   "disk: a part has all faces of a closed mesh that reach into its box",
+                                   index(names_[v])));
 }
 
 void WholeMesh::set_tolerances(const PerFace<double>& tolerances) {
@@ -96,7 +123,8 @@ WholeMesh::Cut WholeMesh::cut(Cell cell, std::size_t target_faces, double max_pr
         facts.push_back({.changed = is_free ? changed_[v] : 0, .is_free = is_free});
       }
       corners.push_back(local.vertices[v]);
-      const std::uint32_t twin = index(twins_[corner]), face = local.faces[FaceId{twin / 3}];
+      const std::uint32_t twin = index(twins_[corner]);
+      const std::uint32_t face = twins_[corner] == kNoHalfEdge ? LocalNumbers::kNoFace : local.faces[FaceId{twin / 3}];
       twins.push_back(face == LocalNumbers::kNoFace ? kNoHalfEdge : HalfEdgeId{3 * face + twin % 3});
     }
   for (const VertexId v : vertices) local.vertices[v] = kNoVertex;
@@ -130,7 +158,7 @@ void WholeMesh::cut_tolerances(Cut& cut) const {
 }
 
 WholeMesh::Cut WholeMesh::cut_everything(std::size_t target_faces) {
-  return cut({everywhere(), faces_}, target_faces, std::numeric_limits<double>::infinity());
+  return cut({box_, faces_}, target_faces, std::numeric_limits<double>::infinity());
 }
 
 WholeMesh::Collapses WholeMesh::put_back(Cut cut) {

@@ -11,7 +11,8 @@
 
 namespace prohull {
 
-/// The mesh under construction, of which cells are cut out, each to be simplified by itself, and put back.
+/// The mesh under construction, or the part of a mesh within a box, of which cells are cut out, each to be simplified
+/// by itself, and put back.
 ///
 /// Its elements have four numbers:
 ///
@@ -29,11 +30,13 @@ namespace prohull {
 ///                        names_ -- name
 class WholeMesh {
  public:
-  /// Throws InputError unless the mesh is a closed 2-manifold.
-  WholeMesh(const TriangleMesh& mesh, const HullOptions& options, const UnitCube& unit_cube);
+  /// Throws InputError unless the mesh is a closed 2-manifold; of a part of one, unless all faces around each vertex
+  /// strictly inside of the box are there. Only these vertices change.
+  WholeMesh(const TriangleMesh& mesh, const HullOptions& options, const UnitCube& unit_cube, const Box* part);
 
   std::size_t face_count() const { return faces_.size(); }
   std::vector<BoxedFace> boxed_faces() const;
+  const FloatBox& box() const { return box_; }
 
   /// A patch, and the places of its elements.
   struct Cut {
@@ -89,7 +92,8 @@ class WholeMesh {
   };
 
   void number_along_curve(const TriangleMesh& mesh);
-  void find_twins(const TriangleMesh& mesh);
+  void find_twins(const TriangleMesh& mesh, bool is_part);
+  void require_whole_stars(const HalfEdgeMesh& part) const;
   void set_tolerances(const PerFace<double>& tolerances);
   void cut_tolerances(Cut& cut) const;
   void put_back_tolerances(const Cut& cut);
@@ -97,6 +101,7 @@ class WholeMesh {
 
   const HullOptions& options_;
   const UnitCube& unit_cube_;
+  const FloatBox box_;
 
   PerFace<FaceId> given_;          ///< the number of a face in the input
   std::vector<VertexId> corners_;  ///< kNoVertex where a face has gone
