@@ -27,7 +27,8 @@ class Contacts {
   /// For a new vertex, that takes the place of o and d.
   void join(VertexId o, VertexId d) {
     std::vector<Vec3> of_o = points_[o];
-    keep(points_.push_back(std::move(of_o)), points_[d]);
+    const VertexId s = points_.push_back(std::move(of_o));
+    keep(s, points_[d]);
   }
 
  private:
