@@ -122,11 +122,12 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
         options.is_outer() ? "; all points within it are inside" : "");
 }
 
-// Without regions the report is as it was before there were any.
+// Without regions and symmetry the report is as it was before there were any.
 nlohmann::json facts_of(const RefusalCounts& counts) {
   nlohmann::json json;
   for (const auto& [name, refusal] : refusal_names())
-    if (refusal != Refusal::Tolerance || counts[refusal] > 0) json[std::string(name)] = counts[refusal];
+    if ((refusal != Refusal::Tolerance && refusal != Refusal::Symmetry) || counts[refusal] > 0)
+      json[std::string(name)] = counts[refusal];
   return json;
 }
 
