@@ -22,18 +22,15 @@ std::uint64_t seed_of(const HullOptions& options, std::uint32_t time, FaceId fir
 void require_symmetry(const TriangleMesh& mesh, Axis mirror) {
   const SymmetryReport found = inspect_symmetry(mesh, mirror);
   if (found.is_symmetric()) return;
-  const bool lacks_vertices = found.vertices_without_image > 0;
-  const std::size_t more = (lacks_vertices ? found.vertices_without_image : found.faces_without_image) - 1;
+  const std::string lacking = found.vertices_without_image > 0
+                                  ? counted(found.vertices_without_image, "vertex has", "vertices have")
+                                  : counted(found.faces_without_image, "face has", "faces have");
   throw InputError(
       Defect::InvalidOption,
-      fmt::format("the mesh is not exactly symmetric: {}{}. Make one half of it the mirror image of the other, for "
-                  "instance by Blender's Symmetrize, with the plane between them at {} = 0: elsewhere files round the "
-                  "coordinates of the two halves differently",
-                  found.first_defect,
-                  more == 0 ? ""
-                            : ", nor have " + (lacks_vertices ? counted(more, "other vertex", "other vertices")
-                                                              : counted(more, "other face", "other faces")),
-                  name_of(axis_names(), mirror)));
+      fmt::format("the mesh is not exactly symmetric: {}; in all, {} none. Make one half of it the mirror image of the "
+                  "other, for instance by Blender's Symmetrize, with the plane between them at {} = 0: elsewhere files "
+                  "round the coordinates of the two halves differently",
+                  found.first_defect, lacking, name_of(axis_names(), mirror)));
 }
 
 }  // namespace
