@@ -89,7 +89,9 @@ TEST(Mirror, TakesFacesThatCrossThePlane) {
 
 TEST(Mirror, TakesSamplesOfWhichOneHalfIsMirrored) {
   for (const SampleInfo& sample : samples()) {
-    if (sample.name == "gyroid") continue;  // cut in half, it intersects itself
+    // Cut in half, thin parts of few faces intersect themselves.
+    const bool is_thin = sample.name == "knot" || sample.name == "bracket" || sample.name == "pony";
+    if (sample.name == "gyroid" || (kTestsAreSlow && is_thin)) continue;
     const TriangleMesh whole = make_sample(sample.name, effort(20000, 2000));
     const Box box = bounding_box(whole);
     const TriangleMesh mesh = mirrored_half(whole, 1, box.center().y + 0.03 * box.diagonal());
