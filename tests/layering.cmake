@@ -16,7 +16,7 @@ endmacro()
 room(base      OWNS error names progress)
 room(geometry  OWNS geometry shapes                                                     MAY base)
 room(parallel                                                                    MAY base)
-room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality mesh_marks regions MAY geometry base)
+room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality mesh_marks regions symmetry MAY geometry base)
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
 room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base
                                                                                      prohull/enclosure)  # is_closed

@@ -274,15 +274,23 @@ void add_build(CLI::App& app, Run& run) {
       "leaves "
       "out what is thinner than two gaps. Bounds such as --max-distance count from the gap on. Use --tight for the "
       "least void. Not for hulls with --hierarchy.");
-  command
-      .add_option(
-          "--tolerance", options->tolerance,
-          "YAML file of regions of the mesh: for each a box, color, group, or numbers of faces or vertices, and "
-          "how far its faces may be from the hull, or that they are kept as they are. See "
-          "docs/guides/regions.md. Not with --tight or --gap.")
+  CLI::Option* const tolerance =
+      command
+          .add_option(
+              "--tolerance", options->tolerance,
+              "YAML file of regions of the mesh: for each a box, color, group, or numbers of faces or vertices, and "
+              "how far its faces may be from the hull, or that they are kept as they are. See "
+              "docs/guides/regions.md. Not with --tight or --gap.")
+          ->excludes(tight)
+          ->excludes(gap)
+          ->type_name("FILE");
+  add_choice(command, "--mirror", hull.mirror, axis_names(),
+             "Build a symmetric hull: it is exactly its own mirror image in the plane through the middle of the "
+             "bounding box that is perpendicular to this axis. The mesh must be symmetric too, bit for bit. See "
+             "docs/guides/symmetry.md. Not with --tight, --gap or --tolerance.")
       ->excludes(tight)
       ->excludes(gap)
-      ->type_name("FILE");
+      ->excludes(tolerance);
   add_choice(command, "--repair", enclosing.repair, repair_names(),
              "What to do with a mesh that is not clean. auto repairs it, builds hulls of the mesh, of its convex hull "
              "and of a wrap, a new closed surface around it, and takes the best; none refuses what is not closed; "
@@ -327,6 +335,7 @@ void add_build(CLI::App& app, Run& run) {
                          "prohull build horse.ply --faces 300 --tight --gap 0.5% -o cage.obj",
                          "prohull build horse.ply --faces 300 --gap 0.5% --side inner -o core.obj",
                          "prohull build arm.obj --faces 800 --tolerance regions.yaml -o arm_collision.obj",
+                         "prohull build horse.ply --faces 400 --mirror x -o hull.ply",
                          "prohull build arm.dae --faces 1000,300,100 -o arm_{faces}.stl",
                          "prohull build open_scan.obj --faces 500 --seal-holes 0.02 -o scan.glb",
                          "prohull build house_utm.ply --recenter --faces 200 -o house.glb --report house.json",

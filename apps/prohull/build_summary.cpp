@@ -86,6 +86,9 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
     say("  {} has no more faces than were asked for: the hull is {}\n", source_of(outcome.solid(hull)),
         hull.source == Source::Mesh ? "the mesh itself" : "simplified no further");
   print_regions(outcome, written);
+  if (const auto axis = options.enclosing.hull.mirror)
+    say("  symmetric: exactly its own mirror image in the plane {} = {:g}\n", name_of(axis_names(), *axis),
+        inspect_symmetry(hull.mesh, *axis).plane);
   if (hull.rounded_vertices > 0)
     say("  moved {} to coordinates that the file keeps\n", counted(hull.rounded_vertices, "vertex", "vertices"));
   if (hull.relaxed_guards > 0)
@@ -122,18 +125,19 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
         options.is_outer() ? "; all points within it are inside" : "");
 }
 
-// Without regions the report is as it was before there were any.
+// Without regions and symmetry the report is as it was before there were any.
 nlohmann::json facts_of(const RefusalCounts& counts) {
   nlohmann::json json;
   for (const auto& [name, refusal] : refusal_names())
-    if (refusal != Refusal::Tolerance || counts[refusal] > 0) json[std::string(name)] = counts[refusal];
+    if ((refusal != Refusal::Tolerance && refusal != Refusal::Symmetry) || counts[refusal] > 0)
+      json[std::string(name)] = counts[refusal];
   return json;
 }
 
 nlohmann::json options_report(const BuildOptions& options) {
   const HullOptions& hull = options.enclosing.hull;
   const HullBounds& bounds = options.enclosing.bounds;
-  return {
+  nlohmann::json report = {
       {"target_faces", options.faces},
       {"scale", options.input.factor()},
       {"side", name_of(hull_side_names(), hull.side)},
@@ -157,6 +161,8 @@ nlohmann::json options_report(const BuildOptions& options) {
       {"seed", hull.seed},
       {"best_of", hull.best_of},
       {"float32_coordinates", hull.float32_coordinates}};
+  if (hull.mirror) report["mirror"] = name_of(axis_names(), *hull.mirror);
+  return report;
 }
 
 nlohmann::json regions_report(const BuildOutcome& outcome, const Written& written) {

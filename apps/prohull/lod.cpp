@@ -11,6 +11,7 @@ struct Options {
   std::filesystem::path in, out, report;
   std::string out_format;
   std::size_t faces = 0;
+  std::optional<Axis> mirror;
 };
 
 int extract(const Options& options) {
@@ -21,7 +22,8 @@ int extract(const Options& options) {
   const double read_seconds = reading.seconds();
   stop_if_interrupted();
   const Stopwatch extracting;
-  TriangleMesh level = hull.level(options.faces);
+  TriangleMesh level =
+      hull.level(options.mirror ? symmetric_faces(hull, *options.mirror, options.faces) : options.faces);
   if (stores_float32(mesh_format("mesh" + suffix)) && level.face_count() < hull.original_face_count())
     level = with_float32_coordinates(level, hull.side()).mesh;
   const double extract_seconds = extracting.seconds();
@@ -61,6 +63,9 @@ void add_lod(CLI::App& app, Run& run) {
   add_mesh_output_options(command, options->out, options->out_format, "the level");
   add_number(command, "--faces", options->faces, {0, 1e10},
              "Take the finest level that has at most this number of faces. Without it, the coarsest level is taken.");
+  add_choice(command, "--mirror", options->mirror, axis_names(),
+             "Take a symmetric level, of a hull that was built with the same option: of two levels that follow each "
+             "other, one is at least.");
   add_report_option(command, options->report);
   add_examples(command, {"prohull lod horse.phull --faces 5000 -o level.ply", "prohull lod horse.phull -o base.stl",
                          "prohull lod horse.phull -o - --out-format obj >base.obj"});

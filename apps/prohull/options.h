@@ -65,6 +65,18 @@ CLI::Option* add_choice(CLI::App& command, const std::string& names, Value& valu
       ->default_str(std::string(name_of(choices, value)));
 }
 
+/// The same without a default.
+template <class Value>
+CLI::Option* add_choice(CLI::App& command, const std::string& names, std::optional<Value>& value,
+                        std::type_identity_t<Names<Value>> choices, const std::string& description) {
+  std::vector<std::string> words;
+  for (const auto& [name, choice] : choices) words.emplace_back(name);
+  const auto set = [&value, choices](const std::string& word) { value = value_of(choices, word); };
+  return command.add_option_function<std::string>(names, set, description)
+      ->transform(one_of(main_name(names), words))
+      ->type_name(CLI::detail::join(words, "|"));
+}
+
 /// A distance in the mesh's unit, or in per cent of the diagonal of the mesh's bounding box.
 struct Gap {
   double number = 0;

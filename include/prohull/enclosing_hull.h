@@ -39,7 +39,8 @@ Names<Repair> repair_names();
 struct EnclosingOptions {
   /// enclosing_hulls sets its target_faces and its progress. Its tolerances are those of the faces of `triangles`. A
   /// hull with tolerances is built from the repaired input only, has no padding, is not tight, and is checked by
-  /// verify_tolerances.
+  /// verify_tolerances. A symmetric hull (HullOptions::mirror) is built from the repaired input only, has no padding,
+  /// is not tight, and is checked by inspect_symmetry.
   HullOptions hull = {};
   HullBounds bounds = {};
   bool tight = false;  ///< build tight hulls (tight_hull.h), which have no levels

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "prohull/names.h"
 #include "prohull/progress.h"
 #include "prohull/progressive_hull.h"
+#include "prohull/symmetry.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
@@ -51,8 +53,9 @@ enum class Refusal : std::uint8_t {
   SelfIntersection,  ///< faces would meet that share nothing there
   Overhang,          ///< the new vertex would lie too far outside of the mesh's box
   Tolerance,         ///< the hull would go too far from faces of the mesh that have a tolerance
+  Symmetry,          ///< the hull would not be symmetric any more
 };
-constexpr std::size_t kRefusalKinds = 9;
+constexpr std::size_t kRefusalKinds = 10;
 
 /// Identifiers for reports, which stay the same in later versions: "link_condition", "valence" and so on.
 Names<Refusal> refusal_names();
@@ -111,6 +114,10 @@ struct HullOptions {
   /// the face is kept, so that the hull has it with the same coordinates. Infinity: any distance. Empty: any distance,
   /// of all faces.
   PerFace<double> tolerances = {};
+  /// Build a hull that is its own mirror image, exactly, in the plane through the middle of the mesh's bounding box
+  /// that is perpendicular to this axis. The mesh must be so too; inspect_symmetry tells. Most edges are collapsed in
+  /// pairs: the level between the two collapses is not symmetric (symmetric_faces). Not together with `tolerances`.
+  std::optional<Axis> mirror = {};
   bool float32_coordinates = false;  ///< give new vertices coordinates that a float32 file (STL, GLB) keeps
   QueueKind queue = QueueKind::Bucket;
   /// A seed other than 0 changes the order of the collapses a little, and so the hull. Strategy::Lazy only.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "prohull/names.h"
+#include "prohull/symmetry.h"
 #include "prohull/triangle_mesh.h"
 #include "prohull/vertex_split.h"
 
@@ -83,6 +84,12 @@ class ProgressiveHull {
 /// `is_within` accepts every level that is finer than an accepted one. If no level is accepted: the number of faces of
 /// the original mesh.
 std::size_t faces_within(const ProgressiveHull& hull, const std::function<bool(const TriangleMesh&)>& is_within);
+
+/// The number of faces of the finest symmetric level that has at most `faces` faces, of a hull that was built with
+/// HullOptions::mirror; that of the base mesh if it has more. Where two mirrored edges were collapsed, the level
+/// between the two collapses is a hull as any other, but not symmetric. Throws InputError(InvalidOption) if there is no
+/// such level.
+std::size_t symmetric_faces(const ProgressiveHull& hull, Axis mirror, std::size_t faces);
 
 /// The first defect of the record, such as "split 12 does not fit the mesh it refines"; nothing if the base mesh is a
 /// closed 2-manifold and all splits can be made. Whether levels enclose each other is decided by verify_replay.

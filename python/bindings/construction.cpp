@@ -24,6 +24,7 @@ EnclosingOptions options_of(const Keywords& given) {
   EnclosingOptions options;
   HullOptions& hull = options.hull;
   hull.side = given.choice("side", hull_side_names());
+  hull.mirror = given.choice_or_none("mirror", axis_names());
   hull.strategy = given.choice("strategy", strategy_names());
   hull.self_intersections = given.choice("self_intersections", self_intersections_names());
   hull.guards.max_valence = given.count("max_valence");
@@ -226,6 +227,7 @@ void bind_construction(py::module_& module) {
   module.def("build", &build);
   module.def("cage", &cage);
   module.def("simplified_part", &simplified_part);
+  module.attr("axes") = tuple_of(axis_names());
   module.attr("sides") = tuple_of(hull_side_names());
   module.attr("strategies") = tuple_of(strategy_names());
   module.attr("repairs") = tuple_of(repair_names());

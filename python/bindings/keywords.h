@@ -2,6 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <optional>
 #include <string>
 
 #include "prohull/error.h"
@@ -39,6 +40,11 @@ class Keywords {
   T choice(const char* name, Names<T> choices) const {
     if (const auto value = value_of(choices, pybind11::str(values_[name]).cast<std::string>())) return *value;
     refuse(name, ("one of " + joined(choices)).c_str());
+  }
+  /// None: nothing.
+  template <class T>
+  std::optional<T> choice_or_none(const char* name, Names<T> choices) const {
+    return values_[name].is_none() ? std::nullopt : std::optional(choice(name, choices));
   }
 
  private:

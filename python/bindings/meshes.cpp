@@ -114,6 +114,12 @@ void bind_meshes(py::module_& module) {
       .def_property_readonly("volume", &signed_volume, Release())
       .def("report", &facts_of)
       .def(
+          "is_symmetric",
+          [](const TriangleMesh& mesh, const std::string& mirror) {
+            return inspect_symmetry(mesh, value_of(axis_names(), mirror).value()).is_symmetric();
+          },
+          Release())
+      .def(
           "write", [](const TriangleMesh& mesh, const std::filesystem::path& path) { write_mesh(path, mesh); },
           Release())
       .def(py::pickle([](const SharedMesh& mesh) { return py::make_tuple(vertices_of(mesh), faces_of(mesh)); },
@@ -130,6 +136,12 @@ void bind_meshes(py::module_& module) {
       .def_property_readonly("base_face_count", &ProgressiveHull::base_face_count)
       .def_property_readonly("original_face_count", &ProgressiveHull::original_face_count)
       .def("level", &ProgressiveHull::level, Release())
+      .def(
+          "symmetric_faces",
+          [](const ProgressiveHull& levels, const std::string& mirror, std::size_t faces) {
+            return symmetric_faces(levels, value_of(axis_names(), mirror).value(), faces);
+          },
+          Release())
       .def(
           "save", [](const ProgressiveHull& levels, const std::filesystem::path& path) { save_hull(path, levels); },
           Release())

@@ -13,13 +13,13 @@ from ._files import distance_of, mesh_of
 from ._hull import Hull
 from ._meshes import Mesh
 from ._prohull import InputError
-from ._types import Gap, MeshLike, Numbers, OpenShells, Progress, Repair, Rows, SelfIntersections, Side, Strategy
+from ._types import Axis, Gap, MeshLike, Numbers, OpenShells, Progress, Repair, Rows, SelfIntersections, Side, Strategy
 
 
 @overload
 def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ..., levels: bool = ...,
           max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
-          tolerances: Optional[Numbers] = ..., repair: Repair = ..., keep_cavities: bool = ...,
+          tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
@@ -29,7 +29,7 @@ def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tigh
 @overload
 def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ..., levels: bool = ...,
           max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
-          tolerances: Optional[Numbers] = ..., repair: Repair = ..., keep_cavities: bool = ...,
+          tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
@@ -39,7 +39,7 @@ def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., t
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., repair: Repair = ..., keep_cavities: bool = ...,
+          padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
@@ -49,7 +49,7 @@ def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Sid
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., repair: Repair = ..., keep_cavities: bool = ...,
+          padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: float = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
@@ -59,7 +59,7 @@ def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: 
 def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type: ignore[misc]  # the two ways of calls
           side: Side = "outer", tight: bool = False, levels: bool = False, max_distance: float = math.inf,
           max_void_percent: float = math.inf, max_added_volume: float = math.inf, padding: Gap = 0.0, gap: Gap = 0.0,
-          tolerances: Optional[Numbers] = None, repair: Repair = "auto",
+          tolerances: Optional[Numbers] = None, mirror: Optional[Axis] = None, repair: Repair = "auto",
           keep_cavities: bool = False, open_shells: OpenShells = "close", seal_holes: float = 0.0,
           float32_coordinates: bool = False,
           strategy: Strategy = "lazy", best_of: int = 1, seed: int = 0, threads: int = 0,
@@ -98,6 +98,9 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
         mesh's unit. It is proven. 0 keeps the face, so that the hull has it with the same coordinates; math.inf allows
         any distance. Numbers for each vertex become such ones by `per_vertex[faces].min(axis=1)`. For hulls of meshes
         that can be closed, without tight and gap. Save such a hull as .ply, .obj or .off: .stl and .glb round it.
+    mirror: "x", "y" or "z" for a hull that is exactly its own mirror image in the plane through the middle of the
+        mesh's bounding box that is perpendicular to this axis. The mesh must be so too, bit for bit. Without tight, gap
+        and tolerances. level() then gives symmetric levels.
     repair: "auto" repairs the mesh and takes the best source; "none" refuses what is not closed; "wrap" does without
         the mesh itself as a source.
     keep_cavities: whether to keep components that lie inside of others. Inner hulls always keep them.
@@ -138,7 +141,7 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
         side=side, tight=tight, levels=levels, max_distance=max_distance, max_void_percent=max_void_percent,
         max_added_volume=max_added_volume,
         padding=distance_of("gap" if gap else "padding", gap or padding, given),
-        tolerances=() if tolerances is None else tolerances,
+        tolerances=() if tolerances is None else tolerances, mirror=mirror,
         repair=repair, keep_cavities=keep_cavities,
         open_shells=open_shells, seal_holes=seal_holes,
         float32_coordinates=float32_coordinates, strategy=strategy, best_of=best_of, seed=seed, threads=threads,
@@ -151,7 +154,7 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
         if isinstance(mesh, (str, os.PathLike)):
             raise InputError(f"{os.fspath(mesh)}: {error}") from None
         raise
-    hulls = [Hull._made(facts, side) for facts in made]
+    hulls = [Hull._made(dict(facts, mirror=mirror), side) for facts in made]
     return hulls if targets.ndim > 0 else hulls[0]
 
 

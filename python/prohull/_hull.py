@@ -9,7 +9,7 @@ import numpy as np
 from . import _prohull
 from ._meshes import Mesh
 from ._prohull import InputError
-from ._types import Path, Proof, Side, Source
+from ._types import Axis, Path, Proof, Side, Source
 
 
 class Hull(Mesh):
@@ -41,6 +41,7 @@ class Hull(Mesh):
     _covered: Optional[_prohull.Mesh]  # triangles that the hull has to cover beside enclosing its original
     _bounds: tuple[Any, ...]  # mesh and volume that they are about, max_distance, max_void_ratio, max_added_volume
     _padding_asked: float
+    _mirror: Optional[Axis] = None  # that build() was asked for
     _volume_inside: float  # that void is measured against
     _replay_suffices: bool  # whether a level that encloses the solid of the original covers every triangle of it
     _distance: Optional[float]  # computed when it is asked for, and so is the next
@@ -51,7 +52,8 @@ class Hull(Mesh):
         levels = facts.pop("levels")
         original = Mesh._of(facts.pop("original"), levels if facts["source"] == "mesh" else None)
         private = dict(_levels=levels, _original=original, _covered=facts.pop("covered", None),
-                       _bounds=facts.pop("bounds", ()), _padding_asked=facts.pop("padding_asked", 0.0), _replay_suffices=facts.pop("replay_suffices"),
+                       _bounds=facts.pop("bounds", ()), _padding_asked=facts.pop("padding_asked", 0.0),
+                       _mirror=facts.pop("mirror", None), _replay_suffices=facts.pop("replay_suffices"),
                        _volume_inside=facts.pop("volume_inside", original.volume))
         return cls._with(facts.pop("mesh"), side=side, **private, **facts)
 
@@ -92,10 +94,12 @@ class Hull(Mesh):
     def level(self, faces: int) -> "Hull":
         """The finest level of at most `faces` faces; the coarsest one if that has more.
 
+        Of a hull that was built with `mirror`, it is the finest symmetric one. A hull that was loaded does not know it.
         Each level encloses the next finer one (inner hulls: is enclosed by it). A level is a hull without levels of its
         own. Raises InputError if the hull has no levels.
         """
-        level = self._with_levels().level(faces)
+        levels = self._with_levels()
+        level = levels.level(levels.symmetric_faces(self._mirror, faces) if self._mirror else faces)
         proof = ("" if not self.certified else
                  "replay" if self._replay_suffices and self._covered is None else self._proof_of(level))
         return self._as(level, certified=bool(proof), proof=proof, target_faces=faces,
@@ -137,7 +141,8 @@ class Hull(Mesh):
     def _rounded_for(self, path: Path) -> "Hull":
         rounded = self.with_float32_coordinates()
         lost = ("does not provably enclose its original" if self.certified and not rounded.certified else
-                "is not within its bounds" if self.within_bounds and not rounded.within_bounds else "")
+                "is not within its bounds" if self.within_bounds and not rounded.within_bounds else
+                "is not symmetric" if self._mirror and not rounded._core.is_symmetric(self._mirror) else "")
         if lost:
             raise InputError(f"{os.fspath(path)}: the file keeps float32 coordinates, and rounded to them the hull {lost} "
                              "any more; build it with float32_coordinates=True, or save it as .ply, .obj or .off")

@@ -14,6 +14,7 @@ Gap = Union[float, str]
 Progress = Callable[[str, float], Optional[bool]]
 
 # The names that the library knows; a test compares them.
+Axis = Literal["x", "y", "z"]
 Side = Literal["outer", "inner"]
 Strategy = Literal["lazy", "paper1", "paper2"]
 Repair = Literal["auto", "none", "wrap"]

@@ -323,3 +323,42 @@ def test_tolerances_keep_faces_and_bound_the_distance_of_others():
 def test_tolerances_that_are_none_are_refused(tolerances):
     with pytest.raises(prohull.InputError, match="toleranc"):
         prohull.build(prohull.sample("box", 100), 50, tolerances=tolerances)
+
+
+def two_pyramids(levels=3):
+    """On a square, with four times as many faces for each level; symmetric along all axes."""
+    vertices = [(-1.0, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, -1), (0, 0, 1)]
+    faces = [(0, 1, 5), (1, 2, 5), (2, 3, 5), (3, 0, 5), (1, 0, 4), (2, 1, 4), (3, 2, 4), (0, 3, 4)]
+    for _ in range(levels):
+        middles, finer = {}, []
+        for a, b, c in faces:
+            for v, w in ((a, b), (b, c), (c, a)):
+                if (min(v, w), max(v, w)) not in middles:
+                    middles[min(v, w), max(v, w)] = len(vertices)
+                    vertices.append(tuple(np.add(vertices[v], vertices[w]) / 2))
+            ab, bc, ca = (middles[min(v, w), max(v, w)] for v, w in ((a, b), (b, c), (c, a)))
+            finer += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+        faces = finer
+    round_ones = np.array(vertices)
+    return round_ones / np.linalg.norm(round_ones, axis=1, keepdims=True) ** 0.5, np.array(faces)
+
+
+def is_mirrored(mesh, axis):
+    vertices = {tuple(v) for v in np.asarray(mesh.vertices).tolist()}
+    return all(tuple(-x if i == axis else x for i, x in enumerate(v)) in vertices for v in vertices)
+
+
+def test_a_symmetric_hull_is_its_own_mirror_image():
+    vertices, faces = two_pyramids()
+    hull = prohull.build(vertices, faces, 40, mirror="x")
+    assert hull.certified and is_mirrored(hull, 0)
+    levels = [hull.level(n) for n in range(40, 200, 2)]
+    assert all(is_mirrored(level, 0) and level.certified for level in levels)
+    assert is_mirrored(pickle.loads(pickle.dumps(hull)).level(99), 0)
+
+
+def test_a_mesh_that_is_not_symmetric_is_refused():
+    with pytest.raises(prohull.InputError, match="not exactly symmetric: .* has no mirror image in the plane x = "):
+        prohull.build(prohull.sample("bracket", 500), 50, mirror="x")
+    with pytest.raises(prohull.InputError, match="mirror='w': expected one of x, y, z"):
+        prohull.build(prohull.sample("bracket", 500), 50, mirror="w")

@@ -18,7 +18,7 @@ def run(name, *arguments):
 
 
 @pytest.mark.parametrize("name, arguments", [("batch.py", 0), ("collision_mesh.py", 1), ("deform.py", 3),
-                                             ("levels_and_rays.py", 3),
+                                             ("levels_and_rays.py", 3), ("symmetrize.py", 3),
                                              ("void_plot.py", 0)])
 def test_wrong_arguments_get_the_usage(name, arguments):
     done = subprocess.run([sys.executable, str(EXAMPLES / name), *["x"] * arguments], text=True, stderr=subprocess.PIPE)
@@ -67,6 +67,14 @@ def test_a_cage_carries_its_mesh_along(tmp_path):
     assert after.volume == pytest.approx(before.volume, rel=0.2)
     assert not (after.vertices == before.vertices).all()
     assert prohull.verify(tmp_path / "cage_before.obj", tmp_path / "torus.ply")
+
+
+def test_a_mesh_becomes_symmetric(tmp_path):
+    prohull.sample("pony", 2000).save(tmp_path / "pony.ply")
+    assert "symmetric along y" in run("symmetrize.py", tmp_path / "pony.ply", tmp_path / "symmetric.ply", "--axis", "y")
+    symmetric = prohull.read(tmp_path / "symmetric.ply")
+    assert symmetric.volume == pytest.approx(prohull.read(tmp_path / "pony.ply").volume, rel=0.02)
+    assert prohull.build(symmetric, 200, mirror="y").certified
 
 
 def test_levels_and_rays():

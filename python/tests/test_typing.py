@@ -52,10 +52,10 @@ def test_every_way_to_call_build_has_the_same_options():
     assert len(ways) == 4 and all(options(way) == options(prohull.build) for way in ways)
 
 
-@pytest.mark.parametrize("names", ["engines", "sides", "strategies", "repairs", "open_shells", "piece_shapes",
+@pytest.mark.parametrize("names", ["axes", "engines", "sides", "strategies", "repairs", "open_shells", "piece_shapes",
                                    "sources", "self_intersections"])
 def test_names_are_those_of_the_library(names):
-    types = dict(engines=_types.EngineName, sides=_types.Side, strategies=_types.Strategy, repairs=_types.Repair,
+    types = dict(axes=_types.Axis, engines=_types.EngineName, sides=_types.Side, strategies=_types.Strategy, repairs=_types.Repair,
                  open_shells=_types.OpenShells, piece_shapes=_types.PieceShape, sources=_types.Source,
                  self_intersections=_types.SelfIntersections)
     assert typing.get_args(types[names]) == getattr(_prohull, names)

@@ -39,6 +39,9 @@ namespace {
 void check_tolerances(const TriangleMesh& mesh, const HullOptions& options) {
   const PerFace<double>& tolerances = options.tolerances;
   if (tolerances.empty()) return;
+  if (options.mirror)
+    throw InputError(Defect::InvalidOption,
+                     "a symmetric hull has no tolerances for single faces: ask for one of the two");
   if (tolerances.size() != mesh.face_count())
     throw InputError(Defect::InvalidOption, fmt::format("{} tolerances for {} faces: there must be one for each face",
                                                         tolerances.size(), mesh.face_count()));

@@ -15,6 +15,8 @@ namespace {
 
 void check(const MeshPart& part, const HullOptions& options) {
   check(options);
+  if (options.mirror)
+    throw InputError(Defect::InvalidOption, "a part of a mesh has no symmetry: simplify it without mirror");
   const auto require = [](bool holds, Defect defect, const char* what) {
     if (!holds) throw InputError(defect, what);
   };

@@ -25,7 +25,8 @@ constexpr std::array<std::pair<std::string_view, Refusal>, kRefusalKinds> kRefus
      {"normal_deviation", Refusal::NormalDeviation},
      {"self_intersection", Refusal::SelfIntersection},
      {"overhang", Refusal::Overhang},
-     {"tolerance", Refusal::Tolerance}}};
+     {"tolerance", Refusal::Tolerance},
+     {"symmetry", Refusal::Symmetry}}};
 
 /// What collapsing the edge would do.
 constexpr std::string_view consequence(Refusal refusal) {
@@ -48,6 +49,8 @@ constexpr std::string_view consequence(Refusal refusal) {
       return "would make a spike";
     case Refusal::Tolerance:
       return "would go too far from faces with a tolerance";
+    case Refusal::Symmetry:
+      return "would make the hull asymmetric";
   }
   return "";
 }

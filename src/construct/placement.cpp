@@ -39,6 +39,17 @@ double added_volume(const Star& star, const Vec3& p) {
   return finite(sixfold / 6 * cubed(star.scale));
 }
 
+namespace {
+
+double added_volume(const Star& star, const Vec3& p, const std::vector<double>& weights) {
+  double sixfold = 0;
+  for (std::size_t i = 0; i < star.planes.size(); ++i)
+    sixfold += weights[i] * star.double_areas[i] * (dot(star.planes[i].normal, p) - star.planes[i].offset);
+  return finite(sixfold / 6 * cubed(star.scale));
+}
+
+}  // namespace
+
 std::optional<Placement> place_outside(const Star& star, double margin) {
   static thread_local std::vector<HalfSpace> constraints;
   constraints.clear();
@@ -51,6 +62,29 @@ std::optional<Placement> place_outside(const Star& star, double margin) {
   const auto best = optimum_or_nearest(objective, constraints, kReach);
   if (!best) return std::nullopt;
   return Placement{*best, std::max(0.0, added_volume(star, *best))};
+}
+
+std::optional<Placement> place_outside(const Star& star, double margin, const StarPlane& plane) {
+  // Coordinates along the axis count from the plane, and are held at 0.
+  const int axis = plane.axis;
+  static thread_local std::vector<HalfSpace> constraints;
+  constraints.clear();
+  Vec3 objective;
+  for (std::size_t i = 0; i < star.planes.size(); ++i) {
+    if (star.double_areas[i] == 0) continue;
+    Vec3 normal = star.planes[i].normal;
+    const double offset = star.planes[i].offset - normal[axis] * plane.coordinate;
+    normal[axis] = 0;
+    constraints.push_back({normal, offset + margin});
+    objective += normal * (plane.weights[i] * star.double_areas[i]);
+  }
+  Vec3 along;
+  along[axis] = 1;
+  constraints.push_back({along, 0});
+  auto best = optimum_or_nearest(objective, constraints, kReach);
+  if (!best) return std::nullopt;
+  (*best)[axis] = plane.coordinate;
+  return Placement{*best, std::max(0.0, added_volume(star, *best, plane.weights))};
 }
 
 bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p) {

@@ -20,6 +20,16 @@ struct Placement {
 /// from the planes, so that it still is outside when rounded.
 std::optional<Placement> place_outside(const Star& star, double margin);
 
+/// The plane in which the new vertex of a symmetric star has to lie.
+struct StarPlane {
+  int axis;                     ///< it is perpendicular to
+  double coordinate;            ///< local
+  std::vector<double> weights;  ///< of the faces, in the volume that is added
+};
+
+/// The same in a plane.
+std::optional<Placement> place_outside(const Star& star, double margin, const StarPlane& plane);
+
 /// The most by which storing a vertex moves a coordinate, with some room, where all are in `bounds`.
 inline double storage_rounding(const Box& bounds, bool float32_coordinates) {
   return largest_coordinate(bounds) * (float32_coordinates ? 0x1p-23 : 0x1p-52);
@@ -37,12 +47,17 @@ inline double placement_margin(const Star& star, double rounding) {
 /// Exact.
 bool lies_on_all_planes(const HalfEdgeMesh& mesh, const Star& star, const Vec3& p);
 
+/// A collapse that adds less is worth the exact test of whether it adds nothing.
+inline bool is_nearly_flat(const Star& star, const Placement& placement) {
+  constexpr double kFlat = 1e-7;  // of the star's cube
+  return placement.added_volume <= kFlat * star.scale * star.scale * star.scale;
+}
+
 /// Where an end of the edge lies on all planes of the star, as in flat parts and along straight creases, a collapse to
 /// it adds nothing. Whether such an end is accepted by accepts(position, local position), asked of one after the other.
 template <class Accepts>
 bool any_flat_end(const HalfEdgeMesh& mesh, const Star& star, const Placement& placement, Accepts&& accepts) {
-  constexpr double kFlat = 1e-7;  // of the star's cube; saves exact tests where no end can lie on all planes
-  if (placement.added_volume > kFlat * star.scale * star.scale * star.scale) return false;
+  if (!is_nearly_flat(star, placement)) return false;
   const auto is_flat_and_accepted = [&](const Vec3& end, const Vec3& local) {
     return lies_on_all_planes(mesh, star, end) && accepts(end, local);
   };

@@ -19,6 +19,26 @@ double least_compactness_before(const Star& star) {
   return least;
 }
 
+// has(i): whether the collapse makes face i; link(i) is where its corner is then.
+std::optional<Refusal> refused(const Star& star, const Vec3& apex, const HullOptions& options, auto&& has,
+                               auto&& link) {
+  const double least_cosine = std::cos(options.guards.max_normal_deviation);
+  double least_compactness = 1;
+  for (std::size_t i = 0; i < star.link.size(); ++i) {
+    if (!has(i)) continue;
+    const Vec3 &a = link(i), &b = link(star.after(i));
+    const Vec3 n = cross(a - apex, b - apex);
+    const double length = norm(n);
+    if (star.double_areas[i] > 0 && dot(n, star.planes[i].normal) < least_cosine * length)
+      return Refusal::NormalDeviation;
+    least_compactness = std::min(least_compactness, compactness(length, squared_edges(apex, a, b)));
+  }
+  double required = options.guards.min_compactness_ratio * least_compactness_before(star);
+  if (options.strategy == Strategy::Lazy) required = std::min(required, options.guards.sufficient_compactness);
+  if (!(least_compactness > required)) return Refusal::Compactness;
+  return std::nullopt;
+}
+
 }  // namespace
 
 double overhang_left(const Box& box, const Box& of, double max_overhang) {
@@ -30,20 +50,16 @@ double overhang_left(const Box& box, const Box& of, double max_overhang) {
 }
 
 std::optional<Refusal> refused_shape(const Star& star, const Vec3& apex, const HullOptions& options) {
-  const double least_cosine = std::cos(options.guards.max_normal_deviation);
-  double least_compactness = 1;
-  for (std::size_t i = 0; i < star.link.size(); ++i) {
-    const Vec3 &a = star.local[i], &b = star.local[star.after(i)];
-    const Vec3 n = cross(a - apex, b - apex);
-    const double length = norm(n);
-    if (star.double_areas[i] > 0 && dot(n, star.planes[i].normal) < least_cosine * length)
-      return Refusal::NormalDeviation;
-    least_compactness = std::min(least_compactness, compactness(length, squared_edges(apex, a, b)));
-  }
-  double required = options.guards.min_compactness_ratio * least_compactness_before(star);
-  if (options.strategy == Strategy::Lazy) required = std::min(required, options.guards.sufficient_compactness);
-  if (!(least_compactness > required)) return Refusal::Compactness;
-  return std::nullopt;
+  return refused(
+      star, apex, options, [](std::size_t) { return true; },
+      [&](std::size_t i) -> const Vec3& { return star.local[i]; });
+}
+
+std::optional<Refusal> refused_shape(const Star& star, const Vec3& apex, const HullOptions& options, std::size_t moved,
+                                     const std::optional<Vec3>& to) {
+  return refused(
+      star, apex, options, [&](std::size_t i) { return to || (i != moved && star.after(i) != moved); },
+      [&](std::size_t i) -> const Vec3& { return to && i == moved ? *to : star.local[i]; });
 }
 
 }  // namespace prohull

@@ -14,4 +14,9 @@ double overhang_left(const Box& box, const Box& of, double max_overhang);
 /// The two tests of P&T 3.1.4 on the faces that a collapse to `apex` (local) would make.
 std::optional<Refusal> refused_shape(const Star& star, const Vec3& apex, const HullOptions& options);
 
+/// The same where a vertex of the link moves too, as another collapse follows: link[moved] goes to `to` (local), or
+/// into the apex, so that its two faces vanish.
+std::optional<Refusal> refused_shape(const Star& star, const Vec3& apex, const HullOptions& options, std::size_t moved,
+                                     const std::optional<Vec3>& to);
+
 }  // namespace prohull

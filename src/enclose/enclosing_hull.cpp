@@ -62,6 +62,8 @@ class Ladder {
     ProgressMeter(options_.progress, "repair").at(0);
     const TriangleMesh given = has_tolerances() ? triangles : TriangleMesh{};
     made_.input = prepared_for_hulls(std::move(triangles), options);
+    if (is_symmetric() && !made_.input.closed)
+      throw InputError(Defect::OpenEdge, made_.input.obstacle + "; only a closed mesh has symmetric hulls");
     if (has_tolerances()) {
       if (!made_.input.closed)
         throw InputError(Defect::OpenEdge, made_.input.obstacle +
@@ -128,7 +130,10 @@ class Ladder {
   bool is_outer() const { return options_.hull.side == HullSide::Outer; }
   bool is_padded() const { return options_.padding > 0; }
   bool has_tolerances() const { return !options_.hull.tolerances.empty(); }
-  bool is_free() const { return is_outer() && options_.repair != Repair::None && !has_tolerances(); }
+  bool is_symmetric() const { return options_.hull.mirror.has_value(); }
+  /// Only the mesh itself will do, and hulls that do not move.
+  bool is_bound_to_mesh() const { return has_tolerances() || is_symmetric(); }
+  bool is_free() const { return is_outer() && options_.repair != Repair::None && !is_bound_to_mesh(); }
 
   EnclosingHull hull_of(std::size_t target_faces);
   bool is_worth_the_convex_hull(const std::optional<EnclosingHull>& best);
@@ -169,6 +174,7 @@ class Ladder {
   double void_of(const EnclosingHull& hull) const { return signed_volume(hull.mesh) / made_.volume - 1; }
   HullOptions hull_options(std::size_t target_faces) const;
   void require_tolerances(const TriangleMesh& hull) const;
+  void require_symmetry(const TriangleMesh& hull) const;
 
   const EnclosingOptions& options_;
   PerFace<double> tolerances_;  ///< of the closed mesh
@@ -202,7 +208,7 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
       if (best->source == Source::Wrap && is_as_asked(*best)) break;
       if (const auto solid = wrap_with(kind, target_faces)) try_solid(*solid);
     }
-  } else if (!is_outer() && options_.repair != Repair::None && !has_tolerances() && !options_.levels &&
+  } else if (!is_outer() && options_.repair != Repair::None && !is_bound_to_mesh() && !options_.levels &&
              !(options_.tight && best->certified)) {
     constexpr double kLittleVoid = 0.1;
     is_moved_ = true;
@@ -234,6 +240,7 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
                                  target_faces, notes_.back()));
   }
   if (has_tolerances()) require_tolerances(best->mesh);
+  if (is_symmetric()) require_symmetry(best->mesh);
   note_solid(made_.solids[best->solid]);
   return std::move(*best);
 }
@@ -406,6 +413,18 @@ void Ladder::require_tolerances(const TriangleMesh& hull) const {
                                  "remove the folds, or allow a small distance there"));
 }
 
+void Ladder::require_symmetry(const TriangleMesh& hull) const {
+  const SymmetryReport found = inspect_symmetry(hull, *options_.hull.mirror);
+  if (found.is_symmetric()) return;
+  throw InputError(Defect::NoCertificate,
+                   "the hull is not symmetric: " + found.first_defect +
+                       (options_.hull.float32_coordinates
+                            ? "; the file has float32 coordinates, which move vertices a little; write a .ply, .obj or "
+                              ".off file, which keep doubles"
+                            : "; where the mesh intersects itself, vertices of the hull are lifted over its folds: "
+                              "remove the folds"));
+}
+
 // The hull with the coordinates that a file keeps, if it has such.
 std::optional<Float32Hull> Ladder::as_stored(const TriangleMesh& hull, std::size_t solid) {
   if (!options_.hull.float32_coordinates) return Float32Hull{hull, 0};
@@ -472,6 +491,10 @@ EnclosingHull Ladder::build_levels(std::size_t solid, std::size_t target_faces) 
     faces = std::max(faces, faces_within(result->hull, [&](const TriangleMesh& level) {
                        return is_within_as_stored(level, solid);  // moved, it is nearer
                      }));
+  if (is_symmetric()) {
+    const std::size_t coarser = symmetric_faces(result->hull, *options_.hull.mirror, faces);
+    faces = faces > target_faces && coarser < faces ? faces + 2 : coarser;  // bounds need the finer one
+  }
   const TriangleMesh level = result->hull.level(faces);
   hull.target_reached = faces > target_faces || level.face_count() <= target_faces;
   hull.mesh = placed(level, solid);
@@ -726,6 +749,15 @@ void require_usable_tolerances(const TriangleMesh& triangles, const EnclosingOpt
     refuse("a wrap has none of the faces that have a tolerance: choose another repair");
 }
 
+void require_usable_mirror(const EnclosingOptions& options) {
+  if (!options.hull.mirror) return;
+  const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
+  if (options.tight) refuse("a tight hull is not symmetric: build it without tight");
+  if (options.padding > 0) refuse("a hull with padding is not symmetric: ask for one of the two");
+  if (options.repair == Repair::Wrap || options.seal_holes > 0)
+    refuse("a wrap is not symmetric: choose another repair, and no holes to seal");
+}
+
 }  // namespace
 
 Names<Repair> repair_names() { return kRepairNames; }
@@ -764,6 +796,7 @@ EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size
     throw InputError(Defect::InvalidOption, "a tight hull has no levels: ask for one of the two");
   require_usable_padding(options);
   require_usable_tolerances(triangles, options);
+  require_usable_mirror(options);
   if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
     throw InputError(Defect::InvalidOption, "nothing is known to be inside of a wrap: inner hulls do without");
   if (options.hull.float32_coordinates) check_float32_spacing(triangles);

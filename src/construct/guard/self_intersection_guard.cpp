@@ -246,6 +246,17 @@ bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, Ha
   return after > count_pairs(mesh, is_other);
 }
 
+bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, const std::vector<FaceId>& gone,
+                                                    const std::vector<Triangle>& made) {
+  const auto is_other = [&](FaceId f, const auto&) { return !std::ranges::binary_search(gone, f); };
+  faces_ = made;
+  const std::size_t after = count_pairs(mesh, is_other);
+  if (after == 0) return false;
+  faces_.clear();
+  for (const FaceId f : gone) faces_.push_back(triangle(mesh, f));
+  return after > count_pairs(mesh, is_other);
+}
+
 std::vector<FaceId> faces_along_curve(const HalfEdgeMesh& mesh) {
   const UnitCube unit_cube(bounding_box_of(mesh));
   std::vector<BoxedFace> faces;

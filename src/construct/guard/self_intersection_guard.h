@@ -29,6 +29,10 @@ class SelfIntersectionGuard {
   /// The same for an edge that would be flipped (HalfEdgeMesh::flip).
   bool would_add_intersections(const HalfEdgeMesh& mesh, HalfEdgeId flipped);
 
+  /// The same for faces that would make room for others: `gone` in ascending order.
+  bool would_add_intersections(const HalfEdgeMesh& mesh, const std::vector<FaceId>& gone,
+                               const std::vector<Triangle>& made);
+
   /// To be told of every collapse, of every vertex moved, and of one end of every edge flipped, as it is then.
   void changed(const HalfEdgeMesh& mesh, VertexId s);
 

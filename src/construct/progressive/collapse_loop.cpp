@@ -1,12 +1,15 @@
 #include "construct/progressive/collapse_loop.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <random>
+#include <span>
 
 #include "construct/edge_queue.h"
 #include "construct/guard/self_intersection_guard.h"
 #include "construct/placement.h"
+#include "construct/progressive/mirrored_collapse.h"
 #include "construct/shape_guards.h"
 #include "construct/star.h"
 #include "geometry/float32.h"
@@ -30,8 +33,8 @@ class Noise {
 
 /// Not in the paper: of two collapses that add the same volume, that with more faces to spread it over goes first.
 /// 1 % less void than by the volume alone (docs/performance.md).
-double lazy_priority(double added_volume, const Star& star) {
-  return added_volume / std::sqrt(static_cast<double>(star.valence()));
+double lazy_priority(double added_volume, std::size_t valence) {
+  return added_volume / std::sqrt(static_cast<double>(valence));
 }
 
 /// None of its edges can be collapsed before it has lost faces, and there are too many to look at them before.
@@ -61,6 +64,7 @@ class CollapseLoop {
         noise_(patch.seed) {
     if (options_.refuses_self_intersections()) guard_.emplace(mesh_, all_faces(mesh_));
     if (!patch.tolerances.empty()) tolerance_guard_.emplace(patch.tolerances);
+    if (rules.mirror) mirrored_.emplace(mesh_, patch.images, *rules.mirror);
   }
 
   void run() {
@@ -91,11 +95,11 @@ class CollapseLoop {
         continue;
       }
       if (!patch_.inside.has_inside(rules_.unit_cube.at(apex))) continue;
-      const VertexId s = collapse(edge, apex);
-      if (options_.strategy == Strategy::Lazy)
-        mark_changed_around(s);
-      else
-        reevaluate_around(s);  // Figure 3
+      for (const VertexId s : collapse(edge, apex))
+        if (options_.strategy == Strategy::Lazy)
+          mark_changed_around(s);
+        else
+          reevaluate_around(s);  // Figure 3
     }
   }
 
@@ -136,18 +140,25 @@ class CollapseLoop {
     patch_.visited_faces += star_.valence();
   }
 
-  std::optional<Refusal> refusal_of_topology() const {
+  std::optional<Refusal> refusal_of_topology() {
     if (!satisfies_link_condition(star_)) return Refusal::LinkCondition;
-    if (star_.valence() > options_.guards.max_valence) return Refusal::Valence;
+    if (mirrored_ && !mirrored_->look_at(star_)) return Refusal::Symmetry;
+    if (valence() > options_.guards.max_valence) return Refusal::Valence;
     return std::nullopt;
   }
 
+  std::size_t valence() const { return mirrored_ ? mirrored_->valence() : star_.valence(); }
+
   std::optional<Placement> place() {
     ++patch_.linear_programs;
-    return place_outside(star_, placement_margin(star_, rules_.rounding));
+    const double margin = placement_margin(star_, rules_.rounding);
+    return mirrored_ ? mirrored_->place(star_, margin) : place_outside(star_, margin);
   }
 
-  Vec3 as_stored(const Vec3& p) const { return options_.float32_coordinates ? nearest_float32(p) : p; }
+  std::optional<Vec3> as_stored(const Vec3& p) const {
+    if (mirrored_) return mirrored_->as_stored(star_, p, options_.float32_coordinates);
+    return options_.float32_coordinates ? nearest_float32(p) : p;
+  }
 
   bool is_fresh(EdgeId edge, VertexId v, VertexId w) const {
     return edges_[edge].evaluated >= std::max(vertices_[v].changed, vertices_[w].changed);
@@ -156,14 +167,22 @@ class CollapseLoop {
   void set_priority(EdgeId edge, double priority) {
     edges_[edge].priority = noise_(priority);
     edges_[edge].evaluated = patch_.time;
+    if (const EdgeId image = image_of(edge); image != edge) {
+      edges_[image].priority = edges_[edge].priority;
+      edges_[image].evaluated = patch_.time;
+    }
   }
+
+  // What is decided of an edge holds for its image too, which need not be asked again.
+  EdgeId image_of(EdgeId edge) const { return mirrored_ ? mirrored_->image(edge) : edge; }
 
   // Lazy only: the priority of an edge whose star has changed is found now, and may send it back into the queue.
   bool comes_too_early(EdgeId edge, const Placement& placement) {
     if (is_fresh(edge, star_.o, star_.d)) return false;
-    set_priority(edge, lazy_priority(placement.added_volume, star_));
+    set_priority(edge, lazy_priority(placement.added_volume, valence()));
     if (edges_[edge].priority <= patch_.max_priority && queue_.precedes_all(edges_[edge].priority)) return false;
     enqueue(edge);
+    if (const EdgeId image = image_of(edge); queue_.contains(image) && image != edge) unqueue(image), enqueue(image);
     return true;
   }
 
@@ -172,21 +191,34 @@ class CollapseLoop {
   std::optional<Refusal> refusal_of_apex(const Placement& placement, Vec3& apex) {
     if (options_.strategy == Strategy::Lazy) {
       std::optional<Refusal> why;
-      const bool is_flat = any_flat_end(mesh_, star_, placement, [&](const Vec3& end, const Vec3& local) {
-        apex = end;
-        why = refused_shape(star_, local, options_);
-        return !why && as_stored(end) == end && !would_exceed_tolerance(local) &&
-               !(guard_ && guard_->would_add_intersections(mesh_, star_, end));
-      });
+      const auto is_accepted = [&](const Vec3& point, const Vec3& local) {
+        apex = point;
+        why = refusal_of_shape(local);
+        return !why && as_stored(point) == point && !would_exceed_tolerance(local) && !would_add_intersections(point);
+      };
+      const bool is_flat = mirrored_ ? mirrored_->any_flat_point(star_, placement, is_accepted)
+                                     : any_flat_end(mesh_, star_, placement, is_accepted);
       if (is_flat || why) return why;
     }
-    apex = as_stored(star_.to_input(placement.local));
+    const auto stored = as_stored(star_.to_input(placement.local));
+    if (!stored) return Refusal::Symmetry;
+    apex = *stored;
     if (hangs_over(apex)) return Refusal::Overhang;
-    if (const auto why = refused_shape(star_, placement.local, options_)) return why;
+    if (const auto why = refusal_of_shape(placement.local)) return why;
     if (!is_finite(apex) || !is_outside(mesh_, star_, apex)) return Refusal::Certificate;
     if (would_exceed_tolerance(star_.to_local(apex))) return Refusal::Tolerance;
-    if (guard_ && guard_->would_add_intersections(mesh_, star_, apex)) return Refusal::SelfIntersection;
+    if (would_add_intersections(apex)) return Refusal::SelfIntersection;
     return std::nullopt;
+  }
+
+  std::optional<Refusal> refusal_of_shape(const Vec3& local) const {
+    return mirrored_ ? mirrored_->refused_shape(star_, local, options_) : refused_shape(star_, local, options_);
+  }
+
+  bool would_add_intersections(const Vec3& apex) {
+    if (!guard_) return false;
+    return mirrored_ ? mirrored_->would_add_intersections(*guard_, star_, apex)
+                     : guard_->would_add_intersections(mesh_, star_, apex);
   }
 
   bool would_exceed_tolerance(const Vec3& local) {
@@ -203,6 +235,14 @@ class CollapseLoop {
 
   void refuse(EdgeId edge, Refusal why) {
     patch_.refusals.count(why);
+    mark_refused(edge, why);
+    if (const EdgeId image = image_of(edge); image != edge) {
+      unqueue(image);
+      mark_refused(image, why);
+    }
+  }
+
+  void mark_refused(EdgeId edge, Refusal why) {
     edges_[edge].last_refusal = why;
     edges_[edge].is_refused = true;
     edges_[edge].evaluated = patch_.time;
@@ -210,16 +250,27 @@ class CollapseLoop {
     vertices_[mesh_.tail(h)].has_refused = vertices_[mesh_.tip(h)].has_refused = true;
   }
 
-  VertexId collapse(EdgeId edge, const Vec3& apex) {
+  /// The new vertices: that of the star's edge, and that of its image.
+  std::span<const VertexId> collapse(EdgeId edge, const Vec3& apex) {
+    const double priority = edges_[edge].priority;
+    made_ = {collapse(star_.edge, apex, priority)};
+    if (!mirrored_ || !mirrored_->has_second()) return std::span(made_).first(1);
+    const HalfEdgeId second = mirrored_->second();
+    unqueue(mesh_.edge(second));
+    made_[1] = collapse(second, mirrored_->second_apex(apex), priority);
+    return std::span(made_).subspan(mirrored_->are_joined() ? 1 : 0);
+  }
+
+  VertexId collapse(HalfEdgeId h, const Vec3& apex, double priority) {
     // The edges d-l and o-r merge into o-l and d-r.
-    unqueue(mesh_.edge(mesh_.next(star_.edge)));
-    unqueue(mesh_.edge(mesh_.next(mesh_.twin(star_.edge))));
+    unqueue(mesh_.edge(mesh_.next(h)));
+    unqueue(mesh_.edge(mesh_.next(mesh_.twin(h))));
     const double last_priority = patch_.priorities.empty() ? 0 : patch_.priorities.back();
-    patch_.priorities.push_back(std::max(last_priority, edges_[edge].priority));
+    patch_.priorities.push_back(std::max(last_priority, priority));
+    const bool has_refused = vertices_[mesh_.tail(h)].has_refused || vertices_[mesh_.tip(h)].has_refused;
     const VertexId s = mesh_.positions().next_id();
-    patch_.record.push_back(mesh_.collapse(star_.edge, apex));
+    patch_.record.push_back(mesh_.collapse(h, apex));
     ++patch_.time;
-    const bool has_refused = vertices_[star_.o].has_refused || vertices_[star_.d].has_refused;
     vertices_.push_back({.changed = patch_.time, .has_refused = has_refused});
     if (guard_) guard_->changed(mesh_, s);
     if (tolerance_guard_) tolerance_guard_->collapsed();
@@ -299,6 +350,8 @@ class CollapseLoop {
   Noise noise_;
   std::optional<SelfIntersectionGuard> guard_;
   std::optional<ToleranceGuard> tolerance_guard_;
+  std::optional<MirroredCollapse> mirrored_;
+  std::array<VertexId, 2> made_{};
   Star star_;
   std::size_t steps_ = 0, told_ = 0;
 };
@@ -321,7 +374,7 @@ void estimate_priorities(Patch& patch, const CollapseRules& rules) {
     }
     gather_star(patch.mesh, edge, star);
     patch.visited_faces += star.valence();
-    patch.edges[edge].priority = noise(lazy_priority(estimated_volume(patch.mesh, star), star));
+    patch.edges[edge].priority = noise(lazy_priority(estimated_volume(patch.mesh, star), star.valence()));
   }
 }
 

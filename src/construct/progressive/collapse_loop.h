@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "construct/guard/tolerance_guard.h"
+#include "geometry/mirror_plane.h"
 #include "geometry/unit_cube.h"
 #include "mesh/half_edge_mesh.h"
 #include "prohull/hull_builder.h"
@@ -41,6 +43,7 @@ struct Patch {
   std::uint32_t time;   ///< of the next collapse
   std::uint64_t seed;   ///< of the noise in the priorities; 0: none
   Tolerances tolerances = {};
+  PerHalfEdge<HalfEdgeId> images = {};  ///< mirrored; empty unless CollapseRules::mirror
 
   // What the loop brings forth.
   std::vector<VertexSplit> record = {};
@@ -57,6 +60,7 @@ struct CollapseRules {
   const Box& box;   ///< of the mesh: what the overhang is measured from
   double rounding;  ///< the most by which storing moves a coordinate, with some room
   std::function<void(std::size_t removed_faces)> tell;  ///< called now and then, from any thread; may throw Cancelled
+  std::optional<MirrorPlane> mirror = {};               ///< keep the mesh its own image; a patch is all of it then
 };
 
 /// Estimates the priorities that are not yet known.

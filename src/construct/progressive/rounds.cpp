@@ -23,9 +23,13 @@ class Rounds {
         unit_cube_(bounds_),
         meter_(options.progress, "build"),
         excess_(mesh.face_count() - std::min(mesh.face_count(), options.target_faces)),
-        rules_{options_, unit_cube_, bounds_, storage_rounding(bounds_, options.float32_coordinates),
-               [this](std::size_t removed_faces) { meter_.at(removed_ += removed_faces, excess_); }},
-        whole_(mesh, options_, unit_cube_, part) {}
+        whole_(mesh, options_, unit_cube_, part),
+        rules_{options_,
+               unit_cube_,
+               bounds_,
+               storage_rounding(bounds_, options.float32_coordinates),
+               [this](std::size_t removed_faces) { meter_.at(removed_ += removed_faces, excess_); },
+               whole_.mirror()} {}
 
   HullResult run() {
     std::size_t round = 0;
@@ -51,7 +55,9 @@ class Rounds {
   static constexpr std::size_t kSample = 8;  // of so many, one tells enough
 
   bool is_worth_a_round() const {
-    return whole_.face_count() >= kLeastCells * kLeastCellFaces && whole_.face_count() / 5 > options_.target_faces / 4;
+    // The mirror image of a cell is in another cell, or across the border between two.
+    return !options_.mirror && whole_.face_count() >= kLeastCells * kLeastCellFaces &&
+           whole_.face_count() / 5 > options_.target_faces / 4;
   }
 
   /// The part of its faces that each cell may at most remove, so that the target is not missed.
@@ -147,8 +153,8 @@ class Rounds {
   ProgressMeter meter_;
   const std::size_t excess_;  ///< faces above the target
   std::atomic<std::size_t> removed_ = 0;
-  const CollapseRules rules_;
   WholeMesh whole_;
+  const CollapseRules rules_;
   RefusalCounts refusals_;
   std::size_t linear_programs_ = 0;
 };

@@ -7,7 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "base/text.h"
 #include "construct/closed_manifold.h"
+#include "mesh/mirror_images.h"
 
 namespace prohull {
 namespace {
@@ -15,6 +17,20 @@ namespace {
 /// Other seeds for each cell of each round.
 std::uint64_t seed_of(const HullOptions& options, std::uint32_t time, FaceId first_face) {
   return options.seed == 0 ? 0 : options.seed * 0x9e3779b97f4a7c15 + (std::uint64_t{time} << 32 | index(first_face));
+}
+
+void require_symmetry(const TriangleMesh& mesh, Axis mirror) {
+  const SymmetryReport found = inspect_symmetry(mesh, mirror);
+  if (found.is_symmetric()) return;
+  const std::string lacking = found.vertices_without_image > 0
+                                  ? counted(found.vertices_without_image, "vertex has", "vertices have")
+                                  : counted(found.faces_without_image, "face has", "faces have");
+  throw InputError(
+      Defect::InvalidOption,
+      fmt::format("the mesh is not exactly symmetric: {}; in all, {} none. Make one half of it the mirror image of the "
+                  "other, for instance by Blender's Symmetrize, with the plane between them at {} = 0: elsewhere files "
+                  "round the coordinates of the two halves differently",
+                  found.first_defect, lacking, name_of(axis_names(), mirror)));
 }
 
 }  // namespace
@@ -62,6 +78,19 @@ void WholeMesh::find_twins(const TriangleMesh& mesh, bool is_part) {
     require_closed_manifold(mesh);  // says which, in the mesh's own numbers
   twins_.reserve(corners_.size());
   for (std::uint32_t c = 0; c < corners_.size(); ++c) twins_.push_back(whole.twin(HalfEdgeId{c}));
+  if (options_.mirror) find_images(mesh, whole);
+}
+
+void WholeMesh::find_images(const TriangleMesh& mesh, const HalfEdgeMesh& whole) {
+  require_symmetry(mesh, *options_.mirror);
+  mirror_ = mirror_plane_of(bounding_box(mesh), *options_.mirror);
+  auto images = mirror_images(whole, *mirror_);
+  if (!images)
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("the mesh lies symmetric along {}, but where its parts touch they are joined in other "
+                                 "ways than their mirror images: join or separate them on both sides alike",
+                                 name_of(axis_names(), *options_.mirror)));
+  images_ = std::move(*images);
 }
 
 void WholeMesh::require_whole_stars(const HalfEdgeMesh& part) const {
@@ -127,6 +156,13 @@ WholeMesh::Cut WholeMesh::cut(Cell cell, std::size_t target_faces, double max_pr
       const std::uint32_t face = twins_[corner] == kNoHalfEdge ? LocalNumbers::kNoFace : local.faces[FaceId{twin / 3}];
       twins.push_back(face == LocalNumbers::kNoFace ? kNoHalfEdge : HalfEdgeId{3 * face + twin % 3});
     }
+  PerHalfEdge<HalfEdgeId> images;
+  if (mirror_)
+    for (const FaceId f : cell.faces)
+      for (std::uint32_t corner = 3 * index(f); corner < 3 * index(f) + 3; ++corner) {
+        const std::uint32_t image = index(images_[HalfEdgeId{corner}]);
+        images.push_back(HalfEdgeId{3 * local.faces[FaceId{image / 3}] + image % 3});
+      }
   for (const VertexId v : vertices) local.vertices[v] = kNoVertex;
   for (const FaceId f : cell.faces) local.faces[f] = LocalNumbers::kNoFace;
   Cut cut{{.mesh = HalfEdgeMesh(std::move(positions), corners, twins),
@@ -136,7 +172,8 @@ WholeMesh::Cut WholeMesh::cut(Cell cell, std::size_t target_faces, double max_pr
            .target_faces = target_faces,
            .max_priority = max_priority,
            .time = time_,
-           .seed = seed_of(options_, time_, cell.faces.front())},
+           .seed = seed_of(options_, time_, cell.faces.front()),
+           .images = std::move(images)},
           std::move(cell.faces),
           std::move(vertices)};
   cut.patch.edges.resize(cut.patch.mesh.edge_id_count());

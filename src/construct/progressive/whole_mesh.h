@@ -30,9 +30,12 @@ namespace prohull {
 ///                        names_ -- name
 class WholeMesh {
  public:
-  /// Throws InputError unless the mesh is a closed 2-manifold; of a part of one, unless all faces around each vertex
-  /// strictly inside of the box are there. Only these vertices change.
+  /// Throws InputError unless the mesh is a closed 2-manifold, and as symmetric as options.mirror asks for; of a part of
+  /// one, unless all faces around each vertex strictly inside of the box are there. Only these vertices change.
   WholeMesh(const TriangleMesh& mesh, const HullOptions& options, const UnitCube& unit_cube, const Box* part);
+
+  /// The plane of symmetry, if options.mirror asks for one.
+  const std::optional<MirrorPlane>& mirror() const { return mirror_; }
 
   std::size_t face_count() const { return faces_.size(); }
   std::vector<BoxedFace> boxed_faces() const;
@@ -94,6 +97,7 @@ class WholeMesh {
   void number_along_curve(const TriangleMesh& mesh);
   void find_twins(const TriangleMesh& mesh, bool is_part);
   void require_whole_stars(const HalfEdgeMesh& part) const;
+  void find_images(const TriangleMesh& mesh, const HalfEdgeMesh& whole);
   void set_tolerances(const PerFace<double>& tolerances);
   void cut_tolerances(Cut& cut) const;
   void put_back_tolerances(const Cut& cut);
@@ -106,8 +110,10 @@ class WholeMesh {
   PerFace<FaceId> given_;          ///< the number of a face in the input
   std::vector<VertexId> corners_;  ///< kNoVertex where a face has gone
   std::vector<HalfEdgeId> twins_;  ///< of the half-edge that starts at a corner
-  std::vector<FaceId> faces_;      ///< those that are left
-  std::vector<EdgeFacts> edges_;   ///< by one of an edge's two corners
+  std::optional<MirrorPlane> mirror_;
+  PerHalfEdge<HalfEdgeId> images_;  ///< mirrored; collapses keep them
+  std::vector<FaceId> faces_;       ///< those that are left
+  std::vector<EdgeFacts> edges_;    ///< by one of an edge's two corners
   PerVertex<Vec3> positions_;
   PerVertex<std::uint32_t> changed_;
   PerVertex<VertexId> names_;

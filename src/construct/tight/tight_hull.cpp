@@ -113,6 +113,8 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options,
     throw InputError(Defect::InvalidOption, "self-intersections cannot be allowed: a tight hull never adds any");
   if (!options.tolerances.empty())
     throw InputError(Defect::InvalidOption, "a tight hull has no tolerances for single faces: build it without tight");
+  if (options.mirror)
+    throw InputError(Defect::InvalidOption, "a tight hull is not symmetric: build it without tight");
   const Original original = original_of(mesh, wrapped, options.side, padding);
   if (options.best_of <= 1) return TightBuild(original, mesh, options).run();
   return best_of(
