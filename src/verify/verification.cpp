@@ -77,7 +77,8 @@ class Judge {
   /// Hulls are not turned, but refused: who uses one believes that it looks outwards.
   bool refuses_inverted(const TriangleMesh& hull) {
     verify::require_closed(hull, "hull");
-    found.inverted_hull_faces = verify::turned_faces(hull, turned_outwards(hull));
+    TriangleMesh turned = hull;
+    found.inverted_hull_faces = verify::turn_outwards(turned, "hull");
     if (found.inverted_hull_faces == 0) return false;
     found.encloses = false;
     found.why_not = found.inverted_hull_faces == hull.face_count()
@@ -109,10 +110,11 @@ class Judge {
   /// Where solids are enclosed, triangles that bound them are covered: what is left are the others.
   void cover_the_rest(const TriangleMesh& hull) {
     const TriangleMesh& inner = is_outer() ? original_ : hull;
+    const EnclosureOptions looking = next_step(), how = next_step();
+    if (verify::bounds_one_solid(inner, meter_)) return;
     const std::vector<FaceId> rest =
-        is_outer() ? verify::faces_beside_the_solid(original_surface(), inner, next_step().progress)
-                   : verify::faces_beside_the_solid(verify::Surface(inner, "hull"), inner, next_step().progress);
-    const EnclosureOptions how = next_step();
+        is_outer() ? verify::faces_beside_the_solid(original_surface(), inner, looking.progress)
+                   : verify::faces_beside_the_solid(verify::Surface(inner, "hull"), inner, looking.progress);
     found.faces_beside_solid = rest.size();
     if (rest.empty()) return;
     TriangleMesh triangles{inner.positions, {}};
