@@ -11,6 +11,7 @@
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/hull_file.h"
+#include "prohull/memory.h"
 #include "prohull/mesh_io.h"
 #include "recenter.h"
 #include "regions_file.h"
@@ -141,6 +142,7 @@ int run_build(BuildOptions options) {
   const std::string suffix = check_options(options);
   complete(options, suffix);
   BuildOutcome outcome;
+  if (!is_standard_stream(options.in)) require_memory(options.in, kHullBytesPerFace);
   Stopwatch reading;
   MeshMarks marks;
   TriangleMesh mesh =

@@ -20,7 +20,7 @@ struct Solid {
   explicit Solid(std::vector<Triangle> outwards) : faces(std::move(outwards)), winding(faces) {
     std::vector<Box> boxes;
     for (const Triangle& t : faces) boxes.push_back(box_of(t));
-    bvh = Bvh(boxes);
+    bvh = Bvh(std::move(boxes));
   }
 };
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
@@ -144,7 +145,7 @@ Surface::Surface(const TriangleMesh& mesh, std::string_view name) {
     source.push_back(f);
     boxes.push_back(box_of(t));
   }
-  bvh = Bvh(boxes);
+  bvh = Bvh(std::move(boxes));
   volume = signed_volume(mesh);
   if (volume_sign(faces) < 0) {
     volume = -volume;

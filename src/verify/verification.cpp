@@ -1,6 +1,7 @@
 #include "prohull/verification.h"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -111,7 +112,8 @@ class Judge {
   void cover_the_rest(const TriangleMesh& hull) {
     const TriangleMesh& inner = is_outer() ? original_ : hull;
     const EnclosureOptions looking = next_step(), how = next_step();
-    if (verify::bounds_one_solid(inner, meter_)) return;
+    if (!is_one_solid_) look_at_solid(inner);
+    if (*is_one_solid_) return;
     const std::vector<FaceId> rest =
         is_outer() ? verify::faces_beside_the_solid(original_surface(), inner, looking.progress)
                    : verify::faces_beside_the_solid(verify::Surface(inner, "hull"), inner, looking.progress);
@@ -126,6 +128,9 @@ class Judge {
                                        : "triangles of folds of the hull, or of parts that are inside out, lie outside "
                                          "of the original; its solid is enclosed");
   }
+
+  /// Of what cover_the_rest looks at: may run beside other steps.
+  void look_at_solid(const TriangleMesh& inner) { is_one_solid_ = verify::bounds_one_solid(inner, meter_); }
 
   void keep_gap(const TriangleMesh& hull) {
     verify::GapReport report = verify::verify_gap(hull, original_, options_.gap, next_step());
@@ -165,6 +170,7 @@ class Judge {
 
   TriangleMesh& original_;
   std::optional<verify::Surface> original_surface_;
+  std::optional<bool> is_one_solid_;  ///< bounds_one_solid of what must be covered
   const VerificationOptions& options_;
   ProgressMeter meter_;
   const std::size_t steps_;
@@ -206,7 +212,13 @@ Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, con
   note_units(usable_box(hull), judge.original_box, found.notes);
   const bool is_finest = found.original_closed && is_of_input;  // the original has to be the finest level
   const TriangleMesh finest = is_finest ? TriangleMesh{} : hull.original();
-  ReplayReport replay = verify_replay(hull, is_finest ? original : finest, judge.next_step().progress);
+  ReplayReport replay;
+  const EnclosureOptions replaying = judge.next_step();
+  oneapi::tbb::parallel_invoke([&] { replay = verify_replay(hull, is_finest ? original : finest, replaying.progress); },
+                               [&] {
+                                 if (is_finest && found.every_triangle && judge.is_outer())
+                                   judge.look_at_solid(original);
+                               });
   found.encloses = replay.holds;
   found.why_not = std::move(replay.why_not);
   found.splits = replay.splits;

@@ -43,35 +43,29 @@ Split choose_split(const std::vector<BoxedFace>& all, const Slots& slots, double
   return best;
 }
 
-template <class IsIn>
-Slots those(const Slots& slots, std::size_t count, IsIn is_in) {
-  Slots found;
-  found.reserve(count);
-  std::ranges::copy_if(slots, std::back_inserter(found), is_in);
-  return found;
-}
-
 std::vector<Cell> split(const std::vector<BoxedFace>& all, Slots slots, const FloatBox& box, std::size_t most_faces,
                         double shift) {
   constexpr double kGoldenRatio = 0.6180339887498949, kMostShared = 0.2, kLargestPart = 0.9;
   if (slots.size() > most_faces) {
     const Split at = choose_split(all, slots, 0.35 + 0.3 * shift);
-    const auto is_below = [&](std::uint32_t i) { return all[i].box.min[at.axis] <= at.at; };
-    const auto is_above = [&](std::uint32_t i) { return all[i].box.max[at.axis] >= at.at; };
-    const auto below = static_cast<std::size_t>(std::ranges::count_if(slots, is_below));
-    const auto above = static_cast<std::size_t>(std::ranges::count_if(slots, is_above));
+    Slots below, above;
+    below.reserve(slots.size()), above.reserve(slots.size());
+    for (const std::uint32_t i : slots) {
+      if (all[i].box.min[at.axis] <= at.at) below.push_back(i);
+      if (all[i].box.max[at.axis] >= at.at) above.push_back(i);
+    }
+    const std::size_t shared = below.size() + above.size() - slots.size();
     const auto is_at_most = [&](std::size_t count, double part) {
       return static_cast<double>(count) <= part * static_cast<double>(slots.size());
     };
-    if (is_at_most(below + above - slots.size(), kMostShared) && is_at_most(std::max(below, above), kLargestPart)) {
-      Slots lower_slots = those(slots, below, is_below), upper_slots = those(slots, above, is_above);
+    if (is_at_most(shared, kMostShared) && is_at_most(std::max(below.size(), above.size()), kLargestPart)) {
       slots = {};
       FloatBox lower = box, upper = box;
       lower.max[at.axis] = upper.min[at.axis] = at.at;
       const double next = std::fmod(shift + kGoldenRatio, 1);
       std::vector<Cell> cells, others;
-      oneapi::tbb::parallel_invoke([&] { cells = split(all, std::move(lower_slots), lower, most_faces, next); },
-                                   [&] { others = split(all, std::move(upper_slots), upper, most_faces, next); });
+      oneapi::tbb::parallel_invoke([&] { cells = split(all, std::move(below), lower, most_faces, next); },
+                                   [&] { others = split(all, std::move(above), upper, most_faces, next); });
       std::ranges::move(others, std::back_inserter(cells));
       return cells;
     }
