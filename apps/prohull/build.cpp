@@ -11,6 +11,7 @@
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/hull_file.h"
+#include "prohull/memory.h"
 #include "prohull/mesh_io.h"
 #include "recenter.h"
 #include "regions_file.h"
@@ -51,13 +52,13 @@ std::string check_options(const BuildOptions& options) {
   return suffix;
 }
 
-EnclosingHulls build(const TriangleMesh& mesh, const BuildOptions& options) {
+EnclosingHulls build(TriangleMesh mesh, const BuildOptions& options) {
   ProgressLine line;
   EnclosingOptions enclosing = options.enclosing;
   enclosing.progress = std::ref(line);
   try {
     if (enclosing.hull.float32_coordinates) check_float32_spacing(mesh);
-    return enclosing_hulls(mesh, options.faces, enclosing);
+    return enclosing_hulls(std::move(mesh), options.faces, enclosing);
   } catch (const InputError& error) {
     throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
   }
@@ -141,6 +142,7 @@ int run_build(BuildOptions options) {
   const std::string suffix = check_options(options);
   complete(options, suffix);
   BuildOutcome outcome;
+  if (!is_standard_stream(options.in)) require_memory(options.in, kHullBytesPerFace);
   Stopwatch reading;
   MeshMarks marks;
   TriangleMesh mesh =
@@ -150,7 +152,7 @@ int run_build(BuildOptions options) {
   if (!options.tolerance.empty()) set_regions(options, outcome, mesh, marks);
   mesh = minus(std::move(mesh), outcome.offset);
   options.enclosing.padding = options.gap.of(mesh);
-  outcome.made = build(mesh, options);
+  outcome.made = build(std::move(mesh), options);
   Outputs outputs;
   for (EnclosingHull& made : outcome.made.hulls) {
     const FinestLevel finest = finest_level(outcome.made, made);

@@ -13,6 +13,7 @@
 #include "command.h"
 #include "prohull/error.h"
 #include "prohull/hull_file.h"
+#include "prohull/memory.h"
 
 namespace prohull::cli {
 namespace {
@@ -90,6 +91,7 @@ bool is_sphere_file(const std::filesystem::path& path) {
 }
 
 std::string read_bytes(const std::filesystem::path& path) {
+  if (!is_standard_stream(path)) require_memory(path);
   const auto fail = [&] {
     throw InputError(Defect::CannotRead,
                      fmt::format("{}: cannot read: {}", input_name(path), std::generic_category().message(errno)));
@@ -98,11 +100,14 @@ std::string read_bytes(const std::filesystem::path& path) {
       is_standard_stream(path) ? stdin : std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) fail();
   constexpr std::size_t kChunk = std::size_t{1} << 20;
+  std::error_code unknown;  // the size of a pipe
+  const auto expected = is_standard_stream(path) ? 0 : std::filesystem::file_size(path, unknown);
   std::string bytes;
+  if (!unknown) bytes.reserve(expected + 2 * kChunk);
   std::size_t size = 0;
   do {
     stop_if_interrupted();
-    bytes.resize(std::max(size + kChunk, 2 * size));
+    if (bytes.size() < size + kChunk) bytes.resize(std::max(size + kChunk, std::min(2 * size, bytes.capacity())));
     size += std::fread(bytes.data() + size, 1, bytes.size() - size, file.get());
     if (std::ferror(file.get())) fail();
   } while (!std::feof(file.get()));

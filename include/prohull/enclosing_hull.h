@@ -104,6 +104,10 @@ struct EnclosingHulls {
   double repair_seconds = 0;  ///< includes the wraps
 };
 
+/// Memory that enclosing_hulls takes for each face of a large clean mesh, about, in bytes, beside the mesh that it is
+/// given. Defects, wraps and tight hulls take more.
+constexpr double kHullBytesPerFace = 260;
+
 /// The first step of enclosing_hulls: repairs the triangles. If `closed` is empty in the result, or with Repair::Wrap,
 /// hulls would be built from wraps or the convex hull. Throws InputError where enclosing_hulls would refuse these
 /// triangles.

@@ -47,7 +47,8 @@ struct ReadOptions {
   Progress progress = {};      ///< stage "read"
 };
 
-/// Reads a mesh file. Throws InputError with the file and the line or byte offset; Cancelled.
+/// Reads a mesh file. Throws InputError with the file and the line or byte offset; Cancelled. A file that needs more
+/// memory than there is is refused before it is read (memory.h).
 ///
 /// Formats: PLY (ascii, binary little and big endian; triangle strips), OBJ, OFF, STL (ascii, binary), glTF 2.0 (.glb,
 /// .gltf). Each may be gzipped, or alone in a zip archive. The file name tells the format; if it does not, the content

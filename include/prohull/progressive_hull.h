@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,9 +34,9 @@ enum class FinestLevel {
 Names<FinestLevel> finest_level_names();
 
 /// A mesh at every resolution, from a coarse base mesh up to the original mesh (P&T 2, Hoppe 1996). It is immutable;
-/// any number of threads may share one. Guaranteed: every level is a closed 2-manifold. Every level encloses the next
-/// finer one (HullSide::Inner: is enclosed by it) in the sense of winding numbers. The finest level is the original
-/// mesh, bit for bit. Not guaranteed: freedom from self-intersection.
+/// any number of threads may share one, and copies share their memory. Guaranteed: every level is a closed 2-manifold.
+/// Every level encloses the next finer one (HullSide::Inner: is enclosed by it) in the sense of winding numbers. The
+/// finest level is the original mesh, bit for bit. Not guaranteed: freedom from self-intersection.
 class ProgressiveHull {
  public:
   /// Vertices are numbered: the vertices of the original mesh come first, then one vertex for each edge collapse, in
@@ -48,13 +49,13 @@ class ProgressiveHull {
 
   HullSide side() const { return side_; }
   FinestLevel finest_level() const { return finest_level_; }
-  std::size_t original_face_count() const { return base_corners_.size() / 3; }
-  std::size_t base_face_count() const { return original_face_count() - 2 * splits_.size(); }
+  std::size_t original_face_count() const { return base_corners().size() / 3; }
+  std::size_t base_face_count() const { return original_face_count() - 2 * splits().size(); }
   std::size_t original_vertex_count() const { return original_vertices_; }
 
   /// The finest level of at most `faces` faces, or the base mesh if that has more.
   TriangleMesh level(std::size_t faces) const;
-  TriangleMesh base() const { return level(0); }
+  TriangleMesh base() const;
   TriangleMesh original() const { return level(original_face_count()); }
 
   /// The same record with level(faces) as its base mesh: vertices and faces keep their numbers.
@@ -63,21 +64,27 @@ class ProgressiveHull {
   /// The same record, which says what its finest level is.
   ProgressiveHull with_finest_level(FinestLevel finest_level) const;
 
-  const PerVertex<Vec3>& positions() const { return positions_; }
-  const std::vector<VertexId>& base_corners() const { return base_corners_; }
+  const PerVertex<Vec3>& positions() const { return record_->positions; }
+  const std::vector<VertexId>& base_corners() const { return record_->base_corners; }
   /// In the order of the collapses: splits()[i] replaces vertex made_vertex(i). Refinement starts with the last one.
-  const std::vector<VertexSplit>& splits() const { return splits_; }
+  const std::vector<VertexSplit>& splits() const { return record_->splits; }
   VertexId made_vertex(std::size_t i) const { return VertexId(static_cast<std::uint32_t>(original_vertices_ + i)); }
 
-  bool operator==(const ProgressiveHull&) const = default;
+  bool operator==(const ProgressiveHull& other) const;
 
  private:
+  struct Record {
+    PerVertex<Vec3> positions;
+    std::vector<VertexId> base_corners;
+    std::vector<VertexSplit> splits;
+
+    bool operator==(const Record&) const = default;
+  };
+
   HullSide side_;
   FinestLevel finest_level_ = FinestLevel::Input;
   std::size_t original_vertices_;
-  PerVertex<Vec3> positions_;
-  std::vector<VertexId> base_corners_;
-  std::vector<VertexSplit> splits_;
+  std::shared_ptr<const Record> record_;
 };
 
 /// The number of faces of the coarsest level that `is_within` accepts. It is found by bisection, which assumes that

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <utility>
 
 #include "geometry/bvh.h"
 
@@ -37,7 +38,7 @@ Bvh tree_of(const Patches& patches) {
   std::vector<Box> boxes;
   boxes.reserve(patches.size());
   for (const Patch& patch : patches.patches) boxes.push_back({patch.middle, patch.middle});
-  return Bvh(boxes);
+  return Bvh(std::move(boxes));
 }
 
 double squared_distance(const Vec3& p, const Box& box) {
@@ -180,7 +181,7 @@ class Improvement {
       const Vec3 across{radius, radius, radius};
       boxes.push_back({member.place.center - across, member.place.center + across});
     }
-    return Bvh(boxes);
+    return Bvh(std::move(boxes));
   }
 
   /// The ball with the least need of a patch, and the least need of all others.

@@ -18,6 +18,7 @@
 #include "geometry/float32.h"
 #include "geometry/usable_size.h"
 #include "mesh/area.h"
+#include "parallel/arena.h"
 #include "parallel/progress_meter.h"
 #include "prohull/collide.h"
 #include "prohull/convex_hull.h"
@@ -84,8 +85,10 @@ class Ladder {
                                      grouped(pairs)));
     }
     if (made_.input.closed) is_original_closed_ = is_closed(made_.input.original);
-    to_cover_ = made_.input.original;
-    append(to_cover_, made_.input.caps);
+    if (made_.input.caps.face_count() > 0) {
+      with_caps_ = made_.input.original;
+      append(with_caps_, made_.input.caps);
+    }
     if (options_.repair == Repair::None) return;
     if (made_.input.closed && !is_volume_exact_ && is_outer()) {  // parts that overlap would count twice
       constexpr double kPerDiagonal = 100;
@@ -156,6 +159,7 @@ class Ladder {
   TriangleMesh placed(const TriangleMesh& level, std::size_t solid, unsigned max_rounds = kMostRounds) const;
   bool is_moved_closely(std::size_t solid) const;
   EnclosingHull build_tight(std::size_t solid, std::size_t target_faces);
+  const TriangleMesh& to_cover() const { return made_.input.caps.face_count() > 0 ? with_caps_ : made_.input.original; }
   const TriangleMesh& to_cover(std::size_t solid) const;
   void certify(EnclosingHull& hull) const;
   void certify_with_padding(EnclosingHull& hull);
@@ -181,7 +185,7 @@ class Ladder {
   const std::span<const std::size_t> target_faces_;
   const std::size_t fewest_faces_;
   EnclosingHulls made_;
-  TriangleMesh to_cover_;                                ///< the input and its caps
+  TriangleMesh with_caps_;                               ///< the input and its caps, if it has any
   std::vector<TriangleMesh> with_doors_;                 ///< of each solid that has doors: the same and these
   std::vector<std::optional<CollisionIndex>> surfaces_;  ///< of each solid: what to keep away from, if that was asked
   std::vector<std::string> notes_;                       ///< on the hull that is being built
@@ -251,10 +255,10 @@ bool Ladder::is_worth_the_convex_hull(const std::optional<EnclosingHull>& best) 
   const bool is_good = best && is_as_asked(*best);
   if (options_.levels || (is_good && (options_.keep_cavities || slack_of(*best) < kLittleVoid))) return false;
   if (!convex_hull_ && !has_no_convex_hull_) {
-    TriangleMesh convex = convex_hull(is_padded() ? to_cover_ : made_.input.original);
+    TriangleMesh convex = convex_hull(is_padded() ? to_cover() : made_.input.original);
     if (is_padded()) {
       if (is_good && signed_volume(convex) + aim() * area_of(convex) >= signed_volume(best->mesh)) return false;
-      convex = padded_convex_solid(convex.face_count() > 0 ? std::move(convex) : to_cover_);
+      convex = padded_convex_solid(convex.face_count() > 0 ? std::move(convex) : to_cover());
     }
     if (convex.face_count() > 0)
       convex_hull_ = add_solid({.source = Source::ConvexHull, .mesh = std::move(convex)});
@@ -302,7 +306,7 @@ std::size_t Ladder::add_solid(Solid solid) {
   with_doors_.emplace_back();
   surfaces_.emplace_back();
   if (solid.doors.face_count() > 0) {
-    with_doors_.back() = to_cover_;
+    with_doors_.back() = to_cover();
     append(with_doors_.back(), solid.doors);
   }
   made_.solids.push_back(std::move(solid));
@@ -329,7 +333,7 @@ std::optional<std::size_t> Ladder::wrap_with(const WrapKind& kind, std::size_t t
                         .progress = options_.progress};
   Wrap made;
   if (is_outer())
-    made = wrap(to_cover_, how);
+    made = wrap(to_cover(), how);
   else
     made.mesh = inner_wrap(made_.input.closed->mesh, how);
   if (options_.hull.float32_coordinates)  // the wrap is farther from the triangles than what that moves it
@@ -568,7 +572,7 @@ EnclosingHull Ladder::build_tight(std::size_t solid, std::size_t target_faces) {
 }
 
 const TriangleMesh& Ladder::to_cover(std::size_t solid) const {
-  return with_doors_[solid].face_count() > 0 ? with_doors_[solid] : to_cover_;
+  return with_doors_[solid].face_count() > 0 ? with_doors_[solid] : to_cover();
 }
 
 bool Ladder::covers(const TriangleMesh& hull, const TriangleMesh& triangles) const {
@@ -800,7 +804,9 @@ EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size
   if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
     throw InputError(Defect::InvalidOption, "nothing is known to be inside of a wrap: inner hulls do without");
   if (options.hull.float32_coordinates) check_float32_spacing(triangles);
-  return Ladder(std::move(triangles), target_faces, options).climb();
+  return arena_of(options.hull.threads).execute([&] {
+    return Ladder(std::move(triangles), target_faces, options).climb();
+  });
 }
 
 EnclosingHull enclosing_hull(TriangleMesh triangles, std::size_t target_faces, const EnclosingOptions& options) {

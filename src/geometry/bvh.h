@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "prohull/geometry.h"
@@ -19,12 +20,12 @@ inline Box box_of(const Triangle& t) {
 class Bvh {
  public:
   Bvh() = default;
-  explicit Bvh(const std::vector<Box>& boxes) : items_(boxes.size()) {
+  explicit Bvh(std::vector<Box> boxes) : items_(boxes.size()) {
     std::iota(items_.begin(), items_.end(), 0u);
-    nodes_.reserve(boxes.size());
+    nodes_.reserve(most_nodes(boxes.size()));
     if (!boxes.empty()) build(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
-    item_boxes_.reserve(boxes.size());
-    for (const std::uint32_t i : items_) item_boxes_.push_back(boxes[i]);
+    sort_as_items(boxes);
+    item_boxes_ = std::move(boxes);
   }
 
   /// visit(item) for every item of which the box, and the boxes above it in the tree, are wanted(box).
@@ -81,6 +82,24 @@ class Bvh {
     build(boxes, begin, middle);
     nodes_[self].right = build(boxes, middle, end);
     return self;
+  }
+
+  static std::size_t most_nodes(std::size_t items) {
+    std::size_t leaves = 1;
+    while (leaves * kLeafSize < items) leaves *= 2;
+    return std::min(items, 2 * leaves - 1);
+  }
+
+  /// In place: these are the largest arrays of all.
+  void sort_as_items(std::vector<Box>& boxes) const {
+    std::vector<bool> is_done(boxes.size());
+    for (std::uint32_t first = 0; first < items_.size(); ++first) {
+      const Box of_first = boxes[first];
+      for (std::uint32_t i = first; !is_done[i]; i = items_[i]) {
+        is_done[i] = true;
+        boxes[i] = items_[i] == first ? of_first : boxes[items_[i]];
+      }
+    }
   }
 
   template <class Bound, class Measure>

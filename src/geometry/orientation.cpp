@@ -20,7 +20,7 @@ struct Solid {
   explicit Solid(std::vector<Triangle> outwards) : faces(std::move(outwards)), winding(faces) {
     std::vector<Box> boxes;
     for (const Triangle& t : faces) boxes.push_back(box_of(t));
-    bvh = Bvh(boxes);
+    bvh = Bvh(std::move(boxes));
   }
 };
 
@@ -76,16 +76,19 @@ Facing facing_of_negative(const std::vector<Triangle>& component, const Solid& s
 
 }  // namespace
 
-Orientation orientation(std::vector<Triangle> faces, std::span<const std::uint32_t> component, std::size_t components) {
+Orientation orientation(const TriangleOfFace& triangle, std::span<const std::uint32_t> component,
+                        std::size_t components) {
   Orientation result;
   result.components.assign(components, Facing::Outwards);
-  result.turn_all = volume_sign(faces) < 0;
-  if (result.turn_all)
-    for (Triangle& t : faces) std::swap(t.b, t.c);
+  result.turn_all = volume_sign(component.size(), triangle) < 0;
   if (components < 2) return result;
 
   std::vector<std::vector<Triangle>> parts(components);
-  for (std::size_t f = 0; f < faces.size(); ++f) parts[component[f]].push_back(faces[f]);
+  for (std::size_t f = 0; f < component.size(); ++f) {
+    Triangle t = triangle(f);
+    if (result.turn_all) std::swap(t.b, t.c);
+    parts[component[f]].push_back(t);
+  }
   std::vector<std::size_t> negative;
   std::vector<Triangle> positive;
   for (std::size_t c = 0; c < components; ++c) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,12 @@ namespace prohull {
 
 /// The sign of the signed volume of a closed chain of triangles. Exact.
 int volume_sign(std::span<const Triangle> faces);
+
+/// Says which triangle a face is.
+using TriangleOfFace = std::function<Triangle(std::size_t face)>;
+
+/// The same of the first `count` faces.
+int volume_sign(std::size_t count, const TriangleOfFace& triangle);
 
 /// How a component of a closed mesh faces.
 enum class Facing : std::uint8_t {
@@ -24,8 +31,9 @@ struct Orientation {
   std::vector<Facing> components;  ///< how each faces once that is done
 };
 
-/// `component` has the number, below `components`, of each face's component. Exact, but for faces of negative
+/// `component` has the number, below `components`, of the component of each face. Exact, but for faces of negative
 /// components with all three corners on the surface of others: a point of the face, rounded, says where they lie.
-Orientation orientation(std::vector<Triangle> faces, std::span<const std::uint32_t> component, std::size_t components);
+Orientation orientation(const TriangleOfFace& triangle, std::span<const std::uint32_t> component,
+                        std::size_t components);
 
 }  // namespace prohull

@@ -23,7 +23,7 @@ bool contains(const Box& box, const Vec3& p) {
 WindingNumber::WindingNumber(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
   std::vector<Box> boxes;
   for (const Triangle& t : triangles_) boxes.push_back(box_of(t));
-  bvh_ = Bvh(boxes);
+  bvh_ = Bvh(std::move(boxes));
 }
 
 std::optional<int> WindingNumber::at(const Vec3& p) const {

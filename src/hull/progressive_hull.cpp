@@ -30,9 +30,13 @@ ProgressiveHull::ProgressiveHull(HullSide side, std::size_t original_vertices, P
                                  std::vector<VertexId> base_corners, std::vector<VertexSplit> splits)
     : side_(side),
       original_vertices_(original_vertices),
-      positions_(std::move(positions)),
-      base_corners_(std::move(base_corners)),
-      splits_(std::move(splits)) {}
+      record_(
+          std::make_shared<const Record>(Record{std::move(positions), std::move(base_corners), std::move(splits)})) {}
+
+bool ProgressiveHull::operator==(const ProgressiveHull& other) const {
+  return side_ == other.side_ && finest_level_ == other.finest_level_ &&
+         original_vertices_ == other.original_vertices_ && (record_ == other.record_ || *record_ == *other.record_);
+}
 
 namespace {
 
@@ -50,13 +54,29 @@ HalfEdgeMesh refined(const ProgressiveHull& hull, std::size_t splits_left) {
 
 }  // namespace
 
+TriangleMesh ProgressiveHull::base() const {
+  if (splits().empty()) return original();
+  PerVertex<VertexId> number(positions().size(), kAbsent);
+  for (const VertexId v : base_corners())
+    if (v != kAbsent) number[v] = v;
+  TriangleMesh mesh;
+  for (VertexId& v : number)
+    if (v != kAbsent) v = mesh.positions.push_back(positions()[v]);
+  mesh.triangles.reserve(base_face_count());
+  for (std::size_t c = 0; c < base_corners().size(); c += 3)
+    if (const VertexId* const corners = &base_corners()[c]; corners[0] != kAbsent)
+      mesh.triangles.push_back({number[corners[0]], number[corners[1]], number[corners[2]]});
+  return mesh;
+}
+
 TriangleMesh ProgressiveHull::level(std::size_t faces) const {
+  if (!splits().empty() && faces < base_face_count() + 2) return base();
   const HalfEdgeMesh mesh = refined(*this, splits_below(*this, faces));
   TriangleMesh level = mesh.triangle_mesh();
   if (mesh.face_count() < original_face_count()) return level;
   // The original keeps its vertices as they were numbered, unused ones included.
   level.positions = PerVertex<Vec3>(
-      std::vector<Vec3>(positions_.begin(), positions_.begin() + static_cast<std::ptrdiff_t>(original_vertices_)));
+      std::vector<Vec3>(positions().begin(), positions().begin() + static_cast<std::ptrdiff_t>(original_vertices_)));
   for (const FaceId f : level.triangles.ids()) level.triangles[f] = mesh.corners(f);
   return level;
 }
@@ -65,13 +85,13 @@ ProgressiveHull ProgressiveHull::with_base(std::size_t faces) const {
   const std::size_t left = splits_below(*this, faces);
   const HalfEdgeMesh mesh = refined(*this, left);
   std::vector<VertexId> corners;
-  corners.reserve(base_corners_.size());
+  corners.reserve(base_corners().size());
   for (std::uint32_t f = 0; f < mesh.face_id_count(); ++f)
     for (const VertexId v : mesh.corners(FaceId(f))) corners.push_back(v);
   const auto vertices = static_cast<std::ptrdiff_t>(original_vertices_ + left);
   ProgressiveHull coarser(side_, original_vertices_,
-                          PerVertex<Vec3>(std::vector<Vec3>(positions_.begin(), positions_.begin() + vertices)),
-                          std::move(corners), {splits_.begin(), splits_.begin() + static_cast<std::ptrdiff_t>(left)});
+                          PerVertex<Vec3>(std::vector<Vec3>(positions().begin(), positions().begin() + vertices)),
+                          std::move(corners), {splits().begin(), splits().begin() + static_cast<std::ptrdiff_t>(left)});
   coarser.finest_level_ = finest_level_;
   return coarser;
 }

@@ -40,7 +40,7 @@ void check_limit(std::size_t size, std::size_t compressed, const std::filesystem
 
 /// Makes room for the next chunk behind the first `size` bytes.
 char* grow(std::string& bytes, std::size_t size) {
-  if (bytes.size() < size + kChunk) bytes.resize(std::max(size + kChunk, 2 * size));
+  if (bytes.size() < size + kChunk) bytes.resize(std::max(size + kChunk, std::min(2 * size, bytes.capacity())));
   return bytes.data() + size;
 }
 
@@ -145,7 +145,10 @@ FileContent only_mesh(std::string_view bytes, const std::filesystem::path& name)
 std::string read_file(const std::filesystem::path& path) {
   const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) fail_to_read(path);
+  std::error_code unknown;  // the size of a pipe
+  const std::uintmax_t expected = std::filesystem::file_size(path, unknown);
   std::string bytes;
+  if (!unknown) bytes.reserve(expected + kChunk);
   std::size_t size = 0;
   while (const std::size_t read = std::fread(grow(bytes, size), 1, kChunk, file.get())) size += read;
   if (std::ferror(file.get())) fail_to_read(path);

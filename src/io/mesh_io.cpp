@@ -19,6 +19,7 @@
 #include "io/text_scanner.h"
 #include "prohull/error.h"
 #include "prohull/hull_file.h"
+#include "prohull/memory.h"
 
 namespace prohull {
 namespace {
@@ -183,6 +184,7 @@ TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& na
 }
 
 TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+  require_memory(path);
   return read_mesh(read_file(path), path, options);
 }
 

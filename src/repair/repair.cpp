@@ -71,6 +71,7 @@ void drop_nested(ClosedMesh& closed) {
 
 // The triangles of `mesh` that `other`, which has no others, has not, in either orientation.
 TriangleMesh without(const TriangleMesh& mesh, const TriangleMesh& other) {
+  if (mesh == other) return {};
   using Corner = std::array<double, 3>;
   const auto corners = [](const TriangleMesh& m, FaceId f) {
     const Triangle t = m.triangle(f);

@@ -39,6 +39,7 @@ std::vector<std::uint32_t> component_of_faces(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> number(mesh.vertex_count(), kNone);
   std::uint32_t count = 0;
   std::vector<std::uint32_t> component;
+  component.reserve(mesh.face_count());
   for (const auto& t : mesh.triangles) {
     std::uint32_t& known = number[connected.find(index(t[0]))];
     if (known == kNone) known = count++;
@@ -231,10 +232,9 @@ void split_vertices(TriangleMesh& mesh, Repairs& repairs) {
 }
 
 void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs) {
-  std::vector<Triangle> triangles;
-  for (const FaceId f : mesh.triangles.ids()) triangles.push_back(mesh.triangle(f));
   const std::vector<std::uint32_t> component = component_of_faces(mesh);
-  const Orientation facing = orientation(std::move(triangles), component, components);
+  const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
+  const Orientation facing = orientation(triangle, component, components);
   for (const FaceId f : mesh.triangles.ids()) {
     const Facing own = facing.components[component[index(f)]];
     if (own == Facing::Unclear)

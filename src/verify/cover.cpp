@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/interior_contact.h"
+#include "geometry/orientation.h"
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
 #include "parallel/progress_meter.h"
@@ -418,6 +419,16 @@ std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const Triangl
     if (!bounds_it[f]) result.push_back(f);
   counter.finish();
   return result;
+}
+
+// Beside an edge there are its two faces only, so each side of the surface is in one region of space. One of the two
+// regions is that outside of all, with a winding number of 0. Then that of the other one is 1 or -1, as the volume is.
+bool bounds_one_solid(const TriangleMesh& mesh, ProgressMeter& meter) {
+  const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
+  for (const FaceId f : mesh.triangles.ids())
+    if (!projection_axis(mesh.triangle(f))) return false;
+  return is_one_sheet(mesh) && volume_sign(mesh.face_count(), triangle) > 0 &&
+         count_self_intersections(mesh, meter) == 0;
 }
 
 }  // namespace verify

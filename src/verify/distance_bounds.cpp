@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <queue>
+#include <utility>
 #include <vector>
 
 #include "geometry/bvh.h"
@@ -32,9 +33,10 @@ class Search {
         options_(options),
         counter_(options.progress, "measure", options.max_cells + from.face_count()) {
     std::vector<Box> boxes;
+    boxes.reserve(to.face_count());
     double largest = 0;
     for (const FaceId f : to.triangles.ids()) boxes.push_back(box_of(to.triangle(f)));
-    tree_ = Bvh(boxes);
+    tree_ = Bvh(std::move(boxes));
     for (const TriangleMesh* mesh : {&from, &to})
       if (const Box box = bounding_box(*mesh); !box.is_empty()) largest = std::max(largest, largest_coordinate(box));
     // A closest point is computed from differences, within 16 eps of the largest coordinate for each of its own (a sum

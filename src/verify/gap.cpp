@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/bvh.h"
 #include "geometry/triangle_distance.h"
@@ -78,7 +79,7 @@ class GapSearch {
     std::vector<Box> boxes;
     boxes.reserve(original.face_count());
     for (const FaceId f : original.triangles.ids()) boxes.push_back(box_of(original.triangle(f)));
-    tree_ = Bvh(boxes);
+    tree_ = Bvh(std::move(boxes));
   }
 
   bool keeps_gap(const Triangle& face) const {

@@ -36,12 +36,6 @@ Box usable_box(const TriangleMesh& mesh, std::string_view name) {
   return box;
 }
 
-std::size_t turned_faces(const TriangleMesh& mesh, const TriangleMesh& turned) {
-  std::size_t count = 0;
-  for (const FaceId f : mesh.triangles.ids()) count += turned.triangles[f] != mesh.triangles[f];
-  return count;
-}
-
 PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& notes) {
   if (const std::size_t dropped = drop_non_finite_faces(mesh))
     notes.push_back(fmt::format("{} of the original {} not finite and {} left out", counted(dropped, "face", "faces"),
@@ -53,9 +47,7 @@ PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& 
     notes.emplace_back("the original is not closed: it has no volume, and every triangle of it must be covered");
     return result;
   }
-  TriangleMesh turned = turned_outwards(mesh);
-  result.turned_faces = turned_faces(mesh, turned);
-  mesh = std::move(turned);
+  result.turned_faces = turn_outwards(mesh, "original");
   result.volume = signed_volume(mesh);
   if (const std::size_t count = result.turned_faces)
     notes.push_back(fmt::format("{} of the original {} inwards and {} as turned", counted(count, "face", "faces"),

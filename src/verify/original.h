@@ -26,7 +26,4 @@ PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& 
 /// too large to verify.
 Box usable_box(const TriangleMesh& mesh, std::string_view name);
 
-/// How many faces differ.
-std::size_t turned_faces(const TriangleMesh& mesh, const TriangleMesh& turned);
-
 }  // namespace prohull::verify

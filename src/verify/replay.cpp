@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "geometry/orientation.h"
@@ -62,12 +61,12 @@ class Replay {
 
   const std::vector<VertexId>& corners() const { return vertex_; }
 
-  /// Those of the finest level; none if a face has not come back.
-  std::vector<Triangle> triangles() const {
-    std::vector<Triangle> all;
-    if (std::ranges::count(vertex_, ProgressiveHull::kAbsent) > 0) return all;
-    for (std::uint32_t face = 0; face < vertex_.size() / 3; ++face) all.push_back(triangle(face));
-    return all;
+  /// Whether all faces have come back.
+  bool is_complete() const { return std::ranges::count(vertex_, ProgressiveHull::kAbsent) == 0; }
+
+  Triangle triangle(std::size_t face) const {
+    const auto at = [&](std::size_t c) { return hull_.positions()[vertex_[3 * face + c]]; };
+    return {at(0), at(1), at(2)};
   }
 
  private:
@@ -108,11 +107,6 @@ class Replay {
     }
   }
 
-  Triangle triangle(std::uint32_t face) const {
-    const auto at = [&](std::uint32_t c) { return hull_.positions()[vertex_[3 * face + c]]; };
-    return {at(0), at(1), at(2)};
-  }
-
   bool is_on_wrong_side(std::uint32_t face, const Vec3& apex) {
     ++signs_;
     const Triangle t = triangle(face);
@@ -131,9 +125,11 @@ class Replay {
 using Corners = std::array<std::array<double, 3>, 3>;
 
 // Independent of orientation and of the order of the corners; -0 becomes 0. Triangles with two equal corners vanish.
-std::vector<Corners> sorted_corners(std::span<const Triangle> triangles) {
+template <class TriangleOf>
+std::vector<Corners> sorted_corners(std::size_t count, TriangleOf triangle) {
   std::vector<Corners> all;
-  for (const Triangle& t : triangles) {
+  for (std::size_t f = 0; f < count; ++f) {
+    const Triangle t = triangle(f);
     if (t.a == t.b || t.b == t.c || t.c == t.a) continue;
     Corners corners;
     std::ranges::transform(std::array{t.a, t.b, t.c}, corners.begin(), [](const Vec3& p) {
@@ -146,8 +142,20 @@ std::vector<Corners> sorted_corners(std::span<const Triangle> triangles) {
   return all;
 }
 
+bool is_same(const Triangle& s, const Triangle& t) { return s.a == t.a && s.b == t.b && s.c == t.c; }
+
+// Mostly the faces have the same order. Otherwise both are sorted, which takes six times the memory of a mesh.
+bool has_triangles_of(const Replay& replay, const TriangleMesh& original) {
+  const auto ours = [&](std::size_t f) { return replay.triangle(f); };
+  const auto theirs = [&](std::size_t f) { return original.triangle(FaceId(static_cast<std::uint32_t>(f))); };
+  const std::size_t faces = replay.corners().size() / 3;
+  bool are_same = faces == original.face_count();
+  for (std::size_t f = 0; f < faces && are_same; ++f) are_same = is_same(ours(f), theirs(f));
+  return are_same || sorted_corners(faces, ours) == sorted_corners(original.face_count(), theirs);
+}
+
 // The components, connected by shared vertices, of the finest level: outwards, or cavities of others.
-bool faces_outwards(const Replay& replay, std::size_t vertices, std::vector<Triangle> finest) {
+bool faces_outwards(const Replay& replay, std::size_t vertices) {
   const auto& corners = replay.corners();
   std::vector<std::uint32_t> parent(vertices);
   std::iota(parent.begin(), parent.end(), 0u);
@@ -161,13 +169,14 @@ bool faces_outwards(const Replay& replay, std::size_t vertices, std::vector<Tria
     parent[std::max(a, b)] = std::min(a, b);
   }
   std::vector<std::uint32_t> number(vertices, kNone), component;
+  component.reserve(corners.size() / 3);
   std::uint32_t count = 0;
   for (std::size_t c = 0; c < corners.size(); c += 3) {
     std::uint32_t& known = number[find(corners[c])];
     if (known == kNone) known = count++;
     component.push_back(known);
   }
-  const Orientation facing = orientation(std::move(finest), component, count);
+  const Orientation facing = orientation([&](std::size_t f) { return replay.triangle(f); }, component, count);
   return !facing.turn_all &&
          std::ranges::all_of(facing.components, [](Facing f) { return f == Facing::Outwards || f == Facing::Cavity; });
 }
@@ -199,12 +208,9 @@ ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& orig
     ++report.splits;
     counter.next();
   }
-  std::vector<Triangle> theirs;
-  for (const FaceId f : original.triangles.ids()) theirs.push_back(original.triangle(f));
-  std::vector<Triangle> finest = replay.triangles();
-  if (sorted_corners(finest) != sorted_corners(theirs))
+  if (!replay.is_complete() || !has_triangles_of(replay, original))
     report.why_not = "the finest level does not have the triangles of the original mesh";
-  else if (!faces_outwards(replay, hull.positions().size(), std::move(finest)))
+  else if (!faces_outwards(replay, hull.positions().size()))
     report.why_not = "the finest level is inside out, or a component of it";
   else
     report.holds = true;

@@ -1,5 +1,10 @@
 #include "verify/self_intersection.h"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
+#include <oneapi/tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -67,30 +72,51 @@ class PairSearch {
     pack();
   }
 
-  /// visit(f, g) once for each pair that meets, in any order.
-  template <class Visit>
-  void visit_meeting(ProgressMeter& meter, Visit visit) {
-    for (std::uint32_t leaf = 0; leaf < levels_[0].size(); ++leaf) {
-      meter.go_on();
-      find_leaves_from(leaf);
-      for (std::uint32_t lane = 0; lane < kWidth && kWidth * leaf + lane < face_at_.size(); ++lane) {
-        const std::uint32_t f = face_at_[kWidth * leaf + lane];
-        const Triangle t = triangle_of_(f);
-        const FourBoxes box = levels_[0][leaf].repeated(lane);
-        for (const std::uint32_t other : nodes_) {
-          unsigned met = levels_[0][other].overlapping(box);
-          if (other == leaf) met &= ~1u << lane;
-          for (; met != 0; met &= met - 1) {
-            const std::uint32_t g = face_at_[kWidth * other + static_cast<std::uint32_t>(std::countr_zero(met))];
-            if (triangles_intersect(t, triangle_of_(g))) visit(std::min(f, g), std::max(f, g));
+  /// What add(found, f, g) makes of all pairs that meet, from Found{} on, in any order; join(found, other) adds what
+  /// another thread has found.
+  template <class Found, class Add, class Join>
+  Found meeting(ProgressMeter& meter, Add add, Join join) const {
+    using Leaves = oneapi::tbb::blocked_range<std::uint32_t>;
+    return oneapi::tbb::parallel_reduce(
+        Leaves(0, static_cast<std::uint32_t>(levels_[0].size()), kLeavesToAThread), Found{},
+        [&](const Leaves& leaves, Found found) {
+          Scratch scratch;
+          for (std::uint32_t leaf = leaves.begin(); leaf != leaves.end(); ++leaf) {
+            meter.go_on();
+            add_pairs_of(leaf, scratch, [&](std::uint32_t f, std::uint32_t g) { add(found, f, g); });
           }
+          return found;
+        },
+        [&](Found found, Found other) {
+          join(found, std::move(other));
+          return found;
+        });
+  }
+
+ private:
+  static constexpr std::uint32_t kWidth = 4, kLeavesToAThread = 1024;
+
+  struct Scratch {
+    std::vector<std::uint32_t> nodes, children;
+  };
+
+  template <class Visit>
+  void add_pairs_of(std::uint32_t leaf, Scratch& scratch, Visit visit) const {
+    find_leaves_from(leaf, scratch);
+    for (std::uint32_t lane = 0; lane < kWidth && kWidth * leaf + lane < face_at_.size(); ++lane) {
+      const std::uint32_t f = face_at_[kWidth * leaf + lane];
+      const Triangle t = triangle_of_(f);
+      const FourBoxes box = levels_[0][leaf].repeated(lane);
+      for (const std::uint32_t other : scratch.nodes) {
+        unsigned met = levels_[0][other].overlapping(box);
+        if (other == leaf) met &= ~1u << lane;
+        for (; met != 0; met &= met - 1) {
+          const std::uint32_t g = face_at_[kWidth * other + static_cast<std::uint32_t>(std::countr_zero(met))];
+          if (triangles_intersect(t, triangle_of_(g))) visit(std::min(f, g), std::max(f, g));
         }
       }
     }
   }
-
- private:
-  static constexpr std::uint32_t kWidth = 4;
 
   static Box box_of_all(std::uint32_t count, const TriangleOf& triangle_of) {
     Box box;
@@ -101,11 +127,11 @@ class PairSearch {
 
   void sort_faces(std::uint32_t count) {
     std::vector<std::uint64_t> by_code(count);
-    for (std::uint32_t f = 0; f < count; ++f) {
+    oneapi::tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t f) {
       const auto [x, y, z] = cube_.at(box_of(triangle_of_(f)).center());
       by_code[f] = std::uint64_t{morton_code(x, y, z)} << 32 | f;
-    }
-    std::sort(by_code.begin(), by_code.end());
+    });
+    oneapi::tbb::parallel_sort(by_code);
     face_at_.reserve(count);
     for (const std::uint64_t code : by_code) face_at_.push_back(static_cast<std::uint32_t>(code));
   }
@@ -116,27 +142,29 @@ class PairSearch {
       children = (children + kWidth - 1) / kWidth;
       levels_.emplace_back(children, FourBoxes::none());
     } while (children > 1);
-    for (std::uint32_t slot = 0; slot < face_at_.size(); ++slot)
-      levels_[0][slot / kWidth].set(slot % kWidth, cube_.at(triangle_of_(face_at_[slot])));
+    oneapi::tbb::parallel_for(std::size_t{0}, levels_[0].size(), [&](std::size_t leaf) {
+      for (std::size_t slot = kWidth * leaf; slot < std::min(kWidth * (leaf + 1), face_at_.size()); ++slot)
+        levels_[0][leaf].set(static_cast<std::uint32_t>(slot % kWidth), cube_.at(triangle_of_(face_at_[slot])));
+    });
     for (std::size_t level = 1; level < levels_.size(); ++level)
       for (std::uint32_t i = 0; i < levels_[level - 1].size(); ++i)
         levels_[level][i / kWidth].set(i % kWidth, levels_[level - 1][i].around());
   }
 
-  /// Sets nodes_ to the leaves, from this one on, with a box that overlaps the one around all of its own.
-  void find_leaves_from(std::uint32_t leaf) {
+  /// Sets scratch.nodes to the leaves, from this one on, with a box that overlaps the one around all of its own.
+  void find_leaves_from(std::uint32_t leaf, Scratch& scratch) const {
     FourBoxes around = FourBoxes::none();
     around.set(0, levels_[0][leaf].around());
     around = around.repeated(0);
-    nodes_.assign(1, 0);
+    scratch.nodes.assign(1, 0);
     for (std::size_t level = levels_.size() - 1; level > 0; --level) {
       const std::uint32_t first = leaf >> (2 * (level - 1));  // the child on the way to the leaf
-      children_.clear();
-      for (const std::uint32_t i : nodes_)
+      scratch.children.clear();
+      for (const std::uint32_t i : scratch.nodes)
         for (unsigned met = levels_[level][i].overlapping(around); met != 0; met &= met - 1)
           if (const auto child = kWidth * i + static_cast<std::uint32_t>(std::countr_zero(met)); child >= first)
-            children_.push_back(child);
-      std::swap(nodes_, children_);
+            scratch.children.push_back(child);
+      std::swap(scratch.nodes, scratch.children);
     }
   }
 
@@ -145,28 +173,29 @@ class PairSearch {
   std::vector<std::uint32_t> face_at_;
   std::vector<std::vector<FourBoxes>>
       levels_;  ///< children of node i are faces, or nodes of the level before, from 4i on
-  std::vector<std::uint32_t> nodes_, children_;
 };
 
 }  // namespace
 
 std::vector<std::pair<FaceIndex, FaceIndex>> self_intersections(const Surface& surface, ProgressMeter& meter) {
-  std::vector<std::pair<FaceIndex, FaceIndex>> pairs;
+  using Pairs = std::vector<std::pair<FaceIndex, FaceIndex>>;
   const auto triangle_of = [&](FaceIndex f) -> const Triangle& { return surface.faces[f]; };
-  if (surface.faces.empty()) return pairs;
-  PairSearch(static_cast<FaceIndex>(surface.faces.size()), triangle_of)
-      .visit_meeting(meter, [&](FaceIndex f, FaceIndex g) { pairs.emplace_back(f, g); });
+  if (surface.faces.empty()) return {};
+  Pairs pairs = PairSearch(static_cast<FaceIndex>(surface.faces.size()), triangle_of)
+                    .template meeting<Pairs>(
+                        meter, [](Pairs& found, FaceIndex f, FaceIndex g) { found.emplace_back(f, g); },
+                        [](Pairs& found, Pairs other) { found.insert(found.end(), other.begin(), other.end()); });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 
 std::size_t count_self_intersections(const TriangleMesh& mesh, ProgressMeter& meter) {
   require_usable(mesh, "given");
-  std::size_t pairs = 0;
   const auto triangle_of = [&](std::uint32_t f) { return mesh.triangle(FaceId{f}); };
-  PairSearch(static_cast<std::uint32_t>(mesh.face_count()), triangle_of)
-      .visit_meeting(meter, [&](std::uint32_t, std::uint32_t) { ++pairs; });
-  return pairs;
+  return PairSearch(static_cast<std::uint32_t>(mesh.face_count()), triangle_of)
+      .template meeting<std::size_t>(
+          meter, [](std::size_t& found, std::uint32_t, std::uint32_t) { ++found; },
+          [](std::size_t& found, std::size_t other) { found += other; });
 }
 
 }  // namespace prohull::verify

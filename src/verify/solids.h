@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "verify/surface.h"
 
@@ -21,5 +22,10 @@ struct Holes {
 /// and of components that are inside out; and those without area. Whatever encloses the mesh covers all others
 /// (verify_enclosure, verify_cover). Exact; but where more than 1,000 pairs of faces intersect, all of these are there.
 std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const TriangleMesh& mesh, const Progress& progress);
+
+/// Whether the mesh is a surface in one piece, with two faces along every edge, with an area of every face and without
+/// self-intersections, that looks outwards: then all of its faces bound the solid. Much faster to find out, and in less
+/// memory, than faces_beside_the_solid, which knows of any mesh. Exact.
+bool bounds_one_solid(const TriangleMesh& mesh, ProgressMeter& meter);
 
 }  // namespace prohull::verify

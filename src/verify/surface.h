@@ -33,6 +33,13 @@ void require_usable(const TriangleMesh& mesh, std::string_view name);
 /// The same if the mesh is not closed.
 void require_closed(const TriangleMesh& mesh, std::string_view name);
 
+/// Whether all faces are connected by edges, matched by position, with two faces each that run along them in opposite
+/// directions. Requires what require_usable does.
+bool is_one_sheet(const TriangleMesh& mesh);
+
+/// Turns components as turned_outwards does, and returns how many faces changed. Throws InputError as require_usable.
+std::size_t turn_outwards(TriangleMesh& mesh, std::string_view name);
+
 /// For each vertex the first one, in lexicographic order, at its position; 0.0 and -0.0 are the same position.
 /// Positions that are not finite belong to no face, and have no number.
 std::vector<std::uint32_t> numbered_by_position(const PerVertex<Vec3>& positions);

@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "geometry/bvh.h"
@@ -37,7 +38,7 @@ class Nearness {
     Box all = of_mesh;
     for (const FaceId f : hull.triangles.ids()) boxes.push_back(box_of(hull.triangle(f)));
     for (const Box& box : boxes) all.extend(box);
-    tree_ = Bvh(boxes);
+    tree_ = Bvh(std::move(boxes));
     rounding_ = 64 * 0x1p-53 * largest_coordinate(all);  // as distance_bounds derives it
   }
 

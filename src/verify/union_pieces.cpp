@@ -131,7 +131,7 @@ Pieces prepare_pieces(std::span<const TriangleMesh> pieces, const Progress& prog
   }
   std::vector<Box> boxes;
   for (const Kernel& kernel : result.kernels) boxes.push_back(kernel.box());
-  result.bvh = Bvh(boxes);
+  result.bvh = Bvh(std::move(boxes));
   counter.finish();
   return result;
 }

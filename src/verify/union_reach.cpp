@@ -42,7 +42,7 @@ class Target {
       triangles_.push_back(mesh.triangle(f));
       boxes.push_back(box_of(triangles_.back()));
     }
-    tree_ = Bvh(boxes);
+    tree_ = Bvh(std::move(boxes));
     if (closed_) winding_.emplace(triangles_);
     diagonal_ = bounding_box(mesh).diagonal();
   }

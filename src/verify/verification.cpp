@@ -1,6 +1,7 @@
 #include "prohull/verification.h"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -77,7 +78,8 @@ class Judge {
   /// Hulls are not turned, but refused: who uses one believes that it looks outwards.
   bool refuses_inverted(const TriangleMesh& hull) {
     verify::require_closed(hull, "hull");
-    found.inverted_hull_faces = verify::turned_faces(hull, turned_outwards(hull));
+    TriangleMesh turned = hull;
+    found.inverted_hull_faces = verify::turn_outwards(turned, "hull");
     if (found.inverted_hull_faces == 0) return false;
     found.encloses = false;
     found.why_not = found.inverted_hull_faces == hull.face_count()
@@ -109,10 +111,12 @@ class Judge {
   /// Where solids are enclosed, triangles that bound them are covered: what is left are the others.
   void cover_the_rest(const TriangleMesh& hull) {
     const TriangleMesh& inner = is_outer() ? original_ : hull;
+    const EnclosureOptions looking = next_step(), how = next_step();
+    if (!is_one_solid_) look_at_solid(inner);
+    if (*is_one_solid_) return;
     const std::vector<FaceId> rest =
-        is_outer() ? verify::faces_beside_the_solid(original_surface(), inner, next_step().progress)
-                   : verify::faces_beside_the_solid(verify::Surface(inner, "hull"), inner, next_step().progress);
-    const EnclosureOptions how = next_step();
+        is_outer() ? verify::faces_beside_the_solid(original_surface(), inner, looking.progress)
+                   : verify::faces_beside_the_solid(verify::Surface(inner, "hull"), inner, looking.progress);
     found.faces_beside_solid = rest.size();
     if (rest.empty()) return;
     TriangleMesh triangles{inner.positions, {}};
@@ -124,6 +128,9 @@ class Judge {
                                        : "triangles of folds of the hull, or of parts that are inside out, lie outside "
                                          "of the original; its solid is enclosed");
   }
+
+  /// Of what cover_the_rest looks at: may run beside other steps.
+  void look_at_solid(const TriangleMesh& inner) { is_one_solid_ = verify::bounds_one_solid(inner, meter_); }
 
   void keep_gap(const TriangleMesh& hull) {
     verify::GapReport report = verify::verify_gap(hull, original_, options_.gap, next_step());
@@ -163,6 +170,7 @@ class Judge {
 
   TriangleMesh& original_;
   std::optional<verify::Surface> original_surface_;
+  std::optional<bool> is_one_solid_;  ///< bounds_one_solid of what must be covered
   const VerificationOptions& options_;
   ProgressMeter meter_;
   const std::size_t steps_;
@@ -204,7 +212,13 @@ Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, con
   note_units(usable_box(hull), judge.original_box, found.notes);
   const bool is_finest = found.original_closed && is_of_input;  // the original has to be the finest level
   const TriangleMesh finest = is_finest ? TriangleMesh{} : hull.original();
-  ReplayReport replay = verify_replay(hull, is_finest ? original : finest, judge.next_step().progress);
+  ReplayReport replay;
+  const EnclosureOptions replaying = judge.next_step();
+  oneapi::tbb::parallel_invoke([&] { replay = verify_replay(hull, is_finest ? original : finest, replaying.progress); },
+                               [&] {
+                                 if (is_finest && found.every_triangle && judge.is_outer())
+                                   judge.look_at_solid(original);
+                               });
   found.encloses = replay.holds;
   found.why_not = std::move(replay.why_not);
   found.splits = replay.splits;

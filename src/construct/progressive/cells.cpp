@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "geometry/morton_code.h"
 
@@ -20,12 +21,14 @@ struct Split {
   float at;
 };
 
-Split choose_split(const std::vector<BoxedFace>& faces, double fraction) {
+using Slots = std::vector<std::uint32_t>;  // of faces in a list of all
+
+Split choose_split(const std::vector<BoxedFace>& all, const Slots& slots, double fraction) {
   // Some of them tell enough.
-  const std::size_t step = 1 + faces.size() / 1024;
+  const std::size_t step = 1 + slots.size() / 1024;
   std::array<std::vector<float>, 3> centers;
-  for (std::size_t i = 0; i < faces.size(); i += step)
-    for (int axis = 0; axis < 3; ++axis) centers[axis].push_back(center(faces[i].box, axis));
+  for (std::size_t i = 0; i < slots.size(); i += step)
+    for (int axis = 0; axis < 3; ++axis) centers[axis].push_back(center(all[slots[i]].box, axis));
   Split best{0, 0};
   float widest = -1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -40,34 +43,36 @@ Split choose_split(const std::vector<BoxedFace>& faces, double fraction) {
   return best;
 }
 
-std::vector<Cell> split(std::vector<BoxedFace> faces, const FloatBox& box, std::size_t most_faces, double shift) {
+std::vector<Cell> split(const std::vector<BoxedFace>& all, Slots slots, const FloatBox& box, std::size_t most_faces,
+                        double shift) {
   constexpr double kGoldenRatio = 0.6180339887498949, kMostShared = 0.2, kLargestPart = 0.9;
-  if (faces.size() > most_faces) {
-    const auto [axis, at] = choose_split(faces, 0.35 + 0.3 * shift);
-    std::vector<BoxedFace> below, above;
-    for (const BoxedFace& face : faces) {
-      if (face.box.min[axis] <= at) below.push_back(face);
-      if (face.box.max[axis] >= at) above.push_back(face);
+  if (slots.size() > most_faces) {
+    const Split at = choose_split(all, slots, 0.35 + 0.3 * shift);
+    Slots below, above;
+    below.reserve(slots.size()), above.reserve(slots.size());
+    for (const std::uint32_t i : slots) {
+      if (all[i].box.min[at.axis] <= at.at) below.push_back(i);
+      if (all[i].box.max[at.axis] >= at.at) above.push_back(i);
     }
-    const std::size_t shared = below.size() + above.size() - faces.size();
+    const std::size_t shared = below.size() + above.size() - slots.size();
     const auto is_at_most = [&](std::size_t count, double part) {
-      return static_cast<double>(count) <= part * static_cast<double>(faces.size());
+      return static_cast<double>(count) <= part * static_cast<double>(slots.size());
     };
     if (is_at_most(shared, kMostShared) && is_at_most(std::max(below.size(), above.size()), kLargestPart)) {
-      faces = {};
+      slots = {};
       FloatBox lower = box, upper = box;
-      lower.max[axis] = upper.min[axis] = at;
+      lower.max[at.axis] = upper.min[at.axis] = at.at;
       const double next = std::fmod(shift + kGoldenRatio, 1);
       std::vector<Cell> cells, others;
-      oneapi::tbb::parallel_invoke([&] { cells = split(std::move(below), lower, most_faces, next); },
-                                   [&] { others = split(std::move(above), upper, most_faces, next); });
+      oneapi::tbb::parallel_invoke([&] { cells = split(all, std::move(below), lower, most_faces, next); },
+                                   [&] { others = split(all, std::move(above), upper, most_faces, next); });
       std::ranges::move(others, std::back_inserter(cells));
       return cells;
     }
   }
   Cell cell{box, {}};
-  cell.faces.reserve(faces.size());
-  for (const BoxedFace& face : faces) cell.faces.push_back(face.face);
+  cell.faces.reserve(slots.size());
+  for (const std::uint32_t i : slots) cell.faces.push_back(all[i].face);
   std::vector<Cell> cells;
   cells.push_back(std::move(cell));
   return cells;
@@ -80,9 +85,11 @@ FloatBox everywhere() {
   return {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
 }
 
-std::vector<Cell> split_into_cells(std::vector<BoxedFace> faces, std::size_t most_faces, double shift,
+std::vector<Cell> split_into_cells(const std::vector<BoxedFace>& faces, std::size_t most_faces, double shift,
                                    const FloatBox& box) {
-  return split(std::move(faces), box, most_faces, shift);
+  Slots all(faces.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return split(faces, std::move(all), box, most_faces, shift);
 }
 
 std::vector<FaceId> along_curve(const std::vector<BoxedFace>& faces) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "base/text.h"
@@ -38,11 +39,17 @@ void require_symmetry(const TriangleMesh& mesh, Axis mirror) {
 WholeMesh::WholeMesh(const TriangleMesh& mesh, const HullOptions& options, const UnitCube& unit_cube, const Box* part)
     : options_(options), unit_cube_(unit_cube), box_(part ? unit_cube.at(*part) : everywhere()) {
   number_along_curve(mesh);
-  find_twins(mesh, part != nullptr);
+  if (part)
+    find_twins_of_part();
+  else
+    find_twins(mesh);
+  if (options.mirror) find_images(mesh);
   set_tolerances(options.tolerances);
   changed_.assign(positions_.size(), 1);
   edges_.resize(corners_.size());
-  made_.reserve(mesh.vertex_count() + (mesh.face_count() - std::min(mesh.face_count(), options.target_faces)) / 2);
+  const std::size_t most_collapses = (mesh.face_count() - std::min(mesh.face_count(), options.target_faces)) / 2;
+  made_.reserve(mesh.vertex_count() + most_collapses);
+  record_.reserve(most_collapses);
   for (const Vec3& p : mesh.positions) made_.push_back(p);
 }
 
@@ -70,21 +77,17 @@ void WholeMesh::number_along_curve(const TriangleMesh& mesh) {
   for (const VertexId v : mesh.positions.ids()) number(v);
 }
 
-void WholeMesh::find_twins(const TriangleMesh& mesh, bool is_part) {
-  const HalfEdgeMesh whole(positions_, corners_);
-  if (is_part)
-    require_whole_stars(whole);
-  else if (first_defect(whole))
-    require_closed_manifold(mesh);  // says which, in the mesh's own numbers
+void WholeMesh::find_twins_of_part() {
+  const HalfEdgeMesh part(positions_, corners_);
+  require_whole_stars(part);
   twins_.reserve(corners_.size());
-  for (std::uint32_t c = 0; c < corners_.size(); ++c) twins_.push_back(whole.twin(HalfEdgeId{c}));
-  if (options_.mirror) find_images(mesh, whole);
+  for (std::uint32_t c = 0; c < corners_.size(); ++c) twins_.push_back(part.twin(HalfEdgeId{c}));
 }
 
-void WholeMesh::find_images(const TriangleMesh& mesh, const HalfEdgeMesh& whole) {
+void WholeMesh::find_images(const TriangleMesh& mesh) {
   require_symmetry(mesh, *options_.mirror);
   mirror_ = mirror_plane_of(bounding_box(mesh), *options_.mirror);
-  auto images = mirror_images(whole, *mirror_);
+  auto images = mirror_images(HalfEdgeMesh(positions_, corners_), *mirror_);
   if (!images)
     throw InputError(Defect::InvalidOption,
                      fmt::format("the mesh lies symmetric along {}, but where its parts touch they are joined in other "
@@ -114,6 +117,51 @@ void WholeMesh::require_whole_stars(const HalfEdgeMesh& part) const {
                        fmt::format("vertex {} lies inside of the box of the part, but the faces around it are not one "
                                    "disk: a part has all faces of a closed mesh that reach into its box",
                                    index(names_[v])));
+}
+
+// Half-edges sorted by tail, in linear time. The twin is looked for around the end of the edge with fewer faces, so
+// that vertices with very many do not cost more.
+void WholeMesh::find_twins(const TriangleMesh& mesh) {
+  const auto next = [](std::uint32_t c) { return c % 3 == 2 ? c - 2 : c + 1; };
+  const auto previous = [](std::uint32_t c) { return c % 3 == 0 ? c + 2 : c - 1; };
+  std::vector<std::uint32_t> first(positions_.size() + 1, 0);
+  for (const VertexId v : corners_) ++first[index(v) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> by_tail(corners_.size());
+  {
+    std::vector<std::uint32_t> cursor(first.begin(), first.end() - 1);
+    for (std::uint32_t c = 0; c < corners_.size(); ++c) by_tail[cursor[index(corners_[c])]++] = c;
+  }
+  const auto faces_around = [&](VertexId v) { return first[index(v) + 1] - first[index(v)]; };
+  const auto half_edge_between = [&](VertexId tail, VertexId tip) {
+    const bool at_tail = faces_around(tail) <= faces_around(tip);
+    const VertexId v = at_tail ? tail : tip;
+    for (std::uint32_t i = first[index(v)]; i < first[index(v) + 1]; ++i)
+      if (const std::uint32_t c = at_tail ? by_tail[i] : previous(by_tail[i]);
+          corners_[c] == tail && corners_[next(c)] == tip)
+        return HalfEdgeId{c};
+    return kNoHalfEdge;
+  };
+  twins_.assign(corners_.size(), kNoHalfEdge);
+  for (std::uint32_t c = 0; c < corners_.size(); ++c) {
+    if (twins_[c] != kNoHalfEdge) continue;
+    const HalfEdgeId twin = half_edge_between(corners_[next(c)], corners_[c]);
+    if (twin == kNoHalfEdge || twins_[index(twin)] != kNoHalfEdge) return require_closed_manifold(mesh);
+    twins_[c] = twin, twins_[index(twin)] = HalfEdgeId{c};
+  }
+  // Once around each vertex, its faces must all have been met, and no edge twice.
+  PerVertex<VertexId> met_from(positions_.size(), kNoVertex);
+  for (const VertexId v : positions_.ids()) {
+    const std::uint32_t faces = faces_around(v);
+    if (faces == 0) continue;
+    std::uint32_t c = by_tail[first[index(v)]], met = 0;
+    do {
+      const VertexId tip = corners_[next(c)];
+      if (tip == v || std::exchange(met_from[tip], v) == v) return require_closed_manifold(mesh);
+      c = index(twins_[previous(c)]);
+    } while (++met < faces && c != by_tail[first[index(v)]]);
+    if (met != faces || c != by_tail[first[index(v)]]) return require_closed_manifold(mesh);
+  }
 }
 
 void WholeMesh::set_tolerances(const PerFace<double>& tolerances) {
@@ -288,6 +336,7 @@ std::vector<double> WholeMesh::known_priorities(std::size_t n) const {
 void WholeMesh::forget_edges() { std::ranges::fill(edges_, EdgeFacts{}); }
 
 ProgressiveHull WholeMesh::hull() {
+  edges_ = {}, twins_ = {}, changed_ = {};
   std::vector<VertexId> corners(corners_.size(), kNoVertex);
   for (const FaceId f : faces_)
     for (std::uint32_t c = 0; c < 3; ++c) corners[given_corner(3 * index(f) + c)] = names_[corners_[3 * index(f) + c]];

@@ -30,8 +30,8 @@ namespace prohull {
 ///                        names_ -- name
 class WholeMesh {
  public:
-  /// Throws InputError unless the mesh is a closed 2-manifold, and as symmetric as options.mirror asks for; of a part of
-  /// one, unless all faces around each vertex strictly inside of the box are there. Only these vertices change.
+  /// Throws InputError unless the mesh is a closed 2-manifold, and as symmetric as options.mirror asks for; of a part
+  /// of one, unless all faces around each vertex strictly inside of the box are there. Only these vertices change.
   WholeMesh(const TriangleMesh& mesh, const HullOptions& options, const UnitCube& unit_cube, const Box* part);
 
   /// The plane of symmetry, if options.mirror asks for one.
@@ -95,9 +95,10 @@ class WholeMesh {
   };
 
   void number_along_curve(const TriangleMesh& mesh);
-  void find_twins(const TriangleMesh& mesh, bool is_part);
+  void find_twins(const TriangleMesh& mesh);
+  void find_twins_of_part();
   void require_whole_stars(const HalfEdgeMesh& part) const;
-  void find_images(const TriangleMesh& mesh, const HalfEdgeMesh& whole);
+  void find_images(const TriangleMesh& mesh);
   void set_tolerances(const PerFace<double>& tolerances);
   void cut_tolerances(Cut& cut) const;
   void put_back_tolerances(const Cut& cut);

@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include "meshes.h"
+#include "prohull/sample.h"
+#include "verify/solids.h"
+
+namespace prohull::verify {
+namespace {
+
+using namespace meshes;
+
+bool bounds_one(const TriangleMesh& mesh) {
+  ProgressMeter silent({}, "verify");
+  return bounds_one_solid(mesh, silent);
+}
+
+TEST(OneSolid, IsBoundByClosedSurfacesInOnePiece) {
+  for (const TriangleMesh& mesh : {sphere(2), torus(8, 6), box({0, 0, 0}, {1, 1, 1}), make_sample("bracket", 2000),
+                                   make_sample("gyroid", 3000), soup(sphere(1))}) {
+    EXPECT_TRUE(bounds_one(mesh));
+    EXPECT_TRUE(faces_beside_the_solid(Surface(mesh, "given"), mesh, {}).empty());
+  }
+}
+
+TEST(OneSolid, HasOnePieceAndLooksOutwards) {
+  const TriangleMesh ball = sphere(1);
+  EXPECT_FALSE(bounds_one(inside_out(ball)));
+  EXPECT_FALSE(bounds_one(together(ball, moved(ball, {5, 0, 0}))));
+  EXPECT_FALSE(bounds_one(together(ball, inside_out(scaled(ball, 0.5)))));
+  EXPECT_FALSE(bounds_one(together(ball, moved(ball, {0.5, 0, 0}))));
+}
+
+TEST(OneSolid, HasTwoFacesAlongEveryEdge) {
+  const TriangleMesh cube = box({0, 0, 0}, {1, 1, 1});
+  EXPECT_FALSE(bounds_one(together(cube, moved(cube, {1, 1, 0}))));  // they share an edge
+  TriangleMesh open = cube;
+  open.triangles.pop_back();
+  EXPECT_FALSE(bounds_one(open));
+  TriangleMesh turned = cube;
+  std::swap(turned.triangles[FaceId(3)][0], turned.triangles[FaceId(3)][1]);
+  EXPECT_FALSE(bounds_one(turned));
+}
+
+TEST(OneSolid, HasFacesWithAnAreaThatDoNotMeet) {
+  TriangleMesh pierced = sphere(2);
+  pierced.positions[VertexId(0)] = -2 * pierced.positions[VertexId(0)];
+  EXPECT_FALSE(bounds_one(pierced));
+  TriangleMesh flat = make({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
+                           {{0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+  EXPECT_FALSE(bounds_one(flat));
+}
+
+}  // namespace
+}  // namespace prohull::verify
