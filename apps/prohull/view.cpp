@@ -1,0 +1,111 @@
+#include "view/page.h"
+
+#include <fmt/format.h>
+
+#include "command.h"
+#include "prohull/error.h"
+
+namespace prohull::cli {
+namespace {
+
+struct Options {
+  std::vector<std::filesystem::path> in;
+  std::filesystem::path out, original;
+  HullSide side = HullSide::Outer;
+  bool solid_only = false;
+  unsigned threads = 0;
+  InputOptions input, original_input;
+};
+
+constexpr std::size_t kMostShown = 8;
+
+/// The page names files, not folders.
+std::string shown_name(const std::filesystem::path& path) {
+  return is_standard_stream(path) ? input_name(path) : path.filename().string();
+}
+
+std::vector<view::Shown> read_shown(const Options& options) {
+  std::vector<view::Shown> shown;
+  for (const auto& path : options.in) {
+    shown.push_back({shown_name(path), read_mesh_or_hull(path, options.input, NonFinite::Keep)});
+    stop_if_interrupted();
+  }
+  return shown;
+}
+
+std::optional<view::Shown> read_original(const Options& options) {
+  if (options.original.empty()) return std::nullopt;
+  return view::Shown{shown_name(options.original),
+                     read_input(options.original, options.original_input, NonFinite::Keep)};
+}
+
+std::string written_page(const Options& options) {
+  ProgressLine line;
+  return view::page(read_shown(options), read_original(options),
+                    {.side = options.side,
+                     .solid_only = options.solid_only,
+                     .unit = options.original_input.unit > 0 ? "m" : "",
+                     .version = PROHULL_VERSION,
+                     .threads = options.threads,
+                     .progress = std::ref(line)});
+}
+
+int run_view(const Options& options) {
+  if (!view::has_page()) throw InputError(Defect::CannotRead, std::string(view::kNoPage));
+  if (options.in.size() > kMostShown)
+    throw InputError(Defect::InvalidOption, fmt::format("a page shows {} files at most", kMostShown));
+  static const OutputKind kind{"pages", {".html", ".htm"}};
+  output_suffix(options.out, kind, is_standard_stream(options.out) ? "html" : "");
+  std::vector<std::filesystem::path> inputs = options.in;
+  inputs.push_back(options.original);
+  check_files(inputs, {options.out});
+  const Stopwatch making;
+  const std::string page = written_page(options);
+  Outputs outputs;
+  outputs.add(options.out, page);
+  outputs.commit();
+  say("{}: {:.1f} MB, which any browser opens, {:.2f} s\n", output_name(options.out),
+      static_cast<double>(page.size()) * 1e-6, making.seconds());
+  return kDone;
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "view",
+      "Writes a page of HTML that shows hulls in any browser, in three dimensions. The page is one file. It needs no "
+      "network, so that it can be mailed and archived. All numbers on it are exact, or proven bounds.");
+  command
+      .add_option("in", options->in,
+                  std::string("Hulls or meshes to show; of a .phull file a slider shows all levels. ") + kMeshFiles)
+      ->required()
+      ->type_name("IN");
+  command.add_option("-o,--out", options->out, "File for the page, .html. With - it goes to standard output.")
+      ->required()
+      ->type_name("OUT.html");
+  command
+      .add_option("--original", options->original,
+                  "Mesh that each IN is a hull of. The page then tells whether it encloses that mesh, how far it is "
+                  "from it and where. Without this option, a .phull file is compared with its own finest level.")
+      ->type_name("M");
+  add_format_option(command, options->input);
+  add_unit_options(command, options->original_input, "M (the same as `prohull build` was given for it)");
+  add_choice(command, "--side", options->side, hull_side_names(),
+             "Side on which the hulls lie. With inner, M should enclose IN. A .phull file knows its side.");
+  command.add_flag("--solid-only", options->solid_only,
+                   "Ask only for the solid that a closed mesh bounds, as `prohull verify --solid-only` does.");
+  add_threads_option(command, options->threads, "The page is the same for any number.");
+  add_examples(command,
+               {"prohull view horse.phull -o horse.html", "prohull view hull.stl --original horse.ply -o view.html",
+                "prohull view coarse.stl fine.stl --original part.stl -o compare.html",
+                "prohull view occluder.obj --original rock.obj --side inner -o occluder.html",
+                "prohull view arm_collision.stl --original arm.stl --unit mm -o arm.html"});
+  command.callback([options, &run] {
+    options->original_input.format = options->input.format;  // one of them may be standard input
+    run = [options] { return run_view(*options); };
+  });
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "prohull/mesh_query.h"
+#include "view/blocks.h"
+
+namespace prohull::view {
+
+/// Distances of a mesh's surface from another mesh, for colours: on a regular grid on each face, finer on larger faces,
+/// some 200,000 points in all. web/src/heat.js draws them.
+nlohmann::json heat_facts(const TriangleMesh& mesh, const QueryIndex& original, const BatchOptions& batch,
+                          Blocks& blocks);
+
+}  // namespace prohull::view

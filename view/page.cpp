@@ -1,0 +1,192 @@
+#include "view/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <nlohmann/json.hpp>
+
+#include "prohull/error.h"
+#include "prohull/mesh_query.h"
+#include "view/blocks.h"
+#include "view/facts.h"
+#include "view/grid.h"
+#include "view/heat.h"
+#include "view/levels.h"
+#include "view/template.h"
+
+namespace prohull::view {
+namespace {
+
+using nlohmann::json;
+
+bool is_finite(const Triangle& t) {
+  return prohull::is_finite(t.a) && prohull::is_finite(t.b) && prohull::is_finite(t.c);
+}
+
+/// The mesh without faces that are not finite and without vertices that no face uses.
+TriangleMesh drawable(const Shown& shown) {
+  const TriangleMesh mesh = std::holds_alternative<TriangleMesh>(shown.shape)
+                                ? std::get<TriangleMesh>(shown.shape)
+                                : std::get<ProgressiveHull>(shown.shape).original();
+  constexpr VertexId kUnused{0xffffffff};
+  PerVertex<VertexId> renumbered(mesh.vertex_count(), kUnused);
+  TriangleMesh result;
+  for (const FaceId f : mesh.triangles.ids()) {
+    if (!is_finite(mesh.triangle(f))) continue;
+    std::array<VertexId, 3> face = mesh.triangles[f];
+    for (VertexId& v : face) {
+      if (renumbered[v] == kUnused) renumbered[v] = result.positions.push_back(mesh.positions[v]);
+      v = renumbered[v];
+    }
+    result.triangles.push_back(face);
+  }
+  if (result.face_count() == 0) throw InputError(Defect::EmptyMesh, shown.name + ": it has no finite face to show");
+  return result;
+}
+
+Box box_of(const Shown& shown) {
+  const auto* const hull = std::get_if<ProgressiveHull>(&shown.shape);
+  Box box;
+  if (hull)
+    for (const Vec3& p : hull->positions()) box.extend(p);
+  else
+    box = finite_bounding_box(std::get<TriangleMesh>(shown.shape));
+  return box;
+}
+
+/// The mesh that hulls are compared with.
+struct Reference {
+  explicit Reference(TriangleMesh given) : mesh(std::move(given)), index(mesh) {}
+  TriangleMesh mesh;
+  QueryIndex index;
+};
+
+class Writer {
+ public:
+  Writer(const std::vector<Shown>& shown, const std::optional<Shown>& original, const PageOptions& options)
+      : options_(options), grid_(scene_box(shown, original)) {
+    json objects = json::array();
+    for (const Shown& s : shown) objects.push_back(facts_of(s, original));
+    if (original) objects.push_back(mesh_object(*original, drawable(*original), "original"));
+    scene_ = {{"version", options.version}, {"unit", options.unit}, {"grid", grid_.facts()}, {"objects", objects}};
+  }
+
+  /// What stands in the page in place of kScenePlace. No byte of it can end an element of the page or begin one.
+  std::string elements() const {
+    std::string text = scene_.dump(-1, ' ', false, json::error_handler_t::replace);
+    std::string escaped;
+    for (const char c : text) c == '<' ? escaped += "\\u003c" : escaped += c;
+    return "<script type=\"application/json\" id=\"scene\">" + escaped +
+           "</script>\n<script type=\"text/plain\" id=\"blocks\">" + base64(deflated(blocks_.bytes())) + "</script>";
+  }
+
+ private:
+  static Box scene_box(const std::vector<Shown>& shown, const std::optional<Shown>& original) {
+    Box box;
+    for (const Shown& s : shown) box.extend(box_of(s));
+    if (original) box.extend(box_of(*original));
+    return box;
+  }
+
+  json facts_of(const Shown& shown, const std::optional<Shown>& original) {
+    if (const auto* const hull = std::get_if<ProgressiveHull>(&shown.shape)) {
+      const TriangleMesh finest = hull->original();
+      const bool is_own = !original;
+      json facts = levels_object(shown, *hull, Reference(is_own ? finest : drawable(*original)), is_own);
+      facts["verification"] =
+          verification_facts(shown, is_own ? finest : std::get<TriangleMesh>(original->shape), options_);
+      return facts;
+    }
+    TriangleMesh mesh = drawable(shown);
+    if (!original) return mesh_object(shown, mesh, "mesh");
+    const Reference reference(drawable(*original));
+    json facts = mesh_object(shown, mesh, "hull");
+    facts["distance"] = distance_facts(mesh, reference.mesh, options_);
+    facts["heat"] = heat_facts(mesh, reference.index, batch(), blocks_);
+    facts["verification"] = verification_facts(shown, std::get<TriangleMesh>(original->shape), options_);
+    return facts;
+  }
+
+  BatchOptions batch() const { return {.threads = options_.threads, .progress = options_.progress}; }
+
+  json mesh_object(const Shown& shown, const TriangleMesh& mesh, const char* role) {
+    std::vector<std::uint32_t> positions, triangles;
+    for (const Vec3& p : mesh.positions)
+      for (const std::uint32_t q : grid_(p)) positions.push_back(q);
+    for (const auto& t : mesh.triangles)
+      for (const VertexId v : t) triangles.push_back(index(v));
+    return {{"name", shown.name},
+            {"role", role},
+            {"kind", "mesh"},
+            {"facts", mesh_facts(mesh)},
+            {"left_out", std::get<TriangleMesh>(shown.shape).face_count() - mesh.face_count()},
+            {"positions", blocks_.running(positions, 3)},
+            {"triangles", blocks_.running(triangles, 1)}};
+  }
+
+  json levels_object(const Shown& shown, const ProgressiveHull& hull, const Reference& reference, bool is_own) {
+    json facts = levels_facts(hull, distances_of(hull, reference, is_own), grid_, blocks_);
+    facts["name"] = shown.name;
+    facts["role"] = "hull";
+    facts["kind"] = "levels";
+    facts["side"] = name_of(hull_side_names(), hull.side());
+    facts["finest_level"] = name_of(finest_level_names(), hull.finest_level());
+    facts["base_faces"] = hull.base_face_count();
+    facts["original_faces"] = hull.original_face_count();
+    facts["original_shown"] = !is_own;
+    if (is_closed(reference.mesh)) add_volumes(facts, hull, signed_volume(turned_outwards(reference.mesh)));
+    facts["stops"] = stops_of(hull, reference);
+    return facts;
+  }
+
+  PerVertex<double> distances_of(const ProgressiveHull& hull, const Reference& reference, bool is_own) const {
+    const std::vector<Vec3> points(hull.positions().begin(), hull.positions().end());
+    PerVertex<double> distances(points.size(), 0);
+    const std::size_t first = is_own ? hull.original_vertex_count() : 0;  // those before lie on the original
+    const auto closest = closest_points(reference.index, std::span(points).subspan(first),
+                                        std::numeric_limits<double>::infinity(), batch());
+    for (std::size_t i = 0; i < closest.size(); ++i)
+      distances[VertexId(static_cast<std::uint32_t>(first + i))] = closest[i]->distance;
+    return distances;
+  }
+
+  void add_volumes(json& facts, const ProgressiveHull& hull, double volume) {
+    std::vector<std::uint32_t> ratios;
+    for (const double v : volumes_of_levels(hull))
+      ratios.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(v / volume - 1)));
+    facts["void_ratios"] = blocks_.running(ratios, 1);
+  }
+
+  /// Levels of which the distance is proven: from the base mesh on, each twice as fine as the one before.
+  json stops_of(const ProgressiveHull& hull, const Reference& reference) const {
+    json stops = json::array();
+    for (std::size_t faces = hull.base_face_count();; faces = std::min(2 * faces, hull.original_face_count())) {
+      const TriangleMesh level = hull.level(faces);
+      json stop = distance_facts(level, reference.mesh, options_);
+      stop["faces"] = level.face_count();
+      stops.push_back(stop);
+      if (faces == hull.original_face_count()) return stops;
+    }
+  }
+
+  const PageOptions& options_;
+  Grid grid_;
+  Blocks blocks_;
+  json scene_;
+};
+
+}  // namespace
+
+bool has_page() { return !page_template().empty(); }
+
+std::string page(const std::vector<Shown>& shown, const std::optional<Shown>& original, const PageOptions& options) {
+  if (!has_page()) throw InputError(Defect::CannotRead, std::string(kNoPage));
+  const std::string scene = Writer(shown, original, options).elements();
+  std::string text;
+  for (const std::string_view part : page_template()) text += part;
+  const std::size_t place = text.find(kScenePlace);
+  return text.replace(place, kScenePlace.size(), scene);
+}
+
+}  // namespace prohull::view

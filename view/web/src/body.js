@@ -1,0 +1,121 @@
+// A mesh in the scene: its surface, its edges, and what caps its section.
+
+import * as THREE from 'three';
+import {capMaterial, countingMaterial, edgeMaterial, rgb, surfaceMaterial} from './materials.js';
+
+/** Two ends for each edge of each face. */
+function linesOf(corners, lines, from, to) {
+  for (let c = from; c < to; c += 3)
+    for (let k = 0; k < 3; ++k) {
+      lines[2 * (c + k)] = corners[c + k];
+      lines[2 * (c + k) + 1] = corners[c + (k + 1) % 3];
+    }
+}
+
+function geometryOf({positions, triangles, heat}) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
+  geometry.setAttribute('heat', new THREE.BufferAttribute(heat ?? new Float32Array(positions.length / 3), 1));
+  geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
+  geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), Infinity);
+  return geometry;
+}
+
+export class Body {
+  /** `divided` is the same surface with distances; without it those of `mesh` are shown. */
+  constructor({mesh, divided, color, closed, striped, order}) {
+    this.mesh = mesh;
+    this.color = color;
+    this.closed = closed;
+    this.group = new THREE.Group();
+    this.geometry = geometryOf(mesh);
+    this.material = surfaceMaterial(rgb(color));
+    this.surface = this.add(new THREE.Mesh(this.geometry, this.material), order);
+    if (divided) {
+      this.divided = this.add(new THREE.Mesh(geometryOf(divided), this.material), order);
+      this.divided.visible = false;
+    }
+    this.counting = [
+      [THREE.BackSide, THREE.IncrementWrapStencilOp], [THREE.FrontSide, THREE.DecrementWrapStencilOp],
+    ].map(([side, operation]) =>
+      this.add(new THREE.Mesh(this.geometry, countingMaterial(side, operation)), order + 0.1));
+    this.cap = this.add(new THREE.Mesh(new THREE.PlaneGeometry(8, 8), capMaterial(rgb(color), striped ? 1 : 0)),
+        order + 0.2);
+    this.cap.onAfterRender = (renderer) => renderer.clearStencil();
+    this.showCap(null);
+  }
+
+  add(object, order) {
+    object.frustumCulled = false;
+    object.renderOrder = order;
+    this.group.add(object);
+    return object;
+  }
+
+  get visible() { return this.group.visible; }
+  set visible(is) { this.group.visible = is; }
+
+  setOpacity(opacity) {
+    this.material.uniforms.opacity.value = opacity;
+    this.material.transparent = opacity < 1;
+    this.material.depthWrite = opacity === 1;
+    this.material.needsUpdate = true;
+  }
+
+  showEdges(is) {
+    if (is && !this.edges) this.makeEdges();
+    if (this.edges) this.edges.visible = is;
+    if (is) this.updateEdges();
+  }
+
+  makeEdges() {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', this.geometry.attributes.position);
+    geometry.setAttribute('heat', this.geometry.attributes.heat);
+    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(2 * this.mesh.triangles.length), 1));
+    this.edges = this.add(new THREE.LineSegments(geometry, edgeMaterial()), 50);
+  }
+
+  updateEdges() {
+    const corners = this.geometry.drawRange.count === Infinity ? this.mesh.triangles.length
+                                                               : this.geometry.drawRange.count;
+    const index = this.edges.geometry.index;
+    linesOf(this.mesh.triangles, index.array, 0, corners);
+    this.edges.geometry.setDrawRange(0, 2 * corners);
+    index.needsUpdate = true;
+  }
+
+  setEdgeColor(color) {
+    this.edgeColor = color;
+    if (this.edges) this.edges.material.uniforms.color.value.set(...color);
+  }
+
+  showHeat(is) {
+    this.material.uniforms.showsHeat.value = is;
+    if (!this.divided) return;
+    this.divided.visible = is;
+    this.surface.visible = !is;
+  }
+
+  /** By how much the distances are less than those of the legend. */
+  setHeatFactor(factor) { this.material.uniforms.heatFactor.value = factor; }
+
+  /** The plane as a point on it and its direction; null: none. */
+  showCap(cut) {
+    const is = cut !== null && this.closed;
+    this.cap.visible = is;
+    for (const mesh of this.counting) mesh.visible = is;
+    if (!is) return;
+    this.cap.position.copy(cut.point);
+    this.cap.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), cut.direction);
+  }
+
+  /** After vertices or faces have changed: the first `faces` are drawn. */
+  update(faces) {
+    this.geometry.setDrawRange(0, 3 * faces);
+    this.geometry.index.needsUpdate = true;
+    this.geometry.attributes.position.needsUpdate = true;
+    this.geometry.attributes.heat.needsUpdate = true;
+    if (this.edges?.visible) this.updateEdges();
+  }
+}

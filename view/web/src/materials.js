@@ -1,0 +1,111 @@
+// How surfaces, edges and sections are drawn. Colours are those of the screen; nothing is converted.
+
+import * as THREE from 'three';
+import {VIRIDIS_GLSL} from './heat.js';
+
+const VERTEX = `
+attribute float heat;
+varying vec3 vPlace;
+varying vec3 vSeen;
+varying float vHeat;
+void main() {
+  vPlace = position;
+  vHeat = heat;
+  vec4 seen = modelViewMatrix * vec4(position, 1.0);
+  vSeen = seen.xyz;
+  gl_Position = projectionMatrix * seen;
+}`;
+
+const CUT = `
+uniform vec4 plane;
+varying vec3 vPlace;
+bool isCutAway() { return dot(plane.xyz, vPlace) > plane.w; }
+`;
+
+const SURFACE = `
+${CUT}
+uniform vec3 color;
+uniform float opacity;
+uniform bool showsHeat;
+uniform float heatFactor;
+varying vec3 vSeen;
+varying float vHeat;
+${VIRIDIS_GLSL}
+void main() {
+  if (isCutAway()) discard;
+  vec3 normal = normalize(cross(dFdx(vSeen), dFdy(vSeen)));
+  float light = 0.42 + 0.46 * max(dot(normal, normalize(vec3(-0.35, 0.55, 0.9))), 0.0) +
+                0.16 * max(dot(normal, normalize(vec3(0.8, -0.2, 0.5))), 0.0);
+  vec3 base = showsHeat ? viridis(clamp(vHeat * heatFactor, 0.0, 1.0)) : color;
+  if (!gl_FrontFacing) base = mix(base, vec3(0.25, 0.2, 0.3), 0.45);
+  gl_FragColor = vec4(base * (showsHeat ? 0.35 + 0.65 * light : light), opacity);
+}`;
+
+const FLAT = `
+${CUT}
+uniform vec3 color;
+uniform float opacity;
+void main() {
+  if (isCutAway()) discard;
+  gl_FragColor = vec4(color, opacity);
+}`;
+
+const CAP = `
+uniform vec3 color;
+uniform float stripes;
+varying vec3 vPlace;
+void main() {
+  float line = mod(gl_FragCoord.x + gl_FragCoord.y, 9.0 * stripes) < 1.6 * stripes ? 0.72 : 1.0;
+  gl_FragColor = vec4(color * (stripes > 0.0 ? line : 1.0), 1.0);
+}`;
+
+/** All materials share the plane. */
+export const plane = {value: new THREE.Vector4(0, 0, 0, 1)};
+
+const material = (fragmentShader, uniforms, options) =>
+    new THREE.ShaderMaterial({vertexShader: VERTEX, fragmentShader, uniforms: {plane, ...uniforms}, ...options});
+
+export function surfaceMaterial(color) {
+  return material(SURFACE, {color: {value: new THREE.Color(...color)}, opacity: {value: 1}, showsHeat: {value: false},
+    heatFactor: {value: 1}}, {
+    side: THREE.DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
+}
+
+export function edgeMaterial() {
+  return material(FLAT, {color: {value: new THREE.Color(0, 0, 0)}, opacity: {value: 0.45}},
+      {transparent: true, depthWrite: false});
+}
+
+/** Counts where the plane is inside of a closed surface: twice, for back and front faces. */
+export function countingMaterial(side, operation) {
+  return material(FLAT, {color: {value: new THREE.Color(0, 0, 0)}, opacity: {value: 1}}, {
+    side,
+    colorWrite: false,
+    depthWrite: false,
+    depthTest: false,
+    stencilWrite: true,
+    stencilFunc: THREE.AlwaysStencilFunc,
+    stencilFail: operation,
+    stencilZFail: operation,
+    stencilZPass: operation,
+  });
+}
+
+export function capMaterial(color, stripes) {
+  return material(CAP, {color: {value: new THREE.Color(...color)}, stripes: {value: stripes}}, {
+    side: THREE.DoubleSide,
+    stencilWrite: true,
+    stencilRef: 0,
+    stencilFunc: THREE.NotEqualStencilFunc,
+    stencilFail: THREE.ReplaceStencilOp,
+    stencilZFail: THREE.ReplaceStencilOp,
+    stencilZPass: THREE.ReplaceStencilOp,
+  });
+}
+
+/** "#56b4e9" as three numbers */
+export const rgb = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
