@@ -4,8 +4,8 @@ import * as THREE from 'three';
 import {capMaterial, countingMaterial, edgeMaterial, rgb, surfaceMaterial} from './materials.js';
 
 /** Two ends for each edge of each face. */
-function linesOf(corners, lines, from, to) {
-  for (let c = from; c < to; c += 3)
+function linesOf(corners, lines, count) {
+  for (let c = 0; c < count; c += 3)
     for (let k = 0; k < 3; ++k) {
       lines[2 * (c + k)] = corners[c + k];
       lines[2 * (c + k) + 1] = corners[c + (k + 1) % 3];
@@ -23,13 +23,13 @@ function geometryOf({positions, triangles, heat}) {
 
 export class Body {
   /** `divided` is the same surface with distances; without it those of `mesh` are shown. */
-  constructor({mesh, divided, color, closed, striped, order}) {
+  constructor({mesh, divided, color, closed, striped, order, depth = 1}) {
     this.mesh = mesh;
     this.color = color;
     this.closed = closed;
     this.group = new THREE.Group();
     this.geometry = geometryOf(mesh);
-    this.material = surfaceMaterial(rgb(color));
+    this.material = surfaceMaterial(rgb(color), depth);
     this.surface = this.add(new THREE.Mesh(this.geometry, this.material), order);
     if (divided) {
       this.divided = this.add(new THREE.Mesh(geometryOf(divided), this.material), order);
@@ -59,6 +59,7 @@ export class Body {
     this.material.uniforms.opacity.value = opacity;
     this.material.transparent = opacity < 1;
     this.material.depthWrite = opacity === 1;
+    this.material.side = opacity < 1 && this.closed ? THREE.FrontSide : THREE.DoubleSide;
     this.material.needsUpdate = true;
   }
 
@@ -80,9 +81,11 @@ export class Body {
     const corners = this.geometry.drawRange.count === Infinity ? this.mesh.triangles.length
                                                                : this.geometry.drawRange.count;
     const index = this.edges.geometry.index;
-    linesOf(this.mesh.triangles, index.array, 0, corners);
+    linesOf(this.mesh.triangles, index.array, corners);
     this.edges.geometry.setDrawRange(0, 2 * corners);
     index.needsUpdate = true;
+    // Many edges together would hide the surface.
+    this.edges.material.uniforms.opacity.value = Math.min(0.5, Math.max(0.08, 0.5 * Math.sqrt(6000 / corners)));
   }
 
   setEdgeColor(color) {

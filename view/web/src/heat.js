@@ -2,7 +2,7 @@
 
 import {numbers} from './blocks.js';
 
-// viridis as a polynomial: people with any kind of colour vision can read it, and it stays in order in grey.
+// viridis as a polynomial, the light end for no distance: people with any kind of colour vision can read it, and it stays in order in grey.
 const VIRIDIS = [
   [0.2777273, 0.0054073, 0.3340998], [0.1050930, 1.4046135, 1.3845902], [-0.3308618, 0.2148476, 0.0950952],
   [-4.6342305, -5.7991010, -19.3324410], [6.2282699, 14.1799334, 56.6905526],
@@ -15,7 +15,7 @@ export const VIRIDIS_GLSL = `vec3 viridis(float t) { return ${
 /** Colours along a legend, as CSS has them. */
 export function legendColors(count) {
   return Array.from({length: count}, (_, i) => {
-    const t = i / (count - 1);
+    const t = 1 - i / (count - 1);
     const channel = (k) => VIRIDIS.reduceRight((sum, c) => sum * t + c[k], 0);
     return `rgb(${[0, 1, 2].map((k) => Math.round(255 * Math.min(1, Math.max(0, channel(k))))).join(' ')})`;
   });

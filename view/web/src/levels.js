@@ -5,8 +5,62 @@ import {numbers, reals} from './blocks.js';
 const following = (corner) => corner % 3 === 2 ? corner - 2 : corner + 1;
 const preceding = (corner) => corner % 3 === 0 ? corner + 2 : corner - 1;
 
-/** The one number that is in `some` and not in `others`. */
-const only = (some, others) => some.find((v) => !others.includes(v));
+const NONE = 0xffffffff;
+
+/** The vertex of each corner, and for each vertex a chain of its corners, in the order in which they came. */
+class Stars {
+  constructor(corners, vertices) {
+    this.corners = new Uint32Array(corners);
+    this.next = new Uint32Array(corners);
+    this.first = new Uint32Array(vertices).fill(NONE);
+    this.last = new Uint32Array(vertices);
+    this.seen = new Uint32Array(vertices);
+    this.time = 0;
+  }
+
+  append(corner, v) {
+    this.corners[corner] = v;
+    this.next[corner] = NONE;
+    if (this.first[v] === NONE) this.first[v] = corner;
+    else this.next[this.last[v]] = corner;
+    this.last[v] = corner;
+  }
+
+  addFace(at, a, b, c) {
+    this.append(at, a);
+    this.append(at + 1, b);
+    this.append(at + 2, c);
+  }
+
+  /** Gives d the corners of o whose bits are set, and lists them in `moved`; returns the place of the next bit. */
+  divide(o, d, bits, bit, moved) {
+    let corner = this.first[o];
+    this.first[o] = NONE;
+    for (; corner !== NONE; ++bit) {
+      const next = this.next[corner];
+      if (bits[bit >> 3] >> (bit & 7) & 1) {
+        this.append(corner, d);
+        moved.push(corner);
+      } else {
+        this.append(corner, o);
+      }
+      corner = next;
+    }
+    return bit;
+  }
+
+  /** The ends l and r of the link of o, whose faces go counter-clockwise from l to r. */
+  sides(o) { return [this.only(o, following, preceding), this.only(o, preceding, following)]; }
+
+  /** The one vertex that `some` finds beside a corner of o, and `others` beside none. */
+  only(o, some, others) {
+    ++this.time;
+    for (let c = this.first[o]; c !== NONE; c = this.next[c]) this.seen[this.corners[others(c)]] = this.time;
+    for (let c = this.first[o]; c !== NONE; c = this.next[c])
+      if (this.seen[this.corners[some(c)]] !== this.time) return this.corners[some(c)];
+    throw new Error('the record of vertex splits is damaged');
+  }
+}
 
 export class Levels {
   constructor(facts, bytes) {
@@ -33,37 +87,19 @@ export class Levels {
 
   /** Makes all splits, to learn which corners each of them gives to d. */
   readFaces(base, bits) {
-    const corners = new Uint32Array(base.length + 6 * this.count);
-    corners.set(base);
-    const cornersOf = Array.from({length: this.baseVertices}, () => []);
-    base.forEach((v, corner) => cornersOf[v].push(corner));
+    const star = new Stars(base.length + 6 * this.count, this.baseVertices + this.count);
+    for (let at = 0; at < base.length; at += 3) star.addFace(at, base[at], base[at + 1], base[at + 2]);
     const moved = [], ends = new Uint32Array(this.count + 1);
     let bit = 0;
-    const add = (at, face) => face.forEach((v, k) => {
-      corners[at + k] = v;
-      cornersOf[v].push(at + k);
-    });
-    for (let k = 0; k < this.count; ++k) {
+    for (let k = 0, at = base.length; k < this.count; ++k, at += 6) {
       const o = this.splitVertices[k], d = this.baseVertices + k;
-      const kept = [], given = [];
-      for (const corner of cornersOf[o]) {
-        (bits[bit >> 3] >> (bit & 7) & 1 ? given : kept).push(corner);
-        ++bit;
-      }
-      // Counter-clockwise the faces of o go from l to r.
-      const from = kept.map((c) => corners[following(c)]), to = kept.map((c) => corners[preceding(c)]);
-      const l = only(from, to), r = only(to, from);
-      for (const corner of given) {
-        corners[corner] = d;
-        moved.push(corner);
-      }
+      bit = star.divide(o, d, bits, bit, moved);
       ends[k + 1] = moved.length;
-      cornersOf[o] = kept;
-      cornersOf.push(given);
-      add(base.length + 6 * k, [o, d, l]);
-      add(base.length + 6 * k + 3, [d, o, r]);
+      const [l, r] = star.sides(o);
+      star.addFace(at, o, d, l);
+      star.addFace(at + 3, d, o, r);
     }
-    this.corners = corners;
+    this.corners = star.corners;
     this.moved = Uint32Array.from(moved);
     this.movedEnds = ends;
   }

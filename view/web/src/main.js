@@ -77,10 +77,10 @@ class View {
     const levels = this.hulls.find((hull) => hull.levels && !hull.original_shown);
     if (this.given) {
       const {mesh, facts} = this.given;
-      this.addBody({label: this.given.name, role: 'original', mesh, color: CLAY, closed: facts.watertight,
+      this.addBody({label: this.given.name, role: 'original', depth: 3, mesh, color: CLAY, closed: facts.watertight,
         order: this.hulls.some((hull) => hull.side === 'inner' || hull.verification?.side === 'inner') ? 0 : 20});
     } else if (levels) {
-      this.addBody({label: `${levels.name}, finest level`, role: 'original', mesh: levels.levels.copy(levels.levels.count),
+      this.addBody({label: `${levels.name}, finest level`, role: 'original', depth: 3, mesh: levels.levels.copy(levels.levels.count),
         color: CLAY, closed: true, order: levels.side === 'inner' ? 0 : 20});
     }
     const isAlone = this.bodies.length === 0;
@@ -227,7 +227,7 @@ class View {
   applyOpacity() {
     for (const {body, role} of this.bodies) {
       const isOver = role === 'hull' && !this.state.beside;
-      body.setOpacity(isOver ? (this.state.heat ? Math.max(this.state.opacity, 0.999) : this.state.opacity) : 1);
+      body.setOpacity(isOver && !this.state.heat ? this.state.opacity : 1);
     }
     this.viewport.changed();
   }
@@ -272,11 +272,10 @@ class View {
 
   setCutAxis(axis) {
     this.state.cut = axis;
-    if (axis === 'v') {
-      const direction = this.viewport.camera.position.clone().sub(this.viewport.controls.target).normalize();
-      this.state.cutFacing = direction.toArray();
-      this.state.cutSign = 1;
-    }
+    const back = this.viewport.camera.position.clone().sub(this.viewport.controls.target).normalize().toArray();
+    if (axis === 'v') this.state.cutFacing = back;
+    // What is nearer to the viewer goes.
+    this.state.cutSign = axis === 'v' || !axis || back['xyz'.indexOf(axis)] >= 0 ? 1 : -1;
     this.setCut();
   }
   setCutAt(at) {
@@ -305,7 +304,7 @@ class View {
     const {viewport, active} = this;
     viewport.marks.clear();
     const far = this.panel.farthest();
-    if (far && far.upper > 0) viewport.mark(this.space.at(far.farthest), 'far', FAR).userData.point = far.farthest;
+    if (far && far.upper > 0) viewport.mark(this.space.at(far.farthest), '★', FAR).userData.point = far.farthest;
     (active.verification?.worst ?? []).forEach((o, i) => {
       viewport.mark(this.space.at(o.point), String(i + 1), OUTSIDE).userData.point = o.point;
     });
@@ -414,7 +413,7 @@ async function open() {
   const scene = JSON.parse(byId('scene').textContent);
   const bytes = await readBlocks(byId('blocks').textContent);
   byId('blocks').remove();
-  new View(scene, bytes);
+  globalThis.prohullView = new View(scene, bytes);  // for the browser's console, and for tests
   byId('message').hidden = true;
   document.documentElement.dataset.ready = 'yes';
 }

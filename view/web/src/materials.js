@@ -34,11 +34,13 @@ ${VIRIDIS_GLSL}
 void main() {
   if (isCutAway()) discard;
   vec3 normal = normalize(cross(dFdx(vSeen), dFdy(vSeen)));
-  float light = 0.42 + 0.46 * max(dot(normal, normalize(vec3(-0.35, 0.55, 0.9))), 0.0) +
+  float light = 0.5 + 0.46 * max(dot(normal, normalize(vec3(-0.35, 0.55, 0.9))), 0.0) +
                 0.16 * max(dot(normal, normalize(vec3(0.8, -0.2, 0.5))), 0.0);
-  vec3 base = showsHeat ? viridis(clamp(vHeat * heatFactor, 0.0, 1.0)) : color;
+  vec3 base = showsHeat ? viridis(1.0 - clamp(vHeat * heatFactor, 0.0, 1.0)) : color;
   if (!gl_FrontFacing) base = mix(base, vec3(0.25, 0.2, 0.3), 0.45);
-  gl_FragColor = vec4(base * (showsHeat ? 0.35 + 0.65 * light : light), opacity);
+  // Like glass: denser where it is seen from the side.
+  float seen = opacity < 1.0 ? opacity * (0.5 + 2.0 * pow(1.0 - abs(normalize(vSeen).z * normal.z), 2.0)) : 1.0;
+  gl_FragColor = vec4(base * (showsHeat ? 0.4 + 0.62 * light : light), min(seen, 1.0));
 }`;
 
 const FLAT = `
@@ -65,13 +67,14 @@ export const plane = {value: new THREE.Vector4(0, 0, 0, 1)};
 const material = (fragmentShader, uniforms, options) =>
     new THREE.ShaderMaterial({vertexShader: VERTEX, fragmentShader, uniforms: {plane, ...uniforms}, ...options});
 
-export function surfaceMaterial(color) {
+/** Of surfaces that touch, the one with less `depth` is seen. */
+export function surfaceMaterial(color, depth) {
   return material(SURFACE, {color: {value: new THREE.Color(...color)}, opacity: {value: 1}, showsHeat: {value: false},
     heatFactor: {value: 1}}, {
     side: THREE.DoubleSide,
     polygonOffset: true,
-    polygonOffsetFactor: 1,
-    polygonOffsetUnits: 1,
+    polygonOffsetFactor: depth,
+    polygonOffsetUnits: 2 * depth,
   });
 }
 

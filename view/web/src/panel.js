@@ -27,11 +27,10 @@ export function verdictOf(object, original) {
   const [subject, other] = v.side === 'inner' ? [original, object.name] : [object.name, original];
   const verb = v.original_closed ? 'enclose' : 'cover';
   if (!v.encloses) return ['bad', '✗', `Does not ${verb}`, v.why_not];
-  const how = v.proof === 'replay'
-      ? `every level; ${counted(v.splits, 'split', 'splits')} replayed, ${counted(v.signs, 'sign', 'signs')} exact`
-      : 'decided exactly';
+  const replayed = v.proof === 'replay' &&
+      `Every level: ${counted(v.splits, 'split', 'splits')} replayed, ${counted(v.signs, 'sign', 'signs')} exact.`;
   return ['good', '✓', v.original_closed ? 'Encloses' : 'Covers every triangle',
-    `${subject} ${verb}s ${other}: ${how}`];
+    replayed || `${subject} ${verb}s ${other}: decided exactly.`];
 }
 
 export class Panel {
@@ -102,9 +101,10 @@ export class Panel {
     live.slider.setAttribute('aria-valuetext', `${grouped(levels.faces)} faces`);
     live.faces.textContent = grouped(levels.faces);
     live.void.textContent = levels.voids ? percent(levels.voids[levels.level]) : '–';
-    const isStop = stop?.faces === levels.faces;
-    live.distance.textContent = isStop ? withUnit(`≤ ${atMost(stop.upper)}`, this.unit) : '–';
-    live.distanceLabel.textContent = isStop ? 'distance, proven' : 'distance: at proven levels';
+    const isStop = stop.faces === levels.faces;
+    live.distance.textContent = withUnit(`≤ ${atMost(stop.upper)}`, this.unit);
+    live.distance.style.color = isStop ? '' : 'var(--soft)';
+    live.distanceLabel.textContent = isStop ? 'distance, proven' : `distance, of ${grouped(stop.faces)} faces`;
     live.encloses.textContent = v.refused ? '?' : v.encloses ? '✓ yes' : '✗ no';
     live.wanted.value = levels.faces;
     live.stops.value = isStop ? String(stop.faces) : '';
@@ -153,7 +153,7 @@ export class Panel {
     if (!this.farthest()) return null;
     this.live.far = el('p', {id: 'far'});
     const fly = el('button', {type: 'button', id: 'fly-far', onclick: () => this.view.flyTo(this.farthest().farthest)},
-        'Show the farthest point');
+        el('span', {class: 'far-mark', 'aria-hidden': 'true'}, '★ '), 'Show the farthest point');
     return el('section', {}, el('h2', {}, 'Distance to the original'), this.live.far, fly);
   }
 

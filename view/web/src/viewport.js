@@ -4,6 +4,8 @@ import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {plane} from './materials.js';
 
+THREE.ColorManagement.enabled = false;  // colours are those of the screen everywhere
+
 const FIELD_OF_VIEW = 26;  // degrees
 const NO_CUT = 1e9;
 const calm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
@@ -21,7 +23,7 @@ function markSprite(text, color) {
   draw.strokeStyle = '#ffffff';
   draw.stroke();
   draw.fillStyle = '#ffffff';
-  draw.font = `bold ${text.length > 2 ? 18 : 28}px system-ui, sans-serif`;
+  draw.font = 'bold 28px system-ui, sans-serif';
   draw.textAlign = 'center';
   draw.textBaseline = 'middle';
   draw.fillText(text, 32, 34);
@@ -36,7 +38,7 @@ export class Viewport {
     this.canvas = canvas;
     this.radius = radius;
     this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, stencil: true});
-    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;  // colours are those of the screen already
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.autoClear = false;
     this.scene = new THREE.Scene();
     this.marks = new THREE.Group();
@@ -95,8 +97,11 @@ export class Viewport {
     for (const [child, visible] of shown) child.visible = visible;
   }
 
-  /** Sees as much across the shorter side, whatever the shape of the window. */
+  /** Sees as much across the shorter side, whatever the shape of the window; depth is as precise as can be. */
   aspect(aspect) {
+    const far = this.camera.position.length() + 2 * this.radius;
+    this.camera.near = Math.max(this.camera.position.length() - 1.05 * this.radius, far / 5000);
+    this.camera.far = far;
     const half = Math.tan(FIELD_OF_VIEW * Math.PI / 360);
     this.camera.aspect = aspect;
     this.camera.fov = 2 * Math.atan(aspect < 1 ? half / aspect : half) * 180 / Math.PI;
