@@ -19,8 +19,8 @@ struct Shown {
 struct PageOptions {
   HullSide side = HullSide::Outer;  ///< of hulls that are meshes; a progressive hull knows its own
   bool solid_only = false;          ///< as VerificationOptions has it
-  std::string unit;                 ///< of all coordinates, such as "m"; empty: it is not known
-  std::string version;              ///< of the program
+  std::string unit = {};            ///< of all coordinates, such as "m"; empty: it is not known
+  std::string version = {};         ///< of the program
   unsigned threads = 0;             ///< threads at most; 0: one for each core
   Progress progress = {};           ///< stages "verify", "measure" and "query"
 };

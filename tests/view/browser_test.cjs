@@ -55,7 +55,8 @@ const fragment = async (page) => {
   return page.evaluate(() => location.hash);
 };
 
-/** The colours of the picture, without what is in front of it: how many there are, and a sum that tells pictures apart. */
+/** Of the picture, without what is in front of it: how many colours it has, a sum that tells pictures apart, and a small
+ * copy. */
 const picture = (page) => page.evaluate(async () => {
   const bitmap = await createImageBitmap(await prohullView.viewport.picture());
   const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), draw = canvas.getContext('2d');
@@ -63,7 +64,8 @@ const picture = (page) => page.evaluate(async () => {
   const pixels = new Uint32Array(draw.getImageData(0, 0, bitmap.width, bitmap.height).data.buffer);
   let sum = 0;
   for (const pixel of pixels) sum = (Math.imul(sum, 31) + pixel) | 0;
-  return {colors: new Set(pixels).size, sum};
+  draw.drawImage(bitmap, 0, 0, 40, 30);
+  return {colors: new Set(pixels).size, sum, small: [...draw.getImageData(0, 0, 40, 30).data]};
 });
 
 /** The volume of the level that is shown, in the unit of the mesh. */
@@ -172,7 +174,9 @@ const tests = {
     await changes('side by side', () => page.check('#beside'));
     await changes('the theme', () => page.click('#theme'));
     const address = await fragment(page), again = await opened('hull.html', {fragment: address});
-    assert.equal((await picture(again)).sum, (await picture(page)).sum, 'the address leads to the same picture');
+    const {small} = await picture(page);
+    const differs = (await picture(again)).small.filter((value, i) => Math.abs(value - small[i]) > 12).length;
+    assert.ok(differs < small.length / 100, 'the address leads to the same picture');
     assert.equal(await fragment(again), address);
     await closed(again);
     await closed(page);

@@ -31,5 +31,6 @@ export function atMost(number) {
   return short(Math.ceil(number / unit * (1 - 1e-12)) * unit);
 }
 
-export const percent = (ratio) => `${short(100 * ratio, 4)} %`;
+/** Less than a billionth of a per cent is the rounding of volumes. */
+export const percent = (ratio) => `${Math.abs(ratio) < 1e-11 ? 0 : short(100 * ratio, 4)} %`;
 export const place = (point) => `(${point.map((x) => short(x, 7)).join(', ')})`;
