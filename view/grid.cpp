@@ -6,7 +6,7 @@
 namespace prohull::view {
 namespace {
 
-constexpr double kSteps = (1 << 20) - 1;
+constexpr double kSteps = (1 << 30) - 1;
 
 }  // namespace
 

@@ -8,8 +8,8 @@
 
 namespace prohull::view {
 
-/// Where a page draws points: on a grid of a million steps along the longest side of the scene. Meshes of one scene
-/// share the grid, so that equal points are drawn at one place.
+/// Where a page has its points: on a grid of a billion steps along the longest side of the scene. Meshes of one scene
+/// share the grid, so that equal points are at one place.
 class Grid {
  public:
   explicit Grid(const Box& scene);

@@ -47,12 +47,18 @@ class Replay {
       vertices_[star[i]] = v;
       corners_of_[v].push_back(star[i]);
     }
-    add({record.o, record.d, record.l});
-    add({record.d, record.o, record.r});
+    add(turned({record.o, record.d, record.l}, record.od));
+    add(turned({record.d, record.o, record.r}, record.do_));
     return moves;
   }
 
  private:
+  /// The face whose first vertex stands at this corner.
+  static std::array<VertexId, 3> turned(std::array<VertexId, 3> face, std::uint32_t corner) {
+    std::ranges::rotate(face, face.begin() + (3 - corner % 3) % 3);
+    return face;
+  }
+
   void add(const std::array<VertexId, 3>& face) {
     for (const VertexId v : face) {
       corners_of_[v].push_back(static_cast<Corner>(vertices_.size()));
@@ -144,11 +150,12 @@ nlohmann::json levels_facts(const ProgressiveHull& hull, const PerVertex<double>
   }
   for (const VertexId v : replay.vertices()) triangles.push_back(slots[v]);
 
-  std::vector<std::uint32_t> split_slots, bits, split_heat;
+  std::vector<std::uint32_t> split_slots, turns, bits, split_heat;
   std::vector<std::int32_t> moves;
   std::size_t bit = 0;
   each_split(hull, [&](VertexId s, const VertexSplit& record) {
     split_slots.push_back(slots[s]);
+    turns.push_back(record.od % 3 + 3 * (record.do_ % 3));
     slots.split(s, record);
     const auto from = grid(hull.positions()[s]);
     for (const VertexId v : {record.o, record.d}) {
@@ -170,6 +177,7 @@ nlohmann::json levels_facts(const ProgressiveHull& hull, const PerVertex<double>
           {"split_vertices", blocks.plain(split_slots)},
           {"split_moves", blocks.differences(moves)},
           {"split_heat", blocks.plain(split_heat)},
+          {"split_turns", blocks.plain(turns)},
           {"split_bits", blocks.plain(bits)}};
 }
 

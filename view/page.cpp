@@ -161,8 +161,7 @@ class Writer {
   /// Levels of which the distance is proven: from the base mesh on, each finer by half than the one before.
   json stops_of(const ProgressiveHull& hull, const Reference& reference) const {
     json stops = json::array();
-    for (std::size_t faces = hull.base_face_count();;
-         faces = std::min(faces + faces / 2, hull.original_face_count())) {
+    for (std::size_t faces = hull.base_face_count();; faces = std::min(faces + faces / 2, hull.original_face_count())) {
       const TriangleMesh level = hull.level(faces);
       json stop = distance_facts(level, reference.mesh, options_);
       stop["faces"] = level.face_count();

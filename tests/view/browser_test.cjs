@@ -59,7 +59,7 @@ const fragment = async (page) => {
  * copy. */
 const picture = (page) => page.evaluate(async () => {
   const bitmap = await createImageBitmap(await prohullView.viewport.picture());
-  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), draw = canvas.getContext('2d');
+  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), draw = canvas.getContext('2d', {willReadFrequently: true});
   draw.drawImage(bitmap, 0, 0);
   const pixels = new Uint32Array(draw.getImageData(0, 0, bitmap.width, bitmap.height).data.buffer);
   let sum = 0;
@@ -186,7 +186,7 @@ const tests = {
     const page = await opened('hull.html', {fragment: '#c=y&a=0&s=-1&e=0&v=0,0,4,0,0,0'});
     const clay = await page.evaluate(async () => {
       const bitmap = await createImageBitmap(await prohullView.viewport.picture());
-      const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), draw = canvas.getContext('2d');
+      const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), draw = canvas.getContext('2d', {willReadFrequently: true});
       draw.drawImage(bitmap, 0, 0);
       return [...draw.getImageData(bitmap.width / 2, bitmap.height / 2, 1, 1).data];
     });

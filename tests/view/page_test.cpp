@@ -68,7 +68,7 @@ TEST(ViewLevels, ABitForEachCornerThatASplitMeets) {
 TEST(ViewGrid, KeepsCornersOfTheSceneAndHugeCoordinates) {
   const Grid grid(Box{{-1e308, 0, 0}, {1e308, 1, 1}});
   EXPECT_EQ(grid({-1e308, 0, 0})[0], 0);
-  EXPECT_EQ(grid({1e308, 0, 0})[0], (1 << 20) - 1);
+  EXPECT_EQ(grid({1e308, 0, 0})[0], (1 << 30) - 1);
   EXPECT_EQ(Grid(Box{{5, 5, 5}, {5, 5, 5}})({5, 5, 5})[2], 0);
 }
 

@@ -88,6 +88,13 @@ export class Body {
     this.edges.material.uniforms.opacity.value = Math.min(0.5, Math.max(0.08, 0.5 * Math.sqrt(6000 / corners)));
   }
 
+  /** Shows other faces of the same vertices; null: its own. */
+  replaceFaces(triangles) {
+    this.own ??= {triangles: this.mesh.triangles, index: this.geometry.index};
+    this.mesh = {...this.mesh, triangles: triangles ?? this.own.triangles};
+    this.geometry.setIndex(triangles ? new THREE.BufferAttribute(triangles, 1) : this.own.index);
+  }
+
   setEdgeColor(color) {
     this.edgeColor = color;
     if (this.edges) this.edges.material.uniforms.color.value.set(...color);

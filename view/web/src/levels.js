@@ -5,7 +5,29 @@ import {numbers, reals} from './blocks.js';
 const following = (corner) => corner % 3 === 2 ? corner - 2 : corner + 1;
 const preceding = (corner) => corner % 3 === 0 ? corner + 2 : corner - 1;
 
-const NONE = 0xffffffff;
+export const NONE = 0xffffffff;
+
+/** The face whose first vertex stands at a corner. */
+const turned = (face, corner) => [0, 1, 2].map((k) => face[(k + 3 - corner) % 3]);
+
+/** Lists of numbers, one after the other. */
+class Pool {
+  constructor(lists) {
+    this.ends = new Uint32Array(lists + 1);
+    this.values = new Uint32Array(4 * lists);
+    this.size = this.lists = 0;
+  }
+  push(value) {
+    if (this.size === this.values.length) {
+      const values = new Uint32Array(2 * this.size + 16);
+      values.set(this.values);
+      this.values = values;
+    }
+    this.values[this.size++] = value;
+  }
+  end() { this.ends[++this.lists] = this.size; }
+  of(list) { return this.values.subarray(this.ends[list], this.ends[list + 1]); }
+}
 
 /** The vertex of each corner, and for each vertex a chain of its corners, in the order in which they came. */
 class Stars {
@@ -26,14 +48,19 @@ class Stars {
     this.last[v] = corner;
   }
 
-  addFace(at, a, b, c) {
-    this.append(at, a);
-    this.append(at + 1, b);
-    this.append(at + 2, c);
+  addFace(at, face) {
+    for (let k = 0; k < 3; ++k) this.append(at + k, face[k]);
   }
 
-  /** Gives d the corners of o whose bits are set, and lists them in `moved`; returns the place of the next bit. */
-  divide(o, d, bits, bit, moved) {
+  /** The link of a vertex, in any order. */
+  around(v) {
+    const link = [];
+    for (let c = this.first[v]; c !== NONE; c = this.next[c]) link.push(this.corners[following(c)]);
+    return link;
+  }
+
+  /** Gives d the corners of o whose bits are set: these are `moved`. Returns the place of the next bit. */
+  divide(o, d, bits, bit, moved, kept) {
     let corner = this.first[o];
     this.first[o] = NONE;
     for (; corner !== NONE; ++bit) {
@@ -43,6 +70,7 @@ class Stars {
         moved.push(corner);
       } else {
         this.append(corner, o);
+        kept.push(corner);
       }
       corner = next;
     }
@@ -70,7 +98,8 @@ export class Levels {
     const base = numbers(bytes, facts.positions);
     this.baseVertices = base.length / 3;
     this.splitVertices = numbers(bytes, facts.split_vertices);
-    this.readFaces(numbers(bytes, facts.triangles), numbers(bytes, facts.split_bits));
+    this.readFaces(numbers(bytes, facts.triangles), numbers(bytes, facts.split_bits),
+        numbers(bytes, facts.split_turns));
     this.readPositions(base, numbers(bytes, facts.split_moves));
     this.readHeat(numbers(bytes, facts.heat), numbers(bytes, facts.split_heat));
     this.voids = facts.void_ratios ? reals(bytes, facts.void_ratios) : null;
@@ -85,37 +114,70 @@ export class Levels {
     return Math.max(0, Math.min(this.count, Math.floor((faces - this.baseFaces) / 2)));
   }
 
-  /** Makes all splits, to learn which corners each of them gives to d. */
-  readFaces(base, bits) {
-    const star = new Stars(base.length + 6 * this.count, this.baseVertices + this.count);
-    for (let at = 0; at < base.length; at += 3) star.addFace(at, base[at], base[at + 1], base[at + 2]);
-    const moved = [], ends = new Uint32Array(this.count + 1);
+  /** Makes all splits, to learn which corners each of them gives to d, and which splits must come before it. */
+  readFaces(base, bits, turns) {
+    const vertices = this.baseVertices + this.count;
+    const stars = new Stars(base.length + 6 * this.count, vertices);
+    for (let at = 0; at < base.length; at += 3) stars.addFace(at, base.subarray(at, at + 3));
+    this.moved = new Pool(this.count);
+    this.kept = new Pool(this.count);
+    this.makers = new Pool(this.count);  // of each split those that made its vertex and its link
+    this.firstSplits = new Uint32Array(vertices).fill(NONE);  // of each vertex, as it is when it comes
+    this.nextOfO = new Uint32Array(this.count).fill(NONE);
+    this.nextOfD = new Uint32Array(this.count).fill(NONE);
+    const makers = new Uint32Array(vertices).fill(NONE);
     let bit = 0;
     for (let k = 0, at = base.length; k < this.count; ++k, at += 6) {
       const o = this.splitVertices[k], d = this.baseVertices + k;
-      bit = star.divide(o, d, bits, bit, moved);
-      ends[k + 1] = moved.length;
-      const [l, r] = star.sides(o);
-      star.addFace(at, o, d, l);
-      star.addFace(at + 3, d, o, r);
+      this.follow(makers[o], o, k);
+      for (const v of stars.around(o)) if (makers[v] !== NONE) this.makers.push(makers[v]);
+      if (makers[o] !== NONE) this.makers.push(makers[o]);
+      makers[o] = makers[d] = k;
+      bit = stars.divide(o, d, bits, bit, this.moved, this.kept);
+      for (const pool of [this.makers, this.moved, this.kept]) pool.end();
+      const [l, r] = stars.sides(o);
+      stars.addFace(at, turned([o, d, l], turns[k] % 3));
+      stars.addFace(at + 3, turned([d, o, r], Math.floor(turns[k] / 3)));
     }
-    this.corners = star.corners;
-    this.moved = Uint32Array.from(moved);
-    this.movedEnds = ends;
+    this.corners = stars.corners;
   }
 
-  /** The positions at the finest level, and those of s and o for every split. */
+  /** Split k replaces the vertex v that split `before` made, or that the base mesh has. */
+  follow(before, v, k) {
+    if (before === NONE) this.firstSplits[v] = k;
+    else if (this.splitVertices[before] === v) this.nextOfO[before] = k;
+    else this.nextOfD[before] = k;
+  }
+
+  /** The splits that come before split k, the last one of the record first. */
+  needs(k) {
+    return [...new Set(this.makers.of(k))].sort((a, b) => b - a);
+  }
+
+  /** The corners of the vertex of split k, where it can be made but is not: counter-clockwise, those of o first. */
+  orderedStar(k) {
+    const beside = new Map(), ends = new Set(), star = [...this.kept.of(k), ...this.moved.of(k)];
+    for (const corner of star) beside.set(this.corners[following(corner)], corner);
+    for (const corner of this.kept.of(k)) ends.add(this.corners[preceding(corner)]);
+    const first = [...this.kept.of(k)].find((corner) => !ends.has(this.corners[following(corner)]));
+    const ordered = [first];
+    while (ordered.length < star.length)
+      ordered.push(beside.get(this.corners[preceding(ordered[ordered.length - 1])]));
+    return ordered;
+  }
+
+  /** The positions at the finest level, and those of s and o for every split; all as steps of the grid. */
   readPositions(base, moves) {
     const steps = new Float64Array(3 * (this.baseVertices + this.count));
     steps.set(base);
-    this.before = new Float64Array(3 * this.count);
-    this.after = new Float64Array(3 * this.count);
+    this.stepsBefore = new Float64Array(3 * this.count);
+    this.stepsAfter = new Float64Array(3 * this.count);
     for (let k = 0; k < this.count; ++k) {
       const s = 3 * this.splitVertices[k], d = 3 * (this.baseVertices + k);
       for (let i = 0; i < 3; ++i) {
         const from = steps[s + i];
-        this.before[3 * k + i] = from;
-        this.after[3 * k + i] = steps[s + i] = from + moves[6 * k + i];
+        this.stepsBefore[3 * k + i] = from;
+        this.stepsAfter[3 * k + i] = steps[s + i] = from + moves[6 * k + i];
         steps[d + i] = from + moves[6 * k + 3 + i];
       }
     }
@@ -136,12 +198,11 @@ export class Levels {
     [this.heat, this.heatBefore, this.heatAfter].forEach(scale);
   }
 
-  /** Positions become those that are drawn. */
+  /** Finds out where everything is drawn. */
   place(space) {
     this.positions = space.drawn(this.steps);
-    this.before = space.drawn(this.before);
-    this.after = space.drawn(this.after);
-    this.steps = null;
+    this.before = space.drawn(this.stepsBefore);
+    this.after = space.drawn(this.stepsAfter);
   }
 
   /** Makes or undoes splits; returns whether there were any. */
@@ -154,10 +215,14 @@ export class Levels {
 
   apply(k, forth) {
     const s = this.splitVertices[k], v = forth ? this.baseVertices + k : s;
-    const positions = forth ? this.after : this.before;
-    for (let i = 0; i < 3; ++i) this.positions[3 * s + i] = positions[3 * k + i];
+    const positions = forth ? this.after : this.before, steps = forth ? this.stepsAfter : this.stepsBefore;
+    for (let i = 0; i < 3; ++i) {
+      this.positions[3 * s + i] = positions[3 * k + i];
+      this.steps[3 * s + i] = steps[3 * k + i];
+    }
     this.heat[s] = (forth ? this.heatAfter : this.heatBefore)[k];
-    for (let i = this.movedEnds[k]; i < this.movedEnds[k + 1]; ++i) this.corners[this.moved[i]] = v;
+    const {ends, values} = this.moved;
+    for (let i = ends[k]; i < ends[k + 1]; ++i) this.corners[values[i]] = v;
   }
 
   /** The mesh of a level, on its own. */

@@ -6,6 +6,7 @@ import {byId, el, grouped} from './dom.js';
 import {dividedMesh} from './heat.js';
 import {Levels} from './levels.js';
 import {Panel} from './panel.js';
+import {Refinement} from './query.js';
 import {Space} from './space.js';
 import {between, numbersOf, readFragment, writeFragment} from './state.js';
 import {Viewport} from './viewport.js';
@@ -13,6 +14,7 @@ import {Viewport} from './viewport.js';
 const CLAY = '#e0b48c', BLUE = '#6aa9e6';
 const MORE = [BLUE, '#009e73', '#cc79a7', '#f0e442', '#0072b2', '#e69f00', '#56b4e9', '#999999'];
 const FAR = '#c2410c', OUTSIDE = '#a3195b';
+const FOUND = '#00664a', MISSED = '#a33600', RAY = '#5b2a86';
 const PLAY_SECONDS = 7;
 const AXES = {x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1]};
 
@@ -62,6 +64,7 @@ class View {
       active: between(text.n, 0, this.hulls.length - 1, 0),
       theme: ['dark', 'light'].includes(text.t) ? text.t : null,
       look: numbersOf(text.v, 6),
+      ray: numbersOf(text.r, 6),
     };
     this.active = this.hulls[Math.round(this.state.active)];
   }
@@ -144,6 +147,7 @@ class View {
     this.setHeat(state.heat && this.hasHeat);
     this.setBeside(state.beside && this.sides.length > 1);
     this.setCut();
+    if (state.ray) this.shoot({origin: state.ray.slice(0, 3), direction: state.ray.slice(3)});
     this.refresh();
     viewport.onChange = () => this.remember();
     document.title = `${this.hulls.map((hull) => hull.name).join(', ')} – prohull view`;
@@ -154,6 +158,7 @@ class View {
   // --- levels ---
 
   setLevel(hull, level) {
+    this.endQuery();
     hull.levels.goTo(level);
     hull.body.update(hull.levels.faces);
   }
@@ -204,9 +209,64 @@ class View {
     this.panel?.setPlaying(false);
   }
 
+  // --- a ray ---
+
+  /** A ray in the unit of the mesh; the hull is split only where the ray meets it. */
+  shoot(ray) {
+    const {levels, body} = this.active;
+    if (!levels || !ray.direction.some((x) => x !== 0)) return;
+    this.stop();
+    this.endQuery();
+    this.refinement ??= new Refinement(levels);
+    const origin = this.space.steps(ray.origin);
+    const tip = this.space.steps(ray.origin.map((x, k) => x + ray.direction[k]));
+    const direction = tip.map((x, k) => x - origin[k]);
+    const began = performance.now();
+    this.query = {ray, hull: this.active, ...this.refinement.shoot({origin, direction})};
+    this.query.milliseconds = performance.now() - began;
+    for (const hit of this.query.hits) hit.point = ray.origin.map((x, k) => x + hit.t * ray.direction[k]);
+    body.replaceFaces(this.refinement.triangles());
+    body.update(this.query.faces);
+    this.state.ray = [...ray.origin, ...ray.direction];
+    this.refresh();
+  }
+  shootAt(x, y) {
+    if (!this.active.levels || this.state.beside) return;
+    const {origin, direction} = this.viewport.ray(x, y), from = this.space.point(origin);
+    const to = this.space.point(origin.map((o, k) => o + direction[k]));
+    this.shoot({origin: from, direction: to.map((x, k) => x - from[k])});
+  }
+  shootThroughMiddle() {
+    const box = byId('canvas').getBoundingClientRect();
+    this.shootAt(box.left + box.width / 2, box.top + box.height / 2);
+  }
+
+  /** The level is shown again that was shown before. */
+  endQuery() {
+    if (!this.query) return;
+    const {hull} = this.query;
+    this.refinement.rollBack();
+    hull.body.replaceFaces(null);
+    this.query = this.state.ray = null;
+    this.setLevel(hull, this.firstLevel(hull));
+    this.refresh();
+  }
+
+  markQuery() {
+    if (!this.query) return;
+    const {ray, hits} = this.query;
+    const length = 2 * (this.viewport.homeDistance + this.viewport.radius) * this.space.side / Math.hypot(...ray.direction);
+    this.viewport.line([ray.origin, ray.origin.map((x, k) => x + length * ray.direction[k])].map((p) => this.space.at(p)), RAY);
+    hits.forEach((hit, i) => {
+      this.viewport.mark(this.space.at(hit.point), String(i + 1), hit.found ? FOUND : MISSED).userData.point = hit.point;
+    });
+  }
+
   // --- what is shown, and how ---
 
   activate(i) {
+    this.endQuery();
+    this.refinement = null;
     this.active = this.hulls[i];
     this.state.active = i;
     byId('content').replaceChildren();
@@ -302,8 +362,9 @@ class View {
 
   placeMarks() {
     const {viewport, active} = this;
-    viewport.marks.clear();
-    const far = this.panel.farthest();
+    viewport.clearMarks();
+    this.markQuery();
+    const far = this.query ? null : this.panel.farthest();
     if (far && far.upper > 0) viewport.mark(this.space.at(far.farthest), '★', FAR).userData.point = far.farthest;
     (active.verification?.worst ?? []).forEach((o, i) => {
       viewport.mark(this.space.at(o.point), String(i + 1), OUTSIDE).userData.point = o.point;
@@ -358,6 +419,7 @@ class View {
       o: state.opacity, e: state.edges ? 1 : 0, h: state.heat ? 1 : null, b: state.beside ? 1 : null,
       c: state.cut, a: state.cut ? state.cutAt : null, s: state.cut && state.cutSign < 0 ? -1 : null,
       d: state.cut === 'v' ? state.cutFacing.map(round).join(',') : null,
+      r: state.ray?.join(','),
       x: state.hidden.join(','), n: state.active || null, t: state.theme,
     };
   }
@@ -373,6 +435,7 @@ class View {
       if (!pressed || Math.hypot(e.clientX - pressed[0], e.clientY - pressed[1]) > 4) return;
       const mark = this.viewport.markAt(e.clientX, e.clientY);
       if (mark) this.flyTo(mark.userData.point);
+      else this.shootAt(e.clientX, e.clientY);
     });
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.setTheme(this.state.theme));
     addEventListener('keydown', (e) => this.key(e));
@@ -397,6 +460,7 @@ class View {
       '+': () => viewport.zoom(1.15), '=': () => viewport.zoom(1.15), '-': () => viewport.zoom(1 / 1.15),
       0: () => viewport.home(), ',': () => this.step(-0.02), '.': () => this.step(0.02), ' ': () => this.play(),
       e: toggle('edges'), h: toggle('heat'), p: toggle('png'), f: toggle('fly-far'), n: () => this.nextOutside(),
+      q: () => this.shootThroughMiddle(), Escape: () => this.endQuery(),
       x: cut('x'), y: cut('y'), z: cut('z'),
       '[': () => this.setCutAt(state.cutAt - 0.05), ']': () => this.setCutAt(state.cutAt + 0.05),
     }[key];

@@ -40,7 +40,7 @@ export class Panel {
     this.live = {};
     byId('fold').addEventListener('click', () => this.fold(byId('fold').getAttribute('aria-expanded') === 'true'));
     this.content.append(...[
-      this.heading(), this.levelPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
+      this.heading(), this.levelPart(), this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
       this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
     this.legend();
   }
@@ -95,12 +95,14 @@ export class Panel {
   /** The numbers of the level that is shown. */
   showLevel() {
     if (!this.object.levels) return;
+    this.showQuery();
     const {live, object} = this, {levels} = object;
     const stop = this.view.stopOf(levels.faces), v = object.verification;
     live.slider.value = Math.round(1000 * this.view.levelShare());
     live.slider.setAttribute('aria-valuetext', `${grouped(levels.faces)} faces`);
-    live.faces.textContent = grouped(levels.faces);
-    live.void.textContent = levels.voids ? percent(levels.voids[levels.level]) : '–';
+    const {query} = this.view;
+    live.faces.textContent = grouped(query ? query.faces : levels.faces);
+    live.void.textContent = query ? '–' : levels.voids ? percent(levels.voids[levels.level]) : '–';
     const isStop = stop.faces === levels.faces;
     live.distance.textContent = withUnit(`≤ ${atMost(stop.upper)}`, this.unit);
     live.distance.style.color = isStop ? '' : 'var(--soft)';
@@ -112,6 +114,39 @@ export class Panel {
   }
 
   setPlaying(is) { this.live.play.textContent = is ? 'Pause' : 'Play'; }
+
+  queryPart() {
+    if (!this.object.levels) return null;
+    const {view, live} = this;
+    live.query = el('div', {id: 'query', 'aria-live': 'polite'});
+    return el('section', {}, el('h2', {}, 'A ray'), live.query, el('div', {class: 'row'},
+        el('button', {type: 'button', id: 'shoot', onclick: () => view.shootThroughMiddle()}, 'Through the middle'),
+        live.endQuery = el('button', {type: 'button', id: 'end-query', onclick: () => view.endQuery()}, 'End')));
+  }
+
+  /** What the last ray has met, and what that took. */
+  showQuery() {
+    const {live, view} = this, {query} = view;
+    if (!live.query) return;
+    live.endQuery.hidden = !query;
+    if (!query) {
+      live.query.replaceChildren(el('p', {class: 'soft'}, 'Click shoots a ray. The base mesh is then split only where the ray meets it.'));
+      return;
+    }
+    const missed = query.hits.filter((hit) => !hit.found).length;
+    const hits = query.hits.map((hit, i) => el('li', {}, el('button', {type: 'button', onclick: () => view.flyTo(hit.point)},
+        el('span', {class: hit.found ? 'mark found' : 'mark missed'}, String(i + 1)),
+        el('span', {}, `${hit.entering ? 'enters' : 'leaves'}${hit.found ? '' : ', passes below the hull: not found'}`,
+            el('span', {class: 'where'}, place(hit.point))))));
+    live.query.replaceChildren(
+        el('p', {}, el('b', {id: 'tests'}, grouped(query.tests)), ` faces tested, `, el('b', {id: 'splits'}, grouped(query.splits)),
+            ` vertices split, `, el('b', {id: 'hits'}, grouped(query.hits.length - missed)),
+            ` ${query.hits.length - missed === 1 ? 'hit' : 'hits'} found${missed ? `, ${missed} missed` : ''}.`),
+        el('ol', {class: 'places', id: 'query-hits'}, ...hits),
+        el('details', {}, el('summary', {}, 'The same on the command line'),
+            el('p', {class: 'soft'}, 'prohull query H.phull --engine paper-refinement --mode all --rays rays.csv, where rays.csv has the line'),
+            el('p', {class: 'soft', id: 'ray'}, [...query.ray.origin, ...query.ray.direction].join(','))));
+  }
 
   shownPart() {
     const {view} = this;
@@ -231,7 +266,7 @@ export class Panel {
     const {view} = this;
     const keys = [['arrows', 'turn'], ['shift + arrows', 'move'], ['+ −', 'zoom'], ['0', 'see all'], [', .', 'coarser, finer'],
       ['space', 'play'], ['e', 'edges'], ['h', 'distance as colour'], ['x y z', 'section'], ['[ ]', 'move the section'],
-      ['f', 'farthest point'], ['n', 'next place outside'], ['p', 'save PNG']];
+      ['f', 'farthest point'], ['n', 'next place outside'], ['q', 'ray through the middle'], ['Esc', 'end the ray'], ['p', 'save PNG']];
     const step = view.scene.grid.step;
     return el('section', {},
         el('details', {}, el('summary', {}, 'Keys, mouse and touch'),
@@ -240,7 +275,7 @@ export class Panel {
               [el('dt', {}, el('kbd', {}, key)), el('dd', {}, what)]))),
         el('p', {class: 'soft', id: 'rounding'},
             `Numbers are exact, or proven bounds. Only what is drawn is rounded: to steps of ${withUnit(short(step, 2), this.unit)}, ` +
-            'a millionth of the longest side. Between its points, colour is interpolated. ' +
+            'a billionth of the longest side. Between its points, colour is interpolated. ' +
             (this.unit ? '' : 'Lengths are in the unit of the mesh. ') + `Made by prohull ${view.scene.version}.`));
   }
 

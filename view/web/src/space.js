@@ -1,6 +1,6 @@
 // Where things are drawn: the longest side of the scene has length 1, and its middle is at 0.
 
-const STEPS = 2 ** 20 - 1;
+const STEPS = 2 ** 30 - 1;
 
 export class Space {
   constructor({origin, step}, arrays) {
@@ -27,6 +27,9 @@ export class Space {
   at(point) {
     return point.map((x, k) => x / this.side - this.origin[k] / this.side - this.middle[k]);
   }
+
+  /** Of a point in the unit of the meshes, as steps of the grid. */
+  steps(point) { return point.map((x, k) => (x - this.origin[k]) / this.side * STEPS); }
 
   /** In the unit of the meshes. */
   point(drawn) {

@@ -42,7 +42,8 @@ export class Viewport {
     this.renderer.autoClear = false;
     this.scene = new THREE.Scene();
     this.marks = new THREE.Group();
-    this.scene.add(this.marks);
+    this.lines = new THREE.Group();
+    this.scene.add(this.marks, this.lines);
     this.camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, radius / 1000, radius * 100);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -180,6 +181,27 @@ export class Viewport {
     sprite.position.set(...point);
     this.marks.add(sprite);
     return sprite;
+  }
+
+  /** A line between points; it stays until the marks are cleared. */
+  line(points, color) {
+    const geometry = new THREE.BufferGeometry().setFromPoints(points.map((point) => new THREE.Vector3(...point)));
+    const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({color, depthTest: false, transparent: true}));
+    line.renderOrder = 90;
+    this.lines.add(line);
+  }
+
+  /** Where one looks from, and which way, at a place of the window. */
+  ray(x, y) {
+    const box = this.canvas.getBoundingClientRect();
+    const to = new THREE.Vector3(2 * (x - box.left) / box.width - 1, 1 - 2 * (y - box.top) / box.height, 0.5);
+    const from = this.camera.position;
+    return {origin: from.toArray(), direction: to.unproject(this.camera).sub(from).normalize().toArray()};
+  }
+
+  clearMarks() {
+    this.marks.clear();
+    this.lines.clear();
   }
 
   /** The mark at a place of the window, if there is one. */
