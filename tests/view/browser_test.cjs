@@ -115,6 +115,32 @@ const tests = {
     await closed(page);
   },
 
+  async 'a ray takes as many tests and splits as prohull query counts'() {
+    const page = await opened('levels.html');
+    const base = await picture(page);
+    for (const [x, y] of [[300, 250], [250, 320], [330, 240], [10, 10]]) {
+      await page.mouse.click(x, y);
+      const ray = await text(page, 'ray');
+      fs.writeFileSync(at('ray.csv'), `${ray}\n`);
+      run('query', at('pony.phull'), '--rays', at('ray.csv'), '--mode', 'all', '--engine', 'paper-refinement', '--report', at('query.json'));
+      const counted = JSON.parse(fs.readFileSync(at('query.json')));
+      const shown = {tests: await number(page, 'tests'), splits: await number(page, 'splits'), hits: await number(page, 'hits')};
+      assert.deepEqual(shown, {tests: counted.tests, splits: counted.splits, hits: counted.hits}, ray);
+      if (shown.splits > 0) assert.notEqual((await picture(page)).sum, base.sum);
+      assert.equal(await number(page, 'faces'), 400 + 2 * shown.splits);
+    }
+    await page.mouse.click(300, 250);
+    assert.ok(await page.locator('#query-hits li').count() >= 2, 'the ray through the pony enters and leaves');
+    const again = await opened('levels.html', {fragment: await fragment(page)});
+    assert.equal(await text(again, 'tests'), await text(page, 'tests'), 'the address has the ray');
+    await closed(again);
+    await page.focus('#canvas');
+    await page.keyboard.press('Escape');
+    assert.equal(await number(page, 'faces'), 400);
+    assert.equal((await picture(page)).sum, base.sum, 'the base mesh comes back');
+    await closed(page);
+  },
+
   async 'void and distance are those of verify and distance bounds'() {
     run('view', at('pony.phull'), '--original', at('pony.ply'), '-o', at('both.html'));
     run('lod', at('pony.phull'), '-o', at('base.ply'));

@@ -7,9 +7,6 @@ const preceding = (corner) => corner % 3 === 0 ? corner + 2 : corner - 1;
 
 export const NONE = 0xffffffff;
 
-/** The face whose first vertex stands at a corner. */
-const turned = (face, corner) => [0, 1, 2].map((k) => face[(k + 3 - corner) % 3]);
-
 /** Lists of numbers, one after the other. */
 class Pool {
   constructor(lists) {
@@ -48,15 +45,11 @@ class Stars {
     this.last[v] = corner;
   }
 
-  addFace(at, face) {
-    for (let k = 0; k < 3; ++k) this.append(at + k, face[k]);
-  }
-
-  /** The link of a vertex, in any order. */
-  around(v) {
-    const link = [];
-    for (let c = this.first[v]; c !== NONE; c = this.next[c]) link.push(this.corners[following(c)]);
-    return link;
+  /** The face (a, b, c), of which a stands at corner `turn`. */
+  addFace(at, a, b, c, turn) {
+    this.append(at + turn, a);
+    this.append(at + (turn + 1) % 3, b);
+    this.append(at + (turn + 2) % 3, c);
   }
 
   /** Gives d the corners of o whose bits are set: these are `moved`. Returns the place of the next bit. */
@@ -76,9 +69,6 @@ class Stars {
     }
     return bit;
   }
-
-  /** The ends l and r of the link of o, whose faces go counter-clockwise from l to r. */
-  sides(o) { return [this.only(o, following, preceding), this.only(o, preceding, following)]; }
 
   /** The one vertex that `some` finds beside a corner of o, and `others` beside none. */
   only(o, some, others) {
@@ -118,7 +108,7 @@ export class Levels {
   readFaces(base, bits, turns) {
     const vertices = this.baseVertices + this.count;
     const stars = new Stars(base.length + 6 * this.count, vertices);
-    for (let at = 0; at < base.length; at += 3) stars.addFace(at, base.subarray(at, at + 3));
+    for (let at = 0; at < base.length; at += 3) stars.addFace(at, base[at], base[at + 1], base[at + 2], 0);
     this.moved = new Pool(this.count);
     this.kept = new Pool(this.count);
     this.makers = new Pool(this.count);  // of each split those that made its vertex and its link
@@ -127,17 +117,22 @@ export class Levels {
     this.nextOfD = new Uint32Array(this.count).fill(NONE);
     const makers = new Uint32Array(vertices).fill(NONE);
     let bit = 0;
+    const pools = [this.makers, this.moved, this.kept];
     for (let k = 0, at = base.length; k < this.count; ++k, at += 6) {
       const o = this.splitVertices[k], d = this.baseVertices + k;
       this.follow(makers[o], o, k);
-      for (const v of stars.around(o)) if (makers[v] !== NONE) this.makers.push(makers[v]);
+      for (let c = stars.first[o]; c !== NONE; c = stars.next[c]) {
+        const maker = makers[stars.corners[following(c)]];
+        if (maker !== NONE) this.makers.push(maker);
+      }
       if (makers[o] !== NONE) this.makers.push(makers[o]);
       makers[o] = makers[d] = k;
       bit = stars.divide(o, d, bits, bit, this.moved, this.kept);
-      for (const pool of [this.makers, this.moved, this.kept]) pool.end();
-      const [l, r] = stars.sides(o);
-      stars.addFace(at, turned([o, d, l], turns[k] % 3));
-      stars.addFace(at + 3, turned([d, o, r], Math.floor(turns[k] / 3)));
+      pools.forEach((pool) => pool.end());
+      // Counter-clockwise, the faces of o go from l to r.
+      const l = stars.only(o, following, preceding), r = stars.only(o, preceding, following);
+      stars.addFace(at, o, d, l, turns[k] % 3);
+      stars.addFace(at + 3, d, o, r, Math.floor(turns[k] / 3));
     }
     this.corners = stars.corners;
   }

@@ -103,10 +103,10 @@ export class Panel {
     const {query} = this.view;
     live.faces.textContent = grouped(query ? query.faces : levels.faces);
     live.void.textContent = query ? '–' : levels.voids ? percent(levels.voids[levels.level]) : '–';
-    const isStop = stop.faces === levels.faces;
-    live.distance.textContent = withUnit(`≤ ${atMost(stop.upper)}`, this.unit);
+    const isStop = stop.faces === levels.faces && !query;
+    live.distance.textContent = query ? '–' : withUnit(`≤ ${atMost(stop.upper)}`, this.unit);
     live.distance.style.color = isStop ? '' : 'var(--soft)';
-    live.distanceLabel.textContent = isStop ? 'distance, proven' : `distance, of ${grouped(stop.faces)} faces`;
+    live.distanceLabel.textContent = isStop ? 'distance, proven' : query ? 'distance' : `distance, of ${grouped(stop.faces)} faces`;
     live.encloses.textContent = v.refused ? '?' : v.encloses ? '✓ yes' : '✗ no';
     live.wanted.value = levels.faces;
     live.stops.value = isStop ? String(stop.faces) : '';
