@@ -32,9 +32,10 @@ constexpr std::string_view kNoPage =
     "configure and build again";
 
 /// A page of HTML that shows hulls, and the mesh that they are hulls of, in any browser. It needs no other file and no
-/// network. Numbers on it are exact, or proven bounds; only what is drawn is rounded. Without an original, a
-/// progressive hull is compared with its own finest level, and meshes with nothing. Faces that are not finite are left
-/// out, which is said. Throws InputError if a mesh has no finite face, and if there is no page (has_page); Cancelled.
+/// network. Verdicts and counts on it are exact, distances are proven bounds; what is drawn is rounded. Without an
+/// original, a progressive hull is compared with its own finest level, and meshes with nothing. Faces that are not
+/// finite are left out, which is said. Throws InputError if a mesh has no finite face, and if there is no page
+/// (has_page); Cancelled.
 std::string page(const std::vector<Shown>& shown, const std::optional<Shown>& original, const PageOptions& options);
 
 }  // namespace prohull::view

@@ -76,7 +76,8 @@ void add_view(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(
       "view",
       "Writes a page of HTML that shows hulls in any browser, in three dimensions. The page is one file. It needs no "
-      "network, so that it can be mailed and archived. All numbers on it are exact, or proven bounds.");
+      "network, so that it can be mailed and archived. Verdicts and counts on it are exact, and distances are proven "
+      "bounds.");
   command
       .add_option("in", options->in,
                   std::string("Hulls or meshes to show; of a .phull file a slider shows all levels. ") + kMeshFiles)

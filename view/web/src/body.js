@@ -12,10 +12,14 @@ function linesOf(corners, lines, count) {
     }
 }
 
-function geometryOf({positions, triangles, heat}) {
+function geometryOf({positions, triangles, heat, shifts, tints}) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
   geometry.setAttribute('heat', new THREE.BufferAttribute(heat ?? new Float32Array(positions.length / 3), 1));
+  if (shifts) {
+    geometry.setAttribute('shift', new THREE.BufferAttribute(shifts, 3));
+    geometry.setAttribute('tint', new THREE.BufferAttribute(tints, 3));
+  }
   geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
   geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), Infinity);
   return geometry;
@@ -45,9 +49,12 @@ export class Body {
     this.showCap(null);
   }
 
+  get hasParts() { return Boolean(this.mesh.shifts); }
+
   add(object, order) {
     object.frustumCulled = false;
     object.renderOrder = order;
+    if (object.geometry.attributes.shift) object.material.defines = {PARTS: 1};
     this.group.add(object);
     return object;
   }
@@ -71,8 +78,7 @@ export class Body {
 
   makeEdges() {
     const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', this.geometry.attributes.position);
-    geometry.setAttribute('heat', this.geometry.attributes.heat);
+    for (const [name, attribute] of Object.entries(this.geometry.attributes)) geometry.setAttribute(name, attribute);
     geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(2 * this.mesh.triangles.length), 1));
     this.edges = this.add(new THREE.LineSegments(geometry, edgeMaterial()), 50);
   }

@@ -22,10 +22,11 @@ export function legendColors(count) {
 }
 
 /** The faces of a mesh, divided as its distances are. */
-export function dividedMesh({positions, triangles}, facts, bytes) {
+export function dividedMesh({positions, triangles, shifts, tints}, facts, bytes) {
   const parts = numbers(bytes, facts.parts), values = numbers(bytes, facts.values);
   const points = new Float32Array(3 * values.length), heat = new Float32Array(values.length);
   for (let i = 0; i < values.length; ++i) heat[i] = values[i] / 65535;
+  const moved = shifts && {shifts: new Float32Array(points.length), tints: new Float32Array(points.length)};
   const corners = [];
   let at = 0;
   for (let f = 0; f < parts.length; ++f) {
@@ -36,11 +37,15 @@ export function dividedMesh({positions, triangles}, facts, bytes) {
         for (let k = 0; k < 3; ++k)
           points[3 * at + k] =
               (positions[a + k] * (n - row - i) + positions[b + k] * i + positions[c + k] * row) / n;
+        if (moved) {
+          moved.shifts.set(shifts.subarray(a, a + 3), 3 * at);
+          moved.tints.set(tints.subarray(a, a + 3), 3 * at);
+        }
         if (i + row === n) continue;
         const above = at + n - row + 1;
         corners.push(at, at + 1, above);
         if (i + row < n - 1) corners.push(at + 1, above + 1, above);
       }
   }
-  return {positions: points, triangles: Uint32Array.from(corners), heat};
+  return {positions: points, triangles: Uint32Array.from(corners), heat, ...moved};
 }

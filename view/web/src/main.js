@@ -6,6 +6,8 @@ import {byId, el, grouped} from './dom.js';
 import {dividedMesh} from './heat.js';
 import {Levels} from './levels.js';
 import {Panel} from './panel.js';
+import {explosion, showsParts} from './materials.js';
+import {partsOf} from './parts.js';
 import {Refinement} from './query.js';
 import {Space} from './space.js';
 import {between, numbersOf, readFragment, writeFragment} from './state.js';
@@ -56,6 +58,8 @@ class View {
       edges: text.e ? text.e === '1' : !alone,
       heat: text.h === '1',
       beside: text.b === '1',
+      parts: text.u !== '0',
+      explosion: between(text.k, 0, 2, 0),
       cut: ['x', 'y', 'z', 'v'].includes(text.c) ? text.c : '',
       cutAt: between(text.a, -1, 1, 0),
       cutSign: text.s === '-1' ? -1 : 1,
@@ -89,6 +93,7 @@ class View {
     const isAlone = this.bodies.length === 0;
     this.hulls.forEach((hull, i) => {
       const {levels} = hull;
+      if (!levels) Object.assign(hull.mesh, partsOf(hull.mesh));
       const mesh = levels ? {positions: levels.positions, triangles: levels.corners, heat: levels.heat} : hull.mesh;
       const color = isAlone && this.hulls.length === 1 ? CLAY : MORE[i % MORE.length];
       hull.body = this.addBody({label: hull.name, role: 'hull', mesh, color, striped: !isAlone, order: order(hull),
@@ -98,6 +103,7 @@ class View {
     this.makeSides();
     this.heatMax = Math.max(0, ...this.hulls.map((hull) => hull.levels ? hull.heat_max : hull.heat?.max ?? 0));
     this.hasHeat = this.heatMax > 0;
+    this.hasParts = this.hulls.some((hull) => hull.body.hasParts);
     this.scaleHeat();
     this.state.hidden.forEach((i) => { if (this.bodies[i]) this.bodies[i].body.visible = false; });
   }
@@ -146,6 +152,8 @@ class View {
     this.setEdges(state.edges);
     this.setHeat(state.heat && this.hasHeat);
     this.setBeside(state.beside && this.sides.length > 1);
+    this.setParts(state.parts);
+    this.setExplosion(state.explosion);
     this.setCut();
     if (state.ray) this.shoot({origin: state.ray.slice(0, 3), direction: state.ray.slice(3)});
     this.refresh();
@@ -312,6 +320,17 @@ class View {
     this.viewport.changed();
   }
 
+  setParts(is) {
+    this.state.parts = is;
+    showsParts.value = is;
+    this.viewport.changed();
+  }
+  setExplosion(factor) {
+    this.state.explosion = factor;
+    explosion.value = factor;
+    this.viewport.changed();
+  }
+
   setBeside(is) {
     this.state.beside = is;
     this.viewport.panels = is ? this.sides : null;
@@ -417,6 +436,7 @@ class View {
           .map((x) => Math.abs(x) < 1e-6 ? 0 : round(x)).join(','),
       l: this.active.levels ? this.active.levels.faces : null,
       o: state.opacity, e: state.edges ? 1 : 0, h: state.heat ? 1 : null, b: state.beside ? 1 : null,
+      u: this.hasParts && !state.parts ? 0 : null, k: this.hasParts && state.explosion || null,
       c: state.cut, a: state.cut ? state.cutAt : null, s: state.cut && state.cutSign < 0 ? -1 : null,
       d: state.cut === 'v' ? state.cutFacing.map(round).join(',') : null,
       r: state.ray?.join(','),

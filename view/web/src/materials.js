@@ -8,10 +8,20 @@ attribute float heat;
 varying vec3 vPlace;
 varying vec3 vSeen;
 varying float vHeat;
+#ifdef PARTS
+attribute vec3 shift;
+attribute vec3 tint;
+uniform float explosion;
+varying vec3 vTint;
+#endif
 void main() {
   vPlace = position;
   vHeat = heat;
-  vec4 seen = modelViewMatrix * vec4(position, 1.0);
+#ifdef PARTS
+  vPlace += explosion * shift;
+  vTint = tint;
+#endif
+  vec4 seen = modelViewMatrix * vec4(vPlace, 1.0);
   vSeen = seen.xyz;
   gl_Position = projectionMatrix * seen;
 }`;
@@ -30,6 +40,10 @@ uniform bool showsHeat;
 uniform float heatFactor;
 varying vec3 vSeen;
 varying float vHeat;
+#ifdef PARTS
+uniform bool showsParts;
+varying vec3 vTint;
+#endif
 ${VIRIDIS_GLSL}
 void main() {
   if (isCutAway()) discard;
@@ -37,6 +51,9 @@ void main() {
   float light = 0.5 + 0.46 * max(dot(normal, normalize(vec3(-0.35, 0.55, 0.9))), 0.0) +
                 0.16 * max(dot(normal, normalize(vec3(0.8, -0.2, 0.5))), 0.0);
   vec3 base = showsHeat ? viridis(1.0 - clamp(vHeat * heatFactor, 0.0, 1.0)) : color;
+#ifdef PARTS
+  if (showsParts && !showsHeat) base = vTint;
+#endif
   if (!gl_FrontFacing) base = mix(base, vec3(0.25, 0.2, 0.3), 0.45);
   // Like glass: denser where it is seen from the side.
   float seen = opacity < 1.0 ? opacity * (0.5 + 2.0 * pow(1.0 - abs(normalize(vSeen).z * normal.z), 2.0)) : 1.0;
@@ -61,11 +78,13 @@ void main() {
   gl_FragColor = vec4(color * (stripes > 0.0 ? line : 1.0), 1.0);
 }`;
 
-/** All materials share the plane. */
+/** All materials share the plane, and how parts are shown. */
 export const plane = {value: new THREE.Vector4(0, 0, 0, 1)};
+export const explosion = {value: 0};
+export const showsParts = {value: false};
 
 const material = (fragmentShader, uniforms, options) =>
-    new THREE.ShaderMaterial({vertexShader: VERTEX, fragmentShader, uniforms: {plane, ...uniforms}, ...options});
+    new THREE.ShaderMaterial({vertexShader: VERTEX, fragmentShader, uniforms: {plane, explosion, showsParts, ...uniforms}, ...options});
 
 /** Of surfaces that touch, the one with less `depth` is seen. */
 export function surfaceMaterial(color, depth) {

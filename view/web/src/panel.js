@@ -162,6 +162,11 @@ export class Panel {
         check({id: 'edges', checked: view.state.edges, onchange: (e) => view.setEdges(e.target.checked)}, 'Edges'),
         view.hasHeat && check({id: 'heat', checked: view.state.heat, onchange: (e) => view.setHeat(e.target.checked)},
             'Distance as colour'),
+        view.hasParts && check({id: 'parts', checked: view.state.parts, onchange: (e) => view.setParts(e.target.checked)},
+            'Parts in colours'),
+        view.hasParts && el('div', {class: 'row'}, el('label', {for: 'explosion'}, 'Apart'),
+            el('input', {type: 'range', id: 'explosion', min: 0, max: 1.5, step: 0.01, value: view.state.explosion,
+              oninput: (e) => view.setExplosion(Number(e.target.value))})),
         view.sides.length > 1 && check({id: 'beside', checked: view.state.beside, onchange: (e) => view.setBeside(e.target.checked)},
             'Side by side'));
   }
@@ -274,7 +279,7 @@ export class Panel {
             el('dl', {class: 'keys'}, ...keys.flatMap(([key, what]) =>
               [el('dt', {}, el('kbd', {}, key)), el('dd', {}, what)]))),
         el('p', {class: 'soft', id: 'rounding'},
-            `Numbers are exact, or proven bounds. Only what is drawn is rounded: to steps of ${withUnit(short(step, 2), this.unit)}, ` +
+            `Verdicts and counts are exact, distances are proven bounds. What is drawn is rounded: to steps of ${withUnit(short(step, 2), this.unit)}, ` +
             'a billionth of the longest side. Between its points, colour is interpolated. ' +
             (this.unit ? '' : 'Lengths are in the unit of the mesh. ') + `Made by prohull ${view.scene.version}.`));
   }
