@@ -2,6 +2,7 @@
 
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
+#include "prohull/union_verification.h"
 
 namespace prohull::view {
 namespace {
@@ -15,14 +16,6 @@ nlohmann::json facts_of(const std::vector<Offender>& worst) {
   for (const Offender& o : worst)
     all.push_back({{"face", index(o.face)}, {"point", facts_of(o.point)}, {"distance", o.distance}});
   return all;
-}
-
-Verification verify(const Shown& hull, const TriangleMesh& original, const PageOptions& options) {
-  const VerificationOptions how{
-      .solid_only = options.solid_only, .max_offenders = kMostOffenders, .progress = options.progress};
-  const auto* const levels = std::get_if<ProgressiveHull>(&hull.shape);
-  return levels ? verify_hull(*levels, original, how)
-                : verify_hull(std::get<TriangleMesh>(hull.shape), original, options.side, how);
 }
 
 nlohmann::json facts_of(const Verification& found) {
@@ -44,20 +37,63 @@ nlohmann::json facts_of(const Verification& found) {
           {"notes", found.notes}};
 }
 
+nlohmann::json facts_of(const UnionVerification& found) {
+  return {{"encloses", found.covers},
+          {"proof", "union"},
+          {"original_closed", found.original_closed},
+          {"why_not", found.why_not},
+          {"faces_outside", found.faces_outside},
+          {"worst", facts_of(found.worst)},
+          {"hull_volume", found.union_volume},
+          {"original_volume", found.original_volume},
+          {"void_ratio", found.void_ratio},
+          {"notes", found.notes}};
+}
+
+/// Verifies whatever is shown.
+struct Verify {
+  nlohmann::json operator()(const TriangleMesh& hull) const {
+    return facts_of(verify_hull(hull, original, options.side, how));
+  }
+  nlohmann::json operator()(const ProgressiveHull& hull) const { return facts_of(verify_hull(hull, original, how)); }
+  nlohmann::json operator()(const Pieces& pieces) const { return facts_of(verify_union(pieces, original, how)); }
+  nlohmann::json operator()(const Balls& balls) const { return facts_of(verify_union(balls, original, false, how)); }
+
+  const TriangleMesh& original;
+  const PageOptions& options;
+  VerificationOptions how;
+};
+
+DistanceOptions distance_options(const PageOptions& options) {
+  return {.relative_gap = 0.02, .max_cells = 300'000, .progress = options.progress};
+}
+
+nlohmann::json facts_of(const DistanceBounds& bounds) {
+  return {{"lower", bounds.lower}, {"upper", bounds.upper}, {"farthest", facts_of(bounds.farthest)}};
+}
+
 }  // namespace
 
-nlohmann::json verification_facts(const Shown& hull, const TriangleMesh& original, const PageOptions& options) {
+nlohmann::json verification_facts(const Shown& shown, const TriangleMesh& original, const PageOptions& options) {
+  const VerificationOptions how{
+      .solid_only = options.solid_only, .max_offenders = kMostOffenders, .progress = options.progress};
   try {
-    return facts_of(verify(hull, original, options));
+    return std::visit(Verify{original, options, how}, shown.shape);
   } catch (const InputError& error) {
     return {{"refused", error.what()}};
   }
 }
 
 nlohmann::json distance_facts(const TriangleMesh& from, const TriangleMesh& to, const PageOptions& options) {
-  const DistanceBounds bounds =
-      distance_bounds(from, to, {.relative_gap = 0.02, .max_cells = 300'000, .progress = options.progress});
-  return {{"lower", bounds.lower}, {"upper", bounds.upper}, {"farthest", facts_of(bounds.farthest)}};
+  return facts_of(distance_bounds(from, to, distance_options(options)));
+}
+
+nlohmann::json distance_facts(const Pieces& from, const TriangleMesh& to, const PageOptions& options) {
+  return facts_of(union_reach(from, to, distance_options(options)));
+}
+
+nlohmann::json distance_facts(const Balls& from, const TriangleMesh& to, const PageOptions& options) {
+  return facts_of(union_reach(from, to, distance_options(options)));
 }
 
 nlohmann::json mesh_facts(const TriangleMesh& mesh) {

@@ -51,15 +51,25 @@ std::vector<Vec3> points_on(const TriangleMesh& mesh, const std::vector<std::uin
   return points;
 }
 
+std::vector<double> distances_of(const std::vector<Vec3>& points, const QueryIndex& original, bool outside_only,
+                                 const BatchOptions& batch) {
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  if (outside_only)
+    for (const ClosestPoint& closest : signed_distances(original, points, batch))
+      distances.push_back(std::max(closest.distance, 0.0));
+  else
+    for (const auto& closest : closest_points(original, points, std::numeric_limits<double>::infinity(), batch))
+      distances.push_back(closest->distance);  // the original has faces
+  return distances;
+}
+
 }  // namespace
 
-nlohmann::json heat_facts(const TriangleMesh& mesh, const QueryIndex& original, const BatchOptions& batch,
-                          Blocks& blocks) {
+nlohmann::json heat_facts(const TriangleMesh& mesh, const QueryIndex& original, bool outside_only,
+                          const BatchOptions& batch, Blocks& blocks) {
   const std::vector<std::uint32_t> parts = enough_parts(mesh);
-  std::vector<double> distances;
-  for (const auto& closest :
-       closest_points(original, points_on(mesh, parts), std::numeric_limits<double>::infinity(), batch))
-    distances.push_back(closest->distance);  // the original has faces
+  const std::vector<double> distances = distances_of(points_on(mesh, parts), original, outside_only, batch);
   const double greatest = std::ranges::max(distances);
   std::vector<std::uint32_t> scaled;
   for (const double distance : distances)

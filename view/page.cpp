@@ -25,10 +25,7 @@ bool is_finite(const Triangle& t) {
 }
 
 /// The mesh without faces that are not finite and without vertices that no face uses.
-TriangleMesh drawable(const Shown& shown) {
-  const TriangleMesh mesh = std::holds_alternative<TriangleMesh>(shown.shape)
-                                ? std::get<TriangleMesh>(shown.shape)
-                                : std::get<ProgressiveHull>(shown.shape).original();
+TriangleMesh drawable(const TriangleMesh& mesh, const std::string& name) {
   constexpr VertexId kUnused{0xffffffff};
   PerVertex<VertexId> renumbered(mesh.vertex_count(), kUnused);
   TriangleMesh result;
@@ -41,19 +38,34 @@ TriangleMesh drawable(const Shown& shown) {
     }
     result.triangles.push_back(face);
   }
-  if (result.face_count() == 0) throw InputError(Defect::EmptyMesh, shown.name + ": it has no finite face to show");
+  if (result.face_count() == 0) throw InputError(Defect::EmptyMesh, name + ": it has no finite face to show");
   return result;
 }
 
-Box box_of(const Shown& shown) {
-  const auto* const hull = std::get_if<ProgressiveHull>(&shown.shape);
-  Box box;
-  if (hull)
-    for (const Vec3& p : hull->positions()) box.extend(p);
-  else
-    box = finite_bounding_box(std::get<TriangleMesh>(shown.shape));
-  return box;
+TriangleMesh all_of(const Pieces& pieces) {
+  TriangleMesh all;
+  for (const TriangleMesh& piece : pieces) append(all, piece);
+  return all;
 }
+
+/// What is drawn lies in it.
+struct BoxOf {
+  Box operator()(const TriangleMesh& mesh) const { return finite_bounding_box(mesh); }
+  Box operator()(const Pieces& pieces) const { return finite_bounding_box(all_of(pieces)); }
+  Box operator()(const ProgressiveHull& hull) const {
+    Box box;
+    for (const Vec3& p : hull.positions()) box.extend(p);
+    return box;
+  }
+  Box operator()(const Balls& balls) const {
+    Box box;
+    for (const Ball& ball : balls) {
+      const Vec3 reach{ball.radius, ball.radius, ball.radius};
+      box.extend(ball.center - reach), box.extend(ball.center + reach);
+    }
+    return box;
+  }
+};
 
 /// The mesh that hulls are compared with.
 struct Reference {
@@ -64,11 +76,24 @@ struct Reference {
 
 class Writer {
  public:
-  Writer(const std::vector<Shown>& shown, const std::optional<Shown>& original, const PageOptions& options)
+  Writer(const std::vector<Shown>& shown, const std::optional<Original>& original, const PageOptions& options)
       : options_(options), grid_(scene_box(shown, original)) {
+    if (original) {
+      given_ = &original->mesh;
+      reference_.emplace(drawable(*given_, original->name));
+    }
     json objects = json::array();
-    for (const Shown& s : shown) objects.push_back(facts_of(s, original));
-    if (original) objects.push_back(mesh_object(*original, drawable(*original), "original"));
+    for (const Shown& s : shown) {
+      json facts = std::visit([&](const auto& shape) { return object(s, shape); }, s.shape);
+      facts["name"] = s.name;
+      objects.push_back(facts);
+    }
+    if (original) {
+      json facts = mesh_object(*given_, reference_->mesh);
+      facts["name"] = original->name;
+      facts["role"] = "original";
+      objects.push_back(facts);
+    }
     scene_ = {{"version", options.version}, {"unit", options.unit}, {"grid", grid_.facts()}, {"objects", objects}};
   }
 
@@ -82,52 +107,86 @@ class Writer {
   }
 
  private:
-  static Box scene_box(const std::vector<Shown>& shown, const std::optional<Shown>& original) {
+  static Box scene_box(const std::vector<Shown>& shown, const std::optional<Original>& original) {
     Box box;
-    for (const Shown& s : shown) box.extend(box_of(s));
-    if (original) box.extend(box_of(*original));
+    for (const Shown& s : shown) box.extend(std::visit(BoxOf{}, s.shape));
+    if (original) box.extend(BoxOf{}(original->mesh));
     return box;
-  }
-
-  json facts_of(const Shown& shown, const std::optional<Shown>& original) {
-    if (const auto* const hull = std::get_if<ProgressiveHull>(&shown.shape)) {
-      const TriangleMesh finest = hull->original();
-      const bool is_own = !original;
-      json facts = levels_object(shown, *hull, Reference(is_own ? finest : drawable(*original)), is_own);
-      facts["verification"] =
-          verification_facts(shown, is_own ? finest : std::get<TriangleMesh>(original->shape), options_);
-      return facts;
-    }
-    TriangleMesh mesh = drawable(shown);
-    if (!original) return mesh_object(shown, mesh, "mesh");
-    const Reference reference(drawable(*original));
-    json facts = mesh_object(shown, mesh, "hull");
-    facts["distance"] = distance_facts(mesh, reference.mesh, options_);
-    facts["heat"] = heat_facts(mesh, reference.index, batch(), blocks_);
-    facts["verification"] = verification_facts(shown, std::get<TriangleMesh>(original->shape), options_);
-    return facts;
   }
 
   BatchOptions batch() const { return {.threads = options_.threads, .progress = options_.progress}; }
 
-  json mesh_object(const Shown& shown, const TriangleMesh& mesh, const char* role) {
+  json object(const Shown& shown, const TriangleMesh& given) {
+    const TriangleMesh mesh = drawable(given, shown.name);
+    json facts = mesh_object(given, mesh);
+    if (!reference_) return facts;
+    facts["verification"] = verification_facts(shown, *given_, options_);
+    facts["distance"] = distance_facts(mesh, reference_->mesh, options_);
+    facts["heat"] = heat_facts(mesh, reference_->index, false, batch(), blocks_);
+    return facts;
+  }
+
+  json object(const Shown& shown, const ProgressiveHull& hull) {
+    if (reference_) return levels_object(shown, hull, *given_, *reference_);
+    const TriangleMesh finest = hull.original();
+    return levels_object(shown, hull, finest, Reference(finest));
+  }
+
+  json object(const Shown& shown, const Pieces& pieces) {
+    const TriangleMesh all = all_of(pieces), mesh = drawable(all, shown.name);
+    json facts = mesh_object(all, mesh);
+    facts["union"] = counted(pieces.size(), "piece", "pieces");
+    if (!reference_) return facts;
+    add_union_facts(facts, shown, pieces);
+    if (is_closed(reference_->mesh)) facts["heat"] = heat_facts(mesh, reference_->index, true, batch(), blocks_);
+    return facts;
+  }
+
+  json object(const Shown& shown, const Balls& balls) {
+    if (balls.empty()) throw InputError(Defect::EmptyMesh, shown.name + ": it has no sphere to show");
+    std::vector<std::uint32_t> centers, radii;
+    for (const Ball& ball : balls) {
+      for (const std::uint32_t q : grid_(ball.center)) centers.push_back(q);
+      radii.push_back(static_cast<std::uint32_t>(ball.radius / grid_.step()));
+    }
+    json facts = {{"kind", "balls"},
+                  {"union", counted(balls.size(), "sphere", "spheres")},
+                  {"centers", blocks_.plain(centers)},
+                  {"radii", blocks_.plain(radii)}};
+    facts["role"] = "hull";
+    if (reference_) add_union_facts(facts, shown, balls);
+    return facts;
+  }
+
+  static std::string counted(std::size_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+  }
+
+  template <class Parts>
+  void add_union_facts(json& facts, const Shown& shown, const Parts& parts) const {
+    facts["verification"] = verification_facts(shown, *given_, options_);
+    if (!facts["verification"].contains("refused"))
+      facts["distance"] = distance_facts(parts, reference_->mesh, options_);
+  }
+
+  json mesh_object(const TriangleMesh& given, const TriangleMesh& mesh) {
     std::vector<std::uint32_t> positions, triangles;
     for (const Vec3& p : mesh.positions)
       for (const std::uint32_t q : grid_(p)) positions.push_back(q);
     for (const auto& t : mesh.triangles)
       for (const VertexId v : t) triangles.push_back(index(v));
-    return {{"name", shown.name},
-            {"role", role},
+    return {{"role", "hull"},
             {"kind", "mesh"},
             {"facts", mesh_facts(mesh)},
-            {"left_out", std::get<TriangleMesh>(shown.shape).face_count() - mesh.face_count()},
+            {"left_out", given.face_count() - mesh.face_count()},
             {"positions", blocks_.running(positions, 3)},
             {"triangles", blocks_.running(triangles, 1)}};
   }
 
-  json levels_object(const Shown& shown, const ProgressiveHull& hull, const Reference& reference, bool is_own) {
+  json levels_object(const Shown& shown, const ProgressiveHull& hull, const TriangleMesh& given,
+                     const Reference& reference) {
+    const bool is_own = !reference_;
     json facts = levels_facts(hull, distances_of(hull, reference, is_own), grid_, blocks_);
-    facts["name"] = shown.name;
     facts["role"] = "hull";
     facts["kind"] = "levels";
     facts["side"] = name_of(hull_side_names(), hull.side());
@@ -135,6 +194,7 @@ class Writer {
     facts["base_faces"] = hull.base_face_count();
     facts["original_faces"] = hull.original_face_count();
     facts["original_shown"] = !is_own;
+    facts["verification"] = verification_facts(shown, given, options_);
     if (is_closed(reference.mesh)) add_volumes(facts, hull, signed_volume(turned_outwards(reference.mesh)));
     facts["stops"] = stops_of(hull, reference);
     return facts;
@@ -171,6 +231,8 @@ class Writer {
   }
 
   const PageOptions& options_;
+  const TriangleMesh* given_ = nullptr;  // the original, as it was given
+  std::optional<Reference> reference_;   // the same, as it is drawn
   Grid grid_;
   Blocks blocks_;
   json scene_;
@@ -180,7 +242,7 @@ class Writer {
 
 bool has_page() { return !page_template().empty(); }
 
-std::string page(const std::vector<Shown>& shown, const std::optional<Shown>& original, const PageOptions& options) {
+std::string page(const std::vector<Shown>& shown, const std::optional<Original>& original, const PageOptions& options) {
   if (!has_page()) throw InputError(Defect::CannotRead, std::string(kNoPage));
   const std::string scene = Writer(shown, original, options).elements();
   std::string text;

@@ -6,14 +6,25 @@
 #include <variant>
 #include <vector>
 
+#include "prohull/shapes.h"
 #include "prohull/verification.h"
 
 namespace prohull::view {
 
-/// Something that a page shows, and how the page calls it.
+using Pieces = std::vector<TriangleMesh>;
+using Balls = std::vector<Ball>;
+
+/// Something that a page shows, and how the page calls it: a mesh, all levels of a hull, or pieces or balls that cover
+/// together.
 struct Shown {
   std::string name;
-  std::variant<TriangleMesh, ProgressiveHull> shape;
+  std::variant<TriangleMesh, ProgressiveHull, Pieces, Balls> shape;
+};
+
+/// The mesh that all of it is compared with.
+struct Original {
+  std::string name;
+  TriangleMesh mesh;
 };
 
 struct PageOptions {
@@ -33,9 +44,9 @@ constexpr std::string_view kNoPage =
 
 /// A page of HTML that shows hulls, and the mesh that they are hulls of, in any browser. It needs no other file and no
 /// network. Verdicts and counts on it are exact, distances are proven bounds; what is drawn is rounded. Without an
-/// original, a progressive hull is compared with its own finest level, and meshes with nothing. Faces that are not
-/// finite are left out, which is said. Throws InputError if a mesh has no finite face, and if there is no page
-/// (has_page); Cancelled.
-std::string page(const std::vector<Shown>& shown, const std::optional<Shown>& original, const PageOptions& options);
+/// original, a progressive hull is compared with its own finest level, and all else with nothing. Faces that are not
+/// finite are left out, which is said. Throws InputError if a mesh has no finite face, if there are no pieces or balls,
+/// and if there is no page (has_page); Cancelled.
+std::string page(const std::vector<Shown>& shown, const std::optional<Original>& original, const PageOptions& options);
 
 }  // namespace prohull::view

@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "prohull/error.h"
+#include "union_files.h"
 
 namespace prohull::cli {
 namespace {
@@ -12,7 +13,7 @@ struct Options {
   std::vector<std::filesystem::path> in;
   std::filesystem::path out, original;
   HullSide side = HullSide::Outer;
-  bool solid_only = false;
+  bool solid_only = false, is_union = false;
   unsigned threads = 0;
   InputOptions input, original_input;
 };
@@ -24,24 +25,38 @@ std::string shown_name(const std::filesystem::path& path) {
   return is_standard_stream(path) ? input_name(path) : path.filename().string();
 }
 
-std::vector<view::Shown> read_shown(const Options& options) {
+view::Shown read_shown(const Options& options, const std::filesystem::path& path) {
+  const std::string name = shown_name(path);
+  if (options.is_union) {
+    Union found = read_union({path}, options.input, "");
+    if (found.pieces.empty()) return {name, std::move(found.balls)};
+    if (found.balls.empty()) return {name, std::move(found.pieces)};
+    throw InputError(Defect::InvalidOption,
+                     path.string() + ": a page shows pieces or spheres, but not both of one file");
+  }
+  MeshOrHull read = read_mesh_or_hull(path, options.input, NonFinite::Keep);
+  if (auto* const hull = std::get_if<ProgressiveHull>(&read)) return {name, std::move(*hull)};
+  return {name, std::get<TriangleMesh>(std::move(read))};
+}
+
+std::vector<view::Shown> read_all_shown(const Options& options) {
   std::vector<view::Shown> shown;
   for (const auto& path : options.in) {
-    shown.push_back({shown_name(path), read_mesh_or_hull(path, options.input, NonFinite::Keep)});
+    shown.push_back(read_shown(options, path));
     stop_if_interrupted();
   }
   return shown;
 }
 
-std::optional<view::Shown> read_original(const Options& options) {
+std::optional<view::Original> read_original(const Options& options) {
   if (options.original.empty()) return std::nullopt;
-  return view::Shown{shown_name(options.original),
-                     read_input(options.original, options.original_input, NonFinite::Keep)};
+  return view::Original{shown_name(options.original),
+                        read_input(options.original, options.original_input, NonFinite::Keep)};
 }
 
 std::string written_page(const Options& options) {
   ProgressLine line;
-  return view::page(read_shown(options), read_original(options),
+  return view::page(read_all_shown(options), read_original(options),
                     {.side = options.side,
                      .solid_only = options.solid_only,
                      .unit = options.original_input.unit > 0 ? "m" : "",
@@ -95,12 +110,17 @@ void add_view(CLI::App& app, Run& run) {
   add_unit_options(command, options->original_input, "M (the same as `prohull build` was given for it)");
   add_choice(command, "--side", options->side, hull_side_names(),
              "Side on which the hulls lie. With inner, M should enclose IN. A .phull file knows its side.");
+  command.add_flag("--union", options->is_union,
+                   "IN are files of pieces or spheres that cover M together, as `prohull verify --union` reads them: "
+                   "each connected component of a mesh is a piece.");
   command.add_flag("--solid-only", options->solid_only,
                    "Ask only for the solid that a closed mesh bounds, as `prohull verify --solid-only` does.");
   add_threads_option(command, options->threads, "The page is the same for any number.");
   add_examples(command,
                {"prohull view horse.phull -o horse.html", "prohull view hull.stl --original horse.ply -o view.html",
                 "prohull view coarse.stl fine.stl --original part.stl -o compare.html",
+                "prohull view --union pieces.obj --original part.stl -o pieces.html",
+                "prohull view --union spheres.yaml --original part.stl -o spheres.html",
                 "prohull view occluder.obj --original rock.obj --side inner -o occluder.html",
                 "prohull view arm_collision.stl --original arm.stl --unit mm -o arm.html"});
   command.callback([options, &run] {

@@ -95,7 +95,7 @@ TEST_F(ViewPage, NamesNoOtherPlace) {
 }
 
 TEST_F(ViewPage, IsTheSameForAnyNumberOfThreads) {
-  const Shown original{"torus.ply", make_sample("torus", 600)};
+  const Original original{"torus.ply", make_sample("torus", 600)};
   const std::vector<Shown> shown{{"hull.phull", small_hull()}, {"hull.stl", small_hull().base()}};
   EXPECT_EQ(page(shown, original, {.threads = 1}), page(shown, original, {.threads = 3}));
 }
@@ -115,7 +115,7 @@ TEST_F(ViewPage, LeavesOutWhatIsNotFinite) {
 TEST_F(ViewPage, SaysWhyAHullCannotBeVerified) {
   TriangleMesh open = make_sample("box", 100);
   open.triangles.pop_back();
-  const std::string text = page({{"open.stl", open}}, Shown{"box.stl", make_sample("box", 100)}, {});
+  const std::string text = page({{"open.stl", open}}, Original{"box.stl", make_sample("box", 100)}, {});
   EXPECT_NE(text.find("\"refused\":"), std::string::npos);
 }
 

@@ -1,5 +1,6 @@
 // Opens the page: reads its scene, and connects picture, panel, keys and address.
 
+import {ballsMesh} from './balls.js';
 import {numbers, readBlocks} from './blocks.js';
 import {Body} from './body.js';
 import {byId, el, grouped} from './dom.js';
@@ -40,11 +41,13 @@ class View {
   readMeshes(bytes) {
     for (const object of this.scene.objects) {
       if (object.kind === 'levels') object.levels = new Levels(object, bytes);
-      else object.steps = numbers(bytes, object.positions);
+      else if (object.kind === 'mesh') object.steps = numbers(bytes, object.positions);
+      else Object.assign(object, {steps: numbers(bytes, object.centers), stepsAround: numbers(bytes, object.radii)});
     }
-    this.space = new Space(this.scene.grid, this.scene.objects.map((o) => o.levels?.steps ?? o.steps));
+    this.space = new Space(this.scene.grid, this.scene.objects.map((o) => [o.levels?.steps ?? o.steps, o.stepsAround]));
     for (const object of this.scene.objects) {
       if (object.levels) object.levels.place(this.space);
+      else if (object.kind === 'balls') object.mesh = ballsMesh(this.space.drawn(object.steps), this.space.lengths(object.stepsAround));
       else object.mesh = {positions: this.space.drawn(object.steps), triangles: numbers(bytes, object.triangles)};
       object.steps = null;
     }
@@ -97,7 +100,7 @@ class View {
       const mesh = levels ? {positions: levels.positions, triangles: levels.corners, heat: levels.heat} : hull.mesh;
       const color = isAlone && this.hulls.length === 1 ? CLAY : MORE[i % MORE.length];
       hull.body = this.addBody({label: hull.name, role: 'hull', mesh, color, striped: !isAlone, order: order(hull),
-        closed: levels ? true : hull.facts.watertight,
+        closed: hull.facts?.watertight ?? true,
         divided: hull.heat && !levels ? dividedMesh(hull.mesh, hull.heat, bytes) : null});
     });
     this.makeSides();

@@ -7,7 +7,7 @@ const FINEST_LEVEL = {
   repaired: 'the repaired input', 'convex-hull': 'the convex hull of the input', wrap: 'a wrap of the input'};
 
 const withUnit = (text, unit) => unit ? `${text} ${unit}` : text;
-const table = (rows) => el('table', {}, ...rows.filter(Boolean).map(
+const table = (rows) => el('table', {}, ...rows.filter((row) => row && row[1] !== null).map(
     ([what, ...found]) => el('tr', {}, el('th', {scope: 'row'}, what), el('td', {}, ...found))));
 const check = (attributes, text, swatch) =>
     el('label', {class: 'check'}, el('input', {type: 'checkbox', ...attributes}), swatch,
@@ -26,6 +26,10 @@ export function verdictOf(object, original) {
   if (v.refused) return ['open', '?', 'Not decided', v.refused];
   const [subject, other] = v.side === 'inner' ? [original, object.name] : [object.name, original];
   const verb = v.original_closed ? 'enclose' : 'cover';
+  if (v.proof === 'union') {
+    return v.encloses ? ['good', '✓', 'Covers', `${object.union} cover ${other} together: decided exactly.`]
+                      : ['bad', '✗', 'Does not cover', v.why_not];
+  }
   if (!v.encloses) return ['bad', '✗', `Does not ${verb}`, v.why_not];
   const replayed = v.proof === 'replay' &&
       `Every level: ${counted(v.splits, 'split', 'splits')} replayed, ${counted(v.signs, 'sign', 'signs')} exact.`;
@@ -194,7 +198,7 @@ export class Panel {
     this.live.far = el('p', {id: 'far'});
     const fly = el('button', {type: 'button', id: 'fly-far', onclick: () => this.view.flyTo(this.farthest().farthest)},
         el('span', {class: 'far-mark', 'aria-hidden': 'true'}, '★ '), 'Show the farthest point');
-    return el('section', {}, el('h2', {}, 'Distance to the original'), this.live.far, fly);
+    return el('section', {}, el('h2', {}, this.object.union ? 'Reach out of the original' : 'Distance to the original'), this.live.far, fly);
   }
 
   showFarthest() {
@@ -226,10 +230,11 @@ export class Panel {
           ['Vertex splits', grouped(object.levels.count)],
           ['Side', object.side],
           FINEST_LEVEL[object.finest_level] && ['Finest level', FINEST_LEVEL[object.finest_level]]]
-        : [['Faces', grouped(facts.faces)], ['Vertices', grouped(facts.vertices)],
+        : !facts ? [['Parts', object.union]]
+        : [['Parts', object.union ?? null], ['Faces', grouped(facts.faces)], ['Vertices', grouped(facts.vertices)],
           ['Watertight', facts.watertight ? 'yes' : 'no'],
-          facts.components > 1 && ['Components', grouped(facts.components)],
-          facts.volume !== null && ['Volume', withUnit(short(facts.volume, 7), cubic)],
+          !object.union && facts.components > 1 && ['Components', grouped(facts.components)],
+          facts.volume !== null && !object.union && ['Volume', withUnit(short(facts.volume, 7), cubic)],
           ['Size', withUnit(facts.size.map((x) => short(x)).join(' × '), unit)],
           ...facts.defects.map(({what, count}) => [what, grouped(count)]),
           object.left_out > 0 && ['Not finite, left out', counted(object.left_out, 'face', 'faces')]];
@@ -237,7 +242,7 @@ export class Panel {
         ? [!object.levels && v.void_ratio !== null && ['Void', percent(v.void_ratio)],
           v.hull_volume !== null && [object.levels ? 'Volume of the base' : 'Volume, verified', withUnit(short(v.hull_volume, 7), cubic)],
           v.original_volume !== null && ['Volume of the original', withUnit(short(v.original_volume, 7), cubic)],
-          v.self_intersections !== null && ['Self-intersections', counted(v.self_intersections, 'pair', 'pairs')]]
+          v.self_intersections !== undefined && ['Self-intersections', counted(v.self_intersections ?? 0, 'pair', 'pairs')]]
         : [];
     return el('section', {id: 'facts'}, el('h2', {}, 'Numbers'), table([...rows, ...proof]),
         ...(v?.notes ?? []).map((note) => el('p', {class: 'soft'}, note)),

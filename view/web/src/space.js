@@ -3,14 +3,16 @@
 const STEPS = 2 ** 30 - 1;
 
 export class Space {
+  /** `arrays` has points as steps of the grid, each with how far things reach around its points, or without. */
   constructor({origin, step}, arrays) {
     this.origin = origin;
     this.side = step * STEPS;  // in the unit of the meshes
     const most = [0, 0, 0], least = [STEPS, STEPS, STEPS];
-    for (const steps of arrays)
+    for (const [steps, around] of arrays)
       for (let i = 0; i < steps.length; ++i) {
-        most[i % 3] = Math.max(most[i % 3], steps[i]);
-        least[i % 3] = Math.min(least[i % 3], steps[i]);
+        const reach = around ? around[Math.floor(i / 3)] : 0;
+        most[i % 3] = Math.max(most[i % 3], steps[i] + reach);
+        least[i % 3] = Math.min(least[i % 3], steps[i] - reach);
       }
     this.middle = most.map((m, k) => (m + least[k]) / 2 / STEPS);
     this.half = most.map((m, k) => (m - least[k]) / 2 / STEPS);
@@ -22,6 +24,8 @@ export class Space {
     for (let i = 0; i < steps.length; ++i) points[i] = steps[i] / STEPS - this.middle[i % 3];
     return points;
   }
+
+  lengths(steps) { return Float32Array.from(steps, (x) => x / STEPS); }
 
   /** Of a point in the unit of the meshes. */
   at(point) {
