@@ -220,6 +220,26 @@ const tests = {
     await closed(page);
   },
 
+  async 'pieces and spheres have colours and move apart'() {
+    run('convex', at('pony.ply'), '--pieces', '4', '-o', at('pieces.obj'));
+    run('view', '--union', at('pieces.obj'), '--original', at('pony.ply'), '-o', at('pieces.html'));
+    fs.writeFileSync(at('spheres.yaml'), `collision_spheres: {pony: [${
+        [0, 1, 2].map((i) => `{center: [${i}, 0, 0], radius: 0.4}`).join(', ')}]}\n`);
+    run('view', '--union', at('spheres.yaml'), '--original', at('sphere.ply'), '-o', at('spheres.html'));
+    for (const [file, parts, verdict] of [['pieces.html', '4 pieces', /^✓Covers/], ['spheres.html', '3 spheres', /^✗Does not cover/]]) {
+      const page = await opened(file);
+      assert.match(await text(page, 'verdict'), verdict);
+      assert.ok((await text(page, 'facts')).includes(`Parts${parts}`));
+      const together = await picture(page);
+      await page.locator('#explosion').fill('0.5');
+      const apart = await picture(page);
+      assert.notEqual(apart.sum, together.sum);
+      await page.uncheck('#parts');
+      assert.notEqual((await picture(page)).sum, apart.sum);
+      await closed(page);
+    }
+  },
+
   async 'keys do what the mouse does'() {
     const page = await opened('levels.html');
     await page.focus('#canvas');
