@@ -10,8 +10,8 @@ namespace prohull::view {
 /// What `prohull verify` finds, for pieces and balls with --union; or why it cannot be asked.
 nlohmann::json verification_facts(const Shown& shown, const TriangleMesh& original, const PageOptions& options);
 
-/// Proven bounds of how far it is from the original, and the farthest point. Of pieces and balls, how far they reach out
-/// of it.
+/// Proven bounds of how far it is from the original, and the farthest point. Of pieces and balls, how far they reach
+/// out of it.
 nlohmann::json distance_facts(const TriangleMesh& from, const TriangleMesh& to, const PageOptions& options);
 nlohmann::json distance_facts(const Pieces& from, const TriangleMesh& to, const PageOptions& options);
 nlohmann::json distance_facts(const Balls& from, const TriangleMesh& to, const PageOptions& options);

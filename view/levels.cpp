@@ -55,7 +55,7 @@ class Replay {
  private:
   /// The face whose first vertex stands at this corner.
   static std::array<VertexId, 3> turned(std::array<VertexId, 3> face, std::uint32_t corner) {
-    std::ranges::rotate(face, face.begin() + (3 - corner % 3) % 3);
+    std::rotate(face.begin(), face.begin() + (3 - corner % 3) % 3, face.end());
     return face;
   }
 

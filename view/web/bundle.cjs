@@ -37,7 +37,7 @@ const page = fs.readFileSync(path.join(src, 'page.html'), 'utf8')
 const literals = [];
 for (let at = 0; at < page.length;) {
   let end = Math.min(at + LONGEST, page.length);
-  literals.push(`    R"PAGE(${page.slice(at, end)})PAGE",\n`);
+  literals.push(`    R"PAGE(${page.slice(at, end)})PAGE"sv,\n`);
   at = end;
 }
 fs.writeFileSync(out, `#include <array>
@@ -46,6 +46,8 @@ fs.writeFileSync(out, `#include <array>
 
 namespace prohull::view {
 namespace {
+
+using namespace std::string_view_literals;
 
 constexpr std::array<std::string_view, ${literals.length}> kParts{
 ${literals.join('')}};
