@@ -44,7 +44,7 @@ room(collide   OWNS collide                                                     
 set(outside render robot view kdop apps examples python)
 set(may_render render)
 set(may_robot robot render)
-set(may_view view)
+set(may_view view robot)
 set(may_kdop kdop query geometry)  # an engine as those of src/query
 set(may_apps render robot view kdop)
 set(may_examples "")

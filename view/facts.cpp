@@ -59,6 +59,8 @@ struct Verify {
   nlohmann::json operator()(const Pieces& pieces) const { return facts_of(verify_union(pieces, original, how)); }
   nlohmann::json operator()(const Balls& balls) const { return facts_of(verify_union(balls, original, false, how)); }
 
+  nlohmann::json operator()(const ShownRobot&) const { return {}; }
+
   const TriangleMesh& original;
   const PageOptions& options;
   VerificationOptions how;

@@ -13,6 +13,7 @@
 #include "view/grid.h"
 #include "view/heat.h"
 #include "view/levels.h"
+#include "view/robot.h"
 #include "view/template.h"
 
 namespace prohull::view {
@@ -55,6 +56,12 @@ struct BoxOf {
   Box operator()(const ProgressiveHull& hull) const {
     Box box;
     for (const Vec3& p : hull.positions()) box.extend(p);
+    return box;
+  }
+  Box operator()(const ShownRobot& shown) const {
+    Box box = box_at_rest(shown);
+    for (const auto* const meshes : {&shown.visual, &shown.collision})
+      for (const TriangleMesh& mesh : *meshes) box.extend(finite_bounding_box(mesh));  // where its numbers are
     return box;
   }
   Box operator()(const Balls& balls) const {
@@ -156,6 +163,27 @@ class Writer {
     facts["role"] = "hull";
     if (reference_) add_union_facts(facts, shown, balls);
     return facts;
+  }
+
+  json object(const Shown& shown, const ShownRobot& robot) {
+    const Box box = box_at_rest(robot);
+    if (box.is_empty()) throw InputError(Defect::EmptyMesh, shown.name + ": the robot has no geometry to draw");
+    std::vector<std::uint32_t> corners;
+    for (const Vec3& corner : {box.min, box.max})
+      for (const std::uint32_t q : grid_(corner)) corners.push_back(q);
+    json links = json::array();
+    for (std::size_t i = 0; i < robot.robot.links.size(); ++i)
+      links.push_back({{"name", robot.robot.links[i].name},
+                       {"visual", link_object(shown, robot.visual[i])},
+                       {"collision", link_object(shown, robot.collision[i])}});
+    json facts = {{"role", "hull"}, {"kind", "robot"}, {"links", links}, {"joints", joint_facts(robot.robot)}};
+    facts["corners"] = blocks_.plain(corners);
+    return facts;
+  }
+
+  json link_object(const Shown& shown, const TriangleMesh& mesh) {
+    if (mesh.face_count() == 0) return {};
+    return mesh_object(mesh, drawable(mesh, shown.name));
   }
 
   static std::string counted(std::size_t count, const char* one, const char* many) {

@@ -8,17 +8,24 @@
 
 #include "prohull/shapes.h"
 #include "prohull/verification.h"
+#include "robot/model.h"
 
 namespace prohull::view {
 
 using Pieces = std::vector<TriangleMesh>;
 using Balls = std::vector<Ball>;
 
-/// Something that a page shows, and how the page calls it: a mesh, all levels of a hull, or pieces or balls that cover
-/// together.
+/// A robot, and for each of its links what there is to draw, in the frame of the link; meshes may be empty.
+struct ShownRobot {
+  robot::Robot robot;
+  std::vector<TriangleMesh> visual, collision;
+};
+
+/// Something that a page shows, and how the page calls it: a mesh, all levels of a hull, pieces or balls that cover
+/// together, or a robot, which is compared with nothing.
 struct Shown {
   std::string name;
-  std::variant<TriangleMesh, ProgressiveHull, Pieces, Balls> shape;
+  std::variant<TriangleMesh, ProgressiveHull, Pieces, Balls, ShownRobot> shape;
 };
 
 /// The mesh that all of it is compared with.

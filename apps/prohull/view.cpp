@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "command.h"
 #include "prohull/error.h"
+#include "robot/files/robot_file.h"
+#include "robot/link_triangles.h"
 #include "union_files.h"
 
 namespace prohull::cli {
@@ -16,6 +20,7 @@ struct Options {
   bool solid_only = false, is_union = false;
   unsigned threads = 0;
   InputOptions input, original_input;
+  robot::FileOptions robots;
 };
 
 constexpr std::size_t kMostShown = 8;
@@ -23,6 +28,16 @@ constexpr std::size_t kMostShown = 8;
 /// The page names files, not folders.
 std::string shown_name(const std::filesystem::path& path) {
   return is_standard_stream(path) ? input_name(path) : path.filename().string();
+}
+
+view::ShownRobot read_robot(const Options& options, const std::filesystem::path& path) {
+  view::ShownRobot shown{robot::read_robot(path, options.robots).robot, {}, {}};
+  for (const robot::Link& link : shown.robot.links) {
+    shown.visual.push_back(robot::link_triangles(link.visual, {}));
+    shown.collision.push_back(robot::link_triangles(link.collision, {}));
+    stop_if_interrupted();
+  }
+  return shown;
 }
 
 view::Shown read_shown(const Options& options, const std::filesystem::path& path) {
@@ -34,6 +49,7 @@ view::Shown read_shown(const Options& options, const std::filesystem::path& path
     throw InputError(Defect::InvalidOption,
                      path.string() + ": a page shows pieces or spheres, but not both of one file");
   }
+  if (is_robot_file(path)) return {name, read_robot(options, path)};
   MeshOrHull read = read_mesh_or_hull(path, options.input, NonFinite::Keep);
   if (auto* const hull = std::get_if<ProgressiveHull>(&read)) return {name, std::move(*hull)};
   return {name, std::get<TriangleMesh>(std::move(read))};
@@ -54,12 +70,18 @@ std::optional<view::Original> read_original(const Options& options) {
                         read_input(options.original, options.original_input, NonFinite::Keep)};
 }
 
+/// Robots are in metres, and so is what --unit converts.
+std::string unit_of(const Options& options) {
+  const bool is_metres = options.original_input.unit > 0 || std::ranges::any_of(options.in, is_robot_file);
+  return is_metres ? "m" : "";
+}
+
 std::string written_page(const Options& options) {
   ProgressLine line;
   return view::page(read_all_shown(options), read_original(options),
                     {.side = options.side,
                      .solid_only = options.solid_only,
-                     .unit = options.original_input.unit > 0 ? "m" : "",
+                     .unit = unit_of(options),
                      .version = PROHULL_VERSION,
                      .threads = options.threads,
                      .progress = std::ref(line)});
@@ -95,7 +117,9 @@ void add_view(CLI::App& app, Run& run) {
       "bounds.");
   command
       .add_option("in", options->in,
-                  std::string("Hulls or meshes to show; of a .phull file a slider shows all levels. ") + kMeshFiles)
+                  std::string("Hulls, meshes or robots to show. Of a .phull file a slider shows all levels; of a robot "
+                              "(.urdf, .xacro, .sdf, .mjcf, .xml), sliders move the joints. ") +
+                      kMeshFiles)
       ->required()
       ->type_name("IN");
   command.add_option("-o,--out", options->out, "File for the page, .html. With - it goes to standard output.")
@@ -107,6 +131,7 @@ void add_view(CLI::App& app, Run& run) {
                   "from it and where. Without this option, a .phull file is compared with its own finest level.")
       ->type_name("M");
   add_format_option(command, options->input);
+  add_package_path_option(command, options->robots.package_paths);
   add_unit_options(command, options->original_input, "M (the same as `prohull build` was given for it)");
   add_choice(command, "--side", options->side, hull_side_names(),
              "Side on which the hulls lie. With inner, M should enclose IN. A .phull file knows its side.");
@@ -121,8 +146,9 @@ void add_view(CLI::App& app, Run& run) {
                 "prohull view coarse.stl fine.stl --original part.stl -o compare.html",
                 "prohull view --union pieces.obj --original part.stl -o pieces.html",
                 "prohull view --union spheres.yaml --original part.stl -o spheres.html",
+                "prohull view arm_safe/arm.urdf -o arm.html",
                 "prohull view occluder.obj --original rock.obj --side inner -o occluder.html",
-                "prohull view arm_collision.stl --original arm.stl --unit mm -o arm.html"});
+                "prohull view arm_collision.stl --original arm.stl --unit mm -o link.html"});
   command.callback([options, &run] {
     options->original_input.format = options->input.format;  // one of them may be standard input
     run = [options] { return run_view(*options); };

@@ -81,6 +81,39 @@ const shownVolume = (page) => page.evaluate(() => {
   return sum / 6 * prohullView.space.side ** 3;
 });
 
+// Forward kinematics of a URDF without mimicking joints, on its own: rows of rotation matrices, and where origins are.
+const times = (a, b) => a.map((row) => [0, 1, 2].map((j) => row.reduce((sum, x, k) => sum + x * b[k][j], 0)));
+const turnedBy = (r, v) => r.map((row) => row.reduce((sum, x, k) => sum + x * v[k], 0));
+/** Rodrigues' formula. */
+function rotation([x, y, z], angle) {
+  const c = Math.cos(angle), s = Math.sin(angle), t = 1 - c;
+  return [[t * x * x + c, t * x * y - s * z, t * x * z + s * y], [t * x * y + s * z, t * y * y + c, t * y * z - s * x],
+    [t * x * z - s * y, t * y * z + s * x, t * z * z + c]];
+}
+function jointsOf(urdf) {
+  const numbersOf = (text, otherwise) => text ? text.trim().split(/\s+/).map(Number) : otherwise;
+  return [...urdf.matchAll(/<joint name="([^"]*)" type="([^"]*)">(.*?)<\/joint>/gs)].map(([, name, type, body]) => {
+    const found = (pattern) => body.match(pattern)?.[1];
+    return {name, type, parent: found(/parent link="([^"]*)"/), child: found(/child link="([^"]*)"/),
+      xyz: numbersOf(found(/<origin[^>]*xyz="([^"]*)"/), [0, 0, 0]), rpy: numbersOf(found(/<origin[^>]*rpy="([^"]*)"/), [0, 0, 0]),
+      axis: numbersOf(found(/<axis xyz="([^"]*)"/), [1, 0, 0])};
+  });
+}
+function linkOrigins(joints, positions) {
+  const poses = {};
+  const poseOf = (link) => {
+    const joint = joints.find(({child}) => child === link);
+    if (!joint) return {r: rotation([1, 0, 0], 0), t: [0, 0, 0]};
+    if (poses[link]) return poses[link];
+    const parent = poseOf(joint.parent), [roll, pitch, yaw] = joint.rpy;
+    const own = times(rotation([0, 0, 1], yaw), times(rotation([0, 1, 0], pitch), rotation([1, 0, 0], roll)));
+    const angle = ['revolute', 'continuous'].includes(joint.type) ? positions[joint.name] ?? 0 : 0;
+    const shift = turnedBy(parent.r, joint.xyz);
+    return poses[link] = {r: times(parent.r, times(own, rotation(joint.axis, angle))), t: parent.t.map((x, k) => x + shift[k])};
+  };
+  return Object.fromEntries(joints.map(({child}) => [child, poseOf(child).t]));
+}
+
 function makeFiles() {
   run('sample', 'pony', '-o', at('pony.ply'), '--faces', '6000');
   run('build', at('pony.ply'), '--faces', '400', '-o', at('hull.stl'), '--hierarchy', at('pony.phull'));
@@ -238,6 +271,43 @@ const tests = {
       assert.notEqual((await picture(page)).sum, apart.sum);
       await closed(page);
     }
+  },
+
+  async 'joint sliders move links to where forward kinematics puts them'() {
+    run('sample', 'arm', '-o', at('arm'));
+    run('view', at('arm/arm.urdf'), '-o', at('arm.html'));
+    const page = await opened('arm.html');
+    const rest = await picture(page), joints = jointsOf(fs.readFileSync(at('arm/arm.urdf'), 'utf8'));
+    const positions = {};
+    for (const [i, name] of (await page.evaluate(() => prohullView.active.robot.free.map(({name}) => name))).entries()) {
+      await page.locator(`#joint-${i}`).focus();
+      for (let k = 0; k <= i; ++k) await page.keyboard.press('PageUp');
+      positions[name] = await page.evaluate((at) => Number(document.getElementById(`joint-${at}`).value), i);
+    }
+    assert.ok(Object.values(positions).some((x) => x !== 0));
+    const expected = linkOrigins(joints, positions);
+    const shown = await page.evaluate(() => {
+      const {links, linkBodies} = prohullView.active, {space} = prohullView;
+      const local = space.at([0, 0, 0]);
+      return links.map(({name}, i) => {
+        const m = linkBodies[i][0]?.moved.matrix.elements;
+        return [name, m && space.point([0, 1, 2].map((k) => m[k] * local[0] + m[4 + k] * local[1] + m[8 + k] * local[2] + m[12 + k]))];
+      });
+    });
+    let compared = 0;
+    for (const [name, point] of shown) {
+      if (!point || !expected[name]) continue;
+      ++compared;
+      point.forEach((x, k) => assert.ok(Math.abs(x - expected[name][k]) < 1e-6, `${name}: ${point} is not ${expected[name]}`));
+    }
+    assert.ok(compared >= 7, 'all links of the arm are compared');
+    assert.notEqual((await picture(page)).sum, rest.sum);
+    const again = await opened('arm.html', {fragment: await fragment(page)});
+    assert.equal(await text(again, 'joint-value-0'), await text(page, 'joint-value-0'), 'the address has the joints');
+    await closed(again);
+    await page.click('#rest');
+    assert.equal((await picture(page)).sum, rest.sum);
+    await closed(page);
   },
 
   async 'keys do what the mouse does'() {

@@ -32,6 +32,9 @@ export class Body {
     this.color = color;
     this.closed = closed;
     this.group = new THREE.Group();
+    this.moved = new THREE.Group();  // all but the cap, which lies in the plane
+    this.moved.matrixAutoUpdate = false;
+    this.group.add(this.moved);
     this.geometry = geometryOf(mesh);
     this.material = surfaceMaterial(rgb(color), depth);
     this.surface = this.add(new THREE.Mesh(this.geometry, this.material), order);
@@ -45,6 +48,7 @@ export class Body {
       this.add(new THREE.Mesh(this.geometry, countingMaterial(side, operation)), order + 0.1));
     this.cap = this.add(new THREE.Mesh(new THREE.PlaneGeometry(8, 8), capMaterial(rgb(color), striped ? 1 : 0)),
         order + 0.2);
+    this.group.add(this.cap);
     this.cap.onAfterRender = (renderer) => renderer.clearStencil();
     this.showCap(null);
   }
@@ -55,8 +59,16 @@ export class Body {
     object.frustumCulled = false;
     object.renderOrder = order;
     if (object.geometry.attributes.shift) object.material.defines = {PARTS: 1};
-    this.group.add(object);
+    this.moved.add(object);
     return object;
+  }
+
+  get groups() { return [this.group]; }
+
+  /** Moves it; the matrix is that of THREE.js. */
+  move(matrix) {
+    this.moved.matrix.copy(matrix);
+    this.moved.matrixWorldNeedsUpdate = true;
   }
 
   get visible() { return this.group.visible; }
@@ -134,4 +146,24 @@ export class Body {
     this.geometry.attributes.heat.needsUpdate = true;
     if (this.edges?.visible) this.updateEdges();
   }
+}
+
+/** Several bodies that are switched together, such as those of a robot's links. */
+export class Bodies {
+  constructor(bodies, color) {
+    this.bodies = bodies;
+    this.color = color;
+    this.hasParts = false;
+  }
+
+  get groups() { return this.bodies.flatMap((body) => body.groups); }
+  get visible() { return this.bodies.some((body) => body.visible); }
+  set visible(is) { this.each((body) => { body.visible = is; }); }
+  each(act) { this.bodies.forEach(act); }
+  setOpacity(opacity) { this.each((body) => body.setOpacity(opacity)); }
+  showEdges(is) { this.each((body) => body.showEdges(is)); }
+  setEdgeColor(color) { this.each((body) => body.setEdgeColor(color)); }
+  showHeat(is) { this.each((body) => body.showHeat(is)); }
+  setHeatFactor(factor) { this.each((body) => body.setHeatFactor(factor)); }
+  showCap(cut) { this.each((body) => body.showCap(cut)); }
 }

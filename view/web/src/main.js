@@ -2,7 +2,7 @@
 
 import {ballsMesh} from './balls.js';
 import {numbers, readBlocks} from './blocks.js';
-import {Body} from './body.js';
+import {Bodies, Body} from './body.js';
 import {byId, el, grouped} from './dom.js';
 import {dividedMesh} from './heat.js';
 import {Levels} from './levels.js';
@@ -10,6 +10,7 @@ import {Panel} from './panel.js';
 import {explosion, showsParts} from './materials.js';
 import {partsOf} from './parts.js';
 import {Refinement} from './query.js';
+import {Robot, drawnPose, linkMesh} from './robot.js';
 import {Space} from './space.js';
 import {between, numbersOf, readFragment, writeFragment} from './state.js';
 import {Viewport} from './viewport.js';
@@ -41,6 +42,7 @@ class View {
   readMeshes(bytes) {
     for (const object of this.scene.objects) {
       if (object.kind === 'levels') object.levels = new Levels(object, bytes);
+      else if (object.kind === 'robot') Object.assign(object, {robot: new Robot(object), steps: numbers(bytes, object.corners)});
       else if (object.kind === 'mesh') object.steps = numbers(bytes, object.positions);
       else Object.assign(object, {steps: numbers(bytes, object.centers), stepsAround: numbers(bytes, object.radii)});
     }
@@ -48,17 +50,18 @@ class View {
     for (const object of this.scene.objects) {
       if (object.levels) object.levels.place(this.space);
       else if (object.kind === 'balls') object.mesh = ballsMesh(this.space.drawn(object.steps), this.space.lengths(object.stepsAround));
-      else object.mesh = {positions: this.space.drawn(object.steps), triangles: numbers(bytes, object.triangles)};
+      else if (object.kind === 'mesh') object.mesh = {positions: this.space.drawn(object.steps), triangles: numbers(bytes, object.triangles)};
       object.steps = null;
     }
   }
 
   readState(text) {
-    const alone = !this.given && !this.hulls.some((hull) => hull.levels);
+    const robots = this.hulls.some((hull) => hull.robot);
+    const alone = !this.given && !robots && !this.hulls.some((hull) => hull.levels);
     this.state = {
       faces: between(text.l, 0, 1e12, null),
       opacity: between(text.o, 0.05, 1, alone ? 1 : 0.4),
-      edges: text.e ? text.e === '1' : !alone,
+      edges: text.e ? text.e === '1' : !alone && !robots,
       heat: text.h === '1',
       beside: text.b === '1',
       parts: text.u !== '0',
@@ -71,6 +74,7 @@ class View {
       active: between(text.n, 0, this.hulls.length - 1, 0),
       theme: ['dark', 'light'].includes(text.t) ? text.t : null,
       look: numbersOf(text.v, 6),
+      joints: text.j ? text.j.split(',').map(Number) : null,
       ray: numbersOf(text.r, 6),
     };
     this.active = this.hulls[Math.round(this.state.active)];
@@ -95,6 +99,7 @@ class View {
     }
     const isAlone = this.bodies.length === 0;
     this.hulls.forEach((hull, i) => {
+      if (hull.robot) return this.addRobot(hull, MORE[i % MORE.length], bytes);
       const {levels} = hull;
       if (!levels) Object.assign(hull.mesh, partsOf(hull.mesh));
       const mesh = levels ? {positions: levels.positions, triangles: levels.corners, heat: levels.heat} : hull.mesh;
@@ -109,6 +114,42 @@ class View {
     this.hasParts = this.hulls.some((hull) => hull.body.hasParts);
     this.scaleHeat();
     this.state.hidden.forEach((i) => { if (this.bodies[i]) this.bodies[i].body.visible = false; });
+  }
+
+  /** Its visual geometry in its collision geometry. */
+  addRobot(hull, color, bytes) {
+    const bodiesOf = (which, itsColor, depth) => {
+      const bodies = hull.links.map((link) => link[which] && new Body({mesh: linkMesh(link[which], this.space, bytes), color: itsColor, depth,
+        striped: which === 'collision', order: which === 'collision' ? 5 : 20, closed: link[which].facts.watertight}));
+      return {bodies, all: new Bodies(bodies.filter(Boolean), itsColor)};
+    };
+    const visual = bodiesOf('visual', CLAY, 3), collision = bodiesOf('collision', color, 1);
+    hull.linkBodies = hull.links.map((_, i) => [visual.bodies[i], collision.bodies[i]].filter(Boolean));
+    for (const [role, word, {all}] of [['original', 'visual', visual], ['hull', 'collision', collision]]) {
+      if (all.bodies.length === 0) continue;
+      this.viewport.add(all);
+      this.bodies.push({label: `${hull.name}, ${word}`, role, striped: role === 'hull', body: all});
+    }
+    hull.body = new Bodies([...visual.all.bodies, ...collision.all.bodies], color);
+  }
+
+  /** Of all robots: the joints of that name. */
+  setJoint(name, position) {
+    for (const {robot} of this.hulls) {
+      robot?.joints.forEach((joint, i) => { if (joint.name === name) robot.positions[i] = position; });
+    }
+    this.moveRobots();
+  }
+  restRobots() {
+    for (const {robot} of this.hulls) if (robot) robot.positions = robot.joints.map((joint) => joint.rest);
+    this.moveRobots();
+  }
+  moveRobots() {
+    for (const {robot, linkBodies} of this.hulls) {
+      robot?.poses().forEach((pose, i) => linkBodies[i].forEach((body) => body.move(drawnPose(pose, this.space))));
+    }
+    this.panel?.showJoints();
+    this.viewport.changed();
   }
 
   addBody({label, role, striped, ...options}) {
@@ -128,17 +169,17 @@ class View {
 
   /** For a progressive hull also its base mesh. */
   makeSides() {
-    this.sides = this.hulls.map((hull) => ({hull, name: hull.name, groups: [hull.body.group]}));
+    this.sides = this.hulls.map((hull) => ({hull, name: hull.name, groups: hull.body.groups}));
     const single = this.hulls.length === 1 && this.active.levels;
     if (single) {
       const base = new Body({mesh: this.active.levels.copy(0), color: BLUE, closed: true, striped: true, order: 30});
       base.visible = false;
       this.viewport.add(base);
       this.base = base;
-      this.sides.unshift({name: `base, ${grouped(this.active.base_faces)} faces`, groups: [base.group]});
+      this.sides.unshift({name: `base, ${grouped(this.active.base_faces)} faces`, groups: base.groups});
     }
-    const original = this.bodies.find((entry) => entry.role === 'original');
-    if (original) this.sides.push({name: original.label, groups: [original.body.group]});
+    const original = this.hulls.some((hull) => hull.robot) ? null : this.bodies.find((entry) => entry.role === 'original');
+    if (original) this.sides.push({name: original.label, groups: original.body.groups});
   }
 
   get allBodies() { return [...this.bodies.map((entry) => entry.body), ...(this.base ? [this.base] : [])]; }
@@ -150,7 +191,9 @@ class View {
     if (state.look) viewport.look(state.look[0], state.look[1], state.look[2] * this.space.radius,
         state.look.slice(3).map((x) => x * this.space.radius));
     for (const hull of this.hulls) if (hull.levels) this.setLevel(hull, this.firstLevel(hull));
+    this.readJoints(state.joints);
     this.panel = new Panel(this);
+    this.moveRobots();
     this.setOpacity(state.opacity);
     this.setEdges(state.edges);
     this.setHeat(state.heat && this.hasHeat);
@@ -162,6 +205,15 @@ class View {
     this.refresh();
     viewport.onChange = () => this.remember();
     document.title = `${this.hulls.map((hull) => hull.name).join(', ')} – prohull view`;
+  }
+
+  readJoints(positions) {
+    const {robot} = this.active;
+    if (!robot || positions?.length !== robot.free.length || !positions.every(Number.isFinite)) return;
+    robot.free.forEach((joint, i) => {
+      const [least, most] = robot.range(joint);
+      this.setJoint(joint.name, Math.min(most, Math.max(least, positions[i])));
+    });
   }
 
   firstLevel(hull) { return hull.levels.levelOf(this.state.faces ?? hull.base_faces); }
@@ -443,6 +495,7 @@ class View {
       c: state.cut, a: state.cut ? state.cutAt : null, s: state.cut && state.cutSign < 0 ? -1 : null,
       d: state.cut === 'v' ? state.cutFacing.map(round).join(',') : null,
       r: state.ray?.join(','),
+      j: this.active.robot?.free.map(({i}) => round(this.active.robot.positions[i])).join(','),
       x: state.hidden.join(','), n: state.active || null, t: state.theme,
     };
   }

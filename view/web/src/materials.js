@@ -15,13 +15,14 @@ uniform float explosion;
 varying vec3 vTint;
 #endif
 void main() {
-  vPlace = position;
+  vec3 place = position;
   vHeat = heat;
 #ifdef PARTS
-  vPlace += explosion * shift;
+  place += explosion * shift;
   vTint = tint;
 #endif
-  vec4 seen = modelViewMatrix * vec4(vPlace, 1.0);
+  vPlace = (modelMatrix * vec4(place, 1.0)).xyz;
+  vec4 seen = viewMatrix * vec4(vPlace, 1.0);
   vSeen = seen.xyz;
   gl_Position = projectionMatrix * seen;
 }`;

@@ -22,6 +22,7 @@ export function swatch(color, striped) {
 /** What `prohull verify` would say, as a mark, a word and why. */
 export function verdictOf(object, original) {
   const v = object.verification;
+  if (object.robot) return ['open', '–', 'Robot', 'prohull urdf --check decides whether the collision geometry covers the visual geometry.'];
   if (!v) return ['open', '–', 'Not compared', 'No original mesh is in this page: --original adds it.'];
   if (v.refused) return ['open', '?', 'Not decided', v.refused];
   const [subject, other] = v.side === 'inner' ? [original, object.name] : [object.name, original];
@@ -44,7 +45,7 @@ export class Panel {
     this.live = {};
     byId('fold').addEventListener('click', () => this.fold(byId('fold').getAttribute('aria-expanded') === 'true'));
     this.content.append(...[
-      this.heading(), this.levelPart(), this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
+      this.heading(), this.levelPart(), this.jointsPart(), this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
       this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
     this.legend();
   }
@@ -118,6 +119,28 @@ export class Panel {
   }
 
   setPlaying(is) { this.live.play.textContent = is ? 'Pause' : 'Play'; }
+
+  jointsPart() {
+    const {robot} = this.object;
+    if (!robot || robot.free.length === 0) return null;
+    this.live.joints = robot.free.map((joint, place) => {
+      const [min, max] = robot.range(joint), value = el('output', {id: `joint-value-${place}`});
+      const slider = el('input', {type: 'range', id: `joint-${place}`, min, max, step: 'any', value: robot.positions[joint.i],
+        'aria-label': joint.name, oninput: (e) => this.view.setJoint(joint.name, Number(e.target.value))});
+      return {joint, slider, value, row: el('div', {class: 'joint'}, el('span', {}, joint.name), value, slider)};
+    });
+    return el('section', {id: 'joints'}, el('h2', {}, 'Joints'), ...this.live.joints.map(({row}) => row),
+        el('div', {class: 'row'}, el('button', {type: 'button', id: 'rest', onclick: () => this.view.restRobots()}, 'Rest')));
+  }
+
+  /** Where the joints are. */
+  showJoints() {
+    for (const {joint, slider, value} of this.live.joints ?? []) {
+      const position = this.object.robot.positions[joint.i];
+      slider.value = position;
+      value.textContent = joint.motion === 'turn' ? `${(position * 180 / Math.PI).toFixed(1)}°` : `${(1000 * position).toFixed(1)} mm`;
+    }
+  }
 
   queryPart() {
     if (!this.object.levels) return null;
@@ -223,9 +246,12 @@ export class Panel {
   }
 
   factsPart() {
-    const {object, unit} = this, {facts, verification: v} = object;
+    const {object, unit} = this, {facts} = object, v = object.verification;
     const cubic = unit ? `${unit}³` : '';
-    const rows = object.levels
+    const rows = object.robot
+        ? [['Links', grouped(object.links.length)], ['Joints', grouped(object.joints.length)],
+          ['That move', grouped(object.robot.free.length)]]
+        : object.levels
         ? [['Faces', `${grouped(object.base_faces)} to ${grouped(object.original_faces)}`],
           ['Vertex splits', grouped(object.levels.count)],
           ['Side', object.side],

@@ -58,7 +58,7 @@ export class Viewport {
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
   }
 
-  add(body) { this.scene.add(body.group); }
+  add(body) { this.scene.add(...body.groups); }
 
   /** Draws once more, soon. */
   changed() {
