@@ -19,8 +19,8 @@ std::size_t points_of(std::size_t parts) { return (parts + 1) * (parts + 2) / 2;
 std::vector<std::uint32_t> parts_of_faces(const TriangleMesh& mesh, double length) {
   std::vector<std::uint32_t> parts;
   for (const FaceId f : mesh.triangles.ids()) {
-    const double wanted = length > 0 ? std::ceil(longest_edge(mesh.triangle(f)) / length) : 1;
-    parts.push_back(static_cast<std::uint32_t>(std::clamp(wanted, 1.0, kMostParts)));
+    const double wanted = std::ceil(longest_edge(mesh.triangle(f)) / length);  // NaN where both are 0 or overflow
+    parts.push_back(wanted > 1 ? static_cast<std::uint32_t>(std::min(wanted, kMostParts)) : 1);
   }
   return parts;
 }
@@ -72,8 +72,9 @@ nlohmann::json heat_facts(const TriangleMesh& mesh, const QueryIndex& original, 
   const std::vector<double> distances = distances_of(points_on(mesh, parts), original, outside_only, batch);
   const double greatest = std::ranges::max(distances);
   std::vector<std::uint32_t> scaled;
+  const bool is_scale = greatest > 0 && std::isfinite(greatest);
   for (const double distance : distances)
-    scaled.push_back(greatest > 0 ? static_cast<std::uint32_t>(std::lround(distance / greatest * 65535)) : 0);
+    scaled.push_back(is_scale ? static_cast<std::uint32_t>(std::lround(distance / greatest * 65535)) : 0);
   return {{"parts", blocks.plain(parts)}, {"values", blocks.running(scaled, 1)}, {"max", greatest}};
 }
 

@@ -129,7 +129,9 @@ class DistanceScale {
       : greatest_(distances.empty() ? 0 : *std::ranges::max_element(distances)) {}
   double greatest() const { return greatest_; }
   std::uint32_t operator()(double distance) const {
-    return greatest_ > 0 ? static_cast<std::uint32_t>(std::lround(distance / greatest_ * 65535)) : 0;
+    return greatest_ > 0 && std::isfinite(greatest_)
+               ? static_cast<std::uint32_t>(std::lround(distance / greatest_ * 65535))
+               : 0;
   }
 
  private:

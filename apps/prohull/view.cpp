@@ -25,9 +25,12 @@ struct Options {
 
 constexpr std::size_t kMostShown = 8;
 
-/// The page names files, not folders.
-std::string shown_name(const std::filesystem::path& path) {
-  return is_standard_stream(path) ? input_name(path) : path.filename().string();
+/// The page names files without their folders, but for the last one where several have the same name.
+std::string shown_name(const std::filesystem::path& path, const Options& options) {
+  if (is_standard_stream(path)) return input_name(path);
+  const auto is_called_so = [&](const auto& other) { return other.filename() == path.filename(); };
+  if (std::ranges::count_if(options.in, is_called_so) < 2) return path.filename().string();
+  return (path.parent_path().filename() / path.filename()).string();
 }
 
 view::ShownRobot read_robot(const Options& options, const std::filesystem::path& path) {
@@ -41,7 +44,7 @@ view::ShownRobot read_robot(const Options& options, const std::filesystem::path&
 }
 
 view::Shown read_shown(const Options& options, const std::filesystem::path& path) {
-  const std::string name = shown_name(path);
+  const std::string name = shown_name(path, options);
   if (options.is_union) {
     Union found = read_union({path}, options.input, "");
     if (found.pieces.empty()) return {name, std::move(found.balls)};
@@ -66,7 +69,7 @@ std::vector<view::Shown> read_all_shown(const Options& options) {
 
 std::optional<view::Original> read_original(const Options& options) {
   if (options.original.empty()) return std::nullopt;
-  return view::Original{shown_name(options.original),
+  return view::Original{shown_name(options.original, options),
                         read_input(options.original, options.original_input, NonFinite::Keep)};
 }
 

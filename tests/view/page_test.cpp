@@ -10,6 +10,7 @@
 #include "prohull/sample.h"
 #include "view/blocks.h"
 #include "view/levels.h"
+#include "view/robot.h"
 
 namespace prohull::view {
 namespace {
@@ -72,6 +73,26 @@ TEST(ViewGrid, KeepsCornersOfTheSceneAndHugeCoordinates) {
   EXPECT_EQ(Grid(Box{{5, 5, 5}, {5, 5, 5}})({5, 5, 5})[2], 0);
 }
 
+TEST(ViewRobot, SaysHowJointsMove) {
+  robot::Robot robot{.name = "arm", .links = {{.name = "base"}, {.name = "hand"}}};
+  robot.joints.push_back({.name = "wrist",
+                          .type = robot::JointType::Revolute,
+                          .parent = 0,
+                          .child = 1,
+                          .axis = {0, 0, 1},
+                          .lower = 1,
+                          .upper = 3});
+  robot.joints.push_back({.name = "lift", .type = robot::JointType::Prismatic, .parent = 0, .child = 1});
+  robot.joints[1].mimic = robot::Mimic{.joint = 0, .multiplier = 2, .offset = 0.5};
+  const nlohmann::json joints = joint_facts(robot);
+  EXPECT_EQ(joints[0]["motion"], "turn");
+  EXPECT_EQ(joints[0]["lower"], 1);
+  EXPECT_TRUE(joints[1]["upper"].is_null());
+  EXPECT_EQ(joints[0]["rest"], 2);
+  EXPECT_EQ(joints[1]["motion"], "slide");
+  EXPECT_EQ(joints[1]["mimic"]["multiplier"], 2);
+}
+
 class ViewPage : public testing::Test {
  protected:
   void SetUp() override {
@@ -110,6 +131,12 @@ TEST_F(ViewPage, LeavesOutWhatIsNotFinite) {
   EXPECT_NE(text.find("\"faces\":" + std::to_string(faces)), std::string::npos);
   mesh.triangles = {{v, v, v}};
   EXPECT_THROW(page({{"nothing.stl", mesh}}, std::nullopt, {}), InputError);
+}
+
+TEST_F(ViewPage, TakesHugeCoordinates) {
+  const TriangleMesh huge{{{1e300, 0, 0}, {0, 1e300, 0}, {0, 0, 1e300}}, {{VertexId{0}, VertexId{1}, VertexId{2}}}};
+  EXPECT_NO_THROW(page({{"huge.stl", huge}}, std::nullopt, {}));
+  EXPECT_NO_THROW(page({{"huge.stl", huge}}, Original{"box.stl", make_sample("box", 100)}, {}));
 }
 
 TEST_F(ViewPage, SaysWhyAHullCannotBeVerified) {
