@@ -363,7 +363,7 @@ const tests = {
     const name = '"><img src=x onerror=alert(1)><script>alert(2)<&amp; .phull';
     fs.copyFileSync(at('pony.phull'), at(name));
     run('view', at(name), '-o', at('hostile.html'));
-    const page = await opened('hostile.html', {fragment: '#l=<img src=x onerror=alert(3)>&c=__proto__&v=NaN,1,2&x=999,-1&n=77&t=red'});
+    const page = await opened('hostile.html', {fragment: '#l=<img src=x onerror=alert(3)>&c=__proto__&v=NaN,1,2&x=999,-1&n=77&t=red&c=v&d=0,0,0&r=1,2,3,0,0,0&j=1'});
     assert.equal(await text(page, 'title'), name);
     assert.equal(await page.locator('img').count(), 0);
     assert.ok((await picture(page)).colors > 50);

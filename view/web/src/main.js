@@ -12,7 +12,7 @@ import {partsOf} from './parts.js';
 import {Refinement} from './query.js';
 import {Robot, drawnPose, linkMesh} from './robot.js';
 import {Space} from './space.js';
-import {between, numbersOf, readFragment, writeFragment} from './state.js';
+import {between, numbersOf, readFragment, unitVector, writeFragment} from './state.js';
 import {Viewport} from './viewport.js';
 
 const CLAY = '#e0b48c', BLUE = '#6aa9e6';
@@ -69,7 +69,7 @@ class View {
       cut: ['x', 'y', 'z', 'v'].includes(text.c) ? text.c : '',
       cutAt: between(text.a, -1, 1, 0),
       cutSign: text.s === '-1' ? -1 : 1,
-      cutFacing: numbersOf(text.d, 3),
+      cutFacing: unitVector(numbersOf(text.d, 3)) ?? [0, -1, 0],
       hidden: (text.x ?? '').split(',').filter(Boolean).map(Number),
       active: between(text.n, 0, this.hulls.length - 1, 0),
       theme: ['dark', 'light'].includes(text.t) ? text.t : null,
@@ -422,7 +422,7 @@ class View {
   }
   setCut() {
     const {cut, cutAt, cutSign, cutFacing} = this.state;
-    const axis = cut === 'v' ? cutFacing ?? [0, -1, 0] : AXES[cut];
+    const axis = cut === 'v' ? cutFacing : AXES[cut];
     if (!axis) return this.viewport.setCut(null, 0, this.allBodies);
     const reach = axis.reduce((sum, x, k) => sum + Math.abs(x) * this.space.half[k], 0);
     this.viewport.setCut(axis.map((x) => x * cutSign), cutSign * cutAt * reach, this.allBodies);

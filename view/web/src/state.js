@@ -23,6 +23,12 @@ export function numbersOf(text, count) {
   return text && values.length === count && !values.includes(null) ? values : null;
 }
 
+/** A vector of length 1, or null. */
+export function unitVector(vector) {
+  const length = vector ? Math.hypot(...vector) : 0;
+  return length > 0 && length < Infinity ? vector.map((x) => x / length) : null;
+}
+
 export const between = (text, least, most, otherwise) => {
   const value = text === undefined || text === '' ? null : number(text);
   return value === null ? otherwise : Math.min(most, Math.max(least, value));
