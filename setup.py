@@ -55,7 +55,8 @@ class CMakeBuild(build_ext):
             os.environ.setdefault("pybind11_DIR", pybind11.get_cmake_dir())
         try:
             self.cmake("-S", str(ROOT), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF",
-                       "-DPROHULL_BENCH=OFF", "-DPROHULL_PYTHON=REQUIRED", f"-DPython_EXECUTABLE={sys.executable}")
+                       "-DPROHULL_BENCH=OFF", "-DPROHULL_VIEW=OFF", "-DPROHULL_PYTHON=REQUIRED",
+                       f"-DPython_EXECUTABLE={sys.executable}")
         except subprocess.CalledProcessError:
             sys.exit(self.failed("CMake has not found everything, see above"))
 

@@ -1,4 +1,4 @@
-# Reads every include of include/, src/, render/, robot/, kdop/, apps/, examples/ and python/, and fails if one points against the flow.
+# Reads every include of include/, src/, render/, robot/, view/, kdop/, apps/, examples/ and python/, and fails if one points against the flow.
 # cmake -DROOT=<repository> -P layering.cmake
 cmake_policy(VERSION 3.25)
 
@@ -41,11 +41,12 @@ room(collide   OWNS collide                                                     
                                                                                      prohull/enclosure)  # is_closed
 
 # Outside of src/: public headers, all of them, and these folders.
-set(outside render robot kdop apps examples python)
+set(outside render robot view kdop apps examples python)
 set(may_render render)
 set(may_robot robot render)
+set(may_view view robot)
 set(may_kdop kdop query geometry)  # an engine as those of src/query
-set(may_apps render robot kdop)
+set(may_apps render robot view kdop)
 set(may_examples "")
 set(may_python render robot)
 
@@ -78,7 +79,7 @@ endforeach()
 
 # --- every include follows the flow ---
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/include/*.h ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/render/*.h
-     ${ROOT}/render/*.cpp ${ROOT}/robot/*.h ${ROOT}/robot/*.cpp ${ROOT}/kdop/*.h ${ROOT}/kdop/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp)
+     ${ROOT}/render/*.cpp ${ROOT}/robot/*.h ${ROOT}/robot/*.cpp ${ROOT}/view/*.h ${ROOT}/view/*.cpp ${ROOT}/kdop/*.h ${ROOT}/kdop/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp)
 list(LENGTH sources count)
 if(count LESS 20)
   message(FATAL_ERROR "found only ${count} sources below ${ROOT}")

@@ -53,5 +53,6 @@ void add_sample(CLI::App& app, Run& run);
 void add_spheres(CLI::App& app, Run& run);
 void add_urdf(CLI::App& app, Run& run);
 void add_verify(CLI::App& app, Run& run);
+void add_view(CLI::App& app, Run& run);
 
 }  // namespace prohull::cli

@@ -24,6 +24,7 @@ void add_commands(CLI::App& app, Run& run) {
   add_spheres(app, run);
   add_urdf(app, run);
   add_render(app, run);
+  add_view(app, run);
   add_sample(app, run);
   add_completion(app, run);
   add_manual(app, run);

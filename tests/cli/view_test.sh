@@ -1,0 +1,33 @@
+#!/bin/sh
+# What `prohull view` refuses, and what it writes: view_test.sh PROHULL. Pages are opened in a browser by tests/view.
+prohull=$1
+. "$(dirname "$0")/checks.sh"
+
+expect 0 "sample" "$prohull" sample box -o box.stl --faces 100
+if ! "$prohull" view box.stl -o page.html >out 2>err && grep -q "built without the page" err; then
+  echo "skipped: prohull was built without the page of prohull view"
+  exit 77
+fi
+is "a page" [ -s page.html ]
+says page.html "the page allows no request" "default-src 'none'"
+
+expect 2 "another suffix" "$prohull" view box.stl -o page.png
+says err "another suffix" ".html"
+expect 2 "page over its input" "$prohull" view box.stl -o box.html --original box.html
+expect 3 "no such file" "$prohull" view nothing.stl -o nothing.html
+says err "no such file" "nothing.stl"
+absent nothing.html "no page of nothing"
+expect 2 "too many files" "$prohull" view box.stl box.stl box.stl box.stl box.stl box.stl box.stl box.stl box.stl -o many.html
+says err "too many files" "8 files at most"
+expect 0 "to standard output" "$prohull" view box.stl -o -
+says out "to standard output" "<!DOCTYPE html>"
+
+printf 'v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >nan.obj
+expect 3 "nothing finite" "$prohull" view nan.obj -o nan.html
+says err "nothing finite" "nan.obj: it has no finite face to show"
+expect 0 "units" "$prohull" view box.stl --original box.stl --unit mm -o units.html
+says units.html "units" '"unit":"m"'
+expect 0 "the same page twice" "$prohull" view box.stl --original box.stl --unit mm -o again.html --threads 1
+is "the same page twice" cmp units.html again.html
+
+count_checks

@@ -1,0 +1,417 @@
+// Opens pages of `prohull view` in headless Chromium: node browser_test.cjs PROHULL [CHROMIUM]
+const assert = require('node:assert/strict');
+const {execFileSync} = require('node:child_process');
+const fs = require('node:fs');
+const os = require('node:os');
+const path = require('node:path');
+const {chromium} = require('playwright-core');
+
+const [, , prohull, browserPath] = process.argv;
+const SKIPPED = 77;
+const work = fs.mkdtempSync(path.join(os.tmpdir(), 'prohull-view-'));
+const at = (name) => path.join(work, name);
+const run = (...args) => execFileSync(prohull, args, {encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe']});
+
+async function launched() {
+  const args = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+  try {
+    return await chromium.launch({executablePath: browserPath, args});
+  } catch (error) {
+    console.log(`skipped: Chromium does not start: ${error.message.split('\n')[0]}`);
+    return null;
+  }
+}
+
+let browser;
+
+/** A page that is open; `complaints` collects what must not happen: errors, dialogs, requests. */
+async function opened(file, {fragment = '', width = 900, height = 640, scheme = 'light'} = {}) {
+  const page = await browser.newPage({viewport: {width, height}, colorScheme: scheme, reducedMotion: 'reduce'});
+  page.complaints = [];
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver Message/.test(message.text()))
+      page.complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => page.complaints.push(error.message));
+  page.on('dialog', (dialog) => page.complaints.push(`dialog: ${dialog.message()}`));
+  const url = `file://${encodeURI(at(file)).replaceAll('#', '%23')}`;
+  page.on('request', (request) => {
+    if (!request.isNavigationRequest()) page.complaints.push(`request: ${request.url()}`);
+  });
+  await page.goto(url + fragment);
+  await page.waitForFunction(() => document.documentElement.dataset.ready, null, {timeout: 60000});
+  return page;
+}
+
+async function closed(page) {
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+}
+
+const text = (page, id) => page.evaluate((name) => document.getElementById(name).textContent, id);
+const number = async (page, id) => Number((await text(page, id)).replace(/[^0-9.eE+-]/g, ''));
+const fragment = async (page) => {
+  await page.waitForTimeout(300);
+  return page.evaluate(() => location.hash);
+};
+
+/** Of the picture, without what is in front of it: how many colours it has, a sum that tells pictures apart, and a small
+ * copy. */
+const picture = (page) => page.evaluate(async () => {
+  const bitmap = await createImageBitmap(await prohullView.viewport.picture());
+  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), draw = canvas.getContext('2d', {willReadFrequently: true});
+  draw.drawImage(bitmap, 0, 0);
+  const pixels = new Uint32Array(draw.getImageData(0, 0, bitmap.width, bitmap.height).data.buffer);
+  let sum = 0;
+  for (const pixel of pixels) sum = (Math.imul(sum, 31) + pixel) | 0;
+  draw.drawImage(bitmap, 0, 0, 40, 30);
+  return {colors: new Set(pixels).size, sum, small: [...draw.getImageData(0, 0, 40, 30).data]};
+});
+
+/** The volume of the level that is shown, in the unit of the mesh. */
+const shownVolume = (page) => page.evaluate(() => {
+  const {levels} = prohullView.active, {positions, corners} = levels;
+  const p = (corner, k) => positions[3 * corners[corner] + k];
+  let sum = 0;
+  for (let c = 0; c < 3 * levels.faces; c += 3)
+    for (let k = 0; k < 3; ++k) {
+      const i = (k + 1) % 3, j = (k + 2) % 3;
+      sum += p(c, k) * (p(c + 1, i) * p(c + 2, j) - p(c + 1, j) * p(c + 2, i));
+    }
+  return sum / 6 * prohullView.space.side ** 3;
+});
+
+// Forward kinematics of a URDF without mimicking joints, on its own: rows of rotation matrices, and where origins are.
+const times = (a, b) => a.map((row) => [0, 1, 2].map((j) => row.reduce((sum, x, k) => sum + x * b[k][j], 0)));
+const turnedBy = (r, v) => r.map((row) => row.reduce((sum, x, k) => sum + x * v[k], 0));
+/** Rodrigues' formula. */
+function rotation([x, y, z], angle) {
+  const c = Math.cos(angle), s = Math.sin(angle), t = 1 - c;
+  return [[t * x * x + c, t * x * y - s * z, t * x * z + s * y], [t * x * y + s * z, t * y * y + c, t * y * z - s * x],
+    [t * x * z - s * y, t * y * z + s * x, t * z * z + c]];
+}
+function jointsOf(urdf) {
+  const numbersOf = (text, otherwise) => text ? text.trim().split(/\s+/).map(Number) : otherwise;
+  return [...urdf.matchAll(/<joint name="([^"]*)" type="([^"]*)">(.*?)<\/joint>/gs)].map(([, name, type, body]) => {
+    const found = (pattern) => body.match(pattern)?.[1];
+    return {name, type, parent: found(/parent link="([^"]*)"/), child: found(/child link="([^"]*)"/),
+      xyz: numbersOf(found(/<origin[^>]*xyz="([^"]*)"/), [0, 0, 0]), rpy: numbersOf(found(/<origin[^>]*rpy="([^"]*)"/), [0, 0, 0]),
+      axis: numbersOf(found(/<axis xyz="([^"]*)"/), [1, 0, 0])};
+  });
+}
+function linkOrigins(joints, positions) {
+  const poses = {};
+  const poseOf = (link) => {
+    const joint = joints.find(({child}) => child === link);
+    if (!joint) return {r: rotation([1, 0, 0], 0), t: [0, 0, 0]};
+    if (poses[link]) return poses[link];
+    const parent = poseOf(joint.parent), [roll, pitch, yaw] = joint.rpy;
+    const own = times(rotation([0, 0, 1], yaw), times(rotation([0, 1, 0], pitch), rotation([1, 0, 0], roll)));
+    const angle = ['revolute', 'continuous'].includes(joint.type) ? positions[joint.name] ?? 0 : 0;
+    const shift = turnedBy(parent.r, joint.xyz);
+    return poses[link] = {r: times(parent.r, times(own, rotation(joint.axis, angle))), t: parent.t.map((x, k) => x + shift[k])};
+  };
+  return Object.fromEntries(joints.map(({child}) => [child, poseOf(child).t]));
+}
+
+function makeFiles() {
+  run('sample', 'pony', '-o', at('pony.ply'), '--faces', '6000');
+  run('build', at('pony.ply'), '--faces', '400', '-o', at('hull.stl'), '--hierarchy', at('pony.phull'));
+  run('build', at('pony.ply'), '--faces', '400', '--side', 'inner', '-o', at('inner.stl'), '--hierarchy', at('inner.phull'));
+  run('sample', 'sphere', '-o', at('sphere.ply'), '--faces', '500');
+}
+
+const tests = {
+  async 'the slider shows the levels that lod extracts'() {
+    run('view', at('pony.phull'), '-o', at('levels.html'));
+    const page = await opened('levels.html');
+    assert.equal(await number(page, 'faces'), 400);
+    const base = await picture(page);
+    assert.ok(base.colors > 50, 'the picture is not blank');
+    for (const wanted of [401, 1000, 2345, 6000]) {
+      await page.fill('#wanted', String(wanted));
+      await page.press('#wanted', 'Enter');
+      run('lod', at('pony.phull'), '--faces', String(wanted), '-o', at('level.ply'), '--report', at('level.json'));
+      const level = JSON.parse(fs.readFileSync(at('level.json')));
+      assert.equal(await number(page, 'faces'), level.faces);
+      assert.ok(Math.abs(await shownVolume(page) / level.volume - 1) < 1e-4, `the volume of ${wanted} faces`);
+    }
+    assert.equal(await number(page, 'void'), 0);
+    assert.notEqual((await picture(page)).sum, base.sum);
+    await page.focus('#level');
+    await page.keyboard.press('Home');
+    assert.equal(await number(page, 'faces'), 400);
+    assert.equal((await picture(page)).sum, base.sum, 'forth and back gives the same picture');
+    await page.keyboard.press('End');
+    assert.equal(await number(page, 'faces'), await page.evaluate(() => prohullView.active.original_faces));
+    assert.match(await text(page, 'encloses'), /yes/);
+    await closed(page);
+  },
+
+  async 'a ray takes as many tests and splits as prohull query counts'() {
+    const page = await opened('levels.html');
+    const base = await picture(page);
+    for (const [x, y] of [[260, 310], [300, 330], [335, 290], [10, 10]]) {
+      await page.mouse.click(x, y);
+      const ray = await text(page, 'ray');
+      fs.writeFileSync(at('ray.csv'), `${ray}\n`);
+      run('query', at('pony.phull'), '--rays', at('ray.csv'), '--mode', 'all', '--engine', 'paper-refinement', '--report', at('query.json'));
+      const counted = JSON.parse(fs.readFileSync(at('query.json')));
+      const shown = {tests: await number(page, 'tests'), splits: await number(page, 'splits'), hits: await number(page, 'hits')};
+      assert.deepEqual(shown, {tests: counted.tests, splits: counted.splits, hits: counted.hits}, ray);
+      if (shown.splits > 0) assert.notEqual((await picture(page)).sum, base.sum);
+      assert.equal(await number(page, 'faces'), 400 + 2 * shown.splits);
+    }
+    await page.mouse.click(280, 330);
+    assert.ok(await page.locator('#query-hits li').count() >= 2, 'the ray through the pony enters and leaves');
+    const again = await opened('levels.html', {fragment: await fragment(page)});
+    assert.equal(await text(again, 'tests'), await text(page, 'tests'), 'the address has the ray');
+    await closed(again);
+    await page.focus('#canvas');
+    await page.keyboard.press('Escape');
+    assert.equal(await number(page, 'faces'), 400);
+    assert.equal((await picture(page)).sum, base.sum, 'the base mesh comes back');
+    await closed(page);
+  },
+
+  async 'void and distance are those of verify and distance bounds'() {
+    run('view', at('pony.phull'), '--original', at('pony.ply'), '-o', at('both.html'));
+    run('lod', at('pony.phull'), '-o', at('base.ply'));
+    run('verify', at('base.ply'), at('pony.ply'), '--report', at('verify.json'));
+    const found = JSON.parse(fs.readFileSync(at('verify.json')));
+    const page = await opened('both.html');
+    assert.ok(Math.abs(await number(page, 'void') - 100 * found.void_ratio) < 0.01);
+    const stop = await page.evaluate(() => prohullView.active.stops[0]);
+    assert.equal(stop.faces, 400);
+    assert.ok(stop.lower > 0 && stop.lower <= stop.upper && stop.upper <= 1.05 * stop.lower);
+    assert.ok(await number(page, 'distance') >= stop.upper, 'a bound is not rounded down');
+    await closed(page);
+  },
+
+  async 'an inner hull is enclosed'() {
+    run('view', at('inner.phull'), at('pony.phull'), '--original', at('pony.ply'), '-o', at('inner.html'));
+    const page = await opened('inner.html');
+    assert.match(await text(page, 'verdict'), /Encloses/);
+    assert.match(await text(page, 'content'), /enclosed by the original/);
+    assert.ok((await text(page, 'void')).startsWith('-'), 'an inner hull has less volume');
+    await page.selectOption('#active', '1');
+    assert.match(await text(page, 'content'), /encloses the original/);
+    await closed(page);
+  },
+
+  async 'what lies outside is listed, and a click goes there'() {
+    run('view', at('inner.stl'), '--original', at('pony.ply'), '-o', at('outside.html'));
+    const page = await opened('outside.html');
+    assert.match(await text(page, 'verdict'), /✗.*Does not enclose/);
+    const worst = await page.evaluate(() => prohullView.active.verification.worst);
+    assert.equal(await page.locator('#outside li').count(), worst.length);
+    const before = await picture(page);
+    await page.locator('#outside button').nth(2).click();
+    const target = await page.evaluate(() => prohullView.space.point(prohullView.viewport.looking()[3]));
+    target.forEach((x, k) => assert.ok(Math.abs(x - worst[2].point[k]) < 1e-5, 'the camera looks at the place'));
+    assert.notEqual((await picture(page)).sum, before.sum);
+    await closed(page);
+  },
+
+  async 'colours, edges, section and panels change the picture'() {
+    run('view', at('hull.stl'), '--original', at('pony.ply'), '-o', at('hull.html'));
+    const page = await opened('hull.html');
+    const seen = new Set([(await picture(page)).sum]);
+    const changes = async (what, act) => {
+      await act();
+      const {sum} = await picture(page);
+      assert.ok(!seen.has(sum), `${what} changes the picture`);
+      seen.add(sum);
+    };
+    await changes('heat', () => page.check('#heat'));
+    assert.ok(await page.isVisible('#legend'));
+    await changes('edges', () => page.uncheck('#edges'));
+    await changes('a section', () => page.selectOption('#cut', 'y'));
+    await changes('its other side', () => page.click('#flip'));
+    await changes('its place', () => page.locator('#cut-at').fill('0.2'));
+    await changes('hiding the original', () => page.uncheck('#show-0'));
+    await changes('side by side', () => page.check('#beside'));
+    await changes('the theme', () => page.click('#theme'));
+    const address = await fragment(page), again = await opened('hull.html', {fragment: address});
+    const {small} = await picture(page);
+    const differs = (await picture(again)).small.filter((value, i) => Math.abs(value - small[i]) > 12).length;
+    assert.ok(differs < small.length / 100, 'the address leads to the same picture');
+    assert.equal(await fragment(again), address);
+    await closed(again);
+    await closed(page);
+  },
+
+  async 'a section is capped'() {
+    const page = await opened('hull.html', {fragment: '#c=y&a=0&s=-1&e=0&v=0,0,4,0,0,0'});
+    const clay = await page.evaluate(async () => {
+      const bitmap = await createImageBitmap(await prohullView.viewport.picture());
+      const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), draw = canvas.getContext('2d', {willReadFrequently: true});
+      draw.drawImage(bitmap, 0, 0);
+      return [...draw.getImageData(bitmap.width / 2, bitmap.height / 2, 1, 1).data];
+    });
+    assert.deepEqual(clay, [0xe0, 0xb4, 0x8c, 255], 'the middle of the pony is the colour of its section');
+    await closed(page);
+  },
+
+  async 'pieces and spheres have colours and move apart'() {
+    run('convex', at('pony.ply'), '--pieces', '4', '-o', at('pieces.obj'));
+    run('view', '--union', at('pieces.obj'), '--original', at('pony.ply'), '-o', at('pieces.html'));
+    fs.writeFileSync(at('spheres.yaml'), `collision_spheres: {pony: [${
+        [0, 1, 2].map((i) => `{center: [${i}, 0, 0], radius: 0.4}`).join(', ')}]}\n`);
+    run('view', '--union', at('spheres.yaml'), '--original', at('sphere.ply'), '-o', at('spheres.html'));
+    for (const [file, parts, verdict] of [['pieces.html', '4 pieces', /^✓Covers/], ['spheres.html', '3 spheres', /^✗Does not cover/]]) {
+      const page = await opened(file);
+      assert.match(await text(page, 'verdict'), verdict);
+      assert.ok((await text(page, 'facts')).includes(`Parts${parts}`));
+      const together = await picture(page);
+      await page.locator('#explosion').fill('0.5');
+      const apart = await picture(page);
+      assert.notEqual(apart.sum, together.sum);
+      await page.uncheck('#parts');
+      assert.notEqual((await picture(page)).sum, apart.sum);
+      await closed(page);
+    }
+  },
+
+  async 'joint sliders move links to where forward kinematics puts them'() {
+    run('sample', 'arm', '-o', at('arm'));
+    run('view', at('arm/arm.urdf'), '-o', at('arm.html'));
+    const page = await opened('arm.html');
+    const rest = await picture(page), joints = jointsOf(fs.readFileSync(at('arm/arm.urdf'), 'utf8'));
+    const positions = {};
+    for (const [i, name] of (await page.evaluate(() => prohullView.active.robot.free.map(({name}) => name))).entries()) {
+      await page.locator(`#joint-${i}`).focus();
+      for (let k = 0; k <= i; ++k) await page.keyboard.press('PageUp');
+      positions[name] = await page.evaluate((at) => Number(document.getElementById(`joint-${at}`).value), i);
+    }
+    assert.ok(Object.values(positions).some((x) => x !== 0));
+    const expected = linkOrigins(joints, positions);
+    const shown = await page.evaluate(() => {
+      const {links, linkBodies} = prohullView.active, {space} = prohullView;
+      const local = space.at([0, 0, 0]);
+      return links.map(({name}, i) => {
+        const m = linkBodies[i][0]?.moved.matrix.elements;
+        return [name, m && space.point([0, 1, 2].map((k) => m[k] * local[0] + m[4 + k] * local[1] + m[8 + k] * local[2] + m[12 + k]))];
+      });
+    });
+    let compared = 0;
+    for (const [name, point] of shown) {
+      if (!point || !expected[name]) continue;
+      ++compared;
+      point.forEach((x, k) => assert.ok(Math.abs(x - expected[name][k]) < 1e-6, `${name}: ${point} is not ${expected[name]}`));
+    }
+    assert.ok(compared >= 7, 'all links of the arm are compared');
+    assert.notEqual((await picture(page)).sum, rest.sum);
+    const again = await opened('arm.html', {fragment: await fragment(page)});
+    assert.equal(await text(again, 'joint-value-0'), await text(page, 'joint-value-0'), 'the address has the joints');
+    await closed(again);
+    await page.click('#rest');
+    assert.equal((await picture(page)).sum, rest.sum);
+    await closed(page);
+  },
+
+  async 'keys do what the mouse does'() {
+    const page = await opened('levels.html');
+    await page.focus('#canvas');
+    const looking = () => page.evaluate(() => prohullView.viewport.looking().flat());
+    const home = await looking();
+    for (const key of ['ArrowLeft', 'Shift+ArrowUp', '+']) {
+      const before = await looking();
+      await page.keyboard.press(key);
+      assert.notDeepEqual(await looking(), before, key);
+    }
+    await page.keyboard.press('0');
+    (await looking()).forEach((x, i) => assert.ok(Math.abs(x - home[i]) < 1e-6, '0 shows all'));
+    await page.keyboard.press('.');
+    assert.ok(await number(page, 'faces') > 400);
+    await page.keyboard.press('h');
+    assert.ok(await page.isChecked('#heat'));
+    await page.keyboard.press('x');
+    assert.equal(await page.inputValue('#cut'), 'x');
+    for (let i = 0; i < 60; ++i) await page.keyboard.press('Tab');
+    await closed(page);
+  },
+
+  async 'the mouse turns the picture, and a picture is saved'() {
+    const page = await opened('levels.html');
+    const before = await picture(page);
+    await page.mouse.move(300, 300);
+    await page.mouse.down();
+    await page.mouse.move(400, 320, {steps: 4});
+    await page.mouse.up();
+    assert.notEqual((await picture(page)).sum, before.sum);
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#png')]);
+    assert.equal(download.suggestedFilename(), 'prohull-view.png');
+    assert.equal(fs.readFileSync(await download.path()).subarray(1, 4).toString(), 'PNG');
+    await closed(page);
+  },
+
+  async 'a narrow window has room for all'() {
+    const page = await opened('hull.html', {width: 360, height: 640, fragment: '#h=1', scheme: 'dark'});
+    assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark');
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing is beside the window');
+    const height = () => page.evaluate(() => document.getElementById('canvas').clientHeight);
+    const before = await height();
+    await page.click('#fold');
+    await page.waitForTimeout(100);
+    assert.ok(await height() > before, 'without the panel the picture is larger');
+    assert.ok((await picture(page)).colors > 50);
+    await closed(page);
+  },
+
+  async 'hostile names are text'() {
+    const name = '"><img src=x onerror=alert(1)><script>alert(2)<&amp; .phull';
+    fs.copyFileSync(at('pony.phull'), at(name));
+    run('view', at(name), '-o', at('hostile.html'));
+    const page = await opened('hostile.html', {fragment: '#l=<img src=x onerror=alert(3)>&c=__proto__&v=NaN,1,2&x=999,-1&n=77&t=red&c=v&d=0,0,0&r=1,2,3,0,0,0&j=1'});
+    assert.equal(await text(page, 'title'), name);
+    assert.equal(await page.locator('img').count(), 0);
+    assert.ok((await picture(page)).colors > 50);
+    await closed(page);
+  },
+
+  async 'a broken mesh is shown, and what is wrong with it'() {
+    const faces = fs.readFileSync(at('sphere.ply'));
+    assert.ok(faces.length > 0);
+    run('sample', 'sphere', '-o', at('sphere.obj'), '--faces', '500');
+    const lines = fs.readFileSync(at('sphere.obj'), 'utf8').trim().split('\n');
+    const broken = [...lines.slice(0, -40), 'v nan 0 0', 'f -1 1 2'].join('\n');
+    fs.writeFileSync(at('broken.obj'), broken);
+    run('view', at('broken.obj'), '-o', at('broken.html'));
+    const page = await opened('broken.html');
+    assert.match(await text(page, 'facts'), /open edges/);
+    assert.match(await text(page, 'facts'), /Not finite, left out1 face/);
+    assert.ok((await picture(page)).colors > 50);
+    run('view', at('broken.obj'), '--original', at('sphere.ply'), '-o', at('refused.html'));
+    const refused = await opened('refused.html');
+    assert.match(await text(refused, 'verdict'), /Not decided/);
+    await closed(refused);
+    await closed(page);
+  },
+};
+
+async function main() {
+  if (!browserPath || !fs.existsSync(browserPath)) {
+    console.log('skipped: Chromium is not installed');
+    return SKIPPED;
+  }
+  browser = await launched();
+  if (!browser) return SKIPPED;
+  makeFiles();
+  let failures = 0;
+  for (const [name, test] of Object.entries(tests)) {
+    try {
+      await test();
+      console.log(`passed: ${name}`);
+    } catch (error) {
+      ++failures;
+      console.log(`FAILED: ${name}\n${error.stack}`);
+    }
+  }
+  await browser.close();
+  return failures > 0 ? 1 : 0;
+}
+
+main().then((code) => { process.exitCode = code; })
+    .catch((error) => { console.error(error); process.exitCode = 1; })
+    .finally(() => fs.rmSync(work, {recursive: true, force: true}));

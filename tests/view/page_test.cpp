@@ -1,0 +1,150 @@
+#include "view/page.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "meshes.h"
+#include "prohull/error.h"
+#include "prohull/hull_builder.h"
+#include "prohull/sample.h"
+#include "view/blocks.h"
+#include "view/levels.h"
+#include "view/robot.h"
+
+namespace prohull::view {
+namespace {
+
+ProgressiveHull small_hull() { return build_hull(make_sample("torus", 600), {.target_faces = 100}).hull; }
+
+TEST(ViewBlocks, WritesBytesBySignificance) {
+  Blocks blocks;
+  const nlohmann::json first = blocks.plain(std::vector<std::uint32_t>{1, 0x203});
+  const nlohmann::json second = blocks.plain(std::vector<std::uint32_t>{7});
+  EXPECT_EQ(blocks.bytes(), std::string("\x01\x03\x00\x02\x07", 5));
+  EXPECT_EQ(first["planes"], 2);
+  EXPECT_EQ(second["at"], 4);
+}
+
+TEST(ViewBlocks, DifferencesOfBothSignsAreShort) {
+  Blocks blocks;
+  EXPECT_EQ(blocks.differences(std::vector<std::int32_t>{0, -1, 1, -2})["planes"], 1);
+  EXPECT_EQ(blocks.bytes(), std::string("\x00\x01\x02\x03", 4));
+  EXPECT_EQ(blocks.differences(std::vector<std::int32_t>{std::numeric_limits<std::int32_t>::min()})["planes"], 4);
+}
+
+TEST(ViewBlocks, RunningNumbersWrapAround) {
+  Blocks blocks;
+  blocks.running(std::vector<std::uint32_t>{0xffffffff, 0}, 1);
+  EXPECT_EQ(blocks.bytes(), std::string("\x01\x02", 2));
+}
+
+TEST(ViewBlocks, Base64) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("M"), "TQ==");
+  EXPECT_EQ(base64("Ma"), "TWE=");
+  EXPECT_EQ(base64("Man"), "TWFu");
+}
+
+TEST(ViewLevels, VolumesAreThoseOfTheLevels) {
+  const ProgressiveHull hull = small_hull();
+  const std::vector<double> volumes = volumes_of_levels(hull);
+  ASSERT_EQ(volumes.size(), hull.splits().size() + 1);
+  for (std::size_t k = 0; k < volumes.size(); k += 37) {
+    const double volume = signed_volume(hull.level(hull.base_face_count() + 2 * k));
+    EXPECT_NEAR(volumes[k], volume, 1e-9 * volume) << k;
+  }
+}
+
+TEST(ViewLevels, ABitForEachCornerThatASplitMeets) {
+  const ProgressiveHull hull = small_hull();
+  Blocks blocks;
+  const PerVertex<double> distances(hull.positions().size(), 0);
+  const nlohmann::json facts = levels_facts(hull, distances, Grid(bounding_box(hull.base())), blocks);
+  EXPECT_EQ(facts["splits"], hull.splits().size());
+  EXPECT_EQ(facts["triangles"]["count"], 3 * hull.base_face_count());
+  EXPECT_GT(facts["split_bits"]["count"], 3 * hull.splits().size() / 8);
+}
+
+TEST(ViewGrid, KeepsCornersOfTheSceneAndHugeCoordinates) {
+  const Grid grid(Box{{-1e308, 0, 0}, {1e308, 1, 1}});
+  EXPECT_EQ(grid({-1e308, 0, 0})[0], 0);
+  EXPECT_EQ(grid({1e308, 0, 0})[0], (1 << 30) - 1);
+  EXPECT_EQ(Grid(Box{{5, 5, 5}, {5, 5, 5}})({5, 5, 5})[2], 0);
+}
+
+TEST(ViewRobot, SaysHowJointsMove) {
+  robot::Robot robot{.name = "arm", .links = {{.name = "base"}, {.name = "hand"}}};
+  robot.joints.push_back({.name = "wrist",
+                          .type = robot::JointType::Revolute,
+                          .parent = 0,
+                          .child = 1,
+                          .axis = {0, 0, 1},
+                          .lower = 1,
+                          .upper = 3});
+  robot.joints.push_back({.name = "lift", .type = robot::JointType::Prismatic, .parent = 0, .child = 1});
+  robot.joints[1].mimic = robot::Mimic{.joint = 0, .multiplier = 2, .offset = 0.5};
+  const nlohmann::json joints = joint_facts(robot);
+  EXPECT_EQ(joints[0]["motion"], "turn");
+  EXPECT_EQ(joints[0]["lower"], 1);
+  EXPECT_TRUE(joints[1]["upper"].is_null());
+  EXPECT_EQ(joints[0]["rest"], 2);
+  EXPECT_EQ(joints[1]["motion"], "slide");
+  EXPECT_EQ(joints[1]["mimic"]["multiplier"], 2);
+}
+
+class ViewPage : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_page()) GTEST_SKIP() << "prohull was built without the page: node and npm are missing";
+  }
+};
+
+TEST_F(ViewPage, HoldsNamesOnlyAsText) {
+  const std::string name = "</script><script>alert(1)</script><!-- \xff.stl";
+  const std::string text = page({{name, make_sample("box", 100)}}, std::nullopt, {});
+  EXPECT_EQ(text.find("alert(1)</script>"), std::string::npos);
+  EXPECT_EQ(text.find("<!-- "), std::string::npos);
+  EXPECT_NE(text.find("\\u003c/script>\\u003cscript>alert(1)"), std::string::npos);
+}
+
+TEST_F(ViewPage, NamesNoOtherPlace) {
+  const std::string text = page({{"hull.phull", small_hull()}}, std::nullopt, {.threads = 1});
+  EXPECT_NE(text.find("default-src 'none'"), std::string::npos);
+  for (const char* const element : {"src=\"http", "href=\"http", "@import", "<link"})
+    EXPECT_EQ(text.find(element), std::string::npos) << element;
+}
+
+TEST_F(ViewPage, IsTheSameForAnyNumberOfThreads) {
+  const Original original{"torus.ply", make_sample("torus", 600)};
+  const std::vector<Shown> shown{{"hull.phull", small_hull()}, {"hull.stl", small_hull().base()}};
+  EXPECT_EQ(page(shown, original, {.threads = 1}), page(shown, original, {.threads = 3}));
+}
+
+TEST_F(ViewPage, LeavesOutWhatIsNotFinite) {
+  TriangleMesh mesh = make_sample("box", 100);
+  const std::size_t faces = mesh.face_count();
+  const VertexId v = mesh.positions.push_back({std::nan(""), 0, 0});
+  mesh.triangles.push_back({v, v, v});
+  const std::string text = page({{"broken.stl", mesh}}, std::nullopt, {});
+  EXPECT_NE(text.find("\"left_out\":1"), std::string::npos);
+  EXPECT_NE(text.find("\"faces\":" + std::to_string(faces)), std::string::npos);
+  mesh.triangles = {{v, v, v}};
+  EXPECT_THROW(page({{"nothing.stl", mesh}}, std::nullopt, {}), InputError);
+}
+
+TEST_F(ViewPage, TakesHugeCoordinates) {
+  const TriangleMesh huge{{{1e300, 0, 0}, {0, 1e300, 0}, {0, 0, 1e300}}, {{VertexId{0}, VertexId{1}, VertexId{2}}}};
+  EXPECT_NO_THROW(page({{"huge.stl", huge}}, std::nullopt, {}));
+  EXPECT_NO_THROW(page({{"huge.stl", huge}}, Original{"box.stl", make_sample("box", 100)}, {}));
+}
+
+TEST_F(ViewPage, SaysWhyAHullCannotBeVerified) {
+  TriangleMesh open = make_sample("box", 100);
+  open.triangles.pop_back();
+  const std::string text = page({{"open.stl", open}}, Original{"box.stl", make_sample("box", 100)}, {});
+  EXPECT_NE(text.find("\"refused\":"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace prohull::view

@@ -1,0 +1,70 @@
+#include "view/blocks.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <new>
+#include <vector>
+
+namespace prohull::view {
+namespace {
+
+/// 0, -1, 1, -2, 2 become 0, 1, 2, 3, 4. Differences are those of 32-bit arithmetic, which wraps around.
+std::uint32_t zigzag(std::uint32_t difference) { return difference << 1 ^ (difference >> 31 ? 0xffffffffU : 0U); }
+
+std::size_t bytes_of(std::uint32_t value) { return value >> 24 ? 4 : value >> 16 ? 3 : value >> 8 ? 2 : 1; }
+
+}  // namespace
+
+nlohmann::json Blocks::add(const char* coding, std::span<const std::uint32_t> values, std::size_t stride) {
+  const std::uint32_t greatest = values.empty() ? 0 : *std::ranges::max_element(values);
+  const std::size_t planes = bytes_of(greatest);
+  nlohmann::json found = {
+      {"at", bytes_.size()}, {"count", values.size()}, {"planes", planes}, {"coding", coding}, {"stride", stride}};
+  for (std::size_t plane = 0; plane < planes; ++plane)
+    for (const std::uint32_t value : values) bytes_ += static_cast<char>(value >> (8 * plane) & 0xff);
+  return found;
+}
+
+nlohmann::json Blocks::plain(std::span<const std::uint32_t> values) { return add("plain", values, 1); }
+
+nlohmann::json Blocks::differences(std::span<const std::int32_t> values) {
+  std::vector<std::uint32_t> coded;
+  coded.reserve(values.size());
+  for (const std::int32_t value : values) coded.push_back(zigzag(static_cast<std::uint32_t>(value)));
+  return add("differences", coded, 1);
+}
+
+nlohmann::json Blocks::running(std::span<const std::uint32_t> values, std::size_t stride) {
+  std::vector<std::uint32_t> coded;
+  coded.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    coded.push_back(zigzag(values[i] - (i < stride ? 0 : values[i - stride])));
+  return add("running", coded, stride);
+}
+
+std::string deflated(const std::string& bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string result(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                bytes.size(), Z_BEST_COMPRESSION) != Z_OK)
+    throw std::bad_alloc();  // the only other failure, too small a buffer, cannot occur
+  result.resize(size);
+  return result;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) {
+      return i + k < bytes.size() ? std::uint32_t{static_cast<unsigned char>(bytes[i + k])} : 0;
+    };
+    const std::uint32_t bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+}  // namespace prohull::view

@@ -1,0 +1,118 @@
+#include "view/facts.h"
+
+#include "prohull/error.h"
+#include "prohull/mesh_report.h"
+#include "prohull/union_verification.h"
+
+namespace prohull::view {
+namespace {
+
+constexpr std::size_t kMostOffenders = 20;
+
+nlohmann::json facts_of(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+nlohmann::json facts_of(const std::vector<Offender>& worst) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const Offender& o : worst)
+    all.push_back({{"face", index(o.face)}, {"point", facts_of(o.point)}, {"distance", o.distance}});
+  return all;
+}
+
+nlohmann::json facts_of(const Verification& found) {
+  return {{"encloses", found.encloses},
+          {"proof", std::string(found.proof)},
+          {"side", std::string(name_of(hull_side_names(), found.side))},
+          {"original_closed", found.original_closed},
+          {"every_triangle", found.every_triangle},
+          {"why_not", found.why_not},
+          {"splits", found.splits},
+          {"signs", found.signs},
+          {"faces_outside", found.faces_outside},
+          {"worst", facts_of(found.worst)},
+          {"faces_beside_solid", found.faces_beside_solid},
+          {"hull_volume", found.hull_volume},
+          {"original_volume", found.original_volume},
+          {"void_ratio", found.void_ratio},
+          {"self_intersections", found.self_intersections},
+          {"notes", found.notes}};
+}
+
+nlohmann::json facts_of(const UnionVerification& found) {
+  return {{"encloses", found.covers},
+          {"proof", "union"},
+          {"original_closed", found.original_closed},
+          {"why_not", found.why_not},
+          {"faces_outside", found.faces_outside},
+          {"worst", facts_of(found.worst)},
+          {"hull_volume", found.union_volume},
+          {"original_volume", found.original_volume},
+          {"void_ratio", found.void_ratio},
+          {"notes", found.notes}};
+}
+
+/// Verifies whatever is shown.
+struct Verify {
+  nlohmann::json operator()(const TriangleMesh& hull) const {
+    return facts_of(verify_hull(hull, original, options.side, how));
+  }
+  nlohmann::json operator()(const ProgressiveHull& hull) const { return facts_of(verify_hull(hull, original, how)); }
+  nlohmann::json operator()(const Pieces& pieces) const { return facts_of(verify_union(pieces, original, how)); }
+  nlohmann::json operator()(const Balls& balls) const { return facts_of(verify_union(balls, original, false, how)); }
+
+  nlohmann::json operator()(const ShownRobot&) const { return {}; }
+
+  const TriangleMesh& original;
+  const PageOptions& options;
+  VerificationOptions how;
+};
+
+DistanceOptions distance_options(const PageOptions& options) {
+  return {.relative_gap = 0.02, .max_cells = 300'000, .progress = options.progress};
+}
+
+nlohmann::json facts_of(const DistanceBounds& bounds) {
+  return {{"lower", bounds.lower}, {"upper", bounds.upper}, {"farthest", facts_of(bounds.farthest)}};
+}
+
+}  // namespace
+
+nlohmann::json verification_facts(const Shown& shown, const TriangleMesh& original, const PageOptions& options) {
+  const VerificationOptions how{
+      .solid_only = options.solid_only, .max_offenders = kMostOffenders, .progress = options.progress};
+  try {
+    return std::visit(Verify{original, options, how}, shown.shape);
+  } catch (const InputError& error) {
+    return {{"refused", error.what()}};
+  }
+}
+
+nlohmann::json distance_facts(const TriangleMesh& from, const TriangleMesh& to, const PageOptions& options) {
+  return facts_of(distance_bounds(from, to, distance_options(options)));
+}
+
+nlohmann::json distance_facts(const Pieces& from, const TriangleMesh& to, const PageOptions& options) {
+  return facts_of(union_reach(from, to, distance_options(options)));
+}
+
+nlohmann::json distance_facts(const Balls& from, const TriangleMesh& to, const PageOptions& options) {
+  return facts_of(union_reach(from, to, distance_options(options)));
+}
+
+nlohmann::json mesh_facts(const TriangleMesh& mesh) {
+  const MeshReport report = inspect(mesh);
+  nlohmann::json defects = nlohmann::json::array();
+  for (const DefectCount& defect : defect_counts(report))
+    if (defect.count > 0) defects.push_back({{"what", std::string(defect.description)}, {"count", defect.count}});
+  return {
+      {"faces", report.faces},
+      {"vertices", report.vertices},
+      {"components", report.components},
+      {"watertight", report.is_watertight()},
+      {"volume", report.is_watertight() ? nlohmann::json(report.volume) : nlohmann::json()},
+      {"size",
+       {report.box.max.x - report.box.min.x, report.box.max.y - report.box.min.y, report.box.max.z - report.box.min.z}},
+      {"defects", defects},
+      {"first_defect", report.first_defect}};
+}
+
+}  // namespace prohull::view

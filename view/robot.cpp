@@ -1,0 +1,67 @@
+#include "view/robot.h"
+
+#include <cmath>
+
+#include "robot/motion/motion.h"
+
+namespace prohull::view {
+namespace {
+
+using nlohmann::json;
+using robot::Joint;
+using robot::JointType;
+
+const char* motion_of(JointType type) {
+  switch (type) {
+    case JointType::Revolute:
+    case JointType::Continuous:
+      return "turn";
+    case JointType::Prismatic:
+      return "slide";
+    default:
+      return "none";
+  }
+}
+
+json numbers(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+json limit(double value) { return std::isfinite(value) ? json(value) : json(); }
+
+json facts_of(const Joint& joint, double rest) {
+  json facts = {{"name", joint.name},
+                {"motion", motion_of(joint.type)},
+                {"parent", joint.parent},
+                {"child", joint.child},
+                {"rotation", json::array()},
+                {"translation", numbers(joint.origin.translation)},
+                {"anchor", numbers(joint.anchor)},
+                {"axis", numbers(joint.axis)},
+                {"lower", limit(joint.lower)},
+                {"upper", limit(joint.upper)},
+                {"rest", rest}};
+  for (const Vec3& row : joint.origin.rotation) facts["rotation"].push_back(numbers(row));
+  if (joint.mimic)
+    facts["mimic"] = {
+        {"joint", joint.mimic->joint}, {"multiplier", joint.mimic->multiplier}, {"offset", joint.mimic->offset}};
+  return facts;
+}
+
+}  // namespace
+
+json joint_facts(const robot::Robot& robot) {
+  const std::vector<double> rest = robot::rest_positions(robot);
+  json joints = json::array();
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) joints.push_back(facts_of(robot.joints[i], rest[i]));
+  return joints;
+}
+
+Box box_at_rest(const ShownRobot& shown) {
+  const std::vector<Pose> poses = robot::link_poses(shown.robot, robot::rest_positions(shown.robot));
+  Box box;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    for (const TriangleMesh& mesh : {shown.visual[i], shown.collision[i]})
+      box.extend(finite_bounding_box(placed(poses[i], mesh)));
+  return box;
+}
+
+}  // namespace prohull::view

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "view/page.h"
+
+namespace prohull::view {
+
+/// How the links of a robot move: what web/src/robot.js needs for forward kinematics, with all joints at their
+/// rest_positions at first.
+nlohmann::json joint_facts(const robot::Robot& robot);
+
+/// Of the whole robot at rest, as it is drawn.
+Box box_at_rest(const ShownRobot& shown);
+
+}  // namespace prohull::view

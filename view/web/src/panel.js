@@ -1,0 +1,324 @@
+// The panel beside the picture. It knows elements, and calls `view` for all else.
+
+import {byId, counted, el, grouped, percent, place, short, atMost} from './dom.js';
+import {legendColors} from './heat.js';
+
+const FINEST_LEVEL = {
+  repaired: 'the repaired input', 'convex-hull': 'the convex hull of the input', wrap: 'a wrap of the input'};
+
+const withUnit = (text, unit) => unit ? `${text} ${unit}` : text;
+const table = (rows) => el('table', {}, ...rows.filter((row) => row && row[1] !== null).map(
+    ([what, ...found]) => el('tr', {}, el('th', {scope: 'row'}, what), el('td', {}, ...found))));
+const check = (attributes, text, swatch) =>
+    el('label', {class: 'check'}, el('input', {type: 'checkbox', ...attributes}), swatch,
+        el('span', {class: 'name'}, text));
+
+export function swatch(color, striped) {
+  const element = el('span', {class: striped ? 'swatch striped' : 'swatch'});
+  element.style.backgroundColor = color;
+  return element;
+}
+
+/** What `prohull verify` would say, as a mark, a word and why. */
+export function verdictOf(object, original) {
+  const v = object.verification;
+  if (object.robot) return ['open', '–', 'Robot', 'prohull urdf --check decides whether the collision geometry covers the visual geometry.'];
+  if (!v) return ['open', '–', 'Not compared', 'No original mesh is in this page: --original adds it.'];
+  if (v.refused) return ['open', '?', 'Not decided', v.refused];
+  const [subject, other] = v.side === 'inner' ? [original, object.name] : [object.name, original];
+  const verb = v.original_closed ? 'enclose' : 'cover';
+  if (v.proof === 'union') {
+    return v.encloses ? ['good', '✓', 'Covers', `${object.union} cover ${other} together: decided exactly.`]
+                      : ['bad', '✗', 'Does not cover', v.why_not];
+  }
+  if (!v.encloses) return ['bad', '✗', `Does not ${verb}`, v.why_not];
+  const replayed = v.proof === 'replay' &&
+      `Every level: ${counted(v.splits, 'split', 'splits')} replayed, ${counted(v.signs, 'sign', 'signs')} exact.`;
+  return ['good', '✓', v.original_closed ? 'Encloses' : 'Covers every triangle',
+    replayed || `${subject} ${verb}s ${other}: decided exactly.`];
+}
+
+export class Panel {
+  constructor(view) {
+    this.view = view;
+    this.content = byId('content');
+    this.live = {};
+    byId('fold').addEventListener('click', () => this.fold(byId('fold').getAttribute('aria-expanded') === 'true'));
+    this.content.append(...[
+      this.heading(), this.levelPart(), this.jointsPart(), this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
+      this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
+    this.legend();
+  }
+
+  get object() { return this.view.active; }
+  get unit() { return this.view.scene.unit; }
+
+  fold(folded) {
+    byId('fold').setAttribute('aria-expanded', String(!folded));
+    this.content.classList.toggle('folded', folded);
+  }
+
+  heading() {
+    const {view} = this;
+    const [kind, mark, word, why] = verdictOf(this.object, view.originalName);
+    const choices = view.hulls.length > 1 && el('div', {class: 'row'},
+        el('label', {}, 'Numbers of ', el('select', {id: 'active', onchange: (e) => view.activate(Number(e.target.value))},
+            ...view.hulls.map((hull, i) => el('option', {value: i, selected: hull === this.object}, hull.name)))));
+    return el('section', {},
+        el('h1', {id: 'title'}, view.hulls.map((hull) => hull.name).join(', ')),
+        choices || null,
+        el('div', {class: `verdict ${kind}`, id: 'verdict'}, el('span', {'aria-hidden': 'true'}, mark),
+            el('div', {}, word, el('small', {}, why))));
+  }
+
+  levelPart() {
+    if (!this.object.levels) return null;
+    const {view, live} = this;
+    const slider = live.slider = el('input', {type: 'range', id: 'level', min: 0, max: 1000, step: 1,
+      'aria-label': 'Level of the hull, from base to original', oninput: (e) => view.setLevelShare(e.target.value / 1000)});
+    live.faces = el('b', {id: 'faces'});
+    live.void = el('b', {id: 'void'});
+    live.distance = el('b', {id: 'distance'});
+    live.distanceLabel = el('span', {});
+    live.encloses = el('b', {id: 'encloses'});
+    live.play = el('button', {type: 'button', id: 'play', onclick: () => view.play()}, 'Play');
+    live.wanted = el('input', {type: 'number', id: 'wanted', min: 0, step: 1, 'aria-label': 'Faces at most',
+      onchange: (e) => view.setFaces(Number(e.target.value))});
+    const stops = this.object.stops.map((stop) => el('option', {value: stop.faces}, grouped(stop.faces)));
+    live.stops = el('select', {id: 'stops', 'aria-label': 'Levels with a proven distance',
+      onchange: (e) => e.target.value && view.setFaces(Number(e.target.value))}, el('option', {value: ''}, 'Proven …'), ...stops);
+    const box = (value, label) => el('div', {}, value, label);
+    return el('section', {}, el('h2', {}, 'Level'), slider,
+        el('div', {class: 'numbers'},
+            box(live.faces, el('span', {}, 'faces')),
+            box(live.void, el('span', {title: 'Volume between this level and the original, as a share of the original'}, 'void')),
+            box(live.distance, live.distanceLabel),
+            box(live.encloses, el('span', {}, this.object.side === 'inner' ? 'enclosed by the original' : 'encloses the original'))),
+        el('div', {class: 'row'}, live.play, live.wanted, live.stops));
+  }
+
+  /** The numbers of the level that is shown. */
+  showLevel() {
+    if (!this.object.levels) return;
+    this.showQuery();
+    const {live, object} = this, {levels} = object;
+    const stop = this.view.stopOf(levels.faces), v = object.verification;
+    live.slider.value = Math.round(1000 * this.view.levelShare());
+    live.slider.setAttribute('aria-valuetext', `${grouped(levels.faces)} faces`);
+    const {query} = this.view;
+    live.faces.textContent = grouped(query ? query.faces : levels.faces);
+    live.void.textContent = query ? '–' : levels.voids ? percent(levels.voids[levels.level]) : '–';
+    const isStop = stop.faces === levels.faces && !query;
+    live.distance.textContent = query ? '–' : withUnit(`≤ ${atMost(stop.upper)}`, this.unit);
+    live.distance.style.color = isStop ? '' : 'var(--soft)';
+    live.distanceLabel.textContent = isStop ? 'distance, proven' : query ? 'distance' : `distance, of ${grouped(stop.faces)} faces`;
+    live.encloses.textContent = v.refused ? '?' : v.encloses ? '✓ yes' : '✗ no';
+    live.wanted.value = levels.faces;
+    live.stops.value = isStop ? String(stop.faces) : '';
+    this.showFarthest();
+  }
+
+  setPlaying(is) { this.live.play.textContent = is ? 'Pause' : 'Play'; }
+
+  jointsPart() {
+    const {robot} = this.object;
+    if (!robot || robot.free.length === 0) return null;
+    this.live.joints = robot.free.map((joint, place) => {
+      const [min, max] = robot.range(joint), value = el('output', {id: `joint-value-${place}`});
+      const slider = el('input', {type: 'range', id: `joint-${place}`, min, max, step: 'any', value: robot.positions[joint.i],
+        'aria-label': joint.name, oninput: (e) => this.view.setJoint(joint.name, Number(e.target.value))});
+      return {joint, slider, value, row: el('div', {class: 'joint'}, el('span', {}, joint.name), value, slider)};
+    });
+    return el('section', {id: 'joints'}, el('h2', {}, 'Joints'), ...this.live.joints.map(({row}) => row),
+        el('div', {class: 'row'}, el('button', {type: 'button', id: 'rest', onclick: () => this.view.restRobots()}, 'Rest')));
+  }
+
+  /** Where the joints are. */
+  showJoints() {
+    for (const {joint, slider, value} of this.live.joints ?? []) {
+      const position = this.object.robot.positions[joint.i];
+      slider.value = position;
+      value.textContent = joint.motion === 'turn' ? `${(position * 180 / Math.PI).toFixed(1)}°` : `${(1000 * position).toFixed(1)} mm`;
+    }
+  }
+
+  queryPart() {
+    if (!this.object.levels) return null;
+    const {view, live} = this;
+    live.query = el('div', {id: 'query', 'aria-live': 'polite'});
+    return el('section', {}, el('h2', {}, 'A ray'), live.query, el('div', {class: 'row'},
+        el('button', {type: 'button', id: 'shoot', onclick: () => view.shootThroughMiddle()}, 'Through the middle'),
+        live.endQuery = el('button', {type: 'button', id: 'end-query', onclick: () => view.endQuery()}, 'End')));
+  }
+
+  /** What the last ray has met, and what that took. */
+  showQuery() {
+    const {live, view} = this, {query} = view;
+    if (!live.query) return;
+    live.endQuery.hidden = !query;
+    if (!query) {
+      live.query.replaceChildren(el('p', {class: 'soft'}, 'Click shoots a ray. The base mesh is then split only where the ray meets it.'));
+      return;
+    }
+    const missed = query.hits.filter((hit) => !hit.found).length;
+    const hits = query.hits.map((hit, i) => el('li', {}, el('button', {type: 'button', onclick: () => view.flyTo(hit.point)},
+        el('span', {class: hit.found ? 'mark found' : 'mark missed'}, String(i + 1)),
+        el('span', {}, `${hit.entering ? 'enters' : 'leaves'}${hit.found ? '' : ', passes below the hull: not found'}`,
+            el('span', {class: 'where'}, place(hit.point))))));
+    live.query.replaceChildren(
+        el('p', {}, el('b', {id: 'tests'}, grouped(query.tests)), ` faces tested, `, el('b', {id: 'splits'}, grouped(query.splits)),
+            ` vertices split, `, el('b', {id: 'hits'}, grouped(query.hits.length - missed)),
+            ` ${query.hits.length - missed === 1 ? 'hit' : 'hits'} found${missed ? `, ${missed} missed` : ''}.`),
+        el('ol', {class: 'places', id: 'query-hits'}, ...hits),
+        el('details', {}, el('summary', {}, 'The same on the command line'),
+            el('p', {class: 'soft'}, 'prohull query H.phull --engine paper-refinement --mode all --rays rays.csv, where rays.csv has the line'),
+            el('p', {class: 'soft', id: 'ray'}, [...query.ray.origin, ...query.ray.direction].join(','))));
+  }
+
+  shownPart() {
+    const {view} = this;
+    const rows = view.bodies.map((entry, i) => {
+      const input = check({id: `show-${i}`, checked: entry.body.visible, onchange: (e) => view.show(i, e.target.checked)},
+          entry.label, swatch(entry.body.color, entry.striped));
+      return input;
+    });
+    return el('section', {}, el('h2', {}, 'Shown'), ...rows,
+        el('div', {class: 'row'}, el('label', {for: 'opacity'}, 'Opacity'),
+            el('input', {type: 'range', id: 'opacity', min: 0.05, max: 1, step: 0.05, value: view.state.opacity,
+              oninput: (e) => view.setOpacity(Number(e.target.value))})),
+        check({id: 'edges', checked: view.state.edges, onchange: (e) => view.setEdges(e.target.checked)}, 'Edges'),
+        view.hasHeat && check({id: 'heat', checked: view.state.heat, onchange: (e) => view.setHeat(e.target.checked)},
+            'Distance as colour'),
+        view.hasParts && check({id: 'parts', checked: view.state.parts, onchange: (e) => view.setParts(e.target.checked)},
+            'Parts in colours'),
+        view.hasParts && el('div', {class: 'row'}, el('label', {for: 'explosion'}, 'Apart'),
+            el('input', {type: 'range', id: 'explosion', min: 0, max: 1.5, step: 0.01, value: view.state.explosion,
+              oninput: (e) => view.setExplosion(Number(e.target.value))})),
+        view.sides.length > 1 && check({id: 'beside', checked: view.state.beside, onchange: (e) => view.setBeside(e.target.checked)},
+            'Side by side'));
+  }
+
+  cutPart() {
+    const {view} = this;
+    const axes = [['', 'None'], ['x', 'X'], ['y', 'Y'], ['z', 'Z'], ['v', 'Facing']];
+    const select = el('select', {id: 'cut', 'aria-label': 'Direction of the section',
+      onchange: (e) => view.setCutAxis(e.target.value)},
+        ...axes.map(([value, name]) => el('option', {value, selected: value === view.state.cut}, name)));
+    return el('section', {}, el('h2', {}, 'Section'), el('div', {class: 'row'}, select,
+        el('button', {type: 'button', id: 'flip', onclick: () => view.flipCut()}, 'Flip')),
+        el('input', {type: 'range', id: 'cut-at', min: -1, max: 1, step: 0.005, value: view.state.cutAt,
+          'aria-label': 'Place of the section', oninput: (e) => view.setCutAt(Number(e.target.value))}));
+  }
+
+  /** The farthest point of the hull, or of its level. */
+  farthest() {
+    const {object} = this;
+    return object.levels ? this.view.stopOf(object.levels.faces) : object.distance;
+  }
+
+  distancePart() {
+    if (!this.farthest()) return null;
+    this.live.far = el('p', {id: 'far'});
+    const fly = el('button', {type: 'button', id: 'fly-far', onclick: () => this.view.flyTo(this.farthest().farthest)},
+        el('span', {class: 'far-mark', 'aria-hidden': 'true'}, '★ '), 'Show the farthest point');
+    return el('section', {}, el('h2', {}, this.object.union ? 'Reach out of the original' : 'Distance to the original'), this.live.far, fly);
+  }
+
+  showFarthest() {
+    const found = this.farthest();
+    if (!found || !this.live.far) return;
+    const of = this.object.levels ? ` of the level of ${grouped(found.faces)} faces` : '';
+    this.live.far.textContent = `The farthest point${of} is between ${withUnit(short(found.lower), this.unit)} and ` +
+        `${withUnit(atMost(found.upper), this.unit)} away (proven), found at ${place(found.farthest)}.`;
+  }
+
+  outsidePart() {
+    const v = this.object.verification;
+    if (!v?.worst?.length) return null;
+    const places = v.worst.map((o, i) => el('li', {}, el('button', {type: 'button', onclick: () => this.view.flyTo(o.point)},
+        el('span', {class: 'mark'}, String(i + 1)),
+        el('span', {}, `face ${grouped(o.face)}, ${withUnit(short(o.distance), this.unit)} outside`,
+            el('span', {class: 'where'}, place(o.point))))));
+    return el('section', {}, el('h2', {}, 'Outside'),
+        el('p', {}, `${counted(v.faces_outside, 'face lies', 'faces lie')} outside, at least in part. ` +
+            (v.worst.length < v.faces_outside ? 'The farthest:' : '')),
+        el('ol', {class: 'places', id: 'outside'}, ...places));
+  }
+
+  factsPart() {
+    const {object, unit} = this, {facts} = object, v = object.verification;
+    const cubic = unit ? `${unit}³` : '';
+    const rows = object.robot
+        ? [['Links', grouped(object.links.length)], ['Joints', grouped(object.joints.length)],
+          ['That move', grouped(object.robot.free.length)]]
+        : object.levels
+        ? [['Faces', `${grouped(object.base_faces)} to ${grouped(object.original_faces)}`],
+          ['Vertex splits', grouped(object.levels.count)],
+          ['Side', object.side],
+          FINEST_LEVEL[object.finest_level] && ['Finest level', FINEST_LEVEL[object.finest_level]]]
+        : !facts ? [['Parts', object.union]]
+        : [['Parts', object.union ?? null], ['Faces', grouped(facts.faces)], ['Vertices', grouped(facts.vertices)],
+          ['Watertight', facts.watertight ? 'yes' : 'no'],
+          !object.union && facts.components > 1 && ['Components', grouped(facts.components)],
+          facts.volume !== null && !object.union && ['Volume', withUnit(short(facts.volume, 7), cubic)],
+          ['Size', withUnit(facts.size.map((x) => short(x)).join(' × '), unit)],
+          ...facts.defects.map(({what, count}) => [what, grouped(count)]),
+          object.left_out > 0 && ['Not finite, left out', counted(object.left_out, 'face', 'faces')]];
+    const proof = v && !v.refused
+        ? [!object.levels && v.void_ratio !== null && ['Void', percent(v.void_ratio)],
+          v.hull_volume !== null && [object.levels ? 'Volume of the base' : 'Volume, verified', withUnit(short(v.hull_volume, 7), cubic)],
+          v.original_volume !== null && ['Volume of the original', withUnit(short(v.original_volume, 7), cubic)],
+          v.self_intersections !== undefined && ['Self-intersections', counted(v.self_intersections ?? 0, 'pair', 'pairs')]]
+        : [];
+    return el('section', {id: 'facts'}, el('h2', {}, 'Numbers'), table([...rows, ...proof]),
+        ...(v?.notes ?? []).map((note) => el('p', {class: 'soft'}, note)),
+        ...this.originalFacts());
+  }
+
+  originalFacts() {
+    const {original} = this.view;
+    if (!original?.facts) return [];
+    const {facts} = original;
+    return [el('h2', {}, 'Original'), table([
+      ['Name', original.name], ['Faces', grouped(facts.faces)], ['Watertight', facts.watertight ? 'yes' : 'no'],
+      ...facts.defects.map(({what, count}) => [what, grouped(count)]),
+      original.left_out > 0 && ['Not finite, left out', counted(original.left_out, 'face', 'faces')]])];
+  }
+
+  cameraPart() {
+    const {view} = this;
+    const button = (id, text, act) => el('button', {type: 'button', id, onclick: act}, text);
+    return el('section', {}, el('h2', {}, 'Look'), el('div', {class: 'row'},
+        button('home', 'All', () => view.viewport.home()),
+        button('front', 'Front', () => view.viewport.look(0, 0)),
+        button('right', 'Right', () => view.viewport.look(90, 0)),
+        button('top', 'Top', () => view.viewport.look(0, 89.9))),
+        el('div', {class: 'row'},
+            button('png', 'Save PNG', () => view.savePicture()),
+            button('theme', 'Dark or light', () => view.toggleTheme())));
+  }
+
+  notePart() {
+    const {view} = this;
+    const keys = [['arrows', 'turn'], ['shift + arrows', 'move'], ['+ −', 'zoom'], ['0', 'see all'], [', .', 'coarser, finer'],
+      ['space', 'play'], ['e', 'edges'], ['h', 'distance as colour'], ['x y z', 'section'], ['[ ]', 'move the section'],
+      ['f', 'farthest point'], ['n', 'next place outside'], ['q', 'ray through the middle'], ['Esc', 'end the ray'], ['p', 'save PNG']];
+    const step = view.scene.grid.step;
+    return el('section', {},
+        el('details', {}, el('summary', {}, 'Keys, mouse and touch'),
+            el('p', {class: 'soft'}, 'Drag turns, the right button or two fingers move, the wheel or a pinch zooms.'),
+            el('dl', {class: 'keys'}, ...keys.flatMap(([key, what]) =>
+              [el('dt', {}, el('kbd', {}, key)), el('dd', {}, what)]))),
+        el('p', {class: 'soft', id: 'rounding'},
+            `Verdicts and counts are exact, distances are proven bounds. What is drawn is rounded: to steps of ${withUnit(short(step, 2), this.unit)}, ` +
+            'a billionth of the longest side. Between its points, colour is interpolated. ' +
+            (this.unit ? '' : 'Lengths are in the unit of the mesh. ') + `Made by prohull ${view.scene.version}.`));
+  }
+
+  legend() {
+    byId('legend-bar').style.background = `linear-gradient(to right, ${legendColors(24).join(', ')})`;
+    const greatest = this.view.heatMax;
+    byId('legend-title').textContent = `Distance from the original${this.unit ? `, in ${this.unit}` : ', in the unit of the mesh'}`;
+    byId('legend-ticks').replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map((t) => el('span', {}, short(t * greatest, 3))));
+  }
+}
