@@ -321,7 +321,7 @@ class Robot:
         padding: least distance that hulls keep from the geometry, proven. Not for pieces and spheres.
         max_distance: largest distance of a point of a hull from the geometry, proven; greater than 0. None: no bound.
             Pieces and spheres are as few as keep it.
-        tight: whether to build tight hulls, which takes some twenty times as long. Not for pieces and spheres.
+        tight: whether to build tight hulls, which takes some five times as long. Not for pieces and spheres.
         budgets: a YAML file with collision, faces, pieces, vertices, spheres, max_distance, padding and skip for single
             links.
         cache: a folder that keeps hulls for the next time.

@@ -18,21 +18,26 @@ std::array<Triangle, 4> faces_of(const Tetrahedron& t) {
   return {{{t.a, t.b, t.c}, {t.a, t.c, t.d}, {t.a, t.d, t.b}, {t.b, t.d, t.c}}};
 }
 
+/// Corners that are shared need no exact arithmetic: hulls have many points of the original.
+Side side_of(const Triangle& t, const Vec3& p) {
+  return p == t.a || p == t.b || p == t.c ? Side::On : side(t.a, t.b, t.c, p);
+}
+
 /// Whether all are on one side of the plane of t or on it.
 template <std::size_t N>
 bool on_one_side(const Triangle& t, const std::array<Vec3, N>& points, Side beside) {
-  return std::ranges::all_of(points, [&](const Vec3& p) { return side(t.a, t.b, t.c, p) != opposite(beside); });
+  return std::ranges::all_of(points, [&](const Vec3& p) { return side_of(t, p) != opposite(beside); });
 }
 
 template <std::size_t N>
 bool strictly_on_one_side(const Triangle& t, const std::array<Vec3, N>& points, Side beside) {
-  return std::ranges::all_of(points, [&](const Vec3& p) { return side(t.a, t.b, t.c, p) == beside; });
+  return std::ranges::all_of(points, [&](const Vec3& p) { return side_of(t, p) == beside; });
 }
 
 /// Bit i is set if corner i is strictly inside of the plane of the face.
 unsigned corners_inside(const Triangle& face, const Corners& corners) {
   unsigned inside = 0;
-  for (std::size_t i = 0; i < 3; ++i) inside |= unsigned{side(face.a, face.b, face.c, corners[i]) == Side::Inside} << i;
+  for (std::size_t i = 0; i < 3; ++i) inside |= unsigned{side_of(face, corners[i]) == Side::Inside} << i;
   return inside;
 }
 
@@ -40,12 +45,14 @@ unsigned corners_inside(const Triangle& face, const Corners& corners) {
 /// others, have the triangle on one side and the tetrahedron on the other; `strictly`, with room between the two edges.
 bool separated_along_edges(const Vec3& p, const Vec3& q, const Vec3& t, const Vec3& r, const Vec3& s, const Vec3& u,
                            const Vec3& v, bool strictly) {
+  const bool share_an_end = p == r || p == s || q == r || q == s;
+  if (share_an_end && strictly) return false;
   const int of_u = determinant_sign(p, q, r, s, r, u), of_v = determinant_sign(p, q, r, s, r, v);
   if (of_u == 0 && of_v == 0) return false;  // parallel edges: other planes separate, if any does
   if (of_u * of_v < 0) return false;
   const int away = of_u != 0 ? of_u : of_v;  // the side on which the tetrahedron is, seen from rs
   return determinant_sign(p, q, r, s, p, t) * away <= 0 &&
-         determinant_sign(p, q, r, s, p, r) * away >= (strictly ? 1 : 0);
+         (share_an_end || determinant_sign(p, q, r, s, p, r) * away >= (strictly ? 1 : 0));
 }
 
 bool separated_along_edges(const Corners& triangle, const std::array<Vec3, 4>& tetrahedron, bool strictly) {

@@ -68,9 +68,15 @@ TEST(TightHull, BeyondFloat32HasFiniteCoordinates) {
   }
 }
 
-TEST(TightHull, IsTheSameEveryTime) {
-  const TriangleMesh mesh = make_sample("knot", effort(2000, 800));
-  EXPECT_EQ(build_tight_hull(mesh, {.target_faces = 200}).mesh, build_tight_hull(mesh, {.target_faces = 200}).mesh);
+TEST(TightHull, IsTheSameForAnyNumberOfThreads) {
+  const TriangleMesh mesh = make_sample("pony", effort(6000, 2000));
+  const TriangleMesh one = build_tight_hull(mesh, {.target_faces = 200, .threads = 1}).mesh;
+  for (const unsigned threads : {2u, 3u, 0u})
+    EXPECT_EQ(one, build_tight_hull(mesh, {.target_faces = 200, .threads = threads}).mesh) << threads;
+}
+
+TEST(TightHull, IsNotSymmetric) {
+  EXPECT_THROW(build_tight_hull(make_sample("box", 500), {.target_faces = 100, .mirror = Axis::X}), InputError);
 }
 
 TEST(TightHull, GoesForwardAndCancels) {
