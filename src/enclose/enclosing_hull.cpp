@@ -258,7 +258,7 @@ bool Ladder::is_worth_the_convex_hull(const std::optional<EnclosingHull>& best) 
     TriangleMesh convex = convex_hull(is_padded() ? to_cover() : made_.input.original);
     if (is_padded()) {
       if (is_good && signed_volume(convex) + aim() * area_of(convex) >= signed_volume(best->mesh)) return false;
-      convex = padded_convex_solid(convex.face_count() > 0 ? std::move(convex) : to_cover());
+      convex = padded_convex_solid(convex.face_count() > 0 ? convex : to_cover());
     }
     if (convex.face_count() > 0)
       convex_hull_ = add_solid({.source = Source::ConvexHull, .mesh = std::move(convex)});

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "mesh/half_edge_mesh.h"
@@ -26,8 +25,8 @@ class Contacts {
   }
   /// For a new vertex, that takes the place of o and d.
   void join(VertexId o, VertexId d) {
-    std::vector<Vec3> of_o = points_[o];
-    const VertexId s = points_.push_back(std::move(of_o));
+    const std::vector<Vec3> of_o = points_[o];
+    const VertexId s = points_.push_back(of_o);
     keep(s, points_[d]);
   }
 

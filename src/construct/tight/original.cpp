@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "geometry/predicates.h"
@@ -40,21 +39,21 @@ std::optional<Vec3> point_inside(const Tetrahedron& t) {
 
 }  // namespace
 
-Original::Original(TriangleMesh mesh, double clearance)
-    : sieve_(std::move(mesh)), bounds_(bounding_box(sieve_.mesh())), clearance_(clearance) {}
+Original::Original(const TriangleMesh& mesh, double clearance)
+    : sieve_(mesh), bounds_(bounding_box(sieve_.mesh())), clearance_(clearance) {}
 
-Original Original::closed(TriangleMesh mesh, HullSide side) {
-  Original original(std::move(mesh), 0);
+Original Original::closed(const TriangleMesh& mesh, HullSide side) {
+  Original original(mesh, 0);
   original.winding_.emplace(triangles_of(original.mesh()));
   original.least_covered_ = side == HullSide::Outer ? 1 : 0;
   return original;
 }
 
-Original Original::triangles(TriangleMesh mesh, double clearance) { return {std::move(mesh), clearance}; }
+Original Original::triangles(const TriangleMesh& mesh, double clearance) { return {mesh, clearance}; }
 
-Original Original::padded_triangles(TriangleMesh mesh, double padding) {
+Original Original::padded_triangles(const TriangleMesh& mesh, double padding) {
   constexpr double kLittleMore = 1 + 1e-9;  // for what proposals have rounded
-  Original original(std::move(mesh), kLittleMore * padding);
+  Original original(mesh, kLittleMore * padding);
   original.padding_ = padding;
   return original;
 }

@@ -79,7 +79,7 @@ TriangleMesh in_order(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleSieve::TriangleSieve(TriangleMesh mesh) : mesh_(in_order(mesh)) {
+TriangleSieve::TriangleSieve(const TriangleMesh& mesh) : mesh_(in_order(mesh)) {
   if (mesh_.face_count() == 0) return;
   const Box bounds = bounding_box(mesh_);
   center_ = bounds.center();

@@ -15,7 +15,7 @@ namespace prohull {
 /// faces to a leaf, in a frame in which the mesh lies in [-1, 1]^3. What it leaves out is far away for certain.
 class TriangleSieve {
  public:
-  explicit TriangleSieve(TriangleMesh mesh);
+  explicit TriangleSieve(const TriangleMesh& mesh);
 
   /// The mesh, its faces and vertices in an order in which what lies together in space does so in memory, mostly.
   const TriangleMesh& mesh() const { return mesh_; }
