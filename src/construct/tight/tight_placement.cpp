@@ -109,11 +109,11 @@ void TightPlacement::begin(double margin) {
 // Cutting planes: the linear program without the original, then again and again with the points of the original that
 // its answer would leave outside.
 std::optional<Vec3> TightPlacement::propose() {
-  constexpr double kLeastGain = 3e-4;  // of the objective
+  const double least_gain = original_.clearance() > 0 ? 1e-4 : 3e-4;  // of the objective
   if (!(norm(objective_) > 0)) return std::nullopt;
   while (programs_left_-- > 0) {
     const auto best = optimum_or_nearest(objective_, constraints_);
-    if (!best || dot(objective_, *best) > -kLeastGain * norm(objective_)) return std::nullopt;
+    if (!best || dot(objective_, *best) > -least_gain * norm(objective_)) return std::nullopt;
     if (!add_known_cuts(*best)) return best;
   }
   return std::nullopt;
@@ -151,7 +151,10 @@ bool TightPlacement::add_cut(std::size_t i, const Vec3& q) {
   return true;
 }
 
+// Not of triangles that need no inside: there a point may be known on one side of a sheet, and then holds a vertex on
+// the other. Hulls of sheets had up to three times the volume.
 void TightPlacement::add_known(const Vec3& local) {
+  if (original_.clearance() > 0) return;
   for (int axis = 0; axis < 3; ++axis) known_[static_cast<std::size_t>(axis)].push_back(local[axis]);
 }
 
