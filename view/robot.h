@@ -6,7 +6,7 @@
 
 namespace prohull::view {
 
-/// How the links of a robot move: what web/src/robot.js needs for forward kinematics, with all joints at their
+/// How the links of a robot move: what web/src/data/robot.js needs for forward kinematics, with all joints at their
 /// rest_positions at first.
 nlohmann::json joint_facts(const robot::Robot& robot);
 

@@ -1,7 +1,7 @@
 // How surfaces, edges and sections are drawn. Colours are those of the screen; nothing is converted.
 
 import * as THREE from 'three';
-import {VIRIDIS_GLSL} from './heat.js';
+import {VIRIDIS_GLSL} from '../data/heat.js';
 
 const VERTEX = `
 attribute float heat;

@@ -1,7 +1,6 @@
 // The panel beside the picture. It knows elements, and calls `view` for all else.
 
 import {byId, counted, el, grouped, percent, place, short, atMost} from './dom.js';
-import {legendColors} from './heat.js';
 
 const FINEST_LEVEL = {
   repaired: 'the repaired input', 'convex-hull': 'the convex hull of the input', wrap: 'a wrap of the input'};
@@ -47,7 +46,6 @@ export class Panel {
     this.content.append(...[
       this.heading(), this.levelPart(), this.jointsPart(), this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
       this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
-    this.legend();
   }
 
   get object() { return this.view.active; }
@@ -75,18 +73,18 @@ export class Panel {
     if (!this.object.levels) return null;
     const {view, live} = this;
     const slider = live.slider = el('input', {type: 'range', id: 'level', min: 0, max: 1000, step: 1,
-      'aria-label': 'Level of the hull, from base to original', oninput: (e) => view.setLevelShare(e.target.value / 1000)});
+      'aria-label': 'Level of the hull, from base to original', oninput: (e) => view.levels.setShare(e.target.value / 1000)});
     live.faces = el('b', {id: 'faces'});
     live.void = el('b', {id: 'void'});
     live.distance = el('b', {id: 'distance'});
     live.distanceLabel = el('span', {});
     live.encloses = el('b', {id: 'encloses'});
-    live.play = el('button', {type: 'button', id: 'play', onclick: () => view.play()}, 'Play');
+    live.play = el('button', {type: 'button', id: 'play', onclick: () => view.levels.play()}, 'Play');
     live.wanted = el('input', {type: 'number', id: 'wanted', min: 0, step: 1, 'aria-label': 'Faces at most',
-      onchange: (e) => view.setFaces(Number(e.target.value))});
+      onchange: (e) => view.levels.setFaces(Number(e.target.value))});
     const stops = this.object.stops.map((stop) => el('option', {value: stop.faces}, grouped(stop.faces)));
     live.stops = el('select', {id: 'stops', 'aria-label': 'Levels with a proven distance',
-      onchange: (e) => e.target.value && view.setFaces(Number(e.target.value))}, el('option', {value: ''}, 'Proven …'), ...stops);
+      onchange: (e) => e.target.value && view.levels.setFaces(Number(e.target.value))}, el('option', {value: ''}, 'Proven …'), ...stops);
     const box = (value, label) => el('div', {}, value, label);
     return el('section', {}, el('h2', {}, 'Level'), slider,
         el('div', {class: 'numbers'},
@@ -102,10 +100,10 @@ export class Panel {
     if (!this.object.levels) return;
     this.showQuery();
     const {live, object} = this, {levels} = object;
-    const stop = this.view.stopOf(levels.faces), v = object.verification;
-    live.slider.value = Math.round(1000 * this.view.levelShare());
+    const stop = this.view.levels.stopOf(levels.faces), v = object.verification;
+    live.slider.value = Math.round(1000 * this.view.levels.share());
     live.slider.setAttribute('aria-valuetext', `${grouped(levels.faces)} faces`);
-    const {query} = this.view;
+    const {query} = this.view.rays;
     live.faces.textContent = grouped(query ? query.faces : levels.faces);
     live.void.textContent = query ? '–' : levels.voids ? percent(levels.voids[levels.level]) : '–';
     const isStop = stop.faces === levels.faces && !query;
@@ -126,11 +124,11 @@ export class Panel {
     this.live.joints = robot.free.map((joint, place) => {
       const [min, max] = robot.range(joint), value = el('output', {id: `joint-value-${place}`});
       const slider = el('input', {type: 'range', id: `joint-${place}`, min, max, step: 'any', value: robot.positions[joint.i],
-        'aria-label': joint.name, oninput: (e) => this.view.setJoint(joint.name, Number(e.target.value))});
+        'aria-label': joint.name, oninput: (e) => this.view.robots.set(joint.name, Number(e.target.value))});
       return {joint, slider, value, row: el('div', {class: 'joint'}, el('span', {}, joint.name), value, slider)};
     });
     return el('section', {id: 'joints'}, el('h2', {}, 'Joints'), ...this.live.joints.map(({row}) => row),
-        el('div', {class: 'row'}, el('button', {type: 'button', id: 'rest', onclick: () => this.view.restRobots()}, 'Rest')));
+        el('div', {class: 'row'}, el('button', {type: 'button', id: 'rest', onclick: () => this.view.robots.rest()}, 'Rest')));
   }
 
   /** Where the joints are. */
@@ -147,13 +145,13 @@ export class Panel {
     const {view, live} = this;
     live.query = el('div', {id: 'query', 'aria-live': 'polite'});
     return el('section', {}, el('h2', {}, 'A ray'), live.query, el('div', {class: 'row'},
-        el('button', {type: 'button', id: 'shoot', onclick: () => view.shootThroughMiddle()}, 'Through the middle'),
-        live.endQuery = el('button', {type: 'button', id: 'end-query', onclick: () => view.endQuery()}, 'End')));
+        el('button', {type: 'button', id: 'shoot', onclick: () => view.rays.shootThroughMiddle()}, 'Through the middle'),
+        live.endQuery = el('button', {type: 'button', id: 'end-query', onclick: () => view.rays.end()}, 'End')));
   }
 
   /** What the last ray has met, and what that took. */
   showQuery() {
-    const {live, view} = this, {query} = view;
+    const {live, view} = this, {query} = view.rays;
     if (!live.query) return;
     live.endQuery.hidden = !query;
     if (!query) {
@@ -161,7 +159,7 @@ export class Panel {
       return;
     }
     const missed = query.hits.filter((hit) => !hit.found).length;
-    const hits = query.hits.map((hit, i) => el('li', {}, el('button', {type: 'button', onclick: () => view.flyTo(hit.point)},
+    const hits = query.hits.map((hit, i) => el('li', {}, el('button', {type: 'button', onclick: () => view.places.flyTo(hit.point)},
         el('span', {class: hit.found ? 'mark found' : 'mark missed'}, String(i + 1)),
         el('span', {}, `${hit.entering ? 'enters' : 'leaves'}${hit.found ? '' : ', passes below the hull: not found'}`,
             el('span', {class: 'where'}, place(hit.point))))));
@@ -178,23 +176,23 @@ export class Panel {
   shownPart() {
     const {view} = this;
     const rows = view.bodies.map((entry, i) => {
-      const input = check({id: `show-${i}`, checked: entry.body.visible, onchange: (e) => view.show(i, e.target.checked)},
+      const input = check({id: `show-${i}`, checked: entry.body.visible, onchange: (e) => view.look.show(i, e.target.checked)},
           entry.label, swatch(entry.body.color, entry.striped));
       return input;
     });
     return el('section', {}, el('h2', {}, 'Shown'), ...rows,
         el('div', {class: 'row'}, el('label', {for: 'opacity'}, 'Opacity'),
             el('input', {type: 'range', id: 'opacity', min: 0.05, max: 1, step: 0.05, value: view.state.opacity,
-              oninput: (e) => view.setOpacity(Number(e.target.value))})),
-        check({id: 'edges', checked: view.state.edges, onchange: (e) => view.setEdges(e.target.checked)}, 'Edges'),
-        view.hasHeat && check({id: 'heat', checked: view.state.heat, onchange: (e) => view.setHeat(e.target.checked)},
+              oninput: (e) => view.look.setOpacity(Number(e.target.value))})),
+        check({id: 'edges', checked: view.state.edges, onchange: (e) => view.look.setEdges(e.target.checked)}, 'Edges'),
+        view.hasHeat && check({id: 'heat', checked: view.state.heat, onchange: (e) => view.look.setHeat(e.target.checked)},
             'Distance as colour'),
-        view.hasParts && check({id: 'parts', checked: view.state.parts, onchange: (e) => view.setParts(e.target.checked)},
+        view.hasParts && check({id: 'parts', checked: view.state.parts, onchange: (e) => view.look.setParts(e.target.checked)},
             'Parts in colours'),
         view.hasParts && el('div', {class: 'row'}, el('label', {for: 'explosion'}, 'Apart'),
             el('input', {type: 'range', id: 'explosion', min: 0, max: 1.5, step: 0.01, value: view.state.explosion,
-              oninput: (e) => view.setExplosion(Number(e.target.value))})),
-        view.sides.length > 1 && check({id: 'beside', checked: view.state.beside, onchange: (e) => view.setBeside(e.target.checked)},
+              oninput: (e) => view.look.setExplosion(Number(e.target.value))})),
+        view.sides.length > 1 && check({id: 'beside', checked: view.state.beside, onchange: (e) => view.look.setBeside(e.target.checked)},
             'Side by side'));
   }
 
@@ -202,24 +200,24 @@ export class Panel {
     const {view} = this;
     const axes = [['', 'None'], ['x', 'X'], ['y', 'Y'], ['z', 'Z'], ['v', 'Facing']];
     const select = el('select', {id: 'cut', 'aria-label': 'Direction of the section',
-      onchange: (e) => view.setCutAxis(e.target.value)},
+      onchange: (e) => view.section.setAxis(e.target.value)},
         ...axes.map(([value, name]) => el('option', {value, selected: value === view.state.cut}, name)));
     return el('section', {}, el('h2', {}, 'Section'), el('div', {class: 'row'}, select,
-        el('button', {type: 'button', id: 'flip', onclick: () => view.flipCut()}, 'Flip')),
+        el('button', {type: 'button', id: 'flip', onclick: () => view.section.flip()}, 'Flip')),
         el('input', {type: 'range', id: 'cut-at', min: -1, max: 1, step: 0.005, value: view.state.cutAt,
-          'aria-label': 'Place of the section', oninput: (e) => view.setCutAt(Number(e.target.value))}));
+          'aria-label': 'Place of the section', oninput: (e) => view.section.setPlace(Number(e.target.value))}));
   }
 
   /** The farthest point of the hull, or of its level. */
   farthest() {
     const {object} = this;
-    return object.levels ? this.view.stopOf(object.levels.faces) : object.distance;
+    return object.levels ? this.view.levels.stopOf(object.levels.faces) : object.distance;
   }
 
   distancePart() {
     if (!this.farthest()) return null;
     this.live.far = el('p', {id: 'far'});
-    const fly = el('button', {type: 'button', id: 'fly-far', onclick: () => this.view.flyTo(this.farthest().farthest)},
+    const fly = el('button', {type: 'button', id: 'fly-far', onclick: () => this.view.places.flyTo(this.farthest().farthest)},
         el('span', {class: 'far-mark', 'aria-hidden': 'true'}, '★ '), 'Show the farthest point');
     return el('section', {}, el('h2', {}, this.object.union ? 'Reach out of the original' : 'Distance to the original'), this.live.far, fly);
   }
@@ -235,7 +233,7 @@ export class Panel {
   outsidePart() {
     const v = this.object.verification;
     if (!v?.worst?.length) return null;
-    const places = v.worst.map((o, i) => el('li', {}, el('button', {type: 'button', onclick: () => this.view.flyTo(o.point)},
+    const places = v.worst.map((o, i) => el('li', {}, el('button', {type: 'button', onclick: () => this.view.places.flyTo(o.point)},
         el('span', {class: 'mark'}, String(i + 1)),
         el('span', {}, `face ${grouped(o.face)}, ${withUnit(short(o.distance), this.unit)} outside`,
             el('span', {class: 'where'}, place(o.point))))));
@@ -294,8 +292,8 @@ export class Panel {
         button('right', 'Right', () => view.viewport.look(90, 0)),
         button('top', 'Top', () => view.viewport.look(0, 89.9))),
         el('div', {class: 'row'},
-            button('png', 'Save PNG', () => view.savePicture()),
-            button('theme', 'Dark or light', () => view.toggleTheme())));
+            button('png', 'Save PNG', () => view.look.savePicture()),
+            button('theme', 'Dark or light', () => view.look.toggleTheme())));
   }
 
   notePart() {
@@ -313,12 +311,5 @@ export class Panel {
             `Verdicts and counts are exact, distances are proven bounds. What is drawn is rounded: to steps of ${withUnit(short(step, 2), this.unit)}, ` +
             'a billionth of the longest side. Between its points, colour is interpolated. ' +
             (this.unit ? '' : 'Lengths are in the unit of the mesh. ') + `Made by prohull ${view.scene.version}.`));
-  }
-
-  legend() {
-    byId('legend-bar').style.background = `linear-gradient(to right, ${legendColors(24).join(', ')})`;
-    const greatest = this.view.heatMax;
-    byId('legend-title').textContent = `Distance from the original${this.unit ? `, in ${this.unit}` : ', in the unit of the mesh'}`;
-    byId('legend-ticks').replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map((t) => el('span', {}, short(t * greatest, 3))));
   }
 }

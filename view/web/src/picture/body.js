@@ -25,8 +25,13 @@ function geometryOf({positions, triangles, heat, shifts, tints}) {
   return geometry;
 }
 
+const INNERMOST = 45;
+
 export class Body {
-  /** `divided` is the same surface with distances; without it those of `mesh` are shown. */
+  /**
+   * `divided` is the same surface with distances; without it those of `mesh` are shown. `order`: from the outside to the
+   * inside. Sections are painted in that order, one over the other; surfaces the other way round, as the outer ones are glass.
+   */
   constructor({mesh, divided, color, closed, striped, order, depth = 1}) {
     this.mesh = mesh;
     this.color = color;
@@ -37,9 +42,9 @@ export class Body {
     this.group.add(this.moved);
     this.geometry = geometryOf(mesh);
     this.material = surfaceMaterial(rgb(color), depth);
-    this.surface = this.add(new THREE.Mesh(this.geometry, this.material), order);
+    this.surface = this.add(new THREE.Mesh(this.geometry, this.material), INNERMOST - order);
     if (divided) {
-      this.divided = this.add(new THREE.Mesh(geometryOf(divided), this.material), order);
+      this.divided = this.add(new THREE.Mesh(geometryOf(divided), this.material), INNERMOST - order);
       this.divided.visible = false;
     }
     this.counting = [
