@@ -178,6 +178,7 @@ class Writer {
                        {"collision", link_object(shown, robot.collision[i])}});
     json facts = {{"role", "hull"}, {"kind", "robot"}, {"links", links}, {"joints", joint_facts(robot.robot)}};
     facts["corners"] = blocks_.plain(corners);
+    facts.update(disabled_facts(robot, options_.threads));
     return facts;
   }
 

@@ -1,11 +1,18 @@
-// Where the joints of robots are.
+// Where the joints of robots are, and which links collide there.
 
+import {Collisions} from '../data/collisions.js';
 import {drawnPose} from '../data/robot.js';
+
+const MILLISECONDS = 8;  // of each frame, for collisions
 
 export class RobotControl {
   constructor(view) {
     this.view = view;
     this.shown = view.hulls.filter((hull) => hull.robot);
+    for (const hull of this.shown) {
+      hull.collisions = new Collisions(hull.collisionBodies.map((body) => body?.mesh ?? null),
+          hull.collisionBodies.map((body) => body?.closed), hull.disabled);
+    }
   }
 
   open() {
@@ -29,11 +36,38 @@ export class RobotControl {
   }
 
   move() {
-    for (const {robot, linkBodies} of this.shown)
-      robot.poses().forEach((pose, i) => linkBodies[i].forEach((body) => body.move(drawnPose(pose, this.view.space))));
+    for (const hull of this.shown) {
+      hull.linkPoses = hull.robot.poses().map((pose) => drawnPose(pose, this.view.space));
+      hull.linkPoses.forEach((pose, i) => hull.linkBodies[i].forEach((body) => body.move(pose)));
+    }
     this.tell();
+    this.view.viewport.changed();
+    this.collide();
+  }
+
+  /** Frame by frame, as long as pairs are left; what is known stays lit until then. */
+  collide() {
+    if (this.waiting || this.shown.length === 0) return;
+    this.waiting = requestAnimationFrame(() => {
+      this.waiting = null;
+      const until = performance.now() + MILLISECONDS;
+      const known = this.shown.map(({collisions, linkPoses}) => collisions.update(linkPoses, until));
+      if (known.every(Boolean)) this.light();
+      else this.collide();
+    });
+  }
+
+  light() {
+    for (const {collisions, collisionBodies} of this.shown) {
+      const lit = new Set(collisions.colliding.flat());
+      collisionBodies.forEach((body, i) => body?.light(lit.has(i)));
+    }
+    this.view.panel?.showCollisions();
     this.view.viewport.changed();
   }
 
-  tell() { this.view.panel?.showJoints(); }
+  tell() {
+    this.view.panel?.showJoints();
+    this.view.panel?.showCollisions();
+  }
 }

@@ -12,7 +12,7 @@ export function partColor(i) {
 }
 
 /** The number of the part of each vertex. */
-function numbersOfParts(triangles, vertices) {
+export function numbersOfParts(triangles, vertices) {
   const parents = Uint32Array.from({length: vertices}, (_, v) => v);
   const root = (v) => {
     while (parents[v] !== v) v = parents[v] = parents[parents[v]];

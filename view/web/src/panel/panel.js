@@ -44,7 +44,7 @@ export class Panel {
     this.live = {};
     byId('fold').addEventListener('click', () => this.fold(byId('fold').getAttribute('aria-expanded') === 'true'));
     this.content.append(...[
-      this.heading(), this.levelPart(), this.jointsPart(), this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
+      this.heading(), this.levelPart(), this.jointsPart(), this.collisionsPart(), this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
       this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
   }
 
@@ -138,6 +138,25 @@ export class Panel {
       slider.value = position;
       value.textContent = joint.motion === 'turn' ? `${(position * 180 / Math.PI).toFixed(1)}°` : `${(1000 * position).toFixed(1)} mm`;
     }
+  }
+
+  collisionsPart() {
+    if (!this.object.robot) return null;
+    this.live.collisions = el('div', {id: 'collisions', 'aria-live': 'polite'});
+    return el('section', {}, el('h2', {}, 'Collisions'), this.live.collisions);
+  }
+
+  /** Which links collide where the joints are. */
+  showCollisions() {
+    const {live, object} = this;
+    if (!live.collisions) return;
+    const {pairs, colliding} = object.collisions, names = object.links.map(({name}) => name);
+    live.collisions.replaceChildren(
+        el('p', {id: 'colliding'}, pairs.length === 0 ? 'No links to compare: fewer than two have collision geometry that may not touch.'
+            : colliding.length === 0 ? '✓ No links collide.' : `✗ ${counted(colliding.length, 'pair collides', 'pairs collide')}:`),
+        el('ul', {class: 'pairs'}, ...colliding.map(([a, b]) => el('li', {}, `${names[a]} – ${names[b]}`))),
+        el('p', {class: 'soft'}, `${counted(pairs.length, 'pair', 'pairs')} of links compared as they are drawn. Left out: ` +
+            (object.disabled_by_file ? 'the pairs that the SRDF file disables.' : 'neighbours, and pairs that touch in every position.')));
   }
 
   queryPart() {

@@ -26,6 +26,7 @@ function geometryOf({positions, triangles, heat, shifts, tints}) {
 }
 
 const INNERMOST = 45;
+const LIT = '#d55e00';  // of Okabe and Ito: told apart from clay and blue by people with any kind of colour vision
 
 export class Body {
   /**
@@ -79,7 +80,17 @@ export class Body {
   get visible() { return this.group.visible; }
   set visible(is) { this.group.visible = is; }
 
-  setOpacity(opacity) {
+  /** In the colour of what collides. */
+  light(is) {
+    if (this.isLit === is) return;
+    this.isLit = is;
+    this.material.uniforms.color.value.set(...rgb(is ? LIT : this.color));
+    this.setOpacity(this.opacity);
+  }
+
+  setOpacity(wanted) {
+    this.opacity = wanted;
+    const opacity = this.isLit ? Math.max(wanted, 0.75) : wanted;
     this.material.uniforms.opacity.value = opacity;
     this.material.transparent = opacity < 1;
     this.material.depthWrite = opacity === 1;
