@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "prohull/progressive_hull.h"
 #include "view/blocks.h"
 #include "view/grid.h"
@@ -16,6 +18,21 @@ namespace prohull::view {
 /// `distances` holds the distance of each vertex from the original, by its number in the hull.
 nlohmann::json levels_facts(const ProgressiveHull& hull, const PerVertex<double>& distances, const Grid& grid,
                             Blocks& blocks);
+
+/// The faces of levels, split by split from the base mesh to the original.
+class MadeFaces {
+ public:
+  explicit MadeFaces(const ProgressiveHull& hull);
+  ~MadeFaces();
+  /// All faces that the splits after those of the last call make, up to so many splits: every face of the levels up to
+  /// there is one of these, or a face of the level of the last call. Vertices are those of the hull.
+  TriangleMesh until(std::size_t splits);
+
+ private:
+  const ProgressiveHull& hull_;
+  std::unique_ptr<class Replay> replay_;
+  std::size_t made_ = 0;
+};
 
 /// The volume of each level, from the base mesh to the original, rounded.
 std::vector<double> volumes_of_levels(const ProgressiveHull& hull);

@@ -66,7 +66,7 @@ export function remembered({state, space, viewport, active, hasParts}) {
   return {
     v: [azimuth, elevation, distance / space.radius, ...target.map((x) => x / space.radius)]
         .map((x) => Math.abs(x) < 1e-6 ? 0 : round(x)).join(','),
-    l: active.levels ? active.levels.faces : null,
+    l: active.levels ? active.levels.shownFaces : null,
     o: state.opacity, e: state.edges ? 1 : 0, h: state.heat ? 1 : null, b: state.beside ? 1 : null,
     u: hasParts && !state.parts ? 0 : null, k: hasParts && state.explosion || null,
     c: state.cut, a: state.cut ? state.cutAt : null, s: state.cut && state.cutSign < 0 ? -1 : null,

@@ -1,6 +1,12 @@
-// Which level of the progressive hulls is shown.
+// Which level of the progressive hulls is shown. Between two levels, vertices glide.
+
+import {calm} from '../picture/viewport.js';
 
 const PLAY_SECONDS = 7;
+const FOLLOW = 90, SPREAD = 120, LAND = 260;  // milliseconds: to come near the wanted level, to begin to glide, to end it
+const AHEAD = 0.12;                           // of the faces: these glide at once
+const FASTEST = 0.006;                        // by how much the logarithm of the faces changes in a millisecond
+const CLOSE = 1e-3;
 
 export class LevelControl {
   constructor(view) { this.view = view; }
@@ -18,8 +24,45 @@ export class LevelControl {
 
   /** Of all progressive hulls: the finest level of at most so many faces. */
   setFaces(faces) {
-    for (const hull of this.hulls) this.show(hull, hull.levels.levelOf(faces));
+    if (this.hulls.length === 0) return;
+    this.view.rays.end();
+    const from = this.view.active.levels?.shownFaces ?? faces;
     this.view.state.faces = faces;
+    if (calm()) return this.arrive();
+    if (this.glide) return;
+    this.glide = {faces: from, ahead: 0, time: performance.now()};
+    const run = () => {
+      if (!this.glide) return;
+      if (this.advance(performance.now())) requestAnimationFrame(run);
+      else this.arrive();
+    };
+    run();
+  }
+
+  /** Nearer to the wanted level; false if it is reached, and nothing glides. */
+  advance(now) {
+    const {glide} = this, wanted = Math.max(1, this.view.state.faces), elapsed = Math.min(100, now - glide.time + 1);
+    const left = Math.log(wanted / glide.faces), near = Math.abs(left) < CLOSE;
+    const most = FASTEST * elapsed, step = left * (1 - Math.exp(-elapsed / FOLLOW));
+    glide.faces = near ? wanted : glide.faces * Math.exp(Math.min(most, Math.max(-most, step)));
+    glide.ahead = near ? glide.ahead - AHEAD * elapsed / LAND : Math.min(AHEAD, glide.ahead + AHEAD * elapsed / SPREAD);
+    glide.time = now;
+    if (near && glide.ahead <= 0) return false;
+    for (const {levels, body, base_faces: base} of this.hulls) {
+      const faces = Math.min(levels.finestFaces, Math.max(base, glide.faces));
+      levels.blend((faces - base) / 2, glide.ahead * faces / 2);
+      body.update(levels.faces);
+    }
+    this.view.panel.showLevel();
+    this.view.look.caption();
+    this.view.viewport.changed();
+    return true;
+  }
+
+  /** Exactly the wanted level. */
+  arrive() {
+    this.glide = null;
+    this.open();
     this.view.refresh();
   }
 
@@ -32,15 +75,17 @@ export class LevelControl {
     const {base_faces: base, original_faces: finest} = this.view.active;
     return Math.round(base * (finest / base) ** share);
   }
+  /** Of the level that is wanted. */
   share() {
     const {base_faces: base, original_faces: finest, levels} = this.view.active;
-    return finest > base ? Math.log(levels.faces / base) / Math.log(finest / base) : 0;
+    const wanted = base + 2 * levels.levelOf(this.view.state.faces ?? base);
+    return finest > base ? Math.log(wanted / base) / Math.log(finest / base) : 0;
   }
   step(by) {
     if (this.view.active.levels) this.setShare(Math.min(1, Math.max(0, this.share() + by)));
   }
 
-  /** The finest level with a proven distance that is not finer than so many faces. */
+  /** The finest level whose farthest point is known that is not finer than so many faces. */
   stopOf(faces) {
     const {stops} = this.view.active;
     return stops.findLast((stop) => stop.faces <= faces) ?? stops[0];

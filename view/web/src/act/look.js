@@ -93,7 +93,7 @@ export class Look {
     const {state, sides} = this.view;
     if (!state.beside) return;
     sides.forEach(({hull, name}, i) => {
-      if (hull?.levels) byId('captions').children[i].textContent = `${name}, ${grouped(hull.levels.faces)} faces`;
+      if (hull?.levels) byId('captions').children[i].textContent = `${name}, ${grouped(hull.levels.shownFaces)} faces`;
     });
   }
 

@@ -21,6 +21,7 @@ export class RayControl {
     const {view} = this, {levels, body} = view.active;
     if (!levels || !ray.direction.some((x) => x !== 0)) return;
     view.levels.stop();
+    view.levels.arrive();
     this.end();
     this.refinement ??= new Refinement(levels);
     const origin = view.space.steps(ray.origin);

@@ -77,20 +77,19 @@ export class Panel {
     live.faces = el('b', {id: 'faces'});
     live.void = el('b', {id: 'void'});
     live.distance = el('b', {id: 'distance'});
-    live.distanceLabel = el('span', {});
     live.encloses = el('b', {id: 'encloses'});
     live.play = el('button', {type: 'button', id: 'play', onclick: () => view.levels.play()}, 'Play');
     live.wanted = el('input', {type: 'number', id: 'wanted', min: 0, step: 1, 'aria-label': 'Faces at most',
       onchange: (e) => view.levels.setFaces(Number(e.target.value))});
     const stops = this.object.stops.map((stop) => el('option', {value: stop.faces}, grouped(stop.faces)));
-    live.stops = el('select', {id: 'stops', 'aria-label': 'Levels with a proven distance',
-      onchange: (e) => e.target.value && view.levels.setFaces(Number(e.target.value))}, el('option', {value: ''}, 'Proven …'), ...stops);
+    live.stops = el('select', {id: 'stops', 'aria-label': 'Levels whose farthest point is known',
+      onchange: (e) => e.target.value && view.levels.setFaces(Number(e.target.value))}, el('option', {value: ''}, 'Measured …'), ...stops);
     const box = (value, label) => el('div', {}, value, label);
     return el('section', {}, el('h2', {}, 'Level'), slider,
         el('div', {class: 'numbers'},
             box(live.faces, el('span', {}, 'faces')),
             box(live.void, el('span', {title: 'Volume between this level and the original, as a share of the original'}, 'void')),
-            box(live.distance, live.distanceLabel),
+            box(live.distance, el('span', {title: 'No point of this level is farther from the original'}, 'distance, proven')),
             box(live.encloses, el('span', {}, this.object.side === 'inner' ? 'enclosed by the original' : 'encloses the original'))),
         el('div', {class: 'row'}, live.play, live.wanted, live.stops));
   }
@@ -100,18 +99,16 @@ export class Panel {
     if (!this.object.levels) return;
     this.showQuery();
     const {live, object} = this, {levels} = object;
-    const stop = this.view.levels.stopOf(levels.faces), v = object.verification;
+    const stop = this.view.levels.stopOf(levels.shownFaces), v = object.verification;
     live.slider.value = Math.round(1000 * this.view.levels.share());
-    live.slider.setAttribute('aria-valuetext', `${grouped(levels.faces)} faces`);
+    live.slider.setAttribute('aria-valuetext', `${grouped(levels.shownFaces)} faces`);
     const {query} = this.view.rays;
-    live.faces.textContent = grouped(query ? query.faces : levels.faces);
-    live.void.textContent = query ? '–' : levels.voids ? percent(levels.voids[levels.level]) : '–';
-    const isStop = stop.faces === levels.faces && !query;
-    live.distance.textContent = query ? '–' : withUnit(`≤ ${atMost(stop.upper)}`, this.unit);
-    live.distance.style.color = isStop ? '' : 'var(--soft)';
-    live.distanceLabel.textContent = isStop ? 'distance, proven' : query ? 'distance' : `distance, of ${grouped(stop.faces)} faces`;
+    live.faces.textContent = grouped(query ? query.faces : levels.shownFaces);
+    live.void.textContent = query ? '–' : levels.voids ? percent(levels.voids[levels.shown]) : '–';
+    const isStop = stop.faces === levels.shownFaces && !query;
+    live.distance.textContent = query ? '–' : withUnit(`≤ ${atMost(isStop ? stop.upper : stop.until_next)}`, this.unit);
     live.encloses.textContent = v.refused ? '?' : v.encloses ? '✓ yes' : '✗ no';
-    live.wanted.value = levels.faces;
+    live.wanted.value = levels.shownFaces;
     live.stops.value = isStop ? String(stop.faces) : '';
     this.showFarthest();
   }
@@ -230,21 +227,28 @@ export class Panel {
   /** The farthest point of the hull, or of its level. */
   farthest() {
     const {object} = this;
-    return object.levels ? this.view.levels.stopOf(object.levels.faces) : object.distance;
+    return object.levels ? this.view.levels.stopOf(object.levels.shownFaces) : object.distance;
   }
 
   distancePart() {
     if (!this.farthest()) return null;
     this.live.far = el('p', {id: 'far'});
+    this.live.between = el('p', {id: 'between'});
     const fly = el('button', {type: 'button', id: 'fly-far', onclick: () => this.view.places.flyTo(this.farthest().farthest)},
         el('span', {class: 'far-mark', 'aria-hidden': 'true'}, '★ '), 'Show the farthest point');
-    return el('section', {}, el('h2', {}, this.object.union ? 'Reach out of the original' : 'Distance to the original'), this.live.far, fly);
+    return el('section', {}, el('h2', {}, this.object.union ? 'Reach out of the original' : 'Distance to the original'), this.live.between, this.live.far, fly);
   }
 
   showFarthest() {
     const found = this.farthest();
     if (!found || !this.live.far) return;
-    const of = this.object.levels ? ` of the level of ${grouped(found.faces)} faces` : '';
+    const {levels} = this.object, of = levels ? ` of the level of ${grouped(found.faces)} faces` : '';
+    this.live.between.hidden = !levels || levels.shownFaces === found.faces;
+    if (levels) {
+      const next = this.object.stops.find(({faces}) => faces > found.faces) ?? found;
+      this.live.between.textContent = `All levels from ${grouped(found.faces)} to ${grouped(next.faces)} faces are within ` +
+          `${withUnit(atMost(found.until_next), this.unit)} (proven).`;
+    }
     this.live.far.textContent = `The farthest point${of} is between ${withUnit(short(found.lower), this.unit)} and ` +
         `${withUnit(atMost(found.upper), this.unit)} away (proven), found at ${place(found.farthest)}.`;
   }
