@@ -1,14 +1,19 @@
 // Opens the page: reads its scene and shows it.
 
 import {readBlocks} from './data/blocks.js';
+import {breathe} from './data/breathe.js';
+import {readObjects} from './data/objects.js';
 import {byId} from './panel/dom.js';
 import {View} from './view.js';
 
 async function open() {
+  await breathe();
   const scene = JSON.parse(byId('scene').textContent);
   const bytes = await readBlocks(byId('blocks').textContent);
   byId('blocks').remove();
-  globalThis.prohullView = new View(scene, bytes);  // for the browser's console, and for tests
+  const space = await readObjects(scene, bytes);
+  await breathe();
+  globalThis.prohullView = new View(scene, space, bytes);  // for the browser's console, and for tests
   byId('message').hidden = true;
   document.documentElement.dataset.ready = 'yes';
 }

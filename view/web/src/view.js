@@ -9,18 +9,18 @@ import {Places} from './act/places.js';
 import {RayControl} from './act/rays.js';
 import {RobotControl} from './act/robots.js';
 import {Section} from './act/section.js';
-import {readObjects} from './data/objects.js';
 import {byId} from './panel/dom.js';
 import {Panel} from './panel/panel.js';
 import {makeBodies} from './picture/bodies.js';
 import {Viewport} from './picture/viewport.js';
 
 export class View {
-  constructor(scene, bytes) {
+  /** Where its objects are drawn is `space`: data/objects.js has read them. */
+  constructor(scene, space, bytes) {
     this.scene = scene;
     this.hulls = scene.objects.filter((object) => object.role !== 'original');
     this.original = scene.objects.find((object) => object.role === 'original');
-    this.space = readObjects(scene, bytes);
+    this.space = space;
     this.state = readState(this);
     this.active = this.hulls[Math.round(this.state.active)];
     this.viewport = new Viewport(byId('canvas'), this.space.radius);

@@ -1,6 +1,7 @@
 // A progressive hull: vertex splits replayed forth and back. view/levels.h describes the record.
 
 import {numbers, reals} from './blocks.js';
+import {breathe} from './breathe.js';
 
 const following = (corner) => corner % 3 === 2 ? corner - 2 : corner + 1;
 const preceding = (corner) => corner % 3 === 0 ? corner + 2 : corner - 1;
@@ -81,19 +82,23 @@ class Stars {
 }
 
 export class Levels {
-  constructor(facts, bytes) {
+  constructor(facts) {
     this.baseFaces = facts.base_faces;
     this.count = facts.splits;
     this.level = this.shown = this.count;  // how many splits are made, and how many of them wholly
     this.gliding = 0;                      // how many of the last ones have vertices on their way
-    const base = numbers(bytes, facts.positions);
-    this.baseVertices = base.length / 3;
-    this.splitVertices = numbers(bytes, facts.split_vertices);
-    this.readFaces(numbers(bytes, facts.triangles), numbers(bytes, facts.split_bits),
-        numbers(bytes, facts.split_turns));
-    this.readPositions(base, numbers(bytes, facts.split_moves));
-    this.readHeat(numbers(bytes, facts.heat), numbers(bytes, facts.split_heat));
-    this.voids = facts.void_ratios ? reals(bytes, facts.void_ratios) : null;
+  }
+
+  static async read(facts, bytes) {
+    const levels = new Levels(facts), base = numbers(bytes, facts.positions);
+    levels.baseVertices = base.length / 3;
+    levels.splitVertices = numbers(bytes, facts.split_vertices);
+    await levels.readFaces(numbers(bytes, facts.triangles), numbers(bytes, facts.split_bits), numbers(bytes, facts.split_turns));
+    levels.readPositions(base, numbers(bytes, facts.split_moves));
+    await breathe();
+    levels.readHeat(numbers(bytes, facts.heat), numbers(bytes, facts.split_heat));
+    levels.voids = facts.void_ratios ? reals(bytes, facts.void_ratios) : null;
+    return levels;
   }
 
   get finestFaces() { return this.baseFaces + 2 * this.count; }
@@ -107,7 +112,7 @@ export class Levels {
   }
 
   /** Makes all splits, to learn which corners each of them gives to d, and which splits must come before it. */
-  readFaces(base, bits, turns) {
+  async readFaces(base, bits, turns) {
     const vertices = this.baseVertices + this.count;
     const stars = new Stars(base.length + 6 * this.count, vertices);
     for (let at = 0; at < base.length; at += 3) stars.addFace(at, base[at], base[at + 1], base[at + 2], 0);
@@ -121,6 +126,7 @@ export class Levels {
     let bit = 0;
     const pools = [this.makers, this.moved, this.kept];
     for (let k = 0, at = base.length; k < this.count; ++k, at += 6) {
+      if (k % 1024 === 0) await breathe();
       const o = this.splitVertices[k], d = this.baseVertices + k;
       this.follow(makers[o], o, k);
       for (let c = stars.first[o]; c !== NONE; c = stars.next[c]) {

@@ -2,14 +2,16 @@
 
 import {ballsMesh} from './balls.js';
 import {numbers} from './blocks.js';
+import {breathe} from './breathe.js';
 import {Levels} from './levels.js';
 import {partsOf} from './parts.js';
 import {Robot} from './robot.js';
 import {Space} from './space.js';
 
 /** Points of an object as steps of the grid, and how far it reaches around them. */
-function stepsOf(object, bytes) {
-  if (object.kind === 'levels') return [(object.levels = new Levels(object, bytes)).steps];
+async function stepsOf(object, bytes) {
+  await breathe();
+  if (object.kind === 'levels') return [(object.levels = await Levels.read(object, bytes)).steps];
   if (object.kind === 'robot') {
     object.robot = new Robot(object);
     return [numbers(bytes, object.corners)];
@@ -26,9 +28,13 @@ function place(object, [steps, around], space, bytes) {
 }
 
 /** Reads all objects; returns where they are drawn. */
-export function readObjects({objects, grid}, bytes) {
-  const all = objects.map((object) => stepsOf(object, bytes));
+export async function readObjects({objects, grid}, bytes) {
+  const all = [];
+  for (const object of objects) all.push(await stepsOf(object, bytes));
   const space = new Space(grid, all);
-  objects.forEach((object, i) => place(object, all[i], space, bytes));
+  for (const [i, object] of objects.entries()) {
+    await breathe();
+    place(object, all[i], space, bytes);
+  }
   return space;
 }
