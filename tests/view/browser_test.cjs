@@ -494,6 +494,10 @@ const tests = {
     fs.writeFileSync(at('broken.obj'), broken);
     run('view', at('broken.obj'), '-o', at('broken.html'));
     const page = await opened('broken.html');
+    assert.match(await text(page, 'verdict'), /✗Not watertight.*open edges/);
+    const marked = await picture(page);
+    await page.uncheck('#defects');
+    assert.notEqual((await picture(page)).sum, marked.sum, 'open edges are marked');
     assert.match(await text(page, 'facts'), /open edges/);
     assert.match(await text(page, 'facts'), /Not finite, left out1 face/);
     assert.ok((await picture(page)).colors > 50);

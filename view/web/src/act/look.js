@@ -19,6 +19,7 @@ export class Look {
     this.legend();
     this.setOpacity(state.opacity);
     this.setEdges(state.edges);
+    this.setDefects(state.defects);
     this.setHeat(state.heat && hasHeat);
     this.setBeside(state.beside && sides.length > 1);
     this.setParts(state.parts);
@@ -49,6 +50,13 @@ export class Look {
     for (const {body, role} of bodies) body.showEdges(is && (role === 'hull' || state.beside));
     base?.showEdges(is);
     this.colorEdges();
+    viewport.changed();
+  }
+  setDefects(is) {
+    const {bodies, state, viewport, hasDefects} = this.view;
+    if (!hasDefects) return;
+    state.defects = is;
+    for (const {body} of bodies) body.showDefects(is);
     viewport.changed();
   }
   colorEdges() {

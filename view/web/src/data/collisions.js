@@ -1,6 +1,7 @@
 // Which links of a robot collide where they are drawn: meshes meet, or one solid lies within another.
 
 import * as THREE from 'three';
+/*! @license three-mesh-bvh, copyright 2018 Garrett Johnson, SPDX-License-Identifier: MIT */
 import {MeshBVH} from 'three-mesh-bvh';
 import {numbersOfParts} from './parts.js';
 

@@ -18,10 +18,18 @@ export function swatch(color, striped) {
   return element;
 }
 
+/** Of a mesh alone. */
+function verdictOfMesh({watertight, defects, first_defect: first}) {
+  if (watertight) return ['good', '✓', 'Watertight', 'It is compared with nothing: --original adds a mesh.'];
+  const counts = defects.map(({what, count}) => `${grouped(count)} ${what}`).join(', ');
+  return ['bad', '✗', 'Not watertight', `${counts}.${first ? ` The first: ${first}.` : ''}`];
+}
+
 /** What `prohull verify` would say, as a mark, a word and why. */
 export function verdictOf(object, original) {
   const v = object.verification;
   if (object.robot) return ['open', '–', 'Robot', 'prohull urdf --check decides whether the collision geometry covers the visual geometry.'];
+  if (!v && object.facts && !object.union) return verdictOfMesh(object.facts);
   if (!v) return ['open', '–', 'Not compared', 'No original mesh is in this page: --original adds it.'];
   if (v.refused) return ['open', '?', 'Not decided', v.refused];
   const [subject, other] = v.side === 'inner' ? [original, object.name] : [object.name, original];
@@ -201,6 +209,8 @@ export class Panel {
             el('input', {type: 'range', id: 'opacity', min: 0.05, max: 1, step: 0.05, value: view.state.opacity,
               oninput: (e) => view.look.setOpacity(Number(e.target.value))})),
         check({id: 'edges', checked: view.state.edges, onchange: (e) => view.look.setEdges(e.target.checked)}, 'Edges'),
+        view.hasDefects && check({id: 'defects', checked: view.state.defects, onchange: (e) => view.look.setDefects(e.target.checked)},
+            'Edges that are not watertight'),
         view.hasHeat && check({id: 'heat', checked: view.state.heat, onchange: (e) => view.look.setHeat(e.target.checked)},
             'Distance as colour'),
         view.hasParts && check({id: 'parts', checked: view.state.parts, onchange: (e) => view.look.setParts(e.target.checked)},

@@ -91,7 +91,7 @@ class Maker {
 }
 
 export function makeBodies(view, bytes) {
-  const maker = new Maker(view, bytes), {hulls, state} = view;
+  const maker = new Maker(view, bytes), {hulls, scene, state} = view;
   maker.addOriginal();
   hulls.forEach((hull, i) => {
     if (hull.robot) maker.addRobot(hull, MORE[i % MORE.length]);
@@ -100,6 +100,7 @@ export function makeBodies(view, bytes) {
   const heatMax = Math.max(0, ...hulls.map(heatMaxOf));
   for (const hull of hulls) hull.body.setHeatFactor(heatMaxOf(hull) / (heatMax || 1));  // one legend for all
   state.hidden.forEach((i) => { if (maker.entries[i]) maker.entries[i].body.visible = false; });
-  return {bodies: maker.entries, ...maker.sides(), heatMax, hasHeat: heatMax > 0,
+  const hasDefects = scene.objects.some((object) => object.mesh && object.facts && !object.facts.watertight);
+  return {bodies: maker.entries, hasDefects, ...maker.sides(), heatMax, hasHeat: heatMax > 0,
     hasParts: hulls.some((hull) => hull.body.hasParts)};
 }

@@ -1,7 +1,8 @@
 // A mesh in the scene: its surface, its edges, and what caps its section.
 
 import * as THREE from 'three';
-import {capMaterial, countingMaterial, edgeMaterial, rgb, surfaceMaterial} from './materials.js';
+import {openEdges} from '../data/defects.js';
+import {capMaterial, countingMaterial, defectMaterial, edgeMaterial, rgb, surfaceMaterial} from './materials.js';
 
 /** Two ends for each edge of each face. */
 function linesOf(corners, lines, count) {
@@ -105,9 +106,7 @@ export class Body {
   }
 
   makeEdges() {
-    const geometry = new THREE.BufferGeometry();
-    for (const [name, attribute] of Object.entries(this.geometry.attributes)) geometry.setAttribute(name, attribute);
-    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(2 * this.mesh.triangles.length), 1));
+    const geometry = this.sharing(new Uint32Array(2 * this.mesh.triangles.length));
     this.edges = this.add(new THREE.LineSegments(geometry, edgeMaterial()), 50);
   }
 
@@ -127,6 +126,25 @@ export class Body {
     this.own ??= {triangles: this.mesh.triangles, index: this.geometry.index};
     this.mesh = {...this.mesh, triangles: triangles ?? this.own.triangles};
     this.geometry.setIndex(triangles ? new THREE.BufferAttribute(triangles, 1) : this.own.index);
+  }
+
+  /** Edges along which the mesh is not watertight. */
+  showDefects(is) {
+    if (this.closed) return;
+    this.defects ??= this.makeDefects();
+    this.defects.visible = is;
+  }
+  makeDefects() {
+    const geometry = this.sharing(openEdges(this.mesh.triangles, this.mesh.positions.length / 3));
+    return this.add(new THREE.LineSegments(geometry, defectMaterial()), 60);
+  }
+
+  /** Lines between its vertices. */
+  sharing(index) {
+    const geometry = new THREE.BufferGeometry();
+    for (const [name, attribute] of Object.entries(this.geometry.attributes)) geometry.setAttribute(name, attribute);
+    geometry.setIndex(new THREE.BufferAttribute(index, 1));
+    return geometry;
   }
 
   setEdgeColor(color) {
@@ -178,6 +196,7 @@ export class Bodies {
   each(act) { this.bodies.forEach(act); }
   setOpacity(opacity) { this.each((body) => body.setOpacity(opacity)); }
   showEdges(is) { this.each((body) => body.showEdges(is)); }
+  showDefects(is) { this.each((body) => body.showDefects(is)); }
   setEdgeColor(color) { this.each((body) => body.setEdgeColor(color)); }
   showHeat(is) { this.each((body) => body.showHeat(is)); }
   setHeatFactor(factor) { this.each((body) => body.setHeatFactor(factor)); }

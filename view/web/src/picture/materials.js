@@ -103,6 +103,11 @@ export function edgeMaterial() {
       {transparent: true, depthWrite: false});
 }
 
+/** Of lines that are seen through everything. */
+export function defectMaterial() {
+  return material(FLAT, {color: {value: new THREE.Color(...rgb('#c2185b'))}, opacity: {value: 1}}, {transparent: true, depthTest: false});
+}
+
 /** Counts where the plane is inside of a closed surface: twice, for back and front faces. */
 export function countingMaterial(side, operation) {
   return material(FLAT, {color: {value: new THREE.Color(0, 0, 0)}, opacity: {value: 1}}, {
