@@ -5,7 +5,7 @@ import * as THREE from 'three';
 import {MeshBVH} from 'three-mesh-bvh';
 import {numbersOfParts} from './parts.js';
 
-/** The collision geometry of a link: its tree is made when it is first asked for. */
+/** The collision geometry of a link. */
 class Solid {
   constructor({positions, triangles}, closed) {
     this.closed = closed;
@@ -20,7 +20,9 @@ class Solid {
   }
 
   get box() { return this.geometry.boundingBox; }
-  get tree() { return this.geometry.boundsTree ??= new MeshBVH(this.geometry); }
+  get tree() { return this.geometry.boundsTree; }
+  /** Trees are made when they are first needed. */
+  plant() { this.geometry.boundsTree ??= new MeshBVH(this.geometry); }
 
   /** Whether it winds around a point. */
   holds(point) {
@@ -35,7 +37,8 @@ class Solid {
   meets(other, pose) {
     const box = other.box.clone().applyMatrix4(pose);
     if (!this.box.intersectsBox(box)) return false;
-    if (!other.geometry.boundsTree) other.tree;
+    this.plant();
+    other.plant();
     if (this.tree.intersectsGeometry(other.geometry, pose)) return true;
     const back = pose.clone().invert();
     return other.points.some((point) => this.holds(point.clone().applyMatrix4(pose))) ||
