@@ -7,9 +7,9 @@
 
 namespace prohull::view {
 
-/// The numbers of a page: arrays of whole numbers, one after another in one string of bytes. web/src/blocks.js reads
-/// them. The bytes of an array are stored by significance, the lowest of all numbers first: like bytes side by side
-/// compress well.
+/// The numbers of a page: arrays of whole numbers, one after another in one string of bytes. web/src/data/blocks.js
+/// reads them. The bytes of an array are stored by significance, the lowest of all numbers first: like bytes side by
+/// side compress well.
 class Blocks {
  public:
   /// Each returns what the page needs to find the array and to read it.

@@ -15,6 +15,8 @@ using Corner = std::uint32_t;  // 3 face + corner; faces in the order in which t
 Corner following(Corner c) { return c % 3 == 2 ? c - 2 : c + 1; }
 Corner preceding(Corner c) { return c % 3 == 0 ? c + 2 : c - 1; }
 
+}  // namespace
+
 /// The faces as they are now, and for each vertex a list of its corners.
 class Replay {
  public:
@@ -25,6 +27,11 @@ class Replay {
   }
 
   const std::vector<VertexId>& vertices() const { return vertices_; }  ///< of all corners
+
+  void append_faces_around(VertexId v, PerFace<std::array<VertexId, 3>>& faces) const {
+    for (const Corner c : corners_of_[v])
+      faces.push_back({vertices_[c], vertices_[following(c)], vertices_[preceding(c)]});
+  }
 
   /// Six times the signed volume between the faces around a vertex and `center`.
   double volume_around(VertexId v, const Vec3& center) const {
@@ -86,6 +93,8 @@ class Replay {
   std::vector<VertexId> vertices_;
   PerVertex<std::vector<Corner>> corners_of_;
 };
+
+namespace {
 
 /// Calls `see(made vertex, split)` from the base mesh to the original.
 template <class See>
@@ -181,6 +190,20 @@ nlohmann::json levels_facts(const ProgressiveHull& hull, const PerVertex<double>
           {"split_heat", blocks.plain(split_heat)},
           {"split_turns", blocks.plain(turns)},
           {"split_bits", blocks.plain(bits)}};
+}
+
+MadeFaces::MadeFaces(const ProgressiveHull& hull) : hull_(hull), replay_(std::make_unique<Replay>(hull)) {}
+MadeFaces::~MadeFaces() = default;
+
+TriangleMesh MadeFaces::until(std::size_t splits) {
+  TriangleMesh faces{hull_.positions(), {}};
+  for (; made_ < splits; ++made_) {
+    const std::size_t i = hull_.splits().size() - 1 - made_;
+    const VertexSplit& record = hull_.splits()[i];
+    replay_->split(hull_.made_vertex(i), record);
+    for (const VertexId v : {record.o, record.d}) replay_->append_faces_around(v, faces.triangles);
+  }
+  return faces;
 }
 
 std::vector<double> volumes_of_levels(const ProgressiveHull& hull) {

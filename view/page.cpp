@@ -14,6 +14,7 @@
 #include "view/heat.h"
 #include "view/levels.h"
 #include "view/robot.h"
+#include "view/shared_faces.h"
 #include "view/template.h"
 
 namespace prohull::view {
@@ -178,6 +179,7 @@ class Writer {
                        {"collision", link_object(shown, robot.collision[i])}});
     json facts = {{"role", "hull"}, {"kind", "robot"}, {"links", links}, {"joints", joint_facts(robot.robot)}};
     facts["corners"] = blocks_.plain(corners);
+    facts.update(disabled_facts(robot, options_.threads));
     return facts;
   }
 
@@ -246,16 +248,37 @@ class Writer {
     facts["void_ratios"] = blocks_.running(ratios, 1);
   }
 
-  /// Levels of which the distance is proven: from the base mesh on, each finer by half than the one before.
+  /// Levels whose farthest point is searched: from the base mesh on, each finer by half than the one before.
+  /// "until_next" bounds the distance of all levels between such a level and the next one. Nesting alone does not bound
+  /// it: a level may close a cavity, and finer levels lie deep in that.
   json stops_of(const ProgressiveHull& hull, const Reference& reference) const {
     json stops = json::array();
+    MadeFaces made(hull);
+    const SharedFaces shared(reference.mesh);
     for (std::size_t faces = hull.base_face_count();; faces = std::min(faces + faces / 2, hull.original_face_count())) {
       const TriangleMesh level = hull.level(faces);
-      json stop = distance_facts(level, reference.mesh, options_);
+      const json new_faces = reach_of(shared.left_out_of(made.until(splits_before(hull, faces))), reference);
+      if (!stops.empty()) {
+        double& bound = stops.back()["until_next"].get_ref<double&>();
+        bound = std::max(bound, new_faces["upper"].get<double>());
+      }
+      json stop = reach_of(shared.left_out_of(level), reference);
       stop["faces"] = level.face_count();
+      stop["until_next"] = stop["upper"];
       stops.push_back(stop);
       if (faces == hull.original_face_count()) return stops;
     }
+  }
+
+  /// Of faces that the original does not have, if there are any.
+  json reach_of(const TriangleMesh& faces, const Reference& reference) const {
+    if (faces.face_count() > 0) return distance_facts(faces, reference.mesh, options_);
+    const Vec3 anywhere = reference.mesh.triangle(FaceId{0}).a;
+    return {{"lower", 0.0}, {"upper", 0.0}, {"farthest", {anywhere.x, anywhere.y, anywhere.z}}};
+  }
+
+  static std::size_t splits_before(const ProgressiveHull& hull, std::size_t faces) {
+    return (faces - hull.base_face_count()) / 2;
   }
 
   const PageOptions& options_;

@@ -8,7 +8,7 @@
 
 #include "prohull/shapes.h"
 #include "prohull/verification.h"
-#include "robot/model.h"
+#include "robot/motion/motion.h"
 
 namespace prohull::view {
 
@@ -19,6 +19,9 @@ using Balls = std::vector<Ball>;
 struct ShownRobot {
   robot::Robot robot;
   std::vector<TriangleMesh> visual, collision;
+  /// Pairs of links that may touch, such as an SRDF file disables. Without: those that are adjacent, and those whose
+  /// collision geometry meets in every position.
+  std::optional<std::vector<robot::LinkPair>> disabled = {};
 };
 
 /// Something that a page shows, and how the page calls it: a mesh, all levels of a hull, pieces or balls that cover

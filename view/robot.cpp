@@ -2,14 +2,14 @@
 
 #include <cmath>
 
-#include "robot/motion/motion.h"
-
 namespace prohull::view {
 namespace {
 
 using nlohmann::json;
 using robot::Joint;
 using robot::JointType;
+
+constexpr std::size_t kPositions = 200;
 
 const char* motion_of(JointType type) {
   switch (type) {
@@ -53,6 +53,16 @@ json joint_facts(const robot::Robot& robot) {
   json joints = json::array();
   for (std::size_t i = 0; i < robot.joints.size(); ++i) joints.push_back(facts_of(robot.joints[i], rest[i]));
   return joints;
+}
+
+json disabled_facts(const ShownRobot& shown, unsigned threads) {
+  const auto found = [&] {
+    const robot::Bodies bodies{.visual = shown.collision, .hull = shown.collision, .convex = {}};
+    return pairs_always_together(check_motion(shown.robot, bodies, {.configurations = kPositions, .threads = threads}));
+  };
+  json pairs = json::array();
+  for (const auto& [a, b] : shown.disabled ? *shown.disabled : found()) pairs.push_back({a, b});
+  return {{"disabled", pairs}, {"disabled_by_file", shown.disabled.has_value()}};
 }
 
 Box box_at_rest(const ShownRobot& shown) {

@@ -6,9 +6,12 @@
 
 namespace prohull::view {
 
-/// How the links of a robot move: what web/src/robot.js needs for forward kinematics, with all joints at their
+/// How the links of a robot move: what web/src/data/robot.js needs for forward kinematics, with all joints at their
 /// rest_positions at first.
 nlohmann::json joint_facts(const robot::Robot& robot);
+
+/// The pairs of links that the page does not compare, and whether a file says so: "disabled" and "disabled_by_file".
+nlohmann::json disabled_facts(const ShownRobot& shown, unsigned threads);
 
 /// Of the whole robot at rest, as it is drawn.
 Box box_at_rest(const ShownRobot& shown);

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 
 #include "command.h"
 #include "prohull/error.h"
 #include "robot/files/robot_file.h"
+#include "robot/hulls/write_robot.h"
 #include "robot/link_triangles.h"
 #include "union_files.h"
 
@@ -33,8 +36,17 @@ std::string shown_name(const std::filesystem::path& path, const Options& options
   return (path.parent_path().filename() / path.filename()).string();
 }
 
+/// What the SRDF file beside a robot disables, such as `prohull urdf` writes it.
+std::optional<std::vector<robot::LinkPair>> disabled_beside(const robot::RobotFile& file) {
+  const std::filesystem::path path = file.path.parent_path() / (robot_stem(file) + ".srdf");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return std::nullopt;
+  return disabled_pairs(file.robot, {std::istreambuf_iterator<char>(in), {}}, path.string());
+}
+
 view::ShownRobot read_robot(const Options& options, const std::filesystem::path& path) {
-  view::ShownRobot shown{robot::read_robot(path, options.robots).robot, {}, {}};
+  const robot::RobotFile file = robot::read_robot(path, options.robots);
+  view::ShownRobot shown{file.robot, {}, {}, disabled_beside(file)};
   for (const robot::Link& link : shown.robot.links) {
     shown.visual.push_back(robot::link_triangles(link.visual, {}));
     shown.collision.push_back(robot::link_triangles(link.collision, {}));
@@ -119,10 +131,13 @@ void add_view(CLI::App& app, Run& run) {
       "network, so that it can be mailed and archived. Verdicts and counts on it are exact, and distances are proven "
       "bounds.");
   command
-      .add_option("in", options->in,
-                  std::string("Hulls, meshes or robots to show. Of a .phull file a slider shows all levels; of a robot "
-                              "(.urdf, .xacro, .sdf, .mjcf, .xml), sliders move the joints. ") +
-                      kMeshFiles)
+      .add_option(
+          "in", options->in,
+          std::string(
+              "Hulls, meshes or robots to show. Of a .phull file a slider shows all levels; of a robot "
+              "(.urdf, .xacro, .sdf, .mjcf, .xml), sliders move the joints, and links that collide are lit: pairs "
+              "that the .srdf file beside it disables may touch. ") +
+              kMeshFiles)
       ->required()
       ->type_name("IN");
   command.add_option("-o,--out", options->out, "File for the page, .html. With - it goes to standard output.")

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "prohull/progress.h"
@@ -85,6 +86,16 @@ struct MotionResult {
 /// threads. Bodies are asked as `collide` does; hulls and convex hulls that are closed as `may_collide` does, whose
 /// "no" is certain. Faces with coordinates that are not finite are left out. Throws Cancelled.
 MotionResult check_motion(const Robot& robot, const Bodies& bodies, const MotionOptions& options = {});
+
+/// Two links, numbered as in Robot::links, the lower number first.
+using LinkPair = std::pair<std::size_t, std::size_t>;
+
+/// The pairs that need not be checked: those that are adjacent, or in collision always.
+std::vector<LinkPair> pairs_always_together(const MotionResult& motion);
+
+/// The pairs that an SRDF file disables, sorted. Names that the robot does not have are left out. `file` stands in
+/// messages. Throws InputError(Malformed) for text that is no SRDF.
+std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::string file);
 
 /// The pairs that need not be checked, as an SRDF file that MoveIt reads: those that are adjacent, never or always in
 /// collision.

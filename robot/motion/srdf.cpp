@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "robot/files/xml.h"
@@ -24,7 +25,33 @@ std::string_view reason_of(PairKind kind) {
   return "";
 }
 
+std::optional<std::size_t> link_called(const Robot& robot, const std::string& name) {
+  const auto found = std::ranges::find(robot.links, name, &Link::name);
+  if (found == robot.links.end()) return {};
+  return static_cast<std::size_t>(found - robot.links.begin());
+}
+
 }  // namespace
+
+std::vector<LinkPair> pairs_always_together(const MotionResult& motion) {
+  std::vector<LinkPair> pairs;
+  for (const MotionPair& pair : motion.pairs)
+    if (pair.kind == PairKind::Adjacent || pair.kind == PairKind::Always) pairs.emplace_back(pair.a, pair.b);
+  return pairs;
+}
+
+std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::string file) {
+  const XmlDocument document(std::move(srdf), std::move(file));
+  if (document.root().name != "robot") document.refuse(document.root(), "an SRDF file begins with <robot>");
+  std::vector<LinkPair> pairs;
+  for (const XmlElement* const element : document.root().children_called("disable_collisions")) {
+    const auto a = link_called(robot, document.required(*element, "link1"));
+    const auto b = link_called(robot, document.required(*element, "link2"));
+    if (a && b) pairs.push_back(std::minmax(*a, *b));
+  }
+  std::ranges::sort(pairs);
+  return pairs;
+}
 
 std::string srdf_of(const Robot& robot, const MotionResult& motion) {
   std::vector<std::string> lines;

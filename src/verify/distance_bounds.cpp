@@ -17,6 +17,8 @@
 namespace prohull {
 namespace {
 
+constexpr std::uint32_t kUnknown = 0xffffffff;
+
 /// Part of a face of `from`, and how far it is from `to` at most.
 struct Cell {
   std::array<Vec3, 3> corners;
@@ -45,9 +47,14 @@ class Search {
   }
 
   DistanceBounds run() {
+    PerVertex<std::uint32_t> known(from_.vertex_count(), kUnknown);  // nearest faces
+    const auto nearest_to = [&](VertexId v) {
+      return known[v] != kUnknown ? known[v] : known[v] = nearest(from_.positions[v]);
+    };
     for (const FaceId f : from_.triangles.ids()) {
       const Triangle t = from_.triangle(f);
-      push({t.a, t.b, t.c}, {nearest(t.a), nearest(t.b), nearest(t.c)});
+      const auto& [a, b, c] = from_.triangles[f];
+      push({t.a, t.b, t.c}, {nearest_to(a), nearest_to(b), nearest_to(c)});
     }
     while (cells_.top().upper > (1 + options_.relative_gap) * bounds_.lower && seen_ < options_.max_cells) cut();
     bounds_.upper = std::max(cells_.top().upper, bounds_.lower) + rounding_;

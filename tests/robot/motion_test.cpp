@@ -484,6 +484,18 @@ TEST(SrdfOf, ListsThePairsThatNeedNoCheck) {
   <disable_collisions link1="link3" link2="z" reason="Always"/>
 </robot>
 )");
+  EXPECT_EQ(disabled_pairs(robot, srdf_of(robot, motion), "a.srdf"), (std::vector<LinkPair>{{0, 1}, {0, 3}, {1, 3}}));
+  EXPECT_EQ(pairs_always_together(motion), (std::vector<LinkPair>{{0, 1}, {0, 3}}));
+}
+
+TEST(DisabledPairs, LeavesOutLinksThatTheRobotDoesNotHave) {
+  const Robot robot = robot_of(2, {});
+  const std::string names = R"(link1="link0" link2="link1")";
+  EXPECT_EQ(disabled_pairs(robot, "<robot><disable_collisions " + names + "/></robot>", "").size(), 1U);
+  EXPECT_TRUE(disabled_pairs(robot, R"(<robot><disable_collisions link1="link0" link2="x"/></robot>)", "").empty());
+  EXPECT_THROW(disabled_pairs(robot, R"(<robot><disable_collisions link1="link0"/></robot>)", ""), InputError);
+  EXPECT_THROW(disabled_pairs(robot, "<sdf/>", ""), InputError);
+  EXPECT_THROW(disabled_pairs(robot, "<robot>", ""), InputError);
 }
 
 }  // namespace

@@ -12,6 +12,15 @@ const work = fs.mkdtempSync(path.join(os.tmpdir(), 'prohull-view-'));
 const at = (name) => path.join(work, name);
 const run = (...args) => execFileSync(prohull, args, {encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe']});
 
+/** A command that exits with 1 where its answer is yes. */
+function ask(...args) {
+  try {
+    run(...args);
+  } catch (error) {
+    if (error.status !== 1) throw error;
+  }
+}
+
 async function launched() {
   const args = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
   try {
@@ -25,8 +34,8 @@ async function launched() {
 let browser;
 
 /** A page that is open; `complaints` collects what must not happen: errors, dialogs, requests. */
-async function opened(file, {fragment = '', width = 900, height = 640, scheme = 'light'} = {}) {
-  const page = await browser.newPage({viewport: {width, height}, colorScheme: scheme, reducedMotion: 'reduce'});
+async function opened(file, {fragment = '', width = 900, height = 640, scheme = 'light', motion = 'reduce'} = {}) {
+  const page = await browser.newPage({viewport: {width, height}, colorScheme: scheme, reducedMotion: motion});
   page.complaints = [];
   page.on('console', (message) => {
     if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver Message/.test(message.text()))
@@ -99,7 +108,8 @@ function jointsOf(urdf) {
       axis: numbersOf(found(/<axis xyz="([^"]*)"/), [1, 0, 0])};
   });
 }
-function linkOrigins(joints, positions) {
+const transposed = (r) => r[0].map((_, k) => r.map((row) => row[k]));
+function linkPoses(joints, positions) {
   const poses = {};
   const poseOf = (link) => {
     const joint = joints.find(({child}) => child === link);
@@ -111,7 +121,7 @@ function linkOrigins(joints, positions) {
     const shift = turnedBy(parent.r, joint.xyz);
     return poses[link] = {r: times(parent.r, times(own, rotation(joint.axis, angle))), t: parent.t.map((x, k) => x + shift[k])};
   };
-  return Object.fromEntries(joints.map(({child}) => [child, poseOf(child).t]));
+  return Object.fromEntries(joints.flatMap(({parent, child}) => [parent, child]).map((link) => [link, poseOf(link)]));
 }
 
 function makeFiles() {
@@ -145,6 +155,52 @@ const tests = {
     await page.keyboard.press('End');
     assert.equal(await number(page, 'faces'), await page.evaluate(() => prohullView.active.original_faces));
     assert.match(await text(page, 'encloses'), /yes/);
+    await closed(page);
+  },
+
+  async 'vertices glide between levels, and numbers are those of true levels'() {
+    const still = await opened('levels.html', {fragment: '#l=2000'}), page = await opened('levels.html', {motion: 'no-preference'});
+    const volumeOf = (level, ahead) => page.evaluate((args) => prohullView.active.levels.blend(...args), [level, ahead]).then(() => shownVolume(page));
+    const coarse = await volumeOf(300, 0), fine = await volumeOf(420, 0), between = await volumeOf(300, 120);
+    assert.ok(fine < between && between < coarse, 'a blend lies between its levels');
+    for (const [level, ahead] of [[300, 120], [310.5, 40.25], [420, 3]]) {
+      const change = Math.abs(await volumeOf(level + 0.01, ahead) - await volumeOf(level, ahead));
+      assert.ok(change < 1e-3 * (coarse - fine), `nothing jumps at ${level}`);
+    }
+    assert.equal(await volumeOf(420, 0), fine, 'blends leave no trace');
+    const seen = await page.evaluate(async () => {
+      const numbers = new Set();
+      prohullView.levels.setFaces(2000);
+      while (prohullView.levels.glide) {
+        numbers.add(document.getElementById('faces').textContent);
+        await new Promise(requestAnimationFrame);
+      }
+      return [...numbers];
+    });
+    assert.ok(seen.length > 2, 'levels between are shown on the way');
+    assert.equal(await number(page, 'faces'), 2000);
+    assert.equal(await shownVolume(page), await shownVolume(still), 'at rest, it is exactly the level');
+    assert.equal((await picture(page)).sum, (await picture(still)).sum);
+    await closed(still);
+    await closed(page);
+  },
+
+  async 'the distance of each level is bounded'() {
+    const page = await opened('levels.html');
+    run('lod', at('pony.phull'), '--faces', '6000', '-o', at('finest.ply'));
+    for (const wanted of [430, 777, 3456]) {
+      run('lod', at('pony.phull'), '--faces', String(wanted), '-o', at('level.ply'));
+      run('view', at('level.ply'), '--original', at('finest.ply'), '-o', at('level.html'));
+      const lower = Number(fs.readFileSync(at('level.html'), 'utf8').match(/"distance":\{[^}]*"lower":([^,}]*)/)[1]);
+      await page.fill('#wanted', String(wanted));
+      await page.press('#wanted', 'Enter');
+      const bound = await number(page, 'distance');
+      assert.ok(lower > 0 && lower <= bound && bound < 3 * lower, `${wanted} faces: ${lower} <= ${bound}`);
+      assert.match(await text(page, 'between'), /^All levels from/);
+    }
+    await page.fill('#wanted', '6000');
+    await page.press('#wanted', 'Enter');
+    assert.equal(await number(page, 'distance'), 0, 'the finest level is the original');
     await closed(page);
   },
 
@@ -285,7 +341,7 @@ const tests = {
       positions[name] = await page.evaluate((at) => Number(document.getElementById(`joint-${at}`).value), i);
     }
     assert.ok(Object.values(positions).some((x) => x !== 0));
-    const expected = linkOrigins(joints, positions);
+    const expected = linkPoses(joints, positions);
     const shown = await page.evaluate(() => {
       const {links, linkBodies} = prohullView.active, {space} = prohullView;
       const local = space.at([0, 0, 0]);
@@ -298,7 +354,7 @@ const tests = {
     for (const [name, point] of shown) {
       if (!point || !expected[name]) continue;
       ++compared;
-      point.forEach((x, k) => assert.ok(Math.abs(x - expected[name][k]) < 1e-6, `${name}: ${point} is not ${expected[name]}`));
+      point.forEach((x, k) => assert.ok(Math.abs(x - expected[name].t[k]) < 1e-6, `${name}: ${point} is not ${expected[name].t}`));
     }
     assert.ok(compared >= 7, 'all links of the arm are compared');
     assert.notEqual((await picture(page)).sum, rest.sum);
@@ -308,6 +364,65 @@ const tests = {
     await page.click('#rest');
     assert.equal((await picture(page)).sum, rest.sum);
     await closed(page);
+  },
+
+  async 'links that collide are lit, as prohull collide decides'() {
+    const page = await opened('arm.html'), joints = jointsOf(fs.readFileSync(at('arm/arm.urdf'), 'utf8'));
+    await page.waitForFunction(() => document.getElementById('colliding'));
+    const rest = await picture(page);
+    const names = await page.evaluate(() => prohullView.active.robot.free.map(({name}) => name));
+    const positions = [[0, 0, 0, 0, 0, 0, 0], [-2.2, 0.32, -2.54, 0.93, -1.08, -3.32, -1.75], [0, 1.8, 0, 0, 0, 0, 0],
+      [1, -1, 2.5, 0, 2, 1, 0], [0, 0, -2.8, 0, 0, 0, 0], [0, 0.5, 2.7, 0.4, -1.5, 0, 0]];
+    const shown = [];
+    for (const position of positions) {
+      shown.push(await page.evaluate(async ([names, position]) => {
+        const {robots, active} = prohullView;
+        names.forEach((name, i) => robots.set(name, position[i]));
+        while (robots.waiting) await new Promise(requestAnimationFrame);
+        return active.collisions.colliding.map((pair) => pair.map((i) => active.links[i].name).join(' '));
+      }, [names, position]));
+    }
+    assert.equal(shown[0].length, 0, 'the arm at rest is free');
+    assert.equal(await page.locator('#collisions li').count(), shown.at(-1).length);
+    const expected = positions.map(() => []);
+    const links = ['base', 'link1', 'link2', 'link4', 'link5', 'link6', 'link7'].filter((name) => fs.existsSync(at(`arm/meshes/collision/${name}.stl`)));
+    const compared = await page.evaluate(() => prohullView.active.collisions.pairs.map((pair) => pair.map((i) => prohullView.active.links[i].name)));
+    for (const [a, b] of compared.filter((pair) => pair.every((name) => links.includes(name)))) {
+      const rows = positions.map((position) => {
+        const poses = linkPoses(joints, Object.fromEntries(names.map((name, i) => [name, position[i]]))), back = transposed(poses[a].r);
+        const r = times(back, poses[b].r), t = turnedBy(back, poses[b].t.map((x, k) => x - poses[a].t[k]));
+        return r.map((row, k) => [...row, t[k]]).flat().join(',');
+      });
+      fs.writeFileSync(at('poses.csv'), rows.join('\n'));
+      ask('collide', at(`arm/meshes/collision/${a}.stl`), at(`arm/meshes/collision/${b}.stl`), '--poses', at('poses.csv'), '--report', at('collide.json'));
+      JSON.parse(fs.readFileSync(at('collide.json'))).collide.forEach((is, i) => { if (is) expected[i].push(`${a} ${b}`); });
+    }
+    const known = (pairs) => pairs.filter((pair) => pair.split(' ').every((name) => links.includes(name)));
+    assert.deepEqual(shown.map(known), expected);
+    assert.ok(expected[1].includes('link1 link6') && expected[1].includes('link2 link6'), 'the folded arm collides');
+    assert.notEqual((await picture(page)).sum, rest.sum);
+    await closed(page);
+  },
+
+  async 'a link within another one collides, and pairs of the SRDF do not'() {
+    const link = (name, size) => `<link name="${name}"><collision><geometry><box size="${size} ${size} ${size}"/></geometry></collision></link>`;
+    fs.writeFileSync(at('boxes.urdf'), `<robot name="boxes">${link('crate', 1)}${link('far', 0.1)}${link('coin', 0.1)}
+      <joint name="off" type="fixed"><parent link="crate"/><child link="far"/><origin xyz="3 0 0"/></joint>
+      <joint name="slide" type="prismatic"><parent link="far"/><child link="coin"/><axis xyz="1 0 0"/><limit lower="-3" upper="-1" effort="1" velocity="1"/></joint></robot>`);
+    for (const disabled of [false, true]) {
+      if (disabled) fs.writeFileSync(at('boxes.srdf'), '<robot name="boxes"><disable_collisions link1="coin" link2="crate" reason="User"/><disable_collisions link1="coin" link2="x"/></robot>');
+      run('view', at('boxes.urdf'), '-o', at('boxes.html'));
+      const page = await opened('boxes.html');
+      const moved = async (key) => {
+        await page.locator('#joint-0').press(key);
+        await page.waitForFunction(() => !prohullView.robots.waiting);
+        return text(page, 'collisions');
+      };
+      if (disabled) assert.match(await moved('Home'), /✓ No links collide.*pairs that the SRDF/);
+      else assert.match(await moved('Home'), /✗ 1 pair collides:crate – coin/);
+      if (!disabled) assert.match(await moved('End'), /✓ No links collide/);
+      await closed(page);
+    }
   },
 
   async 'keys do what the mouse does'() {
@@ -379,6 +494,10 @@ const tests = {
     fs.writeFileSync(at('broken.obj'), broken);
     run('view', at('broken.obj'), '-o', at('broken.html'));
     const page = await opened('broken.html');
+    assert.match(await text(page, 'verdict'), /✗Not watertight.*open edges/);
+    const marked = await picture(page);
+    await page.uncheck('#defects');
+    assert.notEqual((await picture(page)).sum, marked.sum, 'open edges are marked');
     assert.match(await text(page, 'facts'), /open edges/);
     assert.match(await text(page, 'facts'), /Not finite, left out1 face/);
     assert.ok((await picture(page)).colors > 50);

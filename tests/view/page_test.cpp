@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "meshes.h"
 #include "prohull/error.h"
@@ -11,6 +14,7 @@
 #include "view/blocks.h"
 #include "view/levels.h"
 #include "view/robot.h"
+#include "view/shared_faces.h"
 
 namespace prohull::view {
 namespace {
@@ -56,6 +60,31 @@ TEST(ViewLevels, VolumesAreThoseOfTheLevels) {
   }
 }
 
+TEST(ViewLevels, FacesOfALevelAreThoseOfACoarserOneOrMadeSince) {
+  const ProgressiveHull hull = small_hull();
+  const auto points_of = [](const TriangleMesh& mesh) {
+    std::set<std::array<double, 9>> faces;  // each face from its least corner on
+    for (const FaceId f : mesh.triangles.ids()) {
+      const Triangle t = mesh.triangle(f);
+      std::array corners{std::array{t.a.x, t.a.y, t.a.z}, std::array{t.b.x, t.b.y, t.b.z},
+                         std::array{t.c.x, t.c.y, t.c.z}};
+      std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
+      std::array<double, 9> all{};
+      for (std::size_t i = 0; i < 9; ++i) all[i] = corners[i / 3][i % 3];
+      faces.insert(all);
+    }
+    return faces;
+  };
+  MadeFaces made(hull);
+  std::set<std::array<double, 9>> found = points_of(hull.base());
+  for (const std::size_t splits : {std::size_t{7}, std::size_t{90}, hull.splits().size()}) {
+    found.merge(points_of(made.until(splits)));
+    for (const std::size_t level : {splits - 3, splits})
+      EXPECT_TRUE(std::ranges::includes(found, points_of(hull.level(hull.base_face_count() + 2 * level)))) << level;
+  }
+  EXPECT_EQ(made.until(hull.splits().size()).face_count(), 0U);
+}
+
 TEST(ViewLevels, ABitForEachCornerThatASplitMeets) {
   const ProgressiveHull hull = small_hull();
   Blocks blocks;
@@ -64,6 +93,16 @@ TEST(ViewLevels, ABitForEachCornerThatASplitMeets) {
   EXPECT_EQ(facts["splits"], hull.splits().size());
   EXPECT_EQ(facts["triangles"]["count"], 3 * hull.base_face_count());
   EXPECT_GT(facts["split_bits"]["count"], 3 * hull.splits().size() / 8);
+}
+
+TEST(ViewSharedFaces, LeavesOutFacesWithTheSameCorners) {
+  const TriangleMesh box = make_sample("box", 100);
+  EXPECT_EQ(SharedFaces(box).left_out_of(box).face_count(), 0U);
+  TriangleMesh moved = box;
+  for (auto& face : moved.triangles) std::rotate(face.begin(), face.begin() + 1, face.end());
+  moved.positions[moved.triangles[FaceId{5}][0]].x += 1e-9;
+  EXPECT_GE(SharedFaces(box).left_out_of(moved).face_count(), 3U);
+  EXPECT_LT(SharedFaces(box).left_out_of(moved).face_count(), box.face_count());
 }
 
 TEST(ViewGrid, KeepsCornersOfTheSceneAndHugeCoordinates) {

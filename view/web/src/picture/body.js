@@ -1,7 +1,8 @@
 // A mesh in the scene: its surface, its edges, and what caps its section.
 
 import * as THREE from 'three';
-import {capMaterial, countingMaterial, edgeMaterial, rgb, surfaceMaterial} from './materials.js';
+import {openEdges} from '../data/defects.js';
+import {capMaterial, countingMaterial, defectMaterial, edgeMaterial, rgb, surfaceMaterial} from './materials.js';
 
 /** Two ends for each edge of each face. */
 function linesOf(corners, lines, count) {
@@ -25,8 +26,14 @@ function geometryOf({positions, triangles, heat, shifts, tints}) {
   return geometry;
 }
 
+const INNERMOST = 45;
+const LIT = '#d55e00';  // of Okabe and Ito: told apart from clay and blue by people with any kind of colour vision
+
 export class Body {
-  /** `divided` is the same surface with distances; without it those of `mesh` are shown. */
+  /**
+   * `divided` is the same surface with distances; without it those of `mesh` are shown. `order`: from the outside to the
+   * inside. Sections are painted in that order, one over the other; surfaces the other way round, as the outer ones are glass.
+   */
   constructor({mesh, divided, color, closed, striped, order, depth = 1}) {
     this.mesh = mesh;
     this.color = color;
@@ -37,9 +44,9 @@ export class Body {
     this.group.add(this.moved);
     this.geometry = geometryOf(mesh);
     this.material = surfaceMaterial(rgb(color), depth);
-    this.surface = this.add(new THREE.Mesh(this.geometry, this.material), order);
+    this.surface = this.add(new THREE.Mesh(this.geometry, this.material), INNERMOST - order);
     if (divided) {
-      this.divided = this.add(new THREE.Mesh(geometryOf(divided), this.material), order);
+      this.divided = this.add(new THREE.Mesh(geometryOf(divided), this.material), INNERMOST - order);
       this.divided.visible = false;
     }
     this.counting = [
@@ -74,7 +81,17 @@ export class Body {
   get visible() { return this.group.visible; }
   set visible(is) { this.group.visible = is; }
 
-  setOpacity(opacity) {
+  /** In the colour of what collides. */
+  light(is) {
+    if (this.isLit === is) return;
+    this.isLit = is;
+    this.material.uniforms.color.value.set(...rgb(is ? LIT : this.color));
+    this.setOpacity(this.opacity);
+  }
+
+  setOpacity(wanted) {
+    this.opacity = wanted;
+    const opacity = this.isLit ? Math.max(wanted, 0.75) : wanted;
     this.material.uniforms.opacity.value = opacity;
     this.material.transparent = opacity < 1;
     this.material.depthWrite = opacity === 1;
@@ -89,9 +106,7 @@ export class Body {
   }
 
   makeEdges() {
-    const geometry = new THREE.BufferGeometry();
-    for (const [name, attribute] of Object.entries(this.geometry.attributes)) geometry.setAttribute(name, attribute);
-    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(2 * this.mesh.triangles.length), 1));
+    const geometry = this.sharing(new Uint32Array(2 * this.mesh.triangles.length));
     this.edges = this.add(new THREE.LineSegments(geometry, edgeMaterial()), 50);
   }
 
@@ -111,6 +126,25 @@ export class Body {
     this.own ??= {triangles: this.mesh.triangles, index: this.geometry.index};
     this.mesh = {...this.mesh, triangles: triangles ?? this.own.triangles};
     this.geometry.setIndex(triangles ? new THREE.BufferAttribute(triangles, 1) : this.own.index);
+  }
+
+  /** Edges along which the mesh is not watertight. */
+  showDefects(is) {
+    if (this.closed) return;
+    this.defects ??= this.makeDefects();
+    this.defects.visible = is;
+  }
+  makeDefects() {
+    const geometry = this.sharing(openEdges(this.mesh.triangles, this.mesh.positions.length / 3));
+    return this.add(new THREE.LineSegments(geometry, defectMaterial()), 60);
+  }
+
+  /** Lines between its vertices. */
+  sharing(index) {
+    const geometry = new THREE.BufferGeometry();
+    for (const [name, attribute] of Object.entries(this.geometry.attributes)) geometry.setAttribute(name, attribute);
+    geometry.setIndex(new THREE.BufferAttribute(index, 1));
+    return geometry;
   }
 
   setEdgeColor(color) {
@@ -162,6 +196,7 @@ export class Bodies {
   each(act) { this.bodies.forEach(act); }
   setOpacity(opacity) { this.each((body) => body.setOpacity(opacity)); }
   showEdges(is) { this.each((body) => body.showEdges(is)); }
+  showDefects(is) { this.each((body) => body.showDefects(is)); }
   setEdgeColor(color) { this.each((body) => body.setEdgeColor(color)); }
   showHeat(is) { this.each((body) => body.showHeat(is)); }
   setHeatFactor(factor) { this.each((body) => body.setHeatFactor(factor)); }

@@ -1,7 +1,6 @@
 // The panel beside the picture. It knows elements, and calls `view` for all else.
 
 import {byId, counted, el, grouped, percent, place, short, atMost} from './dom.js';
-import {legendColors} from './heat.js';
 
 const FINEST_LEVEL = {
   repaired: 'the repaired input', 'convex-hull': 'the convex hull of the input', wrap: 'a wrap of the input'};
@@ -19,10 +18,18 @@ export function swatch(color, striped) {
   return element;
 }
 
+/** Of a mesh alone. */
+function verdictOfMesh({watertight, defects, first_defect: first}) {
+  if (watertight) return ['good', '✓', 'Watertight', 'It is compared with nothing: --original adds a mesh.'];
+  const counts = defects.map(({what, count}) => `${grouped(count)} ${what}`).join(', ');
+  return ['bad', '✗', 'Not watertight', `${counts}.${first ? ` The first: ${first}.` : ''}`];
+}
+
 /** What `prohull verify` would say, as a mark, a word and why. */
 export function verdictOf(object, original) {
   const v = object.verification;
   if (object.robot) return ['open', '–', 'Robot', 'prohull urdf --check decides whether the collision geometry covers the visual geometry.'];
+  if (!v && object.facts && !object.union) return verdictOfMesh(object.facts);
   if (!v) return ['open', '–', 'Not compared', 'No original mesh is in this page: --original adds it.'];
   if (v.refused) return ['open', '?', 'Not decided', v.refused];
   const [subject, other] = v.side === 'inner' ? [original, object.name] : [object.name, original];
@@ -45,9 +52,8 @@ export class Panel {
     this.live = {};
     byId('fold').addEventListener('click', () => this.fold(byId('fold').getAttribute('aria-expanded') === 'true'));
     this.content.append(...[
-      this.heading(), this.levelPart(), this.jointsPart(), this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
+      this.heading(), this.levelPart(), this.jointsPart(), this.collisionsPart(), this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
       this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
-    this.legend();
   }
 
   get object() { return this.view.active; }
@@ -75,24 +81,23 @@ export class Panel {
     if (!this.object.levels) return null;
     const {view, live} = this;
     const slider = live.slider = el('input', {type: 'range', id: 'level', min: 0, max: 1000, step: 1,
-      'aria-label': 'Level of the hull, from base to original', oninput: (e) => view.setLevelShare(e.target.value / 1000)});
+      'aria-label': 'Level of the hull, from base to original', oninput: (e) => view.levels.setShare(e.target.value / 1000)});
     live.faces = el('b', {id: 'faces'});
     live.void = el('b', {id: 'void'});
     live.distance = el('b', {id: 'distance'});
-    live.distanceLabel = el('span', {});
     live.encloses = el('b', {id: 'encloses'});
-    live.play = el('button', {type: 'button', id: 'play', onclick: () => view.play()}, 'Play');
+    live.play = el('button', {type: 'button', id: 'play', onclick: () => view.levels.play()}, 'Play');
     live.wanted = el('input', {type: 'number', id: 'wanted', min: 0, step: 1, 'aria-label': 'Faces at most',
-      onchange: (e) => view.setFaces(Number(e.target.value))});
+      onchange: (e) => view.levels.setFaces(Number(e.target.value))});
     const stops = this.object.stops.map((stop) => el('option', {value: stop.faces}, grouped(stop.faces)));
-    live.stops = el('select', {id: 'stops', 'aria-label': 'Levels with a proven distance',
-      onchange: (e) => e.target.value && view.setFaces(Number(e.target.value))}, el('option', {value: ''}, 'Proven …'), ...stops);
+    live.stops = el('select', {id: 'stops', 'aria-label': 'Levels whose farthest point is known',
+      onchange: (e) => e.target.value && view.levels.setFaces(Number(e.target.value))}, el('option', {value: ''}, 'Measured …'), ...stops);
     const box = (value, label) => el('div', {}, value, label);
     return el('section', {}, el('h2', {}, 'Level'), slider,
         el('div', {class: 'numbers'},
             box(live.faces, el('span', {}, 'faces')),
             box(live.void, el('span', {title: 'Volume between this level and the original, as a share of the original'}, 'void')),
-            box(live.distance, live.distanceLabel),
+            box(live.distance, el('span', {title: 'No point of this level is farther from the original'}, 'distance, proven')),
             box(live.encloses, el('span', {}, this.object.side === 'inner' ? 'enclosed by the original' : 'encloses the original'))),
         el('div', {class: 'row'}, live.play, live.wanted, live.stops));
   }
@@ -102,18 +107,16 @@ export class Panel {
     if (!this.object.levels) return;
     this.showQuery();
     const {live, object} = this, {levels} = object;
-    const stop = this.view.stopOf(levels.faces), v = object.verification;
-    live.slider.value = Math.round(1000 * this.view.levelShare());
-    live.slider.setAttribute('aria-valuetext', `${grouped(levels.faces)} faces`);
-    const {query} = this.view;
-    live.faces.textContent = grouped(query ? query.faces : levels.faces);
-    live.void.textContent = query ? '–' : levels.voids ? percent(levels.voids[levels.level]) : '–';
-    const isStop = stop.faces === levels.faces && !query;
-    live.distance.textContent = query ? '–' : withUnit(`≤ ${atMost(stop.upper)}`, this.unit);
-    live.distance.style.color = isStop ? '' : 'var(--soft)';
-    live.distanceLabel.textContent = isStop ? 'distance, proven' : query ? 'distance' : `distance, of ${grouped(stop.faces)} faces`;
+    const stop = this.view.levels.stopOf(levels.shownFaces), v = object.verification;
+    live.slider.value = Math.round(1000 * this.view.levels.share());
+    live.slider.setAttribute('aria-valuetext', `${grouped(levels.shownFaces)} faces`);
+    const {query} = this.view.rays;
+    live.faces.textContent = grouped(query ? query.faces : levels.shownFaces);
+    live.void.textContent = query ? '–' : levels.voids ? percent(levels.voids[levels.shown]) : '–';
+    const isStop = stop.faces === levels.shownFaces && !query;
+    live.distance.textContent = query ? '–' : withUnit(`≤ ${atMost(isStop ? stop.upper : stop.until_next)}`, this.unit);
     live.encloses.textContent = v.refused ? '?' : v.encloses ? '✓ yes' : '✗ no';
-    live.wanted.value = levels.faces;
+    live.wanted.value = levels.shownFaces;
     live.stops.value = isStop ? String(stop.faces) : '';
     this.showFarthest();
   }
@@ -126,11 +129,11 @@ export class Panel {
     this.live.joints = robot.free.map((joint, place) => {
       const [min, max] = robot.range(joint), value = el('output', {id: `joint-value-${place}`});
       const slider = el('input', {type: 'range', id: `joint-${place}`, min, max, step: 'any', value: robot.positions[joint.i],
-        'aria-label': joint.name, oninput: (e) => this.view.setJoint(joint.name, Number(e.target.value))});
+        'aria-label': joint.name, oninput: (e) => this.view.robots.set(joint.name, Number(e.target.value))});
       return {joint, slider, value, row: el('div', {class: 'joint'}, el('span', {}, joint.name), value, slider)};
     });
     return el('section', {id: 'joints'}, el('h2', {}, 'Joints'), ...this.live.joints.map(({row}) => row),
-        el('div', {class: 'row'}, el('button', {type: 'button', id: 'rest', onclick: () => this.view.restRobots()}, 'Rest')));
+        el('div', {class: 'row'}, el('button', {type: 'button', id: 'rest', onclick: () => this.view.robots.rest()}, 'Rest')));
   }
 
   /** Where the joints are. */
@@ -142,18 +145,37 @@ export class Panel {
     }
   }
 
+  collisionsPart() {
+    if (!this.object.robot) return null;
+    this.live.collisions = el('div', {id: 'collisions', 'aria-live': 'polite'});
+    return el('section', {}, el('h2', {}, 'Collisions'), this.live.collisions);
+  }
+
+  /** Which links collide where the joints are. */
+  showCollisions() {
+    const {live, object} = this;
+    if (!live.collisions) return;
+    const {pairs, colliding} = object.collisions, names = object.links.map(({name}) => name);
+    live.collisions.replaceChildren(
+        el('p', {id: 'colliding'}, pairs.length === 0 ? 'No links to compare: fewer than two have collision geometry that may not touch.'
+            : colliding.length === 0 ? '✓ No links collide.' : `✗ ${counted(colliding.length, 'pair collides', 'pairs collide')}:`),
+        el('ul', {class: 'pairs'}, ...colliding.map(([a, b]) => el('li', {}, `${names[a]} – ${names[b]}`))),
+        el('p', {class: 'soft'}, `${counted(pairs.length, 'pair', 'pairs')} of links compared as they are drawn. Left out: ` +
+            (object.disabled_by_file ? 'the pairs that the SRDF file disables.' : 'neighbours, and pairs that touch in every position.')));
+  }
+
   queryPart() {
     if (!this.object.levels) return null;
     const {view, live} = this;
     live.query = el('div', {id: 'query', 'aria-live': 'polite'});
     return el('section', {}, el('h2', {}, 'A ray'), live.query, el('div', {class: 'row'},
-        el('button', {type: 'button', id: 'shoot', onclick: () => view.shootThroughMiddle()}, 'Through the middle'),
-        live.endQuery = el('button', {type: 'button', id: 'end-query', onclick: () => view.endQuery()}, 'End')));
+        el('button', {type: 'button', id: 'shoot', onclick: () => view.rays.shootThroughMiddle()}, 'Through the middle'),
+        live.endQuery = el('button', {type: 'button', id: 'end-query', onclick: () => view.rays.end()}, 'End')));
   }
 
   /** What the last ray has met, and what that took. */
   showQuery() {
-    const {live, view} = this, {query} = view;
+    const {live, view} = this, {query} = view.rays;
     if (!live.query) return;
     live.endQuery.hidden = !query;
     if (!query) {
@@ -161,7 +183,7 @@ export class Panel {
       return;
     }
     const missed = query.hits.filter((hit) => !hit.found).length;
-    const hits = query.hits.map((hit, i) => el('li', {}, el('button', {type: 'button', onclick: () => view.flyTo(hit.point)},
+    const hits = query.hits.map((hit, i) => el('li', {}, el('button', {type: 'button', onclick: () => view.places.flyTo(hit.point)},
         el('span', {class: hit.found ? 'mark found' : 'mark missed'}, String(i + 1)),
         el('span', {}, `${hit.entering ? 'enters' : 'leaves'}${hit.found ? '' : ', passes below the hull: not found'}`,
             el('span', {class: 'where'}, place(hit.point))))));
@@ -178,23 +200,25 @@ export class Panel {
   shownPart() {
     const {view} = this;
     const rows = view.bodies.map((entry, i) => {
-      const input = check({id: `show-${i}`, checked: entry.body.visible, onchange: (e) => view.show(i, e.target.checked)},
+      const input = check({id: `show-${i}`, checked: entry.body.visible, onchange: (e) => view.look.show(i, e.target.checked)},
           entry.label, swatch(entry.body.color, entry.striped));
       return input;
     });
     return el('section', {}, el('h2', {}, 'Shown'), ...rows,
         el('div', {class: 'row'}, el('label', {for: 'opacity'}, 'Opacity'),
             el('input', {type: 'range', id: 'opacity', min: 0.05, max: 1, step: 0.05, value: view.state.opacity,
-              oninput: (e) => view.setOpacity(Number(e.target.value))})),
-        check({id: 'edges', checked: view.state.edges, onchange: (e) => view.setEdges(e.target.checked)}, 'Edges'),
-        view.hasHeat && check({id: 'heat', checked: view.state.heat, onchange: (e) => view.setHeat(e.target.checked)},
+              oninput: (e) => view.look.setOpacity(Number(e.target.value))})),
+        check({id: 'edges', checked: view.state.edges, onchange: (e) => view.look.setEdges(e.target.checked)}, 'Edges'),
+        view.hasDefects && check({id: 'defects', checked: view.state.defects, onchange: (e) => view.look.setDefects(e.target.checked)},
+            'Edges that are not watertight'),
+        view.hasHeat && check({id: 'heat', checked: view.state.heat, onchange: (e) => view.look.setHeat(e.target.checked)},
             'Distance as colour'),
-        view.hasParts && check({id: 'parts', checked: view.state.parts, onchange: (e) => view.setParts(e.target.checked)},
+        view.hasParts && check({id: 'parts', checked: view.state.parts, onchange: (e) => view.look.setParts(e.target.checked)},
             'Parts in colours'),
         view.hasParts && el('div', {class: 'row'}, el('label', {for: 'explosion'}, 'Apart'),
             el('input', {type: 'range', id: 'explosion', min: 0, max: 1.5, step: 0.01, value: view.state.explosion,
-              oninput: (e) => view.setExplosion(Number(e.target.value))})),
-        view.sides.length > 1 && check({id: 'beside', checked: view.state.beside, onchange: (e) => view.setBeside(e.target.checked)},
+              oninput: (e) => view.look.setExplosion(Number(e.target.value))})),
+        view.sides.length > 1 && check({id: 'beside', checked: view.state.beside, onchange: (e) => view.look.setBeside(e.target.checked)},
             'Side by side'));
   }
 
@@ -202,32 +226,39 @@ export class Panel {
     const {view} = this;
     const axes = [['', 'None'], ['x', 'X'], ['y', 'Y'], ['z', 'Z'], ['v', 'Facing']];
     const select = el('select', {id: 'cut', 'aria-label': 'Direction of the section',
-      onchange: (e) => view.setCutAxis(e.target.value)},
+      onchange: (e) => view.section.setAxis(e.target.value)},
         ...axes.map(([value, name]) => el('option', {value, selected: value === view.state.cut}, name)));
     return el('section', {}, el('h2', {}, 'Section'), el('div', {class: 'row'}, select,
-        el('button', {type: 'button', id: 'flip', onclick: () => view.flipCut()}, 'Flip')),
+        el('button', {type: 'button', id: 'flip', onclick: () => view.section.flip()}, 'Flip')),
         el('input', {type: 'range', id: 'cut-at', min: -1, max: 1, step: 0.005, value: view.state.cutAt,
-          'aria-label': 'Place of the section', oninput: (e) => view.setCutAt(Number(e.target.value))}));
+          'aria-label': 'Place of the section', oninput: (e) => view.section.setPlace(Number(e.target.value))}));
   }
 
   /** The farthest point of the hull, or of its level. */
   farthest() {
     const {object} = this;
-    return object.levels ? this.view.stopOf(object.levels.faces) : object.distance;
+    return object.levels ? this.view.levels.stopOf(object.levels.shownFaces) : object.distance;
   }
 
   distancePart() {
     if (!this.farthest()) return null;
     this.live.far = el('p', {id: 'far'});
-    const fly = el('button', {type: 'button', id: 'fly-far', onclick: () => this.view.flyTo(this.farthest().farthest)},
+    this.live.between = el('p', {id: 'between'});
+    const fly = el('button', {type: 'button', id: 'fly-far', onclick: () => this.view.places.flyTo(this.farthest().farthest)},
         el('span', {class: 'far-mark', 'aria-hidden': 'true'}, '★ '), 'Show the farthest point');
-    return el('section', {}, el('h2', {}, this.object.union ? 'Reach out of the original' : 'Distance to the original'), this.live.far, fly);
+    return el('section', {}, el('h2', {}, this.object.union ? 'Reach out of the original' : 'Distance to the original'), this.live.between, this.live.far, fly);
   }
 
   showFarthest() {
     const found = this.farthest();
     if (!found || !this.live.far) return;
-    const of = this.object.levels ? ` of the level of ${grouped(found.faces)} faces` : '';
+    const {levels} = this.object, of = levels ? ` of the level of ${grouped(found.faces)} faces` : '';
+    this.live.between.hidden = !levels || levels.shownFaces === found.faces;
+    if (levels) {
+      const next = this.object.stops.find(({faces}) => faces > found.faces) ?? found;
+      this.live.between.textContent = `All levels from ${grouped(found.faces)} to ${grouped(next.faces)} faces are within ` +
+          `${withUnit(atMost(found.until_next), this.unit)} (proven).`;
+    }
     this.live.far.textContent = `The farthest point${of} is between ${withUnit(short(found.lower), this.unit)} and ` +
         `${withUnit(atMost(found.upper), this.unit)} away (proven), found at ${place(found.farthest)}.`;
   }
@@ -235,7 +266,7 @@ export class Panel {
   outsidePart() {
     const v = this.object.verification;
     if (!v?.worst?.length) return null;
-    const places = v.worst.map((o, i) => el('li', {}, el('button', {type: 'button', onclick: () => this.view.flyTo(o.point)},
+    const places = v.worst.map((o, i) => el('li', {}, el('button', {type: 'button', onclick: () => this.view.places.flyTo(o.point)},
         el('span', {class: 'mark'}, String(i + 1)),
         el('span', {}, `face ${grouped(o.face)}, ${withUnit(short(o.distance), this.unit)} outside`,
             el('span', {class: 'where'}, place(o.point))))));
@@ -294,8 +325,8 @@ export class Panel {
         button('right', 'Right', () => view.viewport.look(90, 0)),
         button('top', 'Top', () => view.viewport.look(0, 89.9))),
         el('div', {class: 'row'},
-            button('png', 'Save PNG', () => view.savePicture()),
-            button('theme', 'Dark or light', () => view.toggleTheme())));
+            button('png', 'Save PNG', () => view.look.savePicture()),
+            button('theme', 'Dark or light', () => view.look.toggleTheme())));
   }
 
   notePart() {
@@ -313,12 +344,5 @@ export class Panel {
             `Verdicts and counts are exact, distances are proven bounds. What is drawn is rounded: to steps of ${withUnit(short(step, 2), this.unit)}, ` +
             'a billionth of the longest side. Between its points, colour is interpolated. ' +
             (this.unit ? '' : 'Lengths are in the unit of the mesh. ') + `Made by prohull ${view.scene.version}.`));
-  }
-
-  legend() {
-    byId('legend-bar').style.background = `linear-gradient(to right, ${legendColors(24).join(', ')})`;
-    const greatest = this.view.heatMax;
-    byId('legend-title').textContent = `Distance from the original${this.unit ? `, in ${this.unit}` : ', in the unit of the mesh'}`;
-    byId('legend-ticks').replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map((t) => el('span', {}, short(t * greatest, 3))));
   }
 }

@@ -1,6 +1,7 @@
 // A progressive hull: vertex splits replayed forth and back. view/levels.h describes the record.
 
 import {numbers, reals} from './blocks.js';
+import {breathe} from './breathe.js';
 
 const following = (corner) => corner % 3 === 2 ? corner - 2 : corner + 1;
 const preceding = (corner) => corner % 3 === 0 ? corner + 2 : corner - 1;
@@ -81,23 +82,29 @@ class Stars {
 }
 
 export class Levels {
-  constructor(facts, bytes) {
+  constructor(facts) {
     this.baseFaces = facts.base_faces;
     this.count = facts.splits;
-    this.level = this.count;  // how many splits are made
-    const base = numbers(bytes, facts.positions);
-    this.baseVertices = base.length / 3;
-    this.splitVertices = numbers(bytes, facts.split_vertices);
-    this.readFaces(numbers(bytes, facts.triangles), numbers(bytes, facts.split_bits),
-        numbers(bytes, facts.split_turns));
-    this.readPositions(base, numbers(bytes, facts.split_moves));
-    this.readHeat(numbers(bytes, facts.heat), numbers(bytes, facts.split_heat));
-    this.voids = facts.void_ratios ? reals(bytes, facts.void_ratios) : null;
+    this.level = this.shown = this.count;  // how many splits are made, and how many of them wholly
+    this.gliding = 0;                      // how many of the last ones have vertices on their way
+  }
+
+  static async read(facts, bytes) {
+    const levels = new Levels(facts), base = numbers(bytes, facts.positions);
+    levels.baseVertices = base.length / 3;
+    levels.splitVertices = numbers(bytes, facts.split_vertices);
+    await levels.readFaces(numbers(bytes, facts.triangles), numbers(bytes, facts.split_bits), numbers(bytes, facts.split_turns));
+    levels.readPositions(base, numbers(bytes, facts.split_moves));
+    await breathe();
+    levels.readHeat(numbers(bytes, facts.heat), numbers(bytes, facts.split_heat));
+    levels.voids = facts.void_ratios ? reals(bytes, facts.void_ratios) : null;
+    return levels;
   }
 
   get finestFaces() { return this.baseFaces + 2 * this.count; }
   get faces() { return this.baseFaces + 2 * this.level; }
-  get vertices() { return this.baseVertices + this.level; }
+  /** Of the true level that is nearest to what is drawn. */
+  get shownFaces() { return this.baseFaces + 2 * this.shown; }
 
   /** The finest level of at most so many faces, or the base mesh: a number of splits. */
   levelOf(faces) {
@@ -105,7 +112,7 @@ export class Levels {
   }
 
   /** Makes all splits, to learn which corners each of them gives to d, and which splits must come before it. */
-  readFaces(base, bits, turns) {
+  async readFaces(base, bits, turns) {
     const vertices = this.baseVertices + this.count;
     const stars = new Stars(base.length + 6 * this.count, vertices);
     for (let at = 0; at < base.length; at += 3) stars.addFace(at, base[at], base[at + 1], base[at + 2], 0);
@@ -119,6 +126,7 @@ export class Levels {
     let bit = 0;
     const pools = [this.makers, this.moved, this.kept];
     for (let k = 0, at = base.length; k < this.count; ++k, at += 6) {
+      if (k % 1024 === 0) await breathe();
       const o = this.splitVertices[k], d = this.baseVertices + k;
       this.follow(makers[o], o, k);
       for (let c = stars.first[o]; c !== NONE; c = stars.next[c]) {
@@ -167,13 +175,14 @@ export class Levels {
     steps.set(base);
     this.stepsBefore = new Float64Array(3 * this.count);
     this.stepsAfter = new Float64Array(3 * this.count);
+    this.stepsPlaced = new Float64Array(3 * this.count);  // of d, as it comes
     for (let k = 0; k < this.count; ++k) {
       const s = 3 * this.splitVertices[k], d = 3 * (this.baseVertices + k);
       for (let i = 0; i < 3; ++i) {
         const from = steps[s + i];
         this.stepsBefore[3 * k + i] = from;
         this.stepsAfter[3 * k + i] = steps[s + i] = from + moves[6 * k + i];
-        steps[d + i] = from + moves[6 * k + 3 + i];
+        this.stepsPlaced[3 * k + i] = steps[d + i] = from + moves[6 * k + 3 + i];
       }
     }
     this.steps = steps;
@@ -184,13 +193,14 @@ export class Levels {
     this.heat.set(base);
     this.heatBefore = new Float32Array(this.count);
     this.heatAfter = new Float32Array(this.count);
+    this.heatPlaced = new Float32Array(this.count);
     for (let k = 0; k < this.count; ++k) {
       this.heatBefore[k] = this.heat[this.splitVertices[k]];
       this.heatAfter[k] = this.heat[this.splitVertices[k]] = splits[2 * k];
-      this.heat[this.baseVertices + k] = splits[2 * k + 1];
+      this.heatPlaced[k] = this.heat[this.baseVertices + k] = splits[2 * k + 1];
     }
     const scale = (array) => { for (let i = 0; i < array.length; ++i) array[i] /= 65535; };
-    [this.heat, this.heatBefore, this.heatAfter].forEach(scale);
+    [this.heat, this.heatBefore, this.heatAfter, this.heatPlaced].forEach(scale);
   }
 
   /** Finds out where everything is drawn. */
@@ -198,13 +208,17 @@ export class Levels {
     this.positions = space.drawn(this.steps);
     this.before = space.drawn(this.stepsBefore);
     this.after = space.drawn(this.stepsAfter);
+    this.placed = space.drawn(this.stepsPlaced);
+    this.stepsPlaced = null;
   }
 
   /** Makes or undoes splits; returns whether there were any. */
   goTo(level) {
+    this.land();
     const changes = level !== this.level;
     while (this.level < level) this.apply(this.level++, true);
     while (this.level > level) this.apply(--this.level, false);
+    this.shown = level;
     return changes;
   }
 
@@ -218,6 +232,46 @@ export class Levels {
     this.heat[s] = (forth ? this.heatAfter : this.heatBefore)[k];
     const {ends, values} = this.moved;
     for (let i = ends[k]; i < ends[k + 1]; ++i) this.corners[values[i]] = v;
+  }
+
+  /**
+   * Between levels: the `ahead` splits after `level` are made in part, the first of them nearly wholly, the last one hardly.
+   * Their vertices are on the way from where they parted. Both numbers may have fractions, with which the mesh changes
+   * continuously.
+   */
+  blend(level, ahead) {
+    this.goTo(Math.min(this.count, Math.ceil(level + ahead)));
+    this.shown = Math.min(this.level, Math.round(level));
+    this.gliding = Math.max(0, this.level - Math.floor(level));
+    for (let k = this.level; k-- > this.level - this.gliding;) this.setParent(k);
+    for (let k = this.level - this.gliding; k < this.level; ++k) this.part(k, Math.min(1, (level + ahead - k) / (ahead + 1)));
+  }
+
+  /** All vertices arrive. */
+  land() {
+    for (let k = this.level - this.gliding; k < this.level; ++k) this.part(k, 1);
+    this.gliding = 0;
+  }
+
+  /** Where the vertex of split k is before it. */
+  setParent(k) {
+    const s = this.splitVertices[k];
+    for (let i = 0; i < 3; ++i) this.positions[3 * s + i] = this.before[3 * k + i];
+    this.heat[s] = this.heatBefore[k];
+  }
+
+  /** Moves o and d, which are both where their parent is, by a part of their way. */
+  part(k, part) {
+    const s = this.splitVertices[k], d = this.baseVertices + k;
+    const between = (from, to) => part === 1 ? to : from + part * (to - from);
+    for (let i = 0; i < 3; ++i) {
+      const from = this.positions[3 * s + i];
+      this.positions[3 * s + i] = between(from, this.after[3 * k + i]);
+      this.positions[3 * d + i] = between(from, this.placed[3 * k + i]);
+    }
+    const heat = this.heat[s];
+    this.heat[s] = between(heat, this.heatAfter[k]);
+    this.heat[d] = between(heat, this.heatPlaced[k]);
   }
 
   /** The mesh of a level, on its own. */

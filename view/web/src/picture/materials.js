@@ -1,7 +1,7 @@
 // How surfaces, edges and sections are drawn. Colours are those of the screen; nothing is converted.
 
 import * as THREE from 'three';
-import {VIRIDIS_GLSL} from './heat.js';
+import {VIRIDIS_GLSL} from '../data/heat.js';
 
 const VERTEX = `
 attribute float heat;
@@ -101,6 +101,11 @@ export function surfaceMaterial(color, depth) {
 export function edgeMaterial() {
   return material(FLAT, {color: {value: new THREE.Color(0, 0, 0)}, opacity: {value: 0.45}},
       {transparent: true, depthWrite: false});
+}
+
+/** Of lines that are seen through everything. */
+export function defectMaterial() {
+  return material(FLAT, {color: {value: new THREE.Color(...rgb('#c2185b'))}, opacity: {value: 1}}, {transparent: true, depthTest: false});
 }
 
 /** Counts where the plane is inside of a closed surface: twice, for back and front faces. */

@@ -1,6 +1,6 @@
 // The parts of a mesh, such as convex pieces: what shared vertices connect. As `prohull render --explode` draws them.
 
-import {rgb} from './materials.js';
+import {rgb} from '../picture/materials.js';
 
 // Of Okabe and Ito (2008), without black; then lighter, then darker.
 const COLORS = ['#56b4e9', '#e69f00', '#009e73', '#f0e442', '#0072b2', '#d55e00', '#cc79a7'].map(rgb);
@@ -12,7 +12,7 @@ export function partColor(i) {
 }
 
 /** The number of the part of each vertex. */
-function numbersOfParts(triangles, vertices) {
+export function numbersOfParts(triangles, vertices) {
   const parents = Uint32Array.from({length: vertices}, (_, v) => v);
   const root = (v) => {
     while (parents[v] !== v) v = parents[v] = parents[parents[v]];

@@ -8,7 +8,7 @@ THREE.ColorManagement.enabled = false;  // colours are those of the screen every
 
 const FIELD_OF_VIEW = 26;  // degrees
 const NO_CUT = 1e9;
-const calm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
+export const calm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
 /** A disk with a text, always of one size on the screen. */
 function markSprite(text, color) {

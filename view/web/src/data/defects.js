@@ -1,0 +1,19 @@
+// What is wrong with a mesh, to show it.
+
+/** The ends of all edges along which faces do not run as often one way as the other: a watertight mesh has none. */
+export function openEdges(triangles, vertices) {
+  const keys = new Float64Array(triangles.length);
+  for (let c = 0; c < triangles.length; ++c) {
+    const a = triangles[c], b = triangles[c % 3 === 2 ? c - 2 : c + 1];
+    keys[c] = 2 * (Math.min(a, b) * vertices + Math.max(a, b)) + (a < b ? 1 : 0);
+  }
+  keys.sort();
+  const ends = [];
+  for (let i = 0, next; i < keys.length; i = next) {
+    const edge = Math.floor(keys[i] / 2);
+    let sum = 0;
+    for (next = i; next < keys.length && Math.floor(keys[next] / 2) === edge; ++next) sum += keys[next] % 2 ? 1 : -1;
+    if (sum !== 0) ends.push(Math.floor(edge / vertices), edge % vertices);
+  }
+  return Uint32Array.from(ends);
+}
