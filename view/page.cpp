@@ -6,6 +6,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "prohull/base64.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
 #include "view/blocks.h"
@@ -110,7 +111,7 @@ class Writer {
     std::string escaped;
     for (const char c : text) c == '<' ? escaped += "\\u003c" : escaped += c;
     return "<script type=\"application/json\" id=\"scene\">" + escaped +
-           "</script>\n<script type=\"text/plain\" id=\"blocks\">" + base64(deflated(blocks_.bytes())) + "</script>";
+           "</script>\n<script type=\"text/plain\" id=\"blocks\">" + to_base64(deflated(blocks_.bytes())) + "</script>";
   }
 
  private:

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
+#include "prohull/base64.h"
 #include "prohull/error.h"
 #include "robot/files/xml.h"
 #include "robot/motion/bodies.h"
@@ -18,20 +18,6 @@ namespace {
 
 constexpr std::string_view kDash = "–";
 constexpr std::string_view kGrey = "#d9d6d1", kBlue = "#7db4ea", kOrange = "#f09a4e", kRed = "#d4483b";  // of pictures
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return i + k < bytes.size() ? std::uint32_t{static_cast<unsigned char>(bytes[i + k])} : 0;
-    };
-    const std::uint32_t bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 // ---------------------------------------------------------------------------------------------------------------------
 // Pictures
@@ -153,7 +139,7 @@ std::string figure(const std::string& png, std::string_view alt, std::string_vie
   return fmt::format(
       "<figure><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">"
       "<figcaption>{}</figcaption></figure>\n",
-      base64(png), size.width, size.height, alt, caption);
+      to_base64(png), size.width, size.height, alt, caption);
 }
 
 std::string list(std::string_view title, const std::vector<std::string>& sentences) {
