@@ -273,6 +273,8 @@ bool has_page() { return !page_template().empty(); }
 
 std::string page(const std::vector<Shown>& shown, const std::optional<Original>& original, const PageOptions& options) {
   if (!has_page()) throw InputError(Defect::CannotRead, std::string(kNoPage));
+  if (shown.size() > kMostShown)
+    throw InputError(Defect::InvalidOption, fmt::format("a page shows {} hulls at most", kMostShown));
   const std::string scene = Writer(shown, original, options).elements();
   std::string text;
   for (const std::string_view part : page_template()) text += part;

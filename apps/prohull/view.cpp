@@ -7,8 +7,8 @@
 #include "command.h"
 #include "prohull/error.h"
 #include "robot/files/robot_file.h"
-#include "robot/link_triangles.h"
 #include "union_files.h"
+#include "view/shown_robot.h"
 
 namespace prohull::cli {
 namespace {
@@ -23,8 +23,6 @@ struct Options {
   robot::FileOptions robots;
 };
 
-constexpr std::size_t kMostShown = 8;
-
 /// The page names files without their folders, but for the last one where several have the same name.
 std::string shown_name(const std::filesystem::path& path, const Options& options) {
   if (is_standard_stream(path)) return input_name(path);
@@ -33,14 +31,10 @@ std::string shown_name(const std::filesystem::path& path, const Options& options
   return (path.parent_path().filename() / path.filename()).string();
 }
 
+bool goes_on(std::string_view, double) { return !interrupted(); }
+
 view::ShownRobot read_robot(const Options& options, const std::filesystem::path& path) {
-  view::ShownRobot shown{robot::read_robot(path, options.robots).robot, {}, {}};
-  for (const robot::Link& link : shown.robot.links) {
-    shown.visual.push_back(robot::link_triangles(link.visual, {}));
-    shown.collision.push_back(robot::link_triangles(link.collision, {}));
-    stop_if_interrupted();
-  }
-  return shown;
+  return view::as_shipped(robot::read_robot(path, options.robots).robot, goes_on);
 }
 
 view::Shown read_shown(const Options& options, const std::filesystem::path& path) {
@@ -92,8 +86,8 @@ std::string written_page(const Options& options) {
 
 int run_view(const Options& options) {
   if (!view::has_page()) throw InputError(Defect::CannotRead, std::string(view::kNoPage));
-  if (options.in.size() > kMostShown)
-    throw InputError(Defect::InvalidOption, fmt::format("a page shows {} files at most", kMostShown));
+  if (options.in.size() > view::kMostShown)
+    throw InputError(Defect::InvalidOption, fmt::format("a page shows {} files at most", view::kMostShown));
   static const OutputKind kind{"pages", {".html", ".htm"}};
   output_suffix(options.out, kind, is_standard_stream(options.out) ? "html" : "");
   std::vector<std::filesystem::path> inputs = options.in;

@@ -200,14 +200,20 @@ std::string findings(const ReportInput& input) {
   return fmt::format("<ul class=\"findings\">\n{}</ul>\n", items);
 }
 
-std::string head(const ReportInput& input) {
+std::string link_to_view(const std::string& view) {
+  if (view.empty()) return {};
+  return fmt::format("<p><a href=\"{}\">Turn the robot around and move its joints</a></p>\n", html_escaped(view));
+}
+
+std::string head(const ReportInput& input, const std::string& view) {
   std::string format(prohull::name_of(robot_format_names(), input.file.format));
   std::ranges::transform(format, format.begin(), [](char c) { return 'a' <= c && c <= 'z' ? c - 'a' + 'A' : c; });
   return fmt::format(
       "<header>\n<p class=\"eyebrow\">Collision geometry report</p>\n<h1>{}</h1>\n"
-      "<p class=\"muted\">{} · {} · {} · prohull {} · {:.1f} s</p>\n{}</header>\n",
+      "<p class=\"muted\">{} · {} · {} · prohull {} · {:.1f} s</p>\n{}{}</header>\n",
       html_escaped(input.file.robot.name), html_escaped(input.file.path.filename().string()), format,
-      counted(input.file.robot.links.size(), "link"), html_escaped(input.version), input.seconds, findings(input));
+      counted(input.file.robot.links.size(), "link"), html_escaped(input.version), input.seconds, findings(input),
+      link_to_view(view));
 }
 
 std::string tile(const std::string& number, const std::string& words) {
@@ -717,8 +723,9 @@ std::string report_html(const ReportInput& input, const PageOptions& options) {
       "<title>{0}: collision geometry report</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n"
       "{2}{3}{4}{5}{6}{7}{8}<footer>Made by prohull {9}. Lengths of bounds are rounded to the safe side.</footer>\n"
       "</main>\n</body>\n</html>\n",
-      html_escaped(input.file.robot.name), page_style(), head(input), overview(input, drawn.robot), marks(input),
-      links_table(input), motion_section(input), cards(input, drawn), words(input), html_escaped(input.version));
+      html_escaped(input.file.robot.name), page_style(), head(input, options.view), overview(input, drawn.robot),
+      marks(input), links_table(input), motion_section(input), cards(input, drawn), words(input),
+      html_escaped(input.version));
 }
 
 }  // namespace prohull::robot
