@@ -48,7 +48,7 @@ set(may_view view robot)
 set(may_kdop kdop query geometry)  # an engine as those of src/query
 set(may_apps render robot view kdop)
 set(may_examples "")
-set(may_python render robot)
+set(may_python render robot view)
 
 set(failures "")
 macro(fail)
