@@ -352,7 +352,8 @@ void add_urdf(CLI::App& app, Run& run) {
                    "Leave links whose mesh files are not found as they are. Otherwise missing files are an error.");
   CLI::Option* const dry_run =
       command.add_flag("--dry-run", options->dry_run, "Say what would be done with each link, and write nothing.");
-  command.add_flag("--no-pictures", options->no_pictures, "Write the report without pictures, and no view.html, which is faster.");
+  command.add_flag("--no-pictures", options->no_pictures,
+                   "Write the report without pictures, and no view.html, which is faster.");
   command
       .add_option(
           "--cache", options->cache,
