@@ -172,8 +172,13 @@ def levels_part(name: str, levels: _prohull.Levels, picture: Optional[Callable[[
     return Part(name, levels, picture or drawn)
 
 
+def _name_of_file(path: Path) -> str:
+    """As UTF-8 has it, whatever bytes the name has."""
+    return os.fsencode(pathlib.Path(path).name).decode("utf-8", "replace")
+
+
 def _part_of_file(path: str) -> Part:
-    name = pathlib.Path(path).name
+    name = _name_of_file(path)
     if _prohull.is_hull_file(path):
         return levels_part(name, _prohull.load(path))
     if _prohull.is_robot_file(path):
@@ -206,7 +211,7 @@ def _is_equal(a: Mesh, b: Mesh) -> bool:
 
 
 def _name_of(original: Optional[MeshLike]) -> str:
-    return pathlib.Path(original).name if isinstance(original, (str, os.PathLike)) else "original"
+    return _name_of_file(original) if isinstance(original, (str, os.PathLike)) else "original"
 
 
 def _picture(part: Part, side: Side, compared: Optional[Mesh]) -> bytes:

@@ -3,6 +3,7 @@
 import base64
 import html
 import json
+import os
 import pathlib
 import re
 import sys
@@ -117,6 +118,8 @@ def test_files_are_shown_under_their_names(hull, pony, tmp_path):
     shown = prohull.view(tmp_path / "hull.ply", (hull.vertices, hull.faces), original=tmp_path / "pony.ply", unit="mm")
     assert objects(shown) == [("hull.ply", "mesh"), ("mesh", "mesh"), ("pony.ply", "mesh")]
     assert scene(shown.html)["unit"] == "mm"
+    os.link(tmp_path / "hull.ply", os.fsencode(tmp_path) + b"/\xff.ply")
+    assert objects(prohull.view(os.fsdecode(os.fsencode(tmp_path) + b"/\xff.ply"))) == [("\N{REPLACEMENT CHARACTER}.ply", "mesh")]
 
 
 @needs_page
