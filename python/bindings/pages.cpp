@@ -21,10 +21,10 @@ namespace {
 
 using SharedRobot = std::shared_ptr<view::ShownRobot>;
 /// A mesh, levels, convex pieces, balls as rows of four numbers, or a robot.
-using Shape = std::variant<SharedMesh, SharedLevels, SharedRobot, std::vector<SharedMesh>, Array<double>>;
+using Drawn = std::variant<SharedMesh, SharedLevels, SharedRobot, std::vector<SharedMesh>, Array<double>>;
 
 /// What view::Shown takes.
-struct ShapeOf {
+struct DrawnOf {
   using Result = decltype(view::Shown::shape);
 
   template <class T>
@@ -44,11 +44,11 @@ struct ShapeOf {
 static_assert(sizeof(Ball) == 4 * sizeof(double) && std::is_standard_layout_v<Ball>);
 
 /// Each with its name; of meshes the side on which they lie is told, too.
-using Given = std::tuple<std::string, Shape, std::optional<std::string>>;
+using Given = std::tuple<std::string, Drawn, std::optional<std::string>>;
 
 view::Shown shown_of(const Given& given) {
   const auto& [name, shape, side] = given;
-  view::Shown shown{name, std::visit(ShapeOf{}, shape)};
+  view::Shown shown{name, std::visit(DrawnOf{}, shape)};
   if (side) shown.side = value_of(hull_side_names(), *side);
   return shown;
 }
