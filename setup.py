@@ -1,7 +1,7 @@
 """Builds the Python package by CMake, as scripts/setup does; pyproject.toml has the rest.
 
 Compiler and libraries have to be there: `scripts/install-packages build wheel` installs them on Debian 12. From the network
-nothing is needed:
+nothing is needed, but for the page of hull.show(): where node and npm are there, they fetch what it is made of.
 
     python3 -m pip install --no-build-isolation .
 
@@ -55,7 +55,7 @@ class CMakeBuild(build_ext):
             os.environ.setdefault("pybind11_DIR", pybind11.get_cmake_dir())
         try:
             self.cmake("-S", str(ROOT), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF",
-                       "-DPROHULL_BENCH=OFF", "-DPROHULL_VIEW=OFF", "-DPROHULL_PYTHON=REQUIRED",
+                       "-DPROHULL_BENCH=OFF", "-DPROHULL_PYTHON=REQUIRED",
                        f"-DPython_EXECUTABLE={sys.executable}")
         except subprocess.CalledProcessError:
             sys.exit(self.failed("CMake has not found everything, see above"))

@@ -20,7 +20,7 @@ room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality mesh
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
 room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base
                                                                                      prohull/enclosure)  # is_closed
-room(io        OWNS memory mesh_io hull_file query_io                                   MAY hull mesh geometry parallel base
+room(io        OWNS base64 memory mesh_io hull_file query_io                            MAY hull mesh geometry parallel base
                                                                                      prohull/collide prohull/mesh_query)
 room(repair    OWNS openings repair                                              MAY mesh geometry base)
 room(construct OWNS hull_builder tight_hull float32_hull padded_hull mesh_part   MAY hull mesh geometry parallel base)
@@ -48,7 +48,7 @@ set(may_view view robot)
 set(may_kdop kdop query geometry)  # an engine as those of src/query
 set(may_apps render robot view kdop)
 set(may_examples "")
-set(may_python render robot)
+set(may_python render robot view)
 
 set(failures "")
 macro(fail)

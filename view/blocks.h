@@ -28,6 +28,5 @@ class Blocks {
 
 /// Compressed by zlib.
 std::string deflated(const std::string& bytes);
-std::string base64(std::string_view bytes);
 
 }  // namespace prohull::view

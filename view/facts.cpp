@@ -52,9 +52,7 @@ nlohmann::json facts_of(const UnionVerification& found) {
 
 /// Verifies whatever is shown.
 struct Verify {
-  nlohmann::json operator()(const TriangleMesh& hull) const {
-    return facts_of(verify_hull(hull, original, options.side, how));
-  }
+  nlohmann::json operator()(const TriangleMesh& hull) const { return facts_of(verify_hull(hull, original, side, how)); }
   nlohmann::json operator()(const ProgressiveHull& hull) const { return facts_of(verify_hull(hull, original, how)); }
   nlohmann::json operator()(const Pieces& pieces) const { return facts_of(verify_union(pieces, original, how)); }
   nlohmann::json operator()(const Balls& balls) const { return facts_of(verify_union(balls, original, false, how)); }
@@ -62,7 +60,7 @@ struct Verify {
   nlohmann::json operator()(const ShownRobot&) const { return {}; }
 
   const TriangleMesh& original;
-  const PageOptions& options;
+  HullSide side;
   VerificationOptions how;
 };
 
@@ -80,7 +78,7 @@ nlohmann::json verification_facts(const Shown& shown, const TriangleMesh& origin
   const VerificationOptions how{
       .solid_only = options.solid_only, .max_offenders = kMostOffenders, .progress = options.progress};
   try {
-    return std::visit(Verify{original, options, how}, shown.shape);
+    return std::visit(Verify{original, shown.side.value_or(options.side), how}, shown.shape);
   } catch (const InputError& error) {
     return {{"refused", error.what()}};
   }

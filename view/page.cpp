@@ -6,6 +6,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "prohull/base64.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
 #include "view/blocks.h"
@@ -111,7 +112,7 @@ class Writer {
     std::string escaped;
     for (const char c : text) c == '<' ? escaped += "\\u003c" : escaped += c;
     return "<script type=\"application/json\" id=\"scene\">" + escaped +
-           "</script>\n<script type=\"text/plain\" id=\"blocks\">" + base64(deflated(blocks_.bytes())) + "</script>";
+           "</script>\n<script type=\"text/plain\" id=\"blocks\">" + to_base64(deflated(blocks_.bytes())) + "</script>";
   }
 
  private:
@@ -295,6 +296,8 @@ bool has_page() { return !page_template().empty(); }
 
 std::string page(const std::vector<Shown>& shown, const std::optional<Original>& original, const PageOptions& options) {
   if (!has_page()) throw InputError(Defect::CannotRead, std::string(kNoPage));
+  if (shown.size() > kMostShown)
+    throw InputError(Defect::InvalidOption, fmt::format("a page shows {} hulls at most", kMostShown));
   const std::string scene = Writer(shown, original, options).elements();
   std::string text;
   for (const std::string_view part : page_template()) text += part;

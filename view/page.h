@@ -29,6 +29,7 @@ struct ShownRobot {
 struct Shown {
   std::string name;
   std::variant<TriangleMesh, ProgressiveHull, Pieces, Balls, ShownRobot> shape;
+  std::optional<HullSide> side = {};  ///< of a hull that is a mesh; none: as the options say
 };
 
 /// The mesh that all of it is compared with.
@@ -52,11 +53,13 @@ constexpr std::string_view kNoPage =
     "prohull was built without the page of `prohull view`, because node or npm was not there: install nodejs and npm, "
     "configure and build again";
 
+constexpr std::size_t kMostShown = 8;
+
 /// A page of HTML that shows hulls, and the mesh that they are hulls of, in any browser. It needs no other file and no
 /// network. Verdicts and counts on it are exact, distances are proven bounds; what is drawn is rounded. Without an
 /// original, a progressive hull is compared with its own finest level, and all else with nothing. Faces that are not
 /// finite are left out, which is said. Throws InputError if a mesh has no finite face, if there are no pieces or balls,
-/// and if there is no page (has_page); Cancelled.
+/// if more than kMostShown are given, and if there is no page (has_page); Cancelled.
 std::string page(const std::vector<Shown>& shown, const std::optional<Original>& original, const PageOptions& options);
 
 }  // namespace prohull::view

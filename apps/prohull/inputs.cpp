@@ -81,11 +81,6 @@ void add_unit_options(CLI::App& command, InputOptions& options, const std::strin
       ->excludes(scale);
 }
 
-bool is_robot_file(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 5> kSuffixes{".urdf", ".xacro", ".sdf", ".mjcf", ".xml"};
-  return std::ranges::find(kSuffixes, path.extension().string()) != kSuffixes.end();
-}
-
 bool is_sphere_file(const std::filesystem::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
 }

@@ -7,6 +7,7 @@
 
 #include "prohull/mesh_io.h"
 #include "prohull/progressive_hull.h"
+#include "robot/files/robot_file.h"
 
 namespace prohull::cli {
 
@@ -27,8 +28,7 @@ void add_format_option(CLI::App& command, InputOptions& options);
 /// --scale and --unit, which apply to `what`.
 void add_unit_options(CLI::App& command, InputOptions& options, const std::string& what);
 
-/// By the suffix: URDF, xacro, SDF or MJCF.
-bool is_robot_file(const std::filesystem::path& path);
+using robot::is_robot_file;
 /// By the suffix: YAML.
 bool is_sphere_file(const std::filesystem::path& path);
 

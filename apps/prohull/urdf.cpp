@@ -15,6 +15,7 @@
 #include "robot/report/report.h"
 #include "robot_folder.h"
 #include "robot_summary.h"
+#include "view/shown_robot.h"
 
 namespace prohull::cli {
 namespace {
@@ -107,7 +108,8 @@ std::string run_key(const Options& options, const RobotFile& file) {
     key.add(std::size_t(budget.skip));
   }
   key.add(std::size_t(options.hulls.from)), key.add(std::size_t(options.hulls.skip_missing)), key.add(options.package);
-  key.add(std::size_t(options.no_pictures)), key.add(options.motion.configurations);
+  key.add(std::size_t(options.no_pictures)), key.add(std::size_t(view::has_page())),
+      key.add(options.motion.configurations);
   key.add(std::size_t(options.motion.seed));
   return key.text();
 }
@@ -131,12 +133,34 @@ ReportInput make(const Options& options, const RobotFile& file, const Stopwatch&
   return made;
 }
 
+/// The collision geometry that the robot ships with, alone.
+view::ShownRobot shipped(const ReportInput& facts) {
+  view::ShownRobot shown{facts.file.robot, std::vector<TriangleMesh>(facts.shipped.size()), {}};
+  for (const LinkCheck& check : facts.shipped) shown.collision.push_back(check.collision);
+  return shown;
+}
+
+/// The robot within its hulls, and what it ships with, if it has any collision geometry.
+std::string view_page(const Options& options, const ReportInput& facts, const Progress& progress) {
+  const Robot& robot = facts.file.robot;
+  const auto has_collision = [](const LinkCheck& check) { return check.collision.face_count() > 0; };
+  std::vector<view::Shown> shown{
+      {robot.name + " with hulls", view::with_hulls(robot, facts.hulls, facts.from, progress)}};
+  if (std::ranges::any_of(facts.shipped, has_collision)) shown.push_back({robot.name + " as shipped", shipped(facts)});
+  return view::page(shown, std::nullopt,
+                    {.unit = "m", .version = PROHULL_VERSION, .threads = options.threads, .progress = progress});
+}
+
 void write(const Options& options, const WriteOptions& how, const ReportInput& facts, RobotFolder& folder) {
   for (const OutputFile& output : output_files(facts.file, facts.hulls, folder.get(), how))
     folder.add(output.path, output.write);
   if (facts.motion) folder.add(robot_stem(facts.file) + ".srdf", srdf_of(facts.file.robot, *facts.motion));
   ProgressLine line;
-  const PageOptions page{.pictures = !options.no_pictures, .threads = options.threads, .progress = std::ref(line)};
+  PageOptions page{.pictures = !options.no_pictures, .threads = options.threads, .progress = std::ref(line)};
+  if (page.pictures && view::has_page()) {
+    folder.add("view.html", view_page(options, facts, page.progress));
+    page.view = "view.html#x=2";  // what it ships with, the third thing on the page, is not drawn at first
+  }
   folder.add("report.html", report_html(facts, page));
 }
 
@@ -328,7 +352,8 @@ void add_urdf(CLI::App& app, Run& run) {
                    "Leave links whose mesh files are not found as they are. Otherwise missing files are an error.");
   CLI::Option* const dry_run =
       command.add_flag("--dry-run", options->dry_run, "Say what would be done with each link, and write nothing.");
-  command.add_flag("--no-pictures", options->no_pictures, "Write the report without pictures, which is faster.");
+  command.add_flag("--no-pictures", options->no_pictures,
+                   "Write the report without pictures, and no view.html, which is faster.");
   command
       .add_option(
           "--cache", options->cache,

@@ -10,8 +10,8 @@
 #include "prohull/error.h"
 #include "robot/files/robot_file.h"
 #include "robot/hulls/write_robot.h"
-#include "robot/link_triangles.h"
 #include "union_files.h"
+#include "view/shown_robot.h"
 
 namespace prohull::cli {
 namespace {
@@ -25,8 +25,6 @@ struct Options {
   InputOptions input, original_input;
   robot::FileOptions robots;
 };
-
-constexpr std::size_t kMostShown = 8;
 
 /// The page names files without their folders, but for the last one where several have the same name.
 std::string shown_name(const std::filesystem::path& path, const Options& options) {
@@ -44,14 +42,12 @@ std::optional<std::vector<robot::LinkPair>> disabled_beside(const robot::RobotFi
   return disabled_pairs(file.robot, {std::istreambuf_iterator<char>(in), {}}, path.string());
 }
 
+bool goes_on(std::string_view, double) { return !interrupted(); }
+
 view::ShownRobot read_robot(const Options& options, const std::filesystem::path& path) {
   const robot::RobotFile file = robot::read_robot(path, options.robots);
-  view::ShownRobot shown{file.robot, {}, {}, disabled_beside(file)};
-  for (const robot::Link& link : shown.robot.links) {
-    shown.visual.push_back(robot::link_triangles(link.visual, {}));
-    shown.collision.push_back(robot::link_triangles(link.collision, {}));
-    stop_if_interrupted();
-  }
+  view::ShownRobot shown = view::as_shipped(file.robot, goes_on);
+  shown.disabled = disabled_beside(file);
   return shown;
 }
 
@@ -104,8 +100,8 @@ std::string written_page(const Options& options) {
 
 int run_view(const Options& options) {
   if (!view::has_page()) throw InputError(Defect::CannotRead, std::string(view::kNoPage));
-  if (options.in.size() > kMostShown)
-    throw InputError(Defect::InvalidOption, fmt::format("a page shows {} files at most", kMostShown));
+  if (options.in.size() > view::kMostShown)
+    throw InputError(Defect::InvalidOption, fmt::format("a page shows {} files at most", view::kMostShown));
   static const OutputKind kind{"pages", {".html", ".htm"}};
   output_suffix(options.out, kind, is_standard_stream(options.out) ? "html" : "");
   std::vector<std::filesystem::path> inputs = options.in;

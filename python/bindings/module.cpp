@@ -32,5 +32,6 @@ PYBIND11_MODULE(_prohull, module) {
   prohull::python::bind_queries(module);
   prohull::python::bind_collisions(module);
   prohull::python::bind_pictures(module);
+  prohull::python::bind_pages(module);
   prohull::python::bind_robots(module);
 }

@@ -11,6 +11,7 @@ void bind_verification(pybind11::module_& module);
 void bind_queries(pybind11::module_& module);
 void bind_collisions(pybind11::module_& module);
 void bind_pictures(pybind11::module_& module);
+void bind_pages(pybind11::module_& module);
 void bind_robots(pybind11::module_& module);
 
 }  // namespace prohull::python

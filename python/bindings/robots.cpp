@@ -23,6 +23,7 @@
 #include "robot/motion/motion.h"
 #include "robot/report/pictures.h"
 #include "robot/report/report.h"
+#include "view/shown_robot.h"
 #include "watch.h"
 
 namespace py = pybind11;
@@ -259,6 +260,21 @@ std::string html_of(const RobotHulls& hulls, const RobotChecks* shipped, double 
                  [&](Watch& watch) { return report_html(input, {.threads = threads, .progress = watch.progress()}); });
 }
 
+using SharedShown = std::shared_ptr<view::ShownRobot>;
+
+SharedShown shown_as_shipped(const RobotFile& file) {
+  return watched(py::none(), [&](Watch& watch) {
+    return std::make_shared<view::ShownRobot>(view::as_shipped(file.robot, watch.progress()));
+  });
+}
+
+SharedShown shown_with_hulls(const RobotHulls& hulls) {
+  return watched(py::none(), [&](Watch& watch) {
+    return std::make_shared<view::ShownRobot>(
+        view::with_hulls(hulls.file->robot, hulls.links, hulls.options.from, watch.progress()));
+  });
+}
+
 void add(TriangleMesh& mesh, TriangleMesh part, const Pose& pose) { append(mesh, placed(pose, std::move(part))); }
 
 /// The robot in a pose: its geometry, within its hulls if there are any.
@@ -297,6 +313,7 @@ void bind_robots(py::module_& module) {
       .def("poses", &poses_of)
       .def("hulls", &hulls_of)
       .def("check", &check_of)
+      .def("shown", &shown_as_shipped)
       .def("picture", [](const RobotFile& file, const std::vector<double>& positions, int width, int height) {
         return picture_of(file, nullptr, positions, width, height);
       });
@@ -305,12 +322,14 @@ void bind_robots(py::module_& module) {
       .def("files", &files_of)
       .def("motion", &motion_of)
       .def("report_html", &html_of)
+      .def("shown", &shown_with_hulls)
       .def("picture", [](const RobotHulls& hulls, const std::vector<double>& positions, int width, int height) {
         return picture_of(*hulls.file, &hulls, positions, width, height);
       });
   py::class_<RobotChecks, std::shared_ptr<RobotChecks>>(module, "RobotChecks");
   py::class_<MotionResult, std::shared_ptr<MotionResult>>(module, "RobotMotion");
   module.def("read_robot", &read);
+  module.def("is_robot_file", &is_robot_file);
 }
 
 }  // namespace prohull::python

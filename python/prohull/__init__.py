@@ -7,7 +7,8 @@
 
 A mesh is given as the path of a file, as vertices and faces, or as a mesh of prohull, trimesh or Open3D. Lengths are in
 the unit of the mesh, angles in degrees. What is wrong with an argument or a file is raised as InputError, a ValueError.
-Ctrl-C stops long work (build, cage, convex_pieces, spheres, verify, distance_bounds, queries, read) with KeyboardInterrupt.
+Ctrl-C stops long work (build, cage, convex_pieces, spheres, verify, distance_bounds, queries, read, view) with
+KeyboardInterrupt.
 Files appear whole or not at all.
 """
 
@@ -25,12 +26,13 @@ from ._hull import Hull
 from ._meshes import AllHits, ClosestPoints, FacesMet, FirstHits, Mesh, Refinement, TwoHulls
 from ._prohull import InputError
 from ._verify import NearFace, Offender, Verification, distance_bounds, verify
+from ._view import View, view
 
 __all__ = ["AllHits", "Ball", "Cage", "CageHull", "Capsule", "ClosestPoints", "Collider", "ConvexCover",
            "ConvexPiece", "Distances", "ENGINES", "FacePairs", "FacesMet", "FirstHits", "Hull", "InputError",
            "Mesh", "NearFace", "Offender", "OrientedBox", "Refinement", "SphereCover", "TwoHulls", "UnionVerification",
-           "Verification", "build", "cage", "convex_pieces", "distance_bounds", "load", "read", "sample",
-           "spheres", "verify", "verify_union"]
+           "Verification", "View", "build", "cage", "convex_pieces", "distance_bounds", "load", "read", "sample",
+           "spheres", "verify", "verify_union", "view"]
 
 #: Names of the engines of queries.
 ENGINES: tuple[str, ...] = _prohull.engines

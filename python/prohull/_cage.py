@@ -1,12 +1,13 @@
 """Cages: hulls that keep a gap from the mesh."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Optional
 
 from . import _prohull
 from ._covers import _covered
 from ._meshes import Mesh
 from ._types import MeshLike, Progress
+from ._view import Part, View, mesh_parts, show_view
 
 
 class CageHull(Mesh):
@@ -39,6 +40,20 @@ class Cage:
     inner: Optional[CageHull]
     gap: float  #: what was asked for, in the mesh's unit
     notes: list[str]  #: what is worth a look
+    original: Mesh = field(repr=False)  #: what the cage is of
+
+    def show(self, *, progress: Optional[Progress] = None) -> View:
+        """Shows the hulls of the cage in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
+
+        They are compared with the mesh. It is view(self) (docs/guides/view.md).
+
+        progress: called as build() calls it.
+        """
+        return show_view(self, progress)
+
+    def _view_parts(self) -> list[Part]:
+        inner = [] if self.inner is None else mesh_parts(self.inner, "inner hull", "inner")
+        return mesh_parts(self.outer, "outer hull", "outer") + inner
 
 
 def cage(mesh: MeshLike, faces: int = 400, *, inner_faces: int = 0, gap: float = 0.0, even: bool = False,
@@ -70,4 +85,4 @@ def cage(mesh: MeshLike, faces: int = 400, *, inner_faces: int = 0, gap: float =
                     float32_coordinates=float32_coordinates, threads=threads)
     facts = _covered(_prohull.cage, mesh, progress, keywords)
     inner = CageHull._made(facts["inner"]) if facts["inner"] else None
-    return Cage(CageHull._made(facts["outer"]), inner, facts["gap"], facts["notes"])
+    return Cage(CageHull._made(facts["outer"]), inner, facts["gap"], facts["notes"], facts["original"])

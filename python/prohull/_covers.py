@@ -3,7 +3,6 @@
 import math
 import os
 import pathlib
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Callable, NamedTuple, Optional, Union
@@ -12,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _prohull
-from ._files import mesh_of
+from ._files import mesh_of, write_whole
 from ._meshes import Mesh
 from ._prohull import InputError
 from ._types import MeshLike, Path, PieceShape, Progress, Rows
 from ._verify import Offender
+from ._view import Part, View, balls_part, pieces_part, show_view
 
 
 class Ball(NamedTuple):
@@ -72,6 +72,7 @@ class ConvexCover:
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
     seconds: float
     verify_seconds: float
+    original: Mesh = field(repr=False)  #: what was covered
 
     @property
     def void_ratio(self) -> float:
@@ -92,6 +93,28 @@ class ConvexCover:
                              "float32_coordinates=True, or save them as .obj")
         _prohull.write_pieces(path, [piece._core for piece in self.pieces])
 
+    def show(self, *, progress: Optional[Progress] = None) -> View:
+        """Shows the pieces in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
+
+        They are compared with the mesh. It is view(self) (docs/guides/view.md).
+
+        progress: called as build() calls it.
+        """
+        return show_view(self, progress)
+
+    def picture(self, width: int = 400, height: int = 300) -> bytes:
+        """Draws the pieces, each in a colour of its own. Returns the content of a .png file.
+
+        width, height: in pixels, each in [1, 16384].
+        """
+        return self._view_parts()[0].picture(width, height)
+
+    def _repr_png_(self) -> bytes:
+        return self.picture()
+
+    def _view_parts(self) -> list[Part]:
+        return [pieces_part([piece._core for piece in self.pieces])]
+
     def __repr__(self) -> str:
         return _described(self, len(self.pieces), "convex piece")
 
@@ -110,6 +133,7 @@ class SphereCover:
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
     seconds: float
     verify_seconds: float
+    original: Mesh = field(repr=False)  #: what was covered
 
     @property
     def centers(self) -> NDArray[np.float64]:
@@ -139,7 +163,29 @@ class SphereCover:
         target = pathlib.Path(path)
         if target.suffix.lower() not in (".yaml", ".yml"):
             raise InputError(f"{os.fspath(path)}: spheres are written to files that end in .yaml or .yml")
-        _write_whole(target, _prohull.sphere_file(target.stem if link is None else link, self.balls))
+        write_whole(target, _prohull.sphere_file(target.stem if link is None else link, self.balls))
+
+    def show(self, *, progress: Optional[Progress] = None) -> View:
+        """Shows the balls in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
+
+        They are compared with the mesh. It is view(self) (docs/guides/view.md).
+
+        progress: called as build() calls it.
+        """
+        return show_view(self, progress)
+
+    def picture(self, width: int = 400, height: int = 300) -> bytes:
+        """Draws the balls, each in a colour of its own. Returns the content of a .png file.
+
+        width, height: in pixels, each in [1, 16384].
+        """
+        return self._view_parts()[0].picture(width, height)
+
+    def _repr_png_(self) -> bytes:
+        return self.picture()
+
+    def _view_parts(self) -> list[Part]:
+        return [balls_part(self.balls)]
 
     def __repr__(self) -> str:
         return _described(self, len(self.balls), "ball")
@@ -262,7 +308,7 @@ def _covered(cover: Callable[..., dict[str, Any]], mesh: MeshLike, progress: Opt
     """What `cover` makes of the mesh; errors name the file."""
     given = mesh_of(mesh, keep_non_finite=True)
     try:
-        return cover(given._core, progress, keywords)
+        return {**cover(given._core, progress, keywords), "original": given}
     except InputError as error:
         if isinstance(mesh, (str, os.PathLike)):
             raise InputError(f"{os.fspath(mesh)}: {error}") from None
@@ -292,14 +338,3 @@ def _described(cover: Union[ConvexCover, SphereCover], count: int, what: str) ->
     notes = {0: "", 1: ", 1 note"}.get(len(cover.notes), f", {len(cover.notes)} notes")
     return (f"<prohull.{type(cover).__name__}: {count:,} {what}{'' if count == 1 else 's'}, {void}"
             f"{'certified' if cover.certified else 'NOT CERTIFIED'}{notes}>")
-
-
-def _write_whole(path: pathlib.Path, text: str) -> None:
-    """The file is written beside `path`, then it is renamed."""
-    try:
-        with tempfile.TemporaryDirectory(dir=path.parent) as beside:
-            whole = pathlib.Path(beside) / path.name
-            whole.write_text(text)
-            os.replace(whole, path)
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}") from None

@@ -1,6 +1,8 @@
 """Meshes and hulls from files, from arrays and from other libraries."""
 
 import os
+import pathlib
+import tempfile
 
 import numpy as np
 
@@ -87,3 +89,14 @@ def sample(name: str, faces: int) -> Mesh:
     Raises InputError for another name, and for a number of faces outside of this range.
     """
     return Mesh._of(_prohull.sample(name, faces))
+
+
+def write_whole(path: pathlib.Path, text: str) -> None:
+    """The file is written beside `path`, then it is renamed."""
+    try:
+        with tempfile.TemporaryDirectory(dir=path.parent) as beside:
+            whole = pathlib.Path(beside) / path.name
+            whole.write_text(text, encoding="utf-8")
+            os.replace(whole, path)
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}") from None

@@ -2,7 +2,7 @@
 
 import math
 import os
-from typing import Any, Optional
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
@@ -10,6 +10,9 @@ from . import _prohull
 from ._meshes import Mesh
 from ._prohull import InputError
 from ._types import Axis, Path, Proof, Side, Source
+
+if TYPE_CHECKING:
+    from ._view import Part
 
 
 class Hull(Mesh):
@@ -201,6 +204,19 @@ class Hull(Mesh):
         notes = {0: "", 1: ", 1 note"}.get(len(self.notes), f", {len(self.notes)} notes")
         return (f"<prohull.Hull: {self.side}, {len(self.faces):,} faces, {void}"
                 f"{f'certified by {self.proof}' if self.certified else 'NOT CERTIFIED'}{notes}>")
+
+    @property
+    def _is_own_original(self) -> bool:
+        """Whether the finest level is all that it is compared with."""
+        return self._levels is not None and self.source == "mesh" and self._covered is None
+
+    def _view_parts(self) -> "list[Part]":
+        from . import _view
+
+        name = f"{self.side} hull"
+        if self._levels is None:
+            return _view.mesh_parts(self, name, self.side)
+        return [_view.levels_part(name, self._levels, self._picture)]
 
     def _picture(self, width: int, height: int) -> bytes:
         around, inside = (self, self._original) if self.side == "outer" else (self._original, self)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import trimesh
 
     from ._hull import Hull
+    from ._view import Part, View
 
 
 class FirstHits(NamedTuple):
@@ -149,6 +150,22 @@ class Mesh:
             pathlib.Path("hull.png").write_bytes(hull.picture())
         """
         return self._picture(width, height)
+
+    def show(self, *, progress: Optional[Progress] = None) -> "View":
+        """Shows the mesh in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
+
+        A hull is shown with its levels, or around its original. It is view(self) (docs/guides/view.md).
+
+        progress: called as build() calls it.
+        """
+        from . import _view
+
+        return _view.show_view(self, progress)
+
+    def _view_parts(self) -> "list[Part]":
+        from . import _view
+
+        return _view.mesh_parts(self)
 
     def _picture(self, width: int, height: int) -> bytes:
         return _prohull.picture(self._core, None, width, height)

@@ -65,3 +65,13 @@ Numbers = Union[NDArray[Any], Sequence[float]]
 Rows = Union[NDArray[Any], _BecomesArray, Sequence[Sequence[float]], Sequence[NDArray[Any]]]
 #: What is taken for a mesh: a path, vertices and faces, or a mesh of prohull, trimesh or Open3D.
 MeshLike = Union[Path, tuple[Rows, Rows], _HasFaces, _HasTriangles, _HasTensors]
+
+
+class _HasParts(Protocol):
+    """Such as prohull.ConvexCover and prohull.robot.Robot."""
+
+    def _view_parts(self) -> list[Any]: ...
+
+
+#: What a page shows: a mesh or a path, a cover, a cage, a robot; or a list of meshes, which are convex pieces.
+Viewable = Union[MeshLike, _HasParts, Sequence[MeshLike]]

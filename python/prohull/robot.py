@@ -21,6 +21,7 @@ from . import _arrays, _prohull
 from ._meshes import Mesh
 from ._prohull import InputError
 from ._types import Path, Progress, Proof, Source
+from ._view import Part, View, show_view
 
 __all__ = ["Check", "Hulls", "Joint", "Link", "LinkCheck", "LinkHull", "LinkHulls", "Motion", "MotionPair", "Robot"]
 
@@ -262,6 +263,18 @@ class Hulls:
                                       _arrays.count("threads", threads), progress)
         pathlib.Path(path).write_text(page, encoding="utf-8")
 
+    def show(self, *, progress: Optional[Progress] = None) -> View:
+        """Shows the robot in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
+
+        It is drawn within its first hulls, and sliders move its joints. It is view(self) (docs/guides/view.md).
+
+        progress: called as build() calls it.
+        """
+        return show_view(self, progress)
+
+    def _view_parts(self) -> list[Part]:
+        return [Part(self.robot.name, self._core.shown(), lambda *size: self.picture((), *size))]
+
     def picture(self, positions: Positions = (), width: int = 560, height: int = 420) -> bytes:
         """Draws the robot inside of its first hulls. Returns the content of a .png file."""
         return self._core.picture(self.robot._positions(positions), width, height)
@@ -361,6 +374,19 @@ class Robot:
         allow = _arrays.not_negative("allow", allow)
         core, links = self._core.check(allow, _arrays.count("threads", threads), progress)
         return Check(core, [LinkCheck(**facts) for facts in links], allow)
+
+    def show(self, *, progress: Optional[Progress] = None) -> View:
+        """Shows the robot in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
+
+        It is drawn within the collision geometry that it ships with, and sliders move its joints. It is
+        view(self) (docs/guides/view.md).
+
+        progress: called as build() calls it.
+        """
+        return show_view(self, progress)
+
+    def _view_parts(self) -> list[Part]:
+        return [Part(self.name, self._core.shown(), lambda *size: self.picture((), *size))]
 
     def picture(self, positions: Positions = (), width: int = 560, height: int = 420) -> bytes:
         """Draws the visual geometry; meshes that are missing are left out. Returns the content of a .png file."""

@@ -1,9 +1,12 @@
+import json
 import math
+import re
 
 import numpy as np
 import prohull
 import prohull.robot
 import pytest
+from prohull import _prohull
 
 URDF = """<?xml version="1.0"?>
 <robot name="crane">
@@ -185,3 +188,16 @@ def test_a_budget_of_no_link_is_told_with_its_line(robot, tmp_path):
     (tmp_path / "budgets.yaml").write_text("links:\n  base: {}\n  head: {skip: true}\n")
     with pytest.raises(prohull.InputError, match="budgets.yaml: line 3: crane has no link 'head'"):
         robot.hulls(budgets=tmp_path / "budgets.yaml")
+
+
+@pytest.mark.skipif(bool(_prohull.no_page), reason=_prohull.no_page)
+def test_robots_are_shown(robot, hulls, path):
+    def links(shown):
+        facts = json.loads(re.search(r'id="scene">(.*?)</script>', shown.html, re.S)[1])
+        assert facts["unit"] == "m" and [o["name"] for o in facts["objects"]] == [shown.names[0]]
+        return [tuple(link[which] and link[which]["facts"]["faces"] for which in ("visual", "collision"))
+                for link in facts["objects"][0]["links"]]
+
+    faces = [len(link.visual.faces) for link in robot.links]
+    assert links(prohull.view(robot)) == links(prohull.view(path)) == list(zip(faces, [12, 12, None]))
+    assert links(prohull.view(hulls)) == [(n, len(link.hulls[0].mesh.faces)) for n, link in zip(faces, hulls)]

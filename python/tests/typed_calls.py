@@ -1,9 +1,10 @@
 """Calls that `mypy --strict` accepts, and calls that it refuses: the lines that end in "# refused". See test_typing.py."""
 
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
 import prohull
+import prohull.robot
 from numpy.typing import NDArray
 
 v, f = np.zeros((8, 3)), np.zeros((12, 3), dtype=np.int64)
@@ -79,3 +80,13 @@ prohull.convex_pieces("part.stl", 8, shape="egg")  # refused
 prohull.convex_pieces("part.stl", 8, 64)  # refused
 prohull.spheres("part.stl", fill="yes")  # refused
 prohull.verify_union(3, "part.stl")  # refused
+
+page: Optional[str] = one.show(progress=lambda stage, fraction: None).html
+page = prohull.view(one, "part.stl", (v, f), pieces, balls, made, [mesh, "piece.stl"], original=mesh, path="view.html").html
+page = prohull.view(pieces.pieces, original="part.stl").html
+page = prohull.view(prohull.robot.Robot.load("arm.urdf"), unit="m", threads=1).html
+drawn: bytes = pieces.show().picture
+
+prohull.view(3)  # refused
+prohull.view(one, side="up")  # refused
+one.show("view.html")  # refused

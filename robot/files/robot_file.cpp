@@ -113,6 +113,11 @@ Names<RobotFormat> robot_format_names() {
   return kNames;
 }
 
+bool is_robot_file(const fs::path& path) {
+  constexpr std::array<std::string_view, 5> kSuffixes{".urdf", ".xacro", ".sdf", ".mjcf", ".xml"};
+  return std::ranges::find(kSuffixes, path.extension().string()) != kSuffixes.end();
+}
+
 RobotFile read_robot(const fs::path& path, const FileOptions& options) {
   const XmlDocument document(read_text(path), path.string());
   if (!is_xacro(document)) return read_document(document, path, options);

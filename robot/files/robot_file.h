@@ -14,6 +14,9 @@
 
 namespace prohull::robot {
 
+/// By the suffix: URDF, xacro, SDF or MJCF.
+bool is_robot_file(const std::filesystem::path& path);
+
 enum class RobotFormat { Urdf, Sdf, Mjcf };
 
 /// "urdf", "sdf", "mjcf"

@@ -34,6 +34,7 @@ std::string report_junit(const ReportInput& input);
 
 struct PageOptions {
   bool pictures = true;
+  std::string view = {};  ///< URL of a page that shows the robot in three dimensions; empty: there is none
   unsigned threads = 0;
   Progress progress = {};  ///< stage "draw"
 };

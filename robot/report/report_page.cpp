@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
+#include "prohull/base64.h"
 #include "prohull/error.h"
 #include "robot/files/xml.h"
 #include "robot/motion/bodies.h"
@@ -18,20 +18,6 @@ namespace {
 
 constexpr std::string_view kDash = "–";
 constexpr std::string_view kGrey = "#d9d6d1", kBlue = "#7db4ea", kOrange = "#f09a4e", kRed = "#d4483b";  // of pictures
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return i + k < bytes.size() ? std::uint32_t{static_cast<unsigned char>(bytes[i + k])} : 0;
-    };
-    const std::uint32_t bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 // ---------------------------------------------------------------------------------------------------------------------
 // Pictures
@@ -153,7 +139,7 @@ std::string figure(const std::string& png, std::string_view alt, std::string_vie
   return fmt::format(
       "<figure><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">"
       "<figcaption>{}</figcaption></figure>\n",
-      base64(png), size.width, size.height, alt, caption);
+      to_base64(png), size.width, size.height, alt, caption);
 }
 
 std::string list(std::string_view title, const std::vector<std::string>& sentences) {
@@ -214,14 +200,20 @@ std::string findings(const ReportInput& input) {
   return fmt::format("<ul class=\"findings\">\n{}</ul>\n", items);
 }
 
-std::string head(const ReportInput& input) {
+std::string link_to_view(const std::string& view) {
+  if (view.empty()) return {};
+  return fmt::format("<p><a href=\"{}\">Turn the robot around and move its joints</a></p>\n", html_escaped(view));
+}
+
+std::string head(const ReportInput& input, const std::string& view) {
   std::string format(prohull::name_of(robot_format_names(), input.file.format));
   std::ranges::transform(format, format.begin(), [](char c) { return 'a' <= c && c <= 'z' ? c - 'a' + 'A' : c; });
   return fmt::format(
       "<header>\n<p class=\"eyebrow\">Collision geometry report</p>\n<h1>{}</h1>\n"
-      "<p class=\"muted\">{} · {} · {} · prohull {} · {:.1f} s</p>\n{}</header>\n",
+      "<p class=\"muted\">{} · {} · {} · prohull {} · {:.1f} s</p>\n{}{}</header>\n",
       html_escaped(input.file.robot.name), html_escaped(input.file.path.filename().string()), format,
-      counted(input.file.robot.links.size(), "link"), html_escaped(input.version), input.seconds, findings(input));
+      counted(input.file.robot.links.size(), "link"), html_escaped(input.version), input.seconds, findings(input),
+      link_to_view(view));
 }
 
 std::string tile(const std::string& number, const std::string& words) {
@@ -731,8 +723,9 @@ std::string report_html(const ReportInput& input, const PageOptions& options) {
       "<title>{0}: collision geometry report</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n"
       "{2}{3}{4}{5}{6}{7}{8}<footer>Made by prohull {9}. Lengths of bounds are rounded to the safe side.</footer>\n"
       "</main>\n</body>\n</html>\n",
-      html_escaped(input.file.robot.name), page_style(), head(input), overview(input, drawn.robot), marks(input),
-      links_table(input), motion_section(input), cards(input, drawn), words(input), html_escaped(input.version));
+      html_escaped(input.file.robot.name), page_style(), head(input, options.view), overview(input, drawn.robot),
+      marks(input), links_table(input), motion_section(input), cards(input, drawn), words(input),
+      html_escaped(input.version));
 }
 
 }  // namespace prohull::robot

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "io/affine.h"
-#include "io/base64.h"
 #include "io/byte_cursor.h"
 #include "io/file.h"
 #include "io/file_content.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
+#include "prohull/base64.h"
 
 // Sections are those of the glTF 2.0 specification (Khronos, 2021).
 

@@ -30,4 +30,17 @@ says units.html "units" '"unit":"m"'
 expect 0 "the same page twice" "$prohull" view box.stl --original box.stl --unit mm -o again.html --threads 1
 is "the same page twice" cmp units.html again.html
 
+# --- the page that `prohull urdf` writes beside its report ---
+expect 0 "sample" "$prohull" sample gripper -o gripper
+robot="$prohull urdf gripper/gripper.urdf --faces 60 --configurations 5 --no-cache"
+expect 0 "a robot" $robot -o safe
+says safe/report.html "a robot: the report links to it" '<a href="view.html#'
+says safe/view.html "a robot: within its hulls" '"name":"sample_gripper with hulls"'
+says safe/view.html "a robot: as shipped" '"name":"sample_gripper as shipped"'
+expect 0 "a robot: once more" $robot -o safe
+says out "a robot: once more" "up to date"
+expect 0 "a robot without pictures" $robot -o safe --no-pictures
+absent safe/view.html "a robot without pictures"
+is "a robot without pictures: no link" sh -c '! grep -q view.html safe/report.html'
+
 count_checks

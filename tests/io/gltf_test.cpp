@@ -3,24 +3,12 @@
 
 #include "compressing.h"
 #include "io_testing.h"
+#include "prohull/base64.h"
 
 namespace prohull {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned bits = 0;
-    for (std::size_t j = i; j < i + 3; ++j)
-      bits = bits << 8 | (j < bytes.size() ? static_cast<unsigned char>(bytes[j]) : 0u);
-    for (int shift = 18; shift >= 0; shift -= 6) text += kDigits[bits >> shift & 63];
-  }
-  const std::size_t padding = (3 - bytes.size() % 3) % 3;
-  return text.replace(text.size() - padding, padding, std::string(padding, '='));
-}
 
 /// Four float positions, and twelve indices of 16 bits behind them.
 std::string tetrahedron_bytes() {
@@ -33,7 +21,7 @@ std::string tetrahedron_bytes() {
   return bytes;
 }
 
-std::string data_uri(std::string_view bytes) { return "data:application/octet-stream;base64," + base64(bytes); }
+std::string data_uri(std::string_view bytes) { return "data:application/octet-stream;base64," + to_base64(bytes); }
 
 /// One tetrahedron, in a buffer that is embedded.
 Json tetrahedron_json() {

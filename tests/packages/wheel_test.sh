@@ -48,6 +48,9 @@ import prohull
 assert prohull.verify("hull.stl", "knot.stl")
 assert prohull.build("knot.stl", 200).certified
 ' || fail "import prohull"
+if bare prohull view hull.stl -o page.html 2>/dev/null; then
+  bare python -c 'import prohull; prohull.view("hull.stl", original="knot.stl", path="view.html")' || fail "prohull.view"
+fi
 if [ "$has_importer" = 1 ]; then
   printf 'AC3Db\nMATERIAL "m" rgb 1 1 1 amb 0 0 0 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x00\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n' >part.ac
   bare prohull info part.ac | grep -q "faces  *1$" || fail "prohull-import of the wheel is not found"

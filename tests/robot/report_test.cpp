@@ -296,6 +296,14 @@ TEST(ReportPage, ShowsTextsOfTheRobotAndInterpretsNone) {
   EXPECT_TRUE(has(page, "&lt;script&gt;alert(&apos;x&apos;)&lt;/script&gt; &amp; &quot;q&quot; \xEF\xBF\xBD"));
 }
 
+TEST(ReportPage, LinksToAPageThatShowsTheRobot) {
+  const RobotFile file = robot_of({"covered", "leaks", "undecided", "bare", "frame", "lost"});
+  const ReportInput input = all_verdicts(file);
+  EXPECT_TRUE(has(report_html(input, {.pictures = false, .view = "view.html"}), "<a href=\"view.html\">"));
+  EXPECT_TRUE(has(report_html(input, {.pictures = false, .view = "\"><b>"}), "<a href=\"&quot;&gt;&lt;b&gt;\">"));
+  EXPECT_FALSE(has(report_html(input, {.pictures = false}), "Turn the robot around"));
+}
+
 TEST(ReportPage, LinksLeadToCardsThatExist) {
   const RobotFile file = robot_of({"covered", "leaks", "undecided", "bare", "frame", "lost"});
   const std::string page = report_html(all_verdicts(file), {.pictures = false});

@@ -43,13 +43,6 @@ TEST(ViewBlocks, RunningNumbersWrapAround) {
   EXPECT_EQ(blocks.bytes(), std::string("\x01\x02", 2));
 }
 
-TEST(ViewBlocks, Base64) {
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("M"), "TQ==");
-  EXPECT_EQ(base64("Ma"), "TWE=");
-  EXPECT_EQ(base64("Man"), "TWFu");
-}
-
 TEST(ViewLevels, VolumesAreThoseOfTheLevels) {
   const ProgressiveHull hull = small_hull();
   const std::vector<double> volumes = volumes_of_levels(hull);
