@@ -9,6 +9,7 @@
 
 #include "construct/best_of.h"
 #include "construct/shape_guards.h"
+#include "construct/tight/few_faces.h"
 #include "construct/tight/tight_collapses.h"
 #include "construct/tight/tightening.h"
 #include "construct/turned.h"
@@ -25,10 +26,10 @@ namespace {
 /// 1} 2.18, 1.90 and 1.38 %. Progressive hulls of few faces are bad starts: rocker arm at 200 faces 16.9 % from
 /// 350, 16.1 % from 613.
 std::vector<std::size_t> levels_above(std::size_t target) {
-  constexpr double kFirst = 1.75, kSecond = 1.3, kFewFaces = 600;
+  constexpr double kFirst = 1.75, kSecond = 1.3, kFewest = 600;
   const auto faces = static_cast<double>(target);
   std::vector<double> levels{faces, kSecond * faces, kFirst * faces};
-  while (target > 0 && levels.back() < kFewFaces) levels.push_back(kFirst * levels.back());
+  while (target > 0 && levels.back() < kFewest) levels.push_back(kFirst * levels.back());
   std::vector<std::size_t> rounded;
   for (const double level : levels) rounded.push_back(static_cast<std::size_t>(std::llround(level)));
   std::ranges::reverse(rounded);
@@ -105,6 +106,21 @@ class TightBuild {
   TightHull tight_{{}, Stopped::TargetReached, {}, {}, 0, 0};
 };
 
+TightHull build_with_search(const Original& original, const TriangleMesh& mesh, const HullOptions& options) {
+  if (options.target_faces > kFewFaces) return TightBuild(original, mesh, options).run();
+  ProgressMeter meter(options.progress, "tighten");
+  HullOptions one = options;
+  one.progress = meter.part(0, 0.2);
+  TightHull tight = TightBuild(original, mesh, one).run();
+  if (tight.mesh == mesh) return tight;
+  one.progress = meter.part(0.2, 1);
+  tight.mesh = with_less_volume(tight.mesh, original, mesh, one,
+                                [](const Original& around, const TriangleMesh& from, const HullOptions& how) {
+                                  return TightBuild(around, from, how).run().mesh;
+                                });
+  return tight;
+}
+
 Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, HullSide side, double padding) {
   if (!wrapped) return Original::closed(side == HullSide::Inner ? turned(mesh) : mesh, side);
   if (side == HullSide::Inner && padding == 0)
@@ -124,9 +140,9 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options,
     throw InputError(Defect::InvalidOption, "a tight hull has no tolerances for single faces: build it without tight");
   if (options.mirror) throw InputError(Defect::InvalidOption, "a tight hull is not symmetric: build it without tight");
   const Original original = original_of(mesh, wrapped, options.side, padding);
-  if (options.best_of <= 1) return TightBuild(original, mesh, options).run();
+  if (options.best_of <= 1) return build_with_search(original, mesh, options);
   return best_of(
-      options, "tighten", [&](const HullOptions& one) { return TightBuild(original, mesh, one).run(); },
+      options, "tighten", [&](const HullOptions& one) { return build_with_search(original, mesh, one); },
       [](const TightHull& result) -> const TriangleMesh& { return result.mesh; });
 }
 
