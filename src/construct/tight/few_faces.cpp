@@ -61,8 +61,10 @@ class Search {
         rounding_(storage_rounding(original.bounds(), options.float32_coordinates)),
         allowed_(bounding_box(hull)),
         volume_(signed_volume(hull)),
-        hull_(std::move(hull)) {
-    options_.target_faces = hull_.face_count();
+        least_(volume_),
+        now_{std::move(hull), Contacts(0)}, best_(now_) {
+    now_.contacts = Contacts(now_.hull.positions.size());
+    options_.target_faces = now_.hull.face_count();
     options_.threads = 1;
     // Trials ask whether to go on; how much is done only this search can say.
     options_.progress = moves_.progress = [this](std::string_view, double) {
@@ -81,28 +83,41 @@ class Search {
     const std::size_t patience = env("PAT", 150);
     for (std::size_t trial = 0; trial < trials && failures < patience; ++trial) {
       meter_.at(trial, trials);
+      const double left = 1 - double(trial) / double(trials);
+      slack_ = env("TEMP", 0) * 1e-5 * left * left;
       failures = keep_if_better(trial_hull()) ? 0 : failures + 1;
     }
+    now_ = best_;
     meter_.at(1);
-    return std::move(hull_);
+    return std::move(now_.hull);
   }
 
  private:
   static constexpr double kLeastGain = 1e-9;  ///< of the volume
 
-  TriangleMesh trial_hull() {
-    TriangleMesh hull = hull_;
-    for (std::size_t left = 1 + below(env("NEWV", 2)); left > 0; --left) insert_vertex(hull);
-    HalfEdgeMesh mesh(hull);
+  struct State {
+    TriangleMesh hull;
+    Contacts contacts;
+  };
+
+  State trial_hull() {
+    State trial = now_;
+    const std::size_t before = trial.hull.positions.size();
+    for (std::size_t left = 1 + below(env("NEWV", 2)); left > 0; --left) insert_vertex(trial);
+    HalfEdgeMesh mesh(trial.hull);
+    moves_.max_rounds = env("R1", 2);
+    tighten_from(before, mesh, trial.contacts);
     const std::size_t vertices = mesh.positions().size();
-    Contacts contacts(vertices);
-    collapse_tightly(mesh, original_, options_, contacts);
-    tighten_from(vertices, mesh, contacts);
-    return mesh.triangle_mesh();
+    moves_.max_rounds = env("R2", 12);
+    const double slack = 1 + 1e-3 * env("ABORT", 100000);
+    collapse_tightly(mesh, original_, options_, trial.contacts);
+    if (signed_volume(mesh.triangle_mesh()) <= volume_ * slack) tighten_from(vertices, mesh, trial.contacts);
+    return {mesh.triangle_mesh(), trial.contacts.renumbered(mesh)};
   }
 
   /// On any edge; and moves it to where it removes most.
-  void insert_vertex(TriangleMesh& hull) {
+  void insert_vertex(State& state) {
+    TriangleMesh& hull = state.hull;
     const FaceId f{static_cast<std::uint32_t>(below(hull.face_count()))};
     const HalfEdgeMesh mesh(hull);
     const HalfEdgeId h{static_cast<std::uint32_t>(3 * index(f) + below(3))}, g = mesh.twin(h);
@@ -116,10 +131,7 @@ class Search {
     hull.triangles[FaceId{index(g) / 3}] = {b, s, r};
     hull.triangles.push_back({s, b, l});
     hull.triangles.push_back({s, a, r});
-    HalfEdgeMesh grown(hull);
-    Contacts contacts(grown.positions().size());
-    tighten_from(index(s), grown, contacts);
-    hull = grown.triangle_mesh();
+    state.contacts.join(a, b);
   }
 
   /// Around the vertices that are new.
@@ -133,12 +145,14 @@ class Search {
     tighten_around(changed, mesh, original_, moves_, contacts);
   }
 
-  bool keep_if_better(TriangleMesh hull) {
+  bool keep_if_better(State trial) {
+    const TriangleMesh& hull = trial.hull;
     const double volume = signed_volume(hull);
-    if (!(volume < volume_ - kLeastGain * std::abs(volume_)) || hull.face_count() > options_.target_faces) return false;
+    if (!(volume < volume_ + (slack_ - kLeastGain) * std::abs(volume_)) || hull.face_count() > options_.target_faces) return false;
     if (!contains(allowed_, bounding_box(hull))) return false;
     volume_ = volume;
-    hull_ = std::move(hull);
+    now_ = std::move(trial);
+    if (volume < least_) best_ = now_, least_ = volume;
     return true;
   }
 
@@ -152,101 +166,49 @@ class Search {
   const double rounding_;
   Box allowed_;  ///< where vertices may be
   double volume_;
-  TriangleMesh hull_;
+  double least_, slack_ = 0;
+  State now_, best_;
 };
 
 TriangleMesh searched(TriangleMesh hull, const Original& original, const HullOptions& options, std::size_t trials) {
   return Search(std::move(hull), original, options).run(trials);
 }
 
-class SeveralStarts {
- public:
-  SeveralStarts(const Original& original, const TriangleMesh& mesh, const HullOptions& options, const BuildTight& build)
-      : original_(original),
-        options_(options),
-        build_(build),
-        meter_(options.progress, "tighten"),
-        is_inner_(options.side == HullSide::Inner),
-        coarse_mesh_(build_hull(mesh, coarse_options(0, 0.05)).hull.base()),
-        coarse_(Original::closed(turned_if_inner(coarse_mesh_), options.side)) {
-    options_.guards.max_overhang =
-        overhang_left(bounding_box(coarse_mesh_), bounding_box(mesh), options.guards.max_overhang);
-  }
-
-  /// The hulls are turned inside out if they are inner ones.
-  TriangleMesh run(TriangleMesh best) {
-    const HullOptions last = part(0.8, 1);
-    const TriangleMesh found = tightened(searched(best_start(), coarse_, part(0.6, 0.8), env("T2", 300)), original_, last);
-    if (std::getenv("V")) std::fprintf(stderr, "plain %g found %g, ", signed_volume(best) / signed_volume(original_.mesh()) - 1, signed_volume(found) / signed_volume(original_.mesh()) - 1);
-    if (found.face_count() <= best.face_count() && signed_volume(found) < signed_volume(best)) best = found;
-    best = searched(std::move(best), original_, last, env("T3", 60));
-    if (std::getenv("V")) std::fprintf(stderr, "last %g\n", signed_volume(best) / signed_volume(original_.mesh()) - 1);
-    return best;
-  }
-
- private:
-  TriangleMesh turned_if_inner(const TriangleMesh& mesh) const { return is_inner_ ? turned(mesh) : mesh; }
-
-  HullOptions part(double from, double to) {
-    HullOptions one = options_;
-    one.progress = meter_.part(from, to);
-    return one;
-  }
-
-  HullOptions coarse_options(double from, double to) {
-    HullOptions one = part(from, to);
-    one.target_faces = env("COARSE", 3000);
-    one.self_intersections = SelfIntersections::Refused;
-    return one;
-  }
-
-  TriangleMesh best_start() {
-    const TriangleMesh convex = is_inner_ ? TriangleMesh{} : convex_hull(coarse_mesh_);
-    std::vector<TriangleMesh> found;
-    const unsigned starts = env("STARTS", 4);
-    for (unsigned i = 0; i <= starts; ++i) {
-      const TriangleMesh& from = i == starts ? convex : coarse_mesh_;
-      if (from.face_count() == 0) continue;
-      const auto at = [&](double step) { return 0.05 + 0.55 * (i + step) / (starts + 1); };
-      HullOptions one = part(at(0), at(0.3));
-      one.seed = one.seed * starts + i % starts;
-      TriangleMesh start = turned_if_inner(build_(coarse_, from, one));
-      const double before = signed_volume(start);
-      found.push_back(searched(std::move(start), coarse_, part(at(0.3), at(1)), env("T1", 120)));
-      if (std::getenv("V")) std::fprintf(stderr, "start %u: %g -> %g, ", i, before / signed_volume(original_.mesh()) - 1, signed_volume(found.back()) / signed_volume(original_.mesh()) - 1);
-    }
-    return *std::ranges::min_element(found, {}, [&](const TriangleMesh& hull) {
-      return std::pair(std::max(hull.face_count(), options_.target_faces), signed_volume(hull));
-    });
-  }
-
-  static TriangleMesh tightened(const TriangleMesh& hull, const Original& original, const HullOptions& options) {
-    HalfEdgeMesh mesh(hull);
-    tighten(
-        mesh, original,
-        {.guards = options.guards, .float32_coordinates = options.float32_coordinates, .progress = options.progress});
-    return mesh.triangle_mesh();
-  }
-
-  const Original& original_;
-  HullOptions options_;
-  const BuildTight& build_;
-  ProgressMeter meter_;
-  const bool is_inner_;
-  const TriangleMesh coarse_mesh_;
-  const Original coarse_;
-};
+TriangleMesh tightened(const TriangleMesh& hull, const Original& original, const HullOptions& options) {
+  HalfEdgeMesh mesh(hull);
+  tighten(mesh, original,
+          {.guards = options.guards,
+           .float32_coordinates = options.float32_coordinates,
+           .threads = options.threads,
+           .progress = options.progress});
+  return mesh.triangle_mesh();
+}
 
 }  // namespace
 
-TriangleMesh with_less_volume(const TriangleMesh& tight, const Original& original, const TriangleMesh& mesh,
-                              const HullOptions& options, const BuildTight& build) {
-  const bool is_inner = options.side == HullSide::Inner;
-  TriangleMesh best = is_inner ? turned(tight) : tight;
-  constexpr std::size_t kTrialsOfTriangles = 200;
-  best = original.is_closed() ? SeveralStarts(original, mesh, options, build).run(std::move(best))
-                              : searched(std::move(best), original, options, kTrialsOfTriangles);
-  return is_inner ? turned(best) : best;
+TriangleMesh with_less_volume(TriangleMesh tight, const Original& original, const TriangleMesh& coarse_mesh,
+                              const HullOptions& options) {
+  ProgressMeter meter(options.progress, "tighten");
+  const auto part = [&](double from, double to) {
+    HullOptions one = options;
+    one.side = HullSide::Outer;
+    one.progress = meter.part(from, to);
+    return one;
+  };
+  const std::size_t trials = env("T2", 1000);
+  if (original.is_closed() && coarse_mesh.face_count() > 0 && !env("ORIG", 0)) {
+    const Original coarse = Original::closed(coarse_mesh, options.side);
+    HullOptions several = part(0, 0.7);
+    several.best_of = env("STARTS", 2);
+    several.seed *= several.best_of;
+    const TriangleMesh start = tight;
+    TriangleMesh found = best_of(
+        several, "tighten", [&](const HullOptions& one) { return searched(start, coarse, one, trials); },
+        [](const TriangleMesh& mesh) -> const TriangleMesh& { return mesh; });
+    found = tightened(found, original, part(0.7, 0.75));
+    if (signed_volume(found) < signed_volume(tight)) tight = found;
+  }
+  return searched(std::move(tight), original, part(0.75, 1), env("T3", 60));
 }
 
 }  // namespace prohull

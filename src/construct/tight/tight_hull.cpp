@@ -50,20 +50,33 @@ class TightBuild {
     const std::size_t target = std::min(options_.target_faces, mesh_.face_count());
     std::vector<std::size_t> levels = levels_above(target);
     std::erase_if(levels, [&](std::size_t faces) { return faces > target && faces >= mesh_.face_count(); });
+    const bool is_searched = target <= kFewFaces && target < mesh_.face_count();
+    TriangleMesh coarse;
     const std::size_t all = std::accumulate(levels.begin(), levels.end(), std::size_t{0});
     std::size_t done = 0;  // a level takes time with its faces
     for (const std::size_t faces : levels) {
       step_.target_faces = faces;
-      const double from = double(done) / double(all), to = double(done + faces) / double(all);
+      const double share = is_searched ? 0.5 : 1;
+      const double from = share * double(done) / double(all), to = share * double(done + faces) / double(all);
       reach(from, to, faces == target ? kMostRounds : 1);
       done += faces;
+      if (is_searched && coarse.face_count() == 0) coarse = hull_->triangle_mesh();
     }
-    tight_.mesh = is_inner() ? turned(hull_->triangle_mesh()) : hull_->triangle_mesh();
+    TriangleMesh hull = hull_->triangle_mesh();
+    if (is_searched) hull = with_less_volume(std::move(hull), original_, coarse, search_options(0.5));
+    tight_.mesh = is_inner() ? turned(std::move(hull)) : std::move(hull);
     return std::move(tight_);
   }
 
  private:
   bool is_inner() const { return options_.side == HullSide::Inner; }
+
+  HullOptions search_options(double from) {
+    HullOptions search = step_;
+    search.target_faces = options_.target_faces;
+    search.progress = meter_.part(from, 1);
+    return search;
+  }
 
   // From one part of the work done to another.
   void reach(double from, double to, unsigned max_rounds) {
@@ -106,21 +119,6 @@ class TightBuild {
   TightHull tight_{{}, Stopped::TargetReached, {}, {}, 0, 0};
 };
 
-TightHull build_with_search(const Original& original, const TriangleMesh& mesh, const HullOptions& options) {
-  if (options.target_faces > kFewFaces) return TightBuild(original, mesh, options).run();
-  ProgressMeter meter(options.progress, "tighten");
-  HullOptions one = options;
-  one.progress = meter.part(0, 0.2);
-  TightHull tight = TightBuild(original, mesh, one).run();
-  if (tight.mesh == mesh) return tight;
-  one.progress = meter.part(0.2, 1);
-  tight.mesh = with_less_volume(tight.mesh, original, mesh, one,
-                                [](const Original& around, const TriangleMesh& from, const HullOptions& how) {
-                                  return TightBuild(around, from, how).run().mesh;
-                                });
-  return tight;
-}
-
 Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, HullSide side, double padding) {
   if (!wrapped) return Original::closed(side == HullSide::Inner ? turned(mesh) : mesh, side);
   if (side == HullSide::Inner && padding == 0)
@@ -140,9 +138,9 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options,
     throw InputError(Defect::InvalidOption, "a tight hull has no tolerances for single faces: build it without tight");
   if (options.mirror) throw InputError(Defect::InvalidOption, "a tight hull is not symmetric: build it without tight");
   const Original original = original_of(mesh, wrapped, options.side, padding);
-  if (options.best_of <= 1) return build_with_search(original, mesh, options);
+  if (options.best_of <= 1) return TightBuild(original, mesh, options).run();
   return best_of(
-      options, "tighten", [&](const HullOptions& one) { return build_with_search(original, mesh, one); },
+      options, "tighten", [&](const HullOptions& one) { return TightBuild(original, mesh, one).run(); },
       [](const TightHull& result) -> const TriangleMesh& { return result.mesh; });
 }
 
