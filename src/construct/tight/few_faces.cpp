@@ -4,36 +4,25 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
 #include <random>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "construct/best_of.h"
-#include "construct/guard/self_intersection_guard.h"
 #include "construct/placement.h"
-#include "construct/shape_guards.h"
+#include "construct/tight/contacts.h"
 #include "construct/tight/tight_collapses.h"
 #include "construct/tight/tightening.h"
-#include "construct/turned.h"
 #include "geometry/float32.h"
 #include "geometry/predicates.h"
+#include "geometry/triangle_intersection.h"
 #include "mesh/half_edge_mesh.h"
 #include "parallel/progress_meter.h"
-#include "prohull/convex_hull.h"
 #include "prohull/tight_hull.h"
 
 namespace prohull {
 namespace {
-
-long env(const char* n, long d) { const char* s = std::getenv(n); return s ? std::atol(s) : d; }
-
-bool contains(const Box& box, const Box& other) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (other.min[axis] < box.min[axis] || other.max[axis] > box.max[axis]) return false;
-  return true;
-}
 
 /// In the middle of the edge a-b, or a hair outside: never inside of the faces (a, b, l) and (b, a, r), exactly. Such a
 /// vertex takes nothing from what the hull encloses.
@@ -50,110 +39,140 @@ std::optional<Vec3> outside_of_edge(const Vec3& a, const Vec3& b, const Vec3& l,
   return std::nullopt;
 }
 
+std::size_t intersecting_pairs(const TriangleMesh& mesh) {
+  std::vector<Triangle> faces;
+  std::vector<Box> boxes;
+  for (const FaceId f : mesh.triangles.ids()) {
+    faces.push_back(mesh.triangle(f));
+    boxes.push_back(box_of(faces.back()));
+  }
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) pairs += boxes[i].overlaps(boxes[j]) && triangles_intersect(faces[i], faces[j]);
+  return pairs;
+}
+
+bool contains(const Box& box, const Box& other) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (other.min[axis] < box.min[axis] || other.max[axis] > box.max[axis]) return false;
+  return true;
+}
+
+/// Where vertices may be: not farther outside of the original than the guards allow, or than the hull is.
+Box allowed_box(const TriangleMesh& hull, const Original& original, const ShapeGuards& guards) {
+  const double overhang = guards.max_overhang * original.bounds().diagonal();
+  Box box = bounding_box(hull);
+  box.extend(original.bounds().min - Vec3{overhang, overhang, overhang});
+  box.extend(original.bounds().max + Vec3{overhang, overhang, overhang});
+  return box;
+}
+
+struct Hull {
+  TriangleMesh mesh;
+  Contacts contacts;
+  double volume;
+};
+
 class Search {
  public:
-  Search(TriangleMesh hull, const Original& original, const HullOptions& options)
+  Search(const TriangleMesh& hull, const Original& original, const HullOptions& options)
       : original_(original),
         options_(options),
         moves_{.guards = options.guards, .float32_coordinates = options.float32_coordinates, .threads = 1},
         random_(options.seed),
         meter_(options.progress, "tighten"),
         rounding_(storage_rounding(original.bounds(), options.float32_coordinates)),
-        allowed_(bounding_box(hull)),
-        volume_(signed_volume(hull)),
-        least_(volume_),
-        now_{std::move(hull), Contacts(0)}, best_(now_) {
-    now_.contacts = Contacts(now_.hull.positions.size());
-    options_.target_faces = now_.hull.face_count();
+        intersecting_pairs_(intersecting_pairs(hull)),
+        allowed_(allowed_box(hull, original, options.guards)),
+        hull_{hull, Contacts(hull.positions.size()), signed_volume(hull)},
+        best_(hull_) {
     options_.threads = 1;
-    // Trials ask whether to go on; how much is done only this search can say.
+    // A trial only asks whether to go on: how much is done is known here.
     options_.progress = moves_.progress = [this](std::string_view, double) {
       meter_.go_on();
       return true;
     };
-    const Box& bounds = original.bounds();
-    const double overhang = options.guards.max_overhang * bounds.diagonal();
-    const Vec3 reach{overhang, overhang, overhang};
-    allowed_.extend(bounds.min - reach);
-    allowed_.extend(bounds.max + reach);
   }
 
   TriangleMesh run(std::size_t trials) {
-    std::size_t failures = 0;
-    const std::size_t patience = env("PAT", 150);
-    for (std::size_t trial = 0; trial < trials && failures < patience; ++trial) {
-      meter_.at(trial, trials);
-      const double left = 1 - double(trial) / double(trials);
-      slack_ = env("TEMP", 0) * 1e-5 * left * left;
-      failures = keep_if_better(trial_hull()) ? 0 : failures + 1;
+    for (std::size_t i = 0; i < trials; ++i) {
+      meter_.at(i, trials);
+      const double left = 1 - double(i) / double(trials);
+      keep_if_good(trial(), kMostLoss * left * left);
     }
-    now_ = best_;
     meter_.at(1);
-    return std::move(now_.hull);
+    return best_.mesh;
   }
 
  private:
-  static constexpr double kLeastGain = 1e-9;  ///< of the volume
+  static constexpr double kMostLoss = 1e-3;  ///< of the volume, that a trial may cost; nothing at the end
 
-  struct State {
-    TriangleMesh hull;
-    Contacts contacts;
-  };
-
-  State trial_hull() {
-    State trial = now_;
-    const std::size_t before = trial.hull.positions.size();
-    for (std::size_t left = 1 + below(env("NEWV", 2)); left > 0; --left) insert_vertex(trial);
-    HalfEdgeMesh mesh(trial.hull);
-    moves_.max_rounds = env("R1", 2);
-    tighten_from(before, mesh, trial.contacts);
-    const std::size_t vertices = mesh.positions().size();
-    moves_.max_rounds = env("R2", 12);
-    const double slack = 1 + 1e-3 * env("ABORT", 100000);
-    collapse_tightly(mesh, original_, options_, trial.contacts);
-    if (signed_volume(mesh.triangle_mesh()) <= volume_ * slack) tighten_from(vertices, mesh, trial.contacts);
-    return {mesh.triangle_mesh(), trial.contacts.renumbered(mesh)};
+  // What the collapses add is mostly less than what the new vertices gain. A trial that is far behind by then is given
+  // up.
+  Hull trial() {
+    constexpr double kHopeless = 1.03;
+    constexpr unsigned kRounds = 2;
+    Hull result = hull_;
+    const std::size_t before = result.mesh.positions.size();
+    for (std::size_t left = 1 + below(most_new_vertices()); left > 0; --left) insert_vertex(result);
+    HalfEdgeMesh mesh(result.mesh);
+    tighten_from(before, mesh, result.contacts, kRounds);
+    const std::size_t grown = mesh.positions().size();
+    collapse_tightly(mesh, original_, options_, result.contacts);
+    if (signed_volume(mesh.triangle_mesh()) < hull_.volume + (kHopeless - 1) * std::abs(hull_.volume))
+      tighten_from(grown, mesh, result.contacts, MoveOptions{}.max_rounds);
+    result = {mesh.triangle_mesh(), result.contacts.renumbered(mesh), 0};
+    result.volume = signed_volume(result.mesh);
+    return result;
   }
 
-  /// On any edge; and moves it to where it removes most.
-  void insert_vertex(State& state) {
-    TriangleMesh& hull = state.hull;
-    const FaceId f{static_cast<std::uint32_t>(below(hull.face_count()))};
-    const HalfEdgeMesh mesh(hull);
-    const HalfEdgeId h{static_cast<std::uint32_t>(3 * index(f) + below(3))}, g = mesh.twin(h);
-    const VertexId a = mesh.tail(h), b = mesh.tail(g);
-    const VertexId l = mesh.tail(mesh.previous(h)), r = mesh.tail(mesh.previous(g));
-    const auto position = outside_of_edge(mesh.position(a), mesh.position(b), mesh.position(l), mesh.position(r),
+  std::size_t most_new_vertices() const {
+    constexpr std::size_t kLeast = 4, kMost = 12;
+    return std::clamp(options_.target_faces / 4, kLeast, kMost);
+  }
+
+  /// On any edge.
+  void insert_vertex(Hull& hull) {
+    TriangleMesh& mesh = hull.mesh;
+    const HalfEdgeMesh edges(mesh);
+    const HalfEdgeId h{static_cast<std::uint32_t>(below(3 * mesh.face_count()))}, g = edges.twin(h);
+    const VertexId a = edges.tail(h), b = edges.tail(g);
+    const VertexId l = edges.tail(edges.previous(h)), r = edges.tail(edges.previous(g));
+    const auto position = outside_of_edge(mesh.positions[a], mesh.positions[b], mesh.positions[l], mesh.positions[r],
                                           rounding_, options_.float32_coordinates);
     if (!position) return;
-    const VertexId s = hull.positions.push_back(*position);
-    hull.triangles[f] = {a, s, l};
-    hull.triangles[FaceId{index(g) / 3}] = {b, s, r};
-    hull.triangles.push_back({s, b, l});
-    hull.triangles.push_back({s, a, r});
-    state.contacts.join(a, b);
+    const VertexId s = mesh.positions.push_back(*position);
+    hull.contacts.join(a, b);
+    mesh.triangles[FaceId{index(h) / 3}] = {a, s, l};
+    mesh.triangles[FaceId{index(g) / 3}] = {b, s, r};
+    mesh.triangles.push_back({s, b, l});
+    mesh.triangles.push_back({s, a, r});
   }
 
   /// Around the vertices that are new.
-  void tighten_from(std::size_t first, HalfEdgeMesh& mesh, Contacts& contacts) const {
+  void tighten_from(std::size_t first, HalfEdgeMesh& mesh, Contacts& contacts, unsigned max_rounds) {
     std::vector<VertexId> changed;
     for (const VertexId v : mesh.positions().ids()) {
       if (index(v) < first || !mesh.has(v)) continue;
       changed.push_back(v);
       for (const HalfEdgeId h : mesh.around(v)) changed.push_back(mesh.tip(h));
     }
+    moves_.max_rounds = max_rounds;
     tighten_around(changed, mesh, original_, moves_, contacts);
   }
 
-  bool keep_if_better(State trial) {
-    const TriangleMesh& hull = trial.hull;
-    const double volume = signed_volume(hull);
-    if (!(volume < volume_ + (slack_ - kLeastGain) * std::abs(volume_)) || hull.face_count() > options_.target_faces) return false;
-    if (!contains(allowed_, bounding_box(hull))) return false;
-    volume_ = volume;
-    now_ = std::move(trial);
-    if (volume < least_) best_ = now_, least_ = volume;
-    return true;
+  void keep_if_good(Hull hull, double most_loss) {
+    if (!is_better(hull, hull_, most_loss * std::abs(hull_.volume))) return;
+    if (!contains(allowed_, bounding_box(hull.mesh))) return;
+    if (intersecting_pairs(hull.mesh) > intersecting_pairs_) return;
+    hull_ = std::move(hull);
+    if (is_better(hull_, best_, 0)) best_ = hull_;
+  }
+
+  bool is_better(const Hull& hull, const Hull& than, double most_loss) const {
+    const auto excess = [&](const Hull& h) { return std::max(h.mesh.face_count(), options_.target_faces); };
+    if (excess(hull) != excess(than)) return excess(hull) < excess(than);
+    return hull.volume < than.volume + most_loss;
   }
 
   std::size_t below(std::size_t count) { return random_() % count; }
@@ -164,15 +183,10 @@ class Search {
   std::mt19937_64 random_;
   ProgressMeter meter_;
   const double rounding_;
-  Box allowed_;  ///< where vertices may be
-  double volume_;
-  double least_, slack_ = 0;
-  State now_, best_;
+  const std::size_t intersecting_pairs_;
+  const Box allowed_;
+  Hull hull_, best_;
 };
-
-TriangleMesh searched(TriangleMesh hull, const Original& original, const HullOptions& options, std::size_t trials) {
-  return Search(std::move(hull), original, options).run(trials);
-}
 
 TriangleMesh tightened(const TriangleMesh& hull, const Original& original, const HullOptions& options) {
   HalfEdgeMesh mesh(hull);
@@ -186,29 +200,19 @@ TriangleMesh tightened(const TriangleMesh& hull, const Original& original, const
 
 }  // namespace
 
-TriangleMesh with_less_volume(TriangleMesh tight, const Original& original, const TriangleMesh& coarse_mesh,
+TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original, const TriangleMesh& coarse,
                               const HullOptions& options) {
+  constexpr std::size_t kTrials = 1000, kLastTrials = 60;
   ProgressMeter meter(options.progress, "tighten");
   const auto part = [&](double from, double to) {
     HullOptions one = options;
-    one.side = HullSide::Outer;
     one.progress = meter.part(from, to);
     return one;
   };
-  const std::size_t trials = env("T2", 1000);
-  if (original.is_closed() && coarse_mesh.face_count() > 0 && !env("ORIG", 0)) {
-    const Original coarse = Original::closed(coarse_mesh, options.side);
-    HullOptions several = part(0, 0.7);
-    several.best_of = env("STARTS", 2);
-    several.seed *= several.best_of;
-    const TriangleMesh start = tight;
-    TriangleMesh found = best_of(
-        several, "tighten", [&](const HullOptions& one) { return searched(start, coarse, one, trials); },
-        [](const TriangleMesh& mesh) -> const TriangleMesh& { return mesh; });
-    found = tightened(found, original, part(0.7, 0.75));
-    if (signed_volume(found) < signed_volume(tight)) tight = found;
-  }
-  return searched(std::move(tight), original, part(0.75, 1), env("T3", 60));
+  const Original around = Original::closed(coarse, options.side);
+  TriangleMesh best = Search(hull, around, part(0, 0.85)).run(kTrials);
+  best = tightened(best, original, part(0.85, 0.9));
+  return Search(best, original, part(0.9, 1)).run(kLastTrials);
 }
 
 }  // namespace prohull

@@ -11,13 +11,17 @@ namespace prohull {
 /// Up to so many faces a tight hull is searched on from.
 constexpr std::size_t kFewFaces = 200;
 
-/// Searches a hull of less volume than `tight`, a tight hull of few faces of `mesh`. The result has at most as many
-/// faces, at most as much volume and at most as many pairs of intersecting faces. It encloses the original as `tight`
-/// does, and keeps the guards of its shape. The number of trials is fixed, and HullOptions::seed decides which they
-/// are, so that the result is the same everywhere.
+/// Searches on from a tight hull of few faces, by trials. The result has at most as many faces, at most as much volume
+/// and at most as many pairs of intersecting faces as `hull`. It encloses the original too, and keeps the guards of
+/// shape. HullOptions::seed decides what is tried. Inner hulls, and their original and `coarse`, are turned inside out.
 ///
-/// How it works: see few_faces.cpp.
-TriangleMesh with_less_volume(TriangleMesh tight, const Original& original, const TriangleMesh& coarse,
+/// A trial puts new vertices on some edges, moves them towards the original, and collapses those edges that add least,
+/// until the hull has as few faces as before. So faces go to where they are worth more. The hull that comes of it is
+/// kept if it has less volume, or at first hardly more: some of these are on the way to better ones.
+///
+/// Most trials see in the original's place `coarse`, which encloses it and has a few times the faces of `hull`: what
+/// encloses that encloses the original. That is several times as fast. The last trials see the original itself.
+TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original, const TriangleMesh& coarse,
                               const HullOptions& options);
 
 }  // namespace prohull

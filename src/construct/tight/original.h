@@ -23,7 +23,6 @@ class Original {
 
   const TriangleMesh& mesh() const { return sieve_.mesh(); }
   const Box& bounds() const { return bounds_; }
-  bool is_closed() const { return winding_.has_value(); }
   double clearance() const { return clearance_; }  ///< 0: faces may touch
 
   /// Whether the hull may give up the tetrahedron. Exact; false where that is not certain.

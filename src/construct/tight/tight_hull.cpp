@@ -37,6 +37,7 @@ std::vector<std::size_t> levels_above(std::size_t target) {
 }
 
 constexpr unsigned kMostRounds = 12;
+constexpr double kShareOfLevels = 0.3;  ///< of the time, where there is a search
 
 class TightBuild {
  public:
@@ -51,30 +52,32 @@ class TightBuild {
     std::vector<std::size_t> levels = levels_above(target);
     std::erase_if(levels, [&](std::size_t faces) { return faces > target && faces >= mesh_.face_count(); });
     const bool is_searched = target <= kFewFaces && target < mesh_.face_count();
-    TriangleMesh coarse;
     const std::size_t all = std::accumulate(levels.begin(), levels.end(), std::size_t{0});
+    const double share = is_searched ? kShareOfLevels : 1;
+    TriangleMesh coarse;
     std::size_t done = 0;  // a level takes time with its faces
     for (const std::size_t faces : levels) {
       step_.target_faces = faces;
-      const double share = is_searched ? 0.5 : 1;
-      const double from = share * double(done) / double(all), to = share * double(done + faces) / double(all);
-      reach(from, to, faces == target ? kMostRounds : 1);
+      const double from = double(done) / double(all), to = double(done + faces) / double(all);
+      reach(share * from, share * to, faces == target ? kMostRounds : 1);
+      if (done == 0 && is_searched) coarse = hull_->triangle_mesh();
       done += faces;
-      if (is_searched && coarse.face_count() == 0) coarse = hull_->triangle_mesh();
     }
     TriangleMesh hull = hull_->triangle_mesh();
-    if (is_searched) hull = with_less_volume(std::move(hull), original_, coarse, search_options(0.5));
-    tight_.mesh = is_inner() ? turned(std::move(hull)) : std::move(hull);
+    if (is_searched) hull = with_less_volume(hull, original_, coarse, search_options());
+    tight_.mesh = is_inner() ? turned(hull) : hull;
+    if (tight_.mesh.face_count() <= options_.target_faces) tight_.stopped = Stopped::TargetReached;
     return std::move(tight_);
   }
 
  private:
   bool is_inner() const { return options_.side == HullSide::Inner; }
 
-  HullOptions search_options(double from) {
+  // With the guards that the hull has needed so far.
+  HullOptions search_options() {
     HullOptions search = step_;
-    search.target_faces = options_.target_faces;
-    search.progress = meter_.part(from, 1);
+    if (tight_.relaxed_guards > 0) search.guards = weaker(search.guards, kRelaxedGuards[tight_.relaxed_guards - 1]);
+    search.progress = meter_.part(kShareOfLevels, 1);
     return search;
   }
 
