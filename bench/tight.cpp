@@ -85,8 +85,11 @@ void add_tight(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand("tight", "Void of tight hulls, median of several seeds");
   add_model_options(command, options->models);
   add_faces_option(command, options->hull_faces);
-  command.add_option("--seeds", options->seeds, "Hulls of each size")->capture_default_str()->check(CLI::Range(1, 1000));
-  command.add_flag_callback("--inner", [options] { options->side = HullSide::Inner; }, "Inner hulls");
+  command.add_option("--seeds", options->seeds, "Hulls of each size")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  command.add_flag_callback(
+      "--inner", [options] { options->side = HullSide::Inner; }, "Inner hulls");
   add_out_option(command, options->out, "tight.md and tight.csv");
   command.callback([options, &run] { run = [options] { return run_tight(*options); }; });
 }

@@ -202,7 +202,6 @@ TriangleMesh tightened(const TriangleMesh& hull, const Original& original, const
 
 TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original, const TriangleMesh& coarse,
                               const HullOptions& options) {
-  constexpr std::size_t kTrials = 1000, kLastTrials = 60;
   ProgressMeter meter(options.progress, "tighten");
   const auto part = [&](double from, double to) {
     HullOptions one = options;
@@ -210,9 +209,9 @@ TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original
     return one;
   };
   const Original around = Original::closed(coarse, options.side);
-  TriangleMesh best = Search(hull, around, part(0, 0.85)).run(kTrials);
+  TriangleMesh best = Search(hull, around, part(0, 0.85)).run(trials_of_few_faces);
   best = tightened(best, original, part(0.85, 0.9));
-  return Search(best, original, part(0.9, 1)).run(kLastTrials);
+  return Search(best, original, part(0.9, 1)).run(trials_of_few_faces / 16);
 }
 
 }  // namespace prohull

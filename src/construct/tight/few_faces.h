@@ -11,6 +11,9 @@ namespace prohull {
 /// Up to so many faces a tight hull is searched on from.
 constexpr std::size_t kFewFaces = 200;
 
+/// How many trials a search makes. Tests set it lower.
+inline std::size_t trials_of_few_faces = 1000;
+
 /// Searches on from a tight hull of few faces, by trials. The result has at most as many faces, at most as much volume
 /// and at most as many pairs of intersecting faces as `hull`. It encloses the original too, and keeps the guards of
 /// shape. HullOptions::seed decides what is tried. Inner hulls, and their original and `coarse`, are turned inside out.

@@ -12,6 +12,7 @@
 #include "construct/tight/few_faces.h"
 #include "construct/tight/tight_collapses.h"
 #include "construct/tight/tightening.h"
+#include "construct/tight/unsearched.h"
 #include "construct/turned.h"
 #include "mesh/half_edge_mesh.h"
 #include "parallel/progress_meter.h"
@@ -41,8 +42,13 @@ constexpr double kShareOfLevels = 0.3;  ///< of the time, where there is a searc
 
 class TightBuild {
  public:
-  TightBuild(const Original& original, const TriangleMesh& mesh, const HullOptions& options)
-      : original_(original), mesh_(mesh), options_(options), step_(options), meter_(options.progress, "tighten") {
+  TightBuild(const Original& original, const TriangleMesh& mesh, const HullOptions& options, std::size_t most_searched)
+      : original_(original),
+        mesh_(mesh),
+        options_(options),
+        most_searched_(most_searched),
+        step_(options),
+        meter_(options.progress, "tighten") {
     step_.self_intersections = SelfIntersections::Refused;
   }
 
@@ -51,7 +57,7 @@ class TightBuild {
     const std::size_t target = std::min(options_.target_faces, mesh_.face_count());
     std::vector<std::size_t> levels = levels_above(target);
     std::erase_if(levels, [&](std::size_t faces) { return faces > target && faces >= mesh_.face_count(); });
-    const bool is_searched = target <= kFewFaces && target < mesh_.face_count();
+    const bool is_searched = target <= most_searched_ && target < mesh_.face_count();
     const std::size_t all = std::accumulate(levels.begin(), levels.end(), std::size_t{0});
     const double share = is_searched ? kShareOfLevels : 1;
     TriangleMesh coarse;
@@ -115,6 +121,7 @@ class TightBuild {
   const Original& original_;
   const TriangleMesh& mesh_;
   const HullOptions& options_;
+  const std::size_t most_searched_;  ///< faces of a hull that is searched on from
   HullOptions step_;
   ProgressMeter meter_;
   std::optional<HalfEdgeMesh> hull_;
@@ -131,20 +138,30 @@ Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, Hull
   return Original::triangles(*wrapped, kClearance * bounding_box(*wrapped).diagonal());
 }
 
-}  // namespace
-
-TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped,
-                           double padding) {
+TightHull build(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped, double padding,
+                std::size_t most_searched) {
   if (options.self_intersections == SelfIntersections::Allowed)
     throw InputError(Defect::InvalidOption, "self-intersections cannot be allowed: a tight hull never adds any");
   if (!options.tolerances.empty())
     throw InputError(Defect::InvalidOption, "a tight hull has no tolerances for single faces: build it without tight");
   if (options.mirror) throw InputError(Defect::InvalidOption, "a tight hull is not symmetric: build it without tight");
   const Original original = original_of(mesh, wrapped, options.side, padding);
-  if (options.best_of <= 1) return TightBuild(original, mesh, options).run();
+  if (options.best_of <= 1) return TightBuild(original, mesh, options, most_searched).run();
   return best_of(
-      options, "tighten", [&](const HullOptions& one) { return TightBuild(original, mesh, one).run(); },
+      options, "tighten", [&](const HullOptions& one) { return TightBuild(original, mesh, one, most_searched).run(); },
       [](const TightHull& result) -> const TriangleMesh& { return result.mesh; });
+}
+
+}  // namespace
+
+TightHull build_unsearched_tight_hull(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped,
+                                      double padding) {
+  return build(mesh, options, wrapped, padding, 0);
+}
+
+TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped,
+                           double padding) {
+  return build(mesh, options, wrapped, padding, kFewFaces);
 }
 
 TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& mesh, HullSide side,
