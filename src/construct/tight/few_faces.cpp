@@ -105,7 +105,7 @@ class Search {
   }
 
  private:
-  static constexpr double kMostLoss = 1e-3;  ///< of the volume, that a trial may cost; nothing at the end
+  static constexpr double kMostLoss = 3e-3;  ///< of the volume, that a trial may cost; nothing at the end
 
   // What the collapses add is mostly less than what the new vertices gain. A trial that is far behind by then is given
   // up.
