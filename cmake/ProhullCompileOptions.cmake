@@ -19,3 +19,9 @@ function(prohull_compile_options target)
     target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
   endif()
 endfunction()
+
+# prohull_compile_alone(TARGET SOURCES...): sources that have names in common with others, in their unnamed namespaces. The presets
+# release and sanitize compile eight sources at a time (CMAKE_UNITY_BUILD).
+function(prohull_compile_alone target)
+  set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()

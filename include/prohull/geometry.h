@@ -63,6 +63,10 @@ struct Box {
     return min.x <= o.max.x && o.min.x <= max.x && min.y <= o.max.y && o.min.y <= max.y && min.z <= o.max.z &&
            o.min.z <= max.z;
   }
+  /// The sides belong to the box.
+  bool contains(const Vec3& p) const {
+    return min.x <= p.x && p.x <= max.x && min.y <= p.y && p.y <= max.y && min.z <= p.z && p.z <= max.z;
+  }
   Vec3 center() const { return min * 0.5 + max * 0.5; }
   double diagonal() const { return is_empty() ? 0 : norm(max - min); }
 };

@@ -49,7 +49,7 @@ class BoxPair {
   bool are_far_apart() const { return gap_ > 0; }
 
   /// Whether the two boxes may have a point in common; if not, no two triangles in them touch.
-  bool may_meet(const OrientedBox& a, const OrientedBox& b) const {
+  bool may_meet(const ObbNode& a, const ObbNode& b) const {
     const View view(*this, a, b);
     if (mask(view.gaps_along_a() > slack_) & 7) return false;
     if (mask(view.gaps_along_b() > slack_) & 7) return false;
@@ -67,7 +67,7 @@ class BoxPair {
 
   /// A lower bound of the distance between points in the boxes, in the input's unit. It is good if `direction` is that
   /// of the shortest way from a to b; it holds for any.
-  double distance_bound(const OrientedBox& a, const OrientedBox& b, Float4 direction) const {
+  double distance_bound(const ObbNode& a, const ObbNode& b, Float4 direction) const {
     const View view(*this, a, b);
     const auto length = [&](Float4 gaps) {
       double sum = 0;
@@ -86,13 +86,13 @@ class BoxPair {
     return std::sqrt(squared) / unit_ * (1 - relative_error_);
   }
 
-  bool is_larger(const OrientedBox& a, const OrientedBox& b) const {
+  bool is_larger(const ObbNode& a, const ObbNode& b) const {
     return std::max({a.half[0], a.half[1], a.half[2]}) * scale_a_ >
            std::max({b.half[0], b.half[1], b.half[2]}) * scale_b_;
   }
 
   /// A measure of how far apart the boxes' centers are.
-  float nearness(const OrientedBox& a, const OrientedBox& b) const {
+  float nearness(const ObbNode& a, const ObbNode& b) const {
     const Float4 v = between_centers(a, b);
     const Float4 square = v * v;
     return square[0] + square[1] + square[2];
@@ -110,7 +110,7 @@ class BoxPair {
   }
 
   /// In the coordinates of a's tree.
-  Float4 between_centers(const OrientedBox& a, const OrientedBox& b) const {
+  Float4 between_centers(const ObbNode& a, const ObbNode& b) const {
     const Float4 ca{a.center[0], a.center[1], a.center[2], 0};
     return columns_[0] * both4(b.center[0] * scale_b_) + columns_[1] * both4(b.center[1] * scale_b_) +
            columns_[2] * both4(b.center[2] * scale_b_) + (translation_ - ca * both4(scale_a_));
@@ -118,7 +118,7 @@ class BoxPair {
 
   /// Two boxes, each seen along the axes of the other. Lanes 0 to 2 are axes; lane 3 holds anything finite.
   struct View {
-    View(const BoxPair& pair, const OrientedBox& a, const OrientedBox& b)
+    View(const BoxPair& pair, const ObbNode& a, const ObbNode& b)
         : ha(load(a.half) * both4(pair.scale_a_)), hb(load(b.half) * both4(pair.scale_b_)) {
       const Float4 bx = load(b.axes), by = load(b.axes + 3), bz = load(b.axes + 6);
       const auto& r = pair.entries_;

@@ -70,7 +70,7 @@ class Scene {
   std::optional<Vec3> touching_point() const {
     std::optional<Vec3> point;
     if (!boxes_.are_far_apart())
-      visit_meeting_leaves(a_.tree, b_.tree, boxes_, [&](const OrientedBox& in_a, const OrientedBox& in_b) {
+      visit_meeting_leaves(a_.tree, b_.tree, boxes_, [&](const ObbNode& in_a, const ObbNode& in_b) {
         return visit_touching(in_a, in_b, [&](std::size_t i, std::size_t j) {
           point = triangle_distance(at_pose(pose_a_, a_.triangle(i)), at_pose(pose_b_, b_.triangle(j))).s;
           return true;
@@ -82,7 +82,7 @@ class Scene {
   std::vector<FacePair> intersecting_faces() const {
     std::vector<FacePair> pairs;
     if (boxes_.are_far_apart()) return pairs;
-    visit_meeting_leaves(a_.tree, b_.tree, boxes_, [&](const OrientedBox& in_a, const OrientedBox& in_b) {
+    visit_meeting_leaves(a_.tree, b_.tree, boxes_, [&](const ObbNode& in_a, const ObbNode& in_b) {
       visit_touching(in_a, in_b, [&](std::size_t i, std::size_t j) {
         pairs.push_back({a_.face(i), b_.face(j)});
         return false;
@@ -100,18 +100,17 @@ class Scene {
     result.lower = result.upper = kInfinity;
     Vec3 way;
     Float4 direction{};
-    visit_near_leaves(
-        a_.tree, b_.tree, boxes_, result.upper, direction, [&](const OrientedBox& in_a, const OrientedBox& in_b) {
-          visit_pairs(in_a, in_b, [&](std::size_t i, const Triangle& s, std::size_t j, const Triangle& t) {
-            if (distance_along(way, s, t) >= result.upper) return false;
-            const TriangleDistance distance = triangle_distance(s, t);
-            result.lower = std::min(result.lower, distance.lower);
-            if (distance.upper >= result.upper) return false;
-            result = {result.lower, distance.upper, distance.s, distance.t, a_.face(i), b_.face(j)};
-            way = distance.t - distance.s, direction = boxes_.direction(pose_a_, way);
-            return false;
-          });
-        });
+    visit_near_leaves(a_.tree, b_.tree, boxes_, result.upper, direction, [&](const ObbNode& in_a, const ObbNode& in_b) {
+      visit_pairs(in_a, in_b, [&](std::size_t i, const Triangle& s, std::size_t j, const Triangle& t) {
+        if (distance_along(way, s, t) >= result.upper) return false;
+        const TriangleDistance distance = triangle_distance(s, t);
+        result.lower = std::min(result.lower, distance.lower);
+        if (distance.upper >= result.upper) return false;
+        result = {result.lower, distance.upper, distance.s, distance.t, a_.face(i), b_.face(j)};
+        way = distance.t - distance.s, direction = boxes_.direction(pose_a_, way);
+        return false;
+      });
+    });
     return result;
   }
 
@@ -127,14 +126,14 @@ class Scene {
   }
 
   bool surfaces_meet() const {
-    return visit_meeting_leaves(a_.tree, b_.tree, boxes_, [&](const OrientedBox& in_a, const OrientedBox& in_b) {
+    return visit_meeting_leaves(a_.tree, b_.tree, boxes_, [&](const ObbNode& in_a, const ObbNode& in_b) {
       return visit_touching(in_a, in_b, [](std::size_t, std::size_t) { return true; });
     });
   }
 
   /// visit(i, j) for the triangles of two leaves that have a point in common, until it returns true.
   template <class Visit>
-  bool visit_touching(const OrientedBox& in_a, const OrientedBox& in_b, Visit visit) const {
+  bool visit_touching(const ObbNode& in_a, const ObbNode& in_b, Visit visit) const {
     return visit_pairs(in_a, in_b, [&](std::size_t i, const Triangle& s, std::size_t j, const Triangle& t) {
       return are_near(s, t) && visit(i, j);
     });
@@ -142,7 +141,7 @@ class Scene {
 
   /// visit(i, triangle i of a, j, triangle j of b) for all pairs of two leaves, until it returns true.
   template <class Visit>
-  bool visit_pairs(const OrientedBox& in_a, const OrientedBox& in_b, Visit visit) const {
+  bool visit_pairs(const ObbNode& in_a, const ObbNode& in_b, Visit visit) const {
     const std::size_t count_a = a_.tree.items_of(in_a).size(), count_b = b_.tree.items_of(in_b).size();
     Triangle placed_b[ObbTree::kLeafSize];
     for (std::size_t j = 0; j < count_b; ++j) placed_b[j] = at_pose(pose_b_, b_.triangle(in_b.first() + j));

@@ -97,17 +97,17 @@ class UpwardRay {
   }
 
   /// Whether the start is certainly outside of the box.
-  bool starts_outside(const OrientedBox& box) const { return !may_meet_part(box, start_, {}); }
+  bool starts_outside(const ObbNode& box) const { return !may_meet_part(box, start_, {}); }
 
   /// False only if the ray meets nothing in the box. Numbers are at most 4, axes are square to each other within 2^-22,
   /// and the slack is 2^-16.
-  bool may_meet(const OrientedBox& box) const {
+  bool may_meet(const ObbNode& box) const {
     const Vec3 half_length = direction_ * (1.25 + 2 * slack_);  // of the part of the ray that may meet a box
     return may_meet_part(box, start_ + half_length, half_length);
   }
 
  private:
-  bool may_meet_part(const OrientedBox& box, const Vec3& middle, const Vec3& half_length) const {
+  bool may_meet_part(const ObbNode& box, const Vec3& middle, const Vec3& half_length) const {
     const Vec3 v = middle - Vec3{box.center[0], box.center[1], box.center[2]};
     for (int k = 0; k < 3; ++k) {
       const Vec3 axis{box.axes[k], box.axes[3 + k], box.axes[6 + k]};

@@ -67,7 +67,7 @@ struct Extent {
 struct ObbTree::Builder {
   std::vector<Triangle> triangles;  // in the tree's coordinates
   std::vector<Vec3> centroids;
-  std::vector<OrientedBox>& boxes;
+  std::vector<ObbNode>& boxes;
   std::vector<std::uint32_t>& items;
 
   std::span<std::uint32_t> range(std::size_t begin, std::size_t end) {
@@ -122,12 +122,12 @@ struct ObbTree::Builder {
 
   /// The axes lose 2^-24 of each entry by rounding, so products of two of them are off by less than 2^-22, and the
   /// products of a point with them differ by less than 2^-21 of its distance from the center from the point's x, y, z
-  /// as OrientedBox has them. The half sizes grow by 2^-19 of the box.
-  OrientedBox box_around(std::span<const std::uint32_t> of, const Axes& axes) const {
+  /// as ObbNode has them. The half sizes grow by 2^-19 of the box.
+  ObbNode box_around(std::span<const std::uint32_t> of, const Axes& axes) const {
     const Extent extent = this->extent(of, axes);
     const Vec3 middle = extent.range.center();
     const Vec3 center = axes[0] * middle.x + axes[1] * middle.y + axes[2] * middle.z;
-    OrientedBox box{};
+    ObbNode box{};
     for (int k = 0; k < 3; ++k) {
       box.center[k] = static_cast<float>(center[k]);
       for (unsigned i = 0; i < 3; ++i) box.axes[3 * k + static_cast<int>(i)] = static_cast<float>(axes[i][k]);
@@ -152,7 +152,7 @@ struct ObbTree::Builder {
     const Axes axes = best_axes(of);
     boxes[self] = box_around(of, axes);
     if (of.size() <= kLeafSize) {
-      boxes[self].link = OrientedBox::kLeaf + static_cast<std::uint32_t>(begin);
+      boxes[self].link = ObbNode::kLeaf + static_cast<std::uint32_t>(begin);
       std::ranges::sort(of);
       return;
     }

@@ -11,7 +11,7 @@ namespace prohull {
 
 /// A box with any axes, one cache line of it: the points c + x u + y v + z w with |x|, |y|, |z| at most the three half
 /// sizes. The axes u, v, w are unit vectors, square to each other, within 2^-22 in each product.
-struct OrientedBox {
+struct ObbNode {
   float axes[9];  ///< the x coordinates of u, v, w, then their y and z coordinates
   float half[3];
   float center[3];
@@ -21,7 +21,7 @@ struct OrientedBox {
   bool is_leaf() const { return link >= kLeaf; }
   std::uint32_t first() const { return link - kLeaf; }
 };
-static_assert(sizeof(OrientedBox) == 64);
+static_assert(sizeof(ObbNode) == 64);
 
 /// A binary tree of boxes around triangles, halved along the longest axis. Boxes are in float32, in coordinates of
 /// their own: (p - center) * unit, in which all triangles lie in the unit ball.
@@ -33,10 +33,10 @@ class ObbTree {
   /// At least one triangle, finite and within 1e100.
   explicit ObbTree(std::span<const Triangle> triangles);
 
-  std::span<const OrientedBox> boxes() const { return boxes_; }
+  std::span<const ObbNode> boxes() const { return boxes_; }
   /// The triangles, in the order of the leaves. A leaf has kLeafSize of them, the last leaf may have fewer.
   std::span<const std::uint32_t> items() const { return items_; }
-  std::span<const std::uint32_t> items_of(const OrientedBox& leaf) const {
+  std::span<const std::uint32_t> items_of(const ObbNode& leaf) const {
     const std::size_t first = leaf.first();
     return std::span(items_).subspan(first, std::min<std::size_t>(kLeafSize, items_.size() - first));
   }
@@ -45,12 +45,12 @@ class ObbTree {
   double unit() const { return unit_; }      ///< a power of two
   double radius() const { return radius_; }  ///< no triangle reaches farther from the center
   double reach() const { return reach_; }    ///< nor farther from the origin
-  std::size_t memory_bytes() const { return boxes_.size() * sizeof(OrientedBox) + items_.size() * sizeof(items_[0]); }
+  std::size_t memory_bytes() const { return boxes_.size() * sizeof(ObbNode) + items_.size() * sizeof(items_[0]); }
 
  private:
   struct Builder;
 
-  std::vector<OrientedBox> boxes_;
+  std::vector<ObbNode> boxes_;
   std::vector<std::uint32_t> items_;
   Vec3 center_;
   double unit_ = 1, radius_ = 0, reach_ = 0;

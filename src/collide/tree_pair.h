@@ -11,7 +11,7 @@ struct NodePair {
 
 /// The two pairs that take the place of one; the larger box is the one that is split. Not both may be leaves.
 inline std::pair<NodePair, NodePair> split(const ObbTree& a, const ObbTree& b, const BoxPair& pair, NodePair at) {
-  const OrientedBox &in_a = a.boxes()[at.a], &in_b = b.boxes()[at.b];
+  const ObbNode &in_a = a.boxes()[at.a], &in_b = b.boxes()[at.b];
   if (in_b.is_leaf() || (!in_a.is_leaf() && pair.is_larger(in_a, in_b))) return {{at.a + 1, at.b}, {in_a.link, at.b}};
   return {{at.a, at.b + 1}, {at.a, in_b.link}};
 }
@@ -26,7 +26,7 @@ bool visit_meeting_leaves(const ObbTree& a, const ObbTree& b, const BoxPair& pai
   if (pair.may_meet(boxes_a[0], boxes_b[0])) stack[size++] = {0, 0};
   while (size > 0) {
     const NodePair at = stack[--size];
-    const OrientedBox &in_a = boxes_a[at.a], &in_b = boxes_b[at.b];
+    const ObbNode &in_a = boxes_a[at.a], &in_b = boxes_b[at.b];
     if (in_a.is_leaf() && in_b.is_leaf()) {
       if (visit(in_a, in_b)) return true;
       continue;
@@ -66,7 +66,7 @@ void visit_near_leaves(const ObbTree& a, const ObbTree& b, const BoxPair& pair, 
     const auto [at, bound] = stack[--size];
     // The direction may be better now.
     if (bound >= best || near(at).bound >= best) continue;
-    const OrientedBox &in_a = boxes_a[at.a], &in_b = boxes_b[at.b];
+    const ObbNode &in_a = boxes_a[at.a], &in_b = boxes_b[at.b];
     if (in_a.is_leaf() && in_b.is_leaf()) {
       measure(in_a, in_b);
       continue;

@@ -13,11 +13,6 @@ int turn_of_moved(const Vec3& a, const Vec3& b, const Vec3& p) {
   return exact != 0 ? exact : turn_of_moved(a, b);
 }
 
-bool contains(const Box& box, const Vec3& p) {
-  return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y && box.min.z <= p.z &&
-         p.z <= box.max.z;
-}
-
 }  // namespace
 
 WindingNumber::WindingNumber(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
@@ -35,7 +30,7 @@ std::optional<int> WindingNumber::at(const Vec3& p) const {
   bvh_.visit(met_by_ray, [&](std::uint32_t i) {
     const Triangle& t = triangles_[i];
     const Side s = side(t.a, t.b, t.c, p);
-    if (s == Side::On && contains(box_of(t), p)) undecided = true;
+    if (s == Side::On && box_of(t).contains(p)) undecided = true;
     const int turns = turn_of_moved(t.a, t.b, p);
     if (turns == 0 || turn_of_moved(t.b, t.c, p) != turns || turn_of_moved(t.c, t.a, p) != turns) return;
     // The ray leaves through a triangle that it sees from inside: counter-clockwise seen from +z, p below.

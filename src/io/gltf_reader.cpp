@@ -215,9 +215,9 @@ class GltfReader {
     const bool has = asset.is_object() && value(asset, "version").is_string();
     const std::string version = has ? value(asset, "version").get<std::string>() : "";
     if (!version.starts_with("2."))
-      fail_in("asset", has ? fmt::format("it has version {} of glTF, and only 2 is read; export as glTF 2.0",
-                                         prohull::quoted(version))
-                           : "it has no version; the file is no glTF 2.0");
+      fail_in("asset",
+              has ? fmt::format("it has version {} of glTF, and only 2 is read; export as glTF 2.0", in_quotes(version))
+                  : "it has no version; the file is no glTF 2.0");
   }
 
   /// An extension that a file requires may change what its geometry means: those that cannot are let pass.
@@ -229,7 +229,7 @@ class GltfReader {
           starts("EXT_texture_") || starts("KHR_lights_"))
         continue;
       fail_in("extensionsRequired",
-              fmt::format("{} is not read; export without it{}", prohull::quoted(extension),
+              fmt::format("{} is not read; export without it{}", in_quotes(extension),
                           extension.find("compression") != std::string::npos ? ", that is without compression" : ""));
     }
   }
@@ -482,8 +482,7 @@ class GltfReader {
       return std::move(*bytes);
     }
     if (uri.find("://") != uri.npos)
-      fail_in(where,
-              fmt::format("{} is not a file beside this one; download it, or export as GLB", prohull::quoted(uri)));
+      fail_in(where, fmt::format("{} is not a file beside this one; download it, or export as GLB", in_quotes(uri)));
     const std::filesystem::path path = std::filesystem::path(file_).parent_path() / without_percents(uri);
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))  // a pipe or a device may have no end

@@ -42,7 +42,7 @@ class DictionaryParser {
     else if (key == "shape")
       shape_ = tuple();
     else
-      fail(fmt::format("the header has an entry {}, which is not known", quoted(key)));
+      fail(fmt::format("the header has an entry {}, which is not known", in_quotes(key)));
   }
 
   std::string type() {

@@ -73,7 +73,7 @@ class NpyReader {
       fail(
           fmt::format("its elements are of type {}; expected integers, or floating point of 32 or 64 bits: save "
                       "array.astype('float64')",
-                      quoted(header_.type)));
+                      in_quotes(header_.type)));
     order_ = order == '>' ? std::endian::big : std::endian::little;
   }
 

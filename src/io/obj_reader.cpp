@@ -39,7 +39,7 @@ class ObjReader {
       else if (marks_ && (keyword == "g" || keyword == "o" || keyword == "usemtl"))
         read_names(keyword == "g" ? groups_ : keyword == "o" ? object_ : material_);
       else if (!is_obj_keyword(keyword))
-        scanner_.fail(fmt::format("{} is not a record of an OBJ file", quoted(keyword)));
+        scanner_.fail(fmt::format("{} is not a record of an OBJ file", in_quotes(keyword)));
     }
     return builder_.finish();
   }
@@ -85,7 +85,7 @@ class ObjReader {
     const char* const end = word.data() + word.size();
     const auto [rest, error] = std::from_chars(word.data(), end, number);
     if (error != std::errc() || (rest != end && *rest != '/'))
-      scanner_.fail(fmt::format("{} is not a corner of a face; expected a vertex number", quoted(word)));
+      scanner_.fail(fmt::format("{} is not a corner of a face; expected a vertex number", in_quotes(word)));
     const auto count = static_cast<std::int64_t>(builder_.vertex_count());
     if (number >= 0) return number - 1;
     if (number < -count)

@@ -31,9 +31,10 @@ class OffReader {
   void read_keyword() {
     scanner_.next_line();
     const std::string_view keyword = scanner_.word();
-    if (!is_off_keyword(keyword)) scanner_.fail(fmt::format("the file starts with {}; expected OFF", quoted(keyword)));
+    if (!is_off_keyword(keyword))
+      scanner_.fail(fmt::format("the file starts with {}; expected OFF", in_quotes(keyword)));
     if (keyword.find_first_of("4n") != std::string_view::npos)
-      scanner_.fail(fmt::format("{} has other than three coordinates; only three are read", quoted(keyword)));
+      scanner_.fail(fmt::format("{} has other than three coordinates; only three are read", in_quotes(keyword)));
     if (scanner_.at_line_end()) scanner_.next_line();
   }
 

@@ -31,6 +31,6 @@ std::string printable(std::string_view word, std::size_t longest) {
   return text + (word.size() > longest ? "..." : "");
 }
 
-std::string quoted(std::string_view word) { return fmt::format("'{}'", printable(word)); }
+std::string in_quotes(std::string_view word) { return fmt::format("'{}'", printable(word)); }
 
 }  // namespace prohull

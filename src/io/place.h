@@ -22,6 +22,6 @@ struct Place {
 /// A word of a hostile file, fit for a message: shortened, without control characters.
 std::string printable(std::string_view word, std::size_t longest = 40);
 /// The same in quotes.
-std::string quoted(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 }  // namespace prohull

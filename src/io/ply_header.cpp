@@ -57,7 +57,7 @@ class HeaderReader {
     else if (keyword == "property")
       read_property();
     else if (keyword != "comment" && keyword != "obj_info")
-      scanner_.fail(fmt::format("{} is not a line of a PLY header", quoted(keyword)));
+      scanner_.fail(fmt::format("{} is not a line of a PLY header", in_quotes(keyword)));
     return true;
   }
 
@@ -71,7 +71,7 @@ class HeaderReader {
       encoding_ = PlyEncoding::BigEndian;
     else
       scanner_.fail(
-          fmt::format("unknown format {}; expected ascii, binary_little_endian or binary_big_endian", quoted(word)));
+          fmt::format("unknown format {}; expected ascii, binary_little_endian or binary_big_endian", in_quotes(word)));
   }
 
   void read_element() {
@@ -79,7 +79,7 @@ class HeaderReader {
     element.name = word("the name of the element");
     element.line = scanner_.place().number;
     const std::int64_t count = scanner_.integer("the number of records of the element");
-    if (count < 0) scanner_.fail(fmt::format("element {} has a negative count", quoted(element.name)));
+    if (count < 0) scanner_.fail(fmt::format("element {} has a negative count", in_quotes(element.name)));
     element.count = static_cast<std::size_t>(count);
     elements_.push_back(std::move(element));
   }
@@ -107,7 +107,7 @@ class HeaderReader {
   PlyType type_of(std::string_view name) {
     const auto found =
         std::find_if(kTypeNames.begin(), kTypeNames.end(), [&](const TypeName& t) { return t.name == name; });
-    if (found == kTypeNames.end()) scanner_.fail(fmt::format("unknown type {}", quoted(name)));
+    if (found == kTypeNames.end()) scanner_.fail(fmt::format("unknown type {}", in_quotes(name)));
     return found->type;
   }
 

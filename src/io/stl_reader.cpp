@@ -129,7 +129,7 @@ class AsciiStlReader {
 
   [[noreturn]] void fail_expecting(std::string_view keyword, std::string_view word) {
     if (word.empty()) scanner_.fail(fmt::format("the file ends where {} was expected; it is truncated", keyword));
-    scanner_.fail(fmt::format("{} where {} was expected", quoted(word), keyword));
+    scanner_.fail(fmt::format("{} where {} was expected", in_quotes(word), keyword));
   }
 
   TextScanner scanner_;

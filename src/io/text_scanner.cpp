@@ -102,7 +102,7 @@ Number TextScanner::parse(std::string_view what, std::string_view kind) {
     at_ = end;
     return value;
   }
-  const std::string text = quoted(word());
+  const std::string text = in_quotes(word());
   if (error == std::errc::result_out_of_range) fail(fmt::format("{} is beyond the range of {} in 64 bits", text, kind));
   fail(fmt::format("{} is not {}; expected {}", text, kind, what));
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "mesh/half_edges_by_tail.h"
+
 namespace prohull {
 namespace {
 
@@ -50,38 +52,15 @@ void HalfEdgeMesh::allocate(std::size_t vertices, std::size_t faces) {
   half_edge_.reserve(3 * faces / 2);
 }
 
-// Half-edges sorted by tail, in linear time. The twin is looked for around the end of the edge with fewer faces, so
-// that vertices with very many do not cost more.
 void HalfEdgeMesh::link_twins() {
-  std::vector<std::uint32_t> first(out_.size() + 1, 0);
-  for (const HalfEdgeId h : half_edges_.ids())
-    if (tail(h) != kNoVertex) ++first[index(tail(h)) + 1];
-  for (std::size_t v = 0; v < out_.size(); ++v) {
-    valence_[VertexId(static_cast<std::uint32_t>(v))] = first[v + 1];
-    first[v + 1] += first[v];
-  }
-  std::vector<HalfEdgeId> by_tail(first.back());
-  std::vector<std::uint32_t> cursor(first.begin(), first.end() - 1);
-  for (const HalfEdgeId h : half_edges_.ids())
-    if (tail(h) != kNoVertex) by_tail[cursor[index(tail(h))]++] = h;
-
+  const HalfEdgesByTail by_tail(out_.size(), half_edges_.size(), [this](HalfEdgeId h) { return tail(h); });
+  for (const VertexId v : out_.ids()) valence_[v] = static_cast<std::uint32_t>(by_tail.leaving(v).size());
   for (const HalfEdgeId h : half_edges_.ids()) {
-    const VertexId v = tail(h);
-    if (v == kNoVertex) continue;
-    out_[v] = h;
+    if (tail(h) == kNoVertex) continue;
+    out_[tail(h)] = h;
     if (index(h) % 3 == 0) ++face_count_;
     if (twin(h) != kNoHalfEdge) continue;
-    const VertexId w = tip(h);
-    const bool at_tip = valence_[w] <= valence_[v];
-    HalfEdgeId found = kNoHalfEdge;
-    for (std::size_t i = first[index(at_tip ? w : v)]; i < first[index(at_tip ? w : v) + 1]; ++i)
-      if (const HalfEdgeId g = at_tip ? by_tail[i] : previous(by_tail[i]); tail(g) == w && tip(g) == v) {
-        found = g;
-        break;
-      }
-    if (found == kNoHalfEdge) continue;
-    half_edge_.push_back(h);
-    pair(h, found, EdgeId(static_cast<std::uint32_t>(half_edge_.size() - 1)));
+    if (const HalfEdgeId g = by_tail.between(tip(h), tail(h)); g != kNoHalfEdge) pair(h, g, half_edge_.push_back(h));
   }
 }
 

@@ -38,8 +38,8 @@ class HalfEdgeMesh {
   /// its face is missing.
   HalfEdgeMesh(PerVertex<Vec3> positions, const std::vector<VertexId>& corners, const std::vector<HalfEdgeId>& twins);
 
-  HalfEdgeId next(HalfEdgeId h) const { return HalfEdgeId(index(h) % 3 == 2 ? index(h) - 2 : index(h) + 1); }
-  HalfEdgeId previous(HalfEdgeId h) const { return HalfEdgeId(index(h) % 3 == 0 ? index(h) + 2 : index(h) - 1); }
+  static HalfEdgeId next(HalfEdgeId h) { return HalfEdgeId(index(h) % 3 == 2 ? index(h) - 2 : index(h) + 1); }
+  static HalfEdgeId previous(HalfEdgeId h) { return HalfEdgeId(index(h) % 3 == 0 ? index(h) + 2 : index(h) - 1); }
   HalfEdgeId twin(HalfEdgeId h) const { return half_edges_[h].twin; }
   VertexId tail(HalfEdgeId h) const { return half_edges_[h].tail; }
   VertexId tip(HalfEdgeId h) const { return tail(next(h)); }

@@ -11,12 +11,6 @@
 namespace prohull {
 namespace {
 
-bool contains(const Box& box, const Vec3& p) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(box.min[axis] <= p[axis] && p[axis] <= box.max[axis])) return false;
-  return true;
-}
-
 bool contains(const std::vector<NumberRange>& ranges, std::uint32_t number) {
   return std::ranges::any_of(ranges, [&](const NumberRange& r) { return r.first <= number && number <= r.last; });
 }
@@ -61,7 +55,7 @@ class Membership {
   bool all_corners(FaceId f, auto&& is_wanted) const { return std::ranges::all_of(mesh_.triangles[f], is_wanted); }
 
   bool is_of(FaceId f, const Box& box) const {
-    return all_corners(f, [&](VertexId v) { return contains(box, mesh_.positions[v]); });
+    return all_corners(f, [&](VertexId v) { return box.contains(mesh_.positions[v]); });
   }
   bool is_of(FaceId f, const PaintedColor& wanted) const {
     if (!marks_.face_colors.empty() && is_about(marks_.face_colors[f], wanted)) return true;

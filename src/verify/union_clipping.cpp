@@ -48,12 +48,6 @@ Field height(const Triangle& h, const Vec3& p) {
   return dot_product(cross_product(difference(h.b, h.a), difference(h.c, h.a)), difference(p, h.a));
 }
 
-std::optional<int> certain_sign(const Interval& x) {
-  if (x.inf() > 0) return 1;
-  if (x.sup() < 0) return -1;
-  return std::nullopt;
-}
-
 /// Which side of a triangle the kernels should hold.
 enum class Covering {
   Surface,  ///< the triangle itself

@@ -10,6 +10,7 @@
 
 #include "geometry/bvh.h"
 #include "geometry/closest_point.h"
+#include "geometry/largest_coordinate.h"
 #include "geometry/winding_number.h"
 #include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
@@ -230,12 +231,6 @@ class ReachSearch {
   std::size_t seen_ = 0;
   DistanceBounds bounds_;
 };
-
-double largest_coordinate(const Box& box) {
-  double largest = 0;
-  for (int axis = 0; axis < 3; ++axis) largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
-  return largest;
-}
 
 /// The eighths of a sphere.
 std::vector<SpherePart> parts_of(const Ball& ball) {

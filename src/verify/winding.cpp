@@ -9,12 +9,6 @@
 namespace prohull::verify {
 namespace {
 
-std::optional<int> certain_sign(const Interval& x) {
-  if (x.inf() > 0) return 1;
-  if (x.sup() < 0) return -1;
-  return std::nullopt;
-}
-
 template <class Field>
 Field turn_determinant(const Field& au, const Field& av, const Field& bu, const Field& bv, const Field& pu,
                        const Field& pv) {

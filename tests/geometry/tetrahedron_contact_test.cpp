@@ -1,6 +1,5 @@
 #include "geometry/tetrahedron_contact.h"
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -8,15 +7,12 @@
 #include <vector>
 
 #include "effort.h"
+#include "geometry/exact_triangles.h"
 #include "geometry/predicates.h"
 #include "random.h"
 
 namespace prohull {
 namespace {
-
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-
-Exact::Point_3 exact(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 struct Meeting {
   bool touches, meets_interior;

@@ -1,6 +1,5 @@
 #include "geometry/triangle_contact.h"
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,17 +7,17 @@
 #include <variant>
 
 #include "dyadic_points.h"
+#include "geometry/exact_triangles.h"
 #include "geometry/predicates.h"
 #include "random.h"
 
 namespace prohull {
 namespace {
 
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Shape = std::variant<Exact::Point_3, Exact::Segment_3, Exact::Triangle_3>;
 
 Shape shape_of(const Triangle& t) {
-  const Exact::Point_3 a(t.a.x, t.a.y, t.a.z), b(t.b.x, t.b.y, t.b.z), c(t.c.x, t.c.y, t.c.z);
+  const Exact::Point_3 a = exact(t.a), b = exact(t.b), c = exact(t.c);
   if (!CGAL::collinear(a, b, c)) return Exact::Triangle_3(a, b, c);
   const auto [least, greatest] = std::minmax({a, b, c});
   if (least == greatest) return a;
@@ -67,8 +66,6 @@ TEST(TrianglesTouch, AgreesWithCgalOnSmallGridsWithAndWithoutArea) {
       EXPECT_GT(apart[i][j], 50) << i << j;
     }
 }
-
-const Triangle kFloor{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
 Triangle scaled(const Triangle& t, double by) { return {t.a * by, t.b * by, t.c * by}; }
 

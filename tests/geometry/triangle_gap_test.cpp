@@ -1,6 +1,5 @@
 #include "geometry/triangle_gap.h"
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,22 +7,17 @@
 #include <random>
 
 #include "effort.h"
+#include "geometry/exact_triangles.h"
 #include "random.h"
 
 namespace prohull {
 namespace {
-
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-
-Exact::Point_3 exact(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 /// By CGAL, of triangles with an area.
 Exact::FT squared_distance(const Triangle& s, const Triangle& t) {
   const Exact::Triangle_3 a(exact(s.a), exact(s.b), exact(s.c)), b(exact(t.a), exact(t.b), exact(t.c));
   return CGAL::squared_distance(a, b);
 }
-
-bool has_area(const Triangle& t) { return !CGAL::collinear(exact(t.a), exact(t.b), exact(t.c)); }
 
 double above(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 

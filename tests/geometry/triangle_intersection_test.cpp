@@ -1,6 +1,5 @@
 #include "geometry/triangle_intersection.h"
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,14 +7,11 @@
 #include <random>
 #include <vector>
 
+#include "geometry/exact_triangles.h"
 #include "random.h"
 
 namespace prohull {
 namespace {
-
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-
-Exact::Point_3 exact(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 /// The definition, by constructing the intersection: does it hold a point that is not on the shared corner or edge?
 bool meet_beyond_shared(const Triangle& s, const Triangle& t) {
@@ -40,8 +36,6 @@ bool meet_beyond_shared(const Triangle& s, const Triangle& t) {
   return !std::all_of(corners.begin(), corners.end(), is_shared);
 }
 
-bool has_area(const Triangle& t) { return !CGAL::collinear(exact(t.a), exact(t.b), exact(t.c)); }
-
 TEST(TrianglesIntersect, AgreesWithTheConstructedIntersectionOnSmallGrids) {
   // Corners on a grid of 3x3x3, or 4x4 in a plane, make every kind of contact frequent.
   std::mt19937 random(test_seed());
@@ -62,8 +56,6 @@ TEST(TrianglesIntersect, AgreesWithTheConstructedIntersectionOnSmallGrids) {
   }
   EXPECT_GT(met, 1000);
 }
-
-const Triangle kFloor{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
 TEST(TrianglesIntersect, NotWhereOnlyAnEdgeOrACornerIsShared) {
   EXPECT_FALSE(triangles_intersect(kFloor, {{1, 0, 0}, {0, 0, 0}, {0.3, 0.3, 1}}));

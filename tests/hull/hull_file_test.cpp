@@ -25,7 +25,7 @@ using namespace meshes;
 
 constexpr std::size_t kHeaderSize = 12;
 
-ProgressiveHull small_hull() { return build_hull(sphere(1), {.target_faces = 16}).hull; }
+ProgressiveHull hull_of_16_faces() { return build_hull(sphere(1), {.target_faces = 16}).hull; }
 
 class TemporaryFile {
  public:
@@ -125,7 +125,7 @@ TEST(HullFile, KeepsMinusZeroAndExtremeCoordinatesAndUnusedVertices) {
   EXPECT_TRUE(std::signbit(back.positions()[VertexId{0}].y));
 }
 
-TEST(HullFile, IsTheSameEveryTime) { EXPECT_EQ(file_of(small_hull()), file_of(small_hull())); }
+TEST(HullFile, IsTheSameEveryTime) { EXPECT_EQ(file_of(hull_of_16_faces()), file_of(hull_of_16_faces())); }
 
 TEST(HullFile, IsKnownByItsStart) {
   const TemporaryFile file;
@@ -141,7 +141,7 @@ TEST(HullFile, IsKnownByItsStart) {
 }
 
 TEST(HullFile, OtherFilesAndNewerVersionsAreRefused) {
-  std::string content = file_of(small_hull());
+  std::string content = file_of(hull_of_16_faces());
   EXPECT_EQ(defect_of(""), Defect::UnknownFormat);
   EXPECT_EQ(defect_of("solid cube"), Defect::UnknownFormat);
   EXPECT_EQ(defect_of(header()), Defect::Malformed);
@@ -150,11 +150,11 @@ TEST(HullFile, OtherFilesAndNewerVersionsAreRefused) {
   content[8] = 0;
   EXPECT_EQ(defect_of(content), Defect::UnknownFormat);
   EXPECT_THROW(load_hull("/nonexistent/test.phull"), InputError);
-  EXPECT_THROW(save_hull("/nonexistent/test.phull", small_hull()), InputError);
+  EXPECT_THROW(save_hull("/nonexistent/test.phull", hull_of_16_faces()), InputError);
 }
 
 TEST(HullFile, SaysWhatItsFinestLevelIs) {
-  const ProgressiveHull hull = small_hull();
+  const ProgressiveHull hull = hull_of_16_faces();
   EXPECT_EQ(load_hull(file_of(hull), "x").finest_level(), FinestLevel::Input);
   for (const auto& [name, finest_level] : finest_level_names()) {
     const ProgressiveHull back = load_hull(file_of(hull.with_finest_level(finest_level)), "x");
@@ -165,7 +165,7 @@ TEST(HullFile, SaysWhatItsFinestLevelIs) {
 }
 
 TEST(HullFile, EveryTruncationIsRefused) {
-  const std::string content = file_of(small_hull());
+  const std::string content = file_of(hull_of_16_faces());
   constexpr std::size_t kMagicSize = 8;  // less than that may be any file
   for (std::size_t size = 0; size < content.size(); ++size)
     ASSERT_EQ(defect_of(content.substr(0, size)), size < kMagicSize ? Defect::UnknownFormat : Defect::Malformed)
@@ -175,7 +175,7 @@ TEST(HullFile, EveryTruncationIsRefused) {
 }
 
 TEST(HullFile, EveryCorruptedByteIsRefusedOrChangesNothing) {
-  const ProgressiveHull hull = small_hull();
+  const ProgressiveHull hull = hull_of_16_faces();
   const std::string content = file_of(hull);
   const int stride = rounds(10) > 9 ? 1 : 11;
   std::size_t harmless = 0;
@@ -193,7 +193,7 @@ TEST(HullFile, EveryCorruptedByteIsRefusedOrChangesNothing) {
 }
 
 TEST(HullFile, APayloadThatItsChecksumVouchesForIsCheckedToo) {
-  const ProgressiveHull hull = small_hull();
+  const ProgressiveHull hull = hull_of_16_faces();
   const std::string payload = decompressed(file_of(hull).substr(kHeaderSize));
   ASSERT_EQ(load_hull(with_payload(payload), "x"), hull);
   std::mt19937 random(test_seed());

@@ -1,4 +1,3 @@
-#include <CGAL/Gmpq.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,23 +8,15 @@
 #include "effort.h"
 #include "query/box_line.h"
 #include "query/exact_line.h"
+#include "query/exact_points.h"
 #include "query/line.h"
 #include "random.h"
 
 namespace prohull {
 namespace {
 
-using Number = CGAL::Gmpq;
-using Point = std::array<Number, 3>;
-
-Point exact(const Vec3& v) { return {v.x, v.y, v.z}; }
 Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Point operator*(const Number& s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
-Number dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 bool is_negative(const Number& x) { return CGAL::sign(x) == CGAL::NEGATIVE; }
 
 /// A move so small that on the grids below it acts as an infinitesimal one, (e, e^2, e^3).

@@ -1,4 +1,3 @@
-#include <CGAL/Gmpq.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_query.h"
 #include "query/brute_force.h"
+#include "query/exact_points.h"
 #include "random.h"
 
 namespace prohull {
@@ -93,16 +93,6 @@ TEST(Points, AreAnsweredThroughAHullAsWell) {
     ASSERT_EQ(refined.contains(p), query.contains(p));
     ASSERT_EQ(refined.closest_point(p)->face, query.closest_point(p)->face);
   }
-}
-
-using Number = CGAL::Gmpq;
-using Point = std::array<Number, 3>;
-
-Point exact(const Vec3& v) { return {v.x, v.y, v.z}; }
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Number dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 Number squared_distance(const Point& p, const Point& a, const Point& b) {

@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "base/text.h"
 #include "construct/closed_manifold.h"
+#include "mesh/half_edges_by_tail.h"
 #include "mesh/mirror_images.h"
 
 namespace prohull {
@@ -32,6 +33,12 @@ void require_symmetry(const TriangleMesh& mesh, Axis mirror) {
                   "other, for instance by Blender's Symmetrize, with the plane between them at {} = 0: elsewhere files "
                   "round the coordinates of the two halves differently",
                   found.first_defect, lacking, name_of(axis_names(), mirror)));
+}
+
+/// Of a mesh that is no closed manifold: says where.
+[[noreturn]] void refuse(const TriangleMesh& mesh) {
+  require_closed_manifold(mesh);
+  throw std::logic_error("a closed manifold has a twin for each half-edge and one fan of faces around each vertex");
 }
 
 }  // namespace
@@ -119,48 +126,32 @@ void WholeMesh::require_whole_stars(const HalfEdgeMesh& part) const {
                                    index(names_[v])));
 }
 
-// Half-edges sorted by tail, in linear time. The twin is looked for around the end of the edge with fewer faces, so
-// that vertices with very many do not cost more.
+// What HalfEdgeMesh does, without the memory that it takes for huge meshes.
 void WholeMesh::find_twins(const TriangleMesh& mesh) {
-  const auto next = [](std::uint32_t c) { return c % 3 == 2 ? c - 2 : c + 1; };
-  const auto previous = [](std::uint32_t c) { return c % 3 == 0 ? c + 2 : c - 1; };
-  std::vector<std::uint32_t> first(positions_.size() + 1, 0);
-  for (const VertexId v : corners_) ++first[index(v) + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<std::uint32_t> by_tail(corners_.size());
-  {
-    std::vector<std::uint32_t> cursor(first.begin(), first.end() - 1);
-    for (std::uint32_t c = 0; c < corners_.size(); ++c) by_tail[cursor[index(corners_[c])]++] = c;
-  }
-  const auto faces_around = [&](VertexId v) { return first[index(v) + 1] - first[index(v)]; };
-  const auto half_edge_between = [&](VertexId tail, VertexId tip) {
-    const bool at_tail = faces_around(tail) <= faces_around(tip);
-    const VertexId v = at_tail ? tail : tip;
-    for (std::uint32_t i = first[index(v)]; i < first[index(v) + 1]; ++i)
-      if (const std::uint32_t c = at_tail ? by_tail[i] : previous(by_tail[i]);
-          corners_[c] == tail && corners_[next(c)] == tip)
-        return HalfEdgeId{c};
-    return kNoHalfEdge;
-  };
+  const auto tail = [this](HalfEdgeId h) { return corners_[index(h)]; };
+  const auto tip = [&](HalfEdgeId h) { return tail(HalfEdgeMesh::next(h)); };
+  const HalfEdgesByTail by_tail(positions_.size(), corners_.size(), tail);
   twins_.assign(corners_.size(), kNoHalfEdge);
   for (std::uint32_t c = 0; c < corners_.size(); ++c) {
+    const HalfEdgeId h{c};
     if (twins_[c] != kNoHalfEdge) continue;
-    const HalfEdgeId twin = half_edge_between(corners_[next(c)], corners_[c]);
-    if (twin == kNoHalfEdge || twins_[index(twin)] != kNoHalfEdge) return require_closed_manifold(mesh);
-    twins_[c] = twin, twins_[index(twin)] = HalfEdgeId{c};
+    const HalfEdgeId twin = by_tail.between(tip(h), tail(h));
+    if (twin == kNoHalfEdge || twins_[index(twin)] != kNoHalfEdge) refuse(mesh);
+    twins_[c] = twin, twins_[index(twin)] = h;
   }
   // Once around each vertex, its faces must all have been met, and no edge twice.
   PerVertex<VertexId> met_from(positions_.size(), kNoVertex);
   for (const VertexId v : positions_.ids()) {
-    const std::uint32_t faces = faces_around(v);
+    const std::size_t faces = by_tail.leaving(v).size();
     if (faces == 0) continue;
-    std::uint32_t c = by_tail[first[index(v)]], met = 0;
+    const HalfEdgeId first = by_tail.leaving(v).front();
+    HalfEdgeId h = first;
+    std::size_t met = 0;
     do {
-      const VertexId tip = corners_[next(c)];
-      if (tip == v || std::exchange(met_from[tip], v) == v) return require_closed_manifold(mesh);
-      c = index(twins_[previous(c)]);
-    } while (++met < faces && c != by_tail[first[index(v)]]);
-    if (met != faces || c != by_tail[first[index(v)]]) return require_closed_manifold(mesh);
+      if (tip(h) == v || std::exchange(met_from[tip(h)], v) == v) refuse(mesh);
+      h = twins_[index(HalfEdgeMesh::previous(h))];
+    } while (++met < faces && h != first);
+    if (met != faces || h != first) refuse(mesh);
   }
 }
 
