@@ -34,6 +34,7 @@ void add_queues(CLI::App& app, Run& run);
 void add_rays(CLI::App& app, Run& run);
 void add_robots(CLI::App& app, Run& run);
 void add_scale(CLI::App& app, Run& run);
+void add_tight(CLI::App& app, Run& run);
 
 // Options that several commands have.
 void add_faces_option(CLI::App& command, std::size_t& faces);

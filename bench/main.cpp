@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   add_covers(app, run);
   add_link_covers(app, run);
   add_scale(app, run);
+  add_tight(app, run);
   add_corpus(app, run);
   add_robots(app, run);
   try {

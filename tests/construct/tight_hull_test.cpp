@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "construct/tight/few_faces.h"
+#include "construct/turned.h"
 #include "effort.h"
 #include "geometry/float32.h"
 #include "meshes.h"
@@ -17,6 +19,9 @@ namespace prohull {
 namespace {
 
 using namespace meshes;
+
+/// What is told of hulls of few faces is true after few trials too.
+const std::size_t few_trials = trials_of_few_faces = effort(60, 12);
 
 class TightHulls : public testing::TestWithParam<const char*> {};
 
@@ -73,6 +78,38 @@ TEST(TightHull, IsTheSameForAnyNumberOfThreads) {
   const TriangleMesh one = build_tight_hull(mesh, {.target_faces = 200, .threads = 1}).mesh;
   for (const unsigned threads : {2u, 3u, 0u})
     EXPECT_EQ(one, build_tight_hull(mesh, {.target_faces = 200, .threads = threads}).mesh) << threads;
+}
+
+// The progressive hulls leave much to gain.
+TEST(TightHull, OfFewFacesIsSearchedOnFromAndNeverWorse) {
+  const TriangleMesh mesh = make_sample("asteroid", 600);
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    const auto oriented = [&](const TriangleMesh& m) { return side == HullSide::Inner ? turned(m) : m; };
+    const auto level = [&](std::size_t faces) {
+      return oriented(build_hull(mesh, {.target_faces = faces, .side = side}).hull.base());
+    };
+    const TriangleMesh hull = level(40);
+    const Original original = Original::closed(oriented(mesh), side);
+    const TriangleMesh found =
+        with_less_volume(hull, original, level(200), {.target_faces = hull.face_count(), .side = side, .threads = 1});
+    EXPECT_LT(signed_volume(found), signed_volume(hull));
+    EXPECT_LE(found.face_count(), hull.face_count());
+    EXPECT_TRUE(inspect(oriented(found)).is_closed_manifold());
+    EXPECT_EQ(count_self_intersections(found), 0u);
+    EXPECT_TRUE(
+        (side == HullSide::Outer ? verify_enclosure(mesh, found) : verify_enclosure(oriented(found), mesh)).encloses);
+  }
+}
+
+TEST(TightHull, OfFewFacesHasLessVoidThanWithoutSearch) {
+  const TriangleMesh mesh = make_sample("pony", 2000);
+  const auto with_trials = [&](std::size_t trials) {
+    trials_of_few_faces = trials;
+    const double volume = signed_volume(build_tight_hull(mesh, {.target_faces = 50}).mesh);
+    trials_of_few_faces = few_trials;
+    return volume;
+  };
+  EXPECT_LT(with_trials(few_trials), with_trials(0));
 }
 
 TEST(TightHull, IsNotSymmetric) {

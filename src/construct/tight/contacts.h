@@ -29,6 +29,13 @@ class Contacts {
     const VertexId s = points_.push_back(of_o);
     keep(s, points_[d]);
   }
+  /// For the vertices that HalfEdgeMesh::triangle_mesh leaves.
+  Contacts renumbered(const HalfEdgeMesh& mesh) const {
+    Contacts left(0);
+    for (const VertexId v : points_.ids())
+      if (mesh.has(v)) left.points_.push_back(points_[v]);
+    return left;
+  }
 
  private:
   PerVertex<std::vector<Vec3>> points_;

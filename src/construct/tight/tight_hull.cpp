@@ -9,8 +9,10 @@
 
 #include "construct/best_of.h"
 #include "construct/shape_guards.h"
+#include "construct/tight/few_faces.h"
 #include "construct/tight/tight_collapses.h"
 #include "construct/tight/tightening.h"
+#include "construct/tight/unsearched.h"
 #include "construct/turned.h"
 #include "mesh/half_edge_mesh.h"
 #include "parallel/progress_meter.h"
@@ -25,10 +27,10 @@ namespace {
 /// 1} 2.18, 1.90 and 1.38 %. Progressive hulls of few faces are bad starts: rocker arm at 200 faces 16.9 % from
 /// 350, 16.1 % from 613.
 std::vector<std::size_t> levels_above(std::size_t target) {
-  constexpr double kFirst = 1.75, kSecond = 1.3, kFewFaces = 600;
+  constexpr double kFirst = 1.75, kSecond = 1.3, kFewest = 600;
   const auto faces = static_cast<double>(target);
   std::vector<double> levels{faces, kSecond * faces, kFirst * faces};
-  while (target > 0 && levels.back() < kFewFaces) levels.push_back(kFirst * levels.back());
+  while (target > 0 && levels.back() < kFewest) levels.push_back(kFirst * levels.back());
   std::vector<std::size_t> rounded;
   for (const double level : levels) rounded.push_back(static_cast<std::size_t>(std::llround(level)));
   std::ranges::reverse(rounded);
@@ -36,11 +38,17 @@ std::vector<std::size_t> levels_above(std::size_t target) {
 }
 
 constexpr unsigned kMostRounds = 12;
+constexpr double kShareOfLevels = 0.3;  ///< of the time, where there is a search
 
 class TightBuild {
  public:
-  TightBuild(const Original& original, const TriangleMesh& mesh, const HullOptions& options)
-      : original_(original), mesh_(mesh), options_(options), step_(options), meter_(options.progress, "tighten") {
+  TightBuild(const Original& original, const TriangleMesh& mesh, const HullOptions& options, std::size_t most_searched)
+      : original_(original),
+        mesh_(mesh),
+        options_(options),
+        most_searched_(most_searched),
+        step_(options),
+        meter_(options.progress, "tighten") {
     step_.self_intersections = SelfIntersections::Refused;
   }
 
@@ -49,20 +57,35 @@ class TightBuild {
     const std::size_t target = std::min(options_.target_faces, mesh_.face_count());
     std::vector<std::size_t> levels = levels_above(target);
     std::erase_if(levels, [&](std::size_t faces) { return faces > target && faces >= mesh_.face_count(); });
+    const bool is_searched = target <= most_searched_ && target < mesh_.face_count();
     const std::size_t all = std::accumulate(levels.begin(), levels.end(), std::size_t{0});
+    const double share = is_searched ? kShareOfLevels : 1;
+    TriangleMesh coarse;
     std::size_t done = 0;  // a level takes time with its faces
     for (const std::size_t faces : levels) {
       step_.target_faces = faces;
       const double from = double(done) / double(all), to = double(done + faces) / double(all);
-      reach(from, to, faces == target ? kMostRounds : 1);
+      reach(share * from, share * to, faces == target ? kMostRounds : 1);
+      if (done == 0 && is_searched) coarse = hull_->triangle_mesh();
       done += faces;
     }
-    tight_.mesh = is_inner() ? turned(hull_->triangle_mesh()) : hull_->triangle_mesh();
+    TriangleMesh hull = hull_->triangle_mesh();
+    if (is_searched) hull = with_less_volume(hull, original_, coarse, search_options());
+    tight_.mesh = is_inner() ? turned(hull) : hull;
+    if (tight_.mesh.face_count() <= options_.target_faces) tight_.stopped = Stopped::TargetReached;
     return std::move(tight_);
   }
 
  private:
   bool is_inner() const { return options_.side == HullSide::Inner; }
+
+  // With the guards that the hull has needed so far.
+  HullOptions search_options() {
+    HullOptions search = step_;
+    if (tight_.relaxed_guards > 0) search.guards = weaker(search.guards, kRelaxedGuards[tight_.relaxed_guards - 1]);
+    search.progress = meter_.part(kShareOfLevels, 1);
+    return search;
+  }
 
   // From one part of the work done to another.
   void reach(double from, double to, unsigned max_rounds) {
@@ -98,6 +121,7 @@ class TightBuild {
   const Original& original_;
   const TriangleMesh& mesh_;
   const HullOptions& options_;
+  const std::size_t most_searched_;  ///< faces of a hull that is searched on from
   HullOptions step_;
   ProgressMeter meter_;
   std::optional<HalfEdgeMesh> hull_;
@@ -114,20 +138,30 @@ Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, Hull
   return Original::triangles(*wrapped, kClearance * bounding_box(*wrapped).diagonal());
 }
 
-}  // namespace
-
-TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped,
-                           double padding) {
+TightHull build(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped, double padding,
+                std::size_t most_searched) {
   if (options.self_intersections == SelfIntersections::Allowed)
     throw InputError(Defect::InvalidOption, "self-intersections cannot be allowed: a tight hull never adds any");
   if (!options.tolerances.empty())
     throw InputError(Defect::InvalidOption, "a tight hull has no tolerances for single faces: build it without tight");
   if (options.mirror) throw InputError(Defect::InvalidOption, "a tight hull is not symmetric: build it without tight");
   const Original original = original_of(mesh, wrapped, options.side, padding);
-  if (options.best_of <= 1) return TightBuild(original, mesh, options).run();
+  if (options.best_of <= 1) return TightBuild(original, mesh, options, most_searched).run();
   return best_of(
-      options, "tighten", [&](const HullOptions& one) { return TightBuild(original, mesh, one).run(); },
+      options, "tighten", [&](const HullOptions& one) { return TightBuild(original, mesh, one, most_searched).run(); },
       [](const TightHull& result) -> const TriangleMesh& { return result.mesh; });
+}
+
+}  // namespace
+
+TightHull build_unsearched_tight_hull(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped,
+                                      double padding) {
+  return build(mesh, options, wrapped, padding, 0);
+}
+
+TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped,
+                           double padding) {
+  return build(mesh, options, wrapped, padding, kFewFaces);
 }
 
 TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& mesh, HullSide side,

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "construct/tight/unsearched.h"
 #include "parallel/progress_meter.h"
 #include "prohull/tight_hull.h"
 
@@ -22,7 +23,10 @@ class TightSearch {
   TightHull run() {
     const std::size_t enough = build_progressive();
     std::size_t too_few = options_.target_faces;
-    if (build_tight_within(too_few)) return best_;
+    if (build_tight_within(too_few)) {
+      keep_if_within(build_tight_hull(mesh_, next_options(too_few), wrapped_, padding_));
+      return best_;
+    }
     std::size_t fewest_within = enough;
     constexpr double kCloseEnough = 1.03;  // what is left to gain is less than the chance in each hull
     while (builds_ < kMaxTightBuilds - 1) {
@@ -57,7 +61,10 @@ class TightSearch {
 
   /// Whether the tight hull of so many faces is accepted; it is then the best.
   bool build_tight_within(std::size_t faces) {
-    TightHull hull = build_tight_hull(mesh_, next_options(faces), wrapped_, padding_);
+    return keep_if_within(build_unsearched_tight_hull(mesh_, next_options(faces), wrapped_, padding_));
+  }
+
+  bool keep_if_within(TightHull hull) {
     if (hull.mesh.face_count() > best_.mesh.face_count() || !is_within_(hull.mesh)) return false;
     best_ = std::move(hull);
     has_tight_ = true;

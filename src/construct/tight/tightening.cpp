@@ -55,14 +55,15 @@ class Placer {
 
 class Tightener {
  public:
-  Tightener(HalfEdgeMesh& mesh, const Original& original, const MoveOptions& options, Contacts& contacts)
+  Tightener(HalfEdgeMesh& mesh, const Original& original, const MoveOptions& options, Contacts& contacts,
+            PerVertex<char> waiting)
       : mesh_(mesh),
         original_(original),
         options_(options),
         contacts_(contacts),
         guard_(mesh, faces_along_curve(mesh)),
         placers_([&] { return Placer(mesh, original, options); }),
-        waiting_(mesh.positions().size(), 1),
+        waiting_(std::move(waiting)),
         changed_(waiting_),
         batch_(mesh.positions().size(), 0),
         meter_(options.progress, "tighten") {
@@ -233,7 +234,18 @@ bool Tightener::has_good_shape_without(const Tetrahedron& removed) const {
 }  // namespace
 
 std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts) {
-  return arena_of(options.threads).execute([&] { return Tightener(hull, original, options, contacts).run(); });
+  return arena_of(options.threads).execute([&] {
+    return Tightener(hull, original, options, contacts, PerVertex<char>(hull.positions().size(), 1)).run();
+  });
+}
+
+std::size_t tighten_around(const std::vector<VertexId>& changed, HalfEdgeMesh& hull, const Original& original,
+                           const MoveOptions& options, Contacts& contacts) {
+  PerVertex<char> waiting(hull.positions().size(), 0);
+  for (const VertexId v : changed) waiting[v] = 1;
+  return arena_of(options.threads).execute([&] {
+    return Tightener(hull, original, options, contacts, std::move(waiting)).run();
+  });
 }
 
 std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options) {

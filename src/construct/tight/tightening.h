@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "construct/tight/contacts.h"
 #include "construct/tight/original.h"
@@ -17,5 +18,8 @@ namespace prohull {
 std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options);
 /// With the contacts of the hull's vertices from before, and those that it finds.
 std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts);
+/// The same where only these vertices have changed since the hull was tightened last.
+std::size_t tighten_around(const std::vector<VertexId>& changed, HalfEdgeMesh& hull, const Original& original,
+                           const MoveOptions& options, Contacts& contacts);
 
 }  // namespace prohull
