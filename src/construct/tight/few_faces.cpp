@@ -52,12 +52,6 @@ std::size_t intersecting_pairs(const TriangleMesh& mesh) {
   return pairs;
 }
 
-bool contains(const Box& box, const Box& other) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (other.min[axis] < box.min[axis] || other.max[axis] > box.max[axis]) return false;
-  return true;
-}
-
 /// Where vertices may be: not farther outside of the original than the guards allow, or than the hull is.
 Box allowed_box(const TriangleMesh& hull, const Original& original, const ShapeGuards& guards) {
   const double overhang = guards.max_overhang * original.bounds().diagonal();
@@ -163,7 +157,8 @@ class Search {
 
   void keep_if_good(Hull hull, double most_loss) {
     if (!is_better(hull, hull_, most_loss * std::abs(hull_.volume))) return;
-    if (!contains(allowed_, bounding_box(hull.mesh))) return;
+    const Box box = bounding_box(hull.mesh);
+    if (!allowed_.contains(box.min) || !allowed_.contains(box.max)) return;
     if (intersecting_pairs(hull.mesh) > intersecting_pairs_) return;
     hull_ = std::move(hull);
     if (is_better(hull_, best_, 0)) best_ = hull_;
