@@ -19,7 +19,7 @@ namespace {
 
 // Two copies of a mesh in random poses: do they collide, and how far apart are they?
 
-struct Options {
+struct CollideOptions {
   ModelOptions models;
   std::size_t poses = 200, rounds = 5;
   std::uint64_t seed = 1;
@@ -29,7 +29,7 @@ struct Options {
 
 /// The one mesh stays where it is. The other one is turned at random about the center of its box, and moved in a random
 /// direction by up to `spread` diagonals: about two in five collide with the default.
-std::vector<PosePair> random_poses(const TriangleMesh& mesh, const Options& options) {
+std::vector<PosePair> random_poses(const TriangleMesh& mesh, const CollideOptions& options) {
   std::mt19937_64 random(options.seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> fraction(0, options.spread);
@@ -76,7 +76,7 @@ std::vector<Microseconds> race(const std::vector<Contestant>& contestants, const
   return results;
 }
 
-void measure(const ModelSource& source, const Options& options, Table& table, Table& csv) {
+void measure(const ModelSource& source, const CollideOptions& options, Table& table, Table& csv) {
   const TriangleMesh mesh = load(source);
   fmt::print(stderr, "{}: {} faces\n", source.name, mesh.face_count());
   std::optional<CollisionIndex> index;
@@ -113,7 +113,7 @@ void measure(const ModelSource& source, const Options& options, Table& table, Ta
   }
 }
 
-int run_collide(const Options& options) {
+int run_collide(const CollideOptions& options) {
   Table table({"model", "by", "collide", "hit", "miss", "mean", "/ prohull", "other answers"});
   Table csv(
       {"mesh", "faces", "by", "poses", "collide", "hit_us", "miss_us", "mean_us", "other_answers", "build_seconds"});
@@ -132,7 +132,7 @@ int run_collide(const Options& options) {
 }  // namespace
 
 void add_collide(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CollideOptions>();
   CLI::App& command = *app.add_subcommand("collide", "Meshes against meshes in random poses, beside FCL and CGAL");
   add_model_options(command, options->models);
   command.add_option("--poses", options->poses, "Random poses")->capture_default_str()->check(CLI::PositiveNumber);

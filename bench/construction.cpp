@@ -40,7 +40,7 @@ HullOptions hull_options(const Variant& variant, std::size_t faces) {
   return options;
 }
 
-struct Options {
+struct ConstructionOptions {
   ModelOptions models;
   std::vector<std::size_t> hull_faces{2000, 200};  ///< descending; the first is the one that is timed
   std::size_t rounds = 3;
@@ -81,7 +81,8 @@ void time_peer(const TriangleMesh& mesh, std::size_t faces, std::optional<PeerRu
 
 // One hull down to the last of hull_faces holds all others; it is the whole of the proof but for the first, which is
 // also compared with the original by the exact verifier, which knows nothing of hulls.
-void judge_fit(const TriangleMesh& mesh, const Variant& variant, const Options& options, VariantFacts& facts) {
+void judge_fit(const TriangleMesh& mesh, const Variant& variant, const ConstructionOptions& options,
+               VariantFacts& facts) {
   const ProgressiveHull hull = build_hull(mesh, hull_options(variant, options.hull_faces.back())).hull;
   const double volume = signed_volume(mesh);
   facts.fewest_faces = hull.base_face_count();
@@ -93,7 +94,7 @@ void judge_fit(const TriangleMesh& mesh, const Variant& variant, const Options& 
       verify_replay(hull, mesh).holds && verify_enclosure(mesh, hull.level(options.hull_faces.front())).encloses;
 }
 
-ModelFacts measure(const ModelSource& source, const Options& options) {
+ModelFacts measure(const ModelSource& source, const ConstructionOptions& options) {
   const TriangleMesh mesh = load(source);
   fmt::print(stderr, "{}: {} faces", source.name, mesh.face_count());
   ModelFacts facts{.name = source.name,
@@ -209,7 +210,7 @@ std::string csv(const std::vector<ModelFacts>& models, const std::vector<std::si
   return table.csv();
 }
 
-int run_construction(Options options) {
+int run_construction(ConstructionOptions options) {
   std::ranges::sort(options.hull_faces, std::greater());
   std::vector<ModelFacts> models;
   const std::vector<Refused> refused =
@@ -230,7 +231,7 @@ int run_construction(Options options) {
 }  // namespace
 
 void add_construction(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ConstructionOptions>();
   CLI::App& command = *app.add_subcommand("construction", "The paper's Tables 1 and 2: time and void of hulls");
   add_model_options(command, options->models);
   add_faces_option(command, options->hull_faces, "Sizes of hulls; the time is that to the largest");

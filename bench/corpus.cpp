@@ -34,7 +34,7 @@ namespace {
 
 constexpr std::size_t kAddressBytes = std::size_t{4} << 30;
 
-struct Options {
+struct CorpusOptions {
   std::vector<std::filesystem::path> folders;
   std::size_t hull_faces = 500;
   unsigned jobs = 1, limit_seconds = 60;
@@ -179,7 +179,8 @@ void add_direct(const nlohmann::json& report, std::vector<std::string> build, co
   row.void_ratio = report.at("hull").at("volume").get<double>() / volume - 1;
 }
 
-Row swept(const MeshFile& file, const Options& options, References* references, const std::filesystem::path& folder) {
+Row swept(const MeshFile& file, const CorpusOptions& options, References* references,
+          const std::filesystem::path& folder) {
   std::filesystem::create_directory(folder);
   const std::string hull = folder / "hull.stl", report = folder / "report.json";
   const ProgramLimits limits{options.limit_seconds, kAddressBytes};
@@ -223,7 +224,7 @@ Row swept(const MeshFile& file, const Options& options, References* references, 
   return row;
 }
 
-std::vector<Row> sweep(const std::vector<MeshFile>& files, const Options& options,
+std::vector<Row> sweep(const std::vector<MeshFile>& files, const CorpusOptions& options,
                        const std::filesystem::path& folder) {
   std::optional<References> references;
   if (!options.references.empty()) references.emplace(options.references);
@@ -345,7 +346,7 @@ std::string csv(const std::vector<Row>& rows) {
   return table.csv();
 }
 
-int run_corpus(const Options& options) {
+int run_corpus(const CorpusOptions& options) {
   const TemporaryFolder folder;
   const std::vector<MeshFile> files =
       options.folders.empty() ? write_defects(folder.path() / "defects") : mesh_files(options.folders);
@@ -365,7 +366,7 @@ int run_corpus(const Options& options) {
 }  // namespace
 
 void add_corpus(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CorpusOptions>();
   CLI::App& command = *app.add_subcommand(
       "corpus",
       "Builds and verifies every mesh file of folders, each in a process of its own; exits with 1 if one fails");

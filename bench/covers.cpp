@@ -30,7 +30,7 @@ namespace {
 // How much more space than the mesh a few convex pieces take, or balls, and whether they cover it. As in peers.cpp,
 // every row is measured and judged in a process of its own.
 
-struct Options {
+struct CoversOptions {
   ModelOptions models{.folder = {}, .samples = {"bracket", "knot", "pony"}, .sample_faces = 20000};
   std::vector<std::size_t> pieces{8, 16, 32, 64};
   std::size_t vertices = 64;
@@ -198,7 +198,7 @@ struct ModelFacts {
 
 class Bench {
  public:
-  explicit Bench(const Options& options) : options_(options) {}
+  explicit Bench(const CoversOptions& options) : options_(options) {}
 
   ModelFacts measure(const ModelSource& source) {
     // Loaded in a process of its own, too: threads of this one would be missing in those that it starts.
@@ -255,7 +255,7 @@ class Bench {
                        row.judgement->excess_percent, row.judgement->faces_outside);
   }
 
-  const Options& options_;
+  const CoversOptions& options_;
 };
 
 std::string asked(const Row& row) { return row.asked > 0 ? fmt::to_string(row.asked) : ""; }
@@ -323,7 +323,7 @@ std::string spheres_csv(const std::vector<ModelFacts>& models) {
 
 bool keeps_its_word(const Row& row) { return !row.ours || (row.judgement && row.judgement->covers); }
 
-int run_covers(Options options) {
+int run_covers(CoversOptions options) {
   std::ranges::sort(options.pieces);
   Bench bench(options);
   std::vector<ModelFacts> models;
@@ -342,7 +342,7 @@ int run_covers(Options options) {
 }  // namespace
 
 void add_covers(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CoversOptions>();
   CLI::App& command = *app.add_subcommand(
       "covers", "Convex pieces and spheres, beside HACD and hulls: excess, what is left outside, distance, time");
   add_model_options(command, options->models);

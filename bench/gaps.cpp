@@ -27,7 +27,7 @@ namespace {
 // Do hulls keep the gap that they were asked for, as the verifier has it, and how much more void do they have than any
 // hull with that gap must have: that between the mesh and its offset surface?
 
-struct Options {
+struct GapsOptions {
   ModelOptions models;
   std::vector<std::filesystem::path> robots, package_paths;
   std::size_t hull_faces = 2000;
@@ -75,7 +75,7 @@ Volumes layer_volumes(const TriangleMesh& mesh, double gap, std::size_t samples)
 
 class Bench {
  public:
-  explicit Bench(const Options& options) : options_(options) {}
+  explicit Bench(const GapsOptions& options) : options_(options) {}
 
   void measure(const std::string& name, const TriangleMesh& mesh) {
     const double gap = options_.gap_percent / 100 * diagonal_of(mesh);
@@ -136,14 +136,14 @@ class Bench {
                seconds);
   }
 
-  const Options& options_;
+  const GapsOptions& options_;
   Table table_{{"mesh", "faces", "hull", "hull_faces", "source", "keeps_gap", "void_percent", "least_void_percent",
                 "void_by_least", "self_intersections", "seconds"}};
   std::string refused_;
   std::size_t built_ = 0, kept_ = 0;
 };
 
-int run_gaps(const Options& options) {
+int run_gaps(const GapsOptions& options) {
   Bench bench(options);
   for (const ModelSource& source : model_sources(options.models))
     bench.measure(source.name,
@@ -161,7 +161,7 @@ int run_gaps(const Options& options) {
 }  // namespace
 
 void add_gaps(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GapsOptions>();
   CLI::App& command = *app.add_subcommand(
       "gaps", "Hulls that keep a gap: whether they do, and their void by that of the offset surface");
   add_model_options(command, options->models);

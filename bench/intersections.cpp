@@ -19,7 +19,7 @@ namespace {
 
 // Do hulls intersect themselves where their mesh does not? Counted by CGAL, which shares no code with the construction.
 
-struct Options {
+struct IntersectionsOptions {
   ModelOptions models{.folder = {}, .samples = {"asteroid", "bracket", "gyroid", "pony"}, .sample_faces = 10000};
   std::vector<std::size_t> hull_faces{2000, 500, 200, 100};
   std::filesystem::path out;
@@ -66,7 +66,7 @@ std::string_view counted_by() {
   return cgal_self_intersections({}) ? "CGAL's exact predicates" : "our own exact predicates, for want of CGAL";
 }
 
-Row measure(const ModelSource& source, const Options& options) {
+Row measure(const ModelSource& source, const IntersectionsOptions& options) {
   const TriangleMesh mesh = load(source);
   fmt::print(stderr, "{}: {} faces", source.name, mesh.face_count());
   Row row{source.name, mesh.face_count(), count_pairs(mesh), {}};
@@ -96,7 +96,7 @@ std::string cell(const Count& count, std::size_t added, std::size_t asked) {
   return count.hull_faces > asked ? text + fmt::format(", ends at {}", count.hull_faces) : text;
 }
 
-int run_intersections(const Options& options) {
+int run_intersections(const IntersectionsOptions& options) {
   std::vector<std::string> columns{"model", "faces", "its own pairs", "hull"};
   for (const Kind& kind : kKinds) columns.push_back(fmt::format("{}: added", kind.name));
   Table table(columns);
@@ -130,7 +130,7 @@ int run_intersections(const Options& options) {
 }  // namespace
 
 void add_intersections(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<IntersectionsOptions>();
   CLI::App& command =
       *app.add_subcommand("intersections", "Pairs of intersecting faces that hulls add; exits with 1 if there are any");
   add_model_options(command, options->models);

@@ -19,7 +19,7 @@ namespace {
 // Which links of robots have collision meshes that do not cover their visual meshes? Of each leak, CGAL is asked as
 // well: it shares no code with the check.
 
-struct Options {
+struct LeaksOptions {
   std::vector<std::filesystem::path> robots;
   std::vector<std::filesystem::path> package_paths;
   std::filesystem::path out;
@@ -49,7 +49,7 @@ bool agrees(const robot::LinkCheck& check, const SecondOpinion& opinion) {
 
 std::string millimetres(double metres) { return number(metres * 1000, 4); }
 
-int run_leaks(const Options& options) {
+int run_leaks(const LeaksOptions& options) {
   Table table({"robot", "link", "verdict", "sticks out mm", "at most mm", "faces outside", "visual faces",
                "collision faces", "CGAL: vertices outside", "CGAL: farthest mm"});
   Table csv({"robot", "link", "verdict", "sticks_out_at_least_mm", "sticks_out_at_most_mm", "faces_outside",
@@ -88,7 +88,7 @@ int run_leaks(const Options& options) {
 }  // namespace
 
 void add_leaks(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LeaksOptions>();
   CLI::App& command = *app.add_subcommand(
       "leaks", "Links whose collision meshes do not cover their visual meshes; exits with 1 if CGAL disagrees");
   command.add_option("robots", options->robots, "Files of robots")->required()->check(CLI::ExistingFile);

@@ -21,7 +21,7 @@ namespace {
 
 // Convex pieces and spheres that cover the visual geometry of all links of robots.
 
-struct Options {
+struct LinkCoversOptions {
   std::vector<std::filesystem::path> robots;
   robot::FileOptions file;
   std::vector<std::string> samples;
@@ -46,8 +46,8 @@ std::string yes_or_no(bool certified, Tables& tables) {
   return certified ? "yes" : "NO";
 }
 
-void add_link(const std::string& robot, const std::string& link, const TriangleMesh& mesh, const Options& options,
-              Tables& tables) {
+void add_link(const std::string& robot, const std::string& link, const TriangleMesh& mesh,
+              const LinkCoversOptions& options, Tables& tables) {
   ConvexCover pieces;
   const double pieces_seconds =
       elapsed_seconds_of([&] { pieces = convex_cover(mesh, {.max_pieces = options.pieces}); });
@@ -79,13 +79,13 @@ std::optional<TriangleMesh> visual_mesh(const robot::Link& link) try {
   return std::nullopt;
 }
 
-void measure(const std::filesystem::path& path, const Options& options, Tables& tables) {
+void measure(const std::filesystem::path& path, const LinkCoversOptions& options, Tables& tables) {
   const robot::RobotFile file = robot::read_robot(path, options.file);
   for (const robot::Link& link : file.robot.links)
     if (const auto mesh = visual_mesh(link)) add_link(path.stem().string(), link.name, *mesh, options, tables);
 }
 
-int run_link_covers(const Options& options) {
+int run_link_covers(const LinkCoversOptions& options) {
   const WorkFolder folder;
   std::vector<std::filesystem::path> robots = options.robots;
   for (const std::string& sample : options.samples) robots.push_back(sample_robot_in(folder.get(), sample));
@@ -105,7 +105,7 @@ int run_link_covers(const Options& options) {
 }  // namespace
 
 void add_link_covers(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LinkCoversOptions>();
   CLI::App& command = *app.add_subcommand("link-covers", "Convex pieces and spheres of all links of robots");
   command.add_option("--robot", options->robots, "URDF, SDF or MJCF file; may be given several times")
       ->check(CLI::ExistingFile);

@@ -55,7 +55,7 @@ struct NamedRule {
 constexpr std::array kRules{NamedRule{"linear program", by_linear_program}, NamedRule{"best lifted", best_lifted},
                             NamedRule{"lifted centre", lifted_center}, NamedRule{"lifted midpoint", lifted_midpoint}};
 
-struct Options {
+struct LooserOptions {
   ModelOptions models;
   std::size_t segments = 10000, rounds = 3;
   std::filesystem::path out;
@@ -107,7 +107,7 @@ void judge(const TriangleMesh& mesh, Facts& facts) {
   facts.certified = verify_replay(hull, mesh).holds;
 }
 
-std::vector<Facts> measure(const ModelSource& source, const Options& options) {
+std::vector<Facts> measure(const ModelSource& source, const LooserOptions& options) {
   const TriangleMesh mesh = load(source);
   const std::size_t count = source.is_record_sample ? 1000 : options.segments;
   const auto segments = random_segments(bounding_box(mesh), count, 1);
@@ -157,7 +157,7 @@ std::string csv_of(const std::vector<Facts>& all) {
   return table.csv();
 }
 
-int run_looser(const Options& options) {
+int run_looser(const LooserOptions& options) {
   std::vector<Facts> all;
   const std::vector<Refused> refused = measure_each(options.models, [&](const ModelSource& source) {
     for (Facts& facts : measure(source, options)) all.push_back(std::move(facts));
@@ -173,7 +173,7 @@ int run_looser(const Options& options) {
 }  // namespace
 
 void add_looser(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LooserOptions>();
   CLI::App& command =
       *app.add_subcommand("looser", "Other parameters than the paper's (4.1), and looser positions (5)");
   add_model_options(command, options->models);

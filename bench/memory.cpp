@@ -19,13 +19,13 @@ namespace {
 // three children for each mesh: one loads it and leaves its arrays in a temporary file; one reads those into memory and
 // does nothing else; one reads them and builds the hull. What a child has that does nothing at all is subtracted.
 
-struct Options {
+struct MemoryOptions {
   ModelOptions models;
   std::size_t hull_faces = 2000;
   std::filesystem::path out;
 };
 
-int run_memory(const Options& options) {
+int run_memory(const MemoryOptions& options) {
   Table table({"model", "faces", "mesh", "peak", "bytes per face"});
   Table csv({"mesh", "faces", "hull_faces", "mesh_bytes", "peak_bytes", "bytes_per_face"});
   std::vector<ModelSource> sources = model_sources(options.models);
@@ -66,7 +66,7 @@ int run_memory(const Options& options) {
 }  // namespace
 
 void add_memory(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MemoryOptions>();
   CLI::App& command = *app.add_subcommand("memory", "Peak memory per input face, also of a sample of 1,000,000 faces");
   add_model_options(command, options->models);
   add_faces_option(command, options->hull_faces);

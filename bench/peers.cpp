@@ -26,7 +26,7 @@ namespace {
 // Every method and every judgement has a process of its own: some peers hang or crash on some models. What a process
 // that does nothing has is subtracted from the peak of its resident memory; the mesh and the result count.
 
-struct Options {
+struct PeersOptions {
   ModelOptions models{.folder = {}, .samples = {"asteroid", "bracket", "pony"}, .sample_faces = 20000};
   std::vector<std::size_t> hull_faces{2000, 500, 200};  ///< descending
   bool only_ours = false;
@@ -94,7 +94,7 @@ struct ModelFacts {
 
 class Bench {
  public:
-  explicit Bench(const Options& options) : options_(options), nothing_(run_apart([] {}).peak_bytes) {}
+  explicit Bench(const PeersOptions& options) : options_(options), nothing_(run_apart([] {}).peak_bytes) {}
 
   ModelFacts measure(const ModelSource& source) const {
     const File original = temporary_file(), count = temporary_file();
@@ -169,7 +169,7 @@ class Bench {
                                                  : "does not enclose");
   }
 
-  const Options& options_;
+  const PeersOptions& options_;
   std::size_t nothing_;
 };
 
@@ -232,7 +232,7 @@ bool keeps_its_word(const Row& row, const ModelFacts& m) {
   return !row.judgement->facts || row.judgement->facts->self_intersections <= m.self_intersections;
 }
 
-int run_peers(Options options) {
+int run_peers(PeersOptions options) {
   std::ranges::sort(options.hull_faces, std::greater());
   const Bench bench(options);
   std::vector<ModelFacts> models;
@@ -252,7 +252,7 @@ int run_peers(Options options) {
 }  // namespace
 
 void add_peers(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PeersOptions>();
   CLI::App& command =
       *app.add_subcommand("peers", "Hulls and simplifications of others beside ours: void, time, memory, enclosure");
   add_model_options(command, options->models);

@@ -20,7 +20,7 @@ namespace {
 
 // What an outer and an inner hull are worth to queries of the mesh: walks and filters against trees over the mesh.
 
-struct Options {
+struct QueryFiltersOptions {
   ModelOptions models{.folder = {}, .samples = {"pony"}, .sample_faces = 97000};
   std::size_t hull_faces = 2000, subdivisions = 0, segments = 100000, rounds = 3;
   std::filesystem::path out;
@@ -78,7 +78,7 @@ void add_ours(std::vector<Contestant>& all, const QueryIndex& index) {
   all.push_back({engine, "all", bytes, [query](const Segment& s) { return query->all_hits(s).size(); }});
 }
 
-std::vector<Contestant> contestants(const TriangleMesh& mesh, const Options& options) {
+std::vector<Contestant> contestants(const TriangleMesh& mesh, const QueryFiltersOptions& options) {
   const HullOptions outer_options = hull_options(Strategy::Lazy, options.hull_faces);
   HullOptions inner_options = outer_options;
   inner_options.side = HullSide::Inner;
@@ -97,7 +97,7 @@ std::vector<Contestant> contestants(const TriangleMesh& mesh, const Options& opt
   return all;
 }
 
-void measure(const std::string& name, const TriangleMesh& mesh, const Options& options, Table& table) {
+void measure(const std::string& name, const TriangleMesh& mesh, const QueryFiltersOptions& options, Table& table) {
   const std::vector<Contestant> all = contestants(mesh, options);
   const Batch batches[] = {{"box", random_segments(bounding_box(mesh), options.segments, 1)},
                            {"aimed", aimed(mesh, options.segments)},
@@ -121,7 +121,7 @@ void measure(const std::string& name, const TriangleMesh& mesh, const Options& o
   }
 }
 
-int run_filters(const Options& options) {
+int run_filters(const QueryFiltersOptions& options) {
   Table table({"mesh", "faces", "segments", "engine", "query", "ns_per_segment", "found", "bytes_per_face"});
   for (const ModelSource& source : model_sources(options.models)) {
     TriangleMesh mesh = load(source);
@@ -142,7 +142,7 @@ int run_filters(const Options& options) {
 }  // namespace
 
 void add_filters(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<QueryFiltersOptions>();
   CLI::App& command = *app.add_subcommand("filters", "Queries that an outer and an inner hull help with");
   add_model_options(command, options->models);
   add_faces_option(command, options->hull_faces);

@@ -17,7 +17,7 @@ namespace {
 
 // P&T 3.1.4, "Priority queue": is the red-black tree faster than the heap?
 
-struct Options {
+struct QueuesOptions {
   ModelOptions models;
   std::size_t hull_faces = 2000, rounds = 3;
   std::filesystem::path out;
@@ -36,7 +36,7 @@ struct QueueFacts {
 };
 using AllQueues = std::array<QueueFacts, kQueues.size()>;
 
-AllQueues measure(const TriangleMesh& mesh, Strategy strategy, const Options& options) {
+AllQueues measure(const TriangleMesh& mesh, Strategy strategy, const QueuesOptions& options) {
   AllQueues all;
   for (std::size_t round = 0; round < options.rounds; ++round)
     for (std::size_t q = 0; q < kQueues.size(); ++q) {
@@ -50,7 +50,7 @@ AllQueues measure(const TriangleMesh& mesh, Strategy strategy, const Options& op
   return all;
 }
 
-int run_queues(const Options& options) {
+int run_queues(const QueuesOptions& options) {
   Table table({"model", "strategy", "heap", "red-black tree", "buckets", "red-black tree / heap", "buckets / heap",
                "void: heap", "void: red-black tree", "void: buckets"});
   Table csv({"mesh", "faces", "strategy", "queue", "hull_faces", "seconds", "void_percent"});
@@ -81,7 +81,7 @@ int run_queues(const Options& options) {
 }  // namespace
 
 void add_queues(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<QueuesOptions>();
   CLI::App& command = *app.add_subcommand("queues", "Heap, red-black tree and bucket queue against each other");
   add_model_options(command, options->models);
   add_faces_option(command, options->hull_faces);

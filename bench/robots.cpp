@@ -19,7 +19,7 @@ using std::filesystem::path;
 
 // Hulls of all links of robots, what the robots ship with, and how often hulls collide where the robot does not.
 
-struct Options {
+struct RobotsOptions {
   std::vector<path> robots;
   robot::FileOptions file;
   std::vector<std::string> samples;
@@ -73,7 +73,8 @@ void add_motion(const std::string& name, const MotionResult& motion, Tables& tab
 }
 
 /// The program as a user runs it, twice.
-void add_runs(const std::string& name, const path& file, const Options& options, const path& folder, Tables& tables) {
+void add_runs(const std::string& name, const path& file, const RobotsOptions& options, const path& folder,
+              Tables& tables) {
   constexpr ProgramLimits kLimits{.seconds = 600, .address_bytes = std::size_t{16} << 30};
   std::vector<std::string> words{PROHULL_PROGRAM,          "urdf",           file,      "-o",
                                  folder / (name + "_out"), "--skip-missing", "--cache", folder / "cache"};
@@ -86,7 +87,7 @@ void add_runs(const std::string& name, const path& file, const Options& options,
                    number(first.seconds, 1), number(second.seconds, 2)});
 }
 
-void measure(const path& path_of_robot, const Options& options, const path& folder, Tables& tables) {
+void measure(const path& path_of_robot, const RobotsOptions& options, const path& folder, Tables& tables) {
   const RobotFile file = read_robot(path_of_robot, options.file);
   const std::string name = path_of_robot.stem().string();
   LinkHullOptions how;
@@ -101,7 +102,7 @@ void measure(const path& path_of_robot, const Options& options, const path& fold
   add_runs(name, path_of_robot, options, folder, tables);
 }
 
-int run_robots(const Options& options) {
+int run_robots(const RobotsOptions& options) {
   const WorkFolder folder;
   std::vector<path> robots = options.robots;
   for (const std::string& sample : options.samples) robots.push_back(sample_robot_in(folder.get(), sample));
@@ -123,7 +124,7 @@ int run_robots(const Options& options) {
 }  // namespace
 
 void add_robots(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RobotsOptions>();
   CLI::App& command = *app.add_subcommand(
       "robots", "Hulls of all links of robots, what the robots ship with, and false collisions in motion");
   command.add_option("--robot", options->robots, "URDF, SDF or MJCF file; may be given several times")

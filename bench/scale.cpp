@@ -19,7 +19,7 @@ namespace {
 
 // What a collapse costs as meshes grow, what the guard of self-intersections adds, and what threads save.
 
-struct Options {
+struct ScaleOptions {
   ModelOptions models{.folder = {}, .samples = {"pony"}, .sample_faces = 97000};
   std::size_t hull_faces = 2000, subdivisions = 3, rounds = 3;
   std::filesystem::path out;
@@ -48,7 +48,7 @@ void measure(const TriangleMesh& mesh, const HullOptions& options, Cost& cost) {
   cost.linear_programs = result->linear_programs;
 }
 
-int run_scale(const Options& options) {
+int run_scale(const ScaleOptions& options) {
   Table table({"mesh", "faces", "unguarded", "guarded", "guarded / unguarded", "on all cores", "one thread / all cores",
                "programs per collapse"});
   Table csv({"mesh", "faces", "variant", "seconds", "collapses", "linear_programs", "us_per_collapse"});
@@ -88,7 +88,7 @@ int run_scale(const Options& options) {
 }  // namespace
 
 void add_scale(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ScaleOptions>();
   CLI::App& command = *app.add_subcommand("scale", "Cost of a collapse from 100 thousand to millions of faces");
   add_model_options(command, options->models);
   add_faces_option(command, options->hull_faces);

@@ -17,7 +17,7 @@ namespace {
 
 // The void of tight hulls, over several seeds: hulls of few faces have much luck in them.
 
-struct Options {
+struct TightOptions {
   ModelOptions models{.folder = {}, .samples = {"asteroid", "bracket", "pony"}, .sample_faces = 20000};
   std::vector<std::size_t> hull_faces{200, 50, 20, 12};
   std::size_t seeds = 3;
@@ -29,7 +29,7 @@ double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_P
 
 class Bench {
  public:
-  explicit Bench(const Options& options) : options_(options) {}
+  explicit Bench(const TightOptions& options) : options_(options) {}
 
   void measure(const ModelSource& source) {
     const TriangleMesh mesh = load(source);
@@ -69,12 +69,12 @@ class Bench {
                greatest, median(seconds), encloses ? "" : ", DOES NOT ENCLOSE");
   }
 
-  const Options& options_;
+  const TightOptions& options_;
   Table table_{{"mesh", "faces", "most_faces", "void_percent", "least", "greatest", "seconds", "encloses"}};
   bool all_enclose_ = true;
 };
 
-int run_tight(const Options& options) {
+int run_tight(const TightOptions& options) {
   Bench bench(options);
   const auto refused = measure_each(options.models, [&](const ModelSource& source) { bench.measure(source); });
   return bench.publish_all(refused);
@@ -83,7 +83,7 @@ int run_tight(const Options& options) {
 }  // namespace
 
 void add_tight(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TightOptions>();
   CLI::App& command = *app.add_subcommand("tight", "Void of tight hulls, median of several seeds");
   add_model_options(command, options->models);
   add_faces_option(command, options->hull_faces);

@@ -126,6 +126,13 @@ Command command_of(const CLI::App& app) {
   return result;
 }
 
+std::vector<std::string> option_names(const Command& command) {
+  std::vector<std::string> names;
+  for (const Argument& argument : command.arguments)
+    names.insert(names.end(), argument.names.begin(), argument.names.end());
+  return names;
+}
+
 std::vector<Command> commands_of(const CLI::App& app) {
   std::vector<Command> result;
   for (const CLI::App* child : children(app, true)) result.push_back(command_of(*child));

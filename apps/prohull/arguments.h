@@ -28,6 +28,9 @@ struct Command {
   std::vector<std::string> footer;  ///< lines
 };
 
+/// Of all its arguments that are not positional.
+std::vector<std::string> option_names(const Command& command);
+
 /// The description, and behind it what else there is to say: "Required." "The default is 4." "Not with --tight."
 std::string explained(const Argument& argument);
 

@@ -31,7 +31,6 @@ std::filesystem::path path_for(const std::filesystem::path& pattern, std::size_t
 
 /// What the names of the outputs end in; refuses options that contradict each other.
 std::string check_options(const BuildOptions& options) {
-  const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
   const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
   if (!options.hierarchy.empty())
     output_suffix(options.hierarchy, {"hierarchies", {".phull"}}, is_standard_stream(options.hierarchy) ? "phull" : "");

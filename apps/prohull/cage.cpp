@@ -13,7 +13,7 @@
 namespace prohull::cli {
 namespace {
 
-struct Options {
+struct CageRunOptions {
   std::filesystem::path in, out, inner, report;
   InputOptions input;
   std::string out_format;
@@ -33,7 +33,7 @@ struct File {
   bool is_as_asked() const { return certified && hull->is_disjoint && hull->keeps_gap && hull->hull().target_reached; }
 };
 
-Cage cage_of(TriangleMesh mesh, const Options& options) {
+Cage cage_of(TriangleMesh mesh, const CageRunOptions& options) {
   ProgressLine line;
   CageOptions cage = options.cage;
   cage.progress = std::ref(line);
@@ -55,7 +55,7 @@ void write(File& file, Outputs& outputs) {
 
 // Summary and report
 
-void print_input(const Options& options, const Cage& cage) {
+void print_input(const CageRunOptions& options, const Cage& cage) {
   const RepairedMesh& input = cage.outer.made.input;
   say("{}: {}, {}\n", input_name(options.in), counted(input.found.faces, "face", "faces"),
       counted(input.found.components, "component", "components"));
@@ -105,7 +105,7 @@ nlohmann::json facts_of(const File& file) {
           {"notes", hull.notes}};
 }
 
-nlohmann::json report_of(const Options& options, const Cage& cage, const std::vector<File>& files) {
+nlohmann::json report_of(const CageRunOptions& options, const Cage& cage, const std::vector<File>& files) {
   nlohmann::json in = facts(cage.outer.made.input.found);
   in["path"] = options.in.string();
   in["repairs"] = describe(cage.outer.made.input.repairs);
@@ -124,11 +124,11 @@ nlohmann::json report_of(const Options& options, const Cage& cage, const std::ve
   return report;
 }
 
-std::string inner_suffix(const Options& options) {
+std::string inner_suffix(const CageRunOptions& options) {
   return options.inner.empty() ? "" : output_suffix(options.inner, mesh_outputs());
 }
 
-int run_cage(Options options) {
+int run_cage(CageRunOptions options) {
   const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
   const std::string suffix_of_inner = inner_suffix(options);
   check_files({options.in}, {options.out, options.inner, options.report});
@@ -167,7 +167,7 @@ int run_cage(Options options) {
 }  // namespace
 
 void add_cage(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CageRunOptions>();
   CageOptions& cage = options->cage;
   CLI::App& command = *app.add_subcommand(
       "cage",

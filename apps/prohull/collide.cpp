@@ -9,7 +9,7 @@
 namespace prohull::cli {
 namespace {
 
-struct Options {
+struct CollideOptions {
   std::filesystem::path a, b, poses, out, report;
   std::string pose, out_format;
   InputOptions input;
@@ -22,7 +22,7 @@ const OutputKind& pair_outputs() {
   return kind;
 }
 
-std::vector<Pose> poses_of(const Options& options) {
+std::vector<Pose> poses_of(const CollideOptions& options) {
   if (!options.poses.empty())
     return read_poses(read_bytes(options.poses), std::filesystem::path(input_name(options.poses)));
   if (options.pose.empty()) return {Pose{}};
@@ -46,11 +46,12 @@ TriangleMesh outer_hull(const ProgressiveHull& levels, const std::filesystem::pa
   return levels.base();
 }
 
-CollisionIndex index_of(const ProgressiveHull& levels, const Options& options, const std::filesystem::path& path) {
+CollisionIndex index_of(const ProgressiveHull& levels, const CollideOptions& options,
+                        const std::filesystem::path& path) {
   return CollisionIndex(options.conservative ? outer_hull(levels, path) : levels.original());
 }
 
-Body read_body(const Options& options, const std::filesystem::path& path) {
+Body read_body(const CollideOptions& options, const std::filesystem::path& path) {
   const MeshOrHull read = read_mesh_or_hull(path, options.input);
   stop_if_interrupted();
   try {
@@ -68,7 +69,7 @@ struct Answers {
   std::vector<Separation> separations;
 };
 
-Answers answer(const Options& options, const Body& a, const Body& b, const std::vector<Pose>& poses) {
+Answers answer(const CollideOptions& options, const Body& a, const Body& b, const std::vector<Pose>& poses) {
   std::vector<PosePair> pairs;
   for (const Pose& pose : poses) pairs.push_back({{}, pose});
   ProgressLine line;
@@ -86,7 +87,7 @@ std::string bounds(const Separation& s) {
   return fmt::format("{:.9g} apart, proven between {:.17g} and {:.17g}", s.upper, s.lower, s.upper);
 }
 
-std::string verdict_of_one(const Options& options, const Answers& answers) {
+std::string verdict_of_one(const CollideOptions& options, const Answers& answers) {
   const std::string both = fmt::format("{} and {}", input_name(options.a), input_name(options.b));
   if (options.conservative)
     return answers.collide[0] ? fmt::format("MAY COLLIDE: the hulls of {} meet", both)
@@ -97,7 +98,7 @@ std::string verdict_of_one(const Options& options, const Answers& answers) {
                     : fmt::format("COLLIDING: {} meet in {}", both, counted(count, "pair of faces", "pairs of faces"));
 }
 
-void print_summary(const Options& options, const Answers& answers) {
+void print_summary(const CollideOptions& options, const Answers& answers) {
   const std::size_t poses = answers.collide.size();
   const auto colliding = static_cast<std::size_t>(std::ranges::count(answers.collide, true));
   if (poses == 1) {
@@ -132,7 +133,8 @@ nlohmann::json facts(const Body& body, const std::filesystem::path& path) {
           {"finest_level", name_of(finest_level_names(), body.finest_level)}};
 }
 
-nlohmann::json report_of(const Options& options, const Body& a, const Body& b, const Answers& answers, double seconds) {
+nlohmann::json report_of(const CollideOptions& options, const Body& a, const Body& b, const Answers& answers,
+                         double seconds) {
   nlohmann::json json = {{"a", facts(a, options.a)},
                          {"b", facts(b, options.b)},
                          {"conservative", options.conservative},
@@ -153,7 +155,7 @@ nlohmann::json report_of(const Options& options, const Body& a, const Body& b, c
   return json;
 }
 
-int run_collide(const Options& options) {
+int run_collide(const CollideOptions& options) {
   const std::string suffix = options.out.empty() ? "" : output_suffix(options.out, pair_outputs(), options.out_format);
   check_files({options.a, options.b, options.poses}, {options.out, options.report});
   const Stopwatch reading;
@@ -177,7 +179,7 @@ int run_collide(const Options& options) {
 }  // namespace
 
 void add_collide(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CollideOptions>();
   CLI::App& command = *app.add_subcommand(
       "collide",
       "Decides exactly whether two meshes have a point in common, and exits with code 1 if they do. Touching counts, "

@@ -16,13 +16,6 @@ std::string joined(const std::vector<std::string>& parts, std::string_view separ
   return fmt::format("{}", fmt::join(parts, separator));
 }
 
-std::vector<std::string> option_names(const Command& command) {
-  std::vector<std::string> names;
-  for (const Argument& argument : command.arguments)
-    names.insert(names.end(), argument.names.begin(), argument.names.end());
-  return names;
-}
-
 /// With a backslash before each of `special`.
 std::string escaped(const std::string& text, std::string_view special) {
   std::string result;

@@ -21,15 +21,13 @@ namespace {
 
 using std::filesystem::path;
 
-struct Options {
+struct ConvexOptions {
   path in, out, report;
   ConvexCoverOptions cover;
   InputOptions input;
   std::string out_format;
   double max_void_percent = 0;  ///< 0: any
 };
-
-[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
 
 OutputKind piece_outputs() {
   OutputKind kind{"convex pieces", written_mesh_extensions()};
@@ -45,7 +43,7 @@ OutputKind whole_outputs() {
   return kind;
 }
 
-std::string suffix_of(const Options& options) {
+std::string suffix_of(const ConvexOptions& options) {
   return output_suffix(options.out, is_standard_stream(options.out) ? whole_outputs() : piece_outputs(),
                        options.out_format);
 }
@@ -54,7 +52,7 @@ std::string suffix_of(const Options& options) {
 class PieceFiles {
  public:
   /// Throws InputError for names and options that contradict each other.
-  explicit PieceFiles(const Options& options) : out_(options.out), suffix_(suffix_of(options)) {
+  explicit PieceFiles(const ConvexOptions& options) : out_(options.out), suffix_(suffix_of(options)) {
     const std::size_t most = options.cover.max_pieces;
     stem_ = is_standard_stream(out_) ? "piece" : out_.stem().string();
     names_ = most == 1 ? std::vector{stem_} : robot::piece_names(stem_, most);
@@ -104,7 +102,7 @@ class PieceFiles {
   static bool is_mesh(const ConvexPiece& piece) { return std::holds_alternative<std::monostate>(piece.primitive); }
 
  private:
-  void check(const Options& options) const {
+  void check(const ConvexOptions& options) const {
     if (is_standard_stream(out_) && !is_one())
       refuse("standard output (-) takes one file only; write .obj or .glb, or name the file");
     if (!is_robot() && (options.cover.shape == PieceShape::Capsule || options.cover.shape == PieceShape::Ball))
@@ -167,7 +165,7 @@ struct Outcome {
   int exit_code() const { return certified && cover.within_bounds ? kDone : kAnswerIsNo; }
 };
 
-ConvexCover cover_of(TriangleMesh mesh, const Options& options) {
+ConvexCover cover_of(TriangleMesh mesh, const ConvexOptions& options) {
   ProgressLine line;
   ConvexCoverOptions cover = options.cover;
   cover.progress = std::ref(line);
@@ -215,7 +213,7 @@ std::string described_size(const ConvexCover& cover) {
                      cover.void_ratio < 0 ? "less" : "more");
 }
 
-void print_summary(const Options& options, const PieceFiles& files, const Outcome& outcome) {
+void print_summary(const ConvexOptions& options, const PieceFiles& files, const Outcome& outcome) {
   const ConvexCover& cover = outcome.cover;
   say("{}: {}, {}\n", input_name(options.in), counted(outcome.input.faces, "face", "faces"),
       counted(outcome.input.components, "component", "components"));
@@ -249,7 +247,7 @@ nlohmann::json facts_of(const ConvexPiece& piece, const std::string& name) {
           {"volume", signed_volume(piece.mesh)}};
 }
 
-nlohmann::json options_report(const Options& options) {
+nlohmann::json options_report(const ConvexOptions& options) {
   const ConvexCoverOptions& cover = options.cover;
   return {
       {"pieces", cover.max_pieces},
@@ -261,7 +259,7 @@ nlohmann::json options_report(const Options& options) {
       {"float32_coordinates", cover.float32_coordinates}};
 }
 
-nlohmann::json report_of(const Options& options, const PieceFiles& files, const Outcome& outcome) {
+nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, const Outcome& outcome) {
   const ConvexCover& cover = outcome.cover;
   nlohmann::json in = facts(outcome.input), pieces = nlohmann::json::array(), paths = pieces;
   in["path"] = options.in.string();
@@ -293,7 +291,7 @@ nlohmann::json report_of(const Options& options, const PieceFiles& files, const 
           {"options", options_report(options)}};
 }
 
-int run_convex(Options options) {
+int run_convex(ConvexOptions options) {
   const PieceFiles files(options);
   options.cover.float32_coordinates = files.has_float32();
   if (options.max_void_percent > 0) options.cover.bounds.max_void_ratio = options.max_void_percent / 100;
@@ -319,7 +317,7 @@ int run_convex(Options options) {
 }  // namespace
 
 void add_convex(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ConvexOptions>();
   ConvexCoverOptions& cover = options->cover;
   CLI::App& command = *app.add_subcommand(
       "convex",

@@ -126,13 +126,6 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string, CLI::AppF
 
 namespace {
 
-std::vector<std::string> option_names(const Command& command) {
-  std::vector<std::string> names;
-  for (const Argument& argument : command.arguments)
-    names.insert(names.end(), argument.names.begin(), argument.names.end());
-  return names;
-}
-
 std::vector<std::string> names_of(const std::vector<Command>& commands) {
   std::vector<std::string> names;
   for (const Command& command : commands) names.push_back(command.name);

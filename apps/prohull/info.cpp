@@ -11,7 +11,7 @@
 namespace prohull::cli {
 namespace {
 
-struct Options {
+struct InfoOptions {
   std::filesystem::path in, report;
   InputOptions input;
 };
@@ -141,7 +141,7 @@ nlohmann::json describe_hull(const ProgressiveHull& hull) {
           {"splits", hull.splits().size()}};
 }
 
-int run_info(const Options& options) {
+int run_info(const InfoOptions& options) {
   check_files({options.in}, {options.report});
   const Stopwatch reading;
   const MeshOrHull content = read_mesh_or_hull(options.in, options.input, NonFinite::Keep);
@@ -161,7 +161,7 @@ int run_info(const Options& options) {
 }  // namespace
 
 void add_info(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoOptions>();
   CLI::App& command = *app.add_subcommand(
       "info",
       "Tells what a mesh or .phull file holds, how good its triangles are, and what `prohull build` would do with it. "

@@ -7,14 +7,14 @@
 namespace prohull::cli {
 namespace {
 
-struct Options {
+struct LodOptions {
   std::filesystem::path in, out, report;
   std::string out_format;
   std::size_t faces = 0;
   std::optional<Axis> mirror;
 };
 
-int extract(const Options& options) {
+int extract(const LodOptions& options) {
   const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
   check_files({options.in}, {options.out, options.report});
   const Stopwatch reading;
@@ -47,7 +47,7 @@ int extract(const Options& options) {
 }  // namespace
 
 void add_lod(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LodOptions>();
   CLI::App& command = *app.add_subcommand(
       "lod",
       "Extracts a level of a .phull file as a mesh. Every level encloses the next finer one (of an inner hull: is "

@@ -34,8 +34,6 @@ std::vector<path> g_temporaries, g_folders;
 
 [[noreturn]] void fail_to_write(const path& target) { fail_to_write(target, std::generic_category().message(errno)); }
 
-[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
-
 bool is_stream(const path& target) {
   std::error_code error;
   const auto status = std::filesystem::status(target, error);
@@ -259,6 +257,8 @@ CLI::Option* add_out_format_option(CLI::App& command, std::string& format, const
       ->transform(one_of("--out-format", formats))
       ->type_name(CLI::detail::join(formats, "|"));
 }
+
+void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
 
 std::string output_name(const path& file) { return is_standard_stream(file) ? "standard output" : file.string(); }
 

@@ -69,6 +69,9 @@ void add_mesh_output_options(CLI::App& command, std::filesystem::path& out, std:
                              const std::string& what);
 CLI::Option* add_out_format_option(CLI::App& command, std::string& format, const OutputKind& kind);
 
+/// Throws InputError(InvalidOption).
+[[noreturn]] void refuse(const std::string& what);
+
 /// As messages name it: "-" is "standard output".
 std::string output_name(const std::filesystem::path& path);
 

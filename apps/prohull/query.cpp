@@ -16,7 +16,7 @@ namespace {
 /// An engine of the library, or trees of k-DOPs, the paper's peer, by their name.
 using EngineChoice = std::variant<Engine, std::string_view>;
 
-struct Options {
+struct QueryOptions {
   std::filesystem::path in, inner, segments, rays, triangles, out, report;
   std::string out_format;
   InputOptions input;
@@ -75,7 +75,7 @@ struct Suffixes {
   std::string out, segments;
 };
 
-Suffixes check_outputs(const Options& options) {
+Suffixes check_outputs(const QueryOptions& options) {
   Suffixes suffixes;
   if (!options.out.empty()) suffixes.out = output_suffix(options.out, hit_outputs(), options.out_format);
   suffixes.segments = options.random.suffix("segments");
@@ -84,7 +84,7 @@ Suffixes check_outputs(const Options& options) {
   return suffixes;
 }
 
-Queries make_queries(const Options& options, const AskedMesh& asked) {
+Queries make_queries(const QueryOptions& options, const AskedMesh& asked) {
   const auto name = [](const std::filesystem::path& path) { return std::filesystem::path(input_name(path)); };
   if (!options.segments.empty()) return read_segments(read_bytes(options.segments), name(options.segments));
   if (!options.rays.empty()) return read_rays(read_bytes(options.rays), name(options.rays));
@@ -103,7 +103,7 @@ std::pair<const ProgressiveHull&, Engine> hull_for(std::string_view option, cons
 }
 
 /// Sets `conservative` to the side of the hull that is asked in place of the mesh.
-QueryIndex make_index(AskedMesh& asked, const Options& options, std::optional<HullSide>& conservative) {
+QueryIndex make_index(AskedMesh& asked, const QueryOptions& options, std::optional<HullSide>& conservative) {
   if (!options.inner.empty()) {
     const ProgressiveHull inner = read_hull(options.inner);
     return asked.index([&](const MeshOrHull& mesh_or_hull) {
@@ -153,7 +153,7 @@ std::size_t count_answered(const std::vector<std::size_t>& offsets) {
   return answered;
 }
 
-void print_summary(const Options& options, const Outcome& outcome) {
+void print_summary(const QueryOptions& options, const Outcome& outcome) {
   const bool faces = outcome.noun == "triangle";
   const std::string out = options.out.empty() ? "" : output_name(options.out) + ": ";
   const bool one = outcome.answers == 1;
@@ -169,7 +169,7 @@ void print_summary(const Options& options, const Outcome& outcome) {
   outcome.seconds.say_them();
 }
 
-nlohmann::json report_of(const Options& options, const Outcome& outcome) {
+nlohmann::json report_of(const QueryOptions& options, const Outcome& outcome) {
   nlohmann::json json = {{"queries", outcome.queries},
                          {"kind", std::string(outcome.noun) + "s"},
                          {outcome.noun == "triangle" ? "faces_met" : "hits", outcome.answers},
@@ -185,8 +185,8 @@ nlohmann::json report_of(const Options& options, const Outcome& outcome) {
 }
 
 template <class Query>
-Outcome answer(const Options& options, const QueryIndex& index, const std::vector<Query>& queries, QuerySeconds seconds,
-               const std::string& suffix, Outputs& outputs) {
+Outcome answer(const QueryOptions& options, const QueryIndex& index, const std::vector<Query>& queries,
+               QuerySeconds seconds, const std::string& suffix, Outputs& outputs) {
   Stopwatch asking;
   const auto batch = [&] {
     ProgressLine line;
@@ -200,7 +200,7 @@ Outcome answer(const Options& options, const QueryIndex& index, const std::vecto
           index.engine_name(), seconds};
 }
 
-int run_query(const Options& options) {
+int run_query(const QueryOptions& options) {
   const Suffixes suffixes = check_outputs(options);
   QuerySeconds seconds;
   Stopwatch reading;
@@ -233,7 +233,7 @@ int run_query(const Options& options) {
   return kDone;
 }
 
-void add_queries(CLI::App& command, Options& options) {
+void add_queries(CLI::App& command, QueryOptions& options) {
   CLI::App& queries = *command.add_option_group(
       "Queries", "One of these is required. Files are .npy, .npz or .csv, and - is standard input");
   queries.add_option("--segments", options.segments, "File of segments, one a row: x0,y0,z0,x1,y1,z1.")
@@ -256,7 +256,7 @@ void add_queries(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_query(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<QueryOptions>();
   CLI::App& command = *app.add_subcommand(
       "query",
       "Finds where segments, rays or triangles meet a mesh, exactly. The mesh need not be closed, and nothing slips "

@@ -25,7 +25,7 @@ using render::MeshTable;
 using render::PanelPlan;
 using render::Rgb;
 
-struct Options {
+struct RenderOptions {
   std::vector<std::filesystem::path> in;
   std::filesystem::path out, report;
   std::vector<std::string> over, split, colors, faces, centers, explosions;
@@ -45,8 +45,6 @@ struct Options {
 constexpr std::string_view kOriginal = "original", kNone = "none", kTransparent = "transparent";
 
 double radians(double degrees) { return degrees * kDegree; }
-
-[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
 
 /// Whether all of the text is a number.
 template <class Number>
@@ -137,7 +135,7 @@ TriangleMesh robot_mesh(const robot::Robot& robot, robot::Geometry which, const 
 /// A panel for each mesh, for each robot, and for each level that is asked for of each .phull file.
 class Planner {
  public:
-  Planner(const Options& options, MeshTable& table) : options_(options), table_(table) {
+  Planner(const RenderOptions& options, MeshTable& table) : options_(options), table_(table) {
     std::vector<std::pair<std::filesystem::path, std::size_t>> shown;
     for (const auto& path : options.in)
       for (const std::size_t level : levels(path)) shown.emplace_back(path, level);
@@ -279,12 +277,12 @@ class Planner {
     return table_.add(*name == kOriginal ? of : std::filesystem::path(*name), MeshTable::kFinest);
   }
 
-  const Options& options_;
+  const RenderOptions& options_;
   MeshTable& table_;
   std::vector<PanelPlan> plans_;
 };
 
-render::Look look_of(const Options& options) {
+render::Look look_of(const RenderOptions& options) {
   render::Look look = options.look;
   if (options.crease_degrees) look.crease_angle = radians(*options.crease_degrees);
   look.view.azimuth = radians(options.azimuth_degrees);
@@ -293,7 +291,7 @@ render::Look look_of(const Options& options) {
   return look;
 }
 
-void require_sound(const Options& options) {
+void require_sound(const RenderOptions& options) {
   output_suffix(options.out, {"pictures", {".png"}}, is_standard_stream(options.out) ? "png" : "");
   std::vector<std::filesystem::path> inputs = options.in;
   for (const auto& names : {options.over, options.split})
@@ -325,7 +323,7 @@ nlohmann::json facts_of(const std::vector<PanelPlan>& plans, const MeshTable& ta
   return panels;
 }
 
-render::Image drawn(const std::vector<render::Panel>& panels, const Size& size, const Options& options) {
+render::Image drawn(const std::vector<render::Panel>& panels, const Size& size, const RenderOptions& options) {
   ProgressLine line;
   render::DrawOptions draw_options{
       .samples = options.samples, .background = {}, .threads = static_cast<int>(options.threads)};
@@ -334,7 +332,7 @@ render::Image drawn(const std::vector<render::Panel>& panels, const Size& size, 
   return render::draw(size.width, size.height, panels, draw_options);
 }
 
-int run_render(const Options& options) {
+int run_render(const RenderOptions& options) {
   const Stopwatch watch;
   require_sound(options);
   const Size size = size_of(options.size);
@@ -370,7 +368,7 @@ int run_render(const Options& options) {
 /// What is said of options that are given once, for all panels, or once for each.
 constexpr const char* kForPanels = " Given once, for all panels, or once for each.";
 
-void add_content_options(CLI::App& command, Options& options) {
+void add_content_options(CLI::App& command, RenderOptions& options) {
   constexpr const char* kContent = "What is drawn";
   command
       .add_option("--faces", options.faces,
@@ -418,7 +416,7 @@ void add_content_options(CLI::App& command, Options& options) {
       ->group(kContent);
 }
 
-void add_look_options(CLI::App& command, Options& options) {
+void add_look_options(CLI::App& command, RenderOptions& options) {
   constexpr const char* kLook = "Look";
   command.add_flag("--wireframe", options.wireframe, "Draw the edges of IN.")->group(kLook);
   add_number(command, "--line-width", options.line_widths, {0, 100},
@@ -454,7 +452,7 @@ void add_look_options(CLI::App& command, Options& options) {
       ->group(kLook);
 }
 
-void add_view_options(CLI::App& command, Options& options) {
+void add_view_options(CLI::App& command, RenderOptions& options) {
   constexpr const char* kView = "View";
   static constexpr std::array<std::pair<std::string_view, int>, 3> kAxes{{{"x", 0}, {"y", 1}, {"z", 2}}};
   add_choice(command, "--up", options.look.view.up, kAxes, "Axis that points up.")->group(kView);
@@ -492,7 +490,7 @@ void add_view_options(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_render(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RenderOptions>();
   CLI::App& command = *app.add_subcommand(
       "render", "Draws meshes, hulls and robots as a PNG picture. Each of them has a panel of its own, side by side.");
   command

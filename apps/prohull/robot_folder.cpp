@@ -16,8 +16,6 @@ using std::filesystem::path;
 
 constexpr const char* kReport = "report.json";
 
-[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
-
 std::string fingerprint_of(const path& file) {
   robot::Fingerprint fingerprint;
   fingerprint.add_file(file);

@@ -13,7 +13,7 @@
 namespace prohull::cli {
 namespace {
 
-struct Options {
+struct SampleOptions {
   std::string name, out_format;
   std::filesystem::path out;
   std::size_t faces = 20000;
@@ -31,7 +31,7 @@ void round_to_float32(TriangleMesh& mesh) {
     for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(static_cast<float>(p[axis]));
 }
 
-int make_mesh(const Options& options) {
+int make_mesh(const SampleOptions& options) {
   const Stopwatch watch;
   const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
   check_files({}, {options.out});
@@ -46,7 +46,7 @@ int make_mesh(const Options& options) {
 }
 
 /// Before any work. Throws InputError.
-void check_robot_options(const Options& options) {
+void check_robot_options(const SampleOptions& options) {
   if (options.has_faces)
     throw InputError(Defect::InvalidOption,
                      fmt::format("--faces is for meshes; the robot {} has meshes of its own sizes; "
@@ -88,7 +88,7 @@ void write_robot(const std::filesystem::path& folder, const std::string& name, c
   }
 }
 
-int make_robot(const Options& options) {
+int make_robot(const SampleOptions& options) {
   const Stopwatch watch;
   check_robot_options(options);
   const std::filesystem::path folder = options.out.has_filename() ? options.out : options.out.parent_path();
@@ -105,12 +105,12 @@ int make_robot(const Options& options) {
   return kDone;
 }
 
-int make(const Options& options) { return is_robot(options.name) ? make_robot(options) : make_mesh(options); }
+int make(const SampleOptions& options) { return is_robot(options.name) ? make_robot(options) : make_mesh(options); }
 
 }  // namespace
 
 void add_sample(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SampleOptions>();
   CLI::App& command =
       *app.add_subcommand("sample", "Makes one of the bundled meshes or robots, to try other commands with.");
   std::string meshes, robots;

@@ -12,7 +12,7 @@
 namespace prohull::cli {
 namespace {
 
-struct Options {
+struct SpheresOptions {
   std::filesystem::path in, out, report;
   std::string out_format, link;
   InputOptions input;
@@ -33,7 +33,7 @@ struct Outcome {
 OutputKind sphere_outputs() { return {"spheres", {".yaml", ".yml", ".urdf", ".xml", ".json"}}; }
 
 /// "arm" of "arm.stl" and of "arm.stl.gz"
-std::string link_name(const Options& options) {
+std::string link_name(const SpheresOptions& options) {
   if (!options.link.empty()) return options.link;
   if (is_standard_stream(options.in)) return "link";
   const std::string packed = options.in.extension().string();
@@ -57,7 +57,7 @@ std::string yaml_of(const std::string& link, const std::vector<Ball>& balls, con
   return text;
 }
 
-std::string text_of(const Options& options, const std::string& suffix, const std::vector<Ball>& balls) {
+std::string text_of(const SpheresOptions& options, const std::string& suffix, const std::vector<Ball>& balls) {
   const std::string link = link_name(options);
   if (suffix == ".yaml" || suffix == ".yml") return yaml_of(link, balls, options.out);
   if (suffix == ".json") return robot::sphere_json({link, balls});
@@ -67,14 +67,14 @@ std::string text_of(const Options& options, const std::string& suffix, const std
 }
 
 /// Before any work: throws InputError for a name that the format cannot hold.
-std::string check_options(const Options& options) {
+std::string check_options(const SpheresOptions& options) {
   const std::string suffix = output_suffix(options.out, sphere_outputs(), options.out_format);
   check_files({options.in}, {options.out, options.report});
   text_of(options, suffix, {});
   return suffix;
 }
 
-SphereCover cover_of(TriangleMesh mesh, const Options& options) {
+SphereCover cover_of(TriangleMesh mesh, const SpheresOptions& options) {
   ProgressLine line;
   SphereCoverOptions how = options.cover;
   how.progress = std::ref(line);
@@ -85,7 +85,7 @@ SphereCover cover_of(TriangleMesh mesh, const Options& options) {
   }
 }
 
-nlohmann::json report_of(const Options& options, const Outcome& outcome) {
+nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
   const Vec3& far = cover.reach.farthest;
   return {{"input", {{"path", options.in.string()}, {"faces", outcome.faces}, {"diagonal", outcome.diagonal}}},
@@ -103,7 +103,7 @@ nlohmann::json report_of(const Options& options, const Outcome& outcome) {
           {"seconds", {{"read", outcome.read_seconds}, {"cover", cover.seconds}, {"verify", cover.verify_seconds}}}};
 }
 
-void print_summary(const Options& options, const Outcome& outcome) {
+void print_summary(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
   say("{}: {} around {}, which reach out by at most {:.4g}, {:.2f} % of the diagonal\n", output_name(options.out),
       counted(cover.balls.size(), "sphere", "spheres"), counted(outcome.faces, "face", "faces"), cover.reach.upper,
@@ -121,7 +121,7 @@ void print_summary(const Options& options, const Outcome& outcome) {
       cover.verify_seconds);
 }
 
-int run_spheres(const Options& options) {
+int run_spheres(const SpheresOptions& options) {
   const std::string suffix = check_options(options);
   Outcome outcome;
   const Stopwatch reading;
@@ -140,7 +140,7 @@ int run_spheres(const Options& options) {
 }  // namespace
 
 void add_spheres(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SpheresOptions>();
   CLI::App& command = *app.add_subcommand(
       "spheres",
       "Covers a mesh by spheres, for planners that take nothing else. Every triangle is covered, which is proven "

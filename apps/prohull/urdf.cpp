@@ -23,7 +23,7 @@ namespace {
 using namespace prohull::robot;
 using std::filesystem::path;
 
-struct Options {
+struct UrdfOptions {
   path in, out, budgets, write_budgets, cache, report, junit, html;
   FileOptions file;
   LinkHullOptions hulls;
@@ -40,15 +40,13 @@ Names<Geometry> geometry_names() {
   return kNames;
 }
 
-[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
-
 path default_cache() {
   if (const char* const folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) return path(folder) / "prohull";
   if (const char* const home = std::getenv("HOME"); home && *home) return path(home) / ".cache" / "prohull";
   return {};
 }
 
-void complete(Options& options) {
+void complete(UrdfOptions& options) {
   Budget& budget = options.hulls.budget;
   budget.max_distance = length_of(options.max_distance, "--max-distance");
   budget.padding = length_of(options.padding, "--padding");
@@ -57,7 +55,7 @@ void complete(Options& options) {
 }
 
 /// Tells how the shipped collision geometry lies to the visual one.
-int run_check(const Options& options, const RobotFile& file) {
+int run_check(const UrdfOptions& options, const RobotFile& file) {
   const Stopwatch watch;
   const double allow = length_of(options.allow, "--allow");
   check_files({options.in}, {options.report, options.junit, options.html});
@@ -80,7 +78,7 @@ int run_check(const Options& options, const RobotFile& file) {
   return all ? kDone : kAnswerIsNo;
 }
 
-int run_write_budgets(const Options& options, const RobotFile& file) {
+int run_write_budgets(const UrdfOptions& options, const RobotFile& file) {
   check_files({options.in, options.budgets}, {options.write_budgets});
   Outputs outputs;
   outputs.add(options.write_budgets, budgets_text(file.robot, options.hulls));
@@ -91,7 +89,7 @@ int run_write_budgets(const Options& options, const RobotFile& file) {
 }
 
 /// Equal for two runs that make the same files.
-std::string run_key(const Options& options, const RobotFile& file) {
+std::string run_key(const UrdfOptions& options, const RobotFile& file) {
   Fingerprint key;
   key.add(file.text);
   key.add(std::filesystem::absolute(options.in).string());  // relative paths of the robot depend on both
@@ -115,7 +113,7 @@ std::string run_key(const Options& options, const RobotFile& file) {
 }
 
 /// All that a run finds out, before anything is written.
-ReportInput make(const Options& options, const RobotFile& file, const Stopwatch& watch) {
+ReportInput make(const UrdfOptions& options, const RobotFile& file, const Stopwatch& watch) {
   ReportInput made{
       .file = file, .hulls = {}, .shipped = {}, .motion = {}, .version = PROHULL_VERSION, .from = options.hulls.from};
   ProgressLine line;
@@ -141,7 +139,7 @@ view::ShownRobot shipped(const ReportInput& facts) {
 }
 
 /// The robot within its hulls, and what it ships with, if it has any collision geometry.
-std::string view_page(const Options& options, const ReportInput& facts, const Progress& progress) {
+std::string view_page(const UrdfOptions& options, const ReportInput& facts, const Progress& progress) {
   const Robot& robot = facts.file.robot;
   const auto has_collision = [](const LinkCheck& check) { return check.collision.face_count() > 0; };
   std::vector<view::Shown> shown{
@@ -151,7 +149,7 @@ std::string view_page(const Options& options, const ReportInput& facts, const Pr
                     {.unit = "m", .version = PROHULL_VERSION, .threads = options.threads, .progress = progress});
 }
 
-void write(const Options& options, const WriteOptions& how, const ReportInput& facts, RobotFolder& folder) {
+void write(const UrdfOptions& options, const WriteOptions& how, const ReportInput& facts, RobotFolder& folder) {
   for (const OutputFile& output : output_files(facts.file, facts.hulls, folder.get(), how))
     folder.add(output.path, output.write);
   if (facts.motion) folder.add(robot_stem(facts.file) + ".srdf", srdf_of(facts.file.robot, *facts.motion));
@@ -169,7 +167,7 @@ bool is_as_asked(const LinkHulls& link) {
          std::ranges::all_of(link.hulls, &LinkHull::within_bounds);
 }
 
-int run_build(const Options& options, const RobotFile& file) {
+int run_build(const UrdfOptions& options, const RobotFile& file) {
   const Stopwatch watch;
   if (options.out.empty())
     refuse("say by -o which folder the robot goes to; or use --check, --dry-run or --write-budgets");
@@ -195,7 +193,7 @@ int run_build(const Options& options, const RobotFile& file) {
 }
 
 /// An option that no link heeds would be a surprise.
-void check_sizes(const Options& options, const Robot& robot) {
+void check_sizes(const UrdfOptions& options, const Robot& robot) {
   for (const auto& [option, kind] : options.sizes) {
     const Collision needed = kind;
     const auto heeds = [&](const Link& link) { return options.hulls.budget_of(link.name).collision == needed; };
@@ -205,7 +203,7 @@ void check_sizes(const Options& options, const Robot& robot) {
   }
 }
 
-int run_urdf(Options options) {
+int run_urdf(UrdfOptions options) {
   complete(options);
   const RobotFile file = read_robot(options.in, options.file);
   if (!options.budgets.empty())
@@ -219,7 +217,7 @@ int run_urdf(Options options) {
 }
 
 /// What each kind of collision geometry has a number of.
-void add_sizes(CLI::App& command, Options& options, const char* group) {
+void add_sizes(CLI::App& command, UrdfOptions& options, const char* group) {
   Budget& budget = options.hulls.budget;
   const auto is_for = [&](Collision kind, CLI::Option* option) {
     option->capture_default_str()->group(group);
@@ -239,7 +237,7 @@ void add_sizes(CLI::App& command, Options& options, const char* group) {
 }
 
 /// Returns --write-budgets.
-CLI::Option* add_budgets(CLI::App& command, Options& options) {
+CLI::Option* add_budgets(CLI::App& command, UrdfOptions& options) {
   constexpr const char* kBudgets = "Budgets";
   add_sizes(command, options, kBudgets);
   command
@@ -270,7 +268,7 @@ CLI::Option* add_budgets(CLI::App& command, Options& options) {
 }
 
 /// Returns --check.
-CLI::Option* add_check(CLI::App& command, Options& options) {
+CLI::Option* add_check(CLI::App& command, UrdfOptions& options) {
   constexpr const char* kCheck = "Check what the robot ships with";
   CLI::Option* const check =
       command
@@ -299,7 +297,7 @@ CLI::Option* add_check(CLI::App& command, Options& options) {
   return check;
 }
 
-void add_motion(CLI::App& command, Options& options) {
+void add_motion(CLI::App& command, UrdfOptions& options) {
   constexpr const char* kMotion = "Motion";
   add_number(command, "--configurations", options.motion.configurations, {0, 1e7},
              "Number of random positions of all joints in which pairs of links are compared: how often hulls collide "
@@ -314,7 +312,7 @@ void add_motion(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_urdf(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<UrdfOptions>();
   CLI::App& command = *app.add_subcommand(
       "urdf",
       "Gives every link of a robot certified collision geometry. Reads URDF, SDF and MJCF, and writes a copy of the "

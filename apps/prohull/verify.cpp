@@ -12,8 +12,6 @@
 namespace prohull::cli {
 namespace {
 
-using Options = VerifyOptions;
-
 void print_offenders(const Verification& found, const std::string& mesh) {
   if (found.faces_outside > 0)
     say("  {} faces of {} lie outside, at least in part; the farthest:\n", grouped(found.faces_outside), mesh);
@@ -29,7 +27,7 @@ void print_near_faces(const Verification& found, const std::string& hull) {
         near.distance, index(near.original_face));
 }
 
-Verification verify(const Options& options, const MeshOrHull& hull, TriangleMesh original, double gap) {
+Verification verify(const VerifyOptions& options, const MeshOrHull& hull, TriangleMesh original, double gap) {
   ProgressLine line;
   const VerificationOptions how{.solid_only = options.solid_only, .gap = gap, .progress = std::ref(line)};
   try {
@@ -71,7 +69,7 @@ std::string verdict(const Verification& found, const std::string& hull, const st
   return fmt::format("yes: {} {} {}{}", subject, verb, what, how);
 }
 
-void print_summary(const Options& options, const Verification& found, double gap, double seconds) {
+void print_summary(const VerifyOptions& options, const Verification& found, double gap, double seconds) {
   const std::string hull = input_name(options.hull), original = input_name(options.original);
   say("{}, {:.2f} s\n", verdict(found, hull, original, gap), seconds);
   print_offenders(found, found.side == HullSide::Outer ? original : hull);
@@ -96,7 +94,7 @@ nlohmann::json near_facts(const std::vector<NearFace>& nearest) {
   return all;
 }
 
-nlohmann::json report_of(const Options& options, const Verification& found, double gap, double seconds) {
+nlohmann::json report_of(const VerifyOptions& options, const Verification& found, double gap, double seconds) {
   nlohmann::json json = {{"hull", options.hull.string()},
                          {"original", options.original.string()},
                          {"original_closed", found.original_closed},
@@ -135,7 +133,7 @@ std::size_t face_count(const MeshOrHull& hull) {
   return levels ? levels->base_face_count() : std::get<TriangleMesh>(hull).face_count();
 }
 
-int run_verify(const Options& options) {
+int run_verify(const VerifyOptions& options) {
   if (!options.more.empty())
     throw InputError(Defect::InvalidOption,
                      "these are more than two files: with --union the last one is ORIGINAL, and all others are pieces");
@@ -178,7 +176,7 @@ nlohmann::json facts(const std::vector<Offender>& worst) {
 }
 
 void add_verify(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<VerifyOptions>();
   CLI::App& command = *app.add_subcommand("verify",
                                           "Decides exactly whether a hull encloses a mesh, and exits with code 1 if it "
                                           "does not. It shares no code with the "

@@ -16,7 +16,7 @@
 namespace prohull::cli {
 namespace {
 
-struct Options {
+struct ViewOptions {
   std::vector<std::filesystem::path> in;
   std::filesystem::path out, original;
   HullSide side = HullSide::Outer;
@@ -27,7 +27,7 @@ struct Options {
 };
 
 /// The page names files without their folders, but for the last one where several have the same name.
-std::string shown_name(const std::filesystem::path& path, const Options& options) {
+std::string shown_name(const std::filesystem::path& path, const ViewOptions& options) {
   if (is_standard_stream(path)) return input_name(path);
   const auto is_called_so = [&](const auto& other) { return other.filename() == path.filename(); };
   if (std::ranges::count_if(options.in, is_called_so) < 2) return path.filename().string();
@@ -44,14 +44,14 @@ std::optional<std::vector<robot::LinkPair>> disabled_beside(const robot::RobotFi
 
 bool goes_on(std::string_view, double) { return !interrupted(); }
 
-view::ShownRobot read_robot(const Options& options, const std::filesystem::path& path) {
+view::ShownRobot read_robot(const ViewOptions& options, const std::filesystem::path& path) {
   const robot::RobotFile file = robot::read_robot(path, options.robots);
   view::ShownRobot shown = view::as_shipped(file.robot, goes_on);
   shown.disabled = disabled_beside(file);
   return shown;
 }
 
-view::Shown read_shown(const Options& options, const std::filesystem::path& path) {
+view::Shown read_shown(const ViewOptions& options, const std::filesystem::path& path) {
   const std::string name = shown_name(path, options);
   if (options.is_union) {
     Union found = read_union({path}, options.input, "");
@@ -66,7 +66,7 @@ view::Shown read_shown(const Options& options, const std::filesystem::path& path
   return {name, std::get<TriangleMesh>(std::move(read))};
 }
 
-std::vector<view::Shown> read_all_shown(const Options& options) {
+std::vector<view::Shown> read_all_shown(const ViewOptions& options) {
   std::vector<view::Shown> shown;
   for (const auto& path : options.in) {
     shown.push_back(read_shown(options, path));
@@ -75,19 +75,19 @@ std::vector<view::Shown> read_all_shown(const Options& options) {
   return shown;
 }
 
-std::optional<view::Original> read_original(const Options& options) {
+std::optional<view::Original> read_original(const ViewOptions& options) {
   if (options.original.empty()) return std::nullopt;
   return view::Original{shown_name(options.original, options),
                         read_input(options.original, options.original_input, NonFinite::Keep)};
 }
 
 /// Robots are in metres, and so is what --unit converts.
-std::string unit_of(const Options& options) {
+std::string unit_of(const ViewOptions& options) {
   const bool is_metres = options.original_input.unit > 0 || std::ranges::any_of(options.in, is_robot_file);
   return is_metres ? "m" : "";
 }
 
-std::string written_page(const Options& options) {
+std::string written_page(const ViewOptions& options) {
   ProgressLine line;
   return view::page(read_all_shown(options), read_original(options),
                     {.side = options.side,
@@ -98,7 +98,7 @@ std::string written_page(const Options& options) {
                      .progress = std::ref(line)});
 }
 
-int run_view(const Options& options) {
+int run_view(const ViewOptions& options) {
   if (!view::has_page()) throw InputError(Defect::CannotRead, std::string(view::kNoPage));
   if (options.in.size() > view::kMostShown)
     throw InputError(Defect::InvalidOption, fmt::format("a page shows {} files at most", view::kMostShown));
@@ -120,7 +120,7 @@ int run_view(const Options& options) {
 }  // namespace
 
 void add_view(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ViewOptions>();
   CLI::App& command = *app.add_subcommand(
       "view",
       "Writes a page of HTML that shows hulls in any browser, in three dimensions. The page is one file. It needs no "
