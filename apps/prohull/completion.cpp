@@ -34,7 +34,7 @@ std::string quoted(const std::string& text) {
 }
 
 /// ".ply", ".obj" as "ply|obj"
-std::string alternatives(const std::vector<std::string>& extensions) {
+std::string any_of_extensions(const std::vector<std::string>& extensions) {
   std::string result;
   for (const std::string& extension : extensions) result += (result.empty() ? "" : "|") + extension.substr(1);
   return result;
@@ -60,7 +60,7 @@ Argument positional(const Command& command) {
 
 std::string bash_values(const Argument& argument) {
   if (!argument.words.empty()) return fmt::format("_prohull_words '{}'", joined(argument.words, " "));
-  if (!argument.extensions.empty()) return fmt::format("_prohull_files '{}'", alternatives(argument.extensions));
+  if (!argument.extensions.empty()) return fmt::format("_prohull_files '{}'", any_of_extensions(argument.extensions));
   return ":";
 }
 
@@ -114,7 +114,7 @@ std::string zsh_values(const Argument& argument) {
   const std::string label = escaped(argument.value, ":[]()|\\");
   if (!argument.words.empty()) return fmt::format(":value:({})", joined(argument.words, " "));
   if (!argument.extensions.empty())
-    return fmt::format(":{}:_files -g \"(#i)*.({})\"", label, alternatives(argument.extensions));
+    return fmt::format(":{}:_files -g \"(#i)*.({})\"", label, any_of_extensions(argument.extensions));
   return fmt::format(":{}: ", label);
 }
 
@@ -162,7 +162,7 @@ fi
 std::string fish_values(const Argument& argument) {
   if (!argument.words.empty()) return fmt::format(" -x -a {}", quoted(joined(argument.words, " ")));
   if (!argument.extensions.empty())
-    return fmt::format(" -x -a {}", quoted("(__prohull_files " + quoted(alternatives(argument.extensions)) + ")"));
+    return fmt::format(" -x -a {}", quoted("(__prohull_files " + quoted(any_of_extensions(argument.extensions)) + ")"));
   return " -x";
 }
 
