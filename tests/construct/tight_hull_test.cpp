@@ -20,7 +20,7 @@ namespace {
 
 using namespace meshes;
 
-/// What is told of hulls of few faces is true after few trials too.
+/// What is told of all hulls of few faces is true after few trials too.
 const std::size_t few_trials = trials_of_few_faces = effort(60, 12);
 
 class TightHulls : public testing::TestWithParam<const char*> {};
@@ -109,7 +109,8 @@ TEST(TightHull, OfFewFacesHasLessVoidThanWithoutSearch) {
     trials_of_few_faces = few_trials;
     return volume;
   };
-  EXPECT_LT(with_trials(few_trials), with_trials(0));
+  constexpr std::size_t kTrials = 60;
+  EXPECT_LT(with_trials(kTrials), with_trials(0));
 }
 
 TEST(TightHull, IsNotSymmetric) {
