@@ -1,4 +1,5 @@
 #include "prohull/enclosing_hull.h"
+#include "construct/tight/few_faces.h"
 
 #include <gtest/gtest.h>
 
@@ -21,6 +22,9 @@ namespace prohull {
 namespace {
 
 using namespace meshes;
+
+/// The search for hulls of few faces is as long as it always is, but with sanitizers.
+[[maybe_unused]] const std::size_t few_trials = trials_of_few_faces = effort(trials_of_few_faces, std::size_t{12});
 
 EnclosingHull only(const EnclosingHulls& made) {
   EXPECT_EQ(made.hulls.size(), 1u);
