@@ -1,5 +1,4 @@
 #include "prohull/enclosing_hull.h"
-#include "construct/tight/few_faces.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "construct/tight/few_faces.h"
 #include "effort.h"
 #include "geometry/float32.h"
 #include "meshes.h"
