@@ -6,8 +6,9 @@ from typing import Any, Optional
 from . import _prohull
 from ._covers import _covered
 from ._meshes import Mesh
+from ._shown import Shown
 from ._types import MeshLike, Progress
-from ._view import Part, View, mesh_parts, show_view
+from ._view import Part, mesh_parts
 
 
 class CageHull(Mesh):
@@ -33,7 +34,7 @@ class CageHull(Mesh):
 
 
 @dataclass(frozen=True)
-class Cage:
+class Cage(Shown):
     """A nested pair of hulls, or an outer one alone; cage() makes it."""
 
     outer: CageHull
@@ -41,15 +42,6 @@ class Cage:
     gap: float  #: what was asked for, in the mesh's unit
     notes: list[str]  #: what is worth a look
     original: Mesh = field(repr=False)  #: what the cage is of
-
-    def show(self, *, progress: Optional[Progress] = None) -> View:
-        """Shows the hulls of the cage in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
-
-        They are compared with the mesh. It is view(self) (docs/guides/view.md).
-
-        progress: called as build() calls it.
-        """
-        return show_view(self, progress)
 
     def _view_parts(self) -> list[Part]:
         inner = [] if self.inner is None else mesh_parts(self.inner, "inner hull", "inner")

@@ -14,9 +14,10 @@ from . import _arrays, _prohull
 from ._files import mesh_of, write_whole
 from ._meshes import Mesh
 from ._prohull import InputError
+from ._shown import Shown
 from ._types import MeshLike, Path, PieceShape, Progress, Rows
 from ._verify import Offender
-from ._view import Part, View, balls_part, pieces_part, show_view
+from ._view import Part, balls_part, pieces_part
 
 
 class Ball(NamedTuple):
@@ -58,8 +59,20 @@ class ConvexPiece(Mesh):
         return piece
 
 
+class _Cover(Shown):
+    def picture(self, width: int = 400, height: int = 300) -> bytes:
+        """Draws what covers the mesh, each piece or ball in a colour of its own. Returns the content of a .png file.
+
+        width, height: in pixels, each in [1, 16384].
+        """
+        return self._view_parts()[0].picture(width, height)
+
+    def _repr_png_(self) -> bytes:
+        return self.picture()
+
+
 @dataclass(frozen=True)
-class ConvexCover:
+class ConvexCover(_Cover):
     """Convex pieces whose union covers a mesh; convex_pieces() makes it."""
 
     pieces: list[ConvexPiece]
@@ -93,25 +106,6 @@ class ConvexCover:
                              "float32_coordinates=True, or save them as .obj")
         _prohull.write_pieces(path, [piece._core for piece in self.pieces])
 
-    def show(self, *, progress: Optional[Progress] = None) -> View:
-        """Shows the pieces in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
-
-        They are compared with the mesh. It is view(self) (docs/guides/view.md).
-
-        progress: called as build() calls it.
-        """
-        return show_view(self, progress)
-
-    def picture(self, width: int = 400, height: int = 300) -> bytes:
-        """Draws the pieces, each in a colour of its own. Returns the content of a .png file.
-
-        width, height: in pixels, each in [1, 16384].
-        """
-        return self._view_parts()[0].picture(width, height)
-
-    def _repr_png_(self) -> bytes:
-        return self.picture()
-
     def _view_parts(self) -> list[Part]:
         return [pieces_part([piece._core for piece in self.pieces])]
 
@@ -120,7 +114,7 @@ class ConvexCover:
 
 
 @dataclass(frozen=True)
-class SphereCover:
+class SphereCover(_Cover):
     """Balls whose union covers a mesh; spheres() makes it."""
 
     balls: NDArray[np.float64] = field(repr=False)  #: (n, 4): center and radius of each, in the mesh's unit
@@ -164,25 +158,6 @@ class SphereCover:
         if target.suffix.lower() not in (".yaml", ".yml"):
             raise InputError(f"{os.fspath(path)}: spheres are written to files that end in .yaml or .yml")
         write_whole(target, _prohull.sphere_file(target.stem if link is None else link, self.balls))
-
-    def show(self, *, progress: Optional[Progress] = None) -> View:
-        """Shows the balls in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
-
-        They are compared with the mesh. It is view(self) (docs/guides/view.md).
-
-        progress: called as build() calls it.
-        """
-        return show_view(self, progress)
-
-    def picture(self, width: int = 400, height: int = 300) -> bytes:
-        """Draws the balls, each in a colour of its own. Returns the content of a .png file.
-
-        width, height: in pixels, each in [1, 16384].
-        """
-        return self._view_parts()[0].picture(width, height)
-
-    def _repr_png_(self) -> bytes:
-        return self.picture()
 
     def _view_parts(self) -> list[Part]:
         return [balls_part(self.balls)]

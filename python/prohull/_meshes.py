@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _prohull
 from ._prohull import InputError
+from ._shown import Shown
 from ._types import EngineName, Path, Progress, Rows
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     import trimesh
 
     from ._hull import Hull
-    from ._view import Part, View
+    from ._view import Part
 
 
 class FirstHits(NamedTuple):
@@ -93,7 +94,7 @@ class TwoHulls(NamedTuple):
 Engine = Union[EngineName, Refinement, TwoHulls]
 
 
-class Mesh:
+class Mesh(Shown):
     """Vertices and triangles, which do not change. Triangles are counter-clockwise when seen from outside.
 
     Queries (first_hit, any_hit, all_hits, faces_met, contains) take arrays and answer exactly: nothing leaks between
@@ -150,17 +151,6 @@ class Mesh:
             pathlib.Path("hull.png").write_bytes(hull.picture())
         """
         return self._picture(width, height)
-
-    def show(self, *, progress: Optional[Progress] = None) -> "View":
-        """Shows the mesh in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
-
-        A hull is shown with its levels, or around its original. It is view(self) (docs/guides/view.md).
-
-        progress: called as build() calls it.
-        """
-        from . import _view
-
-        return _view.show_view(self, progress)
 
     def _view_parts(self) -> "list[Part]":
         from . import _view

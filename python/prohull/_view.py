@@ -116,8 +116,8 @@ def view(*shown: Viewable, original: Optional[MeshLike] = None, path: Optional[P
     return View([part.name for part in parts], page, _picture(parts[0], side, compared))
 
 
-def show_view(shown: Viewable, progress: Optional[Progress]) -> View:
-    """What the methods of that name do."""
+def open_view(shown: Viewable, progress: Optional[Progress]) -> View:
+    """view(shown), which is opened in a browser unless a notebook shows it."""
     made = view(shown, progress=progress)
     if not _in_notebook():
         made.open()

@@ -20,8 +20,9 @@ from numpy.typing import NDArray
 from . import _arrays, _prohull
 from ._meshes import Mesh
 from ._prohull import InputError
+from ._shown import Shown
 from ._types import Path, Progress, Proof, Source
-from ._view import Part, View, show_view
+from ._view import Part
 
 __all__ = ["Check", "Hulls", "Joint", "Link", "LinkCheck", "LinkHull", "LinkHulls", "Motion", "MotionPair", "Robot"]
 
@@ -196,7 +197,7 @@ class Motion:
                 f"{self.false_convex} of convex hulls; {self.missed} missed>")
 
 
-class Hulls:
+class Hulls(Shown):
     """Hulls of all links of a robot, as Robot.hulls() makes them. Notebooks show the robot inside of its hulls."""
 
     robot: "Robot"
@@ -263,15 +264,6 @@ class Hulls:
                                       _arrays.count("threads", threads), progress)
         pathlib.Path(path).write_text(page, encoding="utf-8")
 
-    def show(self, *, progress: Optional[Progress] = None) -> View:
-        """Shows the robot in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
-
-        It is drawn within its first hulls, and sliders move its joints. It is view(self) (docs/guides/view.md).
-
-        progress: called as build() calls it.
-        """
-        return show_view(self, progress)
-
     def _view_parts(self) -> list[Part]:
         return [Part(self.robot.name, self._core.shown(), lambda *size: self.picture((), *size))]
 
@@ -288,7 +280,7 @@ class Hulls:
                 f"{'all certified' if self.certified else 'NOT ALL CERTIFIED'}>")
 
 
-class Robot:
+class Robot(Shown):
     """A robot as its file describes it. Notebooks show its visual geometry."""
 
     path: str  #: of the file
@@ -374,16 +366,6 @@ class Robot:
         allow = _arrays.not_negative("allow", allow)
         core, links = self._core.check(allow, _arrays.count("threads", threads), progress)
         return Check(core, [LinkCheck(**facts) for facts in links], allow)
-
-    def show(self, *, progress: Optional[Progress] = None) -> View:
-        """Shows the robot in three dimensions: in a notebook as the value of a cell, elsewhere in a browser.
-
-        It is drawn within the collision geometry that it ships with, and sliders move its joints. It is
-        view(self) (docs/guides/view.md).
-
-        progress: called as build() calls it.
-        """
-        return show_view(self, progress)
 
     def _view_parts(self) -> list[Part]:
         return [Part(self.name, self._core.shown(), lambda *size: self.picture((), *size))]

@@ -4,10 +4,9 @@ const {execFileSync} = require('node:child_process');
 const fs = require('node:fs');
 const os = require('node:os');
 const path = require('node:path');
-const {chromium} = require('playwright-core');
+const {withBrowser} = require('./chromium.cjs');
 
 const [, , prohull, browserPath] = process.argv;
-const SKIPPED = 77;
 const work = fs.mkdtempSync(path.join(os.tmpdir(), 'prohull-view-'));
 const at = (name) => path.join(work, name);
 const run = (...args) => execFileSync(prohull, args, {encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe']});
@@ -18,16 +17,6 @@ function ask(...args) {
     run(...args);
   } catch (error) {
     if (error.status !== 1) throw error;
-  }
-}
-
-async function launched() {
-  const args = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-  try {
-    return await chromium.launch({executablePath: browserPath, args});
-  } catch (error) {
-    console.log(`skipped: Chromium does not start: ${error.message.split('\n')[0]}`);
-    return null;
   }
 }
 
@@ -509,13 +498,8 @@ const tests = {
   },
 };
 
-async function main() {
-  if (!browserPath || !fs.existsSync(browserPath)) {
-    console.log('skipped: Chromium is not installed');
-    return SKIPPED;
-  }
-  browser = await launched();
-  if (!browser) return SKIPPED;
+async function runAll(launched) {
+  browser = launched;
   makeFiles();
   let failures = 0;
   for (const [name, test] of Object.entries(tests)) {
@@ -527,10 +511,7 @@ async function main() {
       console.log(`FAILED: ${name}\n${error.stack}`);
     }
   }
-  await browser.close();
-  return failures > 0 ? 1 : 0;
+  assert.equal(failures, 0);
 }
 
-main().then((code) => { process.exitCode = code; })
-    .catch((error) => { console.error(error); process.exitCode = 1; })
-    .finally(() => fs.rmSync(work, {recursive: true, force: true}));
+withBrowser(browserPath, runAll).finally(() => fs.rmSync(work, {recursive: true, force: true}));

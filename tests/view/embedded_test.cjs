@@ -1,20 +1,9 @@
 // Opens a page that has a page of `prohull view` in a frame: node embedded_test.cjs URL CHROMIUM
 // With a picture that gives way to the frame when it is clicked, it is clicked first.
 const assert = require('node:assert/strict');
-const {chromium} = require('playwright-core');
+const {withBrowser} = require('./chromium.cjs');
 
 const [, , address, browserPath] = process.argv;
-const SKIPPED = 77;
-
-async function launched() {
-  const args = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-  try {
-    return await chromium.launch({executablePath: browserPath, args});
-  } catch (error) {
-    console.log(`skipped: Chromium does not start: ${error.message.split('\n')[0]}`);
-    return null;
-  }
-}
 
 async function test(browser) {
   const page = await browser.newPage({viewport: {width: 1000, height: 800}, reducedMotion: 'reduce'});
@@ -49,16 +38,4 @@ async function test(browser) {
   assert.deepEqual(complaints, []);
 }
 
-async function main() {
-  const browser = await launched();
-  if (!browser) return SKIPPED;
-  try {
-    await test(browser);
-    return 0;
-  } finally {
-    await browser.close();
-  }
-}
-
-main().then((code) => { process.exitCode = code; })
-    .catch((error) => { console.error(error); process.exitCode = 1; });
+withBrowser(browserPath, test);
