@@ -65,20 +65,20 @@ TriangleMesh overlapping_itself(TriangleMesh mesh) {
   return result;
 }
 
-struct Variant {
+struct AimedVariant {
   std::string_view name;
   TriangleMesh (*of)(TriangleMesh);
   double scale = 1;             ///< of mesh and segments, afterwards
   bool has_flat_faces = false;  ///< exactly flat
 };
 constexpr std::array kVariants{
-    Variant{"as it is", unchanged},
-    Variant{"rotated", rotated},
-    Variant{"times 2^-300", unchanged, 0x1p-300},
-    Variant{"times 2^300", unchanged, 0x1p300},
-    Variant{"far away", far_away},
-    Variant{"slivers", with_slivers, 1, true},
-    Variant{"overlapping", overlapping_itself},
+    AimedVariant{"as it is", unchanged},
+    AimedVariant{"rotated", rotated},
+    AimedVariant{"times 2^-300", unchanged, 0x1p-300},
+    AimedVariant{"times 2^300", unchanged, 0x1p300},
+    AimedVariant{"far away", far_away},
+    AimedVariant{"slivers", with_slivers, 1, true},
+    AimedVariant{"overlapping", overlapping_itself},
 };
 
 // What is wrong.
@@ -212,8 +212,8 @@ CaseFacts checked(const Case& c, std::span<const std::pair<std::string_view, std
   return facts;
 }
 
-void check_variant(const std::string& model, const TriangleMesh& original, const Variant& variant, std::size_t count,
-                   std::vector<CaseFacts>& facts) {
+void check_variant(const std::string& model, const TriangleMesh& original, const AimedVariant& variant,
+                   std::size_t count, std::vector<CaseFacts>& facts) {
   const TriangleMesh mesh = variant.of(original);
   TriangleMesh scaled = mesh;
   for (Vec3& p : scaled.positions) p = p * variant.scale;
@@ -285,7 +285,7 @@ int run_aimed(const AimedOptions& options) {
     const TriangleMesh mesh = load(source);
     fmt::print(stderr, "{}: {} faces\n", source.name, mesh.face_count());
     const std::size_t count = source.is_record_sample ? std::min<std::size_t>(options.count, 1000) : options.count;
-    for (const Variant& variant : kVariants)
+    for (const AimedVariant& variant : kVariants)
       if (options.variants.empty() || std::ranges::find(options.variants, variant.name) != options.variants.end())
         check_variant(source.name, mesh, variant, count, facts);
   });
@@ -311,7 +311,7 @@ void add_aimed(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand("aimed", "Wrong answers to segments aimed exactly at vertices and edges");
   add_model_options(command, options->models);
   std::vector<std::string> names;
-  for (const Variant& variant : kVariants) names.emplace_back(variant.name);
+  for (const AimedVariant& variant : kVariants) names.emplace_back(variant.name);
   command.add_option("--variants", options->variants, "What is done to the meshes [all]")
       ->delimiter(',')
       ->check(CLI::IsMember(names));

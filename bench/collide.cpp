@@ -46,7 +46,7 @@ std::vector<PosePair> random_poses(const TriangleMesh& mesh, const CollideOption
   return poses;
 }
 
-struct Contestant {
+struct CollideContestant {
   std::string name;
   std::function<bool(const PosePair&)> collide;
 };
@@ -57,9 +57,9 @@ struct Microseconds {
 };
 
 /// Medians of rounds in which the contestants take turns.
-std::vector<Microseconds> race(const std::vector<Contestant>& contestants, const std::vector<PosePair>& hits,
+std::vector<Microseconds> race(const std::vector<CollideContestant>& contestants, const std::vector<PosePair>& hits,
                                const std::vector<PosePair>& misses, std::size_t rounds) {
-  const auto mean = [](const Contestant& contestant, const std::vector<PosePair>& poses) {
+  const auto mean = [](const CollideContestant& contestant, const std::vector<PosePair>& poses) {
     const double seconds = seconds_of([&] {
       for (const PosePair& at : poses) contestant.collide(at);
     });
@@ -84,7 +84,7 @@ void measure(const ModelSource& source, const CollideOptions& options, Table& ta
   std::vector<std::unique_ptr<CollisionPeer>> peers;
   for (const auto make : {make_fcl_obb, make_fcl_obbrss, make_cgal_collision})
     if (auto peer = make(mesh, mesh)) peers.push_back(std::move(peer));
-  std::vector<Contestant> contestants{
+  std::vector<CollideContestant> contestants{
       {"prohull", [&](const PosePair& at) { return collide(*index, at.a, *index, at.b); }}};
   for (const auto& peer : peers)
     contestants.push_back({peer->name(), [&](const PosePair& at) { return peer->collide(at); }});

@@ -28,10 +28,10 @@ struct Variant {
   std::string_view name;
 };
 // The paper does not look for self-intersections; our default refuses them.
-constexpr std::array kVariants{Variant{Strategy::Paper1, SelfIntersections::Allowed, "paper1"},
-                               Variant{Strategy::Paper2, SelfIntersections::Allowed, "paper2"},
-                               Variant{Strategy::Lazy, SelfIntersections::Refused, "lazy"},
-                               Variant{Strategy::Lazy, SelfIntersections::Allowed, "lazy unguarded"}};
+constexpr std::array kStrategies{Variant{Strategy::Paper1, SelfIntersections::Allowed, "paper1"},
+                                 Variant{Strategy::Paper2, SelfIntersections::Allowed, "paper2"},
+                                 Variant{Strategy::Lazy, SelfIntersections::Refused, "lazy"},
+                                 Variant{Strategy::Lazy, SelfIntersections::Allowed, "lazy unguarded"}};
 constexpr std::size_t kPaper1 = 0, kPaper2 = 1, kLazy = 2, kUnguarded = 3;
 
 HullOptions hull_options(const Variant& variant, std::size_t faces) {
@@ -59,12 +59,12 @@ struct VariantFacts {
   }
 };
 
-struct ModelFacts {
+struct ConstructionFacts {
   std::string name;
   std::size_t faces = 0;
   const PaperModel* paper = nullptr;
-  std::array<VariantFacts, kVariants.size()> of;  ///< by the order of kVariants
-  std::optional<PeerRun> peer;                    ///< best of the rounds
+  std::array<VariantFacts, kStrategies.size()> of;  ///< by the order of kStrategies
+  std::optional<PeerRun> peer;                      ///< best of the rounds
 };
 
 void time_variant(const TriangleMesh& mesh, const Variant& variant, std::size_t faces, VariantFacts& facts) {
@@ -94,23 +94,23 @@ void judge_fit(const TriangleMesh& mesh, const Variant& variant, const Construct
       verify_replay(hull, mesh).holds && verify_enclosure(mesh, hull.level(options.hull_faces.front())).encloses;
 }
 
-ModelFacts measure(const ModelSource& source, const ConstructionOptions& options) {
+ConstructionFacts measure(const ModelSource& source, const ConstructionOptions& options) {
   const TriangleMesh mesh = load(source);
   fmt::print(stderr, "{}: {} faces", source.name, mesh.face_count());
-  ModelFacts facts{.name = source.name,
-                   .faces = mesh.face_count(),
-                   .paper = paper_model(source.name, mesh.face_count()),
-                   .of = {},
-                   .peer = {}};
+  ConstructionFacts facts{.name = source.name,
+                          .faces = mesh.face_count(),
+                          .paper = paper_model(source.name, mesh.face_count()),
+                          .of = {},
+                          .peer = {}};
   const std::size_t faces = options.hull_faces.front();
   for (std::size_t round = 0; round < options.rounds; ++round) {
-    for (std::size_t i = 0; i < kVariants.size(); ++i) time_variant(mesh, kVariants[i], faces, facts.of[i]);
+    for (std::size_t i = 0; i < kStrategies.size(); ++i) time_variant(mesh, kStrategies[i], faces, facts.of[i]);
     time_peer(mesh, faces, facts.peer);
     fmt::print(stderr, ", round {}", round + 1);
   }
-  for (std::size_t i = 0; i < kVariants.size(); ++i) {
-    judge_fit(mesh, kVariants[i], options, facts.of[i]);
-    fmt::print(stderr, ", {} {}", kVariants[i].name, facts.of[i].certified ? "certified" : "NOT CERTIFIED");
+  for (std::size_t i = 0; i < kStrategies.size(); ++i) {
+    judge_fit(mesh, kStrategies[i], options, facts.of[i]);
+    fmt::print(stderr, ", {} {}", kStrategies[i].name, facts.of[i].certified ? "certified" : "NOT CERTIFIED");
   }
   fmt::print(stderr, "\n");
   return facts;
@@ -122,18 +122,18 @@ std::string time_taken(const VariantFacts& s) {
   return number(s.seconds, 3, " s") + (reached ? "" : fmt::format(" (ends at {})", s.fewest_faces));
 }
 
-double papers_void(const ModelFacts& m, Strategy strategy, std::size_t hull_faces) {
+double papers_void(const ConstructionFacts& m, Strategy strategy, std::size_t hull_faces) {
   return m.paper ? m.paper->void_percent(strategy, hull_faces).value_or(kUnknown) : kUnknown;
 }
 
-double papers_seconds(const ModelFacts& m, Strategy strategy, std::size_t hull_faces) {
+double papers_seconds(const ConstructionFacts& m, Strategy strategy, std::size_t hull_faces) {
   return m.paper ? m.paper->seconds_of(strategy, hull_faces).value_or(kUnknown) : kUnknown;
 }
 
-std::string construction_times(const std::vector<ModelFacts>& models, std::size_t faces) {
+std::string construction_times(const std::vector<ConstructionFacts>& models, std::size_t faces) {
   Table table({"model", "faces", "paper1", "paper2", "paper1 / paper2", "paper's 1st", "paper's 2nd",
                "paper's 1st / 2nd", "lazy", "lazy unguarded"});
-  for (const ModelFacts& m : models) {
+  for (const ConstructionFacts& m : models) {
     const double first = papers_seconds(m, Strategy::Paper1, faces),
                  second = papers_seconds(m, Strategy::Paper2, faces);
     table.add({m.name, fmt::to_string(m.faces), time_taken(m.of[kPaper1]), time_taken(m.of[kPaper2]),
@@ -144,17 +144,17 @@ std::string construction_times(const std::vector<ModelFacts>& models, std::size_
   return fmt::format("## Table 1: time to a hull of {} faces\n\n{}\n", faces, table.markdown());
 }
 
-std::string voids(const std::vector<ModelFacts>& models, const std::vector<std::size_t>& hull_faces) {
+std::string voids(const std::vector<ConstructionFacts>& models, const std::vector<std::size_t>& hull_faces) {
   Table table({"model", "hull", "paper1", "paper's 1st", "difference", "paper2", "paper's 2nd", "difference", "lazy",
                "lazy unguarded"});
-  for (const ModelFacts& m : models)
+  for (const ConstructionFacts& m : models)
     for (std::size_t k = 0; k < hull_faces.size(); ++k) {
       std::vector<std::string> row{m.name, fmt::to_string(hull_faces[k])};
-      for (std::size_t i = 0; i < kVariants.size(); ++i) {
+      for (std::size_t i = 0; i < kStrategies.size(); ++i) {
         const double ours = m.of[i].void_percent[k];
         row.push_back(std::isnan(ours) ? fmt::format("(ends at {})", m.of[i].fewest_faces) : number(ours, 3, " %"));
-        if (kVariants[i].strategy == Strategy::Lazy) continue;
-        const double theirs = papers_void(m, kVariants[i].strategy, hull_faces[k]);
+        if (kStrategies[i].strategy == Strategy::Lazy) continue;
+        const double theirs = papers_void(m, kStrategies[i].strategy, hull_faces[k]);
         row.push_back(number(theirs, 2, " %"));
         row.push_back(difference(ours, theirs));
       }
@@ -163,10 +163,10 @@ std::string voids(const std::vector<ModelFacts>& models, const std::vector<std::
   return fmt::format("## Table 2: void of hulls\n\n{}\n", table.markdown());
 }
 
-std::string peers(const std::vector<ModelFacts>& models, std::size_t faces) {
+std::string peers(const std::vector<ConstructionFacts>& models, std::size_t faces) {
   Table table({"model", "faces", "lazy", "CGAL Garland-Heckbert", "lazy / Garland-Heckbert", "lazy per collapse",
                "unguarded / Garland-Heckbert", "unguarded per collapse", "lazy / unguarded"});
-  for (const ModelFacts& m : models) {
+  for (const ConstructionFacts& m : models) {
     const VariantFacts &lazy = m.of[kLazy], &unguarded = m.of[kUnguarded];
     const double peer = m.peer ? m.peer->seconds : kUnknown;
     const auto per_collapse = [](const VariantFacts& v) {
@@ -180,10 +180,10 @@ std::string peers(const std::vector<ModelFacts>& models, std::size_t faces) {
                      table.markdown());
 }
 
-std::string work(const std::vector<ModelFacts>& models) {
+std::string work(const std::vector<ConstructionFacts>& models) {
   Table table(
       {"model", "collapses", "paper1: programs per collapse", "paper2", "lazy", "lazy unguarded", "certified hulls"});
-  for (const ModelFacts& m : models) {
+  for (const ConstructionFacts& m : models) {
     std::vector<std::string> row{m.name, fmt::to_string(m.of[kLazy].collapses)};
     for (const VariantFacts& s : m.of) row.push_back(number(s.linear_programs_per_collapse(), 1));
     row.push_back(fmt::format("{} of {}", std::ranges::count(m.of, true, &VariantFacts::certified), m.of.size()));
@@ -192,13 +192,13 @@ std::string work(const std::vector<ModelFacts>& models) {
   return fmt::format("## Linear programs, and proof\n\n{}\n", table.markdown());
 }
 
-std::string csv(const std::vector<ModelFacts>& models, const std::vector<std::size_t>& hull_faces) {
+std::string csv(const std::vector<ConstructionFacts>& models, const std::vector<std::size_t>& hull_faces) {
   Table table({"mesh", "faces", "strategy", "hull_faces", "void_percent", "paper_void_percent", "seconds",
                "paper_seconds", "collapses", "linear_programs", "peer_seconds", "certified"});
-  for (const ModelFacts& m : models)
-    for (std::size_t i = 0; i < kVariants.size(); ++i)
+  for (const ConstructionFacts& m : models)
+    for (std::size_t i = 0; i < kStrategies.size(); ++i)
       for (std::size_t k = 0; k < hull_faces.size(); ++k) {
-        const Variant& variant = kVariants[i];
+        const Variant& variant = kStrategies[i];
         const VariantFacts& s = m.of[i];
         const bool timed = k == 0;
         table.add({m.name, fmt::to_string(m.faces), std::string(variant.name), fmt::to_string(hull_faces[k]),
@@ -212,7 +212,7 @@ std::string csv(const std::vector<ModelFacts>& models, const std::vector<std::si
 
 int run_construction(ConstructionOptions options) {
   std::ranges::sort(options.hull_faces, std::greater());
-  std::vector<ModelFacts> models;
+  std::vector<ConstructionFacts> models;
   const std::vector<Refused> refused =
       measure_each(options.models, [&](const ModelSource& source) { models.push_back(measure(source, options)); });
   const std::size_t faces = options.hull_faces.front();
@@ -224,7 +224,7 @@ int run_construction(ConstructionOptions options) {
                            peers(models, faces) + work(models) + listed(refused);
   publish(options.out, "construction", text, csv(models, options.hull_faces));
   const bool all_certified = std::ranges::all_of(
-      models, [](const ModelFacts& m) { return std::ranges::all_of(m.of, &VariantFacts::certified); });
+      models, [](const ConstructionFacts& m) { return std::ranges::all_of(m.of, &VariantFacts::certified); });
   return all_certified ? kDone : kAnswerIsNo;
 }
 

@@ -50,7 +50,7 @@ struct MeshFile {
   std::filesystem::path path;
 };
 
-struct Row {
+struct CorpusRow {
   std::string name;
   Verdict verdict = Verdict::Ok;
   std::string why = {};  ///< how it was repaired, why it was refused, or what failed
@@ -149,7 +149,7 @@ std::string candidate_of(const nlohmann::json& hull, double diagonal) {
 }
 
 /// Says what the report of a build tells.
-void add_report(const nlohmann::json& report, const TriangleMesh& mesh, Row& row) {
+void add_report(const nlohmann::json& report, const TriangleMesh& mesh, CorpusRow& row) {
   const nlohmann::json &input = report.at("input"), &hull = report.at("hull");
   row.faces_in = input.at("faces").get<std::size_t>();
   row.faces_out = hull.at("faces").get<std::size_t>();
@@ -166,7 +166,7 @@ void add_report(const nlohmann::json& report, const TriangleMesh& mesh, Row& row
 
 /// Of a closed mesh with a few self-intersections, the direct hull is what all others are compared with.
 void add_direct(const nlohmann::json& report, std::vector<std::string> build, const std::filesystem::path& report_file,
-                const ProgramLimits& limits, Row& row) {
+                const ProgramLimits& limits, CorpusRow& row) {
   constexpr std::size_t kMostPairs = 100;
   const auto pairs = report.at("input").at("self_intersections").get<std::size_t>();
   if (pairs == 0 || pairs > kMostPairs) return;
@@ -179,12 +179,12 @@ void add_direct(const nlohmann::json& report, std::vector<std::string> build, co
   row.void_ratio = report.at("hull").at("volume").get<double>() / volume - 1;
 }
 
-Row swept(const MeshFile& file, const CorpusOptions& options, References* references,
-          const std::filesystem::path& folder) {
+CorpusRow swept(const MeshFile& file, const CorpusOptions& options, References* references,
+                const std::filesystem::path& folder) {
   std::filesystem::create_directory(folder);
   const std::string hull = folder / "hull.stl", report = folder / "report.json";
   const ProgramLimits limits{options.limit_seconds, kAddressBytes};
-  Row row{.name = file.name};
+  CorpusRow row{.name = file.name};
   const auto failed = [&row](const char* step, const std::string& why) {
     row.verdict = Verdict::Failed;
     row.why = fmt::format("{}: {}", step, why);
@@ -224,11 +224,11 @@ Row swept(const MeshFile& file, const CorpusOptions& options, References* refere
   return row;
 }
 
-std::vector<Row> sweep(const std::vector<MeshFile>& files, const CorpusOptions& options,
-                       const std::filesystem::path& folder) {
+std::vector<CorpusRow> sweep(const std::vector<MeshFile>& files, const CorpusOptions& options,
+                             const std::filesystem::path& folder) {
   std::optional<References> references;
   if (!options.references.empty()) references.emplace(options.references);
-  std::vector<Row> rows(files.size());
+  std::vector<CorpusRow> rows(files.size());
   std::atomic<std::size_t> next = 0;
   std::vector<std::future<void>> workers;
   for (unsigned job = 0; job < options.jobs; ++job)
@@ -244,17 +244,17 @@ std::vector<Row> sweep(const std::vector<MeshFile>& files, const CorpusOptions& 
   return rows;
 }
 
-std::size_t count(const std::vector<Row>& rows, Verdict verdict) {
-  return static_cast<std::size_t>(std::ranges::count(rows, verdict, &Row::verdict));
+std::size_t count(const std::vector<CorpusRow>& rows, Verdict verdict) {
+  return static_cast<std::size_t>(std::ranges::count(rows, verdict, &CorpusRow::verdict));
 }
 
 /// Median and worst of what is known of a column, over the files of which it is known.
 class Figures {
  public:
   template <class Value>
-  void add(const std::string& what, int digits, const std::vector<Row>& rows, Value value) {
-    std::vector<std::pair<double, const Row*>> known;
-    for (const Row& row : rows)
+  void add(const std::string& what, int digits, const std::vector<CorpusRow>& rows, Value value) {
+    std::vector<std::pair<double, const CorpusRow*>> known;
+    for (const CorpusRow& row : rows)
       if (const double v = value(row); std::isfinite(v)) known.push_back({v, &row});
     if (known.empty()) return;
     std::ranges::sort(known, {}, [](const auto& entry) { return entry.first; });
@@ -267,26 +267,26 @@ class Figures {
   Table table_{{"of a hull", "files", "median", "worst", "worst file"}};
 };
 
-std::string figures(const std::vector<Row>& rows) {
+std::string figures(const std::vector<CorpusRow>& rows) {
   Figures figures;
-  figures.add("volume / sealed reference", 3, rows, [](const Row& row) { return row.by_sealed; });
-  figures.add("volume / convex hull", 3, rows, [](const Row& row) { return row.by_convex; });
-  figures.add("distance / diagonal", 4, rows, [](const Row& row) { return row.distance; });
+  figures.add("volume / sealed reference", 3, rows, [](const CorpusRow& row) { return row.by_sealed; });
+  figures.add("volume / convex hull", 3, rows, [](const CorpusRow& row) { return row.by_convex; });
+  figures.add("distance / diagonal", 4, rows, [](const CorpusRow& row) { return row.distance; });
   // Below that, as of boxes, the ratio is one of rounding errors.
   constexpr double kLeastVoid = 1e-4;
-  figures.add("void / void of the direct hull (of at least 0.01 %)", 2, rows, [](const Row& row) {
+  figures.add("void / void of the direct hull (of at least 0.01 %)", 2, rows, [](const CorpusRow& row) {
     return row.direct_void_ratio >= kLeastVoid ? row.void_ratio / row.direct_void_ratio : kUnknown;
   });
   figures.add("seconds of a build, reading and certifying included", 2, rows,
-              [](const Row& row) { return row.faces_out ? row.build_seconds : kUnknown; });
+              [](const CorpusRow& row) { return row.faces_out ? row.build_seconds : kUnknown; });
   return figures.markdown();
 }
 
 /// A hull that has less than half of the volume of the sealed reference is a sheet around the surface.
-std::string hollow_hulls(const std::vector<Row>& rows) {
+std::string hollow_hulls(const std::vector<CorpusRow>& rows) {
   constexpr double kHollow = 0.5;
-  if (std::ranges::none_of(rows, [](const Row& row) { return std::isfinite(row.by_sealed); })) return "";
-  const auto hollow = std::ranges::count_if(rows, [](const Row& row) { return row.by_sealed < kHollow; });
+  if (std::ranges::none_of(rows, [](const CorpusRow& row) { return std::isfinite(row.by_sealed); })) return "";
+  const auto hollow = std::ranges::count_if(rows, [](const CorpusRow& row) { return row.by_sealed < kHollow; });
   return fmt::format("Hollow hulls, of less than half of the volume of the sealed reference: {}\n\n", hollow);
 }
 
@@ -297,13 +297,13 @@ std::string kind_of(const std::string& why) {
 }
 
 /// Why files have the verdict, by kind, the most frequent first.
-std::string reasons(const std::vector<Row>& rows, Verdict verdict) {
+std::string reasons(const std::vector<CorpusRow>& rows, Verdict verdict) {
   struct Group {
     std::string why, example;
     std::size_t files = 0;
   };
   std::map<std::string, Group> by_reason;
-  for (const Row& row : rows)
+  for (const CorpusRow& row : rows)
     if (row.verdict == verdict) {
       const std::string why = kind_of(row.why);
       Group& group = by_reason.try_emplace(why, Group{why, row.name}).first->second;
@@ -321,11 +321,11 @@ std::string reasons(const std::vector<Row>& rows, Verdict verdict) {
 
 std::string faces(const std::optional<std::size_t>& count) { return count ? fmt::to_string(*count) : ""; }
 
-std::string listed(const std::vector<Row>& rows) {
+std::string listed(const std::vector<CorpusRow>& rows) {
   Table table({"file", "verdict", "why", "candidate", "faces", "hull", "volume / convex", "volume / sealed",
                "distance / diagonal", "void", "direct void", "build", "verify", "memory"});
   constexpr double kMegabyte = 1e6;
-  for (const Row& row : rows)
+  for (const CorpusRow& row : rows)
     table.add({as_cell(row.name), std::string(name(row.verdict)), as_cell(row.why), as_cell(row.candidate),
                faces(row.faces_in), faces(row.faces_out), number(row.by_convex, 3), number(row.by_sealed, 3),
                number(row.distance, 4), number(100 * row.void_ratio, 2, " %"),
@@ -334,11 +334,11 @@ std::string listed(const std::vector<Row>& rows) {
   return table.markdown();
 }
 
-std::string csv(const std::vector<Row>& rows) {
+std::string csv(const std::vector<CorpusRow>& rows) {
   Table table({"file", "verdict", "why", "candidate", "faces", "hull_faces", "volume_by_convex", "volume_by_sealed",
                "distance_by_diagonal", "void_percent", "direct_void_percent", "build_seconds", "verify_seconds",
                "peak_bytes"});
-  for (const Row& row : rows)
+  for (const CorpusRow& row : rows)
     table.add({as_cell(row.name), std::string(name(row.verdict)), as_cell(row.why), as_cell(row.candidate),
                faces(row.faces_in), faces(row.faces_out), number(row.by_convex, 4), number(row.by_sealed, 4),
                number(row.distance, 5), number(100 * row.void_ratio, 3), number(100 * row.direct_void_ratio, 3),
@@ -351,7 +351,7 @@ int run_corpus(const CorpusOptions& options) {
   const std::vector<MeshFile> files =
       options.folders.empty() ? write_defects(folder.path() / "defects") : mesh_files(options.folders);
   if (files.empty()) throw InputError(Defect::CannotRead, "no file of these folders is a mesh by its name");
-  const std::vector<Row> rows = sweep(files, options, folder.path());
+  const std::vector<CorpusRow> rows = sweep(files, options, folder.path());
 
   std::string text = fmt::format("# Corpus: certified hulls of {} faces, or one clear refusal\n\n{}\n\n{} files",
                                  options.hull_faces, machine(), rows.size());

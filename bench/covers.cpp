@@ -49,7 +49,7 @@ struct Made {
   double seconds = kUnknown;     ///< elapsed
 };
 
-struct Judgement {
+struct CoverJudgement {
   double excess_percent = kUnknown;  ///< of the union's volume over that of the mesh
   bool covers = false;               ///< exact
   std::size_t faces_outside = 0;     ///< of the mesh, in part; exact
@@ -58,12 +58,12 @@ struct Judgement {
   double reach_percent = kUnknown;   ///< how far the union reaches from the mesh, of the diagonal; an upper bound
 };
 
-struct Row {
+struct CoverRow {
   std::string_view method;
   bool ours = false;
   std::size_t asked = 0;  ///< pieces, or balls; 0: could not be asked for
   std::optional<Made> made = {};
-  std::optional<Judgement> judgement = {};
+  std::optional<CoverJudgement> judgement = {};
   std::string failure = {};
 };
 
@@ -80,7 +80,8 @@ std::size_t clearly(const std::vector<Offender>& outside, const TriangleMesh& me
 
 /// Of what verify_hull or verify_union have found, with all offenders.
 template <class Found>
-Judgement judgement_of(const Found& found, bool covers, double excess, double reach, const TriangleMesh& original) {
+CoverJudgement judgement_of(const Found& found, bool covers, double excess, double reach,
+                            const TriangleMesh& original) {
   return {.excess_percent = 100 * excess,
           .covers = covers,
           .faces_outside = found.faces_outside,
@@ -93,20 +94,20 @@ VerificationOptions all_offenders(const TriangleMesh& mesh) { return {.max_offen
 
 double excess(double volume, const TriangleMesh& original) { return volume / signed_volume(original) - 1; }
 
-Judgement judge(const std::vector<TriangleMesh>& pieces, const TriangleMesh& original) {
+CoverJudgement judge(const std::vector<TriangleMesh>& pieces, const TriangleMesh& original) {
   const UnionVerification found = verify_union(pieces, original, all_offenders(original));
   return judgement_of(found, found.covers, excess(union_volume(pieces), original), union_reach(pieces, original).upper,
                       original);
 }
 
-Judgement judge(const std::vector<Ball>& balls, const TriangleMesh& original, bool fill) {
+CoverJudgement judge(const std::vector<Ball>& balls, const TriangleMesh& original, bool fill) {
   const UnionVerification found = verify_union(balls, original, fill, all_offenders(original));
   return judgement_of(found, found.covers, excess(union_volume(balls), original), union_reach(balls, original).upper,
                       original);
 }
 
 /// Of a hull, which is not convex.
-Judgement judge(const TriangleMesh& hull, const TriangleMesh& original) {
+CoverJudgement judge(const TriangleMesh& hull, const TriangleMesh& original) {
   const Verification found = verify_hull(hull, original, HullSide::Outer, all_offenders(original));
   return judgement_of(found, found.encloses, found.void_ratio, distance_bounds(hull, original).upper, original);
 }
@@ -115,9 +116,9 @@ Judgement judge(const TriangleMesh& hull, const TriangleMesh& original) {
 class Result {
  public:
   void tell(const Made& made) const { put(made_.get(), made); }
-  void tell(const Judgement& judgement) const { put(judgement_.get(), judgement); }
+  void tell(const CoverJudgement& judgement) const { put(judgement_.get(), judgement); }
   std::optional<Made> made() const { return get<Made>(made_.get()); }
-  std::optional<Judgement> judgement() const { return get<Judgement>(judgement_.get()); }
+  std::optional<CoverJudgement> judgement() const { return get<CoverJudgement>(judgement_.get()); }
 
  private:
   template <class T>
@@ -190,17 +191,17 @@ void cover_by_balls(const TriangleMesh& mesh, std::size_t balls, bool fill, cons
   result.tell(judge(cover.balls, mesh, fill));
 }
 
-struct ModelFacts {
+struct CoverFacts {
   std::string name;
   std::size_t faces = 0;
-  std::vector<Row> pieces = {}, spheres = {};
+  std::vector<CoverRow> pieces = {}, spheres = {};
 };
 
-class Bench {
+class CoverBench {
  public:
-  explicit Bench(const CoversOptions& options) : options_(options) {}
+  explicit CoverBench(const CoversOptions& options) : options_(options) {}
 
-  ModelFacts measure(const ModelSource& source) {
+  CoverFacts measure(const ModelSource& source) {
     // Loaded in a process of its own, too: threads of this one would be missing in those that it starts.
     const File loaded = temporary_file();
     const Ended ended = run_apart([&] { put_mesh(loaded.get(), load(source)); });
@@ -211,7 +212,7 @@ class Bench {
   }
 
  private:
-  std::vector<Row> pieces_rows(const TriangleMesh& mesh) const {
+  std::vector<CoverRow> pieces_rows(const TriangleMesh& mesh) const {
     const std::size_t vertices = options_.vertices;
     const Method ours = [&](const TriangleMesh& m, std::size_t n, const Result& r) {
       cover_by_pieces(m, n, vertices, r);
@@ -219,7 +220,7 @@ class Bench {
     const Method hacd = [&](const TriangleMesh& m, std::size_t n, const Result& r) {
       decompose_by_hacd(m, n, vertices, r);
     };
-    std::vector<Row> rows;
+    std::vector<CoverRow> rows;
     for (const std::size_t pieces : options_.pieces) {
       rows.push_back(measured({.method = "prohull", .ours = true, .asked = pieces}, mesh, ours));
       if (!options_.only_ours) rows.push_back(measured({.method = "HACD", .asked = pieces}, mesh, hacd));
@@ -231,8 +232,8 @@ class Bench {
     return rows;
   }
 
-  std::vector<Row> spheres_rows(const TriangleMesh& mesh) const {
-    std::vector<Row> rows;
+  std::vector<CoverRow> spheres_rows(const TriangleMesh& mesh) const {
+    std::vector<CoverRow> rows;
     for (const bool fill : {false, true})
       rows.push_back(
           measured({.method = fill ? "solid" : "surface", .ours = true, .asked = options_.balls}, mesh,
@@ -240,7 +241,7 @@ class Bench {
     return rows;
   }
 
-  Row measured(Row row, const TriangleMesh& mesh, const Method& method) const {
+  CoverRow measured(CoverRow row, const TriangleMesh& mesh, const Method& method) const {
     const Result result;
     row.failure = run_apart([&] { method(mesh, row.asked, result); }, options_.limit_seconds).failure;
     row.made = result.made();
@@ -249,7 +250,7 @@ class Bench {
     return row;
   }
 
-  static std::string progress(const Row& row) {
+  static std::string progress(const CoverRow& row) {
     if (!row.judgement) return row.failure;
     return fmt::format("{} in {:.2f} s, excess {:.1f} %, {} faces outside", row.made->count, row.made->seconds,
                        row.judgement->excess_percent, row.judgement->faces_outside);
@@ -258,82 +259,82 @@ class Bench {
   const CoversOptions& options_;
 };
 
-std::string asked(const Row& row) { return row.asked > 0 ? fmt::to_string(row.asked) : ""; }
-std::string verdict(const Row& row) {
+std::string asked(const CoverRow& row) { return row.asked > 0 ? fmt::to_string(row.asked) : ""; }
+std::string verdict(const CoverRow& row) {
   if (!row.judgement) return as_cell(row.failure);
   return row.judgement->covers ? "yes" : "no";
 }
-std::string count(const Row& row) { return row.made ? fmt::to_string(row.made->count) : ""; }
-std::string vertices(const Row& row) { return row.made ? fmt::to_string(row.made->max_vertices) : ""; }
-std::string seconds(const Row& row, int digits, std::string_view unit = "") {
+std::string count(const CoverRow& row) { return row.made ? fmt::to_string(row.made->count) : ""; }
+std::string vertices(const CoverRow& row) { return row.made ? fmt::to_string(row.made->max_vertices) : ""; }
+std::string seconds(const CoverRow& row, int digits, std::string_view unit = "") {
   return row.made ? number(row.made->seconds, digits, unit) : "";
 }
-std::string outside(const Row& row) { return row.judgement ? fmt::to_string(row.judgement->faces_outside) : ""; }
-std::string clearly_outside_percent(const Row& row, const ModelFacts& m, int digits, std::string_view unit = "") {
+std::string outside(const CoverRow& row) { return row.judgement ? fmt::to_string(row.judgement->faces_outside) : ""; }
+std::string clearly_outside_percent(const CoverRow& row, const CoverFacts& m, int digits, std::string_view unit = "") {
   if (!row.judgement) return "";
   return number(100 * static_cast<double>(row.judgement->clearly_outside) / static_cast<double>(m.faces), digits, unit);
 }
-std::string percent(const Row& row, double Judgement::*field, int digits, std::string_view unit = "") {
+std::string percent(const CoverRow& row, double CoverJudgement::*field, int digits, std::string_view unit = "") {
   return row.judgement ? number(*row.judgement.*field, digits, unit) : "";
 }
 
-std::string pieces_section(const ModelFacts& m) {
+std::string pieces_section(const CoverFacts& m) {
   Table table({"method", "asked", "pieces", "vertices", "excess", "faces clearly outside", "worst / diagonal",
                "reach / diagonal", "time", "covers"});
-  for (const Row& row : m.pieces)
+  for (const CoverRow& row : m.pieces)
     table.add({std::string(row.method), asked(row), count(row), vertices(row),
-               percent(row, &Judgement::excess_percent, 1, " %"), clearly_outside_percent(row, m, 2, " %"),
-               percent(row, &Judgement::worst_percent, 2, " %"), percent(row, &Judgement::reach_percent, 1, " %"),
-               seconds(row, 2, " s"), verdict(row)});
+               percent(row, &CoverJudgement::excess_percent, 1, " %"), clearly_outside_percent(row, m, 2, " %"),
+               percent(row, &CoverJudgement::worst_percent, 2, " %"),
+               percent(row, &CoverJudgement::reach_percent, 1, " %"), seconds(row, 2, " s"), verdict(row)});
   return fmt::format("## {}: {} faces\n\n{}\n", m.name, m.faces, table.markdown());
 }
 
-std::string spheres_table(const std::vector<ModelFacts>& models) {
+std::string spheres_table(const std::vector<CoverFacts>& models) {
   Table table({"model", "covered", "asked", "spheres", "excess", "reach / diagonal", "time", "covers"});
-  for (const ModelFacts& m : models)
-    for (const Row& row : m.spheres)
+  for (const CoverFacts& m : models)
+    for (const CoverRow& row : m.spheres)
       table.add({m.name, std::string(row.method), asked(row), count(row),
-                 percent(row, &Judgement::excess_percent, 1, " %"), percent(row, &Judgement::reach_percent, 2, " %"),
-                 seconds(row, 2, " s"), verdict(row)});
+                 percent(row, &CoverJudgement::excess_percent, 1, " %"),
+                 percent(row, &CoverJudgement::reach_percent, 2, " %"), seconds(row, 2, " s"), verdict(row)});
   return "## Spheres\n\n" + table.markdown();
 }
 
-std::string pieces_csv(const std::vector<ModelFacts>& models) {
+std::string pieces_csv(const std::vector<CoverFacts>& models) {
   Table table({"mesh", "faces", "method", "asked_pieces", "pieces", "max_vertices", "excess_percent", "faces_outside",
                "faces_clearly_outside_percent", "worst_percent", "reach_percent", "seconds", "covers"});
-  for (const ModelFacts& m : models)
-    for (const Row& row : m.pieces)
+  for (const CoverFacts& m : models)
+    for (const CoverRow& row : m.pieces)
       table.add({m.name, fmt::to_string(m.faces), std::string(row.method), asked(row), count(row), vertices(row),
-                 percent(row, &Judgement::excess_percent, 3), outside(row), clearly_outside_percent(row, m, 3),
-                 percent(row, &Judgement::worst_percent, 3), percent(row, &Judgement::reach_percent, 3),
+                 percent(row, &CoverJudgement::excess_percent, 3), outside(row), clearly_outside_percent(row, m, 3),
+                 percent(row, &CoverJudgement::worst_percent, 3), percent(row, &CoverJudgement::reach_percent, 3),
                  seconds(row, 3), verdict(row)});
   return table.csv();
 }
 
-std::string spheres_csv(const std::vector<ModelFacts>& models) {
+std::string spheres_csv(const std::vector<CoverFacts>& models) {
   Table table(
       {"mesh", "faces", "covered", "asked_spheres", "spheres", "excess_percent", "reach_percent", "seconds", "covers"});
-  for (const ModelFacts& m : models)
-    for (const Row& row : m.spheres)
+  for (const CoverFacts& m : models)
+    for (const CoverRow& row : m.spheres)
       table.add({m.name, fmt::to_string(m.faces), std::string(row.method), asked(row), count(row),
-                 percent(row, &Judgement::excess_percent, 3), percent(row, &Judgement::reach_percent, 3),
+                 percent(row, &CoverJudgement::excess_percent, 3), percent(row, &CoverJudgement::reach_percent, 3),
                  seconds(row, 3), verdict(row)});
   return table.csv();
 }
 
-bool keeps_its_word(const Row& row) { return !row.ours || (row.judgement && row.judgement->covers); }
+bool keeps_its_word(const CoverRow& row) { return !row.ours || (row.judgement && row.judgement->covers); }
 
 int run_covers(CoversOptions options) {
   std::ranges::sort(options.pieces);
-  Bench bench(options);
-  std::vector<ModelFacts> models;
+  CoverBench bench(options);
+  std::vector<CoverFacts> models;
   const std::vector<Refused> refused =
       measure_each(options.models, [&](const ModelSource& source) { models.push_back(bench.measure(source)); });
   std::string text = fmt::format("# Covers\n\n{}\n\n", machine());
-  for (const ModelFacts& m : models) text += pieces_section(m);
+  for (const CoverFacts& m : models) text += pieces_section(m);
   publish(options.out, "covers", text + listed(refused), pieces_csv(models));
   publish(options.out, "sphere_covers", spheres_table(models), spheres_csv(models));
-  const bool all_kept = std::ranges::all_of(models, [](const ModelFacts& m) {
+  const bool all_kept = std::ranges::all_of(models, [](const CoverFacts& m) {
     return std::ranges::all_of(m.pieces, keeps_its_word) && std::ranges::all_of(m.spheres, keeps_its_word);
   });
   return all_kept ? kDone : kAnswerIsNo;

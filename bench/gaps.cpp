@@ -36,13 +36,13 @@ struct GapsOptions {
   std::filesystem::path out;
 };
 
-struct Kind {
+struct GapKind {
   std::string_view name;
   HullSide side;
   bool tight;
 };
-constexpr std::array kKinds{Kind{"outer", HullSide::Outer, false}, Kind{"outer tight", HullSide::Outer, true},
-                            Kind{"inner", HullSide::Inner, false}};
+constexpr std::array kGapKinds{GapKind{"outer", HullSide::Outer, false}, GapKind{"outer tight", HullSide::Outer, true},
+                               GapKind{"inner", HullSide::Inner, false}};
 
 /// How much of the box around it lies within `gap` of a mesh, and on which side.
 struct Volumes {
@@ -73,14 +73,14 @@ Volumes layer_volumes(const TriangleMesh& mesh, double gap, std::size_t samples)
   return {double(outside) * of_one, double(inside) * of_one};
 }
 
-class Bench {
+class GapBench {
  public:
-  explicit Bench(const GapsOptions& options) : options_(options) {}
+  explicit GapBench(const GapsOptions& options) : options_(options) {}
 
   void measure(const std::string& name, const TriangleMesh& mesh) {
     const double gap = options_.gap_percent / 100 * diagonal_of(mesh);
     std::optional<Volumes> least;
-    for (const Kind& kind : kKinds) try {
+    for (const GapKind& kind : kGapKinds) try {
         EnclosingHulls made;
         const double seconds = seconds_of([&] { made = built(mesh, kind, gap); });
         const EnclosingHull& hull = made.hulls.front();
@@ -117,13 +117,13 @@ class Bench {
     return box.diagonal();
   }
 
-  EnclosingHulls built(const TriangleMesh& mesh, const Kind& kind, double gap) const {
+  EnclosingHulls built(const TriangleMesh& mesh, const GapKind& kind, double gap) const {
     EnclosingOptions options{.tight = kind.tight, .padding = gap};
     options.hull.side = kind.side, options.hull.threads = 1, options.hull.relax_guards = true;
     return enclosing_hulls(mesh, {&options_.hull_faces, 1}, options);
   }
 
-  void add(const std::string& name, const TriangleMesh& mesh, const Kind& kind, const EnclosingHull& hull,
+  void add(const std::string& name, const TriangleMesh& mesh, const GapKind& kind, const EnclosingHull& hull,
            const Verification& found, double least_void, double seconds) {
     ++built_, kept_ += found.holds();
     const double hull_void = std::abs(hull.void_ratio), ratio = hull_void / least_void;
@@ -144,7 +144,7 @@ class Bench {
 };
 
 int run_gaps(const GapsOptions& options) {
-  Bench bench(options);
+  GapBench bench(options);
   for (const ModelSource& source : model_sources(options.models))
     bench.measure(source.name,
                   source.path.empty() ? make_sample(source.sample, source.sample_faces) : read_mesh(source.path));

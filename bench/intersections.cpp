@@ -47,7 +47,7 @@ struct Count {
 };
 
 /// By model.
-struct Row {
+struct IntersectionRow {
   std::string name;
   std::size_t faces, pairs;
   std::vector<std::array<Count, kKinds.size()>> of;  ///< by hull_faces
@@ -66,10 +66,10 @@ std::string_view counted_by() {
   return cgal_self_intersections({}) ? "CGAL's exact predicates" : "our own exact predicates, for want of CGAL";
 }
 
-Row measure(const ModelSource& source, const IntersectionsOptions& options) {
+IntersectionRow measure(const ModelSource& source, const IntersectionsOptions& options) {
   const TriangleMesh mesh = load(source);
   fmt::print(stderr, "{}: {} faces", source.name, mesh.face_count());
-  Row row{source.name, mesh.face_count(), count_pairs(mesh), {}};
+  IntersectionRow row{source.name, mesh.face_count(), count_pairs(mesh), {}};
   for (const std::size_t faces : options.hull_faces) {
     auto& counts = row.of.emplace_back();
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
@@ -83,7 +83,7 @@ Row measure(const ModelSource& source, const IntersectionsOptions& options) {
   return row;
 }
 
-bool none_added(const Row& row) {
+bool none_added(const IntersectionRow& row) {
   for (std::size_t size = 0; size < row.of.size(); ++size)
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
       if (kKinds[kind].intersections == SelfIntersections::Refused && row.added(size, kind) > 0) return false;
@@ -103,7 +103,7 @@ int run_intersections(const IntersectionsOptions& options) {
   Table csv({"mesh", "faces", "mesh_pairs", "hull", "asked_faces", "hull_faces", "hull_pairs", "added_pairs"});
   bool all_hold = true;
   const std::vector<Refused> refused = measure_each(options.models, [&](const ModelSource& source) {
-    const Row row = measure(source, options);
+    const IntersectionRow row = measure(source, options);
     all_hold = all_hold && none_added(row);
     for (std::size_t size = 0; size < row.of.size(); ++size) {
       const std::size_t asked = options.hull_faces[size];

@@ -61,16 +61,16 @@ struct LooserOptions {
   std::filesystem::path out;
 };
 
-struct Variant {
+struct LooserVariant {
   std::string_view experiment, strategy, name;
   std::function<ProgressiveHull(std::size_t target_faces)> build;
 };
 
 /// Of one variant; those of the query are for each segment, from kTimedFaces.
-struct Facts {
+struct HullFacts {
   std::string mesh;
   std::size_t faces = 0;
-  Variant variant;
+  LooserVariant variant;
   double seconds = std::numeric_limits<double>::infinity();        ///< to kTimedFaces
   double void_percent = kUnknown, void_percent_of_few = kUnknown;  ///< at kTimedFaces and kFewFaces, if reached
   std::size_t fewest_faces = 0;
@@ -78,9 +78,9 @@ struct Facts {
   bool certified = false;
 };
 
-std::vector<Variant> variants(const TriangleMesh& mesh) {
+std::vector<LooserVariant> variants(const TriangleMesh& mesh) {
   constexpr std::array kPapers{kStrategies[0], kStrategies[1]};
-  std::vector<Variant> all;
+  std::vector<LooserVariant> all;
   for (const NamedStrategy& s : kPapers)
     for (const NamedGuards& g : kGuards)
       all.push_back({"parameters", s.name, g.name, [&mesh, s, g](std::size_t target_faces) {
@@ -96,7 +96,7 @@ std::vector<Variant> variants(const TriangleMesh& mesh) {
   return all;
 }
 
-void judge(const TriangleMesh& mesh, Facts& facts) {
+void judge(const TriangleMesh& mesh, HullFacts& facts) {
   const ProgressiveHull hull = facts.variant.build(4);
   const double volume = signed_volume(mesh);
   const auto void_at = [&](std::size_t faces) {
@@ -107,16 +107,16 @@ void judge(const TriangleMesh& mesh, Facts& facts) {
   facts.certified = verify_replay(hull, mesh).holds;
 }
 
-std::vector<Facts> measure(const ModelSource& source, const LooserOptions& options) {
+std::vector<HullFacts> measure(const ModelSource& source, const LooserOptions& options) {
   const TriangleMesh mesh = load(source);
   const std::size_t count = source.is_record_sample ? 1000 : options.segments;
   const auto segments = random_segments(bounding_box(mesh), count, 1);
   fmt::print(stderr, "{}: {} faces", source.name, mesh.face_count());
-  std::vector<Facts> all;
-  for (Variant& variant : variants(mesh))
+  std::vector<HullFacts> all;
+  for (LooserVariant& variant : variants(mesh))
     all.push_back({.mesh = source.name, .faces = mesh.face_count(), .variant = std::move(variant)});
   for (std::size_t round = 0; round < options.rounds; ++round) {
-    for (Facts& facts : all) {
+    for (HullFacts& facts : all) {
       std::optional<ProgressiveHull> hull;
       facts.seconds = std::min(facts.seconds, seconds_of([&] { hull = facts.variant.build(kTimedFaces); }));
       MeshQuery query{QueryIndex(*hull, Engine::PaperRefinement)};
@@ -129,15 +129,15 @@ std::vector<Facts> measure(const ModelSource& source, const LooserOptions& optio
     }
     fmt::print(stderr, ", round {}", round + 1);
   }
-  for (Facts& facts : all) judge(mesh, facts);
+  for (HullFacts& facts : all) judge(mesh, facts);
   fmt::print(stderr, "\n");
   return all;
 }
 
-std::string text_of(const std::vector<Facts>& all, std::string_view experiment) {
+std::string text_of(const std::vector<HullFacts>& all, std::string_view experiment) {
   Table table({"model", "strategy", experiment == "parameters" ? "parameters" : "position", "time", "void at 2000",
                "void at 200", "ends at", "query", "tests", "splits"});
-  for (const Facts& f : all)
+  for (const HullFacts& f : all)
     if (f.variant.experiment == experiment)
       table.add({f.mesh, std::string(f.variant.strategy), std::string(f.variant.name), number(f.seconds, 3, " s"),
                  number(f.void_percent, 2, " %"), number(f.void_percent_of_few, 1, " %"),
@@ -146,10 +146,10 @@ std::string text_of(const std::vector<Facts>& all, std::string_view experiment) 
   return table.markdown();
 }
 
-std::string csv_of(const std::vector<Facts>& all) {
+std::string csv_of(const std::vector<HullFacts>& all) {
   Table table({"mesh", "faces", "experiment", "strategy", "variant", "seconds", "void_percent_at_2000",
                "void_percent_at_200", "fewest_faces", "query_us_per_segment", "tests", "splits", "certified"});
-  for (const Facts& f : all)
+  for (const HullFacts& f : all)
     table.add({f.mesh, fmt::to_string(f.faces), std::string(f.variant.experiment), std::string(f.variant.strategy),
                std::string(f.variant.name), number(f.seconds, 4), number(f.void_percent, 4),
                number(f.void_percent_of_few, 4), fmt::to_string(f.fewest_faces), number(f.microseconds, 2),
@@ -158,16 +158,16 @@ std::string csv_of(const std::vector<Facts>& all) {
 }
 
 int run_looser(const LooserOptions& options) {
-  std::vector<Facts> all;
+  std::vector<HullFacts> all;
   const std::vector<Refused> refused = measure_each(options.models, [&](const ModelSource& source) {
-    for (Facts& facts : measure(source, options)) all.push_back(std::move(facts));
+    for (HullFacts& facts : measure(source, options)) all.push_back(std::move(facts));
   });
   const std::string text = fmt::format(
       "# Looser hulls\n\n{}; processor time of one thread, best of {}: to {} faces, and of a query of these with a "
       "random segment\n\n## Parameters (P&T 4.1)\n\n{}\n## Positions (P&T 5)\n\n{}\n{}",
       machine(), options.rounds, kTimedFaces, text_of(all, "parameters"), text_of(all, "positions"), listed(refused));
   publish(options.out, "looser", text, csv_of(all));
-  return std::ranges::all_of(all, &Facts::certified) ? kDone : kAnswerIsNo;
+  return std::ranges::all_of(all, &HullFacts::certified) ? kDone : kAnswerIsNo;
 }
 
 }  // namespace

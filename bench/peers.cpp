@@ -75,7 +75,7 @@ Judgement judge(const TriangleMesh& original, const TriangleMesh& hull) {
           exact_facts(original, hull)};
 }
 
-struct Row {
+struct PeerRow {
   std::string_view method;
   bool ours = false;
   std::size_t asked_faces = 0;  ///< 0: could not be asked for
@@ -86,17 +86,17 @@ struct Row {
   std::string not_judged = {};              ///< why
 };
 
-struct ModelFacts {
+struct PeerFacts {
   std::string name;
   std::size_t vertices = 0, faces = 0, self_intersections = 0;
-  std::vector<Row> rows;
+  std::vector<PeerRow> rows;
 };
 
-class Bench {
+class PeerBench {
  public:
-  explicit Bench(const PeersOptions& options) : options_(options), nothing_(run_apart([] {}).peak_bytes) {}
+  explicit PeerBench(const PeersOptions& options) : options_(options), nothing_(run_apart([] {}).peak_bytes) {}
 
-  ModelFacts measure(const ModelSource& source) const {
+  PeerFacts measure(const ModelSource& source) const {
     const File original = temporary_file(), count = temporary_file();
     const Ended loaded = run_apart([&] {
       const TriangleMesh mesh = load(source);
@@ -106,7 +106,7 @@ class Bench {
     if (!loaded.failure.empty()) throw std::runtime_error(loaded.failure);
     const MeshSize size = get_mesh_size(original.get());
     fmt::print(stderr, "{}: {} faces", source.name, size.faces);
-    ModelFacts facts{source.name, size.vertices, size.faces, get_value<std::size_t>(count.get()), {}};
+    PeerFacts facts{source.name, size.vertices, size.faces, get_value<std::size_t>(count.get()), {}};
     for (const std::size_t faces : options_.hull_faces)
       for (const Method& method : kMethods)
         if (method.ours || !options_.only_ours) facts.rows.push_back(measure(original.get(), method, faces));
@@ -131,8 +131,8 @@ class Bench {
     return value;
   }
 
-  Row measure(std::FILE* original, const Method& method, std::size_t faces) const {
-    Row row{.method = method.name, .ours = method.ours, .asked_faces = faces};
+  PeerRow measure(std::FILE* original, const Method& method, std::size_t faces) const {
+    PeerRow row{.method = method.name, .ours = method.ours, .asked_faces = faces};
     const File seconds = temporary_file(), hull = temporary_file();
     const Ended made = run_apart(
         [&] {
@@ -153,7 +153,7 @@ class Bench {
     return row;
   }
 
-  void judge_apart(std::FILE* original, std::FILE* hull, Row& row) const {
+  void judge_apart(std::FILE* original, std::FILE* hull, PeerRow& row) const {
     const File verdict = temporary_file();
     const Ended judged =
         run_apart([&] { put_value(verdict.get(), judge(get_mesh(original), get_mesh(hull))); }, options_.limit_seconds);
@@ -161,7 +161,7 @@ class Bench {
     if (row.not_judged.empty()) row.judgement = get_value<Judgement>(verdict.get());
   }
 
-  static std::string progress(const Row& row) {
+  static std::string progress(const PeerRow& row) {
     if (!row.failure.empty()) return row.failure;
     return fmt::format("{} faces, {:.3f} s, {}", row.faces, row.seconds,
                        !row.judgement            ? row.not_judged
@@ -173,37 +173,37 @@ class Bench {
   std::size_t nothing_;
 };
 
-std::string verdict(const Row& row) {
+std::string verdict(const PeerRow& row) {
   if (!row.failure.empty()) return as_cell(row.failure);
   if (!row.judgement) return as_cell("not decided: " + row.not_judged);
   return row.judgement->encloses ? "yes" : fmt::format("no: {} faces stick out", row.judgement->faces_outside);
 }
 
-std::string asked(const Row& row) { return row.asked_faces > 0 ? fmt::to_string(row.asked_faces) : ""; }
+std::string asked(const PeerRow& row) { return row.asked_faces > 0 ? fmt::to_string(row.asked_faces) : ""; }
 
 /// What `value` makes of the facts of CGAL; empty if there are none.
 template <class Value>
-std::string fact(const Row& row, Value&& value) {
+std::string fact(const PeerRow& row, Value&& value) {
   return row.judgement && row.judgement->facts ? fmt::format("{}", value(*row.judgement->facts)) : "";
 }
 
-std::string vertices_outside(const Row& row) {
+std::string vertices_outside(const PeerRow& row) {
   return fact(row, [](const ExactFacts& f) { return f.vertices_outside; });
 }
 
-std::string self_intersections(const Row& row) {
+std::string self_intersections(const PeerRow& row) {
   return fact(row, [](const ExactFacts& f) { return f.self_intersections; });
 }
 
-std::string surfaces_meet(const Row& row) {
+std::string surfaces_meet(const PeerRow& row) {
   return fact(row, [](const ExactFacts& f) { return f.surfaces_meet ? "yes" : "no"; });
 }
 
-std::string section(const ModelFacts& m) {
+std::string section(const PeerFacts& m) {
   Table table({"method", "asked", "faces", "void", "time", "memory", "vertices outside", "self-intersections",
                "surfaces meet", "encloses"});
   constexpr double kMegabyte = 1e6;
-  for (const Row& row : m.rows)
+  for (const PeerRow& row : m.rows)
     table.add({std::string(row.method), asked(row), row.failure.empty() ? fmt::to_string(row.faces) : "",
                number(row.judgement ? row.judgement->void_percent : kUnknown, 2, " %"), number(row.seconds, 3, " s"),
                number(row.peak_bytes / kMegabyte, 1, " MB"), vertices_outside(row), self_intersections(row),
@@ -212,12 +212,12 @@ std::string section(const ModelFacts& m) {
                      m.self_intersections, table.markdown());
 }
 
-std::string csv(const std::vector<ModelFacts>& models) {
+std::string csv(const std::vector<PeerFacts>& models) {
   Table table({"mesh", "mesh_faces", "mesh_vertices", "mesh_self_intersections", "method", "asked_faces", "hull_faces",
                "void_percent", "seconds", "peak_bytes", "vertices_outside", "self_intersections", "surfaces_meet",
                "encloses"});
-  for (const ModelFacts& m : models)
-    for (const Row& row : m.rows)
+  for (const PeerFacts& m : models)
+    for (const PeerRow& row : m.rows)
       table.add({m.name, fmt::to_string(m.faces), fmt::to_string(m.vertices), fmt::to_string(m.self_intersections),
                  std::string(row.method), asked(row), row.failure.empty() ? fmt::to_string(row.faces) : "",
                  number(row.judgement ? row.judgement->void_percent : kUnknown, 4), number(row.seconds, 4),
@@ -227,24 +227,24 @@ std::string csv(const std::vector<ModelFacts>& models) {
 }
 
 /// Enclosing, with no more self-intersections than the original.
-bool keeps_its_word(const Row& row, const ModelFacts& m) {
+bool keeps_its_word(const PeerRow& row, const PeerFacts& m) {
   if (!row.judgement || !row.judgement->encloses) return false;
   return !row.judgement->facts || row.judgement->facts->self_intersections <= m.self_intersections;
 }
 
 int run_peers(PeersOptions options) {
   std::ranges::sort(options.hull_faces, std::greater());
-  const Bench bench(options);
-  std::vector<ModelFacts> models;
+  const PeerBench bench(options);
+  std::vector<PeerFacts> models;
   const std::vector<Refused> refused =
       measure_each(options.models, [&](const ModelSource& source) { models.push_back(bench.measure(source)); });
   std::string text = fmt::format("# Peers\n\n{}\n\n", machine());
-  for (const ModelFacts& m : models) text += section(m);
+  for (const PeerFacts& m : models) text += section(m);
   text += listed(refused);
   publish(options.out, "peers", text, csv(models));
   if (!options.out.empty()) draw_figure(options.out / "peers.csv");
-  const bool all_kept = std::ranges::all_of(models, [](const ModelFacts& m) {
-    return std::ranges::all_of(m.rows, [&](const Row& row) { return !row.ours || keeps_its_word(row, m); });
+  const bool all_kept = std::ranges::all_of(models, [](const PeerFacts& m) {
+    return std::ranges::all_of(m.rows, [&](const PeerRow& row) { return !row.ours || keeps_its_word(row, m); });
   });
   return all_kept ? kDone : kAnswerIsNo;
 }

@@ -61,13 +61,13 @@ struct Batch {
   std::vector<Segment> segments;
 };
 
-struct Contestant {
+struct FilterContestant {
   std::string engine, query;
   std::size_t bytes;  ///< of the index; 0: not known
   std::function<std::size_t(const Segment&)> ask;
 };
 
-void add_ours(std::vector<Contestant>& all, const QueryIndex& index) {
+void add_ours(std::vector<FilterContestant>& all, const QueryIndex& index) {
   const std::string engine(index.engine_name());
   const auto query = std::make_shared<MeshQuery>(index);
   const std::size_t bytes = index.memory_bytes();
@@ -78,12 +78,12 @@ void add_ours(std::vector<Contestant>& all, const QueryIndex& index) {
   all.push_back({engine, "all", bytes, [query](const Segment& s) { return query->all_hits(s).size(); }});
 }
 
-std::vector<Contestant> contestants(const TriangleMesh& mesh, const QueryFiltersOptions& options) {
+std::vector<FilterContestant> contestants(const TriangleMesh& mesh, const QueryFiltersOptions& options) {
   const HullOptions outer_options = hull_options(Strategy::Lazy, options.hull_faces);
   HullOptions inner_options = outer_options;
   inner_options.side = HullSide::Inner;
   const ProgressiveHull outer = build_hull(mesh, outer_options).hull, inner = build_hull(mesh, inner_options).hull;
-  std::vector<Contestant> all;
+  std::vector<FilterContestant> all;
   add_ours(all, QueryIndex(mesh));
   add_ours(all, QueryIndex(outer, inner, Engine::Filter));
   add_ours(all, QueryIndex(outer, inner, Engine::Walk));
@@ -98,7 +98,7 @@ std::vector<Contestant> contestants(const TriangleMesh& mesh, const QueryFilters
 }
 
 void measure(const std::string& name, const TriangleMesh& mesh, const QueryFiltersOptions& options, Table& table) {
-  const std::vector<Contestant> all = contestants(mesh, options);
+  const std::vector<FilterContestant> all = contestants(mesh, options);
   const Batch batches[] = {{"box", random_segments(bounding_box(mesh), options.segments, 1)},
                            {"aimed", aimed(mesh, options.segments)},
                            {"camera", camera(mesh, options.segments)}};

@@ -22,11 +22,11 @@ enum class Ask { First, Any, All };
 constexpr std::array kAsks{Ask::First, Ask::Any, Ask::All};
 
 /// Something that answers segments.
-class Contestant {
+class KdopContestant {
  public:
-  Contestant(std::string_view engine, const QueryModel& model)
+  KdopContestant(std::string_view engine, const QueryModel& model)
       : name_(engine), ours_(MeshQuery(index_called(engine, model))) {}
-  Contestant(std::string name, std::unique_ptr<QueryPeer> peer) : name_(std::move(name)), peer_(std::move(peer)) {}
+  KdopContestant(std::string name, std::unique_ptr<QueryPeer> peer) : name_(std::move(name)), peer_(std::move(peer)) {}
 
   const std::string& name() const { return name_; }
 
@@ -54,7 +54,7 @@ class Contestant {
   std::unique_ptr<QueryPeer> peer_;
 };
 
-struct ModelFacts {
+struct KdopFacts {
   std::string name;
   std::size_t faces = 0, segments = 0, segments_that_meet = 0;
   const PaperModel* paper = nullptr;
@@ -69,7 +69,7 @@ struct ModelFacts {
 
 /// Of each contestant for all crossings of all segments: the median of the rounds. The contestants take short turns, so
 /// that all of them have their share of whatever else the machine does.
-std::vector<double> median_seconds(std::vector<Contestant>& contestants, std::span<const Segment> segments,
+std::vector<double> median_seconds(std::vector<KdopContestant>& contestants, std::span<const Segment> segments,
                                    std::size_t rounds) {
   constexpr std::size_t kTurn = 1000;
   std::vector<std::vector<double>> seconds(contestants.size(), std::vector<double>(rounds));
@@ -86,16 +86,16 @@ std::vector<double> median_seconds(std::vector<Contestant>& contestants, std::sp
   return medians;
 }
 
-void measure_table4(const QueryModel& model, std::size_t rounds, ModelFacts& facts) {
-  std::vector<Contestant> contestants;
+void measure_table4(const QueryModel& model, std::size_t rounds, KdopFacts& facts) {
+  std::vector<KdopContestant> contestants;
   for (const std::string_view engine : kOverlapping) contestants.emplace_back(engine, model);
   contestants.emplace_back(kHull, model);
   facts.seconds = median_seconds(contestants, model.segments, rounds);
   facts.segments_that_meet = contestants.back().run(Ask::First, model.segments);
 }
 
-std::vector<Contestant> todays_contestants(const QueryModel& model) {
-  std::vector<Contestant> contestants;
+std::vector<KdopContestant> todays_contestants(const QueryModel& model) {
+  std::vector<KdopContestant> contestants;
   for (const std::string_view engine : {"paper-refinement", "refinement", "kdop6", "kdop14", "kdop18", "kdop26", "bvh"})
     contestants.emplace_back(engine, model);
   if (auto peer = make_cgal_tree(model.mesh)) contestants.emplace_back("CGAL AABB tree", std::move(peer));
@@ -104,21 +104,21 @@ std::vector<Contestant> todays_contestants(const QueryModel& model) {
   return contestants;
 }
 
-void measure_trees(const QueryModel& model, std::size_t rounds, ModelFacts& facts) {
-  std::vector<Contestant> contestants = todays_contestants(model);
-  for (const Contestant& c : contestants) facts.trees.push_back({c.name(), {}});
+void measure_trees(const QueryModel& model, std::size_t rounds, KdopFacts& facts) {
+  std::vector<KdopContestant> contestants = todays_contestants(model);
+  for (const KdopContestant& c : contestants) facts.trees.push_back({c.name(), {}});
   for (std::size_t ask = 0; ask < kAsks.size(); ++ask) {
     std::vector<std::function<void()>> runs;
-    for (Contestant& c : contestants) runs.emplace_back([&, ask] { c.run(kAsks[ask], model.segments); });
+    for (KdopContestant& c : contestants) runs.emplace_back([&, ask] { c.run(kAsks[ask], model.segments); });
     const auto seconds = best_seconds(rounds, runs);
     for (std::size_t i = 0; i < contestants.size(); ++i)
       facts.trees[i].nanoseconds[ask] = 1e9 * seconds[i] / static_cast<double>(model.segments.size());
   }
 }
 
-double per_10000(const ModelFacts& m, double seconds) { return seconds * 10000 / static_cast<double>(m.segments); }
+double per_10000(const KdopFacts& m, double seconds) { return seconds * 10000 / static_cast<double>(m.segments); }
 
-std::string table4(const std::vector<ModelFacts>& models) {
+std::string table4(const std::vector<KdopFacts>& models) {
   std::vector<std::string> columns{"model", "segments that meet", "paper's"};
   for (const int k : kDirections) columns.push_back(fmt::format("{}-DOPs", k));
   columns.emplace_back("hull");
@@ -127,7 +127,7 @@ std::string table4(const std::vector<ModelFacts>& models) {
     columns.emplace_back("paper's");
   }
   Table table(columns);
-  for (const ModelFacts& m : models) {
+  for (const KdopFacts& m : models) {
     std::vector<std::string> row{m.name, fmt::to_string(m.segments_that_meet),
                                  m.paper ? fmt::to_string(m.paper->lines_that_meet) : ""};
     for (const double s : m.seconds) row.push_back(number(per_10000(m, s), 3, " s"));
@@ -140,10 +140,10 @@ std::string table4(const std::vector<ModelFacts>& models) {
   return table.markdown();
 }
 
-std::string table4_csv(const std::vector<ModelFacts>& models) {
+std::string table4_csv(const std::vector<KdopFacts>& models) {
   Table table({"mesh", "faces", "segments", "segments_that_meet", "paper_segments_that_meet", "engine",
                "seconds_per_10000", "paper_seconds"});
-  for (const ModelFacts& m : models)
+  for (const KdopFacts& m : models)
     for (std::size_t i = 0; i < m.seconds.size(); ++i) {
       const bool is_hull = i == kOverlapping.size();
       table.add({m.name, fmt::to_string(m.faces), fmt::to_string(m.segments), fmt::to_string(m.segments_that_meet),
@@ -154,11 +154,11 @@ std::string table4_csv(const std::vector<ModelFacts>& models) {
   return table.csv();
 }
 
-std::string trees_table(const std::vector<ModelFacts>& models) {
+std::string trees_table(const std::vector<KdopFacts>& models) {
   Table table({"model", "engine", "first", "any", "all", "first / bvh"});
-  for (const ModelFacts& m : models) {
-    const double bvh = std::ranges::find(m.trees, "bvh", &ModelFacts::Trees::name)->nanoseconds[0];
-    for (const ModelFacts::Trees& t : m.trees) {
+  for (const KdopFacts& m : models) {
+    const double bvh = std::ranges::find(m.trees, "bvh", &KdopFacts::Trees::name)->nanoseconds[0];
+    for (const KdopFacts::Trees& t : m.trees) {
       std::vector<std::string> row{m.name, t.name};
       for (const double ns : t.nanoseconds) row.push_back(number(ns, 0, " ns"));
       row.push_back(number(t.nanoseconds[0] / bvh, 2));
@@ -168,10 +168,10 @@ std::string trees_table(const std::vector<ModelFacts>& models) {
   return table.markdown();
 }
 
-std::string trees_csv(const std::vector<ModelFacts>& models) {
+std::string trees_csv(const std::vector<KdopFacts>& models) {
   Table table({"mesh", "faces", "engine", "first_ns", "any_ns", "all_ns"});
-  for (const ModelFacts& m : models)
-    for (const ModelFacts::Trees& t : m.trees)
+  for (const KdopFacts& m : models)
+    for (const KdopFacts::Trees& t : m.trees)
       table.add({m.name, fmt::to_string(m.faces), t.name, number(t.nanoseconds[0], 1), number(t.nanoseconds[1], 1),
                  number(t.nanoseconds[2], 1)});
   return table.csv();
@@ -180,7 +180,7 @@ std::string trees_csv(const std::vector<ModelFacts>& models) {
 class KDopsSection final : public QuerySection {
  public:
   void measure(const QueryModel& model, const QueryOptions& options) override {
-    ModelFacts& facts = models_.emplace_back();
+    KdopFacts& facts = models_.emplace_back();
     facts.name = model.name;
     facts.faces = model.mesh.face_count();
     facts.segments = model.segments.size();
@@ -207,7 +207,7 @@ class KDopsSection final : public QuerySection {
   }
 
  private:
-  std::vector<ModelFacts> models_;
+  std::vector<KdopFacts> models_;
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kTimes = 10;
 
-struct Facts {
+struct MemoryFacts {
   std::string model, engine;
   std::size_t queries;
   std::size_t index, fresh, after_one, after_all, after_repeated;  ///< bytes
@@ -26,7 +26,7 @@ class MemorySection final : public QuerySection {
     for (const std::string_view engine : {"bvh", "kdop26", "refinement", "paper-refinement"}) {
       const QueryIndex index = index_called(engine, model);
       MeshQuery query(index);
-      Facts facts{
+      MemoryFacts facts{
           model.name, std::string(engine), model.segments.size(), index.memory_bytes(), query.memory_bytes(), 0, 0, 0};
       query.all_hits(model.segments[0]);
       facts.after_one = query.memory_bytes();
@@ -41,7 +41,7 @@ class MemorySection final : public QuerySection {
   std::string text() const override {
     Table table({"model", "engine", "index", "query object", "after 1 query", "after all segments",
                  fmt::format("after all {} times", kTimes)});
-    for (const Facts& f : facts_)
+    for (const MemoryFacts& f : facts_)
       table.add({f.model, f.engine, fmt::format("{:.1f} MB", static_cast<double>(f.index) / 1e6),
                  fmt::format("{} bytes", f.fresh), fmt::format("{} bytes", f.after_one),
                  fmt::format("{} bytes", f.after_all), fmt::format("{} bytes", f.after_repeated)});
@@ -51,16 +51,16 @@ class MemorySection final : public QuerySection {
   void write(const std::filesystem::path& folder) const override {
     Table table({"mesh", "engine", "segments", "index_bytes", "query_bytes", "query_bytes_after_1",
                  "query_bytes_after_all", fmt::format("query_bytes_after_{}_times", kTimes)});
-    for (const Facts& f : facts_)
+    for (const MemoryFacts& f : facts_)
       table.add({f.model, f.engine, fmt::to_string(f.queries), fmt::to_string(f.index), fmt::to_string(f.fresh),
                  fmt::to_string(f.after_one), fmt::to_string(f.after_all), fmt::to_string(f.after_repeated)});
     write_file(folder / "query_memory.csv", table.csv());
   }
 
-  bool holds() const override { return std::ranges::all_of(facts_, &Facts::is_settled); }
+  bool holds() const override { return std::ranges::all_of(facts_, &MemoryFacts::is_settled); }
 
  private:
-  std::vector<Facts> facts_;
+  std::vector<MemoryFacts> facts_;
 };
 
 }  // namespace

@@ -25,18 +25,18 @@ constexpr std::array kUpdates{
     NamedUpdate{"coarsen", {BetweenQueries::Coarsen, 1}},
 };
 
-struct Batch {
+struct UpdateBatch {
   std::string name;
   std::vector<Segment> segments;
 };
 
 /// Through the pixels of a picture of the mesh, row by row.
-Batch picture(const Box& box, std::size_t count) {
+UpdateBatch picture(const Box& box, std::size_t count) {
   const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(count)));
   const double size = box.diagonal();
   const Vec3 forward = Vec3{-0.48, -0.36, -0.8}, right{0.6, -0.8, 0}, up = cross(right, forward);
   const Vec3 eye = box.center() - 1.5 * size * forward;
-  Batch batch{"picture", {}};
+  UpdateBatch batch{"picture", {}};
   for (std::size_t row = 0; row < side; ++row)
     for (std::size_t column = 0; column < side; ++column) {
       const double x = (static_cast<double>(column) + 0.5) / static_cast<double>(side) - 0.5,
@@ -48,10 +48,10 @@ Batch picture(const Box& box, std::size_t count) {
 }
 
 /// Short segments through the surface, where segments to the centre from a spiral around the mesh meet it first.
-Batch sweep(const TriangleMesh& mesh, std::size_t count) {
+UpdateBatch sweep(const TriangleMesh& mesh, std::size_t count) {
   const Box box = bounding_box(mesh);
   MeshQuery query{QueryIndex(mesh)};
-  Batch batch{"sweep", {}};
+  UpdateBatch batch{"sweep", {}};
   for (std::size_t i = 0; i < count; ++i) {
     constexpr double kTurns = 10;
     const double done = (static_cast<double>(i) + 0.5) / static_cast<double>(count),
@@ -66,7 +66,7 @@ Batch sweep(const TriangleMesh& mesh, std::size_t count) {
   return batch;
 }
 
-struct Facts {
+struct UpdateFacts {
   std::string model, batch;
   std::string_view update;
   double microseconds = 0, tests = 0, splits = 0, coarsenings = 0;  ///< per query
@@ -76,8 +76,8 @@ class UpdatesSection final : public QuerySection {
  public:
   void measure(const QueryModel& model, const QueryOptions& options) override {
     const ProgressiveHull hull = model.hull_of_table4();
-    for (const Batch& batch :
-         {Batch{"random", model.segments}, picture(bounding_box(model.mesh), model.segments.size()),
+    for (const UpdateBatch& batch :
+         {UpdateBatch{"random", model.segments}, picture(bounding_box(model.mesh), model.segments.size()),
           sweep(model.mesh, model.segments.size())})
       measure_batch(model.name, hull, batch, options.rounds);
   }
@@ -85,7 +85,7 @@ class UpdatesSection final : public QuerySection {
   std::string text() const override {
     Table table({"model", "batch", "between queries", "time", "/ roll back", "tests", "splits", "coarsenings"});
     double roll_back = 0;
-    for (const Facts& f : facts_) {
+    for (const UpdateFacts& f : facts_) {
       if (f.update == kUpdates[0].name) roll_back = f.microseconds;
       table.add({f.model, f.batch, std::string(f.update), number(f.microseconds, 2, " us"),
                  number(f.microseconds / roll_back, 2), number(f.tests, 1), number(f.splits, 1),
@@ -100,14 +100,15 @@ class UpdatesSection final : public QuerySection {
 
   void write(const std::filesystem::path& folder) const override {
     Table table({"mesh", "batch", "between_queries", "us_per_query", "tests", "splits", "coarsenings"});
-    for (const Facts& f : facts_)
+    for (const UpdateFacts& f : facts_)
       table.add({f.model, f.batch, std::string(f.update), number(f.microseconds, 3), number(f.tests, 2),
                  number(f.splits, 2), number(f.coarsenings, 2)});
     write_file(folder / "updates.csv", table.csv());
   }
 
  private:
-  void measure_batch(const std::string& model, const ProgressiveHull& hull, const Batch& batch, std::size_t rounds) {
+  void measure_batch(const std::string& model, const ProgressiveHull& hull, const UpdateBatch& batch,
+                     std::size_t rounds) {
     std::vector<QueryIndex> indices;
     for (const NamedUpdate& update : kUpdates) indices.emplace_back(hull, Engine::PaperRefinement, update.options);
     std::vector<QueryCounts> counts(kUpdates.size());
@@ -126,7 +127,7 @@ class UpdatesSection final : public QuerySection {
                         static_cast<double>(counts[i].coarsenings) / queries});
   }
 
-  std::vector<Facts> facts_;
+  std::vector<UpdateFacts> facts_;
 };
 
 }  // namespace

@@ -31,13 +31,13 @@ constexpr std::string_view kOurs = "bvh", kEmbree = "Embree", kRobust = "Embree 
                            kPackets8 = "Embree robust, packets of 8", kPackets16 = "Embree robust, packets of 16";
 
 /// Asks all queries of a set; returns how many hits there are, so that no compiler leaves the answers out.
-struct Contestant {
+struct RayContestant {
   std::string_view engine;
   std::size_t queries;
   std::function<std::size_t()> ask;
 };
 
-struct Result {
+struct RayResult {
   std::string_view engine;
   std::size_t queries, hits;
   double ns;  ///< per query
@@ -47,10 +47,10 @@ struct Result {
 struct Comparison {
   std::string set, ask;
   bool is_batch = false;
-  std::vector<Result> results = {};
+  std::vector<RayResult> results = {};
 
   double ns(std::string_view engine) const {
-    const auto found = std::ranges::find(results, engine, &Result::engine);
+    const auto found = std::ranges::find(results, engine, &RayResult::engine);
     return found == results.end() ? kUnknown : found->ns;
   }
 };
@@ -61,7 +61,7 @@ struct TreeFacts {
   double bytes_per_face;            ///< beside the mesh
 };
 
-struct ModelFacts {
+struct RayFacts {
   std::string name;
   std::size_t faces;
   std::vector<Comparison> comparisons = {};
@@ -69,9 +69,9 @@ struct ModelFacts {
 };
 
 /// The contestants take turns, and the median of the rounds counts. A round before is not timed: it warms the caches.
-std::vector<Result> compared(const std::vector<Contestant>& contestants, std::size_t rounds) {
-  std::vector<Result> results;
-  for (const Contestant& c : contestants) results.push_back({c.engine, c.queries, c.ask(), 0});
+std::vector<RayResult> compared(const std::vector<RayContestant>& contestants, std::size_t rounds) {
+  std::vector<RayResult> results;
+  for (const RayContestant& c : contestants) results.push_back({c.engine, c.queries, c.ask(), 0});
   std::vector<std::vector<double>> seconds(contestants.size());
   for (std::size_t round = 0; round < rounds; ++round)
     for (std::size_t i = 0; i < contestants.size(); ++i)
@@ -90,7 +90,7 @@ std::size_t sum(std::span<const Query> queries, Answer answer) {
 }
 
 template <class Answer>
-Contestant one_by_one(std::string_view engine, std::span<const Segment> segments, Answer answer) {
+RayContestant one_by_one(std::string_view engine, std::span<const Segment> segments, Answer answer) {
   return {engine, segments.size(), [=] { return sum(segments, answer); }};
 }
 
@@ -108,7 +108,7 @@ class ModelComparison {
     fmt::print(stderr, "{}: {} faces\n", facts_.name, facts_.faces);
   }
 
-  ModelFacts facts() {
+  RayFacts facts() {
     if (is_asked("trees")) compare_trees();
     index_ = std::make_unique<QueryIndex>(mesh_, Engine::Bvh);
     query_ = std::make_unique<MeshQuery>(*index_);
@@ -170,7 +170,7 @@ class ModelComparison {
   void compare_one_by_one(const SegmentSet& set, std::span<const Segment> segments, std::string_view ask,
                           Answer answer) {
     const std::vector<Segment> fewer = some(segments, options_.cgal_segments);
-    std::vector<Contestant> contestants{
+    std::vector<RayContestant> contestants{
         one_by_one(kOurs, segments, [&, answer](const Segment& s) { return answer(*query_, s); })};
     for (const NamedPeer& p : peers_)
       contestants.push_back(one_by_one(p.name, p.name == kCgal ? fewer : segments,
@@ -189,12 +189,12 @@ class ModelComparison {
 
   void compare_batches(const SegmentSet& set, std::span<const Segment> segments) {
     const BatchOptions one_thread{.threads = 1};
-    std::vector<Contestant> first{
+    std::vector<RayContestant> first{
         {kOurs, segments.size(), [&] { return find_hits(*index_, segments, HitMode::First, one_thread).hits.size(); }}};
-    std::vector<Contestant> crossing{{kOurs, segments.size(), [&] {
-                                        const std::vector<bool> crossed = crosses(*index_, segments, one_thread);
-                                        return static_cast<std::size_t>(std::ranges::count(crossed, true));
-                                      }}};
+    std::vector<RayContestant> crossing{{kOurs, segments.size(), [&] {
+                                           const std::vector<bool> crossed = crosses(*index_, segments, one_thread);
+                                           return static_cast<std::size_t>(std::ranges::count(crossed, true));
+                                         }}};
     const auto robust = std::ranges::find(peers_, kRobust, &NamedPeer::name);
     std::unique_ptr<PeerPackets> packets[2];
     if (robust != peers_.end()) {
@@ -221,7 +221,7 @@ class ModelComparison {
       for (int axis = 0; axis < 3; ++axis)
         p[axis] = box.min[axis] + (box.max[axis] - box.min[axis]) * (static_cast<double>(random() >> 11) * 0x1p-53);
     const std::span<const Vec3> asked(points);
-    std::vector<Contestant> contestants{
+    std::vector<RayContestant> contestants{
         {kOurs, points.size(), [&] { return sum(asked, [&](const Vec3& p) { return query_->contains(p); }); }}};
     for (const NamedPeer& p : peers_)
       if (p.peer->contains(points[0]))
@@ -238,16 +238,16 @@ class ModelComparison {
 
   const RayOptions& options_;
   TriangleMesh mesh_;
-  ModelFacts facts_;
+  RayFacts facts_;
   std::unique_ptr<QueryIndex> index_;
   std::unique_ptr<MeshQuery> query_;
   std::vector<NamedPeer> peers_;
 };
 
-std::string one_by_one_table(const std::vector<ModelFacts>& models) {
+std::string one_by_one_table(const std::vector<RayFacts>& models) {
   Table table({"model", "faces", "queries", "ask", "number", "bvh", "Embree", "Embree robust", "CGAL AABB tree",
                "bvh / Embree robust"});
-  for (const ModelFacts& m : models)
+  for (const RayFacts& m : models)
     for (const Comparison& c : m.comparisons)
       if (!c.is_batch)
         table.add({m.name, fmt::to_string(m.faces), c.set, c.ask, fmt::to_string(c.results[0].queries),
@@ -256,10 +256,10 @@ std::string one_by_one_table(const std::vector<ModelFacts>& models) {
   return table.markdown();
 }
 
-std::string batches_table(const std::vector<ModelFacts>& models) {
+std::string batches_table(const std::vector<RayFacts>& models) {
   Table table({"model", "faces", "queries", "ask", "bvh", "Embree robust", "packets of 8", "packets of 16",
                "bvh / fastest Embree"});
-  for (const ModelFacts& m : models)
+  for (const RayFacts& m : models)
     for (const Comparison& c : m.comparisons)
       if (c.is_batch)
         table.add({m.name, fmt::to_string(m.faces), c.set, c.ask, number(c.ns(kOurs), 0, " ns"),
@@ -269,28 +269,28 @@ std::string batches_table(const std::vector<ModelFacts>& models) {
   return table.markdown();
 }
 
-std::string trees_table(const std::vector<ModelFacts>& models) {
+std::string trees_table(const std::vector<RayFacts>& models) {
   Table table({"model", "faces", "tree", "build", "elapsed, all cores", "bytes per face"});
-  for (const ModelFacts& m : models)
+  for (const RayFacts& m : models)
     for (const TreeFacts& t : m.trees)
       table.add({m.name, fmt::to_string(m.faces), std::string(t.engine), number(t.seconds, 3, " s"),
                  number(t.elapsed_seconds, 3, " s"), number(t.bytes_per_face, 1)});
   return table.markdown();
 }
 
-std::string rays_csv(const std::vector<ModelFacts>& models) {
+std::string rays_csv(const std::vector<RayFacts>& models) {
   Table table({"mesh", "faces", "set", "ask", "how", "engine", "queries", "hits", "query_ns"});
-  for (const ModelFacts& m : models)
+  for (const RayFacts& m : models)
     for (const Comparison& c : m.comparisons)
-      for (const Result& r : c.results)
+      for (const RayResult& r : c.results)
         table.add({m.name, fmt::to_string(m.faces), c.set, c.ask, c.is_batch ? "batch" : "one by one",
                    as_cell(std::string(r.engine)), fmt::to_string(r.queries), fmt::to_string(r.hits), number(r.ns, 1)});
   return table.csv();
 }
 
-std::string trees_csv(const std::vector<ModelFacts>& models) {
+std::string trees_csv(const std::vector<RayFacts>& models) {
   Table table({"mesh", "faces", "engine", "build_seconds", "elapsed_seconds", "bytes_per_face"});
-  for (const ModelFacts& m : models)
+  for (const RayFacts& m : models)
     for (const TreeFacts& t : m.trees)
       table.add({m.name, fmt::to_string(m.faces), std::string(t.engine), number(t.seconds, 4),
                  number(t.elapsed_seconds, 4), number(t.bytes_per_face, 2)});
@@ -298,7 +298,7 @@ std::string trees_csv(const std::vector<ModelFacts>& models) {
 }
 
 int run_rays(const RayOptions& options) {
-  std::vector<ModelFacts> models;
+  std::vector<RayFacts> models;
   measure_each(options.models, [&](const ModelSource& source) {
     RayOptions mine = options;
     if (source.is_record_sample)  // it is measured by a test

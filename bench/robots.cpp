@@ -29,7 +29,7 @@ struct RobotsOptions {
 
 double ratio(double a, double b) { return b > 0 ? a / b : kUnknown; }
 
-struct Tables {
+struct RobotTables {
   Table links{{"robot", "link", "faces", "hull_faces", "certified", "by_part", "by_convex", "distance_mm", "shipped",
                "sticks_out_mm", "shipped_by_part", "shipped_farthest_mm"}};
   Table motion{{"robot", "configurations", "pairs", "visual", "false_hull", "false_convex", "missed", "us_per_visual",
@@ -40,7 +40,7 @@ struct Tables {
 };
 
 void add_link(const std::string& name, const Link& link, const LinkHulls& made, const LinkCheck& shipped,
-              Tables& tables) {
+              RobotTables& tables) {
   std::vector<std::string> row{as_cell(name), as_cell(link.name)};
   if (made.status == LinkStatus::Hulled) {
     const LinkHull& hull = made.hulls[0];
@@ -63,7 +63,7 @@ void add_link(const std::string& name, const Link& link, const LinkHulls& made, 
   tables.links.add(row);
 }
 
-void add_motion(const std::string& name, const MotionResult& motion, Tables& tables) {
+void add_motion(const std::string& name, const MotionResult& motion, RobotTables& tables) {
   std::size_t pairs = 0, visual = 0;
   for (const MotionPair& pair : motion.pairs) pairs += pair.kind != PairKind::Adjacent, visual += pair.visual;
   tables.missed += motion.missed();
@@ -74,7 +74,7 @@ void add_motion(const std::string& name, const MotionResult& motion, Tables& tab
 
 /// The program as a user runs it, twice.
 void add_runs(const std::string& name, const path& file, const RobotsOptions& options, const path& folder,
-              Tables& tables) {
+              RobotTables& tables) {
   constexpr ProgramLimits kLimits{.seconds = 600, .address_bytes = std::size_t{16} << 30};
   std::vector<std::string> words{PROHULL_PROGRAM,          "urdf",           file,      "-o",
                                  folder / (name + "_out"), "--skip-missing", "--cache", folder / "cache"};
@@ -87,7 +87,7 @@ void add_runs(const std::string& name, const path& file, const RobotsOptions& op
                    number(first.seconds, 1), number(second.seconds, 2)});
 }
 
-void measure(const path& path_of_robot, const RobotsOptions& options, const path& folder, Tables& tables) {
+void measure(const path& path_of_robot, const RobotsOptions& options, const path& folder, RobotTables& tables) {
   const RobotFile file = read_robot(path_of_robot, options.file);
   const std::string name = path_of_robot.stem().string();
   LinkHullOptions how;
@@ -106,7 +106,7 @@ int run_robots(const RobotsOptions& options) {
   const WorkFolder folder;
   std::vector<path> robots = options.robots;
   for (const std::string& sample : options.samples) robots.push_back(sample_robot_in(folder.get(), sample));
-  Tables tables;
+  RobotTables tables;
   for (const path& robot : robots) measure(robot, options, folder.get(), tables);
   publish(options.out, "robots",
           fmt::format("Hulls of {} faces; volumes by the sealed part and by its convex hull. {}\n\n{}\nMedian volume: "

@@ -32,14 +32,14 @@ struct Cost {
   double microseconds_per_collapse() const { return 1e6 * seconds / static_cast<double>(collapses); }
 };
 
-struct Variant {
+struct ScaleVariant {
   const char* name;
   SelfIntersections self_intersections;
   unsigned threads;
 };
-constexpr std::array<Variant, 3> kVariants{{{"unguarded", SelfIntersections::Allowed, 1},
-                                            {"guarded", SelfIntersections::Refused, 1},
-                                            {"all cores", SelfIntersections::Refused, 0}}};
+constexpr std::array<ScaleVariant, 3> kScaleVariants{{{"unguarded", SelfIntersections::Allowed, 1},
+                                                      {"guarded", SelfIntersections::Refused, 1},
+                                                      {"all cores", SelfIntersections::Refused, 0}}};
 
 void measure(const TriangleMesh& mesh, const HullOptions& options, Cost& cost) {
   std::optional<HullResult> result;
@@ -57,12 +57,12 @@ int run_scale(const ScaleOptions& options) {
     for (std::size_t level = 0; level <= options.subdivisions; ++level) {
       if (level > 0) mesh = subdivided(mesh);
       fmt::print(stderr, "{}: {} faces\n", source.name, mesh.face_count());
-      std::array<Cost, kVariants.size()> costs;
+      std::array<Cost, kScaleVariants.size()> costs;
       for (std::size_t round = 0; round < options.rounds; ++round)
-        for (std::size_t i = 0; i < kVariants.size(); ++i) {
+        for (std::size_t i = 0; i < kScaleVariants.size(); ++i) {
           HullOptions hull = hull_options(Strategy::Lazy, options.hull_faces);
-          hull.self_intersections = kVariants[i].self_intersections;
-          hull.threads = kVariants[i].threads;
+          hull.self_intersections = kScaleVariants[i].self_intersections;
+          hull.threads = kScaleVariants[i].threads;
           measure(mesh, hull, costs[i]);
         }
       const auto us = [&](std::size_t i) { return costs[i].microseconds_per_collapse(); };
@@ -71,8 +71,8 @@ int run_scale(const ScaleOptions& options) {
                  fmt::format("{:.2f}", us(1) / us(2)),
                  fmt::format("{:.1f}",
                              static_cast<double>(costs[0].linear_programs) / static_cast<double>(costs[0].collapses))});
-      for (std::size_t i = 0; i < kVariants.size(); ++i)
-        csv.add({source.name, fmt::to_string(mesh.face_count()), kVariants[i].name,
+      for (std::size_t i = 0; i < kScaleVariants.size(); ++i)
+        csv.add({source.name, fmt::to_string(mesh.face_count()), kScaleVariants[i].name,
                  fmt::format("{:.4f}", costs[i].seconds), fmt::to_string(costs[i].collapses),
                  fmt::to_string(costs[i].linear_programs), fmt::format("{:.3f}", us(i))});
     }

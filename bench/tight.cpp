@@ -27,9 +27,9 @@ struct TightOptions {
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-class Bench {
+class TightBench {
  public:
-  explicit Bench(const TightOptions& options) : options_(options) {}
+  explicit TightBench(const TightOptions& options) : options_(options) {}
 
   void measure(const ModelSource& source) {
     const TriangleMesh mesh = load(source);
@@ -75,7 +75,7 @@ class Bench {
 };
 
 int run_tight(const TightOptions& options) {
-  Bench bench(options);
+  TightBench bench(options);
   const auto refused = measure_each(options.models, [&](const ModelSource& source) { bench.measure(source); });
   return bench.publish_all(refused);
 }

@@ -8,6 +8,11 @@ import pytest
 
 
 @pytest.fixture(scope="module")
+def small():
+    return prohull.sample("pony", 500)
+
+
+@pytest.fixture(scope="module")
 def pieces(pony):
     return prohull.convex_pieces(pony, 4, vertices=32)
 
@@ -63,22 +68,22 @@ def test_balls_fill(pony):
     assert filled.certified and filled.covers_inside and prohull.verify_union(filled, pony, inside=True)
 
 
-def test_bounds_are_kept(pony):
-    size = np.linalg.norm(np.ptp(pony.vertices, axis=0))
-    cover = prohull.convex_pieces(pony, 8, max_distance=0.2 * size)
+def test_bounds_are_kept(small):
+    size = np.linalg.norm(np.ptp(small.vertices, axis=0))
+    cover = prohull.convex_pieces(small, 8, max_distance=0.2 * size)
     assert cover.within_bounds and cover.reach[1] <= 0.2 * size and len(cover.pieces) < 8
-    assert not prohull.convex_pieces(pony, 1, max_void_percent=1).within_bounds
-    assert not prohull.spheres(pony, 2, max_distance=0.05 * size).within_bounds
+    assert not prohull.convex_pieces(small, 1, max_void_percent=1).within_bounds
+    assert not prohull.spheres(small, 2, max_distance=0.05 * size).within_bounds
 
 
 @pytest.mark.parametrize("shape, kind", [("box", prohull.OrientedBox), ("capsule", prohull.Capsule), ("sphere", prohull.Ball)])
-def test_pieces_may_be_primitives(pony, shape, kind):
-    cover = prohull.convex_pieces(pony, 2, shape=shape)
+def test_pieces_may_be_primitives(small, shape, kind):
+    cover = prohull.convex_pieces(small, 2, shape=shape)
     assert cover.certified and all(isinstance(piece.primitive, kind) for piece in cover.pieces)
 
 
-def test_a_box_encloses_its_piece(pony):
-    for piece in prohull.convex_pieces(pony, 2, shape="box").pieces:
+def test_a_box_encloses_its_piece(small):
+    for piece in prohull.convex_pieces(small, 2, shape="box").pieces:
         box = piece.primitive
         assert box.axes @ box.axes.T == pytest.approx(np.eye(3), abs=1e-9)
         inside = np.abs((piece.vertices - box.center) @ box.axes.T)
@@ -95,8 +100,8 @@ def test_pieces_are_saved(pieces, pony, tmp_path):
         pieces.save(tmp_path / "pony.off")
 
 
-def test_float32_coordinates(pony, tmp_path):
-    cover = prohull.convex_pieces(pony, 2, float32_coordinates=True)
+def test_float32_coordinates(small, tmp_path):
+    cover = prohull.convex_pieces(small, 2, float32_coordinates=True)
     assert all(np.array_equal(piece.vertices, piece.vertices.astype(np.float32)) for piece in cover.pieces)
     cover.save(tmp_path / "pieces.glb")
     cover.pieces[0].save(tmp_path / "piece.stl")
@@ -116,8 +121,8 @@ def test_triangles_that_are_not_finite_are_left_out(cube):
     assert prohull.convex_pieces(mesh, 1).certified and prohull.spheres(mesh, 1).certified
 
 
-def test_threads_do_not_change_covers(pony, balls):
-    one, two = (prohull.convex_pieces(pony, 4, threads=threads) for threads in (1, 2))
+def test_threads_do_not_change_covers(small, pony, balls):
+    one, two = (prohull.convex_pieces(small, 4, threads=threads) for threads in (1, 2))
     assert len(one.pieces) == len(two.pieces)
     assert all(np.array_equal(a.vertices, b.vertices) for a, b in zip(one.pieces, two.pieces))
     assert np.array_equal(prohull.spheres(pony, 16, threads=1).balls, balls.balls)
@@ -149,12 +154,12 @@ def test_spheres_are_saved(balls, tmp_path):
     lambda mesh, progress: prohull.spheres(mesh, 64, progress=progress),
     lambda mesh, progress: prohull.verify_union(np.tile([0, 0, 0, 9], (100, 1)), mesh, progress=progress),
 ])
-def test_progress_is_told_and_can_stop(pony, work):
+def test_progress_is_told_and_can_stop(small, work):
     told = []
-    work(pony, lambda *state: told.append(state))
+    work(small, lambda *state: told.append(state))
     assert told[0] == ("start", 0.0) and told[-1] == ("done", 1.0)
     with pytest.raises(KeyboardInterrupt, match="progress returned False"):
-        work(pony, lambda stage, fraction: False)
+        work(small, lambda stage, fraction: False)
 
 
 @pytest.mark.parametrize("function, options, message", [

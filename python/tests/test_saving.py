@@ -18,7 +18,7 @@ def part(pony):
 @pytest.mark.parametrize("suffix", [".stl", ".GLB"])
 @pytest.mark.parametrize("options", [{}, {"tight": True}, {"side": "inner"}, {"max_distance": 0.5}])
 def test_a_hull_is_saved_certified(part, tmp_path, suffix, options):
-    hull = prohull.build(part, 200, **options)
+    hull = prohull.build(part, 300, **options)
     assert hull.certified and not is_float32(hull)
     hull.save(tmp_path / f"hull{suffix}")
     written = prohull.read(tmp_path / f"hull{suffix}")

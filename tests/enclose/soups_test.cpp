@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "effort.h"
+#include "few_trials.h"
 #include "geometry/float32.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/error.h"

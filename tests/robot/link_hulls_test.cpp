@@ -5,6 +5,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "effort.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
@@ -90,7 +91,7 @@ TEST_F(LinkHullsTest, OfOtherBudgets) {
 }
 
 TEST_F(LinkHullsTest, MayBeConvexPieces) {
-  options_.budget.collision = Collision::Convex, options_.budget.pieces = 4, options_.budget.vertices = 20;
+  options_.budget.collision = Collision::Convex, options_.budget.pieces = effort(4, 2), options_.budget.vertices = 20;
   options_.cache = folder_.path() / "cache";
   const std::vector<LinkHulls> made = link_hulls(robot_, options_);
   EXPECT_EQ(made[1].frame.same_origin_as, 0U);
