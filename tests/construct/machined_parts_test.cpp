@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Parts, MachinedParts, testing::ValuesIn(parts()),
 
 // At its 32 faces the narrow sides would have a compactness down to 0.03: less than the guards let pass.
 TEST(ThinPlate, KeepsMoreFacesRatherThanSliversAndHasNoVoid) {
-  for (const double height : effort<std::vector<double>>({2.0, 1.0, 0.5, 0.25}, {0.25})) {
+  for (const double height : effort<std::vector<double>>({2.0, 0.25}, {0.25})) {
     const Part plate = finer("", pierced(square(8), square(2), height));
     const TriangleMesh hull = build_hull(plate.fine, {.target_faces = 32}).hull.base();
     EXPECT_TRUE(are_equal_solids(hull, plate.fine)) << height;

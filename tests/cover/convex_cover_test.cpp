@@ -47,7 +47,7 @@ TriangleMesh two_boxes_apart() {
   return both;
 }
 
-TriangleMesh small_torus() { return meshes::torus(effort(16u, 12u), effort(8u, 6u)); }
+TriangleMesh small_torus() { return meshes::torus(effort(16u, 9u), effort(8u, 5u)); }
 
 TEST(ConvexCover, OfABoxIsTheBox) {
   const ConvexCover cover = convex_cover(meshes::box({0, 0, 0}, {1, 2, 3}));
@@ -86,7 +86,7 @@ TEST(ConvexCover, OfSamplesIsCertifiedAndSmallerThanTheConvexHull) {
 }
 
 TEST(ConvexCover, OfMorePiecesIsSmaller) {
-  const TriangleMesh mesh = meshes::torus(effort(24u, 12u), effort(10u, 6u));
+  const TriangleMesh mesh = meshes::torus(effort(24u, 9u), effort(10u, 5u));
   double last = std::numeric_limits<double>::infinity();
   for (const std::size_t pieces : {1u, 4u, 10u}) {
     const ConvexCover cover = convex_cover(mesh, {.max_pieces = pieces});
@@ -96,7 +96,7 @@ TEST(ConvexCover, OfMorePiecesIsSmaller) {
 }
 
 TEST(ConvexCover, HasAsFewPiecesAsKeepTheBounds) {
-  const TriangleMesh mesh = meshes::torus(effort(24u, 12u), effort(10u, 6u));
+  const TriangleMesh mesh = meshes::torus(effort(24u, 9u), effort(10u, 5u));
   const ConvexCover near = convex_cover(mesh, {.max_pieces = 20, .bounds = {.max_void_ratio = 0.25}});
   EXPECT_TRUE(near.within_bounds);
   EXPECT_LE(near.void_ratio, 0.25);
@@ -190,7 +190,7 @@ TEST(ConvexCover, SaysWhereShapesAreLargerThanTheConvexHull) {
 }
 
 TEST(ConvexCover, IsTheSameForAnyNumberOfThreads) {
-  const TriangleMesh mesh = meshes::torus(effort(24u, 12u), effort(10u, 6u));
+  const TriangleMesh mesh = meshes::torus(effort(24u, 9u), effort(10u, 5u));
   const std::size_t pieces = effort(6u, 3u);
   const ConvexCover one = convex_cover(mesh, {.max_pieces = pieces, .threads = 1});
   const ConvexCover all = convex_cover(mesh, {.max_pieces = pieces});

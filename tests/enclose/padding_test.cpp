@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "effort.h"
 #include "geometry/float32.h"
@@ -129,7 +130,7 @@ TEST(Padding, HoldsForTheCoordinatesOfTheFile) {
   SoupMaker random(test_seed());
   const TriangleMesh mesh = make_sample("pony", effort<std::size_t>(800, 80));
   const double diagonal = bounding_box(mesh).diagonal();
-  for (const double away : {0.0, 100.0})
+  for (const double away : effort<std::vector<double>>({0.0, 100.0}, {100.0}))
     for (const double padding : {1e-4 * diagonal, 0.02 * diagonal}) {
       SCOPED_TRACE(std::to_string(away) + " " + std::to_string(padding));
       const TriangleMesh there = moved(mesh, Vec3{1, -2, 3} * (away * diagonal));
