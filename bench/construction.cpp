@@ -28,10 +28,10 @@ struct Variant {
   std::string_view name;
 };
 // The paper does not look for self-intersections; our default refuses them.
-constexpr std::array kStrategies{Variant{Strategy::Paper1, SelfIntersections::Allowed, "paper1"},
-                                 Variant{Strategy::Paper2, SelfIntersections::Allowed, "paper2"},
-                                 Variant{Strategy::Lazy, SelfIntersections::Refused, "lazy"},
-                                 Variant{Strategy::Lazy, SelfIntersections::Allowed, "lazy unguarded"}};
+constexpr std::array kTimed{Variant{Strategy::Paper1, SelfIntersections::Allowed, "paper1"},
+                            Variant{Strategy::Paper2, SelfIntersections::Allowed, "paper2"},
+                            Variant{Strategy::Lazy, SelfIntersections::Refused, "lazy"},
+                            Variant{Strategy::Lazy, SelfIntersections::Allowed, "lazy unguarded"}};
 constexpr std::size_t kPaper1 = 0, kPaper2 = 1, kLazy = 2, kUnguarded = 3;
 
 HullOptions hull_options(const Variant& variant, std::size_t faces) {
@@ -63,8 +63,8 @@ struct ConstructionFacts {
   std::string name;
   std::size_t faces = 0;
   const PaperModel* paper = nullptr;
-  std::array<VariantFacts, kStrategies.size()> of;  ///< by the order of kStrategies
-  std::optional<PeerRun> peer;                      ///< best of the rounds
+  std::array<VariantFacts, kTimed.size()> of;  ///< by the order of kTimed
+  std::optional<PeerRun> peer;                 ///< best of the rounds
 };
 
 void time_variant(const TriangleMesh& mesh, const Variant& variant, std::size_t faces, VariantFacts& facts) {
@@ -104,13 +104,13 @@ ConstructionFacts measure(const ModelSource& source, const ConstructionOptions& 
                           .peer = {}};
   const std::size_t faces = options.hull_faces.front();
   for (std::size_t round = 0; round < options.rounds; ++round) {
-    for (std::size_t i = 0; i < kStrategies.size(); ++i) time_variant(mesh, kStrategies[i], faces, facts.of[i]);
+    for (std::size_t i = 0; i < kTimed.size(); ++i) time_variant(mesh, kTimed[i], faces, facts.of[i]);
     time_peer(mesh, faces, facts.peer);
     fmt::print(stderr, ", round {}", round + 1);
   }
-  for (std::size_t i = 0; i < kStrategies.size(); ++i) {
-    judge_fit(mesh, kStrategies[i], options, facts.of[i]);
-    fmt::print(stderr, ", {} {}", kStrategies[i].name, facts.of[i].certified ? "certified" : "NOT CERTIFIED");
+  for (std::size_t i = 0; i < kTimed.size(); ++i) {
+    judge_fit(mesh, kTimed[i], options, facts.of[i]);
+    fmt::print(stderr, ", {} {}", kTimed[i].name, facts.of[i].certified ? "certified" : "NOT CERTIFIED");
   }
   fmt::print(stderr, "\n");
   return facts;
@@ -150,11 +150,11 @@ std::string voids(const std::vector<ConstructionFacts>& models, const std::vecto
   for (const ConstructionFacts& m : models)
     for (std::size_t k = 0; k < hull_faces.size(); ++k) {
       std::vector<std::string> row{m.name, fmt::to_string(hull_faces[k])};
-      for (std::size_t i = 0; i < kStrategies.size(); ++i) {
+      for (std::size_t i = 0; i < kTimed.size(); ++i) {
         const double ours = m.of[i].void_percent[k];
         row.push_back(std::isnan(ours) ? fmt::format("(ends at {})", m.of[i].fewest_faces) : number(ours, 3, " %"));
-        if (kStrategies[i].strategy == Strategy::Lazy) continue;
-        const double theirs = papers_void(m, kStrategies[i].strategy, hull_faces[k]);
+        if (kTimed[i].strategy == Strategy::Lazy) continue;
+        const double theirs = papers_void(m, kTimed[i].strategy, hull_faces[k]);
         row.push_back(number(theirs, 2, " %"));
         row.push_back(difference(ours, theirs));
       }
@@ -196,9 +196,9 @@ std::string csv(const std::vector<ConstructionFacts>& models, const std::vector<
   Table table({"mesh", "faces", "strategy", "hull_faces", "void_percent", "paper_void_percent", "seconds",
                "paper_seconds", "collapses", "linear_programs", "peer_seconds", "certified"});
   for (const ConstructionFacts& m : models)
-    for (std::size_t i = 0; i < kStrategies.size(); ++i)
+    for (std::size_t i = 0; i < kTimed.size(); ++i)
       for (std::size_t k = 0; k < hull_faces.size(); ++k) {
-        const Variant& variant = kStrategies[i];
+        const Variant& variant = kTimed[i];
         const VariantFacts& s = m.of[i];
         const bool timed = k == 0;
         table.add({m.name, fmt::to_string(m.faces), std::string(variant.name), fmt::to_string(hull_faces[k]),

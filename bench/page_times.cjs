@@ -9,6 +9,10 @@ const path = require('node:path');
 const {withBrowser} = require('../tests/view/chromium.cjs');
 
 const [, , program, chromium = '/usr/bin/chromium'] = process.argv;
+if (!program) {
+  console.error('usage: page_times.cjs PROHULL [CHROMIUM]');
+  process.exit(2);
+}
 const prohull = path.resolve(program);
 const RUNS = 7, FRAMES = 150;
 const EMPTY = `<!doctype html><canvas id="canvas"></canvas><script>

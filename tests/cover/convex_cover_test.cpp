@@ -86,7 +86,7 @@ TEST(ConvexCover, OfSamplesIsCertifiedAndSmallerThanTheConvexHull) {
 }
 
 TEST(ConvexCover, OfMorePiecesIsSmaller) {
-  if (kTestsAreSlow) GTEST_SKIP();
+  if (kTestsAreSlow) GTEST_SKIP() << kTooSlow;
   const TriangleMesh mesh = meshes::torus(24, 10);
   double last = std::numeric_limits<double>::infinity();
   for (const std::size_t pieces : {1u, 4u, 10u}) {
@@ -97,7 +97,7 @@ TEST(ConvexCover, OfMorePiecesIsSmaller) {
 }
 
 TEST(ConvexCover, HasAsFewPiecesAsKeepTheBounds) {
-  if (kTestsAreSlow) GTEST_SKIP();
+  if (kTestsAreSlow) GTEST_SKIP() << kTooSlow;
   const TriangleMesh mesh = meshes::torus(24, 10);
   const ConvexCover near = convex_cover(mesh, {.max_pieces = 20, .bounds = {.max_void_ratio = 0.25}});
   EXPECT_TRUE(near.within_bounds);
@@ -150,7 +150,7 @@ TEST(ConvexCover, KeepsFloat32Coordinates) {
 
 /// A piece of this part once had a spike that reached out by 40 % of the diagonal.
 TEST(ConvexCover, OfFloat32CoordinatesIsHardlyLarger) {
-  if (kTestsAreSlow) GTEST_SKIP();
+  if (kTestsAreSlow) GTEST_SKIP() << kTooSlow;
   const TriangleMesh mesh = make_sample("bracket", 3000);
   const std::size_t pieces = 8;
   const ConvexCover usual = convex_cover(mesh, {.max_pieces = pieces});

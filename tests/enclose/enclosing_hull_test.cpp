@@ -151,7 +151,7 @@ TEST(EnclosingHull, OfAMeshWithAnOpeningIsSolid) {
 }
 
 TEST(EnclosingHull, KeepsOpenShellsIfAskedTo) {
-  if (kTestsAreSlow) GTEST_SKIP();
+  if (kTestsAreSlow) GTEST_SKIP() << kTooSlow;
   const EnclosingHulls made = hull_of(room(), 400, {.hull = {.relax_guards = true}, .open_shells = OpenShells::Keep});
   const EnclosingHull hull = only(made);
   EXPECT_FALSE(made.input.closed);
