@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "construct/closed_manifold.h"
 #include "construct/collapse_away.h"
+#include "construct/unfolded_padding.h"
 #include "geometry/float32.h"
 #include "geometry/linear_program.h"
 
@@ -40,6 +42,13 @@ class Padder {
     return result;
   }
 
+  /// Before run(): faces in hollows turn over where all corners move farther than they are apart.
+  void remove_folds() {
+    constexpr int kPasses = 20;
+    for (int pass = 0; pass < kPasses && remove_folds_once(); ++pass) {
+    }
+  }
+
  private:
   static constexpr double kFar = 16;  ///< the farthest that a vertex moves, in distances
 
@@ -62,6 +71,33 @@ class Padder {
           changed |= collapse_away(mesh_, VertexId{v}, star, 2 * rounding_, [&](const Vec3& p) { return stored(p); });
       if (!changed) break;
     }
+  }
+
+  // Whether there were any. A collapse changes where the vertices around it go: their faces wait for the next pass.
+  bool remove_folds_once() {
+    PerVertex<Vec3> to = mesh_.positions();
+    for (const VertexId v : to.ids())
+      if (const auto beyond = mesh_.has(v) ? beyond_star(v) : std::nullopt) to[v] = *beyond;
+    PerVertex<char> is_known(to.size(), 1);
+    bool any = false;
+    Star star;
+    for (std::uint32_t i = 0; i < mesh_.face_id_count(); ++i) {
+      if (!mesh_.has(FaceId{i})) continue;
+      const auto corners = mesh_.corners(FaceId{i});
+      if (!std::ranges::all_of(corners, [&](VertexId v) { return is_known[v]; }) || !turns_over(corners, to)) continue;
+      any |= std::ranges::any_of(corners, [&](VertexId v) {
+        if (!collapse_away(mesh_, v, star, 2 * rounding_, [&](const Vec3& p) { return stored(p); })) return false;
+        is_known.resize(mesh_.positions().size(), 0);
+        for (const HalfEdgeId h : mesh_.around(VertexId(is_known.size() - 1))) is_known[mesh_.tip(h)] = 0;
+        return true;
+      });
+    }
+    return any;
+  }
+
+  bool turns_over(const std::array<VertexId, 3>& c, const PerVertex<Vec3>& to) const {
+    const Vec3 before = cross(mesh_.position(c[1]) - mesh_.position(c[0]), mesh_.position(c[2]) - mesh_.position(c[0]));
+    return dot(before, cross(to[c[1]] - to[c[0]], to[c[2]] - to[c[0]])) <= 0;
   }
 
   // In units of the distance, from v: planes with unit normals, and the sum of the normals, weighted by area.
@@ -117,6 +153,12 @@ PaddedHull padded_hull(const TriangleMesh& hull, double distance, bool float32_c
     throw InputError(Defect::InvalidOption, fmt::format("the padding is {:g}; it must be greater than 0", distance));
   require_closed_manifold(hull);
   return Padder(hull, distance, float32_coordinates).run();
+}
+
+TriangleMesh padded_without_folds(const TriangleMesh& hull, double distance) {
+  Padder padder(hull, distance, false);
+  padder.remove_folds();
+  return padder.run().mesh;
 }
 
 }  // namespace prohull

@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "construct/lifting.h"
 #include "construct/shape_guards.h"
+#include "construct/tight/gap_body.h"
 #include "construct/turned.h"
 #include "enclose/surface_of.h"
 #include "enclose/tolerances.h"
@@ -153,12 +154,14 @@ class Ladder {
   void note(std::string text);
   std::string described(const Solid& solid) const;
   Attempt build(std::size_t solid, std::size_t target_faces);
+  Attempt build_moved_away(std::size_t solid, std::size_t target_faces);
   EnclosingHull build_levels(std::size_t solid, std::size_t target_faces);
   EnclosingHull build_in_steps(std::size_t solid, std::size_t target_faces);
   MoveOptions move_options(unsigned max_rounds) const;
   TriangleMesh placed(const TriangleMesh& level, std::size_t solid, unsigned max_rounds = kMostRounds) const;
   bool is_moved_closely(std::size_t solid) const;
   EnclosingHull build_tight(std::size_t solid, std::size_t target_faces);
+  std::optional<TightHull> tight_hull_of_gap(std::size_t solid, std::size_t target_faces);
   const TriangleMesh& to_cover() const { return made_.input.caps.face_count() > 0 ? with_caps_ : made_.input.original; }
   const TriangleMesh& to_cover(std::size_t solid) const;
   void certify(EnclosingHull& hull) const;
@@ -192,6 +195,8 @@ class Ladder {
   double diagonal_ = 0;                                  ///< of the input
   double void_before_padding_ = 0;                       ///< of the last hull of the mesh
   bool is_moved_ = false;                                ///< hulls of the mesh move towards it
+  bool has_body_ = false;                                ///< the last tight hull is one of the gap's body
+  bool moves_away_ = false;                              ///< tight hulls move away from what they enclose
   bool is_moved_loosely_ = false;                        ///< hulls do not touch the mesh
   bool is_original_closed_ = false, is_volume_exact_ = false, has_wrap_ = false;
   std::optional<std::size_t> convex_hull_;         ///< its solid
@@ -201,12 +206,16 @@ class Ladder {
 
 EnclosingHull Ladder::hull_of(std::size_t target_faces) {
   std::optional<EnclosingHull> best;
-  const auto try_solid = [&](std::size_t solid) {
-    auto [hull, is_storable] = build(solid, target_faces);
+  const auto take = [&](Attempt attempt) {
+    auto& [hull, is_storable] = attempt;
     if (!is_as_asked(hull) && is_storable && is_free()) note_why_not(hull);
     if (!best || is_better(hull, *best)) best = std::move(hull);
   };
-  if (is_worth_the_mesh()) try_solid(0);
+  const auto try_solid = [&](std::size_t solid) { take(build(solid, target_faces)); };
+  if (is_worth_the_mesh()) {
+    try_solid(0);
+    if (has_body_) take(build_moved_away(0, target_faces));  // with few faces, it may have less void
+  }
   if (!is_outer() && is_padded() && options_.repair != Repair::None) {
     for (const WrapKind& kind : wraps()) {
       if (best->source == Source::Wrap && is_as_asked(*best)) break;
@@ -456,6 +465,14 @@ bool Ladder::is_within_as_stored(const TriangleMesh& hull, std::size_t solid) {
   return file && excess_of(file->mesh, solid) <= 1;
 }
 
+// Not of the gap's body.
+Ladder::Attempt Ladder::build_moved_away(std::size_t solid, std::size_t target_faces) {
+  moves_away_ = true;
+  Attempt attempt = build(solid, target_faces);
+  moves_away_ = false;
+  return attempt;
+}
+
 Ladder::Attempt Ladder::build(std::size_t solid, std::size_t target_faces) {
   const Stopwatch building;
   const bool solid_is_moved = made_.solids[solid].source != Source::Mesh && !options_.levels && is_outer();
@@ -476,6 +493,7 @@ Ladder::Attempt Ladder::build(std::size_t solid, std::size_t target_faces) {
     is_moved_loosely_ = false;
     return again;
   }
+  if (!hull.certified && has_body_) return build_moved_away(solid, target_faces);
   hull.self_intersections = count_self_intersections(hull.mesh);
   if (file && options_.bounds.any() && !is_padded()) hull.excess = excess_of(hull.mesh, solid);
   hull.within_bounds = hull.excess <= 1;
@@ -556,19 +574,41 @@ TriangleMesh Ladder::placed(const TriangleMesh& level, std::size_t solid, unsign
 }
 
 EnclosingHull Ladder::build_tight(std::size_t solid, std::size_t target_faces) {
-  const TriangleMesh& mesh = made_.solids[solid].mesh;
-  const TriangleMesh* wrapped = made_.solids[solid].source == Source::Mesh ? nullptr : &to_cover(solid);
-  TightHull tight = options_.bounds.any()
-                        ? build_tight_hull_within(
-                              mesh, [&](const TriangleMesh& hull) { return is_within_as_stored(hull, solid); },
-                              hull_options(target_faces), wrapped, aim())
-                        : build_tight_hull(mesh, hull_options(target_faces), wrapped, aim());
+  TightHull tight;
+  if (auto of_gap = tight_hull_of_gap(solid, target_faces)) {
+    tight = std::move(*of_gap);
+  } else {
+    const TriangleMesh& mesh = made_.solids[solid].mesh;
+    const TriangleMesh* wrapped = made_.solids[solid].source == Source::Mesh ? nullptr : &to_cover(solid);
+    tight = options_.bounds.any()
+                ? build_tight_hull_within(
+                      mesh, [&](const TriangleMesh& hull) { return is_within_as_stored(hull, solid); },
+                      hull_options(target_faces), wrapped, aim())
+                : build_tight_hull(mesh, hull_options(target_faces), wrapped, aim());
+  }
   EnclosingHull hull;
   hull.mesh = std::move(tight.mesh);
   hull.target_reached = tight.stopped == Stopped::TargetReached;
   hull.refusals = tight.refusals, hull.blocked = tight.blocked;
   hull.relaxed_guards = tight.relaxed_guards;
   return hull;
+}
+
+// At 2,000 faces a tight hull of the gap's body has up to a quarter less void than a tight hull of the mesh that is
+// moved away from it. None if the body intersects itself.
+std::optional<TightHull> Ladder::tight_hull_of_gap(std::size_t solid, std::size_t target_faces) {
+  const Source source = made_.solids[solid].source;
+  has_body_ = false;
+  if (!is_padded() || moves_away_ || options_.bounds.any() || source == Source::ConvexHull) return std::nullopt;
+  const HullOptions options = hull_options(target_faces);
+  const TriangleMesh body = source == Source::Mesh
+                                ? gap_body(made_.solids[solid].mesh, to_cover(solid), aim(), options)
+                                : gap_body_of_wrap(made_.solids[solid].mesh, to_cover(solid), aim(), options);
+  if (count_self_intersections(body) > 0) return std::nullopt;
+  has_body_ = true;
+  TightHull tight = build_tight_hull(body, options);
+  tight.mesh = moved_towards(tight.mesh, to_cover(solid), move_options(kMostRounds));
+  return tight;
 }
 
 const TriangleMesh& Ladder::to_cover(std::size_t solid) const {

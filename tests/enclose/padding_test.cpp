@@ -157,6 +157,30 @@ TEST(Padding, IsKeptByTightHullsAndWithBounds) {
   }
 }
 
+// Two blocks: the gap between them is narrower than two paddings, and faces of either would pass through the other's.
+TEST(Padding, OfTightHullsOfNarrowGapsIsProven) {
+  SoupMaker random(test_seed());
+  const TriangleMesh mesh = together(box({0, 0, 0}, {1, 1, 1}), box({1.03, 0, 0}, {2, 1, 1}));
+  const EnclosingHull hull = padded(mesh, 300, 0.02, {.tight = true});
+  expect_padding(mesh, hull, 0.02, random);
+  EXPECT_EQ(hull.self_intersections, 0u);
+}
+
+/// The void of a hull by that between the mesh and its offset surface. The torus has the radii 1 and `tube`.
+double void_by_least(const TriangleMesh& torus_mesh, const EnclosingHull& hull, double tube, double gap) {
+  constexpr double kPi = std::numbers::pi;
+  const double ideal = 2 * kPi * kPi, volume = signed_volume(torus_mesh);
+  const double least = ideal * std::abs((tube + gap) * (tube + gap) - tube * tube);
+  return std::abs(signed_volume(hull.mesh) - volume) / least;
+}
+
+TEST(Padding, OfTightHullsIsHardlyMoreThanTheOffsetSurface) {
+  constexpr double kTube = 0.4;
+  const TriangleMesh ring = torus(120, 60);
+  const double gap = 0.02 * bounding_box(ring).diagonal();
+  EXPECT_LT(void_by_least(ring, padded(ring, 1000, gap, {.tight = true}), kTube, gap), 1.08);
+}
+
 EnclosingHull inner(const TriangleMesh& mesh, std::size_t faces, double padding, EnclosingOptions options = {}) {
   options.hull.side = HullSide::Inner;
   return padded(mesh, faces, padding, options);

@@ -68,6 +68,19 @@ bool Original::keeps_padding(const Triangle& face) const {
   return keeps;
 }
 
+std::optional<Original::Near> Original::nearest_within_padding(const Triangle& face) const {
+  std::optional<Near> nearest;
+  double least = padding_;
+  sieve_.visit(sieve_.around(face, padding_), [&](FaceId f) {
+    const Triangle t = mesh().triangle(f);
+    if (is_certainly_beyond(face, t, least)) return true;
+    const TriangleDistance found = triangle_distance(face, t);
+    if (found.lower < least) least = found.lower, nearest = Near{found.t, found.s - found.t, found.lower};
+    return true;
+  });
+  return nearest;
+}
+
 void Original::find_near(const Tetrahedron& removed, std::vector<FaceId>& near) const {
   sieve_.visit(sieve_.around(removed, clearance_), [&](FaceId f) {
     near.push_back(f);

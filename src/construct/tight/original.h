@@ -41,6 +41,12 @@ class Original {
   double padding() const { return padding_; }
   /// Whether a face of the hull keeps the padding. True without one.
   bool keeps_padding(const Triangle& face) const;
+  struct Near {
+    Vec3 point, away;  ///< of the triangles; from there to the face
+    double distance;   ///< at least
+  };
+  /// Of the triangles that are nearer to the face than the padding, the point nearest to it.
+  std::optional<Near> nearest_within_padding(const Triangle& face) const;
 
  private:
   Original(const TriangleMesh& mesh, double clearance);

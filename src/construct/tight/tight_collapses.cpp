@@ -91,7 +91,7 @@ class CollapsePlacer {
     if (!is_finite(from) || !is_outside(mesh_, star_, from)) return std::nullopt;
     set_placement(from, contacts);
     if (const auto to = placement_.first(is_accepted)) return to;
-    return is_accepted(from) ? std::optional(from) : std::nullopt;
+    return is_accepted(from) && placement_.keeps_padding(from) ? std::optional(from) : std::nullopt;
   }
 
   void set_placement(const Vec3& from, const Contacts& contacts) {

@@ -70,7 +70,7 @@ class TightBuild {
       done += faces;
     }
     TriangleMesh hull = hull_->triangle_mesh();
-    if (is_searched) hull = with_less_volume(hull, original_, coarse, search_options());
+    if (is_searched && is_near(target, hull)) hull = with_less_volume(hull, original_, coarse, search_options());
     tight_.mesh = is_inner() ? turned(hull) : hull;
     if (tight_.mesh.face_count() <= options_.target_faces) tight_.stopped = Stopped::TargetReached;
     return std::move(tight_);
@@ -78,6 +78,9 @@ class TightBuild {
 
  private:
   bool is_inner() const { return options_.side == HullSide::Inner; }
+
+  // Trials seldom remove more faces, and look for them at all edges.
+  static bool is_near(std::size_t target, const TriangleMesh& hull) { return hull.face_count() <= target + target / 4; }
 
   // With the guards that the hull has needed so far.
   HullOptions search_options() {

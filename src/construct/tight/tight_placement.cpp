@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "construct/placement.h"
+#include "geometry/closest_point.h"
 #include "geometry/float32.h"
 #include "geometry/predicates.h"
 
@@ -114,7 +115,7 @@ std::optional<Vec3> TightPlacement::propose() {
   while (programs_left_-- > 0) {
     const auto best = optimum_or_nearest(objective_, constraints_);
     if (!best || dot(objective_, *best) > -least_gain * norm(objective_)) return std::nullopt;
-    if (!add_known_cuts(*best)) return best;
+    if (!(original_.padding() > 0 ? add_known_padding_cuts(*best) : add_known_cuts(*best))) return best;
   }
   return std::nullopt;
 }
@@ -128,9 +129,9 @@ std::optional<Vec3> TightPlacement::propose_enclosing() {
     const Vec3 to = as_stored(from_ + *apex * scale_);
     if (!is_finite(to)) return apex;
     const std::size_t cuts = constraints_.size();
-    encloses_ = !cut_where_met(*apex, to);
+    encloses_ = !(original_.padding() > 0 ? cut_where_near(*apex, to) : cut_where_met(*apex, to));
     if (constraints_.size() > cuts) continue;
-    encloses_ = encloses_ && is_outside(to) && keeps_padding(to);
+    encloses_ = encloses_ && is_outside(to);
     return apex;
   }
 }
@@ -154,7 +155,7 @@ bool TightPlacement::add_cut(std::size_t i, const Vec3& q) {
 // Not of triangles that need no inside: there a point may be known on one side of a sheet, and then holds a vertex on
 // the other. Hulls of sheets had up to three times the volume.
 void TightPlacement::add_known(const Vec3& local) {
-  if (original_.clearance() > 0) return;
+  if (original_.clearance() > 0 && original_.padding() == 0) return;
   for (int axis = 0; axis < 3; ++axis) known_[static_cast<std::size_t>(axis)].push_back(local[axis]);
 }
 
@@ -240,6 +241,100 @@ bool TightPlacement::cut_where_met(const Vec3& apex, const Vec3& to) {
     if (!deepest.point()) continue;
     met = true;
     if (add_cut(i, *deepest.point())) found_.push_back(from_ + *deepest.point() * scale_), add_known(*deepest.point());
+  }
+  return met;
+}
+
+/// The half-space beyond the plane that touches the ball around q and contains the line through p along `axis`: of the
+/// two such planes, that on the side of `towards`. None if the line is too near.
+std::optional<HalfSpace> beyond_ball(const Vec3& q, double radius, const Vec3& p, const Vec3& axis,
+                                     const Vec3& towards) {
+  const double size = norm(axis);
+  if (!(size > 0)) return std::nullopt;
+  const Vec3 w = axis / size, to_p = p - q, across = to_p - w * dot(to_p, w);
+  const double distance = norm(across);
+  if (!(distance > radius)) return std::nullopt;
+  const Vec3 e = across / distance, f = cross(w, e);
+  const double cosine = radius / distance, sine = std::sqrt(1 - cosine * cosine);
+  const Vec3 n = e * cosine + f * (dot(f, towards) >= 0 ? sine : -sine);
+  return HalfSpace{n, dot(n, q) + radius};
+}
+
+// Faces that contain the line of the link edge, or touch it at a corner, keep the distance from q exactly there.
+bool TightPlacement::add_padding_cut(std::size_t i, const Vec3& apex, const Vec3& q) {
+  const Vec3 &a = local_[i], &b = local_[after(i)];
+  const Foot foot = foot_on_triangle(q - apex, q - a, q - b, a - apex, b - apex);
+  const Vec3 outwards = Removed(apex, a, b).new_face.normal;
+  if (foot.on == Foot::On::Face) {
+    auto cut = beyond_ball(q, margin_, a, b - a, outwards);
+    if (!cut) cut = HalfSpace{outwards, dot(outwards, q) + margin_};
+    constraints_.push_back(*cut);
+    return true;
+  }
+  if (foot.from != 0) return false;  // at the link, which stays
+  const Vec3 end = foot.to == 1 ? a : b, at = foot.on == Foot::On::Corner ? apex : apex + (end - apex) * foot.v;
+  const double distance = norm(at - q);
+  if (!(distance > 0)) return false;
+  const Vec3 u = (at - q) / distance;
+  std::optional<HalfSpace> cut;
+  if (foot.on == Foot::On::Edge) cut = beyond_ball(q, margin_, end, cross(u, apex - end), u);
+  constraints_.push_back(cut ? *cut : HalfSpace{u, dot(u, q) + margin_});
+  return true;
+}
+
+// For each face of the star, the known point that is nearest to it, or farthest outside.
+bool TightPlacement::add_known_padding_cuts(const Vec3& apex) {
+  constexpr double kTouching = 1 - 1e-9;
+  const auto& [x, y, z] = known_;
+  const double radius = original_.clearance() / scale_ * kTouching;
+  bool added = false;
+  for (std::size_t i = 0; i < local_.size() && !x.empty(); ++i) {
+    const Vec3 &a = local_[i], &b = local_[after(i)];
+    const bool removes = determinant(a, b, apex) < 0;
+    const Removed removed(apex, a, b);
+    double worst = -radius;
+    std::optional<Vec3> point;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const Vec3 p{x[k], y[k], z[k]};
+      const double d = depth(removed.new_face, p);
+      if (!(d > worst)) continue;
+      double sunk = d;
+      if (!(d > 0 && removes && is_beyond(removed.others, p, 0))) sunk = -norm(p - closest_point(p, {apex, a, b}));
+      if (sunk > worst) worst = sunk, point = p;
+    }
+    if (point && add_padding_cut(i, apex, *point)) added = true;
+  }
+  return added;
+}
+
+std::optional<Vec3> TightPlacement::deepest_in(std::size_t i, const Vec3& apex, const Tetrahedron& tetrahedron) {
+  near_.clear();
+  original_.find_near(tetrahedron, near_);
+  std::erase_if(near_, [&](FaceId f) { return !original_.is_in_the_way(f, tetrahedron); });
+  const Removed removed(apex, local_[i], local_[after(i)]);
+  Deepest deepest(removed, 0);
+  for (const FaceId f : near_) {
+    const auto corners = local_corners(f);
+    polygon_.assign(corners.begin(), corners.end());
+    deepest.take_part_of(polygon_, clipped_);
+  }
+  return deepest.point();
+}
+
+// As cut_where_met, of new faces that are too near too.
+bool TightPlacement::cut_where_near(const Vec3& apex, const Vec3& to) {
+  bool met = false;
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    const Tetrahedron tetrahedron{link_[i], to, link_[after(i)], from_};
+    std::optional<Vec3> point;
+    if (side(from_, link_[i], link_[after(i)], to) == Side::Inside) {
+      point = deepest_in(i, apex, tetrahedron);
+      met = met || !near_.empty();
+    }
+    if (!point)
+      if (const auto q = original_.nearest_within_padding({to, link_[i], link_[after(i)]}))
+        met = true, point = to_local(q->point);
+    if (point && add_padding_cut(i, apex, *point)) found_.push_back(from_ + *point * scale_), add_known(*point);
   }
   return met;
 }

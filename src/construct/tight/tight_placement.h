@@ -49,6 +49,9 @@ class TightPlacement {
   /// Whether the vertex may move there: the hull still encloses, and keeps its padding. Exact.
   bool keeps_enclosing(const Vec3& to) const;
 
+  /// Whether new faces keep the padding of the original, if it has one. Exact.
+  bool keeps_padding(const Vec3& to) const;
+
   Vec3 as_stored(const Vec3& p) const;
   double rounding() const { return rounding_; }
 
@@ -64,8 +67,11 @@ class TightPlacement {
   class Deepest;
   std::array<Vec3, 3> local_corners(FaceId f) const;
   bool cut_where_met(const Vec3& apex, const Vec3& to);
+  bool add_padding_cut(std::size_t i, const Vec3& apex, const Vec3& point);
+  bool add_known_padding_cuts(const Vec3& apex);
+  bool cut_where_near(const Vec3& apex, const Vec3& to);
+  std::optional<Vec3> deepest_in(std::size_t i, const Vec3& apex, const Tetrahedron& removed);
   bool is_outside(const Vec3& to) const;
-  bool keeps_padding(const Vec3& to) const;
   double allowed_depth() const;
 
   const Original& original_;
