@@ -196,6 +196,7 @@ class Ladder {
   double void_before_padding_ = 0;                       ///< of the last hull of the mesh
   bool is_moved_ = false;                                ///< hulls of the mesh move towards it
   bool has_body_ = false;                                ///< the last tight hull is one of the gap's body
+  bool has_folded_body_ = false;                         ///< the gap's body of the mesh intersects itself
   bool moves_away_ = false;                              ///< tight hulls move away from what they enclose
   bool is_moved_loosely_ = false;                        ///< hulls do not touch the mesh
   bool is_original_closed_ = false, is_volume_exact_ = false, has_wrap_ = false;
@@ -214,6 +215,7 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
   const auto try_solid = [&](std::size_t solid) { take(build(solid, target_faces)); };
   if (is_worth_the_mesh()) {
     try_solid(0);
+    has_folded_body_ = options_.tight && is_padded() && !has_body_;
     if (has_body_) take(build_moved_away(0, target_faces));  // with few faces, it may have less void
   }
   if (!is_outer() && is_padded() && options_.repair != Repair::None) {
@@ -305,7 +307,7 @@ bool Ladder::is_worth_a_wrap(const std::optional<EnclosingHull>& best, std::size
   if (made_.volume == 0) return true;
   constexpr double kLittleVoid = 0.03, kMuchVoid = 0.12, kVeryMuchVoid = 0.3;
   const bool is_clean = best->self_intersections == 0 || !options_.hull.refuses_self_intersections();
-  if (best->source == Source::Mesh && is_clean) return slack_of(*best) > kVeryMuchVoid;
+  if (best->source == Source::Mesh && is_clean) return has_folded_body_ || slack_of(*best) > kVeryMuchVoid;
   return slack_of(*best) > (tried == 0 ? kLittleVoid : kMuchVoid);
 }
 
