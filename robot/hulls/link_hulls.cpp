@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <numeric>
 #include <system_error>
 #include <utility>
@@ -28,6 +29,7 @@ struct Plan {
   std::vector<Shape> hulled = {};         ///< shapes that the hull encloses
   std::vector<std::size_t> numbers = {};  ///< where each of `hulled` is among the shapes of the link
   std::uintmax_t bytes = 0;               ///< total size of the mesh files of `hulled`
+  std::string key = {};                   ///< key_of
 };
 
 void require_links(const Robot& robot, const LinkHullOptions& options) {
@@ -198,23 +200,31 @@ void build(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, 
   }
 }
 
-void add_hulls(const Link& link, const Plan& plan, const LinkHullOptions& options, LinkHulls& result,
-               const Progress& go_on) {
-  const auto start = std::chrono::steady_clock::now();
+/// What HullCache::find tells.
+void take_hulls(LinkHulls of, LinkHulls& result) {
+  result.hulls = std::move(of.hulls), result.repairs = std::move(of.repairs);
+  result.sealed_volume = of.sealed_volume, result.convex_volume = of.convex_volume;
+}
+
+template <typename Work>
+void name_link_in_errors(const Link& link, const Work& work) {
   try {
-    const HullCache cache(options.cache);
-    const std::string key = options.cache.empty() ? "" : key_of(link, plan.budget, options);
-    result.triangles = link_triangles(plan.hulled, result.frame);
-    if (std::optional<LinkHulls> kept = cache.find(key)) {
-      result.hulls = std::move(kept->hulls), result.repairs = std::move(kept->repairs);
-      result.sealed_volume = kept->sealed_volume, result.convex_volume = kept->convex_volume;
-      result.from_cache = true;
-    } else {
-      build(plan, options, result, go_on);
-      cache.keep(key, result);
-    }
+    work();
   } catch (const InputError& error) {
     throw InputError(error.defect(), fmt::format("link {}: {}", link.name, error.what()));
+  }
+}
+
+void add_hulls(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
+  const auto start = std::chrono::steady_clock::now();
+  const HullCache cache(options.cache);
+  result.triangles = link_triangles(plan.hulled, result.frame);
+  if (std::optional<LinkHulls> kept = cache.find(plan.key)) {
+    take_hulls(std::move(*kept), result);
+    result.from_cache = true;
+  } else {
+    build(plan, options, result, go_on);
+    cache.keep(plan.key, result);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -311,13 +321,31 @@ std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& opt
                                  robot.name, missing));
   // The largest first, so that none of them is left alone in the end.
   std::ranges::stable_sort(plans, std::greater(), &Plan::bytes);
+  // Links with the same geometry, as wheels and fingers are, share their hulls.
+  std::map<std::string_view, const Plan*> first;
+  std::vector<const Plan*> to_build;
   std::vector<std::string> names;
-  for (const Plan& plan : plans) names.push_back(robot.links[plan.link].name);
+  for (Plan& plan : plans) {
+    const Link& link = robot.links[plan.link];
+    name_link_in_errors(link, [&] { plan.key = key_of(link, plan.budget, options); });
+    if (!first.try_emplace(plan.key, &plan).second) continue;
+    to_build.push_back(&plan);
+    names.push_back(link.name);
+  }
   LinkHullOptions of_each = options;
-  of_each.threads = threads_of_each(plans.size(), options.threads);
+  of_each.threads = threads_of_each(to_build.size(), options.threads);
   side_by_side(names, options.threads, options.progress, [&](std::size_t i, const Progress& go_on) {
-    add_hulls(robot.links[plans[i].link], plans[i], of_each, results[plans[i].link], go_on);
+    const Plan& plan = *to_build[i];
+    name_link_in_errors(robot.links[plan.link], [&] { add_hulls(plan, of_each, results[plan.link], go_on); });
   });
+  for (const Plan& plan : plans) {
+    const Plan& built = *first.at(plan.key);
+    if (&built == &plan) continue;
+    LinkHulls& result = results[plan.link];
+    take_hulls(results[built.link], result);
+    result.triangles = results[built.link].triangles;
+    result.from_cache = results[built.link].from_cache;
+  }
   return results;
 }
 

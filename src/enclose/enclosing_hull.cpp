@@ -207,7 +207,7 @@ class Ladder {
 
 EnclosingHull Ladder::hull_of(std::size_t target_faces) {
   std::optional<EnclosingHull> best;
-  const auto take = [&](Attempt attempt) {
+  const auto take = [&](Attempt&& attempt) {
     auto& [hull, is_storable] = attempt;
     if (!is_as_asked(hull) && is_storable && is_free()) note_why_not(hull);
     if (!best || is_better(hull, *best)) best = std::move(hull);

@@ -190,6 +190,21 @@ TEST_F(LinkHullsTest, NameTheLinkOfABadMesh) {
   }
 }
 
+TEST_F(LinkHullsTest, AreSharedByLinksWithTheSameGeometry) {
+  robot_.links[1].visual = robot_.links[0].visual;
+  const std::vector<LinkHulls> made = link_hulls(robot_, options_);
+  EXPECT_GT(made[0].seconds, 0);
+  EXPECT_EQ(made[1].seconds, 0);
+  EXPECT_EQ(made[1].link, 1U);
+  EXPECT_EQ(made[1].hulls[0].mesh, made[0].hulls[0].mesh);
+  EXPECT_EQ(made[1].triangles, made[0].triangles);
+  EXPECT_EQ(made[1].sealed_volume, made[0].sealed_volume);
+
+  options_.budgets["arm"] = options_.budget;
+  options_.budgets["arm"].faces = {60};
+  EXPECT_EQ(link_hulls(robot_, options_)[1].hulls[0].target_faces, 60U);
+}
+
 TEST_F(LinkHullsTest, ComeFromTheCacheWhileNothingChanges) {
   options_.cache = folder_.path() / "cache";
   const std::vector<LinkHulls> first = link_hulls(robot_, options_), second = link_hulls(robot_, options_);
