@@ -219,8 +219,11 @@ EnclosingHull Ladder::hull_of(std::size_t target_faces) {
     if (has_body_) take(build_moved_away(0, target_faces));  // with few faces, it may have less void
   }
   if (!is_outer() && is_padded() && options_.repair != Repair::None) {
+    constexpr double kMostLost = 0.06;  // of a wrap, where it has too many handles for so few faces
     for (const WrapKind& kind : wraps()) {
-      if (best->source == Source::Wrap && is_as_asked(*best)) break;
+      if (best->source == Source::Wrap && is_as_asked(*best) &&
+          signed_volume(best->mesh) > (1 - kMostLost) * made_.solids[best->solid].volume)
+        break;
       if (const auto solid = wrap_with(kind, target_faces)) try_solid(*solid);
     }
   } else if (!is_outer() && options_.repair != Repair::None && !is_bound_to_mesh() && !options_.levels &&
