@@ -8,9 +8,6 @@ constexpr bool kTestsAreSlow = true;
 constexpr bool kTestsAreSlow = false;
 #endif
 
-/// Why a test is skipped then.
-constexpr const char* kTooSlow = "takes too long with sanitizers";
-
 /// What a test works on: less under sanitizers, which slow everything down tenfold.
 template <class T>
 constexpr T effort(T usual, T under_sanitizers) {

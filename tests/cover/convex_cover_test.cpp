@@ -86,8 +86,7 @@ TEST(ConvexCover, OfSamplesIsCertifiedAndSmallerThanTheConvexHull) {
 }
 
 TEST(ConvexCover, OfMorePiecesIsSmaller) {
-  if (kTestsAreSlow) GTEST_SKIP() << kTooSlow;
-  const TriangleMesh mesh = meshes::torus(24, 10);
+  const TriangleMesh mesh = meshes::torus(effort(24u, 9u), effort(10u, 5u));
   double last = std::numeric_limits<double>::infinity();
   for (const std::size_t pieces : {1u, 4u, 10u}) {
     const ConvexCover cover = convex_cover(mesh, {.max_pieces = pieces});
@@ -97,8 +96,7 @@ TEST(ConvexCover, OfMorePiecesIsSmaller) {
 }
 
 TEST(ConvexCover, HasAsFewPiecesAsKeepTheBounds) {
-  if (kTestsAreSlow) GTEST_SKIP() << kTooSlow;
-  const TriangleMesh mesh = meshes::torus(24, 10);
+  const TriangleMesh mesh = meshes::torus(effort(24u, 9u), effort(10u, 5u));
   const ConvexCover near = convex_cover(mesh, {.max_pieces = 20, .bounds = {.max_void_ratio = 0.25}});
   EXPECT_TRUE(near.within_bounds);
   EXPECT_LE(near.void_ratio, 0.25);
@@ -150,9 +148,8 @@ TEST(ConvexCover, KeepsFloat32Coordinates) {
 
 /// A piece of this part once had a spike that reached out by 40 % of the diagonal.
 TEST(ConvexCover, OfFloat32CoordinatesIsHardlyLarger) {
-  if (kTestsAreSlow) GTEST_SKIP() << kTooSlow;
-  const TriangleMesh mesh = make_sample("bracket", 3000);
-  const std::size_t pieces = 8;
+  const TriangleMesh mesh = make_sample("bracket", effort(3000u, 300u));
+  const std::size_t pieces = effort(8u, 4u);
   const ConvexCover usual = convex_cover(mesh, {.max_pieces = pieces});
   const ConvexCover rounded = convex_cover(mesh, {.max_pieces = pieces, .float32_coordinates = true});
   EXPECT_LT(rounded.volume, usual.volume * 1.01);
