@@ -60,6 +60,10 @@ class Padder {
 
   Vec3 stored(const Vec3& p) const { return float32_coordinates_ ? nearest_float32(p) : p; }
 
+  bool collapse(VertexId v, Star& star) {
+    return collapse_away(mesh_, v, star, 2 * rounding_, [&](const Vec3& p) { return stored(p); });
+  }
+
   // A collapse changes the planes around it.
   void remove_cramped() {
     constexpr int kPasses = 4;
@@ -67,8 +71,7 @@ class Padder {
     for (int pass = 0; pass < kPasses; ++pass) {
       bool changed = false;
       for (std::uint32_t v = 0, count = std::uint32_t(mesh_.positions().size()); v < count; ++v)
-        if (mesh_.has(VertexId{v}) && !beyond_star(VertexId{v}))
-          changed |= collapse_away(mesh_, VertexId{v}, star, 2 * rounding_, [&](const Vec3& p) { return stored(p); });
+        if (mesh_.has(VertexId{v}) && !beyond_star(VertexId{v})) changed |= collapse(VertexId{v}, star);
       if (!changed) break;
     }
   }
@@ -86,7 +89,7 @@ class Padder {
       const auto corners = mesh_.corners(FaceId{i});
       if (!std::ranges::all_of(corners, [&](VertexId v) { return is_known[v]; }) || !turns_over(corners, to)) continue;
       any |= std::ranges::any_of(corners, [&](VertexId v) {
-        if (!collapse_away(mesh_, v, star, 2 * rounding_, [&](const Vec3& p) { return stored(p); })) return false;
+        if (!collapse(v, star)) return false;
         is_known.resize(mesh_.positions().size(), 0);
         for (const HalfEdgeId h : mesh_.around(VertexId(is_known.size() - 1))) is_known[mesh_.tip(h)] = 0;
         return true;

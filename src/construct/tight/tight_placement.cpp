@@ -215,6 +215,14 @@ std::array<Vec3, 3> TightPlacement::local_corners(FaceId f) const {
   return {to_local(t.a), to_local(t.b), to_local(t.c)};
 }
 
+void TightPlacement::take_parts_of_near(Deepest& deepest) {
+  for (const FaceId f : near_) {
+    const auto corners = local_corners(f);
+    polygon_.assign(corners.begin(), corners.end());
+    deepest.take_part_of(polygon_, clipped_);
+  }
+}
+
 // Adds a cut for each removed tetrahedron that the original is in the way of: at a corner, or where there is none at a
 // point of an edge or face. Whether it is in the way of none; exact.
 bool TightPlacement::cut_where_met(const Vec3& apex, const Vec3& to) {
@@ -232,11 +240,7 @@ bool TightPlacement::cut_where_met(const Vec3& apex, const Vec3& to) {
       const bool is_met = std::ranges::any_of(near_, [&](FaceId f) { return original_.is_in_the_way(f, tetrahedron); });
       met = met || is_met;
       if (!is_met && original_.clearance() == 0) continue;
-      for (const FaceId f : near_) {
-        const auto corners = local_corners(f);
-        polygon_.assign(corners.begin(), corners.end());
-        deepest.take_part_of(polygon_, clipped_);
-      }
+      take_parts_of_near(deepest);
     }
     if (!deepest.point()) continue;
     met = true;
@@ -313,11 +317,7 @@ std::optional<Vec3> TightPlacement::deepest_in(std::size_t i, const Vec3& apex, 
   std::erase_if(near_, [&](FaceId f) { return !original_.is_in_the_way(f, tetrahedron); });
   const Removed removed(apex, local_[i], local_[after(i)]);
   Deepest deepest(removed, 0);
-  for (const FaceId f : near_) {
-    const auto corners = local_corners(f);
-    polygon_.assign(corners.begin(), corners.end());
-    deepest.take_part_of(polygon_, clipped_);
-  }
+  take_parts_of_near(deepest);
   return deepest.point();
 }
 

@@ -66,6 +66,7 @@ class TightPlacement {
   bool add_cut(std::size_t i, const Vec3& point);
   class Deepest;
   std::array<Vec3, 3> local_corners(FaceId f) const;
+  void take_parts_of_near(Deepest& deepest);
   bool cut_where_met(const Vec3& apex, const Vec3& to);
   bool add_padding_cut(std::size_t i, const Vec3& apex, const Vec3& point);
   bool add_known_padding_cuts(const Vec3& apex);
