@@ -321,20 +321,25 @@ std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& opt
                                  robot.name, missing));
   // The largest first, so that none of them is left alone in the end.
   std::ranges::stable_sort(plans, std::greater(), &Plan::bytes);
+  const auto names_of = [&](const auto& some) {
+    std::vector<std::string> names;
+    for (const Plan* plan : some) names.push_back(robot.links[plan->link].name);
+    return names;
+  };
+  std::vector<Plan*> all;  // a key may take as long as reading the meshes
+  for (Plan& plan : plans) all.push_back(&plan);
+  side_by_side(names_of(all), options.threads, {}, [&](std::size_t i, const Progress&) {
+    const Link& link = robot.links[all[i]->link];
+    name_link_in_errors(link, [&] { all[i]->key = key_of(link, all[i]->budget, options); });
+  });
   // Links with the same geometry, as wheels and fingers are, share their hulls.
   std::map<std::string_view, const Plan*> first;
   std::vector<const Plan*> to_build;
-  std::vector<std::string> names;
-  for (Plan& plan : plans) {
-    const Link& link = robot.links[plan.link];
-    name_link_in_errors(link, [&] { plan.key = key_of(link, plan.budget, options); });
-    if (!first.try_emplace(plan.key, &plan).second) continue;
-    to_build.push_back(&plan);
-    names.push_back(link.name);
-  }
+  for (const Plan& plan : plans)
+    if (first.try_emplace(plan.key, &plan).second) to_build.push_back(&plan);
   LinkHullOptions of_each = options;
   of_each.threads = threads_of_each(to_build.size(), options.threads);
-  side_by_side(names, options.threads, options.progress, [&](std::size_t i, const Progress& go_on) {
+  side_by_side(names_of(to_build), options.threads, options.progress, [&](std::size_t i, const Progress& go_on) {
     const Plan& plan = *to_build[i];
     name_link_in_errors(robot.links[plan.link], [&] { add_hulls(plan, of_each, results[plan.link], go_on); });
   });
