@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include "effort.h"
+#include "geometry/apart_filter.h"
 #include "geometry/exact_triangles.h"
 #include "geometry/predicates.h"
 #include "random.h"
@@ -72,6 +75,39 @@ TEST(TetrahedronContact, AgreesWithTheClippedTriangleOnASmallGrid) {
   EXPECT_GT(touched, rounds(20000) / 10);
   EXPECT_GT(apart, rounds(20000) / 10);
   EXPECT_GT(found_apart, 0.98 * apart) << "parallel edges only are left";
+}
+
+/// In a frame with the origin at a corner, as placements have it; the corners are on a grid, or nearly, near the origin
+/// and far away from it.
+TEST(ApartFilter, NeverTellsApartWhatTouches) {
+  std::mt19937 random(test_seed());
+  std::uniform_int_distribution<int> grid(0, 3), exponent(-17, -6), one_in_two(0, 1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int apart = 0, found = 0;
+  for (int i = 0; i < rounds(20000); ++i) {
+    const double far = one_in_two(random) ? 0 : 1e4, noise = one_in_two(random) ? 0 : std::pow(10, exponent(random));
+    const auto corner = [&] {
+      const auto coordinate = [&] { return far + 0.1 * grid(random) + noise * unit(random); };
+      return Vec3{coordinate(), coordinate(), coordinate()};
+    };
+    Tetrahedron v{corner(), corner(), corner(), corner()};
+    const Side s = side(v.a, v.b, v.c, v.d);
+    if (s == Side::On) continue;
+    if (s == Side::Outside) std::swap(v.b, v.c);
+    const double inverse_scale = 1 / norm(v.a - v.d);
+    const auto local = [&](const Vec3& p) { return (p - v.d) * inverse_scale; };
+    const auto corners_of = [&](const Triangle& t) { return std::array{local(t.a), local(t.b), local(t.c)}; };
+    const std::array triangles{Triangle{corner(), corner(), corner()}, Triangle{corner(), corner(), corner()}};
+    const ApartFilter filter({local(v.a), local(v.b), local(v.c), Vec3{}});
+    const unsigned told = filter.certainly_apart(corners_of(triangles[0]), corners_of(triangles[1]));
+    for (std::size_t k = 0; k < 2; ++k) {
+      const bool is_told = (told >> k & 1) != 0, touches = true_meeting(triangles[k], v).touches;
+      ASSERT_FALSE(is_told && touches);
+      apart += !touches, found += is_told;
+    }
+  }
+  EXPECT_GT(apart, rounds(20000) / 4);
+  EXPECT_GT(found, 0.9 * apart);
 }
 
 TEST(MeetsInterior, IsFalseForTheFacesOfTheTetrahedron) {

@@ -233,7 +233,7 @@ class Evener {
   }
 
   // As high above the place as the hull needs to stay one: at most beyond all faces of the star.
-  std::optional<Vec3> lifted(VertexId v, const Vec3& place) const {
+  std::optional<Vec3> lifted(VertexId v, const Vec3& place) {
     constexpr int kSteps = 4;
     const Vec3 up = mean_normal(v), from = at(v);
     double size = 0, most = 0;

@@ -46,20 +46,29 @@ class CollapsePlacer {
 
   /// An edge is placed only if by what is known none of those that wait precedes it.
   void evaluate(EdgeId e, EdgeState& state, const Contacts& contacts, double least_waiting) {
+    if (state.known == EdgeState::Known::Place) return;
     const auto outside = place_outside_of_star(e);
     state.is_refused = !outside;
-    if (!outside || state.known == EdgeState::Known::Place) return;
+    if (!outside) return;
+    start_from(*outside, contacts);
     if (state.known == EdgeState::Known::Nothing) {
-      state.priority = least_volume(*outside, contacts);
+      state.priority = least_volume(*outside);
       state.known = EdgeState::Known::LeastPriority;
       if (state.priority > least_waiting) return;
     }
-    place(*outside, state, contacts, [](const Vec3&) { return true; });
+    place(*outside, state, [](const Vec3&) { return true; });
   }
 
+  void start_from(const Placement& outside, const Contacts& contacts) {
+    placement_.set(stored(outside), mesh_, star_.link);
+    contacts.gather(star_.o, star_.link, known_);
+    placement_.know(known_);
+  }
+
+  /// After start_from.
   template <class IsFree>
-  void place(const Placement& outside, EdgeState& state, const Contacts& contacts, IsFree&& is_free) {
-    const auto to = place_of(outside, contacts, [&](const Vec3& p) {
+  void place(const Placement& outside, EdgeState& state, IsFree&& is_free) {
+    const auto to = place_of(outside, [&](const Vec3& p) {
       return !refused_shape(star_, star_.to_local(p), options_) && is_free(p);
     });
     state.found = placement_.found();
@@ -70,15 +79,16 @@ class CollapsePlacer {
   }
 
  private:
+  Vec3 stored(const Placement& outside) const { return placement_.as_stored(star_.to_input(outside.local)); }
+
   /// What the collapse adds if only known points are in the way.
-  double least_volume(const Placement& outside, const Contacts& contacts) {
-    set_placement(placement_.as_stored(star_.to_input(outside.local)), contacts);
+  double least_volume(const Placement& outside) {
     const auto to = placement_.guess();
     return std::max(0.0, to ? added_volume(star_, star_.to_local(*to)) : outside.added_volume);
   }
 
   template <class IsAccepted>
-  std::optional<Vec3> place_of(const Placement& outside, const Contacts& contacts, IsAccepted&& is_accepted) {
+  std::optional<Vec3> place_of(const Placement& outside, IsAccepted&& is_accepted) {
     std::optional<Vec3> flat;
     const bool is_flat = any_flat_end(mesh_, star_, outside, [&](const Vec3& end, const Vec3&) {
       if (placement_.as_stored(end) != end) return false;
@@ -87,17 +97,10 @@ class CollapsePlacer {
     });
     if (is_flat) return flat;
     if (flat) return std::nullopt;  // any other apex would move flat parts by the margin
-    const Vec3 from = placement_.as_stored(star_.to_input(outside.local));
+    const Vec3 from = stored(outside);
     if (!is_finite(from) || !is_outside(mesh_, star_, from)) return std::nullopt;
-    set_placement(from, contacts);
     if (const auto to = placement_.first(is_accepted)) return to;
     return is_accepted(from) && placement_.keeps_padding(from) ? std::optional(from) : std::nullopt;
-  }
-
-  void set_placement(const Vec3& from, const Contacts& contacts) {
-    placement_.set(from, mesh_, star_.link);
-    contacts.gather(star_.o, star_.link, known_);
-    placement_.know(known_);
   }
 
   const HalfEdgeMesh& mesh_;
@@ -210,7 +213,7 @@ class TightCollapses {
       collapse(e, state.to);
       return kNone;
     }
-    if (outside) placer_.place(*outside, state, contacts_, is_free);
+    if (outside) placer_.start_from(*outside, contacts_), placer_.place(*outside, state, is_free);
     state.is_refused = state.is_refused || !outside;
     if (!state.is_refused) queue_.insert(e, state.priority);
     return kNone;

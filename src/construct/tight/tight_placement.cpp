@@ -1,11 +1,13 @@
 #include "construct/tight/tight_placement.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "construct/placement.h"
+#include "geometry/apart_filter.h"
 #include "geometry/closest_point.h"
 #include "geometry/float32.h"
 #include "geometry/predicates.h"
@@ -35,6 +37,15 @@ struct Removed {
 
 double depth(const HalfSpace& plane, const Vec3& p) { return dot(plane.normal, p) - plane.offset; }
 
+struct FloatPlane {
+  float x, y, z, offset;
+};
+
+FloatPlane in_float32(const HalfSpace& plane) {
+  return {static_cast<float>(plane.normal.x), static_cast<float>(plane.normal.y), static_cast<float>(plane.normal.z),
+          static_cast<float>(plane.offset)};
+}
+
 bool is_beyond(const std::array<HalfSpace, 3>& planes, const Vec3& p, double least_depth) {
   return std::ranges::all_of(planes, [&](const HalfSpace& plane) { return depth(plane, p) > least_depth; });
 }
@@ -62,11 +73,13 @@ Vec3 TightPlacement::as_stored(const Vec3& p) const { return float32_coordinates
 
 void TightPlacement::set(const Vec3& from, const HalfEdgeMesh& mesh, const std::vector<VertexId>& link) {
   from_ = from;
+  is_begun_ = false;
   link_.clear(), local_.clear(), found_.clear();
-  for (auto& coordinates : known_) coordinates.clear();
+  known_.clear();
   for (const VertexId v : link) link_.push_back(mesh.position(v));
   scale_ = 0;
   for (const Vec3& p : link_) scale_ = std::max(scale_, norm(p - from));
+  inverse_scale_ = 1 / scale_;
   for (const Vec3& p : link_) local_.push_back(to_local(p));
   objective_ = {};
   for (std::size_t i = 0; i < link_.size(); ++i) objective_ += cross(local_[i], local_[after(i)]);
@@ -138,6 +151,7 @@ std::optional<Vec3> TightPlacement::propose_enclosing() {
 
 std::optional<Vec3> TightPlacement::guess() {
   begin(least_margin());
+  is_begun_ = true;
   const auto apex = propose();
   if (!apex) return std::nullopt;
   return as_stored(from_ + *apex * scale_);
@@ -152,31 +166,50 @@ bool TightPlacement::add_cut(std::size_t i, const Vec3& q) {
   return true;
 }
 
+void TightPlacement::Known::clear() {
+  points.clear();
+  fours.clear();
+}
+
+void TightPlacement::Known::add(const Vec3& p) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();  // is nowhere
+  constexpr Float4 kFour{kNone, kNone, kNone, kNone};
+  const std::size_t lane = points.size() % 4;
+  if (lane == 0) fours.push_back({kFour, kFour, kFour});
+  for (int axis = 0; axis < 3; ++axis) fours.back()[static_cast<std::size_t>(axis)][lane] = static_cast<float>(p[axis]);
+  points.push_back(p);
+}
+
 // Not of triangles that need no inside: there a point may be known on one side of a sheet, and then holds a vertex on
 // the other. Hulls of sheets had up to three times the volume.
 void TightPlacement::add_known(const Vec3& local) {
   if (original_.clearance() > 0 && original_.padding() == 0) return;
-  for (int axis = 0; axis < 3; ++axis) known_[static_cast<std::size_t>(axis)].push_back(local[axis]);
+  if (original_.padding() == 0 && squared_norm(local) > 1) return;  // no tetrahedron reaches so far
+  known_.add(local);
 }
 
 // For each face of the star, the known point that would be farthest outside.
 bool TightPlacement::add_known_cuts(const Vec3& apex) {
-  const auto& [x, y, z] = known_;
+  constexpr float kRounding = 4e-6f;  // of the depths of points within 1, with room
   bool added = false;
   const double allowed = allowed_depth();
-  depths_.resize(x.size());
-  for (std::size_t i = 0; i < local_.size() && !x.empty(); ++i) {
+  for (std::size_t i = 0; i < local_.size() && !known_.points.empty(); ++i) {
     const Vec3 &a = local_[i], &b = local_[after(i)];
     if (determinant(a, b, apex) >= 0) continue;  // adds
     const Removed removed(apex, a, b);
-    const auto& [n, offset] = removed.new_face;
-    for (std::size_t k = 0; k < x.size(); ++k) depths_[k] = n.x * x[k] + n.y * y[k] + n.z * z[k] - offset;
+    const auto& [first, second, third] = removed.others;
+    const std::array planes{in_float32(removed.new_face), in_float32(first), in_float32(second), in_float32(third)};
     double deepest = allowed;
     std::optional<Vec3> point;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      if (!(depths_[k] > deepest)) continue;
-      const Vec3 p{x[k], y[k], z[k]};
-      if (is_beyond(removed.others, p, allowed)) deepest = depths_[k], point = p;
+    for (std::size_t four = 0; four < known_.fours.size(); ++four) {
+      const auto& [x, y, z] = known_.fours[four];
+      Truth4 may_be_inside{-1, -1, -1, -1};
+      for (const auto& [nx, ny, nz, offset] : planes) may_be_inside &= nx * x + ny * y + nz * z > offset - kRounding;
+      for (unsigned lanes = mask(may_be_inside); lanes != 0; lanes &= lanes - 1) {
+        const Vec3& p = known_.points[4 * four + static_cast<std::size_t>(std::countr_zero(lanes))];
+        const double d = depth(removed.new_face, p);
+        if (d > deepest && is_beyond(removed.others, p, allowed)) deepest = d, point = p;
+      }
     }
     if (point && add_cut(i, *point)) added = true;
   }
@@ -189,7 +222,7 @@ class TightPlacement::Deepest {
   Deepest(const Removed& removed, double allowed) : removed_(removed), allowed_(allowed), deepest_(allowed) {}
 
   void take_if_inside(const Vec3& p) {
-    if (is_beyond(removed_.others, p, allowed_)) take(p);
+    if (depth(removed_.new_face, p) > deepest_ && is_beyond(removed_.others, p, allowed_)) take(p);
   }
   void take_part_of(std::vector<Vec3>& polygon, std::vector<Vec3>& scratch) {
     clip(polygon, removed_.new_face, allowed_, scratch);
@@ -215,6 +248,22 @@ std::array<Vec3, 3> TightPlacement::local_corners(FaceId f) const {
   return {to_local(t.a), to_local(t.b), to_local(t.c)};
 }
 
+// Those left out are certainly not in the way.
+void TightPlacement::find_near(std::size_t i, const Vec3& to, const Tetrahedron& removed) {
+  near_.clear();
+  original_.find_near(removed, near_);
+  if (original_.clearance() > 0 || near_.empty()) return;
+  const ApartFilter filter({to_local(to), local_[i], local_[after(i)], Vec3{}});
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < near_.size(); k += 2) {
+    const FaceId first = near_[k], second = near_[std::min(k + 1, near_.size() - 1)];
+    const unsigned apart = filter.certainly_apart(local_corners(first), local_corners(second));
+    if ((apart & 1) == 0) near_[kept++] = first;
+    if ((apart & 2) == 0 && k + 1 < near_.size()) near_[kept++] = second;
+  }
+  near_.resize(kept, FaceId{});
+}
+
 void TightPlacement::take_parts_of_near(Deepest& deepest) {
   for (const FaceId f : near_) {
     const auto corners = local_corners(f);
@@ -230,19 +279,17 @@ bool TightPlacement::cut_where_met(const Vec3& apex, const Vec3& to) {
   for (std::size_t i = 0; i < link_.size(); ++i) {
     const Tetrahedron tetrahedron{link_[i], to, link_[after(i)], from_};
     if (side(from_, link_[i], link_[after(i)], to) != Side::Inside) continue;  // adds, or is flat
-    near_.clear();
-    original_.find_near(tetrahedron, near_);
+    find_near(i, to, tetrahedron);
+    if (near_.empty()) continue;
     const Removed removed(apex, local_[i], local_[after(i)]);
     Deepest deepest(removed, allowed_depth());
     for (const FaceId f : near_)
       for (const Vec3& p : local_corners(f)) deepest.take_if_inside(p);
+    if (!deepest.point()) take_parts_of_near(deepest);
     if (!deepest.point()) {
-      const bool is_met = std::ranges::any_of(near_, [&](FaceId f) { return original_.is_in_the_way(f, tetrahedron); });
-      met = met || is_met;
-      if (!is_met && original_.clearance() == 0) continue;
-      take_parts_of_near(deepest);
+      met = met || std::ranges::any_of(near_, [&](FaceId f) { return original_.is_in_the_way(f, tetrahedron); });
+      continue;
     }
-    if (!deepest.point()) continue;
     met = true;
     if (add_cut(i, *deepest.point())) found_.push_back(from_ + *deepest.point() * scale_), add_known(*deepest.point());
   }
@@ -289,17 +336,15 @@ bool TightPlacement::add_padding_cut(std::size_t i, const Vec3& apex, const Vec3
 // For each face of the star, the known point that is nearest to it, or farthest outside.
 bool TightPlacement::add_known_padding_cuts(const Vec3& apex) {
   constexpr double kTouching = 1 - 1e-9;
-  const auto& [x, y, z] = known_;
   const double radius = original_.clearance() / scale_ * kTouching;
   bool added = false;
-  for (std::size_t i = 0; i < local_.size() && !x.empty(); ++i) {
+  for (std::size_t i = 0; i < local_.size(); ++i) {
     const Vec3 &a = local_[i], &b = local_[after(i)];
     const bool removes = determinant(a, b, apex) < 0;
     const Removed removed(apex, a, b);
     double worst = -radius;
     std::optional<Vec3> point;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      const Vec3 p{x[k], y[k], z[k]};
+    for (const Vec3& p : known_.points) {
       const double d = depth(removed.new_face, p);
       if (!(d > worst)) continue;
       double sunk = d;
@@ -355,11 +400,13 @@ bool TightPlacement::keeps_padding(const Vec3& to) const {
   return true;
 }
 
-bool TightPlacement::keeps_enclosing(const Vec3& to) const {
+bool TightPlacement::keeps_enclosing(const Vec3& to) {
   for (std::size_t i = 0; i < link_.size(); ++i) {
-    const Vec3 &a = link_[i], &b = link_[after(i)];
-    if (side(from_, a, b, to) != Side::Inside) continue;
-    if (!original_.lies_outside_of({from_, a, b, to})) return false;
+    const Tetrahedron removed{from_, link_[i], link_[after(i)], to};
+    if (side(removed.a, removed.b, removed.c, removed.d) != Side::Inside) continue;
+    find_near(i, to, removed);
+    if (std::ranges::any_of(near_, [&](FaceId f) { return original_.is_in_the_way(f, removed); })) return false;
+    if (!original_.is_outside_inside_of(removed)) return false;
   }
   return keeps_padding(to);
 }

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "construct/tight/original.h"
 #include "geometry/linear_program.h"
+#include "geometry/simd.h"
 #include "mesh/half_edge_mesh.h"
 #include "prohull/hull_builder.h"
 
@@ -38,16 +40,16 @@ class TightPlacement {
   template <class IsAccepted>
   std::optional<Vec3> first(IsAccepted&& is_accepted);
 
-  /// Where the vertex would go if only the known points were in the way; as stored.
+  /// Where the vertex would go if only the known points were in the way; as stored. What this finds out, `first` uses.
   std::optional<Vec3> guess();
 
   /// A frame with the origin at the vertex and the farthest link vertex at distance 1.
   const std::vector<Vec3>& local_link() const { return local_; }
-  Vec3 to_local(const Vec3& p) const { return (p - from_) / scale_; }
+  Vec3 to_local(const Vec3& p) const { return (p - from_) * inverse_scale_; }
   std::size_t after(std::size_t i) const { return i + 1 == local_.size() ? 0 : i + 1; }
 
   /// Whether the vertex may move there: the hull still encloses, and keeps its padding. Exact.
-  bool keeps_enclosing(const Vec3& to) const;
+  bool keeps_enclosing(const Vec3& to);
 
   /// Whether new faces keep the padding of the original, if it has one. Exact.
   bool keeps_padding(const Vec3& to) const;
@@ -66,6 +68,7 @@ class TightPlacement {
   bool add_cut(std::size_t i, const Vec3& point);
   class Deepest;
   std::array<Vec3, 3> local_corners(FaceId f) const;
+  void find_near(std::size_t i, const Vec3& to, const Tetrahedron& removed);
   void take_parts_of_near(Deepest& deepest);
   bool cut_where_met(const Vec3& apex, const Vec3& to);
   bool add_padding_cut(std::size_t i, const Vec3& apex, const Vec3& point);
@@ -80,28 +83,35 @@ class TightPlacement {
   const double rounding_;  ///< the most by which storing moves a coordinate, with some room
 
   Vec3 from_;
-  double scale_ = 1;
+  double scale_ = 1, inverse_scale_ = 1;
   std::vector<Vec3> link_, local_;
   Vec3 objective_;
-  std::array<std::vector<double>, 3> known_;  ///< coordinates of points, local
+  /// Points that may cut, local; their coordinates, four to a lane, once more in float32.
+  struct Known {
+    void clear();
+    void add(const Vec3& p);
+    std::vector<Vec3> points;
+    std::vector<std::array<Float4, 3>> fours;
+  };
+  Known known_;
   std::vector<Vec3> found_;
 
   // Of the proposal in hand.
   double margin_ = 0;
   int programs_left_ = 0;
+  bool is_begun_ = false;  ///< with the least margin, by a guess
   bool encloses_ = false;
   std::vector<HalfSpace> constraints_;
 
   // Scratch.
   std::vector<FaceId> near_;
   std::vector<Vec3> polygon_, clipped_;
-  std::vector<double> depths_;
 };
 
 template <class IsAccepted>
 std::optional<Vec3> TightPlacement::first(IsAccepted&& is_accepted) {
   for (const double margin : {least_margin(), wide_margin()}) {
-    begin(margin);
+    if (!std::exchange(is_begun_, false)) begin(margin);
     const auto apex = propose_enclosing();
     if (!apex) return std::nullopt;
     const auto at = [&](double step) { return as_stored(from_ + *apex * (step * scale_)); };
