@@ -92,9 +92,19 @@ class GapBench {
                                                                  : least->inside / made.volume;
         add(name, mesh, kind, hull, found, least_void, seconds);
       } catch (const InputError& error) {
-        refused_ += fmt::format("- {}, {}: {}\n", name, kind.name, error.what());
-        fmt::print(stderr, "{}, {}: refused, {}\n", name, kind.name, error.what());
+        refuse(fmt::format("{}, {}", name, kind.name), error);
       }
+  }
+
+  // Robots are shipped without some of their meshes.
+  void measure(const std::string& robot, const robot::Link& link) {
+    const std::string name = robot + " " + link.name;
+    try {
+      const TriangleMesh mesh = robot::link_triangles(link.visual, robot::common_frame(link.visual));
+      if (mesh.face_count() > 0) measure(name, mesh);
+    } catch (const InputError& error) {
+      refuse(name, error);
+    }
   }
 
   int publish_all() const {
@@ -117,6 +127,11 @@ class GapBench {
     return box.diagonal();
   }
 
+  void refuse(const std::string& what, const InputError& error) {
+    refused_ += fmt::format("- {}: {}\n", what, error.what());
+    fmt::print(stderr, "{}: refused, {}\n", what, error.what());
+  }
+
   EnclosingHulls built(const TriangleMesh& mesh, const GapKind& kind, double gap) const {
     EnclosingOptions options{.tight = kind.tight, .padding = gap};
     options.hull.side = kind.side, options.hull.threads = 1, options.hull.relax_guards = true;
@@ -131,9 +146,9 @@ class GapBench {
                 fmt::to_string(hull.mesh.face_count()), std::string(name_of(source_names(), hull.source)),
                 found.holds() ? "yes" : "NO", number(100 * hull_void, 2), number(100 * least_void, 2), number(ratio, 3),
                 fmt::to_string(hull.self_intersections), number(seconds, 2)});
-    fmt::print(stderr, "{}, {}: {}, void {} %, {} times the least, {:.1f} s\n", name, kind.name,
-               found.holds() ? "kept" : "NOT KEPT: " + found.why_not, number(100 * hull_void, 2), number(ratio, 3),
-               seconds);
+    fmt::print(stderr, "{}, {}: {}, void {} %, {}{:.1f} s\n", name, kind.name,
+               found.holds() ? "kept" : "NOT KEPT: " + found.why_not, number(100 * hull_void, 2),
+               std::isnan(ratio) ? "" : number(ratio, 3) + " times the least, ", seconds);
   }
 
   const GapsOptions& options_;
@@ -150,10 +165,7 @@ int run_gaps(const GapsOptions& options) {
                   source.path.empty() ? make_sample(source.sample, source.sample_faces) : read_mesh(source.path));
   for (const std::filesystem::path& path : options.robots) {
     const robot::RobotFile file = robot::read_robot(path, {.package_paths = options.package_paths});
-    for (const robot::Link& link : file.robot.links)
-      if (const TriangleMesh mesh = robot::link_triangles(link.visual, robot::common_frame(link.visual));
-          mesh.face_count() > 0)
-        bench.measure(path.stem().string() + " " + link.name, mesh);
+    for (const robot::Link& link : file.robot.links) bench.measure(path.stem().string(), link);
   }
   return bench.publish_all();
 }

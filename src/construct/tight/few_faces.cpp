@@ -203,7 +203,7 @@ TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original
     one.progress = meter.part(from, to);
     return one;
   };
-  const Original around = Original::closed(coarse, options.side);
+  const Original around = Original::closed(coarse, options.side, options.threads);
   TriangleMesh best = Search(hull, around, part(0, 0.85)).run(trials_of_few_faces);
   best = tightened(best, original, part(0.85, 0.9));
   return Search(best, original, part(0.9, 1)).run(trials_of_few_faces / 16);

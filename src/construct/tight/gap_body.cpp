@@ -16,7 +16,6 @@
 #include "geometry/closest_point.h"
 #include "geometry/linear_program.h"
 #include "mesh/half_edge_mesh.h"
-#include "parallel/arena.h"
 
 namespace prohull {
 namespace {
@@ -105,7 +104,7 @@ class PushOut {
 /// For a body turned inside out, if hulls are inner ones.
 TriangleMesh finished(HalfEdgeMesh& body, const TriangleMesh& triangles, double padding, const HullOptions& options) {
   constexpr unsigned kRounds = 2;
-  const Original original = Original::padded_triangles(triangles, padding);
+  const Original original = Original::padded_triangles(triangles, padding, options.threads);
   PushOut(body, original).run();
   MoveOptions how;
   how.guards = options.guards, how.max_rounds = kRounds, how.threads = options.threads, how.progress = options.progress;

@@ -1,12 +1,16 @@
 #include "construct/tight/original.h"
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "geometry/predicates.h"
 #include "geometry/triangle_distance.h"
+#include "parallel/arena.h"
 
 namespace prohull {
 namespace {
@@ -39,21 +43,28 @@ std::optional<Vec3> point_inside(const Tetrahedron& t) {
 
 }  // namespace
 
-Original::Original(const TriangleMesh& mesh, double clearance)
-    : sieve_(mesh), bounds_(bounding_box(sieve_.mesh())), clearance_(clearance) {}
+Original::Original(TriangleSieve sieve, double clearance)
+    : sieve_(std::move(sieve)), bounds_(bounding_box(sieve_.mesh())), clearance_(clearance) {}
 
-Original Original::closed(const TriangleMesh& mesh, HullSide side) {
-  Original original(mesh, 0);
-  original.winding_.emplace(triangles_of(original.mesh()));
+Original Original::closed(const TriangleMesh& mesh, HullSide side, unsigned threads) {
+  std::optional<WindingNumber> winding;
+  std::optional<TriangleSieve> sieve;
+  arena_of(threads).execute([&] {
+    oneapi::tbb::parallel_invoke([&] { winding.emplace(triangles_of(mesh)); }, [&] { sieve.emplace(mesh); });
+  });
+  Original original(std::move(*sieve), 0);
+  original.winding_ = std::move(winding);
   original.least_covered_ = side == HullSide::Outer ? 1 : 0;
   return original;
 }
 
-Original Original::triangles(const TriangleMesh& mesh, double clearance) { return {mesh, clearance}; }
+Original Original::triangles(const TriangleMesh& mesh, double clearance, unsigned threads) {
+  return {arena_of(threads).execute([&] { return TriangleSieve(mesh); }), clearance};
+}
 
-Original Original::padded_triangles(const TriangleMesh& mesh, double padding) {
+Original Original::padded_triangles(const TriangleMesh& mesh, double padding, unsigned threads) {
   constexpr double kLittleMore = 1 + 1e-9;  // for what proposals have rounded
-  Original original(mesh, kLittleMore * padding);
+  Original original = triangles(mesh, kLittleMore * padding, threads);
   original.padding_ = padding;
   return original;
 }

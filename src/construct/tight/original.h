@@ -15,11 +15,11 @@ namespace prohull {
 class Original {
  public:
   /// For an inner hull turned inside out, as the hull is: then it too is outside of it.
-  static Original closed(const TriangleMesh& mesh, HullSide side);
+  static Original closed(const TriangleMesh& mesh, HullSide side, unsigned threads);
   /// Hulls keep `clearance` from triangles, about, but never touch them.
-  static Original triangles(const TriangleMesh& mesh, double clearance);
+  static Original triangles(const TriangleMesh& mesh, double clearance, unsigned threads);
   /// New faces of hulls keep this distance from triangles.
-  static Original padded_triangles(const TriangleMesh& mesh, double padding);
+  static Original padded_triangles(const TriangleMesh& mesh, double padding, unsigned threads);
 
   const TriangleMesh& mesh() const { return sieve_.mesh(); }
   const Box& bounds() const { return bounds_; }
@@ -49,7 +49,7 @@ class Original {
   std::optional<Near> nearest_within_padding(const Triangle& face) const;
 
  private:
-  Original(const TriangleMesh& mesh, double clearance);
+  Original(TriangleSieve sieve, double clearance);
 
   TriangleSieve sieve_;
   Box bounds_;

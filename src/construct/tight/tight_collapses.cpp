@@ -149,14 +149,16 @@ class TightCollapses {
   // placements.
   void queue_all() {
     constexpr double kLikelyPart = 0.4;
-    for (std::uint32_t i = 0; i < mesh_.edge_id_count(); ++i) {
-      meter_.at(0);
-      const EdgeId e{i};
-      if (!mesh_.has(e)) continue;
-      const auto outside = placer_.place_outside_of_star(e);
+    oneapi::tbb::parallel_for(std::size_t{0}, edges_.size(), [&](std::size_t i) {
+      const EdgeId e{static_cast<std::uint32_t>(i)};
+      meter_.go_on();
+      if (!mesh_.has(e)) return;
+      const auto outside = placers_.local().place_outside_of_star(e);
       edges_[e].is_refused = !outside;
-      if (outside) queue_.insert(e, kLikelyPart * outside->added_volume);
-    }
+      if (outside) edges_[e].priority = kLikelyPart * outside->added_volume;
+    });
+    for (const EdgeId e : edges_.ids())
+      if (mesh_.has(e) && !edges_[e].is_refused) queue_.insert(e, edges_[e].priority);
   }
 
   // What is known of an edge is forgotten if its star has changed.

@@ -132,13 +132,14 @@ class TightBuild {
   TightHull tight_{{}, Stopped::TargetReached, {}, {}, 0, 0};
 };
 
-Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, HullSide side, double padding) {
-  if (!wrapped) return Original::closed(side == HullSide::Inner ? turned(mesh) : mesh, side);
+Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, HullSide side, double padding,
+                     unsigned threads) {
+  if (!wrapped) return Original::closed(side == HullSide::Inner ? turned(mesh) : mesh, side, threads);
   if (side == HullSide::Inner && padding == 0)
     throw InputError(Defect::InvalidOption, "nothing is inside of triangles that are not closed: no inner hull");
-  if (padding > 0) return Original::padded_triangles(*wrapped, padding);
+  if (padding > 0) return Original::padded_triangles(*wrapped, padding, threads);
   constexpr double kClearance = 1e-6;  // of the diagonal: more than a hull moves when it is rounded to float32
-  return Original::triangles(*wrapped, kClearance * bounding_box(*wrapped).diagonal());
+  return Original::triangles(*wrapped, kClearance * bounding_box(*wrapped).diagonal(), threads);
 }
 
 TightHull build(const TriangleMesh& mesh, const HullOptions& options, const TriangleMesh* wrapped, double padding,
@@ -148,7 +149,7 @@ TightHull build(const TriangleMesh& mesh, const HullOptions& options, const Tria
   if (!options.tolerances.empty())
     throw InputError(Defect::InvalidOption, "a tight hull has no tolerances for single faces: build it without tight");
   if (options.mirror) throw InputError(Defect::InvalidOption, "a tight hull is not symmetric: build it without tight");
-  const Original original = original_of(mesh, wrapped, options.side, padding);
+  const Original original = original_of(mesh, wrapped, options.side, padding, options.threads);
   if (options.best_of <= 1) return TightBuild(original, mesh, options, most_searched).run();
   return best_of(
       options, "tighten", [&](const HullOptions& one) { return TightBuild(original, mesh, one, most_searched).run(); },
@@ -171,14 +172,14 @@ TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& 
                                   const MoveOptions& options) {
   const bool inner = side == HullSide::Inner;
   HalfEdgeMesh moving(inner ? turned(hull) : hull);
-  tighten(moving, original_of(mesh, nullptr, side, 0), options);
+  tighten(moving, original_of(mesh, nullptr, side, 0, options.threads), options);
   return inner ? turned(moving.triangle_mesh()) : moving.triangle_mesh();
 }
 
 TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options) {
   const bool inner = options.side == HullSide::Inner;
   HalfEdgeMesh moving(inner ? turned(hull) : hull);
-  tighten(moving, original_of(hull, &triangles, options.side, options.padding), options);
+  tighten(moving, original_of(hull, &triangles, options.side, options.padding, options.threads), options);
   return inner ? turned(moving.triangle_mesh()) : moving.triangle_mesh();
 }
 

@@ -1,5 +1,7 @@
 #include "construct/tight/triangle_sieve.h"
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -55,8 +57,12 @@ class Order {
     std::nth_element(at(begin), at(middle), at(end), [axis](const Placed& p, const Placed& q) {
       return p.center[axis] != q.center[axis] ? p.center[axis] < q.center[axis] : p.face < q.face;
     });
-    halve(begin, middle);
-    halve(middle, end);
+    const auto halve_first = [&] { halve(begin, middle); };
+    const auto halve_second = [&] { halve(middle, end); };
+    constexpr std::size_t kWorthAThread = 4096;
+    if (end - begin > kWorthAThread) return oneapi::tbb::parallel_invoke(halve_first, halve_second);
+    halve_first();
+    halve_second();
   }
 
   std::vector<Placed> faces_;
