@@ -79,7 +79,7 @@ struct EnclosingHull {
   unsigned relaxed_guards = 0;         ///< as in HullResult; 0 if the hull is a finer level
   std::size_t rounded_vertices = 0;    ///< how many vertices were moved to float32 coordinates
   std::size_t self_intersections = 0;  ///< pairs of faces of the hull that intersect
-  double build_seconds = 0, verify_seconds = 0;
+  double build_seconds = 0, verify_seconds = 0;  ///< with those of all that was tried for it
 };
 
 /// A closed mesh that hulls were built from.

@@ -89,7 +89,7 @@ TEST(TightHull, OfFewFacesIsSearchedOnFromAndNeverWorse) {
       return oriented(build_hull(mesh, {.target_faces = faces, .side = side}).hull.base());
     };
     const TriangleMesh hull = level(40);
-    const Original original = Original::closed(oriented(mesh), side);
+    const Original original = Original::closed(oriented(mesh), side, 1);
     const TriangleMesh found =
         with_less_volume(hull, original, level(200), {.target_faces = hull.face_count(), .side = side, .threads = 1});
     EXPECT_LT(signed_volume(found), signed_volume(hull));

@@ -1,7 +1,5 @@
 #include "construct/tight/few_faces.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +18,6 @@
 #include "geometry/predicates.h"
 #include "geometry/triangle_intersection.h"
 #include "mesh/half_edge_mesh.h"
-#include "parallel/arena.h"
 #include "parallel/progress_meter.h"
 #include "prohull/tight_hull.h"
 
@@ -66,8 +63,8 @@ Box allowed_box(const TriangleMesh& hull, const Original& original, const ShapeG
 
 struct Hull {
   TriangleMesh mesh;
-  Contacts contacts{0};
-  double volume = 0;
+  Contacts contacts;
+  double volume;
 };
 
 class Search {
@@ -75,6 +72,8 @@ class Search {
   Search(const TriangleMesh& hull, const Original& original, const HullOptions& options)
       : original_(original),
         options_(options),
+        moves_{.guards = options.guards, .float32_coordinates = options.float32_coordinates, .threads = 1},
+        random_(options.seed),
         meter_(options.progress, "tighten"),
         rounding_(storage_rounding(original.bounds(), options.float32_coordinates)),
         intersecting_pairs_(intersecting_pairs(hull)),
@@ -83,28 +82,17 @@ class Search {
         best_(hull_) {
     options_.threads = 1;
     // A trial only asks whether to go on: how much is done is known here.
-    options_.progress = [this](std::string_view, double) {
+    options_.progress = moves_.progress = [this](std::string_view, double) {
       meter_.go_on();
       return true;
     };
   }
 
-  // As many trials as there are threads are made of the same hull. Those after one that is kept are made again, so the
-  // result is that of one after the other.
-  TriangleMesh run(std::size_t trials, unsigned threads) {
-    oneapi::tbb::task_arena arena = arena_of(threads);
-    std::vector<Hull> made;
-    for (std::size_t done = 0; done < trials;) {
-      meter_.at(done, trials);
-      made.resize(std::min(trials - done, static_cast<std::size_t>(arena.max_concurrency())));
-      arena.execute([&] {
-        oneapi::tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) { made[i] = trial(done + i); });
-      });
-      for (const Hull& hull : made) {
-        const double left = 1 - double(done) / double(trials);
-        ++done;
-        if (keep_if_good(hull, kMostLoss * left * left)) break;
-      }
+  TriangleMesh run(std::size_t trials) {
+    for (std::size_t i = 0; i < trials; ++i) {
+      meter_.at(i, trials);
+      const double left = 1 - double(i) / double(trials);
+      keep_if_good(trial(), kMostLoss * left * left);
     }
     meter_.at(1);
     return best_.mesh;
@@ -115,15 +103,12 @@ class Search {
 
   // What the collapses add is mostly less than what the new vertices gain. A trial that is far behind by then is given
   // up.
-  Hull trial(std::size_t number) const {
+  Hull trial() {
     constexpr double kHopeless = 1.03;
     constexpr unsigned kRounds = 2;
-    std::seed_seq seeds{options_.seed, std::uint64_t{number}};
-    std::mt19937_64 random(seeds);
     Hull result = hull_;
     const std::size_t before = result.mesh.positions.size();
-    for (std::size_t left = 1 + random() % most_new_vertices(); left > 0; --left)
-      insert_vertex(result, random() % (3 * result.mesh.face_count()));
+    for (std::size_t left = 1 + below(most_new_vertices()); left > 0; --left) insert_vertex(result);
     HalfEdgeMesh mesh(result.mesh);
     tighten_from(before, mesh, result.contacts, kRounds);
     const std::size_t grown = mesh.positions().size();
@@ -140,10 +125,11 @@ class Search {
     return std::clamp(options_.target_faces / 4, kLeast, kMost);
   }
 
-  void insert_vertex(Hull& hull, std::size_t half_edge) const {
+  /// On any edge.
+  void insert_vertex(Hull& hull) {
     TriangleMesh& mesh = hull.mesh;
     const HalfEdgeMesh edges(mesh);
-    const HalfEdgeId h{static_cast<std::uint32_t>(half_edge)}, g = edges.twin(h);
+    const HalfEdgeId h{static_cast<std::uint32_t>(below(3 * mesh.face_count()))}, g = edges.twin(h);
     const VertexId a = edges.tail(h), b = edges.tail(g);
     const VertexId l = edges.tail(edges.previous(h)), r = edges.tail(edges.previous(g));
     const auto position = outside_of_edge(mesh.positions[a], mesh.positions[b], mesh.positions[l], mesh.positions[r],
@@ -158,30 +144,24 @@ class Search {
   }
 
   /// Around the vertices that are new.
-  void tighten_from(std::size_t first, HalfEdgeMesh& mesh, Contacts& contacts, unsigned max_rounds) const {
+  void tighten_from(std::size_t first, HalfEdgeMesh& mesh, Contacts& contacts, unsigned max_rounds) {
     std::vector<VertexId> changed;
     for (const VertexId v : mesh.positions().ids()) {
       if (index(v) < first || !mesh.has(v)) continue;
       changed.push_back(v);
       for (const HalfEdgeId h : mesh.around(v)) changed.push_back(mesh.tip(h));
     }
-    tighten_around(changed, mesh, original_,
-                   {.guards = options_.guards,
-                    .float32_coordinates = options_.float32_coordinates,
-                    .max_rounds = max_rounds,
-                    .threads = 1,
-                    .progress = options_.progress},
-                   contacts);
+    moves_.max_rounds = max_rounds;
+    tighten_around(changed, mesh, original_, moves_, contacts);
   }
 
-  bool keep_if_good(const Hull& hull, double most_loss) {
-    if (!is_better(hull, hull_, most_loss * std::abs(hull_.volume))) return false;
+  void keep_if_good(Hull hull, double most_loss) {
+    if (!is_better(hull, hull_, most_loss * std::abs(hull_.volume))) return;
     const Box box = bounding_box(hull.mesh);
-    if (!allowed_.contains(box.min) || !allowed_.contains(box.max)) return false;
-    if (intersecting_pairs(hull.mesh) > intersecting_pairs_) return false;
-    hull_ = hull;
+    if (!allowed_.contains(box.min) || !allowed_.contains(box.max)) return;
+    if (intersecting_pairs(hull.mesh) > intersecting_pairs_) return;
+    hull_ = std::move(hull);
     if (is_better(hull_, best_, 0)) best_ = hull_;
-    return true;
   }
 
   bool is_better(const Hull& hull, const Hull& than, double most_loss) const {
@@ -190,8 +170,12 @@ class Search {
     return hull.volume < than.volume + most_loss;
   }
 
+  std::size_t below(std::size_t count) { return random_() % count; }
+
   const Original& original_;
   HullOptions options_;
+  MoveOptions moves_;
+  std::mt19937_64 random_;
   ProgressMeter meter_;
   const double rounding_;
   const std::size_t intersecting_pairs_;
@@ -220,9 +204,9 @@ TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original
     return one;
   };
   const Original around = Original::closed(coarse, options.side, options.threads);
-  TriangleMesh best = Search(hull, around, part(0, 0.85)).run(trials_of_few_faces, options.threads);
+  TriangleMesh best = Search(hull, around, part(0, 0.85)).run(trials_of_few_faces);
   best = tightened(best, original, part(0.85, 0.9));
-  return Search(best, original, part(0.9, 1)).run(trials_of_few_faces / 16, options.threads);
+  return Search(best, original, part(0.9, 1)).run(trials_of_few_faces / 16);
 }
 
 }  // namespace prohull
