@@ -267,7 +267,7 @@ void add_build(CLI::App& app, Run& run) {
   CLI::Option* const tight = command.add_flag(
       "--tight", enclosing.tight,
       "Also move vertices towards the mesh between collapses. Such a hull has the least void and never intersects "
-      "itself, but takes 2 to 10 times as long to build, and some seconds if it has at most 200 faces.");
+      "itself, but takes 2 to 8 times as long to build, and some seconds if it has at most 200 faces.");
   CLI::Option* const gap = add_gap(
       command, "--gap,--padding", options->gap,
       "Least distance between hull and mesh, in the mesh's unit, or as in 0.5% of the diagonal of the mesh's bounding "

@@ -345,7 +345,7 @@ void add_urdf(CLI::App& app, Run& run) {
       .add_option("--package", options->package,
                   "Make the folder a ROS package of this name: with package.xml, and hulls named by package:// URIs.")
       ->type_name("NAME");
-  command.add_flag("--tight", options->hulls.tight, "Build tight hulls: least volume, but some 5 times as slow.");
+  command.add_flag("--tight", options->hulls.tight, "Build tight hulls: least volume, but some 4 times as slow.");
   command.add_flag("--skip-missing", options->hulls.skip_missing,
                    "Leave links whose mesh files are not found as they are. Otherwise missing files are an error.");
   CLI::Option* const dry_run =
