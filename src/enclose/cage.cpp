@@ -170,8 +170,8 @@ void CageMaker::move_inwards(EnclosingHulls& made) const {
 
 void CageMaker::make_even(EnclosingHulls& made, HullSide side) const {
   const EnclosingHull& hull = made.hulls[0];
-  const Original original = Original::padded_triangles(triangles_to_cover(made, hull),
-                                                       std::min(hull.padding, cage_.gap), options_.threads);
+  const Original original =
+      Original::padded_triangles(triangles_to_cover(made, hull), std::min(hull.padding, cage_.gap), options_.threads);
   const EvenOptions how{.max_faces = hull.target_faces,
                         .compactness = kEvenCompactness,
                         .float32_coordinates = options_.float32_coordinates,

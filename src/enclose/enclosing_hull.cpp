@@ -425,8 +425,8 @@ bool Ladder::may_be_searched(std::size_t target_faces) const {
   return options_.tight && !options_.bounds.any() && target_faces <= kFewFaces;
 }
 
-// The search makes up for no more, where another hull was searched already: of 24 wraps and convex hulls of four models at
-// 20 and 50 faces, none that had more than 1.4 times its void was better in the end.
+// The search makes up for no more, where another hull was searched already: of 24 wraps and convex hulls of four models
+// at 20 and 50 faces, none that had more than 1.4 times its void was better in the end.
 bool Ladder::is_much_worse(const EnclosingHull& hull, const EnclosingHull& best) const {
   constexpr double kMuch = 2;
   return is_better(best, hull) && void_of(hull) > kMuch * void_of(best);

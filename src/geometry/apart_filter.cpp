@@ -57,8 +57,8 @@ unsigned ApartFilter::certainly_apart(const Corners& first, const Corners& secon
   const auto test = [&](const Vec3Pair& axis) {
     const auto& [a, b, c, d] = corners_;
     const Double2 pa = dot(axis, both(a)), pb = dot(axis, both(b)), pc = dot(axis, both(c)), pd = dot(axis, both(d));
-    apart |= mask(has_gap(axis, t, min(min(pa, pb), min(pc, pd)), max(max(pa, pb), max(pc, pd)),
-                          rounding * largest_of(axis)));
+    apart |= mask(
+        has_gap(axis, t, min(min(pa, pb), min(pc, pd)), max(max(pa, pb), max(pc, pd)), rounding * largest_of(axis)));
     return apart == kBoth;
   };
   const std::array sides{t.b - t.a, t.c - t.b, t.a - t.c};

@@ -7,8 +7,9 @@
 
 namespace prohull {
 
-/// Tells triangles that are certainly apart from one tetrahedron: by the separating axis theorem in floating point, with
-/// a gap that is more than rounding. Far cheaper than the exact tests, and they are needed for what it leaves only.
+/// Tells triangles that are certainly apart from one tetrahedron: by the separating axis theorem in floating point,
+/// with a gap that is more than rounding. Far cheaper than the exact tests, and they are needed for what it leaves
+/// only.
 class ApartFilter {
  public:
   /// Coordinates of all corners may be wrong by 2^-51 of them.

@@ -68,9 +68,8 @@ class CollapsePlacer {
   /// After start_from.
   template <class IsFree>
   void place(const Placement& outside, EdgeState& state, IsFree&& is_free) {
-    const auto to = place_of(outside, [&](const Vec3& p) {
-      return !refused_shape(star_, star_.to_local(p), options_) && is_free(p);
-    });
+    const auto to = place_of(
+        outside, [&](const Vec3& p) { return !refused_shape(star_, star_.to_local(p), options_) && is_free(p); });
     state.found = placement_.found();
     state.is_refused = !to;
     if (!to) return;
