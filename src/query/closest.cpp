@@ -10,7 +10,6 @@
 namespace prohull {
 namespace {
 
-using line_filter::kEpsilon;
 using line_filter::largest_entry;
 
 /// A face seen from a point, at a scale at which products of four lengths neither overflow nor underflow to what
@@ -57,7 +56,7 @@ double distance_of_box(const SeenFace& seen) {
     const double gap = std::max({std::min({a, b, c}), -std::max({a, b, c}), 0.0});
     sum += gap * gap;
   }
-  return std::max(std::sqrt(sum) * (1 - 8 * kEpsilon) - 0x1p-500, 0.0);
+  return std::max(std::sqrt(sum) * (1 - 8 * line_filter::kEpsilon) - 0x1p-500, 0.0);
 }
 
 /// How far the plane of normal n at the nearest corner is, on the side of n: no point of the face is nearer than that,
@@ -76,7 +75,7 @@ double separation(const Vec3& n, const SeenFace& seen) {
 /// fraction by 2 eps W, each of two differences by eps W. That is 13 eps W, and norm() adds 3 eps W: 16 eps W < 28 eps
 /// R. separation: n is taken as it is. Rounding moves dot(n, point - corner) by at most 4 eps |n| W, and |n| and the
 /// quotient by a relative 4 eps: 8 eps W < 14 eps R.
-double error_bound(const SeenFace& seen) { return 32 * kEpsilon * seen.reach; }
+double error_bound(const SeenFace& seen) { return 32 * line_filter::kEpsilon * seen.reach; }
 
 /// Scaled; the foot is seen from its corner `from`.
 struct Measured {
@@ -87,7 +86,7 @@ struct Measured {
 Measured measured_to_corner(const SeenFace& seen, const Vec3& away) {
   const double distance = norm(away);
   // Of the distance only the difference and norm() are rounded; 2^-500 stands for squares that underflow.
-  const double upper = away == Vec3{} ? 0 : distance * (1 + 16 * kEpsilon) + 0x1p-500;
+  const double upper = away == Vec3{} ? 0 : distance * (1 + 16 * line_filter::kEpsilon) + 0x1p-500;
   return {{}, distance, separation(away, seen) - error_bound(seen), upper};
 }
 
@@ -133,13 +132,13 @@ ClosestCollector::ClosestCollector(const TriangleMesh& mesh, const Box& box, con
     : mesh_(mesh), point_(point), limit_(max_distance) {
   // Rounding moves dot(n, point - corner), |n| <= 1 + 4 eps, by at most 8 eps |point - corner| (1 + O(eps)).
   const double reach = std::max(largest_entry(box.min - point), largest_entry(box.max - point));
-  error_ = 16 * kEpsilon * reach + 0x1p-1000;
+  error_ = 16 * line_filter::kEpsilon * reach + 0x1p-1000;
 }
 
 /// All corners lie beyond a plane that is farther away than limit().
 bool ClosestCollector::is_certainly_farther(const Triangle& t) const {
   return std::min({dot(away_, point_ - t.a), dot(away_, point_ - t.b), dot(away_, point_ - t.c)}) - error_ >
-         limit_ * (1 + 8 * kEpsilon);
+         limit_ * (1 + 8 * line_filter::kEpsilon);
 }
 
 void ClosestCollector::offer(FaceId face, const Triangle& triangle) {
