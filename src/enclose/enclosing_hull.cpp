@@ -429,7 +429,8 @@ bool Ladder::may_be_searched(std::size_t target_faces) const {
 // at 20 and 50 faces, none that had more than 1.4 times its void was better in the end.
 bool Ladder::is_much_worse(const EnclosingHull& hull, const EnclosingHull& best) const {
   constexpr double kMuch = 2;
-  return is_better(best, hull) && void_of(hull) > kMuch * void_of(best);
+  const double least = void_of(best);  // below 0 where the volume is only estimated
+  return is_better(best, hull) && least > 0 && void_of(hull) > kMuch * least;
 }
 
 // The padding and a hair, for rounding; 0 without padding.

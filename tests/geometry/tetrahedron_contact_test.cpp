@@ -110,6 +110,18 @@ TEST(ApartFilter, NeverTellsApartWhatTouches) {
   EXPECT_GT(found, 0.9 * apart);
 }
 
+/// Axes of such sides underflow, and projections on those of huge ones overflow.
+TEST(ApartFilter, NeverTellsApartTinyAndHugeTrianglesThatTouch) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto point = [&](double size) { return Vec3{size * unit(random), size * unit(random), size * unit(random)}; };
+  for (int i = 0; i < rounds(20000); ++i) {
+    const ApartFilter filter({point(1), point(1), point(1), Vec3{}});
+    const std::array tiny{Vec3{}, point(1e-155), point(1e-160)}, huge{Vec3{}, point(1e154), point(1e150)};
+    ASSERT_EQ(filter.certainly_apart(tiny, huge), 0U);
+  }
+}
+
 TEST(MeetsInterior, IsFalseForTheFacesOfTheTetrahedron) {
   const Tetrahedron v{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0.1, 0.2, 0.7}};
   ASSERT_EQ(side(v.a, v.b, v.c, v.d), Side::Inside);

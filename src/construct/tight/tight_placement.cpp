@@ -249,11 +249,12 @@ std::array<Vec3, 3> TightPlacement::local_corners(FaceId f) const {
 }
 
 // Those left out are certainly not in the way.
-void TightPlacement::find_near(std::size_t i, const Vec3& to, const Tetrahedron& removed) {
+void TightPlacement::find_near(const Tetrahedron& removed) {
   near_.clear();
   original_.find_near(removed, near_);
   if (original_.clearance() > 0 || near_.empty()) return;
-  const ApartFilter filter({to_local(to), local_[i], local_[after(i)], Vec3{}});
+  const auto& [a, b, c, d] = removed;
+  const ApartFilter filter({to_local(a), to_local(b), to_local(c), to_local(d)});
   std::size_t kept = 0;
   for (std::size_t k = 0; k < near_.size(); k += 2) {
     const FaceId first = near_[k], second = near_[std::min(k + 1, near_.size() - 1)];
@@ -279,7 +280,7 @@ bool TightPlacement::cut_where_met(const Vec3& apex, const Vec3& to) {
   for (std::size_t i = 0; i < link_.size(); ++i) {
     const Tetrahedron tetrahedron{link_[i], to, link_[after(i)], from_};
     if (side(from_, link_[i], link_[after(i)], to) != Side::Inside) continue;  // adds, or is flat
-    find_near(i, to, tetrahedron);
+    find_near(tetrahedron);
     if (near_.empty()) continue;
     const Removed removed(apex, local_[i], local_[after(i)]);
     Deepest deepest(removed, allowed_depth());
@@ -357,8 +358,7 @@ bool TightPlacement::add_known_padding_cuts(const Vec3& apex) {
 }
 
 std::optional<Vec3> TightPlacement::deepest_in(std::size_t i, const Vec3& apex, const Tetrahedron& tetrahedron) {
-  near_.clear();
-  original_.find_near(tetrahedron, near_);
+  find_near(tetrahedron);
   std::erase_if(near_, [&](FaceId f) { return !original_.is_in_the_way(f, tetrahedron); });
   const Removed removed(apex, local_[i], local_[after(i)]);
   Deepest deepest(removed, 0);
@@ -404,7 +404,7 @@ bool TightPlacement::keeps_enclosing(const Vec3& to) {
   for (std::size_t i = 0; i < link_.size(); ++i) {
     const Tetrahedron removed{from_, link_[i], link_[after(i)], to};
     if (side(removed.a, removed.b, removed.c, removed.d) != Side::Inside) continue;
-    find_near(i, to, removed);
+    find_near(removed);
     if (std::ranges::any_of(near_, [&](FaceId f) { return original_.is_in_the_way(f, removed); })) return false;
     if (!original_.is_outside_inside_of(removed)) return false;
   }

@@ -68,7 +68,7 @@ class TightPlacement {
   bool add_cut(std::size_t i, const Vec3& point);
   class Deepest;
   std::array<Vec3, 3> local_corners(FaceId f) const;
-  void find_near(std::size_t i, const Vec3& to, const Tetrahedron& removed);
+  void find_near(const Tetrahedron& removed);
   void take_parts_of_near(Deepest& deepest);
   bool cut_where_met(const Vec3& apex, const Vec3& to);
   bool add_padding_cut(std::size_t i, const Vec3& apex, const Vec3& point);
