@@ -213,7 +213,7 @@ CorpusRow swept(const MeshFile& file, const CorpusOptions& options, References* 
     return failed("report", error.what());
   }
 
-  const ProgramEnd verified = run_program({PROHULL_PROGRAM, "verify", hull, file.path}, limits);
+  const ProgramEnd verified = run_program({PROHULL_PROGRAM, "verify", hull, file.path, "--finite-only"}, limits);
   row.verify_seconds = verified.seconds;
   row.peak_bytes = std::max(row.peak_bytes, verified.peak_bytes);
   if (!verified.failure.empty()) return failed("verify", verified.failure);

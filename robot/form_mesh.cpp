@@ -1,5 +1,4 @@
 #include "prohull/error.h"
-#include "robot/curved_form.h"
 #include "robot/link_triangles.h"
 
 namespace prohull::robot {
@@ -18,9 +17,19 @@ TriangleMesh box_mesh(const Vec3& size) {
 
 }  // namespace
 
+std::optional<CurvedForm> curved_form(const Form& form, const Pose& pose) {
+  if (const auto* sphere = std::get_if<SphereForm>(&form))
+    return CurvedForm::sphere({pose.translation, sphere->radius});
+  if (const auto* cylinder = std::get_if<CylinderForm>(&form))
+    return CurvedForm::cylinder(cylinder->radius, cylinder->length, pose);
+  if (const auto* capsule = std::get_if<CapsuleForm>(&form))
+    return CurvedForm::capsule(capsule->radius, capsule->length, pose);
+  return std::nullopt;
+}
+
 TriangleMesh form_mesh(const Form& form, Curved curved, std::size_t segments) {
   if (const auto* box = std::get_if<BoxForm>(&form)) return box_mesh(box->size);
-  if (const auto curve = CurvedForm::of(form)) return curve->mesh(curved, segments);
+  if (const auto curve = curved_form(form)) return curve->mesh(curved, segments);
   throw InputError(Defect::InvalidOption, "only a box, sphere, cylinder or capsule has a mesh of its own");
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "prohull/solid_pieces.h"
 #include "prohull/triangle_mesh.h"
 #include "robot/model.h"
 
@@ -20,8 +21,8 @@ struct Frame {
 };
 Frame common_frame(std::span<const Shape> shapes);
 
-/// On which side of a curved surface the flat faces lie that stand for it.
-enum class Curved { Around, Within };
+/// A sphere, cylinder or capsule, where the pose puts it; none of any other form.
+std::optional<CurvedForm> curved_form(const Form& form, const Pose& pose = {});
 
 /// Triangles of a box, sphere, cylinder or capsule, closed and outwards, in its own frame.
 /// Guaranteed, exactly: with Curved::Around the mesh encloses the form, with Curved::Within the form encloses it. A

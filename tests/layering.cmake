@@ -3,8 +3,8 @@
 cmake_policy(VERSION 3.25)
 
 # room(<folder of src/> OWNS <public headers that it implements> MAY <folders that it may include>)
-# An include of a public header counts as an include of the folder that owns it. MAY also takes single public headers,
-# as prohull/<name>: then only these are seen of the folder that owns them.
+# An include of a public header counts as an include of the folder that owns it. MAY also takes single headers, as
+# prohull/<name> or <folder>/<name>: then only these are seen of that folder.
 set(rooms "")
 macro(room name)
   cmake_parse_arguments(room "" "" "OWNS;MAY" ${ARGN})
@@ -16,29 +16,31 @@ endmacro()
 room(base      OWNS error names progress)
 room(geometry  OWNS geometry shapes                                                     MAY base)
 room(parallel                                                                    MAY base)
-room(mesh      OWNS ids triangle_mesh vertex_split mesh_report mesh_quality mesh_marks regions symmetry MAY geometry base)
+room(mesh      OWNS ids length triangle_mesh vertex_split mesh_report mesh_quality mesh_marks regions symmetry MAY geometry base)
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
-room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base
-                                                                                     prohull/enclosure)  # is_closed
+room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base)
 room(io        OWNS base64 memory mesh_io hull_file query_io                            MAY hull mesh geometry parallel base
                                                                                      prohull/collide prohull/mesh_query)
 room(repair    OWNS openings repair                                              MAY mesh geometry base)
 room(construct OWNS hull_builder tight_hull float32_hull padded_hull mesh_part   MAY hull mesh geometry parallel base)
-# Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges.
-room(verify    OWNS enclosure verification union_verification replay distance tolerances MAY geometry parallel base prohull/ids
+# Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges, and
+# whether that is closed.
+room(verify    OWNS enclosure verification union_verification replay distance tolerances solid_pieces MAY geometry parallel base prohull/ids
                                                                                      prohull/triangle_mesh
+                                                                                     mesh/closed
                                                                                      prohull/vertex_split
-                                                                                     prohull/progressive_hull)
+                                                                                     prohull/progressive_hull
+                                                                                     prohull/mesh_query prohull/collide)
 room(sample    OWNS sample random_segments                                       MAY mesh geometry base)
 room(wrap      OWNS convex_hull wrap                                                         MAY mesh geometry parallel base)
-room(enclose   OWNS cage enclosing_hull                                          MAY construct repair verify wrap hull mesh
+room(enclose   OWNS cage closed_solid enclosing_hull                                          MAY construct repair verify wrap hull mesh
                                                                                      geometry parallel base prohull/collide)
 
 room(cover     OWNS convex_cover sphere_cover                                    MAY enclose construct repair verify wrap hull mesh
                                                                                      geometry parallel base
                                                                                      prohull/mesh_query)
-room(collide   OWNS collide                                                      MAY mesh geometry parallel base
-                                                                                     prohull/enclosure)  # is_closed
+room(certificate OWNS certificate                                                MAY verify hull mesh geometry parallel base)
+room(collide   OWNS collide                                                      MAY mesh geometry parallel base)
 
 # Outside of src/: public headers, all of them, and these folders.
 set(outside render robot view kdop apps examples python)
@@ -49,6 +51,8 @@ set(may_kdop kdop query geometry)  # an engine as those of src/query
 set(may_apps render robot view kdop)
 set(may_examples "")
 set(may_python render robot view)
+
+set(exact geometry verify query)
 
 set(failures "")
 macro(fail)
@@ -95,6 +99,13 @@ foreach(source ${sources})
     fail("${source}: its folder ${folder} has no rule here")
     continue()
   endif()
+  # Who decides needs exact numbers: no other folder sees them.
+  if(NOT folder IN_LIST exact)
+    file(STRINGS ${ROOT}/${source} numbers REGEX "^[ \t]*#[ \t]*include[ \t]*[\"<](CGAL/|boost/multiprecision/|gmp|mpfr)")
+    if(numbers)
+      fail("${source}: exact numbers are for src/geometry, src/verify and src/query; ask one of them")
+    endif()
+  endif()
   file(STRINGS ${ROOT}/${source} includes REGEX "^[ \t]*#[ \t]*include[ \t]*[\"<][a-z]+/")
   foreach(line ${includes})
     string(REGEX MATCH "([\"<])([a-z]+)/([^\">]+)\\.h" _ ${line})
@@ -109,7 +120,7 @@ foreach(source ${sources})
         fail("${source}: ${folder} may not include prohull/${header}.h of ${owner_${header}}")
       endif()
     elseif((included IN_LIST rooms OR included IN_LIST outside OR mark STREQUAL "\"")
-           AND NOT included IN_LIST may_${folder})
+           AND NOT included IN_LIST may_${folder} AND NOT ${included}/${header} IN_LIST may_${folder})
       fail("${source}: ${folder} may not include ${included}/${header}.h")
     endif()
   endforeach()

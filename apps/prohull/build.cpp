@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "build_summary.h"
+#include "certificate_output.h"
 #include "command.h"
 #include "prohull/distance.h"
 #include "prohull/enclosing_hull.h"
@@ -29,22 +31,30 @@ std::filesystem::path path_for(const std::filesystem::path& pattern, std::size_t
   return name;
 }
 
+void require_faces_in_name(const BuildOptions& options, const std::filesystem::path& file) {
+  if (options.faces.size() > 1 && !file.empty() && file.string().find(kFacesInName) == std::string::npos)
+    refuse(
+        fmt::format("{}: several hulls need several names; put {{faces}} where the number of faces goes, as in "
+                    "hull_{{faces}}.stl",
+                    file.string()));
+}
+
 /// What the names of the outputs end in; refuses options that contradict each other.
 std::string check_options(const BuildOptions& options) {
   const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
   if (!options.hierarchy.empty())
     output_suffix(options.hierarchy, {"hierarchies", {".phull"}}, is_standard_stream(options.hierarchy) ? "phull" : "");
-  if (options.faces.size() > 1 && options.out.string().find(kFacesInName) == std::string::npos)
-    refuse(
-        fmt::format("{}: several hulls need several names; put {{faces}} where the number of faces goes, as in "
-                    "hull_{{faces}}.stl",
-                    options.out.string()));
+  require_faces_in_name(options, options.out);
   if (options.faces.size() > 1 && !options.hierarchy.empty())
     refuse("--hierarchy is for one number of --faces only; its file holds all finer levels anyway");
   if (options.allow_self_intersections && !options.is_outer())
     refuse("--allow-self-intersections is not for inner hulls: one that intersects itself could stick out of the mesh");
+  check_certified_original(options.certificate, options.in);
+  check_certified_output(options.certificate, suffix);
+  require_faces_in_name(options, options.certificate);
   std::vector<std::filesystem::path> files{options.hierarchy, options.report};
-  for (const std::size_t faces : options.faces) files.push_back(path_for(options.out, faces));
+  for (const std::size_t faces : options.faces)
+    for (const auto& pattern : {options.out, options.certificate}) files.push_back(path_for(pattern, faces));
   std::vector<std::filesystem::path> inputs{options.in};
   if (!options.tolerance.empty()) inputs.push_back(options.tolerance);
   check_files(inputs, files);
@@ -61,6 +71,19 @@ EnclosingHulls build(TriangleMesh mesh, const BuildOptions& options) {
   } catch (const InputError& error) {
     throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
   }
+}
+
+void write_certificate(Written& written, const CertifiedOriginal& original, const BuildOptions& options,
+                       Outputs& outputs) {
+  const EnclosingHull& hull = written.hull;
+  written.certificate_path = path_for(options.certificate, hull.target_faces);
+  written.certificate = hull_certificate(
+      hull.mesh, original,
+      {.side = options.enclosing.hull.side,
+       .levels = hull.levels,
+       .gap = claimed_gap(options.enclosing.padding, hull.padding),
+       .distance = claimed_distance(options.enclosing.bounds.max_distance, written.to_triangles.upper)});
+  outputs.add(written.certificate_path, written.certificate.bytes);
 }
 
 Written write_certified(EnclosingHull hull, FinestLevel finest, const BuildOptions& options, const std::string& suffix,
@@ -89,9 +112,12 @@ void measure(BuildOutcome& outcome) {
       first.source == Source::Mesh ? first.self_intersections : count_self_intersections(made.input.original);
   ProgressLine line;
   for (Written& written : outcome.written) {
-    written.distance = distance_bounds(
-        written.hull.mesh, made.input.closed ? made.input.closed->mesh : triangles_to_cover(made, written.hull),
-        {.progress = std::ref(line)});
+    const DistanceOptions how{.progress = std::ref(line)};
+    written.has_openings = made.input.caps.face_count() > 0 || outcome.solid(written.hull).doors.face_count() > 0;
+    written.to_triangles = distance_bounds(written.hull.mesh, made.input.original, how);
+    written.to_solid = written.has_openings
+                           ? distance_bounds(written.hull.mesh, triangles_to_cover(made, written.hull), how)
+                           : written.to_triangles;
     written.quality = mesh_quality(written.hull.mesh);
     for (const TriangleMesh& faces : outcome.regions.faces)
       written.regions.push_back(distance_bounds(
@@ -114,9 +140,10 @@ PerFace<std::uint32_t> faces_of_regions(const BuildOptions& options, const std::
   }
 }
 
-void set_regions(BuildOptions& options, BuildOutcome& outcome, const TriangleMesh& mesh, const MeshMarks& marks) {
+void set_regions(BuildOptions& options, BuildOutcome& outcome, const TriangleMesh& mesh, const MeshMarks& marks,
+                 const MeshUnit& unit) {
   Regions& regions = outcome.regions;
-  regions.all = read_regions(options.tolerance);
+  regions.all = read_regions(options.tolerance, unit);
   const PerFace<std::uint32_t> region_of = faces_of_regions(options, regions.all, mesh, marks);
   options.enclosing.hull.tolerances = tolerances_of(region_of, regions.all);
   const TriangleMesh placed = minus(mesh, outcome.offset);
@@ -124,6 +151,14 @@ void set_regions(BuildOptions& options, BuildOutcome& outcome, const TriangleMes
   for (const FaceId f : region_of.ids())
     if (region_of[f] < regions.all.size() && can_be_kept(placed.triangle(f)))
       regions.faces[region_of[f]].triangles.push_back(placed.triangles[f]);
+}
+
+void set_lengths(BuildOptions& options, const MeshUnit& unit) {
+  EnclosingOptions& enclosing = options.enclosing;
+  enclosing.padding = unit.number_of(options.gap, "--gap");
+  enclosing.seal_holes = unit.number_of(options.seal_holes, "--seal-holes");
+  if (options.max_distance.number > 0)
+    enclosing.bounds.max_distance = unit.number_of(options.max_distance, "--max-distance");
 }
 
 /// What the library is asked for, where options say it in other units or words.
@@ -147,10 +182,13 @@ int run_build(BuildOptions options) {
   TriangleMesh mesh =
       read_input(options.in, options.input, NonFinite::Keep, options.tolerance.empty() ? nullptr : &marks);
   outcome.read_seconds = reading.seconds();
+  const MeshUnit unit(mesh, options.in, options.input);
+  set_lengths(options, unit);
   if (options.recenter) outcome.offset = recentering_offset(mesh);
-  if (!options.tolerance.empty()) set_regions(options, outcome, mesh, marks);
+  if (!options.tolerance.empty()) set_regions(options, outcome, mesh, marks, unit);
+  CertifiedOriginal original;
+  if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
   mesh = minus(std::move(mesh), outcome.offset);
-  options.enclosing.padding = options.gap.of(mesh);
   outcome.made = build(std::move(mesh), options);
   Outputs outputs;
   for (EnclosingHull& made : outcome.made.hulls) {
@@ -158,12 +196,17 @@ int run_build(BuildOptions options) {
     outcome.written.push_back(write_certified(std::move(made), finest, options, suffix, outputs));
   }
   measure(outcome);
+  if (!options.certificate.empty())
+    for (Written& written : outcome.written)
+      if (written.certified) write_certificate(written, original, options, outputs);
   outputs.add_report(options.report, report_of(options, outcome));
   outputs.commit();
   print_summary(options, outcome);
   const bool all_certified = std::ranges::all_of(outcome.written, &Written::certified);
   const bool all_as_asked = std::ranges::all_of(outcome.written, &Written::is_as_asked);
-  return !all_certified || (options.strict && !all_as_asked) ? kAnswerIsNo : kDone;
+  const bool all_within_bounds =
+      std::ranges::all_of(outcome.written, [](const Written& written) { return written.hull.within_bounds; });
+  return !all_certified || !all_within_bounds || (options.strict && !all_as_asked) ? kAnswerIsNo : kDone;
 }
 
 void add_guards(CLI::App& command, BuildOptions& options) {
@@ -203,17 +246,16 @@ void add_guards(CLI::App& command, BuildOptions& options) {
 }
 
 void add_bounds(CLI::App& command, BuildOptions& options) {
-  HullBounds& bounds = options.enclosing.bounds;
-  add_number(command, "--max-distance", bounds.max_distance, kPositive,
-             "Largest allowed distance of any point of the hull from the mesh, in the mesh's unit. The hull is the "
-             "coarsest of its levels, of at least --faces faces, that provably keeps it. With --tight, some ten hulls "
-             "are built to find it.")
-      ->type_name("D");
+  add_length(command, "--max-distance", options.max_distance,
+             "Largest allowed distance of any point of the hull from the mesh. What closes openings of the mesh counts "
+             "as mesh. The hull is the coarsest of its levels, of at least --faces faces, that provably keeps it; the "
+             "exit code is 1 if "
+             "none does. With --tight, some ten hulls are built to find it.");
   add_number(command, "--max-void", options.max_void_percent, kPositive,
              "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, caps on "
              "its openings included (an inner hull: how much less).")
       ->type_name("PERCENT");
-  add_number(command, "--max-added-volume", bounds.max_added_volume, kPositive,
+  add_number(command, "--max-added-volume", options.enclosing.bounds.max_added_volume, kPositive,
              "Largest allowed volume between hull and mesh, in the mesh's unit, cubed.")
       ->type_name("V");
 }
@@ -248,16 +290,18 @@ void add_build(CLI::App& app, Run& run) {
       ->type_name("IN");
   add_format_option(command, options->input);
   add_unit_options(command, options->input, "the mesh");
-  command.add_flag("--recenter", options->recenter,
-                   "Subtract a round offset near the middle of the mesh from all coordinates, where the mesh is far "
-                   "from the origin. STL and GLB files keep too few digits there. The offset stands in the summary and "
-                   "in the report; add it to place the hull, and give it to `prohull verify --offset`.");
+  CLI::Option* const recenter = command.add_flag(
+      "--recenter", options->recenter,
+      "Subtract a round offset near the middle of the mesh from all coordinates, where the mesh is far "
+      "from the origin. STL and GLB files keep too few digits there. The offset stands in the summary and "
+      "in the report; add it to place the hull, and give it to `prohull verify --offset`.");
   add_mesh_output_options(command, options->out, options->out_format,
                           "the hull, in whose name {faces} becomes the number of faces asked for");
   add_number(
       command, "--faces,--target-faces", options->faces, {4, 1e9},
       "Number of faces that the hull should have, at least 4. Several numbers, as in 1000,100, make a hull each.")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->capture_default_str()
       ->type_name("N[,N...]");
   add_bounds(command, *options);
@@ -268,10 +312,10 @@ void add_build(CLI::App& app, Run& run) {
       "--tight", enclosing.tight,
       "Also move vertices towards the mesh between collapses. Such a hull has the least void and never intersects "
       "itself, but takes 2 to 8 times as long to build, and some seconds if it has at most 200 faces.");
-  CLI::Option* const gap = add_gap(
+  CLI::Option* const gap = add_length(
       command, "--gap,--padding", options->gap,
-      "Least distance between hull and mesh, in the mesh's unit, or as in 0.5% of the diagonal of the mesh's bounding "
-      "box. It is proven. All points within this distance of the mesh are inside of an outer hull. An inner hull "
+      "Least distance between hull and mesh. It is proven. All points within this distance of the mesh are inside of "
+      "an outer hull. An inner hull "
       "leaves "
       "out what is thinner than two gaps. Bounds such as --max-distance count from the gap on. Use --tight for the "
       "least void. Not for hulls with --hierarchy.");
@@ -302,9 +346,8 @@ void add_build(CLI::App& app, Run& run) {
   command.add_flag("--keep-cavities", enclosing.keep_cavities,
                    "Keep parts of the mesh that lie inside of other parts. An outer hull encloses them also if they "
                    "are dropped; an inner hull always keeps them.");
-  add_number(command, "--seal-holes", enclosing.seal_holes, kPositive,
-             "Close openings up to this diameter where the mesh is wrapped, in the mesh's unit.")
-      ->type_name("D");
+  add_length(command, "--seal-holes", options->seal_holes,
+             "Close openings up to this diameter where the mesh is wrapped.");
   add_choice(command, "--strategy", hull.strategy, strategy_names(),
              "Order in which edges collapse. lazy is the tightest and fastest; paper1 and paper2 are those of Platis "
              "and Theoharis (2003).");
@@ -314,6 +357,7 @@ void add_build(CLI::App& app, Run& run) {
       ->excludes(tight)
       ->excludes(gap)
       ->type_name("H.phull");
+  add_certificate_option(command, options->certificate, "the hull")->excludes(recenter);
   add_self_intersections(command, *options, tight);
   add_number(command, "--best-of", hull.best_of, {1, 1e6},
              "Build this many hulls, with a seed each, and keep the one of least void. For the strategy lazy and "
@@ -324,7 +368,8 @@ void add_build(CLI::App& app, Run& run) {
              "the strategy lazy and --tight only.")
       ->capture_default_str();
   add_threads_option(command, hull.threads, "The hull is the same for any number.");
-  command.add_flag("--strict", options->strict, "Exit with code 1 if the number of faces or a bound is not reached.");
+  command.add_flag("--strict", options->strict,
+                   "Exit with code 1 if the number of faces is not reached; a bound that is missed always does so.");
   add_report_option(command, options->report);
   add_guards(command, *options);
   add_examples(command, {"prohull build horse.ply --faces 2000 -o hull.ply",
@@ -332,7 +377,7 @@ void add_build(CLI::App& app, Run& run) {
                          "prohull build arm.stl --faces 200 --tight -o arm_collision.stl",
                          "prohull build arm.stl --faces 200 --tight --best-of 9 -o arm_collision.stl",
                          "prohull build arm.stl --faces 50 --tight --max-distance 2 -o arm_collision.stl",
-                         "prohull build arm.stl --unit mm --faces 300 --gap 5 -o arm_collision.stl",
+                         "prohull build arm.stl --unit mm --faces 300 --gap 5mm -o arm_collision.stl",
                          "prohull build horse.ply --faces 300 --tight --gap 0.5% -o cage.obj",
                          "prohull build horse.ply --faces 300 --gap 0.5% --side inner -o core.obj",
                          "prohull build arm.obj --faces 800 --tolerance regions.yaml -o arm_collision.obj",
@@ -342,6 +387,7 @@ void add_build(CLI::App& app, Run& run) {
                          "prohull build house_utm.ply --recenter --faces 200 -o house.glb --report house.json",
                          "prohull build rock.obj --side inner --faces 300 -o occluder.obj",
                          "prohull build horse.ply --faces 200 -o hull.ply --hierarchy horse.phull",
+                         "prohull build arm.stl --faces 200 -o arm_collision.stl --certificate arm.phcert",
                          "prohull build - --in-format stl -o - --out-format ply <part.stl >hull.ply"});
   command.callback([options, &run] { run = [options] { return run_build(*options); }; });
 }

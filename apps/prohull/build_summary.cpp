@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certificate_output.h"
 #include "recenter.h"
+#include "verdict.h"
 
 namespace prohull::cli {
 namespace {
-
-/// Whether the certificate is about single triangles: the mesh has no inside that could be compared.
-bool was_covered(const BuildOutcome& outcome, const EnclosingHull& hull) {
-  return hull.proof == "coverage" || (hull.proof == "padding" && !outcome.made.input.closed);
-}
 
 std::string source_of(const Solid& solid) {
   switch (solid.source) {
@@ -74,12 +71,11 @@ void print_regions(const BuildOutcome& outcome, const Written& written) {
 void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
   const EnclosingHull& hull = written.hull;
   const std::size_t faces = hull.mesh.face_count();
-  say("{}: {} hull of {}{}, {}, at most {:.4g} from the mesh\n", output_name(written.path),
+  say("{}: {} hull of {}{}{}, at most {:.4g} from the mesh{}\n", output_name(written.path),
       options.is_outer() ? "outer" : "inner", counted(faces, "face", "faces"),
       hull.source == Source::Mesh ? "" : fmt::format(", of {}", source_of(outcome.solid(hull))),
-      outcome.made.volume > 0 ? fmt::format("void {:.3f} %", 100 * hull.void_ratio)
-                              : fmt::format("volume {:.4g}", signed_volume(hull.mesh)),
-      written.distance.upper);
+      described_void(outcome.made, hull), written.to_solid.upper,
+      text_of_openings(written.has_openings, written.to_triangles));
   say("  self-intersections: {}\n", described_self_intersections(outcome, hull));
   say("  triangles: {}\n", described(written.quality));
   if (faces == outcome.solid(hull).mesh.face_count() && faces <= hull.target_faces)
@@ -101,28 +97,22 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
         grouped(hull.target_faces), described_topology(hull.mesh), grouped(3 * faces / 2),
         describe_refusals(hull.blocked));
   if (!hull.within_bounds)
-    say("  NOT within the bounds asked for: no hull was; this one misses them by {:.3g} %\n", 100 * (hull.excess - 1));
+    say("  NOT within the bounds asked for: of all that was tried, this hull misses them least, by {:.3g} %; allow "
+        "that "
+        "much, or mend the mesh where it is open or intersects itself\n",
+        100 * (hull.excess - 1));
   if (written.certified && !options.hierarchy.empty())
     say("{}: all levels from {} to {} faces\n", output_name(options.hierarchy), grouped(faces),
         grouped(outcome.solid(hull).mesh.face_count()));
   if (const std::string finest = described_finest_level(finest_level(outcome.made, hull));
       written.certified && !options.hierarchy.empty() && !finest.empty())
     say("  its finest level is {}, not the input itself\n", finest);
-  const bool is_cover = was_covered(outcome, hull);
-  const bool all_finite = outcome.made.input.repairs.dropped_non_finite_faces == 0;
-  if (!written.certified)
-    say("  certified: NO: nothing was written; please report this mesh\n");
-  else
-    say("  certified: yes, the file as written {} {}the original\n",
-        !options.is_outer() ? "is enclosed by"
-        : is_cover          ? "covers"
-                            : "encloses",
-        !all_finite ? "the finite triangles of "
-        : is_cover  ? "every triangle of "
-                    : "");
+  say("  certified: {}\n", certificate_of(outcome.made, hull, written.certified));
   if (written.certified && hull.padding > 0)
     say("  gap: the least distance from the mesh is at least {:.6g}, proven{}\n", hull.padding,
         options.is_outer() ? "; all points within it are inside" : "");
+  if (written.certified && !options.certificate.empty())
+    print_certificate(written.certificate_path, written.certificate, {written.path}, options.in);
 }
 
 // Without regions and symmetry the report is as it was before there were any.
@@ -185,17 +175,21 @@ nlohmann::json facts_of_hull(const BuildOutcome& outcome, const Written& written
           {"faces", hull.mesh.face_count()},
           {"vertices", hull.mesh.vertex_count()},
           {"volume", signed_volume(hull.mesh)},
-          {"void_ratio", outcome.made.volume > 0 ? finite_or_null(hull.void_ratio) : nlohmann::json()},
+          {"void_ratio", finite_or_null(hull.void_ratio)},
+          {"void_is_estimated", outcome.made.is_estimated},
           {"source", name_of(source_names(), hull.source)},
           {"wrap_spacing",
            hull.source == Source::Wrap ? nlohmann::json(outcome.solid(hull).wrap_spacing) : nlohmann::json()},
-          {"distance_bound", written.distance.upper},
+          {"distance_bound", written.to_solid.upper},
+          {"distance_to_solid", facts(written.to_solid)},
+          {"distance_to_triangles", facts(written.to_triangles)},
           {"self_intersections", hull.self_intersections},
           {"added_self_intersections", added_self_intersections(outcome, hull)},
           {"quality", facts(written.quality)},
           {"rounded_vertices", hull.rounded_vertices},
           {"certified", written.certified},
           {"proof", std::string(hull.proof)},
+          {"verdict", facts(hull.verdict)},
           {"padding", hull.padding},
           {"relaxed_guards", hull.relaxed_guards},
           {"stopped", hull.target_reached ? "target_reached" : "no_legal_collapse"},

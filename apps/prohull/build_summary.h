@@ -4,20 +4,21 @@
 #include <vector>
 
 #include "command.h"
+#include "prohull/certificate.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/regions.h"
 
 namespace prohull::cli {
 
 struct BuildOptions {
-  std::filesystem::path in, out, hierarchy, report, tolerance;
+  std::filesystem::path in, out, hierarchy, certificate, report, tolerance;
   std::vector<std::size_t> faces{2000};
   EnclosingOptions enclosing;
   InputOptions input;
   std::string out_format;
   double normal_deviation_degrees = 45;
-  double max_void_percent = 0;  ///< 0: any
-  Gap gap;                      ///< enclosing.padding follows from it
+  double max_void_percent = 0;           ///< 0: any
+  Length gap, max_distance, seal_holes;  ///< the numbers in `enclosing` follow from them
   bool recenter = false, strict = false, allow_self_intersections = false, no_self_intersections = false;
 
   bool is_outer() const { return enclosing.hull.side == HullSide::Outer; }
@@ -28,9 +29,13 @@ struct Written {
   EnclosingHull hull;
   std::filesystem::path path;
   bool certified = false;        ///< the hull, and the file holds its very bits
-  DistanceBounds distance = {};  ///< to the original
+  bool has_openings = false;     ///< that count as closed
+  DistanceBounds to_solid = {};  ///< of the hull, from the triangles of the original and from what closes its openings
+  DistanceBounds to_triangles = {};  ///< from the triangles alone
   MeshQuality quality = {};
   std::vector<DistanceBounds> regions = {};  ///< of each region, from the hull
+  std::filesystem::path certificate_path = {};
+  Certificate certificate = {};
   double write_seconds = 0;
 
   bool is_as_asked() const { return certified && hull.target_reached && hull.within_bounds; }

@@ -5,30 +5,35 @@
 #include <algorithm>
 #include <utility>
 
+#include "certificate_output.h"
 #include "command.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
+#include "verdict.h"
 
 namespace prohull::cli {
 namespace {
 
 struct CageRunOptions {
-  std::filesystem::path in, out, inner, report;
+  std::filesystem::path in, out, inner, certificate, report;
   InputOptions input;
   std::string out_format;
   CageOptions cage;
-  Gap gap;
+  Length gap;
   bool strict = false;
 };
 
 /// A hull and its file.
 struct File {
   const char* side;
+  bool is_inner;
   const CageHull* hull;
   std::filesystem::path path;
   std::string suffix;
   bool certified = false;  ///< the hull, and the file holds its very bits
+  std::filesystem::path certificate_path = {};
+  Certificate certificate = {};
 
   bool is_as_asked() const { return certified && hull->is_disjoint && hull->keeps_gap && hull->hull().target_reached; }
 };
@@ -53,6 +58,35 @@ void write(File& file, Outputs& outputs) {
   });
 }
 
+constexpr std::string_view kSideInName = "{side}";
+
+std::filesystem::path certificate_path(const CageRunOptions& options, std::string_view side) {
+  std::string name = options.certificate.string();
+  if (const auto at = name.find(kSideInName); at != std::string::npos) name.replace(at, kSideInName.size(), side);
+  return name;
+}
+
+void check_certificate(const CageRunOptions& options, const std::string& suffix, const std::string& suffix_of_inner) {
+  check_certified_original(options.certificate, options.in);
+  check_certified_output(options.certificate, suffix);
+  if (options.inner.empty() || options.certificate.empty()) return;
+  check_certified_output(options.certificate, suffix_of_inner);
+  if (options.certificate.string().find(kSideInName) == std::string::npos)
+    refuse(fmt::format(
+        "{}: each hull has a certificate; put {{side}} where outer and inner go, as in cage_{{side}}.phcert",
+        options.certificate.string()));
+}
+
+void write_certificate(File& file, const CertifiedOriginal& original, const CageRunOptions& options, double asked_gap,
+                       Outputs& outputs) {
+  const EnclosingHull& hull = file.hull->hull();
+  file.certificate_path = certificate_path(options, file.side);
+  file.certificate = hull_certificate(
+      hull.mesh, original,
+      {.side = file.is_inner ? HullSide::Inner : HullSide::Outer, .gap = claimed_gap(asked_gap, hull.padding)});
+  outputs.add(file.certificate_path, file.certificate.bytes);
+}
+
 // Summary and report
 
 void print_input(const CageRunOptions& options, const Cage& cage) {
@@ -66,9 +100,8 @@ void print_input(const CageRunOptions& options, const Cage& cage) {
 
 void print_hull(const Cage& cage, const File& file) {
   const EnclosingHull& hull = file.hull->hull();
-  say("{}: {} hull of {}, {}\n", output_name(file.path), file.side, counted(hull.mesh.face_count(), "face", "faces"),
-      file.hull->made.volume > 0 ? fmt::format("void {:.3f} %", 100 * hull.void_ratio)
-                                 : fmt::format("volume {:.4g}", signed_volume(hull.mesh)));
+  say("{}: {} hull of {}{}\n", output_name(file.path), file.side, counted(hull.mesh.face_count(), "face", "faces"),
+      described_void(file.hull->made, hull));
   for (const std::string& note : hull.notes) say("  {}\n", note);
   say("  triangles: smallest angle {:.3g} degrees, worst aspect ratio {:.3g}\n",
       file.hull->quality.smallest_angle / kDegree, file.hull->quality.worst_aspect_ratio);
@@ -77,11 +110,7 @@ void print_hull(const Cage& cage, const File& file) {
     say("  NOT free of self-intersections: {}\n", counted(hull.self_intersections, "pair of faces", "pairs of faces"));
   say("  gap: at least {:.6g}, proven{}\n", hull.padding,
       file.hull->keeps_gap ? "" : fmt::format("; NOT the {:.6g} asked for: the mesh is too thin", cage.gap));
-  if (file.certified)
-    say("  certified: yes, the file as written {} the original\n",
-        file.side == std::string_view("inner") ? "is enclosed by" : "encloses");
-  else
-    say("  certified: NO: nothing was written; please report this mesh\n");
+  say("  certified: {}\n", certificate_of(file.hull->made, hull, file.certified));
 }
 
 nlohmann::json facts_of(const File& file) {
@@ -91,9 +120,10 @@ nlohmann::json facts_of(const File& file) {
           {"faces", hull.mesh.face_count()},
           {"vertices", hull.mesh.vertex_count()},
           {"volume", signed_volume(hull.mesh)},
-          {"void_ratio", file.hull->made.volume > 0 ? finite_or_null(hull.void_ratio) : nlohmann::json()},
+          {"void_ratio", finite_or_null(hull.void_ratio)},
           {"source", name_of(source_names(), hull.source)},
           {"certified", file.certified},
+          {"verdict", facts(hull.verdict)},
           {"disjoint", file.hull->is_disjoint},
           {"gap", hull.padding},
           {"keeps_gap", file.hull->keeps_gap},
@@ -131,7 +161,12 @@ std::string inner_suffix(const CageRunOptions& options) {
 int run_cage(CageRunOptions options) {
   const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
   const std::string suffix_of_inner = inner_suffix(options);
-  check_files({options.in}, {options.out, options.inner, options.report});
+  check_certificate(options, suffix, suffix_of_inner);
+  std::vector<std::filesystem::path> outputs_named{options.out, options.inner, options.report,
+                                                   certificate_path(options, "outer")};
+  if (!options.inner.empty() && !options.certificate.empty())
+    outputs_named.push_back(certificate_path(options, "inner"));
+  check_files({options.in}, outputs_named);
   const auto keeps_float32 = [](const std::string& ending) {
     return !ending.empty() && stores_float32(mesh_format("hull" + ending));
   };
@@ -142,17 +177,26 @@ int run_cage(CageRunOptions options) {
     options.cage.inner_faces = options.cage.outer_faces;
   const Stopwatch building;
   TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
-  options.cage.gap = options.gap.of(mesh);
+  options.cage.gap = MeshUnit(mesh, options.in, options.input).number_of(options.gap, "--gap");
+  CertifiedOriginal original;
+  if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
   const Cage cage = cage_of(std::move(mesh), options);
   const double build_seconds = building.seconds();
-  std::vector<File> files{{"outer", &cage.outer, options.out, suffix}};
-  if (cage.inner) files.push_back({"inner", &*cage.inner, options.inner, suffix_of_inner});
+  std::vector<File> files{{"outer", false, &cage.outer, options.out, suffix}};
+  if (cage.inner) files.push_back({"inner", true, &*cage.inner, options.inner, suffix_of_inner});
   Outputs outputs;
-  for (File& file : files) write(file, outputs);
+  for (File& file : files) {
+    write(file, outputs);
+    if (file.certified && !options.certificate.empty()) write_certificate(file, original, options, cage.gap, outputs);
+  }
   outputs.add_report(options.report, report_of(options, cage, files));
   outputs.commit();
   print_input(options, cage);
-  for (const File& file : files) print_hull(cage, file);
+  for (const File& file : files) {
+    print_hull(cage, file);
+    if (file.certified && !options.certificate.empty())
+      print_certificate(file.certificate_path, file.certificate, {file.path}, options.in);
+  }
   const bool is_disjoint = std::ranges::all_of(files, [](const File& file) { return file.hull->is_disjoint; });
   if (is_disjoint)
     say("disjoint: yes, no face touches {}or itself\n", cage.inner ? "the mesh, the other hull " : "the mesh ");
@@ -183,15 +227,16 @@ void add_cage(CLI::App& app, Run& run) {
   CLI::Option* const inner =
       command.add_option("--inner", options->inner, "Also build an inner hull, and write it to this file.")
           ->type_name("FILE");
+  add_certificate_option(command, options->certificate,
+                         "the outer hull (with --inner, of both: {side} in the name becomes outer and inner)");
   add_number(command, "--faces", cage.outer_faces, {4, 1e9}, "Number of faces that a hull should have, at least 4.")
       ->capture_default_str();
   add_number(command, "--inner-faces", cage.inner_faces, {4, 1e9},
              "Number of faces that the inner hull should have, if it is not that of --faces.")
       ->needs(inner);
-  add_gap(command, "--gap", options->gap,
-          "Distance that both hulls keep from the mesh, at least, in the mesh's unit, or as in 0.5% of the diagonal of "
-          "the mesh's bounding box. Without this option it is 0.1%. Where the mesh is too thin, the inner hull keeps "
-          "less.");
+  add_length(command, "--gap", options->gap,
+             "Distance that both hulls keep from the mesh, at least. Without this option it is 0.1%. Where the mesh is "
+             "too thin, the inner hull keeps less.");
   command.add_flag("--even", cage.even,
                    "Make all triangles of the hulls well shaped, as simulation needs them: split, flip and collapse "
                    "edges, and move vertices. The hulls then have more void.");
@@ -203,7 +248,7 @@ void add_cage(CLI::App& app, Run& run) {
   add_report_option(command, options->report);
   add_examples(command, {"prohull cage horse.ply -o cage.obj",
                          "prohull cage horse.ply --faces 600 -o outer.obj --inner inner.obj --inner-faces 300",
-                         "prohull cage organ.stl --unit mm --gap 0.002 --even -o outer.ply --report cage.json"});
+                         "prohull cage organ.stl --unit mm --gap 2mm --even -o outer.ply --report cage.json"});
   command.callback([options, &run] { run = [options] { return run_cage(*options); }; });
 }
 

@@ -49,6 +49,7 @@ void add_lod(CLI::App& app, Run& run);
 void add_manual(CLI::App& app, Run& run);
 void add_query(CLI::App& app, Run& run);
 void add_render(CLI::App& app, Run& run);
+void add_repair(CLI::App& app, Run& run);
 void add_sample(CLI::App& app, Run& run);
 void add_spheres(CLI::App& app, Run& run);
 void add_urdf(CLI::App& app, Run& run);

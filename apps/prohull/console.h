@@ -19,10 +19,17 @@ struct Console {
 };
 Console& console();
 
+/// Text without what could control a terminal, since it may quote file names and what files hold: "\\x1b" stands for
+/// the byte 0x1b, and so on. New lines, tabs and all other UTF-8 stay.
+std::string printable(std::string_view text);
+
+/// The way of all messages to the terminal: prints what is printable. Errors of printing are not told.
+void tell(std::string_view text, std::FILE* to);
+
 /// Prints a part of the summary, unless --quiet was given.
 template <class... Values>
 void say(fmt::format_string<Values...> text, Values&&... values) {
-  if (!console().quiet) fmt::print(console().summary, text, std::forward<Values>(values)...);
+  if (!console().quiet) tell(fmt::format(text, std::forward<Values>(values)...), console().summary);
 }
 
 /// Prints what only --verbose shows.

@@ -9,12 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "certificate_output.h"
 #include "command.h"
 #include "prohull/convex_cover.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
 #include "robot/files/piece_files.h"
+#include "verdict.h"
 
 namespace prohull::cli {
 namespace {
@@ -22,10 +24,11 @@ namespace {
 using std::filesystem::path;
 
 struct ConvexOptions {
-  path in, out, report;
+  path in, out, certificate, report;
   ConvexCoverOptions cover;
   InputOptions input;
   std::string out_format;
+  Length max_distance;
   double max_void_percent = 0;  ///< 0: any
 };
 
@@ -84,6 +87,13 @@ class PieceFiles {
     return true;
   }
 
+  /// Those of these pieces that hold meshes, in the order of the pieces.
+  std::vector<path> meshes(const std::vector<ConvexPiece>& pieces) const {
+    std::vector<path> files = written(pieces);
+    if (is_robot()) files.erase(files.begin());
+    return files;
+  }
+
   /// Names of files beside those of the pieces that look as if they held pieces too.
   std::vector<std::string> others(const std::vector<ConvexPiece>& pieces) const {
     std::set<std::string> own;
@@ -108,8 +118,12 @@ class PieceFiles {
     if (!is_robot() && (options.cover.shape == PieceShape::Capsule || options.cover.shape == PieceShape::Ball))
       refuse(fmt::format("{}: mesh files hold no {}; write .urdf or .xml", output_name(out_),
                          options.cover.shape == PieceShape::Ball ? "spheres" : "capsules"));
+    check_certified_original(options.certificate, options.in);
+    check_certified_output(options.certificate, mesh_suffix());
+    if (!options.certificate.empty() && is_robot() && options.cover.shape != PieceShape::Polytope)
+      refuse("--certificate: prohull_check reads the mesh files of pieces only; leave --shape out");
     std::vector<path> files = written(std::vector<ConvexPiece>(options.cover.max_pieces));
-    files.push_back(options.report);
+    files.insert(files.end(), {options.certificate, options.report});
     check_files({options.in}, files);
     if (is_robot()) robot::urdf_of(stem_, {});  // refuses its name before any work
   }
@@ -159,6 +173,7 @@ struct Outcome {
   double diagonal = 0;
   ConvexCover cover;
   bool certified = false;  ///< and the files hold the very bits of the pieces
+  Certificate certificate;
   std::vector<std::string> others;
   double read_seconds = 0, write_seconds = 0;
 
@@ -174,6 +189,12 @@ ConvexCover cover_of(TriangleMesh mesh, const ConvexOptions& options) {
   } catch (const InputError& error) {
     throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
   }
+}
+
+Certificate certificate_of(const ConvexCover& cover, const CertifiedOriginal& original) {
+  std::vector<TriangleMesh> meshes;
+  for (const ConvexPiece& piece : cover.pieces) meshes.push_back(piece.mesh);
+  return pieces_certificate(meshes, original);
 }
 
 // Summary and report
@@ -218,17 +239,21 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
   say("{}: {}, {}\n", input_name(options.in), counted(outcome.input.faces, "face", "faces"),
       counted(outcome.input.components, "component", "components"));
   for (const std::string& note : cover.notes) say("  {}\n", note);
-  say("{}: {}, {}, at most {:.4g} from the mesh ({:.2f} % of its diagonal)\n", output_name(options.out),
-      described_pieces(cover), described_size(cover), cover.reach.upper, 100 * cover.reach.upper / outcome.diagonal);
+  say("{}: {}, {}, at most {:.4g} from the mesh ({:.2f} % of its diagonal){}\n", output_name(options.out),
+      described_pieces(cover), described_size(cover), cover.reach.upper, 100 * cover.reach.upper / outcome.diagonal,
+      text_of_openings(cover.has_openings, cover.reach_from_triangles));
   if (outcome.certified)
-    say("  certified: yes, the pieces as written cover every triangle of the original{}\n",
-        cover.covers_inside ? ", and its inside" : "; it has no inside");
+    say("  certified: yes, the pieces as written cover every {}triangle of the original{}\n",
+        cover.non_finite_faces == 0 ? "" : "finite ",
+        cover.covers_inside ? ", and its inside" : "; it is not closed, so nothing is proven of its inside");
   else
     say("  certified: NO: nothing was written; please report this mesh\n");
   const auto in_shape = static_cast<std::size_t>(std::ranges::count(cover.pieces, options.cover.shape, shape_of));
   if (in_shape < cover.pieces.size())
     say("  {} of {} pieces have the shape asked for; the bounds allow no more\n", in_shape, cover.pieces.size());
   if (!cover.within_bounds) say("  NOT within the bounds asked for; allow more --pieces, or larger bounds\n");
+  if (outcome.certified && !options.certificate.empty())
+    print_certificate(options.certificate, outcome.certificate, files.meshes(cover.pieces), options.in);
   if (!outcome.others.empty())
     say("  also there, but no pieces of this mesh: {}; remove them if they are of an earlier run\n",
         fmt::join(outcome.others, ", "));
@@ -280,6 +305,8 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
            {{"lower", cover.reach.lower},
             {"upper", finite_or_null(cover.reach.upper)},
             {"farthest", {farthest.x, farthest.y, farthest.z}}}},
+          {"reach_from_triangles", facts(cover.reach_from_triangles)},
+          {"non_finite_faces", cover.non_finite_faces},
           {"within_bounds", cover.within_bounds},
           {"notes", cover.notes},
           {"other_files", outcome.others},
@@ -301,12 +328,21 @@ int run_convex(ConvexOptions options) {
   outcome.read_seconds = reading.seconds();
   outcome.input = inspect(mesh);
   outcome.diagonal = finite_bounding_box(mesh).diagonal();
+  if (options.max_distance.number > 0)
+    options.cover.bounds.max_distance =
+        MeshUnit(mesh, options.in, options.input).number_of(options.max_distance, "--max-distance");
+  CertifiedOriginal original;
+  if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
   outcome.cover = cover_of(std::move(mesh), options);
   Outputs pieces, report;
   const Stopwatch writing;
   outcome.certified = outcome.cover.certified && files.add_to(pieces, outcome.cover.pieces);
   outcome.write_seconds = writing.seconds();
   outcome.others = files.others(outcome.cover.pieces);
+  if (outcome.certified && !options.certificate.empty()) {
+    outcome.certificate = certificate_of(outcome.cover, original);
+    pieces.add(options.certificate, outcome.certificate.bytes);
+  }
   report.add_report(options.report, report_of(options, files, outcome));
   if (outcome.certified) pieces.commit();
   report.commit();
@@ -336,15 +372,15 @@ void add_convex(CLI::App& app, Run& run) {
       ->required()
       ->type_name("PIECES");
   add_out_format_option(command, options->out_format, piece_outputs());
+  add_certificate_option(command, options->certificate, "the pieces");
   add_number(command, "--pieces", cover.max_pieces, {1, 1000},
              "Largest number of pieces. With 1, the file of the piece has the name OUT, without a number.")
       ->capture_default_str();
   add_number(command, "--vertices", cover.max_vertices, {4, 1e6}, "Largest number of vertices of a piece, at least 4.")
       ->capture_default_str();
-  add_number(command, "--max-distance", cover.bounds.max_distance, kPositive,
-             "Largest allowed distance of any point of the pieces from the mesh, in the mesh's unit. With such a bound "
-             "there are as few pieces as keep it.")
-      ->type_name("D");
+  add_length(command, "--max-distance", options->max_distance,
+             "Largest allowed distance of any point of the pieces from the mesh. What closes openings of the mesh "
+             "counts as mesh. With such a bound there are as few pieces as keep it.");
   add_number(command, "--max-void", options->max_void_percent, kPositive,
              "Largest allowed void, in per cent. The void is how much more volume the pieces have together than the "
              "mesh. With such a bound there are as few pieces as keep it.")

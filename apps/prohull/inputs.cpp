@@ -24,15 +24,23 @@ std::filesystem::path known_as(const std::filesystem::path& path, const InputOpt
   return options.format.empty() ? "standard input" : "standard input." + options.format;
 }
 
+/// In lower case, without the ".gz" that may follow.
+std::string suffix_of(const std::filesystem::path& path) {
+  std::string text = path.extension().string();
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text == ".gz" ? suffix_of(path.stem()) : text;
+}
+
 // A reader of COLLADA makes metres of its coordinates.
-bool carries_its_unit(std::filesystem::path path) {
-  const auto suffix = [&] {
-    std::string text = path.extension().string();
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-  };
-  if (suffix() == ".gz") path = path.stem();
-  return suffix() == ".dae" || suffix() == ".zae";
+bool carries_its_unit(const std::filesystem::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".dae" || suffix == ".zae";
+}
+
+// By its standard, glTF is in metres; files that are not are read with --unit.
+bool is_in_metres(const std::filesystem::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".glb" || suffix == ".gltf" || carries_its_unit(path);
 }
 
 ReadOptions read_options(const std::filesystem::path& name, const InputOptions& options, NonFinite non_finite,
@@ -73,12 +81,27 @@ void add_unit_options(CLI::App& command, InputOptions& options, const std::strin
   CLI::Option* const scale = add_number(command, "--scale", options.scale, kPositive,
                                         "Multiply the coordinates of " + what + " by this number when it is read.")
                                  ->type_name("S");
-  add_choice(
-      command, "--unit", options.unit, length_units(),
-      "Unit of the numbers in " + what +
-          ", which are converted to metres when it is read; lengths in other options are then in metres, too. For "
-          "files that do not say their unit, such as STL, OBJ, PLY and OFF.")
+  add_choice(command, "--unit", options.unit, length_units(),
+             "Unit of the numbers in " + what +
+                 ", which are converted to metres when it is read; numbers in other options are then metres, too. For "
+                 "files that do not say their unit, such as STL, OBJ, PLY and OFF.")
       ->excludes(scale);
+}
+
+MeshUnit::MeshUnit(const TriangleMesh& mesh, const std::filesystem::path& path, const InputOptions& options)
+    : name_(input_name(path)),
+      diagonal_(finite_bounding_box(mesh).diagonal()),
+      scale_(options.scale),
+      is_metre_(options.unit > 0 || (options.scale == 1 && is_in_metres(known_as(path, options)))) {}
+
+double MeshUnit::number_of(const Length& length, const std::string& what) const {
+  if (length.needs_metres() && !is_metre_)
+    throw InputError(
+        Defect::InvalidOption,
+        fmt::format("{} {:g}{}: {}, or say a number in the mesh's unit", what, length.number, length.unit,
+                    scale_ != 1 ? "with --scale, the unit of " + name_ + " is not known; use --unit instead"
+                                : name_ + " does not say its unit; add --unit mm (lengths are then in metres)"));
+  return length.of(diagonal_);
 }
 
 bool is_sphere_file(const std::filesystem::path& path) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "prohull/length.h"
 #include "prohull/mesh_io.h"
 #include "prohull/progressive_hull.h"
 #include "robot/files/robot_file.h"
@@ -31,6 +32,20 @@ void add_unit_options(CLI::App& command, InputOptions& options, const std::strin
 using robot::is_robot_file;
 /// By the suffix: YAML.
 bool is_sphere_file(const std::filesystem::path& path);
+
+/// What lengths of options are in numbers: in the unit of a mesh, as it was read.
+class MeshUnit {
+ public:
+  MeshUnit(const TriangleMesh& mesh, const std::filesystem::path& path, const InputOptions& options);
+
+  /// Throws InputError(InvalidOption) that calls the length `what`, if it has a unit, but the mesh's is not known.
+  double number_of(const Length& length, const std::string& what) const;
+
+ private:
+  std::string name_;
+  double diagonal_, scale_;
+  bool is_metre_;
+};
 
 /// The bytes of a file, or of standard input for "-". Throws InputError(CannotRead).
 std::string read_bytes(const std::filesystem::path& path);

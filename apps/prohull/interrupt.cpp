@@ -1,6 +1,5 @@
 #include "interrupt.h"
 
-#include <fmt/format.h>
 #include <semaphore.h>
 #include <unistd.h>
 
@@ -52,6 +51,7 @@ void catch_interrupts(void (*clean_up)()) {
   }).detach();
   std::signal(SIGINT, remember);
   std::signal(SIGTERM, remember);
+  if (std::signal(SIGHUP, remember) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // under nohup
 }
 
 bool interrupted() { return g_interrupted != 0; }
@@ -61,7 +61,8 @@ void stop_if_interrupted() {
 }
 
 int tell_interrupted() {
-  fmt::print(stderr, "{}prohull: interrupted; nothing was written\n", isatty(STDERR_FILENO) ? "\r\x1b[K" : "");
+  if (isatty(STDERR_FILENO)) std::fputs("\r\x1b[K", stderr);
+  tell("prohull: interrupted; nothing was written\n", stderr);
   return kInterrupted;
 }
 

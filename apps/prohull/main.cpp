@@ -23,6 +23,7 @@ void add_commands(CLI::App& app, Run& run) {
   add_convex(app, run);
   add_spheres(app, run);
   add_urdf(app, run);
+  add_repair(app, run);
   add_render(app, run);
   add_view(app, run);
   add_sample(app, run);
@@ -66,13 +67,13 @@ int main(int argc, char** argv) {
   } catch (const prohull::Cancelled&) {
     return tell_interrupted();
   } catch (const prohull::InputError& error) {
-    fmt::print(stderr, "prohull: {}\n", error.what());
+    tell(fmt::format("prohull: {}\n", error.what()), stderr);
     return error.defect() == prohull::Defect::InvalidOption ? kWrongUsage : kBadInput;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "prohull: out of memory\n");
+    tell("prohull: out of memory\n", stderr);
     return kBadInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "prohull: {}\n", error.what());
+    tell(fmt::format("prohull: {}\n", error.what()), stderr);
     return kBadInput;
   }
 }

@@ -74,27 +74,24 @@ CLI::Validator number_in(const std::string& name, const Range& range, bool whole
       "");
 }
 
-double Gap::of(const TriangleMesh& mesh) const {
-  return is_percent ? number / 100 * finite_bounding_box(mesh).diagonal() : number;
-}
-
-CLI::Option* add_gap(CLI::App& command, const std::string& names, Gap& gap, const std::string& description) {
-  const CLI::Validator number = number_in(main_name(names), kPositive, false);
-  const auto without_sign = [](std::string text) {
-    if (text.ends_with('%')) text.pop_back();
-    return text;
+CLI::Option* add_length(CLI::App& command, const std::string& names, Length& length, const std::string& description,
+                        const std::string& mesh) {
+  const auto check = [name = main_name(names)](const std::string& text) -> std::string {
+    const bool is_negative = text.starts_with('-');
+    const auto given = length_of(std::string_view(text).substr(is_negative ? 1 : 0));
+    if (!given)
+      return fmt::format("{} must be a number, or one with {} or % behind it, not '{}'", name, joined(length_units()),
+                         text);
+    return is_negative || given->number == 0 ? fmt::format("{} must be greater than 0, not {}", name, text) : "";
   };
-  const auto set = [&gap, without_sign](const std::string& text) {
-    gap = {parsed<double>(without_sign(text)).value_or(0), text.ends_with('%')};
-  };
-  return command.add_option_function<std::string>(names, set, description)
-      ->check(CLI::Validator(
-          [=](std::string& text) {
-            std::string rest = without_sign(text);
-            return number(rest);
-          },
-          ""))
-      ->type_name("D");
+  return command
+      .add_option_function<std::string>(
+          names, [&length](const std::string& text) { length = length_of(text).value_or(Length{}); },
+          fmt::format("{} Say it in the unit of {}, with a unit (2mm), or in per cent of the diagonal of its bounding "
+                      "box (0.5%).",
+                      description, mesh))
+      ->check(CLI::Validator(check, ""))
+      ->type_name("LENGTH");
 }
 
 std::vector<double> numbers_of(const std::string& text, std::size_t count, const char* what) {

@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "prohull/length.h"
 #include "prohull/names.h"
-#include "prohull/triangle_mesh.h"
 
 namespace prohull::cli {
 
@@ -77,17 +77,9 @@ CLI::Option* add_choice(CLI::App& command, const std::string& names, std::option
       ->type_name(CLI::detail::join(words, "|"));
 }
 
-/// A distance in the mesh's unit, or in per cent of the diagonal of the mesh's bounding box.
-struct Gap {
-  double number = 0;
-  bool is_percent = false;
-
-  /// In the unit of the mesh. Vertices of faces that are not finite do not count.
-  double of(const TriangleMesh& mesh) const;
-};
-
-/// An option that takes a distance greater than 0: 0.5, or 0.5%.
-CLI::Option* add_gap(CLI::App& command, const std::string& names, Gap& gap, const std::string& description);
+/// An option that takes a length greater than 0, in the unit of `mesh` if it has none.
+CLI::Option* add_length(CLI::App& command, const std::string& names, Length& length, const std::string& description,
+                        const std::string& mesh = "the mesh");
 
 /// `note` says what the threads do not change.
 void add_threads_option(CLI::App& command, unsigned& threads, const std::string& note);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,8 +10,9 @@
 #include <cctype>
 #include <cerrno>
 #include <fstream>
+#include <map>
 #include <mutex>
-#include <set>
+#include <random>
 #include <system_error>
 
 #include "console.h"
@@ -34,24 +36,58 @@ std::vector<path> g_temporaries, g_folders;
 
 [[noreturn]] void fail_to_write(const path& target) { fail_to_write(target, std::generic_category().message(errno)); }
 
+class Descriptor {
+ public:
+  Descriptor(const path& file, int flags) : descriptor_(open(file.c_str(), flags | O_CLOEXEC, S_IRUSR | S_IWUSR)) {
+    if (descriptor_ < 0) fail_to_write(file);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { close(descriptor_); }
+  int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
 bool is_stream(const path& target) {
   std::error_code error;
   const auto status = std::filesystem::status(target, error);
   return is_standard_stream(target) || (exists(status) && !is_regular_file(status) && !is_directory(status));
 }
 
-// A pipe, as /dev/stdin may be, has no canonical name.
-path resolved(const path& file) {
+/// Where links lead, also one to a file that is not there yet. A pipe, as /dev/stdin may be, has no canonical name.
+path resolved(path file) {
+  constexpr int kMostLinks = 40;  // as Linux follows
   std::error_code error;
+  file = absolute(file, error);
+  for (int links = 0; links < kMostLinks && is_symlink(file, error) && !exists(file, error); ++links)
+    file = file.parent_path() / read_symlink(file, error);
   path canonical = weakly_canonical(file, error);
   return error ? file : canonical;
 }
 
+/// The same for all names of a file, hard links included. Standard input and output may be one terminal.
+std::string identity(const path& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode))
+    return fmt::format("{}:{}", status.st_dev, status.st_ino);
+  return resolved(file).string();
+}
+
 path temporary_for(const path& target, const std::string& suffix) {
-  static int count = 0;
-  const std::string tail = fmt::format(".{}.{}.unfinished{}", getpid(), count++, suffix);
+  std::random_device random;
+  const std::string tail = fmt::format(".{:08x}{:08x}.unfinished{}", random(), random(), suffix);
   if (is_stream(target)) return std::filesystem::temp_directory_path() / ("prohull" + tail);
   return resolved(target).replace_filename("." + target.stem().string() + tail);
+}
+
+bool is_replaced(const path& target) { return std::filesystem::is_regular_file(target) && !is_stream(target); }
+
+/// Until it appears, nobody else reads what goes to a stream, or into a file that others may not read. Whoever writes
+/// the file keeps its mode. That of a new one, or of a folder, is the system's.
+void prepare(const path& temporary, const path& target) {
+  if (is_stream(target) || is_replaced(target)) Descriptor(temporary, O_WRONLY | O_CREAT | O_EXCL);
 }
 
 /// Together with what a writer left beside it, whose name begins alike.
@@ -67,20 +103,6 @@ void remove_folders(const std::vector<path>& folders) {
   std::error_code ignored;
   for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) std::filesystem::remove(*folder, ignored);
 }
-
-class Descriptor {
- public:
-  Descriptor(const path& file, int flags) : descriptor_(open(file.c_str(), flags)) {
-    if (descriptor_ < 0) fail_to_write(file);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { close(descriptor_); }
-  int get() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
 
 void write_all(int to, const char* bytes, std::size_t size, const path& target) {
   while (size > 0) {
@@ -157,6 +179,7 @@ bool Outputs::add(const path& target, const std::string& suffix, const std::func
     g_temporaries.push_back(temporary);
   }
   try {
+    prepare(temporary, target);
     if (write(temporary)) return true;
   } catch (const InputError& error) {  // which names the file that we see, not the one that the user knows
     std::string what = error.what();
@@ -192,6 +215,8 @@ void Outputs::commit() {
     for (const auto& [target, temporary] : pending_)
       if (!is_stream(target)) {
         std::error_code error;
+        if (is_replaced(target))
+          std::filesystem::permissions(temporary, std::filesystem::status(target).permissions(), error);
         std::filesystem::rename(temporary, resolved(target), error);
         if (error) fail_to_write(target, error.message());
       }
@@ -221,19 +246,22 @@ bool is_standard_stream(const path& file) { return file == "-"; }
 void check_files(const std::vector<path>& inputs, const std::vector<path>& outputs) {
   if (std::ranges::count_if(inputs, is_standard_stream) > 1)
     refuse("standard input (-) is named twice, but can be read only once; save one of the files first");
-  std::set<path> read, written;
+  std::map<std::string, path> named;
   for (const path& input : inputs)
-    if (!input.empty() && !is_standard_stream(input)) read.insert(resolved(input));
+    if (!input.empty() && !is_standard_stream(input)) named.emplace(identity(input), input);
   for (const path& output : outputs) {
     if (output.empty()) continue;
-    const path file = is_standard_stream(output) ? output : resolved(output);
-    const bool is_new = written.insert(file).second;
-    if (!is_new && is_standard_stream(output))
+    const bool is_standard = is_standard_stream(output);
+    const auto& [other, is_new] = named.emplace(is_standard ? output.string() : identity(output), output);
+    if (!is_new && is_standard)
       refuse("standard output (-) is named twice, but takes one file only; name another file");
-    if (!is_new || read.contains(file))
+    if (!is_new && other->second == output)
       refuse(fmt::format("{} is named twice, and would be overwritten; choose another name", output.string()));
+    if (!is_new)
+      refuse(fmt::format("{} and {} are one file, which would be overwritten; choose another name",
+                         other->second.string(), output.string()));
     require_writable(output);
-    if (is_standard_stream(output)) console().summary = stderr;
+    if (is_standard) console().summary = stderr;
   }
 }
 

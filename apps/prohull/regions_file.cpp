@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 4> kOthers{"name", "spread", "keep", "max
 
 class RegionsReader {
  public:
-  explicit RegionsReader(const std::filesystem::path& path) : yaml_(input_name(path)) {}
+  RegionsReader(const std::filesystem::path& path, const MeshUnit& unit) : yaml_(input_name(path)), unit_(unit) {}
 
   std::vector<Region> read(const std::string& text) const {
     return yaml_.parse(text, [&](const YAML::Node& top) {
@@ -70,10 +70,20 @@ class RegionsReader {
     const YAML::Node bound = node["max_distance"];
     if (is_kept == static_cast<bool>(bound)) yaml_.refuse(node, "a region has either 'keep: true' or a max_distance");
     if (is_kept) return 0;
-    const auto distance = yaml_.value<double>(bound, "a number, without a unit");
+    const auto length = bound.IsScalar() ? length_of(bound.Scalar()) : std::nullopt;
+    const double distance =
+        length ? length_in_mesh(bound, *length) : yaml_.value<double>(bound, "a length, such as 2, 2mm or 0.5%");
     if (!(distance > 0))
       yaml_.refuse(bound, "max_distance must be greater than 0; 'keep: true' keeps faces as they are");
     return distance;
+  }
+
+  double length_in_mesh(const YAML::Node& node, const Length& length) const {
+    try {
+      return unit_.number_of(length, "max_distance");
+    } catch (const InputError& error) {
+      yaml_.refuse(node, error.what());
+    }
   }
 
   RegionFaces faces(const YAML::Node& node, const std::string& selector) const {
@@ -142,12 +152,13 @@ class RegionsReader {
   }
 
   const robot::YamlReader yaml_;
+  const MeshUnit& unit_;
 };
 
 }  // namespace
 
-std::vector<Region> read_regions(const std::filesystem::path& path) {
-  return RegionsReader(path).read(read_bytes(path));
+std::vector<Region> read_regions(const std::filesystem::path& path, const MeshUnit& unit) {
+  return RegionsReader(path, unit).read(read_bytes(path));
 }
 
 }  // namespace prohull::cli

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
+#include "command.h"
 #include "prohull/error.h"
 #include "robot/hulls/cache.h"
 
@@ -22,16 +25,35 @@ std::string fingerprint_of(const path& file) {
   return fingerprint.text();
 }
 
-/// "run" of a report, if it is one that commit() has written; otherwise null.
-nlohmann::json run_of(const path& report) {
-  std::ifstream in(report);
+/// Whether a name is that of a file in the folder, whatever links there are on the way.
+bool stays_within(const path& folder, const path& name) {
+  const path normal = name.lexically_normal();
+  if (normal.empty() || !normal.has_filename() || normal.is_absolute() || *normal.begin() == "..") return false;
+  std::error_code error;
+  const path root = std::filesystem::weakly_canonical(folder, error);
+  if (error) return false;
+  const path place = std::filesystem::weakly_canonical(folder / normal, error);
+  return !error && std::ranges::mismatch(root, place).in1 == root.end();
+}
+
+bool have_same_bytes(const path& a, const path& b) {
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return first && second && std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
+}
+
+/// "run" of a report, if it is one that commit() may have written to this folder; otherwise null.
+nlohmann::json run_of(const path& folder) {
+  std::ifstream in(folder / kReport);
   const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
   if (!json.is_object() || !json.contains("run") || !json["run"].is_object()) return {};
   const nlohmann::json& run = json["run"];
   const auto is_text = [](const nlohmann::json& value) { return value.is_string(); };
-  const bool is_ours = run.contains("made_from") && is_text(run["made_from"]) && run.contains("summary") &&
-                       is_text(run["summary"]) && run.contains("exit_code") && run["exit_code"].is_number_integer() &&
-                       run.contains("files") && run["files"].is_object() && std::ranges::all_of(run["files"], is_text);
+  const bool is_ours =
+      run.contains("made_from") && is_text(run["made_from"]) && run.contains("exit_code") &&
+      (run["exit_code"] == kDone || run["exit_code"] == kAnswerIsNo) && run.contains("files") &&
+      run["files"].is_object() && std::ranges::all_of(run["files"], is_text) &&
+      std::ranges::all_of(run["files"].items(), [&](const auto& file) { return stays_within(folder, file.key()); });
   return is_ours ? run : nlohmann::json();
 }
 
@@ -51,7 +73,9 @@ void require_free(const path& folder) {
 
 }  // namespace
 
-RobotFolder::RobotFolder(path folder) : folder_(std::move(folder)), earlier_(run_of(folder_ / kReport)) {
+RobotFolder::RobotFolder(const path& folder)
+    : folder_(folder.has_filename() ? folder : folder.parent_path()),  // without a slash at the end
+      earlier_(run_of(folder_)) {
   if (earlier_.is_null()) {
     require_free(folder_);
     return;
@@ -59,16 +83,20 @@ RobotFolder::RobotFolder(path folder) : folder_(std::move(folder)), earlier_(run
   for (const auto& [name, fingerprint] : earlier_["files"].items()) old_[name] = fingerprint;
 }
 
-std::optional<nlohmann::json> RobotFolder::earlier_run(const std::string& key) const {
-  if (earlier_.is_null() || earlier_["made_from"] != key) return std::nullopt;
+std::optional<int> RobotFolder::earlier_run(const std::string& key) const {
+  if (earlier_.is_null() || earlier_["made_from"] != key || has_changes_) return std::nullopt;
   for (const auto& [name, fingerprint] : old_)
     if (fingerprint_of(folder_ / name) != fingerprint) return std::nullopt;
-  return earlier_;
+  return earlier_["exit_code"].get<int>();
 }
 
 void RobotFolder::add(const path& name, const std::function<void(const path&)>& write) {
   const path target = folder_ / name;
   std::error_code error;
+  if (!stays_within(folder_, name))
+    refuse(
+        fmt::format("{}: a symbolic link leads this file out of the folder; remove the link, or choose another folder",
+                    target.string()));
   if (std::filesystem::exists(target, error) && !old_.contains(name.generic_string()))
     refuse(fmt::format("{}: no earlier run has written this file, which would be overwritten; choose another folder",
                        target.string()));
@@ -76,6 +104,7 @@ void RobotFolder::add(const path& name, const std::function<void(const path&)>& 
   outputs_.add(target, name.extension().string(), [&](const path& file) {
     write(file);
     new_[name.generic_string()] = fingerprint_of(file);
+    has_changes_ = has_changes_ || !have_same_bytes(file, target);
     return true;
   });
 }
@@ -89,8 +118,8 @@ void RobotFolder::add(const path& name, const std::string& text) {
   });
 }
 
-void RobotFolder::commit(nlohmann::json report, const std::string& key, const std::string& summary, int exit_code) {
-  report["run"] = {{"made_from", key}, {"files", new_}, {"summary", summary}, {"exit_code", exit_code}};
+void RobotFolder::commit(nlohmann::json report, const std::string& key, int exit_code) {
+  report["run"] = {{"made_from", key}, {"files", new_}, {"exit_code", exit_code}};
   outputs_.add_folder(folder_);
   outputs_.add_report(folder_ / kReport, std::move(report));
   outputs_.commit();

@@ -100,11 +100,30 @@ std::string shipped_text(const ReportInput& facts) {
   return text + "\n";
 }
 
-std::string motion_text(const MotionResult& motion, std::string_view covers) {
-  return fmt::format("  motion: {} configurations; false collisions {} with {} {}, {} with convex hulls; {}\n",
-                     grouped(motion.configurations), grouped(motion.false_hull()),
-                     covers == "collision geometry" ? "this" : "these", covers, grouped(motion.false_convex()),
-                     motion.missed() == 0 ? "none missed" : fmt::format("{} MISSED", grouped(motion.missed())));
+std::string motion_text(const MotionResult& motion, std::string_view covers, bool sampled_pairs) {
+  const auto sampled = static_cast<std::size_t>(
+      std::ranges::count_if(motion.pairs, [](const MotionPair& pair) { return is_sampled(pair.kind); }));
+  const auto adjacent =
+      static_cast<std::size_t>(std::ranges::count(motion.pairs, PairKind::Adjacent, &MotionPair::kind));
+  std::string srdf = fmt::format("  SRDF: {}", counted(adjacent, "adjacent pair", "adjacent pairs"));
+  if (sampled > 0 && sampled_pairs)
+    srdf += fmt::format(", and {}, which is no proof", counted(sampled, "sampled pair", "sampled pairs"));
+  else if (sampled > 0)
+    srdf += fmt::format("; {} left out, which --sampled-pairs adds",
+                        counted(sampled, "sampled pair is", "sampled pairs are"));
+  return srdf + fmt::format("\n  motion: {} configurations; false collisions {} with {} {}, {} with convex hulls; {}\n",
+                            grouped(motion.configurations), grouped(motion.false_hull()),
+                            covers == "collision geometry" ? "this" : "these", covers, grouped(motion.false_convex()),
+                            motion.missed() == 0 ? "none missed" : fmt::format("{} MISSED", grouped(motion.missed())));
+}
+
+/// How many there are, and what they are about.
+std::string certificates_text(std::span<const LinkCertificate> all) {
+  if (all.empty()) return "";
+  const auto of_robot = static_cast<std::size_t>(std::ranges::count_if(all, &LinkCertificate::is_of_robot));
+  std::string text = fmt::format("  certificates: {}, {} about mesh files of the robot", all.size(), of_robot);
+  if (all.size() > of_robot) text += fmt::format(", {} about copies in meshes/original", all.size() - of_robot);
+  return text + "; report.json names the files for prohull_check\n";
 }
 
 std::string described(const Form& form) {
@@ -229,13 +248,14 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
         counted(checks.size(), "link is", "links are"), file.path.string());
 }
 
-std::string robot_summary(const std::filesystem::path& folder, const ReportInput& facts) {
+std::string robot_summary(const std::filesystem::path& folder, const ReportInput& facts, bool sampled_pairs) {
   std::size_t hulls = 0, certified = 0;
   for (const LinkHulls& link : facts.hulls)
     for (const LinkHull& hull : link.hulls) ++hulls, certified += hull.certified;
   const std::string_view covers = cover_words(facts.hulls);
   std::string text = hulls_text(facts) + shipped_text(facts);
-  if (facts.motion) text += motion_text(*facts.motion, covers);
+  text += certificates_text(facts.certificates);
+  if (facts.motion) text += motion_text(*facts.motion, covers, sampled_pairs);
   text += fmt::format(
       "{}: the robot with its {}, and report.html; {} of {} certified\n", folder.string(), covers, certified,
       covers == "hulls" ? counted(hulls, "hull is", "hulls are") : counted(hulls, "link is", "links are"));

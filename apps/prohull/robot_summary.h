@@ -22,8 +22,8 @@ void say_plan(const robot::RobotFile& file, const robot::LinkHullOptions& option
 /// How the shipped collision geometry lies to the visual one.
 void say_check(const robot::RobotFile& file, std::span<const robot::LinkCheck> checks, double allow);
 
-/// What was made into the folder.
-std::string robot_summary(const std::filesystem::path& folder, const robot::ReportInput& facts);
+/// What was made into the folder. `sampled_pairs` as of srdf_of.
+std::string robot_summary(const std::filesystem::path& folder, const robot::ReportInput& facts, bool sampled_pairs);
 
 /// Whether all hulls of a link are certified; true of a link without any.
 bool is_certified(const robot::LinkHulls& link);

@@ -3,27 +3,30 @@
 #include <fstream>
 #include <utility>
 
+#include "certificate_output.h"
 #include "command.h"
 #include "prohull/error.h"
 #include "prohull/sphere_cover.h"
 #include "robot/files/piece_files.h"
 #include "robot/files/sphere_file.h"
+#include "verdict.h"
 
 namespace prohull::cli {
 namespace {
 
 struct SpheresOptions {
-  std::filesystem::path in, out, report;
+  std::filesystem::path in, out, certificate, report;
   std::string out_format, link;
   InputOptions input;
   SphereCoverOptions cover;
+  Length max_distance;
 };
 
 struct Outcome {
   SphereCover cover;
   std::size_t faces = 0;
   double diagonal = 0, read_seconds = 0;
-  bool written = false;
+  Certificate certificate;
 
   double part_of_diagonal() const { return diagonal > 0 ? cover.reach.upper / diagonal : 0; }
   double void_ratio() const { return cover.volume / cover.original_volume - 1; }
@@ -69,7 +72,9 @@ std::string text_of(const SpheresOptions& options, const std::string& suffix, co
 /// Before any work: throws InputError for a name that the format cannot hold.
 std::string check_options(const SpheresOptions& options) {
   const std::string suffix = output_suffix(options.out, sphere_outputs(), options.out_format);
-  check_files({options.in}, {options.out, options.report});
+  check_certified_original(options.certificate, options.in);
+  check_certified_output(options.certificate, suffix, {".yaml"});
+  check_files({options.in}, {options.out, options.certificate, options.report});
   text_of(options, suffix, {});
   return suffix;
 }
@@ -96,6 +101,8 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
           {"within_bounds", cover.within_bounds},
           {"spheres", json_of(cover.balls)},
           {"reach", {{"lower", cover.reach.lower}, {"upper", cover.reach.upper}, {"farthest", {far.x, far.y, far.z}}}},
+          {"reach_from_triangles", facts(cover.reach_from_triangles)},
+          {"non_finite_faces", cover.non_finite_faces},
           {"volume", cover.volume},
           {"original_volume", cover.original_volume},
           {"void_ratio", outcome.has_volume() ? nlohmann::json(outcome.void_ratio()) : nlohmann::json()},
@@ -105,32 +112,46 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
 
 void print_summary(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
-  say("{}: {} around {}, which reach out by at most {:.4g}, {:.2f} % of the diagonal\n", output_name(options.out),
+  say("{}: {} around {}, which reach out by at most {:.4g}, {:.2f} % of the diagonal{}\n", output_name(options.out),
       counted(cover.balls.size(), "sphere", "spheres"), counted(outcome.faces, "face", "faces"), cover.reach.upper,
-      outcome.part_of_diagonal() * 100);
+      outcome.part_of_diagonal() * 100, text_of_openings(cover.has_openings, cover.reach_from_triangles));
   if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);
   if (outcome.has_volume())
     say("  volume: {:.4g} with overlaps counted once, {:+.1f} % of the solid's\n", cover.volume,
         outcome.void_ratio() * 100);
   for (const std::string& note : cover.notes) say("  {}\n", note);
   if (cover.certified)
-    say("  certified: yes, the spheres cover every triangle{}\n", cover.covers_inside ? " and the inside" : "");
+    say("  certified: yes, the spheres cover every {}triangle{}\n", cover.non_finite_faces == 0 ? "" : "finite ",
+        !cover.covers_inside    ? ""
+        : cover.original_closed ? " and the inside"
+                                : " and what counts as the inside");
   else
     say("  certified: no, so nothing was written\n");
+  if (cover.certified && !options.certificate.empty())
+    print_certificate(options.certificate, outcome.certificate, {options.out}, options.in);
   say("  read {:.2f} s, cover {:.2f} s, of which verify {:.2f} s\n", outcome.read_seconds, cover.seconds,
       cover.verify_seconds);
 }
 
-int run_spheres(const SpheresOptions& options) {
+int run_spheres(SpheresOptions options) {
   const std::string suffix = check_options(options);
   Outcome outcome;
   const Stopwatch reading;
   TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
   outcome.read_seconds = reading.seconds();
   outcome.faces = mesh.face_count(), outcome.diagonal = finite_bounding_box(mesh).diagonal();
+  if (options.max_distance.number > 0)
+    options.cover.max_distance =
+        MeshUnit(mesh, options.in, options.input).number_of(options.max_distance, "--max-distance");
+  CertifiedOriginal original;
+  if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
   outcome.cover = cover_of(std::move(mesh), options);
   Outputs outputs;
   if (outcome.cover.certified) outputs.add(options.out, text_of(options, suffix, outcome.cover.balls));
+  if (outcome.cover.certified && !options.certificate.empty()) {
+    outcome.certificate = balls_certificate(outcome.cover.balls, original);
+    outputs.add(options.certificate, outcome.certificate.bytes);
+  }
   outputs.add_report(options.report, report_of(options, outcome));
   outputs.commit();
   print_summary(options, outcome);
@@ -156,14 +177,14 @@ void add_spheres(CLI::App& app, Run& run) {
       ->required()
       ->type_name("OUT");
   add_out_format_option(command, options->out_format, sphere_outputs());
+  add_certificate_option(command, options->certificate, "the spheres");
   constexpr double kMostSpheres = 100'000;
   add_number(command, "--count", options->cover.max_balls, {1, kMostSpheres}, "Number of spheres, at most.")
       ->capture_default_str();
-  add_number(
-      command, "--max-distance", options->cover.max_distance, kPositive,
-      "Largest allowed distance of any point of the spheres from the mesh, in the mesh's unit. As few spheres as "
-      "keep it are taken, at most --count. The exit code is 1 if they do not keep it.")
-      ->type_name("D");
+  add_length(command, "--max-distance", options->max_distance,
+             "Largest allowed distance of any point of the spheres from the mesh. What closes openings of the mesh "
+             "counts as mesh. As few spheres as keep it are taken, at most --count. The exit code is 1 if they do not "
+             "keep it.");
   command.add_flag("--fill", options->cover.fill, "Cover the inside of the mesh too, not only its surface.");
   command.add_option("--link", options->link, "Name of the link in the output. The default is the mesh's file name.")
       ->type_name("NAME");

@@ -9,6 +9,7 @@
 #include "robot/files/robot_file.h"
 #include "robot/hulls/budgets.h"
 #include "robot/hulls/cache.h"
+#include "robot/hulls/certificates.h"
 #include "robot/hulls/write_robot.h"
 #include "robot/motion/bodies.h"
 #include "robot/motion/motion.h"
@@ -28,7 +29,8 @@ struct UrdfOptions {
   FileOptions file;
   LinkHullOptions hulls;
   std::string max_distance = "0", padding = "0", allow = "0", package;
-  bool check = false, dry_run = false, no_cache = false, no_pictures = false;
+  bool certificate = false, check = false, dry_run = false, no_cache = false, no_pictures = false,
+       sampled_pairs = false;
   MotionOptions motion{.configurations = 1000};
   unsigned threads = 0;
   std::vector<std::pair<const CLI::Option*, Collision>> sizes;  ///< options that one kind of collision geometry has
@@ -88,47 +90,58 @@ int run_write_budgets(const UrdfOptions& options, const RobotFile& file) {
   return kDone;
 }
 
+/// The triangles of all shapes, as this run reads them.
+void add_shapes(std::span<const Shape> all, Fingerprint& key) {
+  for (const Shape& shape : all) try {
+      key.add(link_triangles({&shape, 1}, {}));
+    } catch (const InputError& error) {  // check_links tells of it
+      key.add(error.what());
+    }
+}
+
 /// Equal for two runs that make the same files.
-std::string run_key(const UrdfOptions& options, const RobotFile& file) {
+std::string run_key(const UrdfOptions& options, const RobotFile& file, std::span<const LinkHulls> hulls) {
   Fingerprint key;
   key.add(file.text);
   key.add(std::filesystem::absolute(options.in).string());  // relative paths of the robot depend on both
   key.add(std::filesystem::absolute(options.out).string());
-  for (const Link& link : file.robot.links) {
+  for (const LinkHulls& made : hulls) {
+    const Link& link = file.robot.links[made.link];
     const Budget& budget = options.hulls.budget_of(link.name);
+    key.add(key_of(made.triangles, budget, options.hulls));
     for (const Geometry which : {Geometry::Visual, Geometry::Collision}) {
-      LinkHullOptions same = options.hulls;
-      same.from = which;
-      key.add(key_of(link, budget, same));
+      // The text has the primitives.
+      if (which != options.hulls.from || made.status != LinkStatus::Hulled) add_shapes(shapes(link, which), key);
       for (const Shape& shape : shapes(link, which))
         if (const MeshFile* const mesh = shape.mesh()) key.add(mesh->path.string());
     }
     key.add(std::size_t(budget.skip));
   }
   key.add(std::size_t(options.hulls.from)), key.add(std::size_t(options.hulls.skip_missing)), key.add(options.package);
-  key.add(std::size_t(options.no_pictures)), key.add(std::size_t(view::has_page())),
-      key.add(options.motion.configurations);
-  key.add(std::size_t(options.motion.seed));
+  key.add(std::size_t(options.certificate)), key.add(std::size_t(options.no_pictures)),
+      key.add(std::size_t(view::has_page())), key.add(options.motion.configurations);
+  key.add(std::size_t(options.motion.seed)), key.add(std::size_t(options.sampled_pairs));
   return key.text();
 }
 
-/// All that a run finds out, before anything is written.
-ReportInput make(const UrdfOptions& options, const RobotFile& file, const Stopwatch& watch) {
-  ReportInput made{
-      .file = file, .hulls = {}, .shipped = {}, .motion = {}, .version = PROHULL_VERSION, .from = options.hulls.from};
+/// What the report says beside the hulls.
+void look_at_the_rest(const UrdfOptions& options, ReportInput& facts) {
   ProgressLine line;
   const Progress progress = std::ref(line);
-  LinkHullOptions hulls = options.hulls;
-  hulls.progress = progress;
-  made.hulls = link_hulls(file.robot, hulls);
-  made.shipped = check_links(file.robot, {.threads = options.threads, .progress = progress});
-  if (options.motion.configurations > 0 && !file.robot.joints.empty()) {
+  const Robot& robot = facts.file.robot;
+  facts.shipped = check_links(robot, {.threads = options.threads, .progress = progress});
+  if (options.motion.configurations > 0 && !robot.joints.empty()) {
     MotionOptions motion = options.motion;
     motion.progress = progress;
-    made.motion = check_motion(file.robot, bodies_of(file.robot, made.hulls, options.hulls.from), motion);
+    facts.motion = check_motion(robot, bodies_of(robot, facts.hulls, options.hulls.from), motion);
   }
-  made.seconds = watch.seconds();
-  return made;
+}
+
+std::vector<LinkHulls> make_hulls(const UrdfOptions& options, const Robot& robot) {
+  ProgressLine line;
+  LinkHullOptions hulls = options.hulls;
+  hulls.progress = std::ref(line);
+  return link_hulls(robot, hulls);
 }
 
 /// The collision geometry that the robot ships with, alone.
@@ -149,10 +162,19 @@ std::string view_page(const UrdfOptions& options, const ReportInput& facts, cons
                     {.unit = "m", .version = PROHULL_VERSION, .threads = options.threads, .progress = progress});
 }
 
-void write(const UrdfOptions& options, const WriteOptions& how, const ReportInput& facts, RobotFolder& folder) {
-  for (const OutputFile& output : output_files(facts.file, facts.hulls, folder.get(), how))
-    folder.add(output.path, output.write);
-  if (facts.motion) folder.add(robot_stem(facts.file) + ".srdf", srdf_of(facts.file.robot, *facts.motion));
+void write_certificates(const UrdfOptions& options, ReportInput& facts, std::span<const HullFiles> hulls,
+                        RobotFolder& folder) {
+  ProgressLine line;
+  LinkHullOptions how = options.hulls;
+  how.progress = std::ref(line);
+  LinkCertificates made = link_certificates(facts.file.robot, facts.hulls, hulls, folder.get(), how);
+  for (const OutputFile& file : made.files) folder.add(file.path, file.write);
+  facts.certificates = std::move(made.certificates);
+}
+
+void write_report(const UrdfOptions& options, const ReportInput& facts, RobotFolder& folder) {
+  if (facts.motion)
+    folder.add(robot_stem(facts.file) + ".srdf", srdf_of(facts.file.robot, *facts.motion, options.sampled_pairs));
   ProgressLine line;
   PageOptions page{.pictures = !options.no_pictures, .threads = options.threads, .progress = std::ref(line)};
   if (page.pictures && view::has_page()) {
@@ -169,6 +191,8 @@ bool is_as_asked(const LinkHulls& link) {
 
 int run_build(const UrdfOptions& options, const RobotFile& file) {
   const Stopwatch watch;
+  if (options.sampled_pairs && options.motion.configurations == 0)
+    refuse("--sampled-pairs needs --configurations greater than 0");
   if (options.out.empty())
     refuse("say by -o which folder the robot goes to; or use --check, --dry-run or --write-budgets");
   RobotFolder folder(options.out);
@@ -177,18 +201,29 @@ int run_build(const UrdfOptions& options, const RobotFile& file) {
                          .format = options.hulls.format,
                          .package = options.package};
   check_options(file, how);
-  const std::string key = run_key(options, file);
+  if (options.certificate) check_certified_format(how.format);
+  ReportInput facts{.file = file,
+                    .hulls = make_hulls(options, file.robot),
+                    .shipped = {},
+                    .motion = {},
+                    .version = PROHULL_VERSION,
+                    .from = options.hulls.from};
+  const RobotFiles files = output_files(file, facts.hulls, folder.get(), how);
+  for (const OutputFile& output : files.files) folder.add(output.path, output.write);
+  const bool is_covered = std::ranges::all_of(facts.hulls, is_as_asked);
+  const std::string key = run_key(options, file, facts.hulls);
   if (const auto earlier = folder.earlier_run(key)) {
-    say("{}{}: up to date; nothing has changed since the last run\n", (*earlier)["summary"].get<std::string>(),
-        options.out.string());
-    return (*earlier)["exit_code"];
+    say("{}{}: up to date; nothing has changed since the last run\n",
+        robot_summary(options.out, facts, options.sampled_pairs), options.out.string());
+    return is_covered ? *earlier : kAnswerIsNo;
   }
-  const ReportInput facts = make(options, file, watch);
-  const std::string summary = robot_summary(options.out, facts);
-  const bool is_done = std::ranges::all_of(facts.hulls, is_as_asked) && (!facts.motion || facts.motion->missed() == 0);
-  write(options, how, facts, folder);
-  folder.commit(report_json(facts), key, summary, is_done ? kDone : kAnswerIsNo);
-  say("{}  {:.1f} s\n", summary, watch.seconds());
+  if (options.certificate) write_certificates(options, facts, files.hulls, folder);
+  look_at_the_rest(options, facts);
+  facts.seconds = watch.seconds();
+  const bool is_done = is_covered && (!facts.motion || facts.motion->missed() == 0);
+  write_report(options, facts, folder);
+  folder.commit(report_json(facts), key, is_done ? kDone : kAnswerIsNo);
+  say("{}  {:.1f} s\n", robot_summary(options.out, facts, options.sampled_pairs), watch.seconds());
   return is_done ? kDone : kAnswerIsNo;
 }
 
@@ -227,6 +262,7 @@ void add_sizes(CLI::App& command, UrdfOptions& options, const char* group) {
          add_number(command, "--faces", budget.faces, {4, 1e9},
                     "Number of faces of each hull, at least 4. Several numbers, as in 500,100, make a robot each.")
              ->delimiter(',')
+             ->allow_extra_args(false)
              ->type_name("N[,N...]"));
   is_for(Collision::Convex, add_number(command, "--pieces", budget.pieces, {1, 1e9},
                                        "Largest number of convex pieces of each link, with --collision convex."));
@@ -307,6 +343,11 @@ void add_motion(CLI::App& command, UrdfOptions& options) {
   add_number(command, "--seed", options.motion.seed, kSeed, "Number that the positions depend on.")
       ->capture_default_str()
       ->group(kMotion);
+  command
+      .add_flag("--sampled-pairs", options.sampled_pairs,
+                "Also write pairs of links to the SRDF that were never, or always, in collision in these positions. "
+                "Their reason is \"sampled\": no proof, since they may collide in another position.")
+      ->group(kMotion);
 }
 
 }  // namespace
@@ -316,7 +357,7 @@ void add_urdf(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(
       "urdf",
       "Gives every link of a robot certified collision geometry. Reads URDF, SDF and MJCF, and writes a copy of the "
-      "robot with its meshes, a report with pictures, and the pairs of links that need no check. With --check, it "
+      "robot with its meshes, a report with pictures, and an SRDF of the links that joints connect. With --check, it "
       "decides whether the collision geometry that the robot ships with covers the robot. The exit code is 1 if a "
       "link is not covered.");
   command
@@ -331,6 +372,10 @@ void add_urdf(CLI::App& app, Run& run) {
                       "this command has not written is refused.")
           ->type_name("DIR");
   add_package_path_option(command, options->file.package_paths);
+  command.add_flag("--no-outside-files", options->file.no_outside_files,
+                   "Refuse a robot that names mesh files outside of its package, or of its folder if it is in no "
+                   "package; --package-path and the environment variables of ROS name other folders. Refuse xacro, and "
+                   "meshes such as .gltf that name other files. For robots of people whom you do not trust.");
   add_choice(
       command, "--collision", options->hulls.budget.collision, collision_names(),
       "What covers each link: one hull, which may be concave; convex pieces, for engines that take only these; or "
@@ -348,6 +393,12 @@ void add_urdf(CLI::App& app, Run& run) {
   command.add_flag("--tight", options->hulls.tight, "Build tight hulls: least volume, but some 4 times as slow.");
   command.add_flag("--skip-missing", options->hulls.skip_missing,
                    "Leave links whose mesh files are not found as they are. Otherwise missing files are an error.");
+  CLI::Option* const certificate = command.add_flag(
+      "--certificate", options->certificate,
+      "Also write a certificate beside each hull, or the pieces or spheres of a link: a file with which prohull_check, "
+      "a program of one C file that shares nothing with this one, decides again what is proven "
+      "(docs/certificate.md). It is about the mesh file that the robot names, or else about a copy of the link's "
+      "triangles in the folder, which report.json names.");
   CLI::Option* const dry_run =
       command.add_flag("--dry-run", options->dry_run, "Say what would be done with each link, and write nothing.");
   command.add_flag("--no-pictures", options->no_pictures,
@@ -362,13 +413,14 @@ void add_urdf(CLI::App& app, Run& run) {
   CLI::Option* const write_budgets = add_budgets(command, *options);
   add_motion(command, *options);
   CLI::Option* const check = add_check(command, *options);
-  check->excludes(out)->excludes(dry_run)->excludes(write_budgets);
+  check->excludes(out)->excludes(dry_run)->excludes(write_budgets)->excludes(certificate);
   write_budgets->excludes(out)->excludes(dry_run);
   add_examples(
       command,
       {"prohull urdf arm.urdf -o arm_safe", "prohull urdf arm.urdf -o arm_safe --faces 500,100 --padding 5mm",
        "prohull urdf arm.xml -o arm_convex --collision convex --pieces 16",
        "prohull urdf arm.urdf -o arm_spheres --collision spheres --spheres 64",
+       "prohull urdf arm.urdf -o arm_safe --certificate",
        "prohull urdf arm.urdf -o arm_safe --package arm_safe --package-path ~/ws/src",
        "prohull urdf arm.urdf --write-budgets budgets.yaml", "prohull urdf arm.urdf -o arm_safe --budgets budgets.yaml",
        "prohull urdf arm.urdf --check --allow 0.5mm --junit leaks.xml",

@@ -7,6 +7,7 @@
 #include "prohull/mesh_io.h"
 #include "prohull/verification.h"
 #include "recenter.h"
+#include "verdict.h"
 #include "verify_union.h"
 
 namespace prohull::cli {
@@ -29,7 +30,8 @@ void print_near_faces(const Verification& found, const std::string& hull) {
 
 Verification verify(const VerifyOptions& options, const MeshOrHull& hull, TriangleMesh original, double gap) {
   ProgressLine line;
-  const VerificationOptions how{.solid_only = options.solid_only, .gap = gap, .progress = std::ref(line)};
+  const VerificationOptions how{
+      .solid_only = options.solid_only, .gap = gap, .finite_only = options.finite_only, .progress = std::ref(line)};
   try {
     const auto* const levels = std::get_if<ProgressiveHull>(&hull);
     return levels ? verify_hull(*levels, std::move(original), how)
@@ -40,24 +42,24 @@ Verification verify(const VerifyOptions& options, const MeshOrHull& hull, Triang
   }
 }
 
-bool has_failed_replay(const Verification& found) { return std::isnan(found.hull_volume); }
+/// Then nothing else was looked at.
+bool has_failed_replay(const Verification& found) {
+  return found.proof == "replay" && !found.encloses && std::isnan(found.hull_volume);
+}
 
 /// "yes: hull.stl encloses part.stl", or why not.
-std::string verdict(const Verification& found, const std::string& hull, const std::string& original, double gap) {
+std::string verdict(const Verification& found, const SizeComparison& sizes, const VerifyOptions& options, double gap) {
+  const std::string hull = input_name(options.hull), original = input_name(options.original);
   const bool inner = found.side == HullSide::Inner, replayed = found.proof == "replay";
   if (has_failed_replay(found)) return fmt::format("NO: {} proves nothing about {}: {}", hull, original, found.why_not);
   const bool base_only = !found.encloses || found.faces_beside_solid > 0;
   const std::string levels = replayed ? (base_only ? "the base mesh of " : "every level of ") + hull : hull;
   const std::string& subject = inner ? original : levels;
   const std::string& object = inner ? levels : original;
-  const bool covers = !found.original_closed, solid_only = !found.every_triangle;
-  const std::string what = (covers ? "every triangle of " : solid_only ? "the solid of " : "") + object;
-  if (!found.encloses)
-    return fmt::format("NO: {} does not {} {}: {}", subject, covers ? "cover" : "enclose", what, found.why_not);
-  const std::string verb = covers ? "covers" : "encloses";
+  const std::string what = claim(found, subject, object);
+  if (!found.encloses) return fmt::format("NO: {}: {}", what, found.why_not);
   if (!found.keeps_gap)
-    return fmt::format("NO: {} {} {}, but {} does not keep the gap of {:.9g}: {}", subject, verb, what, hull, gap,
-                       found.why_not);
+    return fmt::format("NO: {}, but {} does not keep the gap of {:.9g}: {}", what, hull, gap, found.why_not);
   std::string how = ", exactly";
   if (replayed)
     how = fmt::format("{}; {} splits replayed, {} signs exact",
@@ -66,20 +68,22 @@ std::string verdict(const Verification& found, const std::string& hull, const st
                                  : ", and every level its solid",
                       grouped(found.splits), grouped(found.signs));
   if (gap > 0) how = fmt::format(" and keeps a gap of {:.9g}", gap) + how;
-  return fmt::format("yes: {} {} {}{}", subject, verb, what, how);
+  if (sizes.is_doubtful() && !options.any_scale) return fmt::format("UNITS: {}{}, but {}", what, how, sizes.doubt());
+  return fmt::format("yes: {}{}", what, how);
 }
 
-void print_summary(const VerifyOptions& options, const Verification& found, double gap, double seconds) {
+void print_summary(const VerifyOptions& options, const Verification& found, const SizeComparison& sizes, double gap,
+                   double seconds) {
   const std::string hull = input_name(options.hull), original = input_name(options.original);
-  say("{}, {:.2f} s\n", verdict(found, hull, original, gap), seconds);
+  say("{}, {:.2f} s\n", verdict(found, sizes, options, gap), seconds);
   print_offenders(found, found.side == HullSide::Outer ? original : hull);
   print_near_faces(found, hull);
   if (found.cavities > 0 && found.faces_outside == 0)
     say("  {} cavities inside it are not covered\n", grouped(found.cavities));
   for (const std::string& note : found.notes) say("  {}\n", note);
   if (has_failed_replay(found)) return;
-  say("  hull: volume {:.9g}{}\n", found.hull_volume,
-      found.original_closed ? fmt::format(", void {:.3f} %", 100 * found.void_ratio) : "");
+  if (!std::isnan(found.hull_volume))
+    say("  hull: volume {:.9g}{}\n", found.hull_volume, text_of_void(found.void_ratio));
   if (gap > 0) say("  least distance: {:.9g}\n", found.least_distance);
   say("  {} intersects itself in {} pairs of faces\n", hull, grouped(found.self_intersections));
 }
@@ -97,20 +101,17 @@ nlohmann::json near_facts(const std::vector<NearFace>& nearest) {
 nlohmann::json report_of(const VerifyOptions& options, const Verification& found, double gap, double seconds) {
   nlohmann::json json = {{"hull", options.hull.string()},
                          {"original", options.original.string()},
-                         {"original_closed", found.original_closed},
-                         {"every_triangle", found.every_triangle},
-                         {"side", std::string(name_of(hull_side_names(), found.side))},
-                         {"encloses", found.encloses},
-                         {"proof", std::string(found.proof)},
                          {"why_not", found.why_not},
                          {"splits", found.splits},
                          {"signs", found.signs},
                          {"faces_outside", found.faces_outside},
                          {"worst", facts(found.worst)},
                          {"cavities", found.cavities},
+                         {"faces_undecided", found.faces_undecided},
                          {"faces_beside_solid", found.faces_beside_solid},
                          {"notes", found.notes},
                          {"seconds", seconds}};
+  json.update(facts(found));
   if (gap > 0) {
     json["gap"] = gap;
     json["keeps_gap"] = found.keeps_gap;
@@ -122,15 +123,18 @@ nlohmann::json report_of(const VerifyOptions& options, const Verification& found
   json["self_intersections"] = found.self_intersections;
   json["inverted_hull_faces"] = found.inverted_hull_faces;
   json["turned_original_faces"] = found.turned_original_faces;
-  json["hull_volume"] = found.hull_volume;
-  json["original_volume"] = found.original_closed ? nlohmann::json(found.original_volume) : nlohmann::json();
-  json["void_ratio"] = found.original_closed ? nlohmann::json(found.void_ratio) : nlohmann::json();
+  json["hull_volume"] = finite_or_null(found.hull_volume);
   return json;
 }
 
 std::size_t face_count(const MeshOrHull& hull) {
   const auto* const levels = std::get_if<ProgressiveHull>(&hull);
   return levels ? levels->base_face_count() : std::get<TriangleMesh>(hull).face_count();
+}
+
+Box box_of(const MeshOrHull& hull) {
+  const auto* const levels = std::get_if<ProgressiveHull>(&hull);
+  return levels ? finite_bounding_box(levels->base()) : finite_bounding_box(std::get<TriangleMesh>(hull));
 }
 
 int run_verify(const VerifyOptions& options) {
@@ -148,20 +152,23 @@ int run_verify(const VerifyOptions& options) {
   TriangleMesh original = minus(read_input(options.original, options.original_input, NonFinite::Keep), offset);
   const double read_seconds = reading.seconds();
   const std::size_t original_faces = original.face_count();
-  const double gap = options.gap.of(original);
+  const double gap = MeshUnit(original, options.original, options.original_input).number_of(options.gap, "--gap");
+  const Box original_box = finite_bounding_box(original);
   stop_if_interrupted();
   const Stopwatch verifying;
   const Verification found = verify(options, hull, std::move(original), gap);
   const double seconds = verifying.seconds();
+  const SizeComparison sizes(box_of(hull), face_count(hull), original_box, found.side);
   Outputs outputs;
   nlohmann::json report = report_of(options, found, gap, seconds);
   report["offset"] = numbers;
+  report.update(sizes.facts());
   outputs.add_report(options.report, report);
   outputs.commit();
-  print_summary(options, found, gap, seconds);
+  print_summary(options, found, sizes, gap, seconds);
   say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(face_count(hull), "face", "faces"),
            counted(original_faces, "face", "faces"), found.proof, read_seconds);
-  return found.holds() ? kDone : kAnswerIsNo;
+  return found.holds() && (options.any_scale || !sizes.is_doubtful()) ? kDone : kAnswerIsNo;
 }
 
 }  // namespace
@@ -223,9 +230,18 @@ void add_verify(CLI::App& app, Run& run) {
   command.add_flag("--solid-only", options->solid_only,
                    "Ask only for the solid that a closed mesh bounds. Triangles of folds and of parts that are inside "
                    "out bound no part of it, and may stick out.");
-  add_gap(command, "--gap", options->gap,
-          "Also decide whether the hull keeps this distance from ORIGINAL everywhere, at least: in the unit of "
-          "ORIGINAL, or as in 0.5% of the diagonal of its bounding box. Not for .phull files, whose levels touch.")
+  command.add_flag("--finite-only", options->finite_only,
+                   "Leave out triangles of ORIGINAL with a coordinate that is NaN or infinite. Without this option the "
+                   "answer is no if there are any.");
+  command.add_flag(
+      "--any-scale", options->any_scale,
+      "Also say yes where the outer one of the two is 9 times as large as the other or more, along each axis (20 "
+      "times, if the hull has fewer than 12 faces or is an inner one). Without this option the exit code is then 1: "
+      "their units seem to differ.");
+  add_length(command, "--gap", options->gap,
+             "Also decide whether the hull keeps this distance from ORIGINAL everywhere, at least. Not for .phull "
+             "files, whose levels touch.",
+             "ORIGINAL")
       ->excludes(is_union);
   add_report_option(command, options->report);
   add_examples(

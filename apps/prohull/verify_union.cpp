@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <utility>
 
 #include "command.h"
@@ -10,13 +11,15 @@
 #include "prohull/union_verification.h"
 #include "recenter.h"
 #include "union_files.h"
+#include "verdict.h"
 
 namespace prohull::cli {
 namespace {
 
 UnionVerification verify(const Union& all, TriangleMesh original, const VerifyOptions& options) {
   ProgressLine line;
-  const VerificationOptions how{.solid_only = options.solid_only, .progress = std::ref(line)};
+  const VerificationOptions how{
+      .solid_only = options.solid_only, .finite_only = options.finite_only, .progress = std::ref(line)};
   return all.balls.empty() ? verify_union(all.pieces, std::move(original), how)
                            : verify_union(all.balls, std::move(original), options.inside, how);
 }
@@ -43,15 +46,40 @@ bool asks_inside(const Union& all, const VerifyOptions& options, const UnionVeri
   return found.original_closed && (all.balls.empty() || options.inside || options.solid_only);
 }
 
+bool is_undecided(const UnionVerification& found) { return found.faces_undecided > 0 || found.inside_undecided; }
+
+/// As many as a ball needs, of balls.
+std::size_t face_count(const Union& all) {
+  std::size_t faces = all.balls.empty() ? 0 : std::numeric_limits<std::size_t>::max();
+  for (const TriangleMesh& piece : all.pieces) faces += piece.face_count();
+  return faces;
+}
+
+Box box_of(const Union& all) {
+  Box box;
+  for (const TriangleMesh& piece : all.pieces)
+    for (const Vec3& p : piece.positions) box.extend(p);
+  for (const auto& [center, radius] : all.balls) {
+    const Vec3 reach{radius, radius, radius};
+    box.extend(center - reach), box.extend(center + reach);
+  }
+  return box;
+}
+
 std::string verdict(const Union& all, const VerifyOptions& options, const UnionVerification& found,
-                    const std::string& original) {
+                    const SizeComparison& sizes, const std::string& original) {
   const std::string what = !asks_inside(all, options, found) ? "every triangle of " + original
                            : options.solid_only              ? "the solid of " + original
                                                              : "every triangle and the inside of " + original;
   const std::string pieces = all.description();
   const bool is_one = pieces.starts_with("1 ");
-  return found.covers ? fmt::format("yes: {} cover{} {}, exactly", pieces, is_one ? "s" : "", what)
-                      : fmt::format("NO: {} do{} not cover {}: {}", pieces, is_one ? "es" : "", what, found.why_not);
+  if (found.covers) {
+    const std::string claim = fmt::format("{} cover{} {}, exactly", pieces, is_one ? "s" : "", what);
+    if (sizes.is_doubtful() && !options.any_scale) return fmt::format("UNITS: {}, but {}", claim, sizes.doubt());
+    return "yes: " + claim;
+  }
+  if (found.faces_outside + found.holes == 0 && is_undecided(found)) return "UNDECIDED: " + found.why_not;
+  return fmt::format("NO: {} do{} not cover {}: {}", pieces, is_one ? "es" : "", what, found.why_not);
 }
 
 void print_offenders(const UnionVerification& found, const std::string& original) {
@@ -60,6 +88,11 @@ void print_offenders(const UnionVerification& found, const std::string& original
         original);
   for (const Offender& o : found.worst)
     say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
+  if (found.faces_undecided > 0)
+    say("  {} of {} {} undecided:\n", counted(found.faces_undecided, "face", "faces"), original,
+        found.faces_undecided == 1 ? "is" : "are");
+  for (const Offender& o : found.undecided) say("    face {} at {}, in doubt\n", index(o.face), text_of_point(o.point));
+  if (found.inside_undecided) say("  the inside is undecided\n");
 }
 
 void print_summary(const Union& all, const UnionVerification& found, const DistanceBounds& reach) {
@@ -68,12 +101,14 @@ void print_summary(const Union& all, const UnionVerification& found, const Dista
   for (const auto* notes : {&all.notes, &found.notes})
     for (const std::string& note : *notes) say("  {}\n", note);
   if (!std::isnan(found.union_volume))
-    say("  union: volume {:.9g}{}\n", found.union_volume,
-        found.original_closed ? fmt::format(", {:.3f} % more than the original", 100 * found.void_ratio) : "");
+    say("  union: volume {:.9g}{}\n", found.union_volume, text_of_void(found.void_ratio));
   say("  it reaches out by {:.6g} to {:.6g}, at {}\n", reach.lower, reach.upper, text_of_point(reach.farthest));
 }
 
-nlohmann::json number_or_null(double x) { return std::isnan(x) ? nlohmann::json() : nlohmann::json(x); }
+nlohmann::json point_or_null(const std::optional<PointOfFace>& point) {
+  if (!point) return {};
+  return {{"face", index(point->face)}, {"weights", point->weights}};
+}
 
 nlohmann::json report_of(const std::vector<std::filesystem::path>& files, const Union& all,
                          const UnionVerification& found, const DistanceBounds& reach) {
@@ -90,11 +125,15 @@ nlohmann::json report_of(const std::vector<std::filesystem::path>& files, const 
           {"why_not", found.why_not},
           {"faces_outside", found.faces_outside},
           {"worst", facts(found.worst)},
+          {"point_outside", point_or_null(found.point_outside)},
+          {"faces_undecided", found.faces_undecided},
+          {"undecided", facts(found.undecided)},
+          {"inside_undecided", found.inside_undecided},
           {"holes", found.holes},
           {"turned_pieces", found.turned_pieces},
-          {"union_volume", number_or_null(found.union_volume)},
-          {"original_volume", number_or_null(found.original_volume)},
-          {"void_ratio", number_or_null(found.void_ratio)},
+          {"union_volume", finite_or_null(found.union_volume)},
+          {"original_volume", finite_or_null(found.original_volume)},
+          {"void_ratio", finite_or_null(found.void_ratio)},
           {"reach", {{"lower", reach.lower}, {"upper", reach.upper}, {"farthest", {p.x, p.y, p.z}}}},
           {"notes", notes}};
 }
@@ -126,18 +165,20 @@ int run_verify_union(const VerifyOptions& options) {
   const UnionVerification found = verify(all, original, options);
   const double seconds = verifying.seconds();
   const DistanceBounds reach = reach_of(all, finite_part(original));
+  const SizeComparison sizes(box_of(all), face_count(all), finite_bounding_box(original), HullSide::Outer);
   nlohmann::json report = report_of(files, all, found, reach);
   report["original"] = last.string();
   report["offset"] = numbers;
+  report.update(sizes.facts());
   report["link"] = options.link.empty() ? nlohmann::json() : nlohmann::json(options.link);
   report["seconds"] = seconds;
   Outputs outputs;
   outputs.add_report(options.report, report);
   outputs.commit();
-  say("{}, {:.2f} s\n", verdict(all, options, found, input_name(last)), seconds);
+  say("{}, {:.2f} s\n", verdict(all, options, found, sizes, input_name(last)), seconds);
   print_offenders(found, input_name(last));
   print_summary(all, found, reach);
-  return found.covers ? kDone : kAnswerIsNo;
+  return found.covers && (options.any_scale || !sizes.is_doubtful()) ? kDone : kAnswerIsNo;
 }
 
 }  // namespace prohull::cli

@@ -17,10 +17,10 @@ struct VerifyOptions {
   std::vector<std::filesystem::path> more;  ///< files after the second one
   InputOptions hull_input, original_input;
   HullSide side = HullSide::Outer;
-  bool solid_only = false, is_union = false, inside = false;
+  bool solid_only = false, finite_only = false, is_union = false, inside = false, any_scale = false;
   std::string offset = "0,0,0";
   std::string link;  ///< of the files of pieces, with --union
-  Gap gap;
+  Length gap;
 };
 
 /// "(1, 2, 3)"

@@ -3,6 +3,7 @@
 #include <array>
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,6 +38,9 @@ Pose pose_of_quaternion(double w, double x, double y, double z, const Vec3& tran
 Vec3 placed(const Pose& pose, const Vec3& point);
 TriangleMesh placed(const Pose& pose, TriangleMesh mesh);
 
+/// What a closed mesh stands for.
+enum class StandsFor : std::uint8_t { Solid, Surface };
+
 struct CollisionData;
 
 /// Hulls of a mesh, by which `collide` may know its answer before it looks at the mesh. For meshes in memory they have
@@ -48,21 +52,21 @@ struct CollisionHulls {
 /// A mesh made ready for collisions. It is immutable and cheap to copy: copies share their data, and any number of
 /// threads may share one index. Built once, it serves every pose.
 ///
-/// If the mesh is closed (is_closed in enclosure.h), it stands for a solid: its faces, and the points that it winds
+/// If the mesh is closed (is_closed in triangle_mesh.h), it stands for a solid: its faces, and the points that it winds
 /// around at least once. So a cavity is free, and a mesh that is inside out has no inside. Any other mesh stands for
-/// its faces alone: what lies within an open mesh is free.
+/// its faces alone, and so does a closed one with StandsFor::Surface: what lies within it is free.
 class CollisionIndex {
  public:
   /// Takes any triangles. Throws InputError: EmptyMesh without faces; NonFiniteCoordinate if a vertex of a face is not
   /// finite or beyond 1e100.
-  explicit CollisionIndex(const TriangleMesh& mesh);
+  explicit CollisionIndex(const TriangleMesh& mesh, StandsFor what = StandsFor::Solid);
 
   /// With hulls of the mesh. The answers stay the same, also for an inner hull that is wrong. But the outer hull must
   /// enclose the mesh, or cover it if it is not closed: the caller has verified that (verification.h). Throws as above,
   /// and InputError(OpenEdge) if a hull is not closed.
   CollisionIndex(const TriangleMesh& mesh, const CollisionHulls& hulls);
 
-  bool is_solid() const;  ///< whether the mesh is closed
+  bool is_solid() const;  ///< whether the mesh is closed and stands for its solid
   std::size_t face_count() const;
   std::size_t memory_bytes() const;  ///< of what all copies share
 

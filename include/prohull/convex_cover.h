@@ -23,7 +23,7 @@ Names<PieceShape> piece_shape_names();
 struct ConvexCoverOptions {
   std::size_t max_pieces = 16;    ///< at least 1
   std::size_t max_vertices = 64;  ///< of a piece; at least 4
-  /// How far the union may reach from the triangles, and how large it may be. With bounds the cover has as few pieces
+  /// How far the union may reach (ConvexCover::reach), and how large it may be. With bounds the cover has as few pieces
   /// as keep them, at most max_pieces.
   HullBounds bounds = {};
   /// With any other shape than Polytope, pieces take that shape where `bounds` allow it: all, if there are none.
@@ -49,7 +49,12 @@ struct ConvexCover {
                       ///< is `reach`
   double original_volume = 0;  ///< as EnclosingHulls::volume
   double void_ratio = 0;       ///< volume / original_volume - 1; infinite if the triangles have no volume
-  DistanceBounds reach;        ///< how far the union reaches out of the solid, or from the triangles if there is none
+  /// How far the union reaches out of the solid, or from the triangles if there is none. What closes openings of the
+  /// input belongs to the solid.
+  DistanceBounds reach;
+  DistanceBounds reach_from_triangles;  ///< the same without what closes openings
+  bool has_openings = false;            ///< the input has openings that count as closed: the two may differ
+  std::size_t non_finite_faces = 0;     ///< faces of the input that were left out: a corner is not finite
   bool within_bounds = true;
   std::vector<std::string> notes;  ///< sentences for the user
   double seconds = 0, verify_seconds = 0;

@@ -13,6 +13,7 @@
 #include "prohull/progress.h"
 #include "prohull/repair.h"
 #include "prohull/triangle_mesh.h"
+#include "prohull/verification.h"
 
 namespace prohull {
 
@@ -43,7 +44,9 @@ struct EnclosingOptions {
   /// is not tight, and is checked by inspect_symmetry.
   HullOptions hull = {};
   HullBounds bounds = {};
-  bool tight = false;  ///< build tight hulls (tight_hull.h), which have no levels
+  /// Try tight hulls too (tight_hull.h), which have no levels: of the mesh if that is closed, else of the solid that
+  /// has the best hull. The hull is never worse than without.
+  bool tight = false;
   /// The hull keeps at least this distance from the triangles, in the input's unit; without levels only. An inner hull
   /// leaves out what is thinner than twice of it. `bounds` count from the hull before it is moved away.
   double padding = 0;
@@ -59,7 +62,10 @@ struct EnclosingOptions {
 /// One hull, and how far it can be trusted.
 struct EnclosingHull {
   TriangleMesh mesh;
-  bool certified = false;        ///< enclosure is proven exactly, by code that shares nothing with the construction
+  bool certified = false;  ///< enclosure is proven exactly, by code that shares nothing with the construction
+  /// What verify_hull says of `mesh` and all finite triangles of the input as they were given. If these are not closed,
+  /// but could be closed, RepairedMesh::closed stands for them.
+  Verification verdict;
   std::string_view proof;        ///< how: "replay", "enclosure" or "coverage" (verification.h); with padding
                                  ///< "padding", which includes "enclosure" or "coverage"; empty if not certified
   std::size_t target_faces = 0;  ///< how many faces were asked for
@@ -67,7 +73,7 @@ struct EnclosingHull {
   bool within_bounds = true;     ///< the hull keeps `bounds`
   double excess = 0;             ///< HullBounds::excess, if bounds were given; above 1 where it does not keep them
   double padding = 0;     ///< proven least distance from the triangles, if EnclosingOptions::padding asks for one
-  double void_ratio = 0;  ///< volume of the hull / EnclosingHulls::volume - 1
+  double void_ratio = 0;  ///< volume of the hull / EnclosingHulls::volume - 1; NaN if that is not known well enough
   Source source = Source::Mesh;
   std::vector<std::string> notes;  ///< sentences for the user: why something is not as asked for, and what to look at
 
@@ -97,10 +103,8 @@ struct EnclosingHulls {
   RepairedMesh input;
   std::vector<Solid> solids;         ///< all that were tried, in this order
   std::vector<EnclosingHull> hulls;  ///< one for each number of faces, in the order in which they were asked for
-  /// Of what lies inside of the input. Exact, but for rounding, if it is closed and does not intersect itself;
-  /// otherwise estimated from a wrap, if one was made; of a closed input its signed volume; or that of the smallest
-  /// hull.
-  double volume = 0;
+  double volume = 0;                 ///< of what lies inside of the input; 0 if nothing is known of it
+  bool is_estimated = true;   ///< `volume` is an estimate, from a wrap; otherwise it is Verification::original_volume
   double repair_seconds = 0;  ///< includes the wraps
 };
 
@@ -136,7 +140,8 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
 ///  back
 ///     towards the triangles in the end.
 /// A source is left out if it cannot win: the second if the convex hull is larger than the best hull, the third if the
-/// best hull is nearly as small as the solid. What counts is the certificate first, then the number of faces, the
+/// best hull is nearly as small as the solid. With `bounds` the first is always tried, and wraps have a spacing of half
+/// of HullBounds::max_distance, or less. What counts is the certificate first, then the number of faces, the
 /// bounds, the overhang (ShapeGuards::max_overhang), and the volume; a hull that intersects itself has to have less
 /// than ten elevenths of the void of one that does not.
 EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size_t> target_faces,

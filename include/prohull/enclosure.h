@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "prohull/progress.h"
@@ -19,7 +20,12 @@ struct EnclosureReport {
   bool encloses = false;          ///< the verdict, exact
   std::size_t faces_outside = 0;  ///< how many triangles of the inner mesh lie outside, at least in part; exact
   std::vector<Offender> worst;    ///< those that reach farthest outside, the farthest first
-  std::size_t cavities = 0;       ///< connected parts of the outer mesh that leave a hole in the solid it bounds
+  /// Faces, of either mesh, that EnclosureOptions::max_steps left undecided. If there are any, `encloses` is false, and
+  /// there may be more faces outside and more cavities.
+  std::size_t faces_undecided = 0;
+  /// Connected parts of the outer mesh that leave a hole in the solid it bounds: exact if faces_outside is 0, else some
+  /// parts may be missing.
+  std::size_t cavities = 0;
   /// Pairs of faces of the outer mesh that meet beyond shared corners and edges; exact. Faces without area do not
   /// count.
   std::size_t self_intersections = 0;
@@ -30,15 +36,20 @@ struct EnclosureReport {
 struct EnclosureOptions {
   std::size_t max_offenders = 5;
   Progress progress = {};  ///< stage "verify"
+  /// Ends the search where faces meet very many others: a step looks at a pair of segments in which others meet a face,
+  /// in about 0.1 microseconds. Faces that would take more are undecided. The same number decides the same faces
+  /// on every machine.
+  std::size_t max_steps = std::numeric_limits<std::size_t>::max();
 };
 
 /// Decides whether `outer` encloses `inner`: whether `outer` winds at least once around every point, off both surfaces,
 /// that `inner` winds around at least once.
-/// Guaranteed: the answer is exact for all finite coordinates. It comes from exact predicates and constructions,
-/// without any tolerance. The code shares nothing with the construction of hulls but exact geometry.
+/// Guaranteed: the answer is exact for all finite coordinates, unless the report says that faces are undecided. It
+/// comes from exact predicates and constructions, without any tolerance. The code shares nothing with the construction
+/// of hulls but exact geometry.
 ///
-/// Required: both meshes are closed (is_closed). They may touch, share vertices, edges and faces, overlap in a plane,
-/// intersect themselves, and have faces without area, several components and cavities.
+/// Required: both meshes are closed (is_closed in triangle_mesh.h). They may touch, share vertices, edges and faces,
+/// overlap in a plane, intersect themselves, and have faces without area, several components and cavities.
 ///
 /// A mesh of negative volume counts as turned, as a whole. A single component that faces inwards counts as a cavity;
 /// turned_outwards turns those that cannot be one. Where `inner` intersects itself, the parts that it winds around zero
@@ -50,10 +61,6 @@ struct EnclosureOptions {
 ///     if (!report.encloses && !report.worst.empty()) show(report.worst[0].face, report.worst[0].point);
 EnclosureReport verify_enclosure(const TriangleMesh& inner, const TriangleMesh& outer,
                                  const EnclosureOptions& options = {});
-
-/// Whether a mesh is closed as verify_enclosure requires: along every edge, as many faces run one way as the other way.
-/// Edges are matched by position. Throws InputError if the mesh is empty or not finite.
-bool is_closed(const TriangleMesh& mesh);
 
 /// Decides whether `outer` covers every triangle: whether each point of the triangles lies in the solid that `outer`
 /// bounds. That solid is the closure of all points, off the surface, that `outer` winds around at least once.
@@ -67,7 +74,8 @@ bool is_closed(const TriangleMesh& mesh);
 /// point that it is.
 ///
 /// In the report `faces_outside` and `worst` describe the triangles; cavities, inner_volume and void_ratio are 0. The
-/// time is nearly linear in the number of faces of both. Throws InputError if there is no triangle, if a coordinate is
+/// time is nearly linear in the number of faces of both, and in the number of crossings of the segments in which faces
+/// of `outer` meet each other, or a triangle. Throws InputError if there is no triangle, if a coordinate is
 /// not finite (drop such triangles first, and say so), or if `outer` is empty or not closed; Cancelled.
 ///
 ///     const bool proven = verify_cover(triangles, hull).encloses &&

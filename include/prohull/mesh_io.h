@@ -30,10 +30,6 @@ std::vector<std::string> read_mesh_extensions();
 /// Whether a format stores coordinates as float32: STL and GLB do; the others keep doubles.
 bool stores_float32(MeshFormat format);
 
-/// Units of length ("mm", "cm", "m", "in"), each with its length in metres. With that number as ReadOptions::scale, a
-/// file in the unit is read in metres.
-std::span<const std::pair<std::string_view, double>> length_units();
-
 /// What becomes of vertices with a coordinate that is NaN or infinite.
 enum class NonFinite {
   Refuse,  ///< InputError(NonFiniteCoordinate), with the place in the file
@@ -42,9 +38,11 @@ enum class NonFinite {
 
 struct ReadOptions {
   NonFinite non_finite = NonFinite::Refuse;
-  double scale = 1;            ///< every coordinate is multiplied by this number and rounded to double; greater than 0
+  double scale = 1;  ///< every coordinate is multiplied by this number (length_units() has those of units) and
+                     ///< rounded to double; greater than 0
   MeshMarks* marks = nullptr;  ///< where to put what PLY and OBJ files say of vertices and faces beside the geometry
-  Progress progress = {};      ///< stage "read"
+  std::vector<DividedFace>* divided = nullptr;  ///< where to put polygons of PLY, OBJ and OFF files that are no fans
+  Progress progress = {};                       ///< stage "read"
 };
 
 /// Reads a mesh file. Throws InputError with the file and the line or byte offset; Cancelled. A file that needs more

@@ -21,4 +21,10 @@ struct MeshMarks {
   PerFace<std::uint32_t> names_of;              ///< of OBJ: the combination that a face has
 };
 
+/// A polygon whose corner count - 2 triangles are not the fan of its first corner.
+struct DividedFace {
+  FaceId first_triangle;
+  std::vector<VertexId> corners;
+};
+
 }  // namespace prohull

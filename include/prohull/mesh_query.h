@@ -165,8 +165,8 @@ class MeshQuery {
   /// parts is inside, and a point in a cavity is not; nothing is inside of a mesh that is inside out. Exact. A point on
   /// the surface may count as inside or as outside, but every engine says the same, except Engine::PaperRefinement,
   /// which may miss crossings and so be wrong. Throws InputError(OpenEdge) if the mesh is not closed as is_closed
-  /// (enclosure.h) has it, and InputError(EmptyMesh) if it has no faces: it has no inside. The first call for an index
-  /// finds that out, and takes longer.
+  /// (triangle_mesh.h) has it, and InputError(EmptyMesh) if it has no faces: it has no inside. The first call for an
+  /// index finds that out, and takes longer.
   bool contains(const Vec3& point);
 
   /// The point of the mesh that is closest to `point`; nothing if the mesh is not certainly within `max_distance`,

@@ -14,8 +14,8 @@ namespace prohull {
 
 struct SphereCoverOptions {
   std::size_t max_balls = 64;  ///< at least 1
-  /// How far the balls may reach out of the solid, in the input's unit. With it the cover has as few balls as keep it,
-  /// at most max_balls.
+  /// How far the balls may reach (SphereCover::reach), in the input's unit. With it the cover has as few balls as keep
+  /// it, at most max_balls.
   double max_distance = std::numeric_limits<double>::infinity();
   bool fill = false;       ///< cover the inside too, not only the surface
   unsigned threads = 0;    ///< 0: one for each core; the cover is the same for any number
@@ -24,13 +24,19 @@ struct SphereCoverOptions {
 
 struct SphereCover {
   std::vector<Ball> balls;
-  bool certified = false;          ///< the balls cover, proven exactly (verify_union)
-  bool covers_inside = false;      ///< what was proven: also the inside
-  DistanceBounds reach;            ///< how far the balls reach out of the solid, or from the triangles if there is none
-  double volume = 0;               ///< of the union; overlaps count once
-  double original_volume = 0;      ///< as EnclosingHulls::volume; 0 if the triangles bound nothing
-  bool within_bounds = true;       ///< max_distance is kept
-  std::vector<std::string> notes;  ///< sentences for the user
+  bool certified = false;      ///< the balls cover, proven exactly (verify_union)
+  bool covers_inside = false;  ///< what was proven: also the inside
+  /// How far the balls reach out of the solid, or from the triangles if there is none. What closes openings of the
+  /// input belongs to the solid.
+  DistanceBounds reach;
+  DistanceBounds reach_from_triangles;  ///< the same without what closes openings
+  bool original_closed = false;         ///< the input bounds a solid by itself: `covers_inside` is about that
+  bool has_openings = false;            ///< the input has openings that count as closed: the two may differ
+  std::size_t non_finite_faces = 0;     ///< faces of the input that were left out: a corner is not finite
+  double volume = 0;                    ///< of the union; overlaps count once
+  double original_volume = 0;           ///< as EnclosingHulls::volume; 0 if the triangles bound nothing
+  bool within_bounds = true;            ///< max_distance is kept
+  std::vector<std::string> notes;       ///< sentences for the user
   double seconds = 0, verify_seconds = 0;
 };
 

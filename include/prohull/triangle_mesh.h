@@ -32,6 +32,10 @@ Box bounding_box(const TriangleMesh& mesh);
 /// The same of the triangles whose corners are all finite; empty if there is none.
 Box finite_bounding_box(const TriangleMesh& mesh);
 
+/// Whether a mesh is closed: along every edge, as many faces run one way as the other way. Edges are matched by
+/// position, so that it may be a soup. Throws InputError if the mesh is empty or not finite.
+bool is_closed(const TriangleMesh& mesh);
+
 /// The sum of the signed volumes of the tetrahedra between each triangle and a common point: for a closed mesh its
 /// volume, which is positive if the mesh is oriented outwards. Computed in double precision about the centre of the
 /// bounding box. For huge coordinates it may overflow to infinity, but never to NaN.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,15 +15,28 @@
 
 namespace prohull {
 
+/// A point of a face: the sum of the corners, each times its weight, exactly.
+struct PointOfFace {
+  FaceId face{};
+  std::array<double, 3> weights{};
+};
+
 /// What verify_union has found. Volumes and distances are in the input's unit.
 struct UnionVerification {
-  bool covers = false;            ///< the verdict, exact
+  bool covers = false;            ///< the verdict: proven
   bool original_closed = false;   ///< only then the inside is asked for
   std::string why_not;            ///< why the verdict is no; empty if it is yes
   std::size_t faces_outside = 0;  ///< triangles of the original of which a part lies outside of all pieces; exact
   std::vector<Offender> worst;    ///< the farthest of these, farthest first
   std::size_t holes = 0;          ///< connected parts of the union's surface that leave a hole in the solid
-  std::size_t turned_pieces = 0;  ///< pieces that were inside out and count as turned
+  /// Of balls: a point of a triangle that no ball holds, if one was found. Exact.
+  std::optional<PointOfFace> point_outside;
+  /// Of balls: triangles of which neither was found out, whether balls cover all of them nor a point that no ball
+  /// holds.
+  std::size_t faces_undecided = 0;
+  std::vector<Offender> undecided;  ///< of these, a point in doubt; max_offenders at most, of distance 0
+  bool inside_undecided = false;    ///< the same of the inside
+  std::size_t turned_pieces = 0;    ///< pieces that were inside out and count as turned
   double union_volume = std::numeric_limits<double>::quiet_NaN();     ///< overlaps count once; rounded
   double original_volume = std::numeric_limits<double>::quiet_NaN();  ///< NaN if the original is not closed
   double void_ratio = std::numeric_limits<double>::quiet_NaN();       ///< union_volume / original_volume - 1
@@ -44,10 +59,10 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
 
 /// The same for balls. Every triangle must be covered and, if `inside`, the solid of a closed original; with
 /// options.solid_only that solid alone. `holes` is at most 1: the search for one ends at the first.
-/// Guaranteed: yes is exact, for the balls with the doubles given. No is exact as well, but where the balls leave less
-/// than about 1e-9 of the diagonal to spare, or where the decision would take more than a million parts of one triangle
-/// or four million cubes of the inside; `notes` tell of such a no. Balls may touch corners of the original, and each
-/// other in the middles of edges, with nothing to spare.
+/// Guaranteed: yes is exact, for the balls with the doubles given, and so is every triangle that counts as outside, and
+/// every hole. Undecided is what the balls cover with less than about 1e-9 of the diagonal to spare, if at all, and
+/// what would take more than a million parts of one triangle or four million cubes of the inside; then `covers` is
+/// false. Balls may touch corners of the original, and each other in the middles of edges, with nothing to spare.
 UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh original, bool inside,
                                const VerificationOptions& options = {});
 

@@ -21,6 +21,12 @@ struct VerificationOptions {
   /// The distance that every point of the hull must keep from every triangle of the original, at least, in the input's
   /// unit. Not for a progressive hull: its levels touch.
   double gap = 0;
+  /// Faces of the original that are not finite are left out and counted. By default the answer is no if there are any.
+  bool finite_only = false;
+  /// For an original that is not closed: a closed mesh that stands for it, as RepairedMesh::closed does. Its faces are
+  /// triangles of the original, in either orientation, and caps on openings. The hull must then enclose its solid, too;
+  /// an inner hull must be enclosed by its solid. It is not looked at if the original is closed.
+  const TriangleMesh* closed = nullptr;
   std::size_t max_offenders = 5;
   Progress progress = {};  ///< stage "verify"
 };
@@ -41,7 +47,10 @@ struct Verification {
   std::string_view proof;
   HullSide side = HullSide::Outer;
   bool original_closed = false;
-  bool every_triangle = false;  ///< every triangle had to be covered: unless solid_only allows less
+  bool has_solid = false;            ///< the original bounds a solid, or VerificationOptions::closed stands for it
+  std::size_t cap_faces = 0;         ///< faces of VerificationOptions::closed that are no triangles of the original
+  std::size_t non_finite_faces = 0;  ///< faces of the original that were left out: a corner is not finite
+  bool every_triangle = false;       ///< every triangle had to be covered: unless solid_only allows less
 
   std::string why_not;     ///< why the verdict is no; empty if it is yes
   std::size_t splits = 0;  ///< vertex splits replayed
@@ -53,17 +62,24 @@ struct Verification {
   double least_distance = std::numeric_limits<double>::quiet_NaN();  ///< of the hull, rounded; NaN without a gap
 
   std::size_t faces_outside = 0;  ///< faces of the inner mesh of which a part lies outside of the outer one; exact
-  std::vector<Offender> worst;    ///< the farthest of these, farthest first
-  std::size_t cavities = 0;       ///< as in EnclosureReport
+  /// The farthest of these, farthest first. Caps are numbered behind the faces of the original.
+  std::vector<Offender> worst;
+  std::size_t cavities = 0;  ///< as in EnclosureReport
+  /// Faces that were left undecided, because meshes intersect themselves or each other so often that they would take
+  /// minutes. If there are any, `encloses` is false.
+  std::size_t faces_undecided = 0;
   /// Faces of the inner mesh that bound no part of its solid, as in folds. Of a progressive hull only the base mesh is
   /// known to cover them.
   std::size_t faces_beside_solid = 0;
   std::size_t self_intersections = 0;     ///< pairs of faces of the hull that intersect; of a progressive hull its base
   std::size_t inverted_hull_faces = 0;    ///< faces of the hull, or of components of it, that is inside out
   std::size_t turned_original_faces = 0;  ///< faces of the original that look inwards and count as turned
-  double hull_volume = std::numeric_limits<double>::quiet_NaN();      ///< NaN if a replay fails
-  double original_volume = std::numeric_limits<double>::quiet_NaN();  ///< NaN if the original is not closed
-  double void_ratio = std::numeric_limits<double>::quiet_NaN();       ///< hull_volume / original_volume - 1
+  /// Of the solid that the hull bounds: parts that overlap count once. Its boundary is decided exactly, the sum is
+  /// rounded. NaN if a replay fails, and where faces intersect so often that it would take long.
+  double hull_volume = std::numeric_limits<double>::quiet_NaN();
+  /// The same of the original, or of VerificationOptions::closed. NaN also if there is no solid.
+  double original_volume = std::numeric_limits<double>::quiet_NaN();
+  double void_ratio = std::numeric_limits<double>::quiet_NaN();  ///< hull_volume / original_volume - 1; NaN if unknown
   /// Sentences for the user: what was left out of the original, and units that seem to differ.
   std::vector<std::string> notes;
 
@@ -71,19 +87,20 @@ struct Verification {
   bool holds() const { return encloses && keeps_gap; }
 };
 
-/// Decides whether `hull` encloses `original` (HullSide::Inner: whether `original` encloses `hull`). Guaranteed: the
-/// verdict is exact. What it means:
+/// Decides whether `hull` encloses `original` (HullSide::Inner: whether `original` encloses `hull`). Guaranteed: a yes
+/// is exact, and a no as well unless `faces_undecided` says that the work was ended before. What it means:
 ///
 ///   closed original   the hull encloses its solid (verify_enclosure) and covers every triangle of it (verify_cover)
-///   any other one     the hull covers every triangle of it
+///   any other one     the hull covers every triangle of it; with options.closed it encloses that solid, too
 ///   inner hull        the original encloses the solid of the hull, and its solid covers every triangle of the hull
 ///
 /// With options.gap it is also decided whether the hull keeps that distance from all finite triangles of the original,
 /// caps on its openings not included; `holds` says whether both is so.
 ///
-/// Faces of the original that are not finite are left out, and components of a closed original that are inside out
-/// count as turned (turned_outwards); `notes` tell of both, and of meshes whose sizes differ as if their units did. A
-/// hull that is inside out, as a whole or in such a component, is refused: the verdict is no.
+/// If faces of the original are not finite, the verdict is no; with options.finite_only they are left out. Components
+/// of a closed original that are inside out count as turned (turned_outwards); `notes` tell of both, and of meshes
+/// whose sizes differ as if their units did. A hull that is inside out, as a whole or in such a component, is refused:
+/// the verdict is no.
 ///
 /// Throws InputError if a mesh is empty, if the hull is not closed or not finite, if a coordinate is larger than 1e100,
 /// if the gap is not a finite number of at least 0, and for an inner hull if the original is not closed; Cancelled.

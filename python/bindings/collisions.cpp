@@ -73,6 +73,11 @@ py::tuple distances(const CollisionIndex& a, const CollisionIndex& b, const Arra
                         array_of(std::move(points), {n, 2, 3}), array_of(std::move(faces), {n, 2}));
 }
 
+/// No point of one surface is nearer to the other.
+double surface_distance(const TriangleMesh& a, const TriangleMesh& b) {
+  return separation(CollisionIndex(a, StandsFor::Surface), {}, CollisionIndex(b, StandsFor::Surface), {}).lower;
+}
+
 }  // namespace
 
 void bind_collisions(py::module_& module) {
@@ -88,6 +93,7 @@ void bind_collisions(py::module_& module) {
       .def("collides", &collides)
       .def("intersecting_faces", &intersecting_faces_of)
       .def("distances", &distances);
+  module.def("surface_distance", &surface_distance, py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace prohull::python

@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "keywords.h"
 #include "module.h"
 #include "prohull/cage.h"
+#include "prohull/closed_solid.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/mesh_part.h"
 #include "watch.h"
@@ -67,9 +69,10 @@ class Judges {
     TriangleMesh every_triangle = made.input.original;
     append(every_triangle, made.input.caps);
     const SharedMesh closed = is_closed ? shared(std::move(made.input.closed->mesh)) : nullptr;
-    original_ = is_closed ? closed : shared(std::move(made.input.original));
+    given_ = closed && *closed == made.input.original ? closed : shared(std::move(made.input.original));
+    original_ = is_closed ? closed : given_;
     for (const Solid& solid : made.solids) {
-      TriangleMesh covered = is_closed ? made.input.dropped : made.input.caps, all = every_triangle;
+      TriangleMesh covered = is_closed ? TriangleMesh() : made.input.caps, all = every_triangle;
       append(covered, solid.doors);
       append(all, solid.doors);
       covered_.push_back(is_outer ? shared(std::move(covered)) : nullptr);
@@ -79,6 +82,8 @@ class Judges {
     }
   }
 
+  /// The finite triangles that were given.
+  SharedMesh given() const { return given_; }
   /// What it encloses, or covers if it is not closed.
   SharedMesh original() const { return original_; }
   /// The triangles that it has to cover beside.
@@ -91,17 +96,17 @@ class Judges {
     return mesh.face_count() > 0 ? std::make_shared<TriangleMesh>(std::move(mesh)) : nullptr;
   }
 
-  SharedMesh original_;
+  SharedMesh given_, original_;
   std::vector<SharedMesh> covered_, measured_;  ///< by solid
 };
 
-std::vector<std::string> notes_of(const EnclosingHull& hull, bool is_closed) {
+std::vector<std::string> notes_of(const EnclosingHull& hull, bool is_estimated) {
   std::vector<std::string> notes = hull.notes;
   if (!hull.target_reached)
     notes.push_back("the hull has " + std::to_string(hull.mesh.face_count()) + " faces, more than the " +
                     std::to_string(hull.target_faces) + " asked for: of its edges, " + describe_refusals(hull.blocked));
   if (!hull.within_bounds) notes.push_back("the hull is not within the bounds asked for: no hull was");
-  if (!is_closed) notes.push_back("the mesh is not closed: void_ratio is measured against an estimate of its volume");
+  if (is_estimated) notes.push_back("the volume of the mesh is not known: void_ratio is measured against an estimate");
   return notes;
 }
 
@@ -109,17 +114,19 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
                   const EnclosingOptions& options) {
   const Solid& solid = made.solids[hull.solid];
   py::dict facts;
+  facts["given"] = judges.given();
   facts["original"] = judges.original();
   facts["covered"] = judges.covered(hull);
-  facts["volume_inside"] = made.volume;
+  facts["volume_inside"] = std::isnan(hull.void_ratio) ? 0 : made.volume;
   if (options.bounds.any() && options.padding == 0)
     facts["bounds"] =
         py::make_tuple(judges.measured(hull), made.volume > 0 ? made.volume : solid.volume, options.bounds.max_distance,
                        options.bounds.max_void_ratio, options.bounds.max_added_volume);
-  facts["replay_suffices"] = solid.source == Source::Mesh && solid.self_intersections == 0;
+  facts["replay_suffices"] =
+      solid.source == Source::Mesh && solid.self_intersections == 0 && made.input.dropped.face_count() == 0;
   facts["source"] = name_of(source_names(), hull.source);
   facts["wrap_spacing"] = solid.wrap_spacing;
-  facts["notes"] = notes_of(hull, made.input.closed.has_value());
+  facts["notes"] = notes_of(hull, made.is_estimated);
   if (hull.levels) hull.levels = hull.levels->with_finest_level(finest_level(made, hull));
   facts["levels"] = std::move(hull.levels);
   facts["mesh"] = std::move(hull.mesh);
@@ -164,7 +171,7 @@ py::dict facts_of(CageHull side) {
   facts["is_disjoint"] = side.is_disjoint;
   facts["gap"] = hull.padding;
   facts["keeps_gap"] = side.keeps_gap;
-  facts["void_ratio"] = side.made.volume > 0 ? hull.void_ratio : std::numeric_limits<double>::quiet_NaN();
+  facts["void_ratio"] = hull.void_ratio;
   facts["target_reached"] = hull.target_reached;
   facts["smallest_angle_degrees"] = side.quality.smallest_angle * 180 / std::numbers::pi;
   facts["worst_aspect_ratio"] = side.quality.worst_aspect_ratio;
@@ -192,6 +199,30 @@ py::dict cage(const TriangleMesh& mesh, const py::object& progress, const py::di
   facts["inner"] = made.inner ? py::object(facts_of(std::move(*made.inner))) : py::none();
   facts["gap"] = made.gap;
   facts["notes"] = made.notes;
+  return facts;
+}
+
+py::dict repair(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
+  const Keywords given(keywords);
+  ClosedSolidOptions options;
+  options.spacing = given.not_negative("spacing");
+  options.repair.open_shells = given.choice("open_shells", open_shells_names());
+  options.repair.keep_cavities = given.flag("keep_cavities");
+  options.float32_coordinates = given.flag("float32_coordinates");
+  ClosedSolid made = watched(progress, [&](Watch& watch) {
+    options.progress = watch.progress();
+    return closed_solid(mesh, options);
+  });
+  py::dict facts;
+  facts["certified"] = made.verdict.holds();
+  facts["why_not"] = made.verdict.why_not;
+  facts["source"] = name_of(source_names(), made.source);
+  facts["wrap_spacing"] = made.wrap_spacing;
+  facts["repairs"] = describe(made.input.repairs);
+  facts["obstacle"] = made.input.obstacle;
+  facts["closed_openings"] = made.input.repairs.closed_openings;
+  facts["largest_opening"] = made.input.repairs.largest_opening;
+  facts["mesh"] = std::move(made.mesh);
   return facts;
 }
 
@@ -226,6 +257,7 @@ py::tuple simplified_part(TriangleMesh mesh, std::size_t own_faces, const Array<
 void bind_construction(py::module_& module) {
   module.def("build", &build);
   module.def("cage", &cage);
+  module.def("repair", &repair);
   module.def("simplified_part", &simplified_part);
   module.attr("axes") = tuple_of(axis_names());
   module.attr("sides") = tuple_of(hull_side_names());

@@ -106,6 +106,8 @@ py::dict facts_of(const UnionVerification& found) {
   facts["why_not"] = found.why_not;
   facts["faces_outside"] = found.faces_outside;
   facts["worst"] = offenders_of(found.worst);
+  facts["faces_undecided"] = found.faces_undecided;
+  facts["inside_undecided"] = found.inside_undecided;
   facts["holes"] = found.holes;
   facts["turned_pieces"] = found.turned_pieces;
   facts["union_volume"] = found.union_volume;
@@ -116,17 +118,19 @@ py::dict facts_of(const UnionVerification& found) {
 }
 
 py::dict verify_pieces(const std::vector<TriangleMesh>& pieces, const TriangleMesh& original, bool solid_only,
-                       const py::object& progress) {
+                       bool finite_only, const py::object& progress) {
   return facts_of(watched(progress, [&](Watch& watch) {
-    return verify_union(pieces, original, {.solid_only = solid_only, .progress = watch.progress()});
+    return verify_union(pieces, original,
+                        {.solid_only = solid_only, .finite_only = finite_only, .progress = watch.progress()});
   }));
 }
 
 py::dict verify_balls(const Array<double>& rows, const TriangleMesh& original, bool inside, bool solid_only,
-                      const py::object& progress) {
+                      bool finite_only, const py::object& progress) {
   const std::vector<Ball> balls = balls_of(rows);
   return facts_of(watched(progress, [&](Watch& watch) {
-    return verify_union(balls, original, inside, {.solid_only = solid_only, .progress = watch.progress()});
+    return verify_union(balls, original, inside,
+                        {.solid_only = solid_only, .finite_only = finite_only, .progress = watch.progress()});
   }));
 }
 

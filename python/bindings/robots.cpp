@@ -187,7 +187,7 @@ py::list files_of(const std::shared_ptr<RobotHulls>& hulls, const std::filesyste
   const WriteOptions how{
       .faces = hulls->options.budget.faces, .from = hulls->options.from, .format = format, .package = package};
   py::list files;
-  for (const OutputFile& file : output_files(*hulls->file, hulls->links, folder, how))
+  for (const OutputFile& file : output_files(*hulls->file, hulls->links, folder, how).files)
     files.append(
         py::make_tuple(file.path, py::cpp_function([hulls, write = file.write](const std::filesystem::path& to) {
                          const py::gil_scoped_release released;
@@ -230,8 +230,8 @@ py::tuple check_of(const SharedFile& file, double allow, unsigned threads, const
   return py::make_tuple(checks, facts);
 }
 
-py::tuple motion_of(const RobotHulls& hulls, std::size_t configurations, std::uint64_t seed, unsigned threads,
-                    const py::object& progress) {
+py::tuple motion_of(const RobotHulls& hulls, std::size_t configurations, std::uint64_t seed, bool sampled_pairs,
+                    unsigned threads, const py::object& progress) {
   const Robot& robot = hulls.file->robot;
   const auto motion = watched(progress, [&](Watch& watch) {
     return std::make_shared<MotionResult>(check_motion(
@@ -242,7 +242,7 @@ py::tuple motion_of(const RobotHulls& hulls, std::size_t configurations, std::ui
   for (const MotionPair& pair : motion->pairs)
     pairs.append(py::make_tuple(robot.links[pair.a].name, robot.links[pair.b].name, std::string(name_of(pair.kind)),
                                 pair.visual, pair.hull, pair.convex, pair.false_hull, pair.false_convex, pair.missed));
-  return py::make_tuple(motion, pairs, srdf_of(robot, *motion));
+  return py::make_tuple(motion, pairs, srdf_of(robot, *motion, sampled_pairs));
 }
 
 std::string html_of(const RobotHulls& hulls, const RobotChecks* shipped, double allow, const MotionResult* motion,

@@ -30,8 +30,11 @@ py::dict facts_of(const Verification& found) {
   facts["faces_outside"] = found.faces_outside;
   facts["worst"] = offenders_of(found.worst);
   facts["cavities"] = found.cavities;
+  facts["faces_undecided"] = found.faces_undecided;
   facts["faces_beside_solid"] = found.faces_beside_solid;
   facts["self_intersections"] = found.self_intersections;
+  facts["original_volume"] = found.original_volume;
+  facts["non_finite_faces"] = found.non_finite_faces;
   facts["void_ratio"] = found.void_ratio;
   facts["notes"] = found.notes;
   facts["keeps_gap"] = found.keeps_gap;
@@ -50,22 +53,23 @@ HullSide side_called(const std::string& name) {
 }
 
 template <class Decide>
-py::dict verified(bool solid_only, double gap, const py::object& progress, Decide decide) {
+py::dict verified(bool solid_only, double gap, bool finite_only, const py::object& progress, Decide decide) {
   return facts_of(watched(progress, [&](Watch& watch) {
-    return decide(VerificationOptions{.solid_only = solid_only, .gap = gap, .progress = watch.progress()});
+    return decide(VerificationOptions{
+        .solid_only = solid_only, .gap = gap, .finite_only = finite_only, .progress = watch.progress()});
   }));
 }
 
 py::dict verified_mesh(const TriangleMesh& hull, const TriangleMesh& original, const std::string& side_name,
-                       bool solid_only, double gap, const py::object& progress) {
+                       bool solid_only, double gap, bool finite_only, const py::object& progress) {
   const HullSide side = side_called(side_name);
-  return verified(solid_only, gap, progress,
+  return verified(solid_only, gap, finite_only, progress,
                   [&](const VerificationOptions& options) { return verify_hull(hull, original, side, options); });
 }
 
 py::dict verified_levels(const ProgressiveHull& hull, const TriangleMesh& original, bool solid_only, double gap,
-                         const py::object& progress) {
-  return verified(solid_only, gap, progress,
+                         bool finite_only, const py::object& progress) {
+  return verified(solid_only, gap, finite_only, progress,
                   [&](const VerificationOptions& options) { return verify_hull(hull, original, options); });
 }
 
@@ -76,13 +80,14 @@ py::tuple distance(const TriangleMesh& from, const TriangleMesh& to, double rela
   return py::make_tuple(bounds.lower, bounds.upper, point_of(bounds.farthest));
 }
 
-/// How it is proven that a hull does what it promises, which is to pass verify_hull, and to cover `covered`; empty if
-/// it does not.
-std::string proof_of(const TriangleMesh& hull, const TriangleMesh& original, const TriangleMesh* covered,
-                     const std::string& side) {
+/// How it is proven that a hull does what it promises, which is to pass verify_hull about the mesh that was given, and
+/// to cover `covered`; empty if it does not. `original` stands for a mesh that is not closed, if it is closed itself.
+std::string proof_of(const TriangleMesh& hull, const TriangleMesh& given, const TriangleMesh& original,
+                     const TriangleMesh* covered, const std::string& side) {
   return watched(py::none(), [&](Watch& watch) -> std::string {
-    const Verification found =
-        verify_hull(hull, original, side_called(side), {.max_offenders = 0, .progress = watch.progress()});
+    const Verification found = verify_hull(
+        hull, given, side_called(side),
+        {.closed = is_closed(original) ? &original : nullptr, .max_offenders = 0, .progress = watch.progress()});
     if (!found.encloses) return "";
     if (covered && !verify_cover(*covered, hull, {.max_offenders = 0, .progress = watch.progress()}).encloses)
       return "";

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _prohull
-from ._files import distance_of, mesh_of
+from ._files import bound_of, distance_of, mesh_of
 from ._hull import Hull
 from ._meshes import Mesh
 from ._prohull import InputError
@@ -18,9 +18,9 @@ from ._types import Axis, Gap, MeshLike, Numbers, OpenShells, Progress, Repair, 
 
 @overload
 def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ..., levels: bool = ...,
-          max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
+          max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
           tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
-          open_shells: OpenShells = ..., seal_holes: float = ...,
+          open_shells: OpenShells = ..., seal_holes: Gap = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
@@ -28,9 +28,9 @@ def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tigh
           progress: Optional[Progress] = ...) -> Hull: ...
 @overload
 def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ..., levels: bool = ...,
-          max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
+          max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
           tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
-          open_shells: OpenShells = ..., seal_holes: float = ...,
+          open_shells: OpenShells = ..., seal_holes: Gap = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
@@ -38,9 +38,9 @@ def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., t
           progress: Optional[Progress] = ...) -> list[Hull]: ...
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ...,
-          levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
+          levels: bool = ..., max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ...,
           padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
-          open_shells: OpenShells = ..., seal_holes: float = ...,
+          open_shells: OpenShells = ..., seal_holes: Gap = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
@@ -48,19 +48,19 @@ def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Sid
           progress: Optional[Progress] = ...) -> Hull: ...
 @overload
 def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ...,
-          levels: bool = ..., max_distance: float = ..., max_void_percent: float = ..., max_added_volume: float = ...,
+          levels: bool = ..., max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ...,
           padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
-          open_shells: OpenShells = ..., seal_holes: float = ...,
+          open_shells: OpenShells = ..., seal_holes: Gap = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
           max_normal_deviation_degrees: float = ..., max_overhang: float = ...,
           progress: Optional[Progress] = ...) -> list[Hull]: ...
 def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type: ignore[misc]  # the two ways of calls
-          side: Side = "outer", tight: bool = False, levels: bool = False, max_distance: float = math.inf,
+          side: Side = "outer", tight: bool = False, levels: bool = False, max_distance: Gap = math.inf,
           max_void_percent: float = math.inf, max_added_volume: float = math.inf, padding: Gap = 0.0, gap: Gap = 0.0,
           tolerances: Optional[Numbers] = None, mirror: Optional[Axis] = None, repair: Repair = "auto",
-          keep_cavities: bool = False, open_shells: OpenShells = "close", seal_holes: float = 0.0,
+          keep_cavities: bool = False, open_shells: OpenShells = "close", seal_holes: Gap = 0.0,
           float32_coordinates: bool = False,
           strategy: Strategy = "lazy", best_of: int = 1, seed: int = 0, threads: int = 0,
           self_intersections: SelfIntersections = "by-strategy", relax_guards: bool = True, max_valence: int = 12,
@@ -86,7 +86,7 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
         seventy times as long, and keeps no levels.
     levels: whether to keep levels whatever the source is. Vertices then do not move after the last collapse, neither
         back towards the mesh nor over its folds.
-    max_distance: largest distance of a point of the hull from the mesh, in the mesh's unit, at least 0. It is proven.
+    max_distance: largest distance of a point of the hull from the mesh, at least 0, said as gap is. It is proven.
         The hull is the coarsest one, of at least target_faces faces, that keeps this bound and the next two.
     max_void_percent: largest void, in per cent of the mesh's volume, at least 0.
     max_added_volume: largest void, in cubic units, at least 0.
@@ -106,7 +106,7 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
     keep_cavities: whether to keep components that lie inside of others. Inner hulls always keep them.
     open_shells: "close" gives openings caps, so that what they lead into is inside; "keep" encloses the triangles only,
         as those of a thin shell. A leaf or a bedsheet always stays a sheet.
-    seal_holes: largest diameter of openings that a wrap closes, in the mesh's unit, at least 0.
+    seal_holes: largest diameter of openings that a wrap closes, at least 0, said as gap is.
     float32_coordinates: whether all coordinates shall be numbers that float32 keeps. Hull.save() makes them such for
         .stl and .glb files in any case.
     strategy: "lazy"; or "paper1" or "paper2", the two of Platis and Theoharis (2003).
@@ -138,12 +138,13 @@ def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type:
     if gap and padding:
         raise InputError(f"gap={gap!r}, padding={padding!r}: these are two names of one number; give one of them")
     keywords = dict(
-        side=side, tight=tight, levels=levels, max_distance=max_distance, max_void_percent=max_void_percent,
+        side=side, tight=tight, levels=levels,
+        max_distance=bound_of("max_distance", max_distance, given), max_void_percent=max_void_percent,
         max_added_volume=max_added_volume,
         padding=distance_of("gap" if gap else "padding", gap or padding, given),
         tolerances=() if tolerances is None else tolerances, mirror=mirror,
         repair=repair, keep_cavities=keep_cavities,
-        open_shells=open_shells, seal_holes=seal_holes,
+        open_shells=open_shells, seal_holes=bound_of("seal_holes", seal_holes, given),
         float32_coordinates=float32_coordinates, strategy=strategy, best_of=best_of, seed=seed, threads=threads,
         self_intersections=self_intersections, relax_guards=relax_guards, max_valence=max_valence,
         min_compactness_ratio=min_compactness_ratio, sufficient_compactness=sufficient_compactness,

@@ -7,7 +7,7 @@ from . import _prohull
 from ._covers import _covered
 from ._meshes import Mesh
 from ._shown import Shown
-from ._types import MeshLike, Progress
+from ._types import Gap, MeshLike, Progress
 from ._view import Part, mesh_parts
 
 
@@ -48,7 +48,7 @@ class Cage(Shown):
         return mesh_parts(self.outer, "outer hull", "outer") + inner
 
 
-def cage(mesh: MeshLike, faces: int = 400, *, inner_faces: int = 0, gap: float = 0.0, even: bool = False,
+def cage(mesh: MeshLike, faces: int = 400, *, inner_faces: int = 0, gap: Gap = 0.0, even: bool = False,
          tight: bool = False, float32_coordinates: bool = False, threads: int = 0,
          progress: Optional[Progress] = None) -> Cage:
     """Builds a cage of a mesh, as `prohull cage` does: hulls that keep a gap from it.
@@ -60,7 +60,8 @@ def cage(mesh: MeshLike, faces: int = 400, *, inner_faces: int = 0, gap: float =
     mesh: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
     faces: the largest number of faces of the outer hull, at least 4.
     inner_faces: the largest number of faces of the inner hull, at least 4; with 0 there is none.
-    gap: least distance of both hulls from the mesh, in the mesh's unit; with 0 it is 0.1 % of the diagonal of its box.
+    gap: least distance of both hulls from the mesh, in the mesh's unit, or as in "0.5%" of the diagonal of its box; with 0 it is
+        0.1 % of that.
     even: whether to make all triangles well shaped. The hulls then have more void.
     tight: whether to start from tight hulls, which takes longer (build).
     float32_coordinates: whether all coordinates shall be numbers that float32 keeps, as STL and GLB files do.

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _prohull
-from ._files import mesh_of, write_whole
+from ._files import bound_of, mesh_of, write_whole
 from ._meshes import Mesh
 from ._prohull import InputError
 from ._shown import Shown
-from ._types import MeshLike, Path, PieceShape, Progress, Rows
+from ._types import Gap, MeshLike, Path, PieceShape, Progress, Rows
 from ._verify import Offender
 from ._view import Part, balls_part, pieces_part
 
@@ -170,11 +170,13 @@ class SphereCover(_Cover):
 class UnionVerification:
     """What verify_union() found. It counts as true if the union covers the original."""
 
-    covers: bool  #: the verdict, exact
+    covers: bool  #: the verdict: proven
     original_closed: bool  #: whether the original bounds a solid; only then its inside must be covered
     why_not: str  #: why the verdict is no; empty if it is yes
     faces_outside: int  #: number of triangles of the original of which a part lies outside of all pieces; exact
     worst: list[Offender]  #: the farthest of these, farthest first
+    faces_undecided: int  #: of balls: number of triangles that neither is proven of, to be covered or to reach outside
+    inside_undecided: bool  #: of balls: the same of the inside
     holes: int  #: number of connected parts of the union's surface that leave a hole in the solid
     turned_pieces: int  #: number of pieces that were inside out and count as turned
     union_volume: float  #: in cubic units; overlaps count once; nan if a piece is not convex
@@ -186,7 +188,7 @@ class UnionVerification:
         return self.covers
 
 
-def convex_pieces(mesh: MeshLike, pieces: int = 16, *, vertices: int = 64, max_distance: float = math.inf,
+def convex_pieces(mesh: MeshLike, pieces: int = 16, *, vertices: int = 64, max_distance: Gap = math.inf,
                   max_void_percent: float = math.inf, shape: PieceShape = "polytope", float32_coordinates: bool = False,
                   threads: int = 0, progress: Optional[Progress] = None) -> ConvexCover:
     """Covers any triangles by a few convex pieces, as `prohull convex` does.
@@ -198,7 +200,8 @@ def convex_pieces(mesh: MeshLike, pieces: int = 16, *, vertices: int = 64, max_d
     mesh: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
     pieces: the largest number of pieces, at least 1.
     vertices: the largest number of vertices of a piece, at least 4.
-    max_distance: how far the union may reach out of the mesh, in the mesh's unit, at least 0. It is proven. With this
+    max_distance: how far the union may reach out of the mesh, in the mesh's unit, at least 0; or as in
+        "0.5%" of the diagonal of the mesh's bounding box. It is proven. With this
         bound or the next, the cover has as few pieces as keep both; if as many as `pieces` do not, `within_bounds` is
         False.
     max_void_percent: how much more volume than the mesh the union may have, in per cent, at least 0.
@@ -221,7 +224,7 @@ def convex_pieces(mesh: MeshLike, pieces: int = 16, *, vertices: int = 64, max_d
     return ConvexCover(**facts)
 
 
-def spheres(mesh: MeshLike, count: int = 64, *, max_distance: float = math.inf, fill: bool = False, threads: int = 0,
+def spheres(mesh: MeshLike, count: int = 64, *, max_distance: Gap = math.inf, fill: bool = False, threads: int = 0,
             progress: Optional[Progress] = None) -> SphereCover:
     """Covers any triangles by balls that reach out of the mesh as little as possible, as `prohull spheres` does.
 
@@ -231,7 +234,8 @@ def spheres(mesh: MeshLike, count: int = 64, *, max_distance: float = math.inf, 
 
     mesh: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
     count: the largest number of balls, at least 1.
-    max_distance: how far the balls may reach out of the mesh, in the mesh's unit, greater than 0. It is proven. The cover
+    max_distance: how far the balls may reach out of the mesh, in the mesh's unit, greater than 0; or as
+        in "0.5%" of the diagonal of the mesh's bounding box. It is proven. The cover
         then has as few balls as keep it; if as many as `count` do not, `within_bounds` is False.
     fill: whether to cover the inside of the mesh too, not only its triangles.
     threads: the largest number of threads; 0 means one for each core.
@@ -248,7 +252,7 @@ def spheres(mesh: MeshLike, count: int = 64, *, max_distance: float = math.inf, 
 
 
 def verify_union(pieces: Union[ConvexCover, SphereCover, Sequence[MeshLike], Rows], original: MeshLike, *,
-                 inside: bool = False, solid_only: bool = False,
+                 inside: bool = False, solid_only: bool = False, finite_only: bool = False,
                  progress: Optional[Progress] = None) -> UnionVerification:
     """Decides exactly whether convex pieces, or balls, cover `original`, as `prohull verify --union` does.
 
@@ -260,6 +264,7 @@ def verify_union(pieces: Union[ConvexCover, SphereCover, Sequence[MeshLike], Row
     original: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
     inside: whether balls must cover the inside of a closed original, too. Convex pieces always must.
     solid_only: whether only the solid must be covered that a closed original bounds, as in verify().
+    finite_only: whether triangles of the original that are not finite are left out, as in verify().
     progress: called as build() calls it, with the stage "verify".
 
     Raises InputError if there is no piece, if a piece is not closed, not finite or has no volume, and if the original
@@ -270,10 +275,10 @@ def verify_union(pieces: Union[ConvexCover, SphereCover, Sequence[MeshLike], Row
     second = mesh_of(original, keep_non_finite=True)._core
     balls = _balls(pieces)
     if balls is not None:
-        facts = _prohull.verify_balls(balls, second, inside, solid_only, progress)
+        facts = _prohull.verify_balls(balls, second, inside, solid_only, finite_only, progress)
     else:
         given: Any = pieces.pieces if isinstance(pieces, ConvexCover) else pieces
-        facts = _prohull.verify_pieces([mesh_of(piece)._core for piece in given], second, solid_only, progress)
+        facts = _prohull.verify_pieces([mesh_of(piece)._core for piece in given], second, solid_only, finite_only, progress)
     facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
     return UnionVerification(**facts)
 
@@ -282,8 +287,9 @@ def _covered(cover: Callable[..., dict[str, Any]], mesh: MeshLike, progress: Opt
              keywords: dict[str, Any]) -> dict[str, Any]:
     """What `cover` makes of the mesh; errors name the file."""
     given = mesh_of(mesh, keep_non_finite=True)
+    lengths = {name: bound_of(name, keywords[name], given) for name in ("max_distance", "gap", "spacing") if name in keywords}
     try:
-        return {**cover(given._core, progress, keywords), "original": given}
+        return {**cover(given._core, progress, {**keywords, **lengths}), "original": given}
     except InputError as error:
         if isinstance(mesh, (str, os.PathLike)):
             raise InputError(f"{os.fspath(mesh)}: {error}") from None

@@ -40,6 +40,11 @@ def distance_of(name: str, value: Gap, mesh: Mesh) -> float:
     return share / 100 * float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) > 0 else 0.0
 
 
+def bound_of(name: str, value: Gap, mesh: Mesh) -> float:
+    """The same of a distance that may be infinite."""
+    return distance_of(name, value, mesh) if isinstance(value, str) else value
+
+
 def read(path: Path, *, scale: float = 1.0) -> Mesh:
     """Reads a mesh from a file: PLY, OBJ, OFF, STL, glTF, each also gzipped, and others (docs/formats.md).
 
@@ -69,7 +74,7 @@ def load(path: Path) -> Hull:
     levels = _prohull.load(path)
     faces = levels.base_face_count
     original = levels.level(levels.original_face_count)
-    found = _prohull.verify_levels(levels, original, False, 0.0, None)
+    found = _prohull.verify_levels(levels, original, False, 0.0, False, None)
     proven, why_not = found["encloses"], found["why_not"]
     finest = _FINEST.get(levels.finest_level)
     notes = ([why_not] if why_not else []) + ([f"the finest level is {finest}, not the input itself"] if finest else [])

@@ -4,8 +4,6 @@ import math
 import os
 from typing import TYPE_CHECKING, Any, Optional
 
-import numpy as np
-
 from . import _prohull
 from ._meshes import Mesh
 from ._prohull import InputError
@@ -40,6 +38,7 @@ class Hull(Mesh):
     verify_seconds: float
 
     _levels: Optional[_prohull.Levels]
+    _given: _prohull.Mesh  # the finite triangles that the proof is about
     _original: Mesh
     _covered: Optional[_prohull.Mesh]  # triangles that the hull has to cover beside enclosing its original
     _bounds: tuple[Any, ...]  # mesh and volume that they are about, max_distance, max_void_ratio, max_added_volume
@@ -54,7 +53,8 @@ class Hull(Mesh):
     def _made(cls, facts: dict[str, Any], side: Side) -> "Hull":
         levels = facts.pop("levels")
         original = Mesh._of(facts.pop("original"), levels if facts["source"] == "mesh" else None)
-        private = dict(_levels=levels, _original=original, _covered=facts.pop("covered", None),
+        private = dict(_levels=levels, _given=facts.pop("given", original._core), _original=original,
+                       _covered=facts.pop("covered", None),
                        _bounds=facts.pop("bounds", ()), _padding_asked=facts.pop("padding_asked", 0.0),
                        _mirror=facts.pop("mirror", None), _replay_suffices=facts.pop("replay_suffices"),
                        _volume_inside=facts.pop("volume_inside", original.volume))
@@ -153,17 +153,12 @@ class Hull(Mesh):
 
     def _proof_of(self, core: _prohull.Mesh) -> Proof:
         """How `core` is proven in place of this hull."""
-        return _prohull.proof_of(core, self._original._core, self._covered, self.side)
+        return _prohull.proof_of(core, self._given, self._original._core, self._covered, self.side)
 
     def _least_distance(self, core: _prohull.Mesh) -> float:
-        """That of the surface of `core` from what it covers: proven. A closed mesh would stand for its solid, too; with
-        a face given twice it is not closed."""
-        surface = _prohull.CollisionIndex(
-            _prohull.Mesh(core.vertices, np.vstack([core.faces, core.faces[:1]]).astype(np.int64)), None, None)
-        here = np.eye(4).reshape(1, 16)
-        parts = [mesh for mesh in (self._original._core, self._covered) if mesh is not None]
-        return min(float(surface.distances(_prohull.CollisionIndex(mesh, None, None), here, here, 0, None)[0][0])
-                   for mesh in parts)
+        """That of the surface of `core` from what it covers: proven."""
+        parts = [mesh for mesh in (self._given, self._covered) if mesh is not None]
+        return min(_prohull.surface_distance(core, mesh) for mesh in parts)
 
     def _is_within_bounds(self, core: _prohull.Mesh) -> bool:
         return not self._bounds or _prohull.is_within(core, *self._bounds)
@@ -177,14 +172,15 @@ class Hull(Mesh):
     def void_ratio(self) -> float:
         """The void, as a share of the volume of the mesh: volume of the hull / volume of the mesh - 1.
 
-        Negative for inner hulls. The volume of a mesh that is not closed, caps included, is estimated, and `notes` says
-        so. nan if the mesh encloses no space.
+        Negative for inner hulls. Where the volume of the mesh is only estimated, `notes` says so. nan if nothing is known
+        of it, as of a mesh that encloses no space.
         """
         return self.volume / self._volume_inside - 1 if self._volume_inside else math.nan
 
     @property
     def distance_bound(self) -> float:
-        """No point of the hull is farther than this from the original, in the mesh's unit: proven.
+        """No point of the hull is farther than this from `original`, in the mesh's unit: proven. What closes openings
+        of the mesh belongs to `original`.
 
         At most 1 % more than the true distance, unless finding it takes too long. Computed when it is first asked for.
         """

@@ -43,9 +43,12 @@ class Verification:
     faces_outside: int  #: number of triangles of the inner mesh of which a part lies outside of the outer one; exact
     worst: list[Offender]  #: the farthest of these, farthest first
     cavities: int  #: number of hollows of the outer mesh that leave a part of the inner one uncovered
+    faces_undecided: int  #: number of faces whose decision would take minutes; if there are any, `encloses` is false
     faces_beside_solid: int  #: number of faces of the inner mesh that bound no part of its solid, as in folds
     self_intersections: int  #: number of pairs of faces of the hull that meet beyond what they share; exact
-    void_ratio: float  #: volume of the hull / volume of the original - 1; nan if the original is not closed
+    original_volume: float  #: of the solid, in cubic units; overlaps count once; nan if it is not known
+    non_finite_faces: int  #: number of faces of the original with a corner that is not finite
+    void_ratio: float  #: volume of the hull / volume of the original - 1; nan if one of the two is not known
     notes: list[str]  #: what was left out of the original or turned, and units that seem to differ
     keeps_gap: bool  #: whether the hull keeps the gap; exact
     faces_too_near: int  #: number of faces of the hull that do not; exact
@@ -57,13 +60,12 @@ class Verification:
 
 
 def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, solid_only: bool = False,
-           gap: Gap = 0.0, progress: Optional[Progress] = None) -> Verification:
+           gap: Gap = 0.0, finite_only: bool = False, progress: Optional[Progress] = None) -> Verification:
     """Decides exactly whether `hull` encloses `original`, as `prohull verify` does.
 
     A .phull file is a proof, and is replayed. Any other hull must be closed, and is compared with the original. The
     solid of the original must be enclosed, and every triangle covered; of an original that is not closed, only the
-    latter. Components of the original that are inside out count as turned, and triangles of it that are not finite are
-    left out; `notes` tell of both. A hull that is inside out is refused: the answer is no, and `why_not` says so.
+    latter. Components of the original that are inside out count as turned; `notes` tell of it. A hull that is inside out is refused: the answer is no, and `why_not` says so.
 
     hull, original: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
     side: "outer"; or "inner" to decide whether `original` encloses `hull`. Unless given, it is the side of the Hull or
@@ -72,6 +74,8 @@ def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, s
         bounds). Triangles of folds and of parts that are inside out bound no part of it, and may then stick out.
     gap: distance that the hull must keep from every triangle of the original, at least 0, in the meshes' unit; or as in
         "0.5%" of the diagonal of the original's bounding box. Not for .phull files, whose levels touch.
+    finite_only: whether triangles of the original that are not finite are left out. Otherwise the answer is no if there
+        are any.
     progress: called as build() calls it, with the stage "verify".
 
     Raises InputError if a mesh is empty, if it is not finite or not closed where it has to be, or if a coordinate is
@@ -82,11 +86,11 @@ def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, s
     mesh = mesh_of(original, keep_non_finite=True)
     second, distance = mesh._core, distance_of("gap", gap, mesh)
     if isinstance(hull, (str, os.PathLike)) and _prohull.is_hull_file(hull):
-        facts = _prohull.verify_levels(_prohull.load(hull), second, solid_only, distance, progress)
+        facts = _prohull.verify_levels(_prohull.load(hull), second, solid_only, distance, finite_only, progress)
     else:
         first = mesh_of(hull)
         own_side = first.side if isinstance(first, Hull) else "outer"
-        facts = _prohull.verify_mesh(first._core, second, side or own_side, solid_only, distance, progress)
+        facts = _prohull.verify_mesh(first._core, second, side or own_side, solid_only, distance, finite_only, progress)
     facts["nearest"] = [NearFace(*near) for near in facts["nearest"]]
     facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
     return Verification(**facts)

@@ -211,11 +211,11 @@ def build_partitioned(client: "distributed.Client", mesh: MeshLike, target_faces
     joined = _joined(client, given, parts, max(_JOINED * int(count), 4 * parts), options, told)
     hull = prohull.build(joined, int(count), side=side, tight=tight, float32_coordinates=float32_coordinates)
     built = time.perf_counter()
-    proof = _prohull.proof_of(hull._core, given._core, None, side)
+    proof = _prohull.proof_of(hull._core, given._core, given._core, None, side)
     told.add(1)
     return hull._as(hull._core, certified=bool(proof), proof=proof, repairs=[], build_seconds=built - start,
-                    verify_seconds=time.perf_counter() - built, _original=given, _levels=None, _covered=None,
-                    _volume_inside=given.volume, _replay_suffices=False)
+                    verify_seconds=time.perf_counter() - built, _given=given._core, _original=given, _levels=None,
+                    _covered=None, _volume_inside=given.volume, _replay_suffices=False)
 
 
 @overload

@@ -32,7 +32,7 @@ Format = Literal["stl", "obj", "glb"]
 JointType = Literal["fixed", "revolute", "continuous", "prismatic", "ball", "planar", "floating"]
 Status = Literal["hulled", "primitives", "skipped", "unread", "empty"]
 Verdict = Literal["covered", "leaks", "undecided", "no-collision", "no-visual", "missing"]
-PairKind = Literal["adjacent", "always", "never", "sometimes"]
+PairKind = Literal["adjacent", "sampled-always", "sampled-never", "sometimes"]
 
 #: Positions of joints: by name, the others at 0; or of all joints in their order.
 Positions = Union[Mapping[str, float], Sequence[float], NDArray[Any]]
@@ -172,7 +172,7 @@ class Motion:
     """What Hulls.motion() has found."""
 
     pairs: list[MotionPair]
-    srdf: str  #: the pairs that need not be checked, as a file that MoveIt reads
+    srdf: str  #: the adjacent pairs, and sampled ones if they were asked for, as a file that MoveIt reads
 
     def __init__(self, core: _prohull.RobotMotion, pairs: list[MotionPair], srdf: str) -> None:
         self._core, self.pairs, self.srdf = core, pairs, srdf
@@ -240,17 +240,18 @@ class Hulls(Shown):
             written.append(str(target))
         return written
 
-    def motion(self, configurations: int = 1000, *, seed: int = 1, threads: int = 0,
+    def motion(self, configurations: int = 1000, *, seed: int = 1, sampled_pairs: bool = False, threads: int = 0,
                progress: Optional[Progress] = None) -> Motion:
         """Moves the robot at random and counts which pairs of links collide: the geometry, hulls and convex hulls.
 
         configurations: number of random positions of all joints, within their limits.
         seed: other numbers give other positions.
+        sampled_pairs: the SRDF has pairs, too, that were never, or always, in collision: sampled, which is no proof.
         threads, progress: as of Robot.hulls(). The counts do not depend on threads.
         """
         core, pairs, srdf = self._core.motion(
             _arrays.count("configurations", configurations), _arrays.count("seed", seed, bits=64),
-            _arrays.count("threads", threads), progress)
+            bool(sampled_pairs), _arrays.count("threads", threads), progress)
         return Motion(core, [MotionPair(*pair) for pair in pairs], srdf)
 
     def report_html(self, path: Path, *, check: Optional[Check] = None, motion: Optional[Motion] = None,

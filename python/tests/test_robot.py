@@ -126,6 +126,7 @@ def test_links_get_spheres(robot, tmp_path):
 def test_motion_misses_nothing(hulls):
     motion = hulls.motion(50, seed=3)
     assert motion.missed == 0 and "disable_collisions" in motion.srdf
+    assert "sampled" not in motion.srdf and "sampled" in hulls.motion(50, seed=3, sampled_pairs=True).srdf
     assert motion.pairs == hulls.motion(50, seed=3, threads=1).pairs
 
 

@@ -34,7 +34,7 @@ prohull.build("part.stl", 500, repair="magic")  # refused
 prohull.build("part.stl", 500, open_shells="shut")  # refused
 prohull.build("part.stl", 500, strategy="fast")  # refused
 prohull.build("part.stl", 500, self_intersections=True)  # refused
-prohull.build("part.stl", 500, max_distance="1 mm")  # refused
+prohull.build("part.stl", 500, max_distance=[1])  # refused
 prohull.build("part.stl", 500, best_of=2.5)  # refused
 prohull.build("part.stl", 500, tigth=True)  # refused
 prohull.build(v, f, 500, sied="inner")  # refused
@@ -74,7 +74,7 @@ covers = prohull.verify_union(balls.balls, mesh, inside=True).covers
 made: prohull.Cage = prohull.cage("part.stl", 400, inner_faces=200, gap=0.01, even=True)
 corners = made.outer.vertices
 
-prohull.cage("part.stl", gap="wide")  # refused
+prohull.cage("part.stl", gap=[1])  # refused
 prohull.convex_pieces("part.stl", "8")  # refused
 prohull.convex_pieces("part.stl", 8, shape="egg")  # refused
 prohull.convex_pieces("part.stl", 8, 64)  # refused

@@ -14,9 +14,9 @@
 #include "prohull/mesh_query.h"
 #include "prohull/names.h"
 #include "prohull/openings.h"
+#include "prohull/solid_pieces.h"
 #include "prohull/union_verification.h"
 #include "prohull/wrap.h"
-#include "robot/check/union_cover.h"
 #include "robot/side_by_side.h"
 
 namespace prohull::robot {
@@ -171,7 +171,7 @@ class LinkChecker {
   }
 
   void add_visual(const Shape& shape) {
-    if (const auto form = CurvedForm::of(shape.form, pose_of(shape))) {
+    if (const auto form = curved_form(shape.form, pose_of(shape))) {
       see(*form, pose_of(shape));
       append(check_.visual, form->mesh(Curved::Around, shown_segments(link_.visual.size())));
       return curved_.push_back(*form);
@@ -182,7 +182,7 @@ class LinkChecker {
   }
 
   void add_collision(const Shape& shape) {
-    if (const auto form = CurvedForm::of(shape.form, pose_of(shape))) {
+    if (const auto form = curved_form(shape.form, pose_of(shape))) {
       see(*form, pose_of(shape));
       append(check_.collision, form->mesh(Curved::Around, shown_segments(link_.collision.size())));
       pieces_.curved.push_back(*form);
@@ -233,8 +233,8 @@ class LinkChecker {
     if (pieces_.empty()) return;
     add_solids();
     check_.verdict = CheckVerdict::Covered;
-    if (flat_.face_count() > 0) take(cover({flat_, std::nullopt}, pieces_, progress_));
-    for (const CurvedForm& form : curved_) take(cover({{}, form}, pieces_, progress_));
+    if (flat_.face_count() > 0) take(verify_pieces(flat_, pieces_, progress_));
+    for (const CurvedForm& form : curved_) take(verify_pieces(form, pieces_, progress_));
     judge_rounding();
     // What is not read may cover the rest.
     if (check_.verdict == CheckVerdict::Covered || !has_unread_piece_) return;
@@ -245,7 +245,7 @@ class LinkChecker {
   /// With size the largest norm of a point in the frame of its shape and of the translation, together: three angles,
   /// each up to a turn and within 2^-51, and the sines, cosines and products of a rotation make its entries wrong by
   /// less than 2^-49. For a vertex that comes to 2^-47 size in each coordinate, its own sums and products included, and
-  /// for two shapes to less than 2^-45 size. PartCover::reach itself is up to 2^-41 size too great.
+  /// for two shapes to less than 2^-45 size. PieceCover::reach itself is up to 2^-41 size too great.
   void judge_rounding() {
     check_.rounding = 0x1p-40 * size_;
     if (check_.verdict != CheckVerdict::Leaks || !is_rounded_ || check_.sticks_out_at_most > check_.rounding) return;
@@ -253,7 +253,7 @@ class LinkChecker {
     check_.sticks_out_at_least = 0;
   }
 
-  void take(const PartCover& part) {
+  void take(const PieceCover& part) {
     if (part.covers == Covers::Yes) return;
     if (part.covers == Covers::No) check_.verdict = CheckVerdict::Leaks;
     if (part.covers == Covers::Unknown && check_.verdict == CheckVerdict::Covered)
@@ -294,7 +294,7 @@ class LinkChecker {
   Frame frame_;
   TriangleMesh flat_;               // of the visual meshes and boxes
   std::vector<CurvedForm> curved_;  // the other visual forms
-  Pieces pieces_;
+  SolidPieces pieces_;
   std::vector<TriangleMesh> solids_;  // of the pieces, before they are put together
   bool has_unread_piece_ = false;
   double size_ = 0;

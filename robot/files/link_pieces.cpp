@@ -8,7 +8,6 @@
 
 #include "prohull/convex_hull.h"
 #include "prohull/error.h"
-#include "robot/curved_form.h"
 #include "robot/link_triangles.h"
 
 namespace prohull::robot {

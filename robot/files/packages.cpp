@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <fstream>
@@ -117,6 +119,30 @@ void find_above(const fs::path& lowest, const std::string& name, Found& found) {
   }
 }
 
+/// The lowest folder that is, or is above, `lowest` and is a package; `lowest` without one.
+fs::path package_around(const fs::path& lowest) {
+  for (fs::path folder = lowest;; folder = folder.parent_path()) {
+    if (is_file(folder / "package.xml") || is_file(folder / "model.config")) return folder;
+    if (folder == folder.parent_path()) return lowest;
+  }
+}
+
+/// Whether a file is in a folder, wherever symbolic links lead.
+bool is_in(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(folder, error), place = fs::weakly_canonical(file, error);
+  return !error && std::ranges::mismatch(root, place).in1 == root.end();
+}
+
+/// Files of these formats name no other files that are read.
+bool stands_alone(const fs::path& mesh) {
+  std::string name = mesh.filename().string();
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  constexpr std::array<std::string_view, 6> kAlone{".stl", ".obj", ".ply", ".off", ".glb", ".dae"};
+  return std::ranges::any_of(kAlone, [&](std::string_view suffix) { return name.ends_with(suffix); });
+}
+
 std::optional<char> byte_of_hex(std::string_view digits) {
   unsigned value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
@@ -178,6 +204,10 @@ Packages::Packages(const fs::path& robot, const FileOptions& options)
   for (const fs::path& path : options.package_paths) package_paths_.push_back(tidied(path));
   for (const char* variable : {"ROS_PACKAGE_PATH", "GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH"})
     std::ranges::move(paths_of_environment(variable), std::back_inserter(environment_paths_));
+  if (!options.no_outside_files) return;
+  inside_.push_back(package_around(folder_));
+  for (const auto* paths : {&package_paths_, &environment_paths_, &prefixes_})
+    inside_.insert(inside_.end(), paths->begin(), paths->end());
 }
 
 const std::vector<fs::path>& Packages::folders_of(const std::string& package) const {
@@ -221,7 +251,23 @@ void Packages::find_in_package(std::string_view inside, std::string_view scheme,
                                                why_not_at(folders.front() / path), name);
 }
 
+void Packages::require_inside(const MeshFile& mesh) const {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(Defect::CannotRead, fmt::format("{}: {}, which --no-outside-files refuses", mesh.uri, why));
+  };
+  if (std::ranges::none_of(inside_, [&](const fs::path& folder) { return is_in(mesh.path, folder); }))
+    refuse(fmt::format("{} is outside of {}, and of every folder that --package-path names", mesh.path.string(),
+                       inside_.front().string()));
+  if (!stands_alone(mesh.path)) refuse("a file of this format may name other files; convert it to GLB");
+}
+
 MeshFile Packages::find(std::string uri, const Vec3& scale, const fs::path& folder) const {
+  MeshFile mesh = found(std::move(uri), scale, folder);
+  if (!inside_.empty() && !mesh.path.empty()) require_inside(mesh);
+  return mesh;
+}
+
+MeshFile Packages::found(std::string uri, const Vec3& scale, const fs::path& folder) const {
   MeshFile mesh;
   mesh.uri = std::move(uri), mesh.scale = scale;
   const std::string_view text = mesh.uri, scheme = scheme_of(text);
@@ -248,7 +294,7 @@ std::string Packages::uri_from(const fs::path& folder, const MeshFile& mesh) con
   std::error_code error;
   const auto found = file_at(folder, mesh.uri);
   if (found && fs::equivalent(*found, mesh.path, error)) return mesh.uri;
-  const fs::path relative = fs::relative(mesh.path, folder, error);
+  const fs::path relative = fs::relative(mesh.path, fs::absolute(folder), error);  // it may not be there yet
   return error || relative.empty() ? mesh.path.string() : relative.generic_string();
 }
 

@@ -25,6 +25,7 @@ class Packages {
   /// neighbours; likewise at the folders of ROS_PACKAGE_PATH, GZ_SIM_RESOURCE_PATH and GAZEBO_MODEL_PATH; in share/ of
   /// the folders of AMENT_PREFIX_PATH. Of several folders, the first one counts that has the file. A file outside of
   /// the package that the URI names (by "..") is not found.
+  /// Throws InputError(CannotRead) for a file that FileOptions::no_outside_files refuses, wherever symbolic links lead.
   MeshFile find(std::string uri, const Vec3& scale, const std::filesystem::path& folder = {}) const;
 
   /// The URI that a robot in `folder` has to name in place of `uri` to find the same file. A relative path that finds
@@ -34,10 +35,13 @@ class Packages {
  private:
   const std::vector<std::filesystem::path>& folders_of(const std::string& package) const;
   std::string looked_in() const;
+  MeshFile found(std::string uri, const Vec3& scale, const std::filesystem::path& folder) const;
+  void require_inside(const MeshFile& mesh) const;
   void find_in_package(std::string_view inside, std::string_view scheme, MeshFile& mesh) const;
 
   std::filesystem::path folder_;  // of the robot's file
   std::vector<std::filesystem::path> package_paths_, environment_paths_, prefixes_;
+  std::vector<std::filesystem::path> inside_;  // the only folders to read from; empty: all
   mutable std::map<std::string, std::vector<std::filesystem::path>> known_;
 };
 

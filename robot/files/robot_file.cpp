@@ -121,6 +121,10 @@ bool is_robot_file(const fs::path& path) {
 RobotFile read_robot(const fs::path& path, const FileOptions& options) {
   const XmlDocument document(read_text(path), path.string());
   if (!is_xacro(document)) return read_document(document, path, options);
+  if (options.no_outside_files)
+    refuse(Defect::CannotRead, path,
+           "the macros of a xacro file may read any file, which --no-outside-files refuses; expand it elsewhere: xacro "
+           "FILE > robot.urdf");
   std::string text = expanded_by_xacro(path);
   const std::string name = path.string() + ", expanded by xacro";
   refuse_other_formats(name, text);

@@ -26,6 +26,9 @@ struct FileOptions {
   /// Folders in which packages are looked for, before the folders above the robot's file and those that the environment
   /// variables ROS_PACKAGE_PATH and AMENT_PREFIX_PATH name.
   std::vector<std::filesystem::path> package_paths;
+  /// Only read mesh files in the package of the robot's file, or in its folder if that is in no package, and in the
+  /// folders above that name packages; and no xacro file, whose macros may read any file.
+  bool no_outside_files = false;
 };
 
 /// A robot, and the text that it was read from.
@@ -42,7 +45,7 @@ struct RobotFile {
 /// Throws InputError with the file and the line: CannotRead; Malformed for text that is no XML or no robot: entities
 /// that the document declares itself, loops of joints, links that do not exist, names that occur twice, numbers that
 /// are none; UnknownFormat for USD, other formats, and for xacro where the program xacro is not installed. A mesh that
-/// is not found is no error here: MeshFile::why_not.
+/// is not found is no error here: MeshFile::why_not. CannotRead for what FileOptions::no_outside_files refuses.
 RobotFile read_robot(const std::filesystem::path& path, const FileOptions& options = {});
 
 /// The same of text. `path` stands in messages, and relative mesh files are looked for beside it.

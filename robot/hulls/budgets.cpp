@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <set>
 
 #include "prohull/error.h"
-#include "prohull/mesh_io.h"
+#include "prohull/length.h"
 #include "robot/files/yaml_reader.h"
 
 namespace prohull::robot {
@@ -149,19 +147,13 @@ std::string budgets_text(const Robot& robot, const LinkHullOptions& options) {
 }
 
 double length_of(std::string_view text, const std::string& what) {
-  double length = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), length);
-  std::string_view unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
-  while (unit.starts_with(' ')) unit.remove_prefix(1);
-  double metres = unit.empty() ? 1 : 0;
-  for (const auto& [name, size] : length_units())
-    if (name == unit) metres = size;
-  if (error != std::errc() || metres == 0 || !(length >= 0) || !std::isfinite(length * metres))
+  const auto length = prohull::length_of(text);
+  if (!length || length->unit == "%")
     throw InputError(Defect::InvalidOption,
                      fmt::format("{}: '{}' is no length; say a number in metres, or one with a unit, as 2mm, 0.2cm, "
                                  "0.002m or 0.08in",
                                  what, text));
-  return length * metres;
+  return length->of(0);
 }
 
 }  // namespace prohull::robot

@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -17,9 +18,6 @@ namespace {
 using nlohmann::json;
 using std::filesystem::path;
 
-json json_of(const Vec3& p) { return {p.x, p.y, p.z}; }
-Vec3 point_of(const json& p) { return {p.at(0), p.at(1), p.at(2)}; }
-
 json json_of(const TriangleMesh& mesh) {
   json positions = json::array(), triangles = json::array();
   for (const Vec3& p : mesh.positions)
@@ -29,76 +27,93 @@ json json_of(const TriangleMesh& mesh) {
   return {{"positions", positions}, {"triangles", triangles}};
 }
 
-TriangleMesh mesh_of(const json& mesh) {
-  TriangleMesh result;
-  const json &positions = mesh.at("positions"), &triangles = mesh.at("triangles");
-  for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
-    result.positions.push_back({positions[i], positions[i + 1], positions[i + 2]});
-  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3)
-    result.triangles.push_back({VertexId{triangles[i]}, VertexId{triangles[i + 1]}, VertexId{triangles[i + 2]}});
-  return result;
-}
-
 /// The mesh of pieces and balls is made of them.
 json json_of(const LinkHull& hull) {
   json pieces = json::array(), balls = json::array();
   for (const TriangleMesh& piece : hull.pieces) pieces.push_back(json_of(piece));
-  for (const Ball& ball : hull.balls) balls.push_back({json_of(ball.center), ball.radius});
+  for (const Ball& ball : hull.balls) balls.push_back({ball.center.x, ball.center.y, ball.center.z, ball.radius});
   const bool is_cover = !pieces.empty() || !balls.empty();
   return {{"target_faces", hull.target_faces},
           {"mesh", is_cover ? json() : json_of(hull.mesh)},
           {"pieces", pieces},
           {"balls", balls},
-          {"certified", hull.certified},
-          {"proof", hull.proof},
           {"target_reached", hull.target_reached},
           {"within_bounds", hull.within_bounds},
           {"source", hull.source},
-          {"volume", hull.volume},
-          {"distance", {hull.distance.lower, hull.distance.upper, json_of(hull.distance.farthest)}},
           {"padding", hull.padding},
-          {"self_intersections", hull.self_intersections},
           {"notes", hull.notes}};
-}
-
-LinkHull hull_of(const json& hull) {
-  LinkHull result;
-  hull.at("target_faces").get_to(result.target_faces);
-  for (const json& piece : hull.at("pieces")) result.pieces.push_back(mesh_of(piece));
-  for (const json& ball : hull.at("balls")) result.balls.push_back({point_of(ball.at(0)), ball.at(1)});
-  const json& mesh = hull.at("mesh");
-  result.mesh = mesh.is_null() ? robot::mesh_of(result.pieces, result.balls) : mesh_of(mesh);
-  hull.at("certified").get_to(result.certified);
-  hull.at("proof").get_to(result.proof);
-  hull.at("target_reached").get_to(result.target_reached);
-  hull.at("within_bounds").get_to(result.within_bounds);
-  hull.at("source").get_to(result.source);
-  hull.at("volume").get_to(result.volume);
-  const json& distance = hull.at("distance");
-  result.distance = {distance.at(0), distance.at(1), point_of(distance.at(2))};
-  hull.at("padding").get_to(result.padding);
-  hull.at("self_intersections").get_to(result.self_intersections);
-  hull.at("notes").get_to(result.notes);
-  return result;
 }
 
 json json_of(const LinkHulls& hulls) {
   json list = json::array();
   for (const LinkHull& hull : hulls.hulls) list.push_back(json_of(hull));
-  return {{"hulls", list},
-          {"sealed_volume", hulls.sealed_volume},
-          {"convex_volume", hulls.convex_volume},
-          {"repairs", hulls.repairs}};
+  return {{"hulls", list}, {"sealed_volume", hulls.sealed_volume}};
+}
+
+/// What a file of the cache says that is not as keep() writes it.
+struct Unusable {};
+
+/// Any JSON value may stand where a member is asked for.
+const json& member(const json& object, const char* name) {
+  const auto found = object.is_object() ? object.find(name) : object.end();
+  if (found == object.end()) throw Unusable();
+  return *found;
+}
+
+const json& list_of(const json& value) { return value.is_array() ? value : throw Unusable(); }
+
+double number_of(const json& value) {
+  if (!value.is_number() || !std::isfinite(value.get<double>())) throw Unusable();
+  return value.get<double>();
+}
+
+std::size_t count_of(const json& value) {
+  return value.is_number_unsigned() ? value.get<std::size_t>() : throw Unusable();
+}
+
+bool truth_of(const json& value) { return value.is_boolean() ? value.get<bool>() : throw Unusable(); }
+
+std::string text_of(const json& value) { return value.is_string() ? value.get<std::string>() : throw Unusable(); }
+
+TriangleMesh mesh_of(const json& mesh) {
+  TriangleMesh result;
+  const json &positions = list_of(member(mesh, "positions")), &triangles = list_of(member(mesh, "triangles"));
+  if (positions.size() % 3 != 0 || triangles.size() % 3 != 0 || triangles.empty()) throw Unusable();
+  for (std::size_t i = 0; i < positions.size(); i += 3)
+    result.positions.push_back({number_of(positions[i]), number_of(positions[i + 1]), number_of(positions[i + 2])});
+  const auto corner = [&](const json& number) {
+    const std::size_t v = count_of(number);
+    return v < result.vertex_count() ? VertexId{static_cast<std::uint32_t>(v)} : throw Unusable();
+  };
+  for (std::size_t i = 0; i < triangles.size(); i += 3)
+    result.triangles.push_back({corner(triangles[i]), corner(triangles[i + 1]), corner(triangles[i + 2])});
+  return result;
+}
+
+Ball ball_of(const json& numbers) {
+  if (list_of(numbers).size() != 4) throw Unusable();
+  return {{number_of(numbers[0]), number_of(numbers[1]), number_of(numbers[2])}, number_of(numbers[3])};
+}
+
+LinkHull hull_of(const json& hull) {
+  LinkHull result;
+  result.target_faces = count_of(member(hull, "target_faces"));
+  for (const json& piece : list_of(member(hull, "pieces"))) result.pieces.push_back(mesh_of(piece));
+  for (const json& ball : list_of(member(hull, "balls"))) result.balls.push_back(ball_of(ball));
+  const json& mesh = member(hull, "mesh");
+  if (!mesh.is_null()) result.mesh = mesh_of(mesh);
+  result.target_reached = truth_of(member(hull, "target_reached"));
+  result.within_bounds = truth_of(member(hull, "within_bounds"));
+  result.source = text_of(member(hull, "source"));
+  result.padding = number_of(member(hull, "padding"));
+  for (const json& note : list_of(member(hull, "notes"))) result.notes.push_back(text_of(note));
+  return result;
 }
 
 LinkHulls hulls_of(const json& hulls) {
   LinkHulls result;
-  result.status = LinkStatus::Hulled;
-  for (const json& hull : hulls.at("hulls")) result.hulls.push_back(hull_of(hull));
-  hulls.at("sealed_volume").get_to(result.sealed_volume);
-  hulls.at("convex_volume").get_to(result.convex_volume);
-  hulls.at("repairs").get_to(result.repairs);
-  result.from_cache = true;
+  for (const json& hull : list_of(member(hulls, "hulls"))) result.hulls.push_back(hull_of(hull));
+  result.sealed_volume = number_of(member(hulls, "sealed_volume"));
   return result;
 }
 
@@ -108,10 +123,8 @@ std::string fingerprint_of(std::string_view bytes) {
   return fingerprint.text();
 }
 
-/// A glTF file has its coordinates in other files.
-bool names_other_files(const path& mesh) { return mesh.extension() == ".gltf" || mesh.extension() == ".GLTF"; }
-
 constexpr std::size_t kTextSize = 32;  // of Fingerprint::text
+constexpr std::string_view kSuffix = ".hulls", kOldSuffix = ".cbor";
 
 bool is_shared_library(const path& file) {
   const std::string name = file.filename().string();
@@ -122,7 +135,7 @@ bool is_shared_library(const path& file) {
 std::optional<std::chrono::hours> lifetime(const path& file) {
   const std::string name = file.filename().string();
   if (name.find_first_not_of("0123456789abcdef") != kTextSize) return std::nullopt;
-  if (name.substr(kTextSize) == ".cbor") return std::chrono::hours(24 * 90);
+  if (name.substr(kTextSize) == kSuffix || name.substr(kTextSize) == kOldSuffix) return std::chrono::hours(24 * 90);
   if (name.ends_with(".unfinished")) return std::chrono::hours(1);
   return std::nullopt;
 }
@@ -150,12 +163,6 @@ void Fingerprint::add(std::string_view bytes) {
 
 void Fingerprint::add(double number) { add(std::string_view(reinterpret_cast<const char*>(&number), sizeof number)); }
 void Fingerprint::add(std::size_t number) { XXH3_128bits_update(state_.get(), &number, sizeof number); }
-
-void Fingerprint::add(const Pose& pose) {
-  for (const Vec3& row : pose.rotation)
-    for (int axis = 0; axis < 3; ++axis) add(row[axis]);
-  for (int axis = 0; axis < 3; ++axis) add(pose.translation[axis]);
-}
 
 void Fingerprint::add(const TriangleMesh& mesh) {
   const auto add_bytes = [this](const auto& values) {
@@ -192,33 +199,20 @@ const std::string& program_fingerprint() {
   return text;
 }
 
-std::string key_of(const Link& link, const Budget& budget, const LinkHullOptions& options) {
+std::string key_of(const TriangleMesh& triangles, const Budget& budget, const LinkHullOptions& options) {
   Fingerprint key;
   key.add(program_fingerprint());
   key.add(std::size_t(budget.collision)), key.add(budget.pieces), key.add(budget.vertices), key.add(budget.spheres);
   for (const std::size_t faces : budget.faces) key.add(faces);
   key.add(budget.max_distance), key.add(budget.padding);
   key.add(std::size_t(options.tight)), key.add(options.format);
-  for (const Shape& shape : shapes(link, options.from)) {
-    key.add(shape.origin);
-    key.add(shape.form.index());
-    if (const MeshFile* const mesh = shape.mesh()) {
-      for (int axis = 0; axis < 3; ++axis) key.add(mesh->scale[axis]);
-      if (names_other_files(mesh->path))
-        key.add(mesh_triangles(*mesh));
-      else
-        key.add_file(mesh->path);
-      key.add(mesh->path.extension().string());
-    } else if (!std::holds_alternative<OtherForm>(shape.form)) {
-      key.add(form_mesh(shape.form, Curved::Around));
-    }
-  }
+  key.add(triangles);
   return key.text();
 }
 
 std::optional<LinkHulls> HullCache::find(std::string_view key) const {
   if (folder_.empty()) return std::nullopt;
-  const path file = folder_ / fmt::format("{}.cbor", key);
+  const path file = folder_ / fmt::format("{}{}", key, kSuffix);
   std::ifstream in(file, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
   if (bytes.size() < kTextSize) return std::nullopt;
@@ -226,22 +220,25 @@ std::optional<LinkHulls> HullCache::find(std::string_view key) const {
   if (fingerprint_of(content) != bytes.substr(0, kTextSize)) return std::nullopt;
   std::error_code error;  // the time is not worth a failure
   std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
-  return hulls_of(json::from_cbor(content));
+  try {
+    return hulls_of(json::parse(content, nullptr, false));
+  } catch (const Unusable&) {
+    return std::nullopt;
+  }
 }
 
 void HullCache::keep(std::string_view key, const LinkHulls& hulls) const {
   if (folder_.empty()) return;
   static std::atomic<int> count = 0;
-  const std::vector<std::uint8_t> content = json::to_cbor(json_of(hulls));
-  const std::string_view bytes(reinterpret_cast<const char*>(content.data()), content.size());
+  const std::string content = json_of(hulls).dump(-1, ' ', false, json::error_handler_t::replace);
   const path beside = folder_ / fmt::format("{}.{}.{}.unfinished", key, getpid(), count++);
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   remove_unused(folder_);
   std::ofstream out(beside, std::ios::binary);
-  out << fingerprint_of(bytes) << bytes;
+  out << fingerprint_of(content) << content;
   out.close();
-  if (out) std::filesystem::rename(beside, folder_ / fmt::format("{}.cbor", key), error);
+  if (out) std::filesystem::rename(beside, folder_ / fmt::format("{}{}", key, kSuffix), error);
   if (!out || error) std::filesystem::remove(beside, error);
 }
 

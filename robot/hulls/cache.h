@@ -20,7 +20,6 @@ class Fingerprint {
   void add(std::string_view bytes);
   void add(double number);
   void add(std::size_t number);
-  void add(const Pose& pose);
   void add(const TriangleMesh& mesh);
   /// The content of a file. All files that cannot be read count as the same.
   void add_file(const std::filesystem::path& path);
@@ -34,17 +33,19 @@ class Fingerprint {
 /// hulls.
 const std::string& program_fingerprint();
 
-/// What the hulls of a link are made from, and how.
-std::string key_of(const Link& link, const Budget& budget, const LinkHullOptions& options);
+/// What the hulls of a link are made from, and how: the triangles as this run has read them, whatever files and
+/// importers they come from.
+std::string key_of(const TriangleMesh& triangles, const Budget& budget, const LinkHullOptions& options);
 
-/// A folder that keeps the hulls of links by what they were made from.
+/// A folder that keeps how the hulls of links were constructed, by what they were made from. It saves their search and
+/// nothing else: what it returns is a proposal, and `verified` (verdict.h) decides about it.
 class HullCache {
  public:
   /// An empty path: nothing is kept.
   explicit HullCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// What keep() has kept under the key, if the file is whole. Without LinkHulls::link, collision, frame,
-  /// triangles and primitives, which the caller knows.
+  /// What keep() has kept under the key, if the file is whole: LinkHulls::hulls with what their construction gave, and
+  /// sealed_volume. All numbers are finite, and all corners of faces exist. Nothing is certified or measured.
   std::optional<LinkHulls> find(std::string_view key) const;
   /// If it cannot be written, the next run is slower, and nothing else. Hulls that were not found for 90 days are
   /// removed, and what earlier runs have left unfinished.

@@ -15,8 +15,8 @@
 #include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
 #include "prohull/sphere_cover.h"
-#include "robot/curved_form.h"
 #include "robot/hulls/cache.h"
+#include "robot/hulls/verdict.h"
 #include "robot/side_by_side.h"
 
 namespace prohull::robot {
@@ -29,7 +29,7 @@ struct Plan {
   std::vector<Shape> hulled = {};         ///< shapes that the hull encloses
   std::vector<std::size_t> numbers = {};  ///< where each of `hulled` is among the shapes of the link
   std::uintmax_t bytes = 0;               ///< total size of the mesh files of `hulled`
-  std::string key = {};                   ///< key_of
+  std::string key = {};                   ///< key_of its triangles
 };
 
 void require_links(const Robot& robot, const LinkHullOptions& options) {
@@ -91,45 +91,33 @@ void leave_as_it_is(LinkHulls& result, LinkStatus status, std::string why) {
   result.primitives.clear();
 }
 
-/// What ConvexCover and SphereCover have in common.
+/// What the construction says of ConvexCover and SphereCover.
 template <class Cover>
-LinkHull measured(const Cover& cover) {
+LinkHull constructed(const Cover& cover) {
   LinkHull result;
-  result.certified = cover.certified;
-  if (cover.certified) result.proof = "union";
   result.target_reached = true, result.within_bounds = cover.within_bounds;
-  result.volume = cover.volume;
-  result.distance = cover.reach;
   result.notes = cover.notes;
   return result;
 }
 
 LinkHull link_hull(const ConvexCover& cover) {
-  LinkHull result = measured(cover);
+  LinkHull result = constructed(cover);
   for (const ConvexPiece& piece : cover.pieces) result.pieces.push_back(piece.mesh);
-  result.mesh = mesh_of(result.pieces, {});
   return result;
 }
 
 LinkHull link_hull(const SphereCover& cover) {
-  LinkHull result = measured(cover);
+  LinkHull result = constructed(cover);
   result.balls = cover.balls;
-  result.mesh = mesh_of({}, result.balls);
   return result;
 }
 
-LinkHull link_hull(const EnclosingHulls& made, const EnclosingHull& hull, const Progress& go_on) {
+LinkHull link_hull(const EnclosingHull& hull) {
   LinkHull result;
   result.target_faces = hull.target_faces;
-  result.certified = hull.certified;
-  result.proof = hull.proof;
   result.target_reached = hull.target_reached, result.within_bounds = hull.within_bounds;
   result.source = prohull::name_of(source_names(), hull.source);
-  result.volume = signed_volume(hull.mesh);
-  const TriangleMesh& measured_from = made.input.closed ? made.input.closed->mesh : triangles_to_cover(made, hull);
-  result.distance = distance_bounds(hull.mesh, measured_from, {.progress = go_on});
   result.padding = hull.padding;
-  result.self_intersections = hull.self_intersections;
   result.notes = hull.notes;
   result.mesh = hull.mesh;
   return result;
@@ -153,14 +141,22 @@ EnclosingOptions enclosing_options(const Budget& budget, const LinkHullOptions& 
   return enclosing;
 }
 
+/// What `input` tells of the geometry.
+void describe_input(const RepairedMesh& input, LinkHulls& result) {
+  result.convex_volume = signed_volume(convex_hull(input.original));
+  result.repairs = describe(input.repairs);
+}
+
 void build_hulls(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
   const EnclosingOptions enclosing = enclosing_options(plan.budget, options, go_on);
   if (enclosing.hull.float32_coordinates) check_float32_spacing(result.triangles);
   const EnclosingHulls made = enclosing_hulls(result.triangles, plan.budget.faces, enclosing);
-  for (const EnclosingHull& hull : made.hulls) result.hulls.push_back(link_hull(made, hull, go_on));
+  for (const EnclosingHull& hull : made.hulls) {
+    result.hulls.push_back(link_hull(hull));
+    judge(result.hulls.back(), result.triangles, made.input, plan.budget, go_on);
+  }
   result.sealed_volume = made.volume;
-  result.convex_volume = signed_volume(convex_hull(made.input.original));
-  result.repairs = describe(made.input.repairs);
+  describe_input(made.input, result);
 }
 
 ConvexCover pieces_around(const TriangleMesh& triangles, const Budget& budget, const LinkHullOptions& options,
@@ -181,29 +177,44 @@ SphereCover balls_around(const TriangleMesh& triangles, const Budget& budget, co
 }
 
 template <class Cover>
-void take_cover(const Cover& cover, LinkHulls& result) {
+void take_cover(const Cover& cover, const Budget& budget, LinkHulls& result, const Progress& go_on) {
   result.hulls.push_back(link_hull(cover));
   result.sealed_volume = cover.original_volume;
   const RepairedMesh input = prepared_for_hulls(result.triangles);
-  result.convex_volume = signed_volume(convex_hull(input.original));
-  result.repairs = describe(input.repairs);
+  judge(result.hulls.back(), result.triangles, input, budget, go_on);
+  describe_input(input, result);
 }
 
 void build(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
-  switch (plan.budget.collision) {
+  const Budget& budget = plan.budget;
+  switch (budget.collision) {
     case Collision::Hull:
       return build_hulls(plan, options, result, go_on);
     case Collision::Convex:
-      return take_cover(pieces_around(result.triangles, plan.budget, options, go_on), result);
+      return take_cover(pieces_around(result.triangles, budget, options, go_on), budget, result, go_on);
     case Collision::Spheres:
-      return take_cover(balls_around(result.triangles, plan.budget, options, go_on), result);
+      return take_cover(balls_around(result.triangles, budget, options, go_on), budget, result, go_on);
   }
 }
 
-/// What HullCache::find tells.
-void take_hulls(LinkHulls of, LinkHulls& result) {
-  result.hulls = std::move(of.hulls), result.repairs = std::move(of.repairs);
+/// Whether hulls of the cache pass as those of this link.
+bool take_proposal(LinkHulls proposal, const Plan& plan, const LinkHullOptions& options, LinkHulls& result,
+                   const Progress& go_on) {
+  const RepairedMesh input = prepared_for_hulls(result.triangles);
+  auto hulls = verified(std::move(proposal.hulls), result.triangles, input, plan.budget,
+                        stores_float32(mesh_format("hull." + options.format)), go_on);
+  if (!hulls) return false;
+  result.hulls = *std::move(hulls);
+  result.sealed_volume = proposal.sealed_volume;
+  describe_input(input, result);
+  return true;
+}
+
+/// Those of a link with the same triangles and budget.
+void share_hulls(const LinkHulls& of, LinkHulls& result) {
+  result.hulls = of.hulls, result.repairs = of.repairs;
   result.sealed_volume = of.sealed_volume, result.convex_volume = of.convex_volume;
+  result.from_cache = of.from_cache;
 }
 
 template <typename Work>
@@ -218,11 +229,9 @@ void name_link_in_errors(const Link& link, const Work& work) {
 void add_hulls(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
   const auto start = std::chrono::steady_clock::now();
   const HullCache cache(options.cache);
-  result.triangles = link_triangles(plan.hulled, result.frame);
-  if (std::optional<LinkHulls> kept = cache.find(plan.key)) {
-    take_hulls(std::move(*kept), result);
-    result.from_cache = true;
-  } else {
+  std::optional<LinkHulls> kept = cache.find(plan.key);
+  result.from_cache = kept && take_proposal(*std::move(kept), plan, options, result, go_on);
+  if (!result.from_cache) {
     build(plan, options, result, go_on);
     cache.keep(plan.key, result);
   }
@@ -241,9 +250,7 @@ TriangleMesh mesh_of(std::span<const TriangleMesh> pieces, std::span<const Ball>
   constexpr std::size_t kSegments = 24;  // the mesh is up to 1.8 % larger than the ball
   TriangleMesh mesh;
   for (const TriangleMesh& piece : pieces) append(mesh, piece);
-  for (const Ball& ball : balls)
-    append(mesh,
-           CurvedForm::of(SphereForm{ball.radius}, {.translation = ball.center})->mesh(Curved::Around, kSegments));
+  for (const Ball& ball : balls) append(mesh, CurvedForm::sphere(ball).mesh(Curved::Around, kSegments));
   return mesh;
 }
 
@@ -326,31 +333,31 @@ std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& opt
     for (const Plan* plan : some) names.push_back(robot.links[plan->link].name);
     return names;
   };
-  std::vector<Plan*> all;  // a key may take as long as reading the meshes
+  std::vector<Plan*> all;
   for (Plan& plan : plans) all.push_back(&plan);
   side_by_side(names_of(all), options.threads, {}, [&](std::size_t i, const Progress&) {
-    const Link& link = robot.links[all[i]->link];
-    name_link_in_errors(link, [&] { all[i]->key = key_of(link, all[i]->budget, options); });
+    LinkHulls& result = results[all[i]->link];
+    name_link_in_errors(robot.links[all[i]->link],
+                        [&] { result.triangles = link_triangles(all[i]->hulled, result.frame); });
+    all[i]->key = key_of(result.triangles, all[i]->budget, options);
   });
   // Links with the same geometry, as wheels and fingers are, share their hulls.
   std::map<std::string_view, const Plan*> first;
   std::vector<const Plan*> to_build;
+  const auto shares = [&](const Plan& plan) {
+    const Plan& other = *first.try_emplace(plan.key, &plan).first->second;
+    return &other != &plan && results[other.link].triangles == results[plan.link].triangles;
+  };
   for (const Plan& plan : plans)
-    if (first.try_emplace(plan.key, &plan).second) to_build.push_back(&plan);
+    if (!shares(plan)) to_build.push_back(&plan);
   LinkHullOptions of_each = options;
   of_each.threads = threads_of_each(to_build.size(), options.threads);
   side_by_side(names_of(to_build), options.threads, options.progress, [&](std::size_t i, const Progress& go_on) {
     const Plan& plan = *to_build[i];
     name_link_in_errors(robot.links[plan.link], [&] { add_hulls(plan, of_each, results[plan.link], go_on); });
   });
-  for (const Plan& plan : plans) {
-    const Plan& built = *first.at(plan.key);
-    if (&built == &plan) continue;
-    LinkHulls& result = results[plan.link];
-    take_hulls(results[built.link], result);
-    result.triangles = results[built.link].triangles;
-    result.from_cache = results[built.link].from_cache;
-  }
+  for (const Plan& plan : plans)
+    if (shares(plan)) share_hulls(results[first.at(plan.key)->link], results[plan.link]);
   return results;
 }
 

@@ -68,11 +68,12 @@ struct LinkHull {
   std::vector<TriangleMesh> pieces = {};  ///< not empty if they were asked for
   std::vector<Ball> balls = {};           ///< likewise
   bool certified = false;
-  std::string proof = {};  ///< as EnclosingHull::proof; with padding "padding"; of pieces and balls "union"
+  std::string proof =
+      {};  ///< "enclosure", "coverage" (verification.h); with padding "padding"; of pieces, balls "union"
   bool target_reached = false, within_bounds = true;
   std::string source = {};       ///< "mesh", "convex-hull" or "wrap": what a hull was built from
   double volume = 0;             ///< of the union
-  DistanceBounds distance = {};  ///< from the triangles
+  DistanceBounds distance = {};  ///< from the triangles and the caps of their openings
   double padding = 0;            ///< proven least distance from the triangles; 0 if none was asked for
   std::size_t self_intersections = 0;
   std::vector<std::string> notes = {};
@@ -121,9 +122,9 @@ void check_budgets(const Robot& robot, const LinkHullOptions& options);
 /// Hulls of all links, in the order of Robot::links. Links are worked on side by side; the result is the same for any
 /// number of threads.
 ///
-/// Guaranteed: as enclosing_hulls; `certified` was decided on the coordinates of `mesh`.
-/// Throws InputError: as check_budgets; CannotRead that lists every mesh which was not found, unless skip_missing;
-/// Cancelled.
+/// Guaranteed: `certified` is decided exactly, in this call, by verify_hull or verify_union, from the coordinates of
+/// the hull, which files keep, and the finite triangles of the link. That holds for hulls of the cache too. Throws
+/// InputError: as check_budgets; CannotRead that lists every mesh which was not found, unless skip_missing; Cancelled.
 std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& options = {});
 
 }  // namespace prohull::robot

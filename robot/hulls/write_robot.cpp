@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -27,6 +28,29 @@ void write_text(const path& file, const std::string& text) {
   if (!out)
     throw InputError(Defect::CannotWrite,
                      fmt::format("{}: cannot write: {}", file.string(), std::generic_category().message(errno)));
+}
+
+[[noreturn]] void fail_to_write(const path& file) {
+  throw InputError(
+      Defect::CannotWrite,
+      fmt::format("{}: the file does not hold what was certified; choose another --format", file.string()));
+}
+
+bool has_same_triangles(const TriangleMesh& a, const TriangleMesh& b) {
+  if (a.face_count() != b.face_count()) return false;
+  for (const FaceId f : a.triangles.ids()) {
+    const Triangle s = a.triangle(f), t = b.triangle(f);
+    if (!(s.a == t.a && s.b == t.b && s.c == t.c)) return false;
+  }
+  return true;
+}
+
+/// Whether the robot has the ball among the collision elements of a link.
+bool has_ball(const Link& link, const Ball& ball) {
+  return std::ranges::any_of(link.collision, [&](const Shape& shape) {
+    const auto* const sphere = std::get_if<SphereForm>(&shape.form);
+    return sphere && sphere->radius == ball.radius && shape.origin.translation == ball.center;
+  });
 }
 
 bool is_package_name(const std::string& name) {
@@ -87,40 +111,55 @@ class RobotSet {
   void add(const LinkHulls& link) {
     NewCollision collision;
     collision.link = link.link, collision.from = options_.from, collision.kept = link.primitives;
-    if (link.status == LinkStatus::Hulled && link.hulls[set_].certified)
-      add_hull(link.hulls[set_], collision);
-    else if (link.status != LinkStatus::Primitives)
+    if (link.status == LinkStatus::Hulled) {
+      const std::string name = names_.of(file_.robot.links[link.link].name);  // the same in all sets
+      if (!link.hulls[set_].certified) return;
+      add_hull(link.hulls[set_], name, collision);
+    } else if (link.status != LinkStatus::Primitives) {
       return;
+    }
     if (!collision.hulls.empty()) collision.same_origin_as = link.frame.same_origin_as;
     if (link.collision == Collision::Spheres) add_balls(collision);
     collisions_.push_back(std::move(collision));
   }
 
-  std::vector<OutputFile> files(const path& folder) {
+  void add_to(RobotFiles& all, const path& folder) {
     const path name = fmt::format("{}{}{}", robot_stem(file_), suffix_, extension());
     std::string text = with_collisions(file_, collisions_, folder);
-    files_.push_back({name, [text = std::move(text)](const path& target) { write_text(target, text); }});
-    if (!balls_.empty())
-      files_.push_back({robot_stem(file_) + "_spheres.yaml",
-                        [text = sphere_file(balls_)](const path& target) { write_text(target, text); }});
-    return std::move(files_);
+    require_balls(text, folder / name);
+    files_.push_back(text_file(name, std::move(text)));
+    if (!balls_.empty()) files_.push_back(text_file(robot_stem(file_) + "_spheres.yaml", sphere_file(balls_)));
+    std::ranges::move(files_, std::back_inserter(all.files));
+    std::ranges::move(hulls_, std::back_inserter(all.hulls));
   }
 
  private:
-  void add_hull(const LinkHull& hull, NewCollision& collision) {
-    const std::string name = names_.of(file_.robot.links[collision.link].name);
+  void add_hull(const LinkHull& hull, const std::string& name, NewCollision& collision) {
+    hulls_.push_back({collision.link, set_, folder() / name});
     if (hull.pieces.empty() && hull.balls.empty()) collision.hulls.push_back(add_mesh(name, hull.mesh));
     for (std::size_t i = 0; i < hull.pieces.size(); ++i)
       collision.hulls.push_back(add_mesh(names_.of(fmt::format("{}_{:02}", name, i + 1)), hull.pieces[i]));
     collision.balls = hull.balls;
   }
 
+  path folder() const { return path("meshes") / ("collision" + suffix_); }
+
   /// Returns its URI.
   std::string add_mesh(const std::string& name, const TriangleMesh& mesh) {
-    const path file = path("meshes") / ("collision" + suffix_) / (name + "." + options_.format);
-    files_.push_back({file, [&mesh](const path& target) { write_mesh(target, mesh); }});
+    const path file = folder() / (name + "." + options_.format);
+    hulls_.back().meshes.push_back(file);
+    files_.push_back({file, [&mesh](const path& target) { write_certified(target, mesh); }});
     return options_.package.empty() ? file.generic_string()
                                     : "package://" + options_.package + "/" + file.generic_string();
+  }
+
+  /// What is certified are the numbers of the balls: the text has to say the same.
+  void require_balls(const std::string& text, const path& target) const {
+    if (std::ranges::all_of(collisions_, [](const NewCollision& c) { return c.balls.empty(); })) return;
+    const Robot written = read_robot(text, target).robot;
+    for (const NewCollision& collision : collisions_)
+      for (const Ball& ball : collision.balls)
+        if (!has_ball(written.links[collision.link], ball)) fail_to_write(target);
   }
 
   /// Those of the cover, and spheres that are kept.
@@ -148,9 +187,19 @@ class RobotSet {
   std::vector<NewCollision> collisions_;
   std::vector<LinkBalls> balls_;
   std::vector<OutputFile> files_;
+  std::vector<HullFiles> hulls_;
 };
 
 }  // namespace
+
+OutputFile text_file(path name, std::string text) {
+  return {std::move(name), [text = std::move(text)](const path& target) { write_text(target, text); }};
+}
+
+void write_certified(const path& target, const TriangleMesh& mesh) {
+  write_mesh(target, mesh);
+  if (!has_same_triangles(read_mesh(target), mesh)) fail_to_write(target);
+}
 
 std::string robot_stem(const RobotFile& file) {
   const path own = file.path.stem();
@@ -170,23 +219,20 @@ void check_options(const RobotFile& file, const WriteOptions& options) {
     throw InputError(Defect::InvalidOption, "MuJoCo does not know packages; leave the name of the package out");
 }
 
-std::vector<OutputFile> output_files(const RobotFile& file, std::span<const LinkHulls> links, const path& folder,
-                                     const WriteOptions& options) {
+RobotFiles output_files(const RobotFile& file, std::span<const LinkHulls> links, const path& folder,
+                        const WriteOptions& options) {
   check_options(file, options);
-  std::vector<OutputFile> files;
+  RobotFiles all;
   for (std::size_t set = 0; set < options.faces.size(); ++set) {
     RobotSet robot(file, options, set, set == 0 ? "" : fmt::format("_{}", options.faces[set]));
     for (const LinkHulls& link : links) robot.add(link);
-    for (OutputFile& written : robot.files(folder)) files.push_back(std::move(written));
+    robot.add_to(all, folder);
   }
   if (!options.package.empty()) {
-    const auto add = [&](const char* name, std::string text) {
-      files.push_back({name, [text = std::move(text)](const path& target) { write_text(target, text); }});
-    };
-    add("package.xml", package_xml(options.package, file.robot.name));
-    add("CMakeLists.txt", package_cmake(options.package));
+    all.files.push_back(text_file("package.xml", package_xml(options.package, file.robot.name)));
+    all.files.push_back(text_file("CMakeLists.txt", package_cmake(options.package)));
   }
-  return files;
+  return all;
 }
 
 }  // namespace prohull::robot

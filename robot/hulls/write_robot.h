@@ -17,6 +17,20 @@ struct OutputFile {
   std::function<void(const std::filesystem::path&)> write;
 };
 
+/// The files of a certified hull; of spheres there are none.
+struct HullFiles {
+  std::size_t link = 0, set = 0;  ///< in Robot::links, in LinkHulls::hulls
+  /// meshes/collision/LINK: names of other files about the hull begin so. The name of the link in it is that of no
+  /// other one, in no set.
+  std::filesystem::path stem;
+  std::vector<std::filesystem::path> meshes = {};  ///< relative to the folder of the robot
+};
+
+struct RobotFiles {
+  std::vector<OutputFile> files;
+  std::vector<HullFiles> hulls;  ///< which of them are those of hulls
+};
+
 struct WriteOptions {
   std::vector<std::size_t> faces{500};  ///< Budget::faces of the robot; each set of hulls is named by one
   Geometry from = Geometry::Visual;     ///< as LinkHullOptions::from
@@ -29,6 +43,12 @@ struct WriteOptions {
 /// "arm" of arm.urdf and of arm.urdf.xacro: what the names of its files begin with.
 std::string robot_stem(const RobotFile& file);
 
+/// Throws InputError(CannotWrite) when it is written, if that fails.
+OutputFile text_file(std::filesystem::path name, std::string text);
+
+/// Writes a mesh file. Throws InputError(CannotWrite) if it does not hold the same triangles, bit for bit.
+void write_certified(const std::filesystem::path& target, const TriangleMesh& mesh);
+
 /// Throws InputError(InvalidOption) for the name of a package that ROS does not take, and for what MuJoCo does not
 /// read: GLB files and packages.
 void check_options(const RobotFile& file, const WriteOptions& options);
@@ -39,9 +59,11 @@ void check_options(const RobotFile& file, const WriteOptions& options);
 /// meshes/collision/LINK_01.stl and so on. The spheres of all links that have them are in ROBOT_spheres.yaml, too, as
 /// cuRobo reads them.
 ///
-/// A link keeps its collision elements if it was skipped, has no geometry, or has no certified hull.
-/// Throws as check_options. `links` must outlive the result.
-std::vector<OutputFile> output_files(const RobotFile& file, std::span<const LinkHulls> links,
-                                     const std::filesystem::path& folder, const WriteOptions& options = {});
+/// What is written is read again: OutputFile::write throws InputError(CannotWrite) if a file does not hold the
+/// triangles that were certified, bit for bit, and this function if the text does not hold the balls. A link keeps its
+/// collision elements if it was skipped, has no geometry, or has no certified hull. Throws as check_options. `links`
+/// must outlive the result.
+RobotFiles output_files(const RobotFile& file, std::span<const LinkHulls> links, const std::filesystem::path& folder,
+                        const WriteOptions& options = {});
 
 }  // namespace prohull::robot

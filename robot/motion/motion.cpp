@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "prohull/error.h"
+#include "prohull/shapes.h"
 #include "robot/transform.h"
 
 namespace prohull::robot {
@@ -170,16 +171,11 @@ std::vector<bool> fixed_joints(const Robot& robot) {
   return fixed;
 }
 
-struct Ball {
-  Vec3 center;
-  double radius = 0;
-};
-
 /// Around all vertices.
 Ball ball_around(const std::array<const TriangleMesh*, 3>& meshes) {
   Box box;
   for (const TriangleMesh* mesh : meshes) box.extend(bounding_box(*mesh));
-  Ball ball{box.center()};
+  Ball ball{.center = box.center(), .radius = 0};
   for (const TriangleMesh* mesh : meshes)
     for (const auto& corners : mesh->triangles)
       for (const VertexId v : corners) ball.radius = std::max(ball.radius, norm(mesh->positions[v] - ball.center));
@@ -501,14 +497,16 @@ std::string_view name_of(PairKind kind) {
     case PairKind::Adjacent:
       return "adjacent";
     case PairKind::Always:
-      return "always";
+      return "sampled-always";
     case PairKind::Never:
-      return "never";
+      return "sampled-never";
     case PairKind::Sometimes:
       break;
   }
   return "sometimes";
 }
+
+bool is_sampled(PairKind kind) { return kind == PairKind::Always || kind == PairKind::Never; }
 
 std::size_t MotionResult::false_hull() const { return sum(pairs, &MotionPair::false_hull); }
 std::size_t MotionResult::false_convex() const { return sum(pairs, &MotionPair::false_convex); }

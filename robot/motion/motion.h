@@ -47,14 +47,17 @@ enum class PairKind {
   /// Fixed joints connect them, or one hangs on the other by a joint, or by joints with only links between them that
   /// have no shapes in Robot::links. Floating and planar joints do not make links adjacent.
   Adjacent,
-  Always,  ///< they collide in 95 % of the configurations or more, as the hulls say
-  Never,   ///< they collide in none, as the hulls and the visual geometry say
+  Always,  ///< they collide in 95 % of the configurations or more, as the hulls say; sampled, no proof
+  Never,   ///< they collide in none, as the hulls and the visual geometry say; sampled, no proof
   /// All others, and pairs about which nothing is known: if a joint between them stays at rest (a ball, planar or
   /// floating joint, a prismatic one without limits, and those that follow one of these), if no joints connect them, or
   /// if one has no hull.
   Sometimes,
 };
-std::string_view name_of(PairKind kind);  ///< "adjacent", "always", "never", "sometimes"
+std::string_view name_of(PairKind kind);  ///< "adjacent", "sampled-always", "sampled-never", "sometimes"
+
+/// Whether the kind is what random configurations say: another configuration may say otherwise.
+bool is_sampled(PairKind kind);
 
 /// In how many configurations a pair of links collides.
 struct MotionPair {
@@ -90,15 +93,15 @@ MotionResult check_motion(const Robot& robot, const Bodies& bodies, const Motion
 /// Two links, numbered as in Robot::links, the lower number first.
 using LinkPair = std::pair<std::size_t, std::size_t>;
 
-/// The pairs that need not be checked: those that are adjacent, or in collision always.
+/// The pairs that are adjacent, or were in collision always, as sampled.
 std::vector<LinkPair> pairs_always_together(const MotionResult& motion);
 
 /// The pairs that an SRDF file disables, sorted. Names that the robot does not have are left out. `file` stands in
 /// messages. Throws InputError(Malformed) for text that is no SRDF.
 std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::string file);
 
-/// The pairs that need not be checked, as an SRDF file that MoveIt reads: those that are adjacent, never or always in
-/// collision.
-std::string srdf_of(const Robot& robot, const MotionResult& motion);
+/// The adjacent pairs, as an SRDF file that MoveIt reads: it does not check them. With `sampled_pairs` also those that
+/// were never, or always, in collision, with the reason "sampled": they may collide, or be apart, elsewhere.
+std::string srdf_of(const Robot& robot, const MotionResult& motion, bool sampled_pairs = false);
 
 }  // namespace prohull::robot

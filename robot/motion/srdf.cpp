@@ -10,15 +10,15 @@
 namespace prohull::robot {
 namespace {
 
-/// As MoveIt names them; empty for pairs that have to be checked.
-std::string_view reason_of(PairKind kind) {
+/// The reason is free text to MoveIt, which knows "Adjacent" among others.
+std::string reason_of(PairKind kind) {
   switch (kind) {
     case PairKind::Adjacent:
-      return "Adjacent";
+      return R"(reason="Adjacent"/>)";
     case PairKind::Always:
-      return "Always";
+      return R"(reason="sampled"/>  <!-- in collision in 95 % or more of them -->)";
     case PairKind::Never:
-      return "Never";
+      return R"(reason="sampled"/>  <!-- in collision in none of them -->)";
     case PairKind::Sometimes:
       break;
   }
@@ -53,20 +53,26 @@ std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::
   return pairs;
 }
 
-std::string srdf_of(const Robot& robot, const MotionResult& motion) {
+std::string srdf_of(const Robot& robot, const MotionResult& motion, bool sampled_pairs) {
   std::vector<std::string> lines;
   for (const MotionPair& pair : motion.pairs) {
-    if (pair.kind == PairKind::Sometimes) continue;
+    if (pair.kind == PairKind::Sometimes || (is_sampled(pair.kind) && !sampled_pairs)) continue;
     const auto [first, second] = std::minmax(robot.links[pair.a].name, robot.links[pair.b].name);
-    lines.push_back(fmt::format("  <disable_collisions link1=\"{}\" link2=\"{}\" reason=\"{}\"/>\n", xml_escaped(first),
+    lines.push_back(fmt::format("  <disable_collisions link1=\"{}\" link2=\"{}\" {}\n", xml_escaped(first),
                                 xml_escaped(second), reason_of(pair.kind)));
   }
   std::sort(lines.begin(), lines.end());
+  const std::string about =
+      sampled_pairs
+          ? fmt::format(
+                "The reason \"sampled\" is what {} random configurations, seed {}, say of a pair: it is no proof.",
+                motion.configurations, motion.seed)
+          : "Links that joints connect. All other pairs have to be checked.";
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
-      "<!-- Pairs of links that need no check. They were found in {} random configurations, seed {}. -->\n"
+      "<!-- {} -->\n"
       "<robot name=\"{}\">\n{}</robot>\n",
-      motion.configurations, motion.seed, xml_escaped(robot.name), fmt::join(lines, ""));
+      about, xml_escaped(robot.name), fmt::join(lines, ""));
 }
 
 }  // namespace prohull::robot

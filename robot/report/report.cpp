@@ -26,6 +26,16 @@ Json distance(const DistanceBounds& bounds) {
   return {{"at_least", number(bounds.lower)}, {"at_most", number(bounds.upper)}, {"farthest", point(bounds.farthest)}};
 }
 
+Json facts_of(const LinkCertificate& certificate) {
+  Json hull = Json::array();
+  for (const auto& file : certificate.hull) hull.push_back(clean_text(file.generic_string()));
+  return {{"file", clean_text(certificate.file.generic_string())},
+          {"hull", hull},
+          {"original", clean_text(certificate.original.generic_string())},
+          {"original_is_of_robot", certificate.is_of_robot},
+          {"claims", texts(certificate.claims)}};
+}
+
 Json facts_of(const LinkHull& hull, const LinkHulls& link) {
   return {{"target_faces", hull.target_faces > 0 ? Json(hull.target_faces) : Json()},
           {"faces", hull.balls.empty() ? Json(hull.mesh.face_count()) : Json()},
@@ -45,7 +55,7 @@ Json facts_of(const LinkHull& hull, const LinkHulls& link) {
           {"notes", texts(hull.notes)}};
 }
 
-void add_hulls(const LinkHulls& link, Json& facts) {
+void add_hulls(const LinkHulls& link, std::span<const LinkCertificate> certificates, Json& facts) {
   facts["status"] = name_of(link.status);
   facts["collision"] = prohull::name_of(collision_names(), link.collision);
   facts["why"] = link.why.empty() ? Json() : Json(clean_text(link.why));
@@ -58,6 +68,8 @@ void add_hulls(const LinkHulls& link, Json& facts) {
   facts["from_cache"] = link.from_cache;
   facts["hulls"] = Json::array();
   for (const LinkHull& hull : link.hulls) facts["hulls"].push_back(facts_of(hull, link));
+  for (const LinkCertificate& certificate : certificates)
+    if (certificate.link == link.link) facts["hulls"][certificate.set]["certificate"] = facts_of(certificate);
 }
 
 Json facts_of(const LinkCheck& check, double allow) {
@@ -87,7 +99,7 @@ Json links_of(const ReportInput& input) {
   const std::vector<Mark> marks = marks_of(input);
   for (std::size_t i = 0; i < input.file.robot.links.size(); ++i) {
     Json facts{{"name", clean_text(input.file.robot.links[i].name)}, {"needs_a_look", Json::array()}};
-    if (const LinkHulls* const hulls = hulls_of(input, i)) add_hulls(*hulls, facts);
+    if (const LinkHulls* const hulls = hulls_of(input, i)) add_hulls(*hulls, input.certificates, facts);
     if (const LinkCheck* const check = check_of(input, i)) facts["shipped"] = facts_of(*check, input.allow);
     for (const Mark& mark : marks)
       if (mark.link == i) facts["needs_a_look"].push_back(mark.text);

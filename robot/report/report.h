@@ -7,6 +7,7 @@
 
 #include "robot/check/check.h"
 #include "robot/files/robot_file.h"
+#include "robot/hulls/certificates.h"
 #include "robot/hulls/link_hulls.h"
 #include "robot/motion/motion.h"
 
@@ -22,6 +23,7 @@ struct ReportInput {
   double seconds = 0;                ///< of the whole run
   std::string version;               ///< of the program
   Geometry from = Geometry::Visual;  ///< LinkHullOptions::from
+  std::vector<LinkCertificate> certificates = {};
 };
 
 /// Facts as numbers, texts and lists; docs/guides/robots.md lists the keys. Lengths are in metres. What is not known is

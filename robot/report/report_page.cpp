@@ -641,8 +641,8 @@ std::string motion_kinds(const MotionResult& motion) {
     return count_text(static_cast<std::size_t>(std::ranges::count(motion.pairs, kind, &MotionPair::kind)));
   };
   return fmt::format(
-      "<p class=\"muted small\">Pairs that need no check: {} adjacent, {} that always collide, {} that "
-      "never do.</p>\n",
+      "<p class=\"muted small\">Pairs that joints connect: {}. Sampled, which is no proof: {} that always collide, {} "
+      "that never do.</p>\n",
       count(PairKind::Adjacent), count(PairKind::Always), count(PairKind::Never));
 }
 
@@ -674,8 +674,8 @@ std::string words(const ReportInput& input) {
               "An exact test, which shares no code with the construction, has shown that no point of the "
               "geometry lies outside of the hull, or of the cover. There is no tolerance."},
              {"Proof",
-              "How that was shown: <i>replay</i> follows each step of the construction, <i>enclosure</i> compares two "
-              "closed meshes, <i>coverage</i> shows that the hull covers each triangle, <i>padding</i> that it "
+              "How that was shown: <i>enclosure</i> compares two closed meshes, <i>coverage</i> shows that the hull "
+              "covers each triangle, <i>padding</i> that it "
               "keeps its distance besides, and <i>union</i> that convex pieces or spheres cover each triangle "
               "together."},
              {"Repair",

@@ -182,7 +182,7 @@ bool may_collide(const CollisionMesh& a, const PosePair& at, const CollisionMesh
 
 /// Whether both solids wind around a point at which their inner hulls touch. The hulls propose it, the meshes decide.
 bool inner_hulls_tell(const CollisionData& a, const PosePair& at, const CollisionData& b) {
-  if (!a.inner || !b.inner || !a.mesh.is_closed || !b.mesh.is_closed) return false;
+  if (!a.inner || !b.inner || !a.mesh.is_solid || !b.mesh.is_solid) return false;
   const auto point = Scene(*a.inner, at.a, *b.inner, at.b).touching_point();
   return point && a.mesh.winding_number(at.a, *point) > 0 && b.mesh.winding_number(at.b, *point) > 0;
 }
@@ -222,7 +222,7 @@ std::vector<bool> truths(const std::vector<char>& answers) { return {answers.beg
 std::optional<CollisionMesh> closed_hull(const std::optional<TriangleMesh>& hull, std::string_view side) {
   if (!hull) return std::nullopt;
   CollisionMesh mesh(*hull);
-  if (!mesh.is_closed) throw InputError(Defect::OpenEdge, fmt::format("the {} hull is not closed", side));
+  if (!mesh.is_solid) throw InputError(Defect::OpenEdge, fmt::format("the {} hull is not closed", side));
   return mesh;
 }
 
@@ -268,13 +268,14 @@ TriangleMesh placed(const Pose& pose, TriangleMesh mesh) {
   return mesh;
 }
 
-CollisionIndex::CollisionIndex(const TriangleMesh& mesh) : CollisionIndex(mesh, CollisionHulls{}) {}
+CollisionIndex::CollisionIndex(const TriangleMesh& mesh, StandsFor what)
+    : data_(std::make_shared<const CollisionData>(CollisionData{CollisionMesh(mesh, what), {}, {}})) {}
 
 CollisionIndex::CollisionIndex(const TriangleMesh& mesh, const CollisionHulls& hulls)
     : data_(std::make_shared<const CollisionData>(
           CollisionData{CollisionMesh(mesh), closed_hull(hulls.outer, "outer"), closed_hull(hulls.inner, "inner")})) {}
 
-bool CollisionIndex::is_solid() const { return data_->mesh.is_closed; }
+bool CollisionIndex::is_solid() const { return data_->mesh.is_solid; }
 std::size_t CollisionIndex::face_count() const { return data_->mesh.mesh.face_count(); }
 std::size_t CollisionIndex::memory_bytes() const {
   return sizeof(CollisionData) + memory_of(data_->mesh) + (data_->outer ? memory_of(*data_->outer) : 0) +

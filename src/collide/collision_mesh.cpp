@@ -9,7 +9,6 @@
 #include "collide/box_pair.h"
 #include "geometry/triangle_predicates.h"
 #include "geometry/usable_size.h"
-#include "prohull/enclosure.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -143,13 +142,15 @@ int winding_of(const Triangle& t, const Vec3& p) {
 
 }  // namespace
 
-CollisionMesh::CollisionMesh(const TriangleMesh& given)
-    : tree(triangles_of(given)), mesh(reordered(given, tree.items())), is_closed(prohull::is_closed(mesh)) {
+CollisionMesh::CollisionMesh(const TriangleMesh& given, StandsFor what)
+    : tree(triangles_of(given)),
+      mesh(reordered(given, tree.items())),
+      is_solid(what == StandsFor::Solid && is_closed(mesh)) {
   component_ends = component_ends_of(mesh);
 }
 
 bool CollisionMesh::contains_component(const Pose& pose, const CollisionMesh& other, const Pose& other_pose) const {
-  if (!is_closed) return false;
+  if (!is_solid) return false;
   const auto may_contain = [&](const Vec3& p) { return !UpwardRay(tree, pose, p).starts_outside(tree.boxes()[0]); };
   return std::ranges::any_of(other.component_ends, [&](const Segment& ends) {
     const Vec3 a = at_pose(other_pose, ends.a);

@@ -158,6 +158,14 @@ class Sweep {
   std::vector<Slab> slabs_;  // by offset
 };
 
+/// So that hulls of parts of it have no volume by which cuts could be compared.
+bool is_flat(const Part& part) {
+  static thread_local GrowingHull hull;
+  hull.clear();
+  hull.add(hull_points(part));
+  return hull.volume() == 0;
+}
+
 /// The plane shifted, and turned about the middle of its meeting with a part: about the foot of the part's centre.
 std::vector<Plane> neighbors(const Plane& plane, const Vec3& center, double angle, double shift) {
   const Vec3 n = plane.normal, u = any_normal(n), v = cross(n, u);
@@ -176,7 +184,7 @@ std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets) {
   static const std::vector<Vec3> all = directions();
   const auto part_edges = edges(part);
   std::vector<Cut> result;
-  if (part.points.size() < 4) return result;
+  if (part.points.size() < 4 || is_flat(part)) return result;
   result.resize(all.size());
   oneapi::tbb::parallel_for(std::size_t{0}, all.size(),
                             [&](std::size_t i) { result[i] = Sweep(part, part_edges, all[i], solid, offsets).best(); });

@@ -17,10 +17,12 @@
 #include "cover/piece_hull.h"
 #include "cover/shape_choice.h"
 #include "parallel/arena.h"
+#include "parallel/progress_meter.h"
 #include "prohull/convex_hull.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/union_verification.h"
+#include "verify/solid_volume.h"
 
 namespace prohull {
 namespace cover {
@@ -28,6 +30,8 @@ namespace {
 
 /// Cuts are looked for on a hull of so many faces: more make them hardly better.
 constexpr std::size_t kSearchFaces = 1500;
+/// Of the hull around triangles that bound no solid: so many for each triangle, up to kSearchFaces.
+constexpr std::size_t kHullFacesPerTriangle = 4, kFewestHullFaces = 400;
 /// Those of the wide search, which is costlier.
 constexpr std::size_t kWideSearchFaces = 800;
 constexpr double kSearchTolerance = 1e-6;
@@ -136,7 +140,14 @@ class Covering {
   Material of_closed_mesh() const {
     const TriangleMesh& closed = prepared_.closed->mesh;
     TriangleMesh coarse = with_faces(closed, kSearchFaces), coarser = with_faces(coarse, kWideSearchFaces);
-    return {closed, prepared_.dropped, std::move(coarse), std::move(coarser), signed_volume(closed)};
+    return {closed, prepared_.dropped, std::move(coarse), std::move(coarser), volume_of_solid()};
+  }
+
+  /// Parts that overlap count once, unless they meet too often to find out.
+  double volume_of_solid() const {
+    ProgressMeter meter(options_.progress, "measure");
+    const double volume = verify::solid_volume(prepared_.closed->mesh, meter);
+    return volume > 0 ? volume : signed_volume(prepared_.closed->mesh);
   }
 
   /// The mesh, or a hull around it of so many faces.
@@ -153,7 +164,8 @@ class Covering {
   Material of_enclosing_hull() const {
     if (convex_hull(prepared_.original).face_count() == 0)
       return {{}, prepared_.original, prepared_.original, prepared_.original, 0};
-    const std::size_t faces[]{kSearchFaces};
+    const std::size_t faces[]{
+        std::clamp(kHullFacesPerTriangle * prepared_.original.face_count(), kFewestHullFaces, kSearchFaces)};
     EnclosingHulls made =
         enclosing_hulls(prepared_.original, faces, enclosing_options(options_.threads, options_.progress));
     TriangleMesh& hull = made.hulls[0].mesh;
@@ -168,7 +180,7 @@ class Covering {
   /// One piece.
   Material of_convex_hull() const {
     const TriangleMesh hull = convex_hull(prepared_.original);
-    return {hull, {}, hull, hull, prepared_.closed ? signed_volume(prepared_.closed->mesh) : 0};
+    return {hull, {}, hull, hull, prepared_.closed ? volume_of_solid() : 0};
   }
 
   /// The most pieces, or as few as keep the bounds.
@@ -324,7 +336,11 @@ class Covering {
     cover.original_volume = material.volume;
     cover.volume = union_volume(meshes);
     cover.void_ratio = cover.original_volume > 0 ? cover.volume / cover.original_volume - 1 : infinity;
-    cover.reach = union_reach(meshes, prepared_.original, {.progress = options_.progress});
+    const DistanceOptions how{.progress = options_.progress};
+    cover.reach_from_triangles = union_reach(meshes, prepared_.original, how);
+    cover.has_openings = prepared_.closed && prepared_.caps.face_count() > 0;
+    cover.reach = cover.has_openings ? union_reach(meshes, prepared_.closed->mesh, how) : cover.reach_from_triangles;
+    cover.non_finite_faces = prepared_.repairs.dropped_non_finite_faces;
     cover.within_bounds = keeps_bounds(cover);
     return cover;
   }

@@ -16,10 +16,12 @@
 #include "geometry/largest_coordinate.h"
 #include "mesh/area.h"
 #include "parallel/arena.h"
+#include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "prohull/wrap.h"
+#include "verify/solid_volume.h"
 
 namespace prohull {
 namespace {
@@ -65,7 +67,7 @@ class SphereCoverer {
     const Stopwatch verifying;
     certify(found);
     made_.verify_seconds = verifying.seconds();
-    measure(found);
+    measure();
     made_.seconds = all.seconds();
     return std::move(made_);
   }
@@ -75,7 +77,9 @@ class SphereCoverer {
     TriangleMesh sheets;
     if (input_.closed) {
       solid_ = input_.closed->mesh, sheets = input_.dropped;
-      made_.original_volume = input_.closed->report.volume;
+      ProgressMeter meter(options_.progress, "measure");
+      const double volume = verify::solid_volume(solid_, meter);  // parts that overlap count once
+      made_.original_volume = volume > 0 ? volume : input_.closed->report.volume;
     } else {
       wrap_solid();
       sheets = input_.original;
@@ -118,7 +122,9 @@ class SphereCoverer {
   /// Few balls that keep max_distance; none if that takes too many.
   BallCover keep_distance(ProgressMeter& meter) {
     constexpr double kCoarsest = 8;
-    const double reach = options_.max_distance - 2 * least_margin_;
+    constexpr double kRoomForTheProof =
+        1.0 / 512;  // of what is asked for: union_reach bounds what the search estimates
+    const double reach = options_.max_distance * (1 - kRoomForTheProof) - 2 * least_margin_;
     if (!(reach > 0)) return {};
     const Cut cut = cut_up(std::min(reach / kCubesPerReach, diagonal_ / kCoarsest), meter);
     const BallTask task{cut.patches, *depth_, cut.size, meter};
@@ -128,12 +134,15 @@ class SphereCoverer {
   /// Searches with coarser or finer patches, until they are small beside the reach.
   BallCover reach_least(ProgressMeter& meter) {
     const double first = diagonal_ * 0.25 / std::sqrt(static_cast<double>(options_.max_balls));
-    for (double guess = first;;) {
+    constexpr int kMostRounds = 12;  // where a finer guess finds nothing and a coarser one too much, they would go on
+    double guess = first;
+    for (int round = 1;; ++round) {
       const Cut cut = cut_up(guess / kCubesPerReach, meter);
       const BallTask task{cut.patches, *depth_, cut.size, meter};
       BallCover found = cover::least_reach(task, cut.places, options_.max_balls, std::max(guess, 2 * cut.size));
       constexpr double kFinest = 0.5;  // a ball is covered by one that reaches out by nothing
-      if (!found.balls.empty() && (found.reach > guess / 2 || guess < kFinest * first)) return found;
+      if (!found.balls.empty() && (found.reach > guess / 2 || guess < kFinest * first || round >= kMostRounds))
+        return found;
       guess = found.balls.empty() ? guess * 1.5 : std::max(found.reach * 1.1, guess / 3);
     }
   }
@@ -163,10 +172,10 @@ class SphereCoverer {
   void certify(const BallCover& found) {
     constexpr int kTrials = 4;
     constexpr double kGrowth = 10;
-    margin_ = least_margin_;
-    for (int trial = 0; trial < kTrials; ++trial, margin_ *= kGrowth) {
+    double margin = least_margin_;
+    for (int trial = 0; trial < kTrials; ++trial, margin *= kGrowth) {
       made_.balls = found.balls;
-      for (Ball& ball : made_.balls) ball.radius += margin_;
+      for (Ball& ball : made_.balls) ball.radius += margin;
       made_.certified = covers();
       if (made_.certified) break;
     }
@@ -180,11 +189,18 @@ class SphereCoverer {
     return !options_.fill || asks_inside || verify_union(made_.balls, solid_, true, options).covers;
   }
 
-  void measure(const BallCover& found) {
-    const DistanceBounds out = union_reach(made_.balls, solid_, {.progress = options_.progress});
-    made_.reach = out;
-    made_.reach.upper = std::max(out.lower, std::min(out.upper + slack_, found.reach + margin_));
+  void measure() {
+    made_.reach = union_reach(made_.balls, solid_, {.progress = options_.progress});
+    const double most = options_.max_distance - slack_;
+    if (const double lower = made_.reach.lower; made_.reach.upper > most && lower < most && lower > 0)
+      made_.reach = union_reach(made_.balls, solid_, {.relative_gap = most / lower - 1, .progress = options_.progress});
+    made_.reach.upper += slack_;
     if (slack_ > 0 || input_.dropped.face_count() > 0) made_.reach.lower = 0;
+    made_.original_closed = is_closed(input_.original);
+    made_.has_openings = input_.closed && input_.caps.face_count() > 0;
+    made_.non_finite_faces = input_.repairs.dropped_non_finite_faces;
+    made_.reach_from_triangles =
+        made_.has_openings ? union_reach(made_.balls, input_.original, {.progress = options_.progress}) : made_.reach;
     made_.volume = union_volume(made_.balls);
     made_.within_bounds = made_.reach.upper <= options_.max_distance;
   }
@@ -194,7 +210,7 @@ class SphereCoverer {
   const SphereCoverOptions& options_;
   const RepairedMesh input_;
   const double diagonal_;
-  double least_margin_ = 0, margin_ = 0;
+  double least_margin_ = 0;
   Box box_;
   TriangleMesh solid_, to_cover_;
   double slack_ = 0;

@@ -10,13 +10,14 @@
 #include "construct/even/even_hull.h"
 #include "construct/tight/original.h"
 #include "construct/turned.h"
-#include "enclose/surface_of.h"
+#include "enclose/known_void.h"
 #include "prohull/collide.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/padded_hull.h"
 #include "prohull/tight_hull.h"
 #include "prohull/verification.h"
+#include "verify/gap.h"
 
 namespace prohull {
 namespace {
@@ -51,7 +52,7 @@ class CageMaker {
   void make_even(EnclosingHulls& made, HullSide side) const;
   bool accept(EnclosingHulls& made, HullSide side, TriangleMesh mesh) const;
   double distance_of(const EnclosingHulls& made, const TriangleMesh& mesh) const;
-  bool is_proven(const EnclosingHulls& made, HullSide side, const TriangleMesh& mesh) const;
+  std::optional<Verification> proven(const EnclosingHulls& made, HullSide side, const TriangleMesh& mesh) const;
   void note_contacts();
 
   const CageOptions& options_;
@@ -115,18 +116,25 @@ EnclosingHulls CageMaker::build(HullSide side, Repair repair, std::size_t faces)
 }
 
 double CageMaker::distance_of(const EnclosingHulls& made, const TriangleMesh& mesh) const {
-  return separation(surface_of(mesh), {}, surface_of(triangles_to_cover(made, made.hulls[0])), {}).lower;
+  const CollisionIndex hull(mesh, StandsFor::Surface),
+      original(triangles_to_cover(made, made.hulls[0]), StandsFor::Surface);
+  return separation(hull, {}, original, {}).lower;
 }
 
-bool CageMaker::is_proven(const EnclosingHulls& made, HullSide side, const TriangleMesh& mesh) const {
-  const VerificationOptions options{.max_offenders = 0, .progress = options_.progress};
-  const auto& closed = made.input.closed;
-  const bool encloses =
-      !closed ||
-      verify_hull(mesh, is_closed(made.input.original) ? made.input.original : closed->mesh, side, options).encloses;
-  if (side == HullSide::Inner) return encloses;
-  const TriangleMesh all = triangles_to_cover(made, made.hulls[0]);
-  return encloses && verify_cover(all, mesh, {.max_offenders = 0, .progress = options_.progress}).encloses;
+/// What verify_hull says of the mesh in the place of the hull; none if it is no hull.
+std::optional<Verification> CageMaker::proven(const EnclosingHulls& made, HullSide side,
+                                              const TriangleMesh& mesh) const {
+  const RepairedMesh& input = made.input;
+  Verification verdict = verify_hull(
+      mesh, input.original, side,
+      {.closed = input.closed ? &input.closed->mesh : nullptr, .max_offenders = 0, .progress = options_.progress});
+  if (!verdict.encloses) return std::nullopt;
+  TriangleMesh beside = made.solids[made.hulls[0].solid].doors;
+  if (!input.closed) append(beside, input.caps);
+  if (side == HullSide::Outer && beside.face_count() > 0 &&
+      !verify_cover(beside, mesh, {.max_offenders = 0, .progress = options_.progress}).encloses)
+    return std::nullopt;
+  return verdict;
 }
 
 /// Takes the mesh for the hull if it is proven to be one, strictly apart from the triangles, and no worse.
@@ -134,15 +142,20 @@ bool CageMaker::accept(EnclosingHulls& made, HullSide side, TriangleMesh mesh) c
   EnclosingHull& hull = made.hulls[0];
   const std::size_t self_intersections = count_self_intersections(mesh);
   if (self_intersections > hull.self_intersections) return false;
-  const double distance = distance_of(made, mesh);
-  if (!(distance > 0) || distance < std::min(hull.padding, cage_.gap) || !is_proven(made, side, mesh)) return false;
+  const double distance =
+      verify::verify_gap(mesh, triangles_to_cover(made, hull), cage_.gap, {.progress = options_.progress})
+          .proven_distance;
+  if (!(distance > 0) || distance < std::min(hull.padding, cage_.gap)) return false;
+  std::optional<Verification> verdict = proven(made, side, mesh);
+  if (!verdict) return false;
+  hull.verdict = std::move(*verdict);
   hull.mesh = std::move(mesh);
   hull.levels.reset();
   hull.padding = distance;
   hull.self_intersections = self_intersections;
   hull.proof = "padding";
   hull.target_reached = hull.mesh.face_count() <= hull.target_faces;
-  if (made.volume > 0) hull.void_ratio = signed_volume(hull.mesh) / made.volume - 1;
+  hull.void_ratio = known_void(made, hull);
   return true;
 }
 
@@ -197,8 +210,9 @@ void CageMaker::note_contacts() {
   finish(cage_.outer);
   if (!cage_.inner) return;
   finish(*cage_.inner);
-  if (collide(surface_of(cage_.outer.hull().mesh), {}, surface_of(cage_.inner->hull().mesh), {}))
-    cage_.outer.is_disjoint = cage_.inner->is_disjoint = false;
+  const CollisionIndex outer(cage_.outer.hull().mesh, StandsFor::Surface),
+      inner(cage_.inner->hull().mesh, StandsFor::Surface);
+  if (collide(outer, {}, inner, {})) cage_.outer.is_disjoint = cage_.inner->is_disjoint = false;
 }
 
 void require_usable(const CageOptions& options) {

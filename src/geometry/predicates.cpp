@@ -1,9 +1,10 @@
 #include "geometry/predicates.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Gmpq.h>
 
 #include <array>
+
+#include "geometry/exact_number.h"
 
 namespace prohull {
 namespace {
@@ -25,7 +26,11 @@ int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 int exact_determinant_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e, const Vec3& f) {
-  using Number = CGAL::Gmpq;
+  const auto are_parallel = [](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+    return p == q || (p == r && q == s) || (p == s && q == r);
+  };
+  if (are_parallel(a, b, c, d) || are_parallel(c, d, e, f) || are_parallel(e, f, a, b)) return 0;  // often
+  using Number = ExactNumber;
   const auto row = [](const Vec3& from, const Vec3& to) {
     return std::array{Number(to.x) - Number(from.x), Number(to.y) - Number(from.y), Number(to.z) - Number(from.z)};
   };

@@ -35,12 +35,13 @@ void consider_edges(Points& best, const Vec3& p, const Vec3& p_end, const Vec3& 
 }  // namespace
 
 TriangleDistance triangle_distance(const Triangle& s, const Triangle& t) {
-  // As seen from a corner: these differences have relative errors only. A power of two keeps products in range.
+  // As seen from a corner: these differences have relative errors only. A power of two keeps products in range; it is
+  // small enough for both bounds, which are 0 or above 2^-48 of it, to be normal numbers.
   std::array<Vec3, 3> from{Vec3{}, s.b - s.a, s.c - s.a}, to{t.a - s.a, t.b - s.a, t.c - s.a};
   double size = 0;
   for (const auto& corners : {from, to})
     for (const Vec3& p : corners) size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  const double unit = std::ldexp(1.0, -std::ilogb(std::max(size, 0x1p-1000)));
+  const double unit = std::ldexp(1.0, -std::ilogb(std::max(size, 0x1p-900)));
   for (auto* corners : {&from, &to})
     for (Vec3& p : *corners) p = p * unit;
   Points best;

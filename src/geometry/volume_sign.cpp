@@ -1,8 +1,8 @@
-#include <CGAL/Gmpq.h>
 #include <CGAL/Interval_nt.h>
 
 #include <array>
 
+#include "geometry/exact_number.h"
 #include "geometry/orientation.h"
 
 namespace prohull {
@@ -35,7 +35,7 @@ int sign_of_volume(std::size_t count, TriangleOf triangle) {
     if (sum.inf() > 0) return 1;
     if (sum.sup() < 0) return -1;
   }
-  return int(CGAL::sign(sixfold_volume<CGAL::Gmpq>(count, triangle)));
+  return int(CGAL::sign(sixfold_volume<ExactNumber>(count, triangle)));
 }
 
 }  // namespace

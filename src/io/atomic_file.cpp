@@ -51,6 +51,7 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), tar
   if (replaced) temporary_ = unique_name_beside(target_);
   file_ = replaced ? std::fopen(temporary_.c_str(), "wbx") : std::fopen(target_.c_str(), "wb");
   if (!file_) fail();
+  if (is_regular_file(status)) std::filesystem::permissions(temporary_, status.permissions(), error);
 }
 
 AtomicFile::~AtomicFile() {

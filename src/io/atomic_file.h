@@ -9,8 +9,8 @@
 namespace prohull {
 
 /// A file that appears whole or not at all: written beside its path under another name, then renamed by `commit`;
-/// without that, it vanishes. A path that exists and is no regular file (a pipe, /dev/stdout) is written as it is.
-/// Throws InputError(CannotWrite) with the system's reason and what to do.
+/// without that, it vanishes. A file that is replaced keeps its mode. A path that exists and is no regular file (a
+/// pipe, /dev/stdout) is written as it is. Throws InputError(CannotWrite) with the system's reason and what to do.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);

@@ -22,7 +22,8 @@ MeshBuilder::MeshBuilder(std::string file, std::size_t first_number, std::string
       first_number_(first_number),
       non_finite_(options.non_finite),
       content_(content),
-      meter_(options.progress, "read") {}
+      meter_(options.progress, "read"),
+      divided_(options.divided) {}
 
 void MeshBuilder::tell(Place place) {
   constexpr std::size_t kInterval = 4096;
@@ -118,7 +119,10 @@ void MeshBuilder::triangulate(const Polygon& polygon) {
   if (!triangles)
     fail(file_, polygon.place,
          fmt::format("a polygon with {} corners that is too intricate to triangulate; split it", polygon.corner_count));
-  for (std::uint32_t i = 0; i < triangles->size(); ++i) triangle(i) = (*triangles)[i];
+  bool is_fan = true;
+  for (std::uint32_t i = 0; i < triangles->size(); ++i)
+    is_fan &= triangle(i) == (*triangles)[i], triangle(i) = (*triangles)[i];
+  if (divided_ && !is_fan) divided_->push_back({FaceId(polygon.first_triangle), corners});
 }
 
 TriangleMesh MeshBuilder::finish() {

@@ -58,6 +58,7 @@ class MeshBuilder {
   std::size_t lines_ = 0, items_ = 0;
   TriangleMesh mesh_;
   std::vector<Polygon> polygons_;  ///< of more than three corners; each stands in the mesh as a fan until `finish`
+  std::vector<DividedFace>* divided_;
   std::int64_t highest_corner_ = -1;
   Place highest_corner_place_;
 };

@@ -170,11 +170,6 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
 
 bool stores_float32(MeshFormat format) { return format == MeshFormat::Stl || format == MeshFormat::Glb; }
 
-std::span<const std::pair<std::string_view, double>> length_units() {
-  static constexpr std::pair<std::string_view, double> kMetres[]{{"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"in", 0.0254}};
-  return kMetres;
-}
-
 TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {
   if (!(options.scale > 0 && std::isfinite(options.scale)))
     throw InputError(Defect::InvalidOption, fmt::format("the scale is {}, but must be greater than 0", options.scale));

@@ -1,18 +1,13 @@
 #include "query/exact_line.h"
 
-#include <CGAL/Gmpq.h>
-#include <CGAL/Mpzf.h>
-
 #include <array>
+
+#include "geometry/exact_number.h"
 
 namespace prohull {
 namespace {
 
-#ifdef CGAL_HAS_MPZF
-using Number = CGAL::Mpzf;  // sums and products of doubles, without allocation where exponents are not far apart
-#else
-using Number = CGAL::Gmpq;
-#endif
+using Number = ExactNumber;
 using Vector = std::array<Number, 3>;
 
 Vector between(const Vec3& from, const Vec3& to) {

@@ -11,7 +11,6 @@
 
 #include "parallel/arena.h"
 #include "parallel/progress_meter.h"
-#include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "query/coherent_order.h"
 #include "query/engine.h"
@@ -55,7 +54,8 @@ struct QueryIndex::Shared {
   void require_closed() const {
     std::call_once(closed_is_known_, [&] { is_closed_ = is_closed(mesh); });
     if (!is_closed_)
-      throw InputError(Defect::OpenEdge, "the mesh is not closed, so that it has no inside; close it first");
+      throw InputError(Defect::OpenEdge,
+                       "the mesh is not closed, so that it has no inside; `prohull repair` closes it");
   }
 
  private:

@@ -59,8 +59,13 @@ void close(ClosedMesh& closed) {
   if (closed.report.is_closed_manifold()) return;
   drop_duplicate_faces(closed.mesh, closed.repairs);
   turn_single_faces(closed.mesh, closed.repairs);
-  split_vertices(closed.mesh, closed.repairs);
-  closed.report = inspect(closed.mesh);
+  const ClosedMesh before = closed;
+  for (const FansAlong along : {FansAlong::EdgesOfTwo, FansAlong::Wedges}) {
+    if (along == FansAlong::Wedges) closed = before;
+    split_vertices(closed.mesh, along, closed.repairs);
+    closed.report = inspect(closed.mesh);
+    if (closed.report.is_closed_manifold()) return;
+  }
   if (!closed.report.is_closed_manifold()) throw InputError(closed.report.worst_defect, why_not_closed(closed.report));
 }
 

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
+#include <set>
+#include <span>
 #include <tuple>
 
 #include "geometry/bvh.h"
@@ -48,18 +51,51 @@ std::vector<std::uint32_t> component_of_faces(const TriangleMesh& mesh) {
   return component;
 }
 
-/// Two faces along an edge that no third one has: of each, the corner (3 face + corner) where the edge begins.
+/// Two faces along an edge: of each, the corner (3 face + corner) where the edge begins.
 struct Neighbours {
   std::uint32_t a, b;
   bool agree;  ///< about the outside: they run along it in opposite directions
+  bool is_wedge = false;
 };
 
-std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh) {
-  struct Use {
-    VertexId low, high;
-    std::uint32_t corner;
-    bool upwards;
+/// One of the faces of an edge.
+struct Use {
+  VertexId low, high;
+  std::uint32_t corner;
+  bool upwards;  ///< the face runs from `low` to `high`
+};
+
+/// Those of four faces or more that bound a wedge of the solid between them, by their angles around the edge: a face
+/// that runs downwards has the solid behind it, one that runs upwards before it.
+void add_wedges(std::span<const Use> uses, const TriangleMesh& mesh, std::vector<Neighbours>& result) {
+  if (2 * std::ranges::count(uses, true, &Use::upwards) != std::ssize(uses)) return;
+  const Vec3 from = mesh.positions[uses[0].low], axis = mesh.positions[uses[0].high] - from;
+  const auto across = [&](const Use& use) {
+    return cross(axis, mesh.positions[mesh.triangles[FaceId(use.corner / 3)][(use.corner + 2) % 3]] - from);
   };
+  const Vec3 zero = across(uses[0]);
+  std::vector<std::pair<double, const Use*>> around;
+  for (const Use& use : uses) {
+    const Vec3 here = across(use);
+    around.push_back({std::atan2(dot(cross(zero, here), axis) / norm(axis), dot(zero, here)), &use});
+  }
+  std::ranges::stable_sort(around, {}, [](const auto& entry) { return entry.first; });
+  std::vector<const Use*> open;
+  for (int turn = 0; turn < 2; ++turn)  // a wedge may begin before the first face
+    for (auto& [angle, use] : around) {
+      if (!use) continue;
+      if (!use->upwards) {
+        if (turn == 0) open.push_back(use);
+      } else if (!open.empty()) {
+        result.push_back({open.back()->corner, use->corner, true, true});
+        open.pop_back();
+        use = nullptr;
+      }
+    }
+}
+
+/// With those along edges of two faces; `with_wedges` also with those of more.
+std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh, bool with_wedges = false) {
   std::vector<Use> uses;
   uses.reserve(3 * mesh.face_count());
   for (const FaceId f : mesh.triangles.ids())
@@ -73,8 +109,31 @@ std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh) {
   for (auto i = uses.begin(), j = i; i != uses.end(); i = j) {
     while (j != uses.end() && j->low == i->low && j->high == i->high) ++j;
     if (j - i == 2) result.push_back({i->corner, (i + 1)->corner, i->upwards != (i + 1)->upwards});
+    if (with_wedges && j - i > 2) add_wedges({i, j}, mesh, result);
   }
   return result;
+}
+
+/// Where several wedges still have the same edge, the later ones get a new vertex on it, at one of its ends: so no
+/// triangle changes its shape, and those are added that have no area.
+void separate_wedges(TriangleMesh& mesh, const std::vector<Neighbours>& neighbours) {
+  std::set<std::pair<VertexId, VertexId>> taken;
+  std::set<std::uint32_t> divided;
+  for (const Neighbours& n : neighbours) {
+    if (!n.is_wedge) continue;
+    const std::array<FaceId, 2> faces{FaceId(n.a / 3), FaceId(n.b / 3)};
+    const VertexId a = mesh.triangles[faces[0]][n.a % 3], b = mesh.triangles[faces[1]][n.b % 3];
+    if (taken.insert(std::minmax(a, b)).second) continue;
+    if (!divided.insert(n.a / 3).second || !divided.insert(n.b / 3).second) continue;
+    const Vec3 p = mesh.positions[a];
+    const VertexId middle = mesh.positions.push_back(p);
+    for (const auto& [f, corner] : {std::pair(faces[0], n.a % 3), {faces[1], n.b % 3}}) {
+      Corners first = mesh.triangles[f];
+      first[(corner + 1) % 3] = middle;
+      mesh.triangles[f][corner] = middle;
+      mesh.triangles.push_back(first);
+    }
+  }
 }
 
 /// What decides whether others lie inside of it.
@@ -205,12 +264,13 @@ void turn_single_faces(TriangleMesh& mesh, Repairs& repairs) {
   }
 }
 
-void split_vertices(TriangleMesh& mesh, Repairs& repairs) {
+void split_vertices(TriangleMesh& mesh, FansAlong along, Repairs& repairs) {
   const auto corners = static_cast<std::uint32_t>(3 * mesh.face_count());
   DisjointSets fans(corners);
   const auto vertex = [&](std::uint32_t c) { return mesh.triangles[FaceId(c / 3)][c % 3]; };
   const auto next = [](std::uint32_t c) { return c % 3 == 2 ? c - 2 : c + 1; };
-  for (const Neighbours& n : neighbours_of(mesh))
+  const std::vector<Neighbours> neighbours = neighbours_of(mesh, along == FansAlong::Wedges);
+  for (const Neighbours& n : neighbours)
     for (const std::uint32_t c : {n.a, next(n.a)}) fans.join(c, vertex(c) == vertex(n.b) ? n.b : next(n.b));
   constexpr std::uint32_t kNone = 0xffffffff;
   PerVertex<std::uint32_t> first(mesh.vertex_count(), kNone);  // the fan that keeps the vertex
@@ -229,6 +289,7 @@ void split_vertices(TriangleMesh& mesh, Repairs& repairs) {
     ++repairs.split_vertices;
   }
   for (std::uint32_t c = 0; c < corners; ++c) mesh.triangles[FaceId(c / 3)][c % 3] = name[fans.find(c)];
+  separate_wedges(mesh, neighbours);
 }
 
 void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs) {

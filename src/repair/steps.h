@@ -24,8 +24,10 @@ void drop_duplicate_faces(TriangleMesh& mesh, Repairs& repairs);
 /// where that is not possible stay as they are.
 void turn_single_faces(TriangleMesh& mesh, Repairs& repairs);
 
-/// Every vertex becomes as many as there are fans of faces around it; fans are connected along edges of two faces.
-void split_vertices(TriangleMesh& mesh, Repairs& repairs);
+/// Every vertex becomes as many as there are fans of faces around it. Fans are connected along edges of two faces; with
+/// wedges also along edges of more faces, those that have the solid between them.
+enum class FansAlong { EdgesOfTwo, Wedges };
+void split_vertices(TriangleMesh& mesh, FansAlong along, Repairs& repairs);
 
 /// Turns a closed mesh of negative volume, and then each component of negative volume outside of the others. Throws
 /// InputError for one that is partly inside of them.

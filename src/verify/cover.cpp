@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <random>
 #include <span>
@@ -10,13 +11,15 @@
 #include "geometry/orientation.h"
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
+#include "mesh/closed.h"
 #include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
+#include "verify/arrangement.h"
+#include "verify/cell.h"
 #include "verify/offenders.h"
 #include "verify/self_intersection.h"
 #include "verify/solids.h"
-#include "verify/subdivision.h"
 #include "verify/surface.h"
 #include "verify/winding.h"
 
@@ -29,11 +32,10 @@
 //       closure: a region of space that has p in its closure does not fill the surroundings of p, through which a face
 //       passes; what bounds it there are such pieces.
 //
-// A triangle with an area is cut along the faces of H that meet its inside in a segment or an area. What is left of H
-// inside of a cell is all of it, where faces hold the cell, or single points: w is constant on each side of the cell,
-// and one point of it decides, by (1) or (2). Where no face cuts the triangle and none holds it, all of it is one cell
-// ("free"); where H does not touch it at all, all that is free and shares a corner with it lies in the same region of
-// H, and one corner decides.
+// A triangle with an area is divided into parts by the faces of H that meet its inside in a segment (Arrangement): w is
+// the same everywhere on each side of a part, and decides, by (1) or, where faces hold the part or some of it, by (2).
+// Where no face cuts the triangle and none holds it, all of it is one part ("free"); where H does not touch it at all,
+// all that is free and shares a corner with it lies in the same region of H, and one corner decides.
 //
 // A triangle without area is a segment or a point. It is cut at the ends of what faces of H hold of it, and the middle
 // of each piece decides: by (1), or by (2) with all pieces of the faces that hold it.
@@ -49,14 +51,15 @@ namespace {
 
 std::array<Vec3, 3> corners_of(const Triangle& t) { return {t.a, t.b, t.c}; }
 
-bool cuts(const TriangleContact& c) { return c.interior == Contact::Crossing || c.interior == Contact::Covering; }
+bool is_covered(const Windings& w) { return w.outside[0] >= 1 || w.inside[0] >= 1; }
+bool is_uncovered(const Windings& w) { return !is_covered(w); }
 
 /// Which parts of the faces of a surface lie in C.
 class CoveredFaces {
  public:
-  CoveredFaces(const Surface& surface, ProgressMeter& meter)
+  CoveredFaces(const Surface& surface, ProgressMeter& meter, Steps& steps)
       : surface_(surface),
-        meter_(meter),
+        steps_(steps),
         meets_(surface.faces.size()),
         sheets_(surface.faces.size()),
         all_(surface.faces.size(), Answer::NotAsked) {
@@ -73,9 +76,9 @@ class CoveredFaces {
     if (beyond_.empty()) follow_edges();
     f = sheets_.representative(f);
     if (all_[f] == Answer::NotAsked) {
-      const std::vector<Cell> pieces = pieces_of(f);
-      const bool all = std::all_of(pieces.begin(), pieces.end(), [&](const Cell& piece) { return borders(f, piece); });
-      all_[f] = all ? Answer::Yes : Answer::No;
+      Arrangement pieces(surface_.faces[f], surface_.axis[f], random_, steps_);
+      pieces.add(0, surface_, cutters_of(f));
+      all_[f] = pieces.has_part(is_uncovered) ? Answer::No : Answer::Yes;
     }
     return all_[f] == Answer::Yes;
   }
@@ -90,10 +93,9 @@ class CoveredFaces {
   /// A point of the face, by the pieces of it that have the point in their closures.
   bool contain(FaceIndex f, const ExactPoint& p) {
     if (contain(f)) return true;
-    const std::vector<Cell> pieces = pieces_of(f);
-    const int axis = surface_.axis[f];
-    return std::any_of(pieces.begin(), pieces.end(),
-                       [&](const Cell& piece) { return closure_holds(piece, axis, p) && borders(f, piece); });
+    Arrangement pieces(surface_.faces[f], surface_.axis[f], random_, steps_);
+    pieces.add(0, surface_, cutters_of(f));
+    return pieces.has_part_at(p, is_covered);
   }
 
  private:
@@ -118,34 +120,16 @@ class CoveredFaces {
     }
   }
 
-  std::vector<Cell> pieces_of(FaceIndex f) const {
+  std::vector<Triangle> cutters_of(FaceIndex f) const {
     std::vector<Triangle> cutters;
     for (const FaceIndex g : meets_[f])
-      if (cuts(interior_contact(surface_.faces[f], surface_.axis[f], surface_.faces[g])))
+      if (interior_contact(surface_.faces[f], surface_.axis[f], surface_.faces[g]).interior == Contact::Crossing)
         cutters.push_back(surface_.faces[g]);
-    return subdivide(surface_.faces[f], surface_.axis[f], cutters, meter_);
-  }
-
-  bool borders(FaceIndex f, const Cell& piece) {
-    meter_.go_on();
-    SurfacePoint p(surface_.faces[f], surface_.axis[f], piece, random_);
-    return winding_beside(surface_, p, piece, random_).is_cover();
-  }
-
-  static bool closure_holds(const Cell& piece, int axis, const ExactPoint& p) {
-    const Number &u = p[(axis + 1) % 3], &v = p[(axis + 2) % 3];
-    bool left = false, right = false;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      const PlanePoint &a = piece[i], &b = piece[(i + 1) % piece.size()];
-      const CGAL::Sign turn = CGAL::sign((b.u - a.u) * (v - a.v) - (b.v - a.v) * (u - a.u));
-      left |= turn == CGAL::POSITIVE;
-      right |= turn == CGAL::NEGATIVE;
-    }
-    return !(left && right);
+    return cutters;
   }
 
   const Surface& surface_;
-  ProgressMeter& meter_;
+  Steps& steps_;
   std::vector<std::vector<FaceIndex>> meets_;
   Clusters sheets_;                               // of faces that have the same regions beside them
   std::vector<Answer> all_;                       // by representative
@@ -206,7 +190,8 @@ class CoverVerifier {
         outer_(outer, "outer"),
         options_(options),
         counter_(options.progress, "verify", mesh.face_count()),
-        covered_(outer_, counter_.meter()),
+        steps_(counter_.meter(), options.max_steps),
+        covered_(outer_, counter_.meter(), steps_),
         number_(numbered_by_position(mesh.positions)),
         groups_(mesh.vertex_count()),
         is_clear_(mesh.vertex_count()) {}
@@ -214,14 +199,19 @@ class CoverVerifier {
   EnclosureReport report() {
     for (const FaceId f : mesh_.triangles.ids()) {
       counter_.next();
-      check(f);
+      try {
+        check(f);
+      } catch (const OutOfSteps&) {
+        ++undecided_;
+      }
     }
     check_free();
     EnclosureReport report;
     report.self_intersections = covered_.self_intersections();
     report.outer_volume = outer_.volume;
     report.faces_outside = offenders_.size();
-    report.encloses = offenders_.empty();
+    report.faces_undecided = undecided_;
+    report.encloses = offenders_.empty() && undecided_ == 0;
     report.worst = worst_of(std::move(offenders_), options_.max_offenders);
     counter_.finish();
     return report;
@@ -252,7 +242,7 @@ class CoverVerifier {
       const TriangleContact c = interior_contact(t, axis, outer_.faces[h]);
       if (c.interior == Contact::None) continue;
       is_met = true;
-      if (cuts(c)) cutters_.push_back(outer_.faces[h]);
+      if (c.interior == Contact::Crossing) cutters_.push_back(outer_.faces[h]);
       if (c.interior == Contact::Crossing || !covered_.contain(h)) continue;
       if (c.interior == Contact::Same || holds(outer_.faces[h], axis, t)) return;
       holders_.push_back(h);
@@ -260,7 +250,7 @@ class CoverVerifier {
     if (!is_met)
       free_.push_back(f);
     else if (!are_held_together(t, axis))
-      check_cells(f, t, axis);
+      check_parts(f, t, axis);
   }
 
   /// Whether the holders go on beyond each of their edges that meets the inside of t.
@@ -293,15 +283,10 @@ class CoverVerifier {
     return true;
   }
 
-  void check_cells(FaceId f, const Triangle& t, int axis) {
-    std::vector<Vec3> uncovered;
-    for (const Cell& cell : subdivide(t, axis, cutters_, counter_.meter())) {
-      counter_.meter().go_on();
-      SurfacePoint p(t, axis, cell, random_);
-      if (winding_beside(outer_, p, cell, random_).is_cover()) continue;
-      uncovered.push_back(p.rounded());
-      for (const PlanePoint& corner : cell) uncovered.push_back(rounded(lifted(t, axis, corner)));
-    }
+  void check_parts(FaceId f, const Triangle& t, int axis) {
+    Arrangement parts(t, axis, random_, steps_);
+    parts.add(0, outer_, cutters_);
+    const std::vector<Vec3> uncovered = parts.points_of_parts(is_uncovered);
     if (!uncovered.empty()) offenders_.push_back(farthest(f, uncovered, outer_));
   }
 
@@ -389,6 +374,7 @@ class CoverVerifier {
   const Surface outer_;
   const EnclosureOptions& options_;
   ProgressCounter counter_;
+  Steps steps_;
   CoveredFaces covered_;
   const std::vector<std::uint32_t> number_;  // of the vertices, by position
   Clusters groups_;                          // of clear vertices, which are in one region of H
@@ -399,13 +385,15 @@ class CoverVerifier {
   std::vector<FaceIndex> holders_;           // faces in C that hold a part of the triangle at hand
   std::mt19937 random_;                      // the verdict does not depend on it
   std::vector<Offender> offenders_;
+  std::size_t undecided_ = 0;
 };
 
 }  // namespace
 
 std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const TriangleMesh& mesh, const Progress& progress) {
   ProgressCounter counter(progress, "verify", surface.faces.size());
-  CoveredFaces covered(surface, counter.meter());
+  Steps steps(counter.meter(), std::numeric_limits<std::size_t>::max());
+  CoveredFaces covered(surface, counter.meter(), steps);
   // To find out takes a cut for each pair; from some number on it is faster to ask whether the hull covers them.
   constexpr std::size_t kMostPairs = 1000;
   const bool are_few = covered.self_intersections() <= kMostPairs;
@@ -435,7 +423,7 @@ bool bounds_one_solid(const TriangleMesh& mesh, ProgressMeter& meter) {
 
 EnclosureReport verify_cover(const TriangleMesh& triangles, const TriangleMesh& outer,
                              const EnclosureOptions& options) {
-  verify::require_usable(triangles, "original");
+  require_usable(triangles, "original");
   return verify::CoverVerifier(triangles, outer, options).report();
 }
 

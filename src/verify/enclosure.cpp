@@ -1,18 +1,22 @@
 #include "prohull/enclosure.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "geometry/interior_contact.h"
 #include "parallel/progress_meter.h"
 #include "prohull/error.h"
+#include "verify/arrangement.h"
+#include "verify/cell.h"
 #include "verify/holes.h"
 #include "verify/offenders.h"
 #include "verify/self_intersection.h"
 #include "verify/solids.h"
-#include "verify/subdivision.h"
 #include "verify/surface.h"
 #include "verify/winding.h"
 
@@ -20,15 +24,15 @@
 // open set where w_O >= 1 and w_H < 1: the mesh is enclosed if and only if X is empty. X is bounded, so if it is not
 // empty it has a boundary, made of faces of the arrangement of both surfaces.
 //
-//   (1) X lies beside some part of a triangle of O. check_inner_faces visits every triangle of O, cut along H (and
-//       O, where that matters), so that w_H and w_O are constant beside each piece, and evaluates one point of each:
-//       X is found.
+//   (1) X lies beside some part of a triangle of O. check_inner_faces visits every triangle of O, which H (and O, where
+//       that matters) divide into parts beside which w_H and w_O are constant. An Arrangement knows both beside each: X
+//       is found.
 //   (2) X lies beside none. Then its boundary lies on H alone, and is made of whole pieces of faces of H as H cuts
 //       itself: where O crosses such a piece or covers a part of it, on the side of X, X would lie beside O; and where
-//       O only touches it from the other side, X goes on. find_holes evaluates one point of each piece: X is
-//       found. A point that lies on O needs no answer: its piece does not bound X.
+//       O only touches it from the other side, X goes on. find_holes looks beside each piece: X is found. A piece that
+//       lies on O needs no answer: it does not bound X.
 //
-// What is found is a point beside which w_O >= 1 and w_H < 1, evaluated exactly; so what is rejected does not enclose.
+// What is found is a point beside which w_O >= 1 and w_H < 1, exactly; so what is rejected does not enclose.
 // Triangles of O whose interior H does not meet lie in one region of H, together with their neighbours, if some point
 // of the common edge is not on H: one evaluation answers for all of them.
 
@@ -36,25 +40,33 @@ namespace prohull {
 namespace verify {
 namespace {
 
-/// What an evaluation says about the two sides of a piece of a triangle.
-struct Sides {
-  bool outside = false, inside = false;
-  bool any() const { return outside || inside; }
-};
+constexpr std::size_t kO = 0, kH = 1;  // in an Arrangement
+
+bool is_solid_there(const Windings& w) { return w.outside[kO] >= 1 || w.inside[kO] >= 1; }
+bool is_open_there(const Windings& w) { return w.outside[kH] < 1 || w.inside[kH] < 1; }
+bool is_x_there(const Windings& w) {
+  return (w.outside[kO] >= 1 && w.outside[kH] < 1) || (w.inside[kO] >= 1 && w.inside[kH] < 1);
+}
 
 class Verifier {
  public:
   Verifier(const Surface& inner, const Surface& outer, const EnclosureOptions& options)
-      : inner_(inner), outer_(outer), options_(options), meter_(options.progress, "verify") {}
+      : inner_(inner),
+        outer_(outer),
+        options_(options),
+        meter_(options.progress, "verify"),
+        steps_(meter_, options.max_steps) {}
 
   EnclosureReport report() {
     check_inner_faces();
+    x_is_off_o_ = offenders_.empty() && undecided_ == 0;
     const Holes holes = find_holes();
     report_.self_intersections = holes.self_intersections;
     report_.cavities = holes.count;
+    report_.faces_undecided = undecided_ + holes.undecided;
     report_.faces_outside = offenders_.size();
     report_.worst = worst_of(std::move(offenders_), options_.max_offenders);
-    report_.encloses = report_.faces_outside == 0 && report_.cavities == 0;
+    report_.encloses = report_.faces_outside == 0 && report_.cavities == 0 && report_.faces_undecided == 0;
     report_.inner_volume = inner_.volume;
     report_.outer_volume = outer_.volume;
     if (inner_.volume != 0) report_.void_ratio = (outer_.volume - inner_.volume) / inner_.volume;
@@ -70,26 +82,26 @@ class Verifier {
     Holes holes = find_holes([&](FaceIndex f) {
       Neighbours near;
       for (const FaceIndex g : meets[f]) near.add(outer_.faces[f], outer_.axis[f], outer_.faces[g]);
-      return subdivide(outer_.faces[f], outer_.axis[f], near.cutters, meter_);
+      return beside_a_hole(f, near.cutters);
     });
     holes.self_intersections = pairs.size();
     return holes;
   }
 
-  /// The same with pieces of each face that are given.
-  template <class CellsOf>
-  Holes find_holes(CellsOf cells_of) {
+  /// The same if point_of(f) is a point of the face that is beside a hole, if there is one.
+  template <class PointOf>
+  Holes find_holes(PointOf point_of) {
     Holes holes;
     std::vector<std::uint8_t> bounds_hole(outer_.faces.size());
     for (FaceIndex f = 0; f < outer_.faces.size(); ++f) {
       if (f % 64 == 0) meter_.at(0.8 + 0.2 * double(f) / double(outer_.faces.size()));
-      for (const Cell& cell : cells_of(f)) {
-        meter_.go_on();
-        const auto point = beside_a_hole(f, cell);
+      try {
+        const std::optional<Vec3> point = point_of(f);
         if (!point) continue;
         holes.point = *point;
         bounds_hole[f] = 1;
-        break;
+      } catch (const OutOfSteps&) {
+        ++holes.undecided;
       }
     }
     Clusters clusters(outer_.faces.size());
@@ -99,30 +111,34 @@ class Verifier {
     return holes;
   }
 
-  /// All pieces of face f as H cuts it.
-  std::vector<Cell> pieces_of(FaceIndex f) {
-    return subdivide(outer_.faces[f], outer_.axis[f], neighbours(outer_, f, outer_, f).cutters, meter_);
+  /// A point of one of these cells of face f that is beside a hole.
+  std::optional<Vec3> beside_a_hole(FaceIndex f, const std::vector<Cell>& cells) {
+    for (const Cell& cell : cells) {
+      meter_.go_on();
+      if (const auto point = beside_a_hole(f, cell)) return point;
+    }
+    return std::nullopt;
   }
 
+  /// A point of face f that is beside a hole.
+  std::optional<Vec3> beside_a_hole(FaceIndex f) { return beside_a_hole(f, neighbours(outer_, f, outer_, f).cutters); }
+
  private:
-  /// The faces of a surface that cut a triangle, and the edges of the triangle that they may cover.
+  /// The faces of a surface that meet the inside of a triangle in segments, and the edges of the triangle that they may
+  /// cover.
   struct Neighbours {
     std::vector<Triangle> cutters;
     bool touches_interior = false;
+    bool is_same = false;  // one of them has the same corners
     std::uint8_t edges = 0;
 
     void add(const Triangle& t, int axis, const Triangle& other) {
       const TriangleContact c = interior_contact(t, axis, other);
       edges |= c.edges;
       touches_interior |= c.interior != Contact::None;
-      if (c.interior == Contact::Crossing || c.interior == Contact::Covering) cutters.push_back(other);
+      is_same |= c.interior == Contact::Same;
+      if (c.interior == Contact::Crossing) cutters.push_back(other);
     }
-  };
-
-  struct Sample {
-    const Cell* cell;
-    SurfacePoint point;
-    Sides uncovered;  // w_H < 1
   };
 
   void check_inner_faces() {
@@ -145,57 +161,49 @@ class Verifier {
     for (FaceIndex f = 0; f < inner_.faces.size(); ++f) {
       if (!is_free[f]) continue;
       const FaceIndex r = clusters.representative(f);
-      if (r == f)
-        is_uncovered[r] = uncovered_sample(inner_, f, whole_cell(inner_.faces[f], inner_.axis[f])).uncovered.any();
+      if (r == f) is_uncovered[r] = is_uncovered_somewhere(f);
       if (is_uncovered[r]) check_inner_face(f, {});
     }
   }
 
   /// Looks for a point beside face f of O where w_H < 1 and w_O >= 1; `cutters` are the faces of H that cut it.
-  void check_inner_face(FaceIndex f, std::vector<Triangle> cutters) {
+  void check_inner_face(FaceIndex f, const std::vector<Triangle>& cutters) {
+    try {
+      const std::vector<Vec3> points = points_outside(f, cutters);
+      if (!points.empty()) offenders_.push_back(farthest(inner_.source[f], points, outer_));
+    } catch (const OutOfSteps&) {
+      ++undecided_;
+    }
+  }
+
+  std::vector<Vec3> points_outside(FaceIndex f, const std::vector<Triangle>& cutters) {
     const Triangle& t = inner_.faces[f];
-    std::vector<Cell> cells = subdivide(t, inner_.axis[f], cutters, meter_);
-    std::vector<Sample> suspects = uncovered_samples(f, cells);
-    if (suspects.empty() || find_outside(f, suspects)) return;
-    // Only where O intersects itself, w_O can differ between the points of a piece.
-    const Neighbours near = neighbours(inner_, f, inner_, f);
-    if (near.cutters.empty()) return;
-    cutters.insert(cutters.end(), near.cutters.begin(), near.cutters.end());
-    cells = subdivide(t, inner_.axis[f], cutters, meter_);
-    suspects = uncovered_samples(f, cells);
-    find_outside(f, suspects);
+    Arrangement parts(t, inner_.axis[f], random_, steps_);
+    parts.add(kH, outer_, cutters);
+    if (!parts.has_part(is_open_there)) return {};
+    parts.add(kO, inner_, neighbours(inner_, f, inner_, f).cutters);
+    return parts.points_of_parts(is_x_there);
   }
 
-  /// Whether one of the samples lies beside a point where w_H < 1 and w_O >= 1. Adds the farthest to the offenders.
-  bool find_outside(FaceIndex f, std::vector<Sample>& suspects) {
-    std::optional<Offender> farthest;
-    for (Sample& s : suspects) {
-      meter_.go_on();
-      const WindingBeside w = winding_beside(inner_, s.point, *s.cell, random_);
-      if ((s.uncovered.outside && w.outside >= 1) || (s.uncovered.inside && w.inside >= 1)) {
-        const Offender offender = farthest_of(f, s);
-        if (!farthest || offender.distance > farthest->distance) farthest = offender;
-      }
-    }
-    if (farthest) offenders_.push_back(*farthest);
-    return farthest.has_value();
+  /// Of a face of O that H does not cut.
+  bool is_uncovered_somewhere(FaceIndex f) {
+    const Cell cell = whole_cell(inner_.faces[f], inner_.axis[f]);
+    SurfacePoint p(inner_.faces[f], inner_.axis[f], cell, random_);
+    const WindingBeside w = winding_beside(outer_, p, cell, random_);
+    return w.outside < 1 || w.inside < 1;
   }
 
-  std::vector<Sample> uncovered_samples(FaceIndex f, const std::vector<Cell>& cells) {
-    std::vector<Sample> result;
-    for (const Cell& cell : cells) {
-      meter_.go_on();
-      Sample s = uncovered_sample(inner_, f, cell);
-      if (s.uncovered.any()) result.push_back(std::move(s));
-    }
-    return result;
-  }
-
-  Sample uncovered_sample(const Surface& surface, FaceIndex f, const Cell& cell) {
-    Sample s{&cell, SurfacePoint(surface.faces[f], surface.axis[f], cell, random_), {}};
-    const WindingBeside w = winding_beside(outer_, s.point, cell, random_);
-    s.uncovered = {w.outside < 1, w.inside < 1};
-    return s;
+  /// A point of face f of H, which faces of H cut, that is beside a hole.
+  std::optional<Vec3> beside_a_hole(FaceIndex f, const std::vector<Triangle>& cutters) {
+    if (cutters.empty()) return beside_a_hole(f, whole_cell(outer_.faces[f], outer_.axis[f]));
+    const Neighbours inner = neighbours(outer_, f, inner_);
+    if (inner.is_same && x_is_off_o_) return std::nullopt;
+    Arrangement parts(outer_.faces[f], outer_.axis[f], random_, steps_);
+    parts.add(kO, inner_, inner.cutters);
+    if (!parts.has_part(is_solid_there)) return std::nullopt;
+    parts.add(kH, outer_, cutters);
+    const std::vector<Vec3> points = parts.points_of_parts(is_x_there);
+    return points.empty() ? std::nullopt : std::optional(points.front());
   }
 
   /// A point of the piece of face f, if a side of it lies in the midst of O and w_H < 1 there.
@@ -234,18 +242,14 @@ class Verifier {
     }
   }
 
-  /// Of the sample and the corners of its piece, all of them outside or at the border of the outside.
-  Offender farthest_of(FaceIndex f, const Sample& s) const {
-    std::vector<Vec3> points{s.point.rounded()};
-    for (const PlanePoint& corner : *s.cell) points.push_back(rounded(lifted(inner_.faces[f], inner_.axis[f], corner)));
-    return farthest(inner_.source[f], points, outer_);
-  }
-
   const Surface &inner_, &outer_;
   const EnclosureOptions& options_;
   ProgressMeter meter_;
+  Steps steps_;
   std::mt19937 random_;  // the verdict does not depend on it
   std::vector<Offender> offenders_;
+  std::size_t undecided_ = 0;  // faces of O
+  bool x_is_off_o_ = false;    // it is known that X lies beside no triangle of O
   EnclosureReport report_;
 };
 
@@ -255,12 +259,24 @@ EnclosureReport verify_enclosure(const Surface& inner, const Surface& outer, con
   return Verifier(inner, outer, options).report();
 }
 
+// Inside out, it winds at least once around such points.
+bool winds_negatively(TriangleMesh mesh, const Progress& progress) {
+  for (auto& corners : mesh.triangles) std::swap(corners[1], corners[2]);
+  const Surface inside_out(mesh, "given", Turning::Never), nothing;
+  return !verify_enclosure(inside_out, nothing, {.max_offenders = 0, .progress = progress}).encloses;
+}
+
+std::string undecided(std::size_t faces) {
+  return fmt::format("undecided: {} would take too long, because {} meet{} so many others",
+                     counted(faces, "face", "faces"), faces == 1 ? "it" : "they", faces == 1 ? "s" : "");
+}
+
 Holes find_holes(const Surface& inner, const Surface& outer, const OpenCells& open_cells, const Progress& progress) {
   const EnclosureOptions options{.progress = progress};
   Verifier verifier(inner, outer, options);
   return verifier.find_holes([&](FaceIndex f) {
-    auto cells = open_cells(f);
-    return cells ? *cells : verifier.pieces_of(f);
+    const auto cells = open_cells(f);
+    return cells ? verifier.beside_a_hole(f, *cells) : verifier.beside_a_hole(f);
   });
 }
 

@@ -62,6 +62,12 @@ ConvexPiece convex_piece(const TriangleMesh& mesh, const Frame& frame, double gr
     const Vec3 n = cross(t.b - t.a, t.c - t.a);
     if (const double length = norm(n); length > 0) piece.planes.push_back(supporting_plane(t, n / length, piece.faces));
   }
+  // Faces that are so small that they have no normal bound the piece, too; its box does it instead.
+  if (piece.planes.size() < piece.faces.size())
+    for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+      piece.planes.push_back({axis, dot(axis, piece.box.max)});
+      piece.planes.push_back({-axis, dot(-axis, piece.box.min)});
+    }
   return piece;
 }
 

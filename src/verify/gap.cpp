@@ -17,32 +17,41 @@ namespace {
 
 constexpr double kEpsilon = 0x1p-53;
 
-/// Rules out boxes that are farther than `gap` from a triangle, most of them, and never one that is nearer.
-class MayBeNear {
+/// Never greater than the distance, but for rounding by less than 8 eps.
+double distance(const Box& a, const Box& b) {
+  constexpr double kSmall = 0x1p-500;  // whose squares underflow
+  Vec3 d;
+  for (int axis = 0; axis < 3; ++axis) d[axis] = std::max({b.min[axis] - a.max[axis], a.min[axis] - b.max[axis], 0.0});
+  const double largest = std::max({d.x, d.y, d.z});
+  return largest < kSmall ? largest : norm(d);
+}
+
+/// How far boxes are at least from a triangle: by its box and by its plane. Proven.
+class AtLeast {
  public:
-  MayBeNear(const Triangle& t, double gap)
-      : corners_{t.a, t.b, t.c}, box_(box_of(t)), gap_(gap), normal_(cross(t.b - t.a, t.c - t.a)) {
-    if (!std::isfinite(squared_norm(normal_))) normal_ = {};
+  explicit AtLeast(const Triangle& t)
+      : corners_{t.a, t.b, t.c}, box_(box_of(t)), normal_(of_size_one(cross(t.b - t.a, t.c - t.a))) {}
+
+  double operator()(const Box& box) const {
+    return std::max(distance(box_, box) * (1 - 16 * kEpsilon), beyond_plane(box));
   }
 
-  bool operator()(const Box& box) const { return squared_gap(box) <= limit() && !is_beyond_plane(box); }
-
  private:
-  // Sums of squares of rounded differences have a relative error of 8 eps, but for those that underflow.
-  double limit() const { return gap_ * gap_ * (1 + 32 * kEpsilon) + 0x1p-1000; }
-
-  double squared_gap(const Box& box) const {
-    double sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double d = std::max({box.min[axis] - box_.max[axis], box_.min[axis] - box.max[axis], 0.0});
-      sum += d * d;
-    }
-    return sum;
+  /// Times a power of two, so that its largest entry is in [1, 2), and its square does not underflow; 0 if there is
+  /// none.
+  static Vec3 of_size_one(const Vec3& n) {
+    const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+    if (!(largest > 0 && is_finite(n))) return {};
+    const int exponent = -std::ilogb(largest);
+    return {std::ldexp(n.x, exponent), std::ldexp(n.y, exponent), std::ldexp(n.z, exponent)};
   }
 
   // Along any axis, what separates the projections bounds the distance, whatever rounding made of the normal. A sum of
-  // three products of a rounded difference has an error of 4 eps of the sum of their sizes.
-  bool is_beyond_plane(const Box& box) const {
+  // three products of a rounded difference has an error of 4 eps of the sum of their sizes, but for those that
+  // underflow.
+  double beyond_plane(const Box& box) const {
+    const double length = norm(normal_);
+    if (length == 0) return 0;
     double least = 0, most = 0, size = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double n = normal_[axis], low = box.min[axis] - corners_[0][axis], high = box.max[axis] - corners_[0][axis];
@@ -58,20 +67,13 @@ class MayBeNear {
       size += std::abs(normal_.x * d.x) + std::abs(normal_.y * d.y) + std::abs(normal_.z * d.z);
     }
     const double apart = std::max(least - triangle_most, triangle_least - most);
-    return apart - 32 * kEpsilon * size > gap_ * norm(normal_) * (1 + 32 * kEpsilon) + 0x1p-1000;
+    return (apart - 32 * kEpsilon * size - 0x1p-1000) / length * (1 - 32 * kEpsilon);
   }
 
   std::array<Vec3, 3> corners_;
   Box box_;
-  double gap_;
   Vec3 normal_;
 };
-
-double distance(const Box& a, const Box& b) {
-  Vec3 d;
-  for (int axis = 0; axis < 3; ++axis) d[axis] = std::max({b.min[axis] - a.max[axis], a.min[axis] - b.max[axis], 0.0});
-  return norm(d);
-}
 
 class GapSearch {
  public:
@@ -83,26 +85,32 @@ class GapSearch {
   }
 
   bool keeps_gap(const Triangle& face) const {
-    const MayBeNear may_be_near(face, gap_);
+    const AtLeast at_least(face);
     bool keeps = true;
-    tree_.visit([&](const Box& box) { return keeps && may_be_near(box); },
+    tree_.visit([&](const Box& box) { return keeps && at_least(box) < gap_; },
                 [&](std::uint32_t f) { keeps = keeps && are_apart(face, original_.triangle(FaceId{f}), gap_); });
     return keeps;
   }
 
+  struct Found {
+    NearFace nearest;
+    double proven_distance;  ///< no face of the original is nearer
+  };
+
   /// The face of the original that is nearest, rounded, if it is nearer than `limit`.
-  NearFace nearest(FaceId id, const Triangle& face, double limit) const {
-    NearFace found{id, FaceId{}, {}, limit};
-    const Box box = box_of(face);
-    tree_.least([&](const Box& other) { return distance(box, other); },
-                [&](std::uint32_t f) {
-                  const Triangle t = original_.triangle(FaceId{f});
-                  const TriangleDistance d = triangle_distance(face, t);
-                  const double upper = d.lower == 0 && !are_apart(face, t, kTouching) ? 0 : d.upper;
-                  if (upper < found.distance) found = {id, FaceId{f}, d.s, upper};
-                  return upper;
-                },
-                limit);
+  Found nearest(FaceId id, const Triangle& face, double limit) const {
+    Found found{{id, FaceId{}, {}, limit}, limit};
+    tree_.least(
+        AtLeast(face),
+        [&](std::uint32_t f) {
+          const Triangle t = original_.triangle(FaceId{f});
+          const TriangleDistance d = triangle_distance(face, t);
+          const double upper = d.lower == 0 && !are_apart(face, t, kTouching) ? 0 : d.upper;
+          found.proven_distance = std::min(found.proven_distance, d.lower);
+          if (upper < found.nearest.distance) found.nearest = {id, FaceId{f}, d.s, upper};
+          return upper;
+        },
+        limit);
     return found;
   }
 
@@ -121,17 +129,19 @@ GapReport verify_gap(const TriangleMesh& hull, const TriangleMesh& original, dou
   ProgressCounter counter(options.progress, "verify", hull.face_count());
   const GapSearch search(original, gap);
   GapReport report;
-  report.least_distance = std::numeric_limits<double>::infinity();
+  report.least_distance = report.proven_distance = std::numeric_limits<double>::infinity();
   std::vector<NearFace> near;
   for (const FaceId f : hull.triangles.ids()) {
     counter.next();
     const Triangle face = hull.triangle(f);
     const bool keeps = search.keeps_gap(face);
-    const NearFace found =
+    const auto [nearest, proven_distance] =
         search.nearest(f, face, keeps ? report.least_distance : std::numeric_limits<double>::infinity());
-    report.least_distance = std::min(report.least_distance, found.distance);
-    if (!keeps) near.push_back(found);
+    report.least_distance = std::min(report.least_distance, nearest.distance);
+    report.proven_distance = std::min(report.proven_distance, proven_distance);
+    if (!keeps) near.push_back(nearest);
   }
+  if (near.empty()) report.proven_distance = std::max(report.proven_distance, gap);
   report.faces_too_near = near.size();
   std::ranges::stable_sort(near, {}, &NearFace::distance);
   near.resize(std::min(near.size(), options.max_offenders));

@@ -9,6 +9,9 @@ struct GapReport {
   std::size_t faces_too_near = 0;  ///< exact
   std::vector<NearFace> nearest;   ///< of these, the nearest first
   double least_distance = 0;       ///< of all faces, rounded
+  double proven_distance = 0;      ///< no face is nearer than this: least_distance, but for rounding
+
+  bool keeps_gap() const { return faces_too_near == 0; }
 };
 
 /// Which faces of `hull` are nearer to `original` than `gap`, which is greater than 0. Both meshes may be any triangles

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "verify/cell.h"
 #include "verify/solids.h"
-#include "verify/subdivision.h"
 
 namespace prohull::verify {
 

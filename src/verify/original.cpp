@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "geometry/usable_size.h"
+#include "mesh/closed.h"
 #include "prohull/enclosure.h"
 #include "verify/surface.h"
 
@@ -37,10 +38,11 @@ Box usable_box(const TriangleMesh& mesh, std::string_view name) {
 }
 
 PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& notes) {
-  if (const std::size_t dropped = drop_non_finite_faces(mesh))
+  PreparedOriginal result;
+  result.non_finite_faces = drop_non_finite_faces(mesh);
+  if (const std::size_t dropped = result.non_finite_faces)
     notes.push_back(fmt::format("{} of the original {} not finite and {} left out", counted(dropped, "face", "faces"),
                                 dropped == 1 ? "is" : "are", dropped == 1 ? "is" : "are"));
-  PreparedOriginal result;
   result.box = usable_box(mesh, "original");
   result.closed = is_closed(mesh);
   if (!result.closed) {
@@ -48,11 +50,18 @@ PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& 
     return result;
   }
   result.turned_faces = turn_outwards(mesh, "original");
-  result.volume = signed_volume(mesh);
   if (const std::size_t count = result.turned_faces)
     notes.push_back(fmt::format("{} of the original {} inwards and {} as turned", counted(count, "face", "faces"),
                                 count == 1 ? "looks" : "look", count == 1 ? "counts" : "count"));
   return result;
+}
+
+void refuse_non_finite_faces(std::size_t count, const VerificationOptions& options, bool& yes, std::string& why_not) {
+  if (count == 0 || options.finite_only || !yes) return;
+  yes = false;
+  why_not = fmt::format("{} of the original {} not finite; mend {}, or leave {} out (--finite-only)",
+                        counted(count, "face", "faces"), count == 1 ? "is" : "are", count == 1 ? "it" : "them",
+                        count == 1 ? "it" : "them");
 }
 
 }  // namespace prohull::verify

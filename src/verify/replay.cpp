@@ -1,17 +1,16 @@
-#include "prohull/replay.h"
+#include "verify/replay.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <vector>
 
-#include "geometry/orientation.h"
 #include "geometry/predicates.h"
 #include "parallel/progress_meter.h"
+#include "prohull/enclosure.h"
 
 namespace prohull {
 namespace {
@@ -124,9 +123,10 @@ class Replay {
 
 using Corners = std::array<std::array<double, 3>, 3>;
 
-// Independent of orientation and of the order of the corners; -0 becomes 0. Triangles with two equal corners vanish.
+// The chain of the faces: the corners of each, in order from the least on, so that a face that is turned is another
+// one; -0 becomes 0. Triangles with two equal corners are no part of a chain.
 template <class TriangleOf>
-std::vector<Corners> sorted_corners(std::size_t count, TriangleOf triangle) {
+std::vector<Corners> chain_of(std::size_t count, TriangleOf triangle) {
   std::vector<Corners> all;
   for (std::size_t f = 0; f < count; ++f) {
     const Triangle t = triangle(f);
@@ -135,7 +135,7 @@ std::vector<Corners> sorted_corners(std::size_t count, TriangleOf triangle) {
     std::ranges::transform(std::array{t.a, t.b, t.c}, corners.begin(), [](const Vec3& p) {
       return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};
     });
-    std::ranges::sort(corners);
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     all.push_back(corners);
   }
   std::ranges::sort(all);
@@ -151,34 +151,7 @@ bool has_triangles_of(const Replay& replay, const TriangleMesh& original) {
   const std::size_t faces = replay.corners().size() / 3;
   bool are_same = faces == original.face_count();
   for (std::size_t f = 0; f < faces && are_same; ++f) are_same = is_same(ours(f), theirs(f));
-  return are_same || sorted_corners(faces, ours) == sorted_corners(original.face_count(), theirs);
-}
-
-// The components, connected by shared vertices, of the finest level: outwards, or cavities of others.
-bool faces_outwards(const Replay& replay, std::size_t vertices) {
-  const auto& corners = replay.corners();
-  std::vector<std::uint32_t> parent(vertices);
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto find = [&](VertexId v) {
-    std::uint32_t i = index(v);
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (std::size_t c = 0; c < corners.size(); ++c) {
-    const std::uint32_t a = find(corners[c]), b = find(corners[c / 3 * 3]);
-    parent[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<std::uint32_t> number(vertices, kNone), component;
-  component.reserve(corners.size() / 3);
-  std::uint32_t count = 0;
-  for (std::size_t c = 0; c < corners.size(); c += 3) {
-    std::uint32_t& known = number[find(corners[c])];
-    if (known == kNone) known = count++;
-    component.push_back(known);
-  }
-  const Orientation facing = orientation([&](std::size_t f) { return replay.triangle(f); }, component, count);
-  return !facing.turn_all &&
-         std::ranges::all_of(facing.components, [](Facing f) { return f == Facing::Outwards || f == Facing::Cavity; });
+  return are_same || chain_of(faces, ours) == chain_of(original.face_count(), theirs);
 }
 
 bool is_well_formed(const ProgressiveHull& hull) {
@@ -191,7 +164,7 @@ bool is_well_formed(const ProgressiveHull& hull) {
 
 }  // namespace
 
-ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& original, const Progress& progress) {
+ReplayReport verify::replay(const ProgressiveHull& hull, const TriangleMesh& outwards, const Progress& progress) {
   ProgressCounter counter(progress, "verify", hull.splits().size());
   ReplayReport report;
   if (!is_well_formed(hull)) {
@@ -208,13 +181,14 @@ ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& orig
     ++report.splits;
     counter.next();
   }
-  if (!replay.is_complete() || !has_triangles_of(replay, original))
-    report.why_not = "the finest level does not have the triangles of the original mesh";
-  else if (!faces_outwards(replay, hull.positions().size()))
-    report.why_not = "the finest level is inside out, or a component of it";
-  else
-    report.holds = true;
+  report.holds = replay.is_complete() && has_triangles_of(replay, outwards);
+  if (!report.holds)
+    report.why_not = "the finest level does not have the triangles of the original mesh, turned outwards";
   return report;
+}
+
+ReplayReport verify_replay(const ProgressiveHull& hull, const TriangleMesh& original, const Progress& progress) {
+  return verify::replay(hull, turned_outwards(original), progress);
 }
 
 }  // namespace prohull

@@ -13,6 +13,7 @@
 #include "geometry/simd.h"
 #include "geometry/triangle_intersection.h"
 #include "geometry/unit_cube.h"
+#include "mesh/closed.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "parallel/progress_meter.h"
@@ -11,9 +13,16 @@ namespace prohull::verify {
 /// verify_enclosure of two meshes.
 EnclosureReport verify_enclosure(const Surface& inner, const Surface& outer, const EnclosureOptions& options);
 
+/// How many steps a verification of meshes with so many faces may take (EnclosureOptions::max_steps): some minutes.
+constexpr std::size_t most_steps(std::size_t faces) { return 2'000'000'000 + 2'000 * faces; }
+
+/// Why a verdict is no that leaves faces undecided, and knows of no part outside.
+std::string undecided(std::size_t faces);
+
 /// What `outer` leaves open in the midst of `inner`.
 struct Holes {
   std::size_t count = 0;               ///< connected parts of `outer` that bound holes
+  std::size_t undecided = 0;           ///< faces of `outer` that may bound others
   Vec3 point;                          ///< beside one, rounded
   std::size_t self_intersections = 0;  ///< of `outer`, if they were looked for
 };
@@ -22,6 +31,9 @@ struct Holes {
 /// and of components that are inside out; and those without area. Whatever encloses the mesh covers all others
 /// (verify_enclosure, verify_cover). Exact; but where more than 1,000 pairs of faces intersect, all of these are there.
 std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const TriangleMesh& mesh, const Progress& progress);
+
+/// Whether a closed mesh winds around some point a negative number of times, as in a lobe that is inside out. Exact.
+bool winds_negatively(TriangleMesh mesh, const Progress& progress);
 
 /// Whether the mesh is a surface in one piece, with two faces along every edge, with an area of every face and without
 /// self-intersections, that looks outwards: then all of its faces bound the solid. Much faster to find out, and in less

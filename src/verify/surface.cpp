@@ -1,135 +1,25 @@
 #include "verify/surface.h"
 
-#include <fmt/format.h>
-
-#include <oneapi/tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <utility>
 
 #include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
+#include "mesh/closed.h"
 #include "prohull/enclosure.h"
-#include "prohull/error.h"
 
 namespace prohull::verify {
 namespace {
-
-std::string text(const Vec3& p) { return fmt::format("({} {} {})", p.x, p.y, p.z); }
 
 std::uint64_t edge_key(std::uint32_t v, std::uint32_t w) {
   return std::uint64_t(std::min(v, w)) << 32 | std::max(v, w);
 }
 
-/// An edge along which faces run more often one way than the other.
-struct OpenEdge {
-  std::uint32_t v, w;  ///< by number
-  std::size_t faces;
-};
-
-/// The sides of all faces, each as item(tail, tip, face), by the lesser of the numbers of its ends. In linear time, and
-/// in half of the memory that sorting them by both ends takes.
-template <class Item>
-class SidesByEnd {
- public:
-  template <class MakeItem>
-  SidesByEnd(const TriangleMesh& mesh, const std::vector<std::uint32_t>& number, MakeItem item)
-      : first_(number.size() + 1, 0) {
-    for_each(mesh, number, [&](std::uint32_t v, std::uint32_t w, FaceIndex) { ++first_[std::min(v, w) + 1]; });
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    items_.resize(first_.back());
-    std::vector<std::size_t> cursor(first_.begin(), first_.end() - 1);
-    for_each(mesh, number,
-             [&](std::uint32_t v, std::uint32_t w, FaceIndex f) { items_[cursor[std::min(v, w)]++] = item(v, w, f); });
-  }
-
-  std::span<Item> of(std::uint32_t v) { return std::span(items_).subspan(first_[v], first_[v + 1] - first_[v]); }
-
- private:
-  template <class Visit>
-  static void for_each(const TriangleMesh& mesh, const std::vector<std::uint32_t>& number, Visit visit) {
-    for (const FaceId f : mesh.triangles.ids())
-      for (int i = 0; i < 3; ++i) {
-        const auto& t = mesh.triangles[f];
-        visit(number[index(t[i])], number[index(t[(i + 1) % 3])], index(f));
-      }
-  }
-
-  std::vector<std::size_t> first_;
-  std::vector<Item> items_;
-};
-
-std::optional<OpenEdge> find_open_edge(const TriangleMesh& mesh, const std::vector<std::uint32_t>& number) {
-  struct Use {
-    std::uint32_t to;
-    int direction;
-  };
-  SidesByEnd<Use> sides(mesh, number, [](std::uint32_t v, std::uint32_t w, FaceIndex) {
-    return Use{std::max(v, w), v < w ? 1 : v > w ? -1 : 0};
-  });
-  for (std::uint32_t v = 0; v < number.size(); ++v) {
-    const std::span<Use> uses = sides.of(v);
-    std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.to < b.to; });
-    for (std::size_t i = 0, end; i < uses.size(); i = end) {
-      int sum = 0;
-      for (end = i; end < uses.size() && uses[end].to == uses[i].to; ++end) sum += uses[end].direction;
-      if (sum != 0) return OpenEdge{v, uses[i].to, end - i};
-    }
-  }
-  return std::nullopt;
-}
-
-void require_closed(const TriangleMesh& mesh, const std::vector<std::uint32_t>& number, std::string_view name) {
-  const auto open = find_open_edge(mesh, number);
-  if (!open) return;
-  const Defect defect = open->faces == 1   ? Defect::OpenEdge
-                        : open->faces == 2 ? Defect::InconsistentOrientation
-                                           : Defect::NonManifoldEdge;
-  throw InputError(defect,
-                   fmt::format("the {} mesh is not closed: edge {} - {} has {} face{}, not as many on one side as "
-                               "on the other; only closed meshes can be verified",
-                               name, text(mesh.positions[VertexId(open->v)]), text(mesh.positions[VertexId(open->w)]),
-                               open->faces, open->faces == 1 ? "" : "s"));
-}
-
 }  // namespace
 
-std::vector<std::uint32_t> numbered_by_position(const PerVertex<Vec3>& positions) {
-  std::vector<std::uint32_t> order(positions.size()), number(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto at = [&](std::uint32_t v) -> const Vec3& { return positions[VertexId(v)]; };
-  std::erase_if(order, [&](std::uint32_t v) { return !is_finite(at(v)); });
-  oneapi::tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) {
-    const Vec3 &p = at(v), &q = at(w);
-    return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z != q.z ? p.z < q.z : v < w;
-  });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    number[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? number[order[i - 1]] : order[i];
-  return number;
-}
-
-void require_usable(const TriangleMesh& mesh, std::string_view name) {
-  if (mesh.triangles.empty()) throw InputError(Defect::EmptyMesh, fmt::format("the {} mesh has no triangle", name));
-  for (const FaceId f : mesh.triangles.ids())
-    for (const VertexId v : mesh.triangles[f]) {
-      if (index(v) >= mesh.vertex_count())
-        throw InputError(Defect::Malformed, fmt::format("the {} mesh: face {} refers to vertex {}, of {}", name,
-                                                        index(f), index(v), mesh.vertex_count()));
-      if (!is_finite(mesh.positions[v]))
-        throw InputError(Defect::NonFiniteCoordinate, fmt::format("the {} mesh: vertex {} of face {} is at {}", name,
-                                                                  index(v), index(f), text(mesh.positions[v])));
-    }
-}
-
-void require_closed(const TriangleMesh& mesh, std::string_view name) {
-  require_usable(mesh, name);
-  require_closed(mesh, numbered_by_position(mesh.positions), name);
-}
-
-Surface::Surface(const TriangleMesh& mesh, std::string_view name) {
+Surface::Surface(const TriangleMesh& mesh, std::string_view name, Turning turning) {
   require_usable(mesh, name);
   const auto number = numbered_by_position(mesh.positions);
   require_closed(mesh, number, name);
@@ -147,7 +37,7 @@ Surface::Surface(const TriangleMesh& mesh, std::string_view name) {
   }
   bvh = Bvh(std::move(boxes));
   volume = signed_volume(mesh);
-  if (volume_sign(faces) < 0) {
+  if (turning == Turning::Outwards && volume_sign(faces) < 0) {
     volume = -volume;
     for (Triangle& t : faces) std::swap(t.b, t.c);
     for (auto& c : corners) std::swap(c[1], c[2]);
@@ -185,7 +75,7 @@ std::pair<std::vector<std::uint32_t>, std::uint32_t> components(const TriangleMe
   const auto number = numbered_by_position(mesh.positions);
   using Side = std::pair<std::uint32_t, FaceIndex>;  // to which end
   SidesByEnd<Side> sides(mesh, number,
-                         [](std::uint32_t v, std::uint32_t w, FaceIndex f) { return Side(std::max(v, w), f); });
+                         [](std::uint32_t v, std::uint32_t w, FaceId f) { return Side(std::max(v, w), index(f)); });
   Clusters clusters(mesh.face_count());
   for (std::uint32_t v = 0; v < number.size(); ++v) {
     const std::span<Side> here = sides.of(v);
@@ -211,8 +101,8 @@ bool is_one_sheet(const TriangleMesh& mesh) {
     FaceIndex face;
     bool upwards;
   };
-  SidesByEnd<Side> sides(mesh, number, [](std::uint32_t v, std::uint32_t w, FaceIndex f) {
-    return Side{std::max(v, w), f, v < w};
+  SidesByEnd<Side> sides(mesh, number, [](std::uint32_t v, std::uint32_t w, FaceId f) {
+    return Side{std::max(v, w), index(f), v < w};
   });
   Clusters clusters(mesh.face_count());
   for (std::uint32_t v = 0; v < number.size(); ++v) {
@@ -249,11 +139,6 @@ std::size_t turn_outwards(TriangleMesh& mesh, std::string_view name) {
 }  // namespace prohull::verify
 
 namespace prohull {
-
-bool is_closed(const TriangleMesh& mesh) {
-  verify::require_usable(mesh, "given");
-  return !verify::find_open_edge(mesh, verify::numbered_by_position(mesh.positions));
-}
 
 TriangleMesh turned_outwards(TriangleMesh mesh) {
   verify::turn_outwards(mesh, "original");

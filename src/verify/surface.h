@@ -12,8 +12,11 @@ namespace prohull::verify {
 
 using FaceIndex = std::uint32_t;  ///< of a face of a Surface
 
-/// A mesh as the verifier sees it: a closed chain of triangles, turned outwards (see geometry/orientation.h), without
-/// the faces that have no area: they bound nothing.
+/// What becomes of a mesh whose volume is negative: as a rule it is inside out, and is turned.
+enum class Turning : std::uint8_t { Outwards, Never };
+
+/// A mesh as the verifier sees it: a closed chain of triangles, without the faces that have no area: they bound
+/// nothing.
 struct Surface {
   std::vector<Triangle> faces;
   std::vector<std::uint8_t> axis;                     ///< along which the face projects to a triangle with an area
@@ -23,15 +26,10 @@ struct Surface {
   double volume = 0;  ///< rounded
 
   /// Throws InputError, with `name` in the message, if the mesh is empty, not closed or not finite.
-  Surface(const TriangleMesh& mesh, std::string_view name);
+  Surface(const TriangleMesh& mesh, std::string_view name, Turning turning = Turning::Outwards);
+  /// Of no faces: it winds around no point.
+  Surface() = default;
 };
-
-/// Throws InputError, with `name` in the message, if the mesh is empty, refers to vertices that it has not, or is not
-/// finite.
-void require_usable(const TriangleMesh& mesh, std::string_view name);
-
-/// The same if the mesh is not closed.
-void require_closed(const TriangleMesh& mesh, std::string_view name);
 
 /// Whether all faces are connected by edges, matched by position, with two faces each that run along them in opposite
 /// directions. Requires what require_usable does.
@@ -39,10 +37,6 @@ bool is_one_sheet(const TriangleMesh& mesh);
 
 /// Turns components as turned_outwards does, and returns how many faces changed. Throws InputError as require_usable.
 std::size_t turn_outwards(TriangleMesh& mesh, std::string_view name);
-
-/// For each vertex the first one, in lexicographic order, at its position; 0.0 and -0.0 are the same position.
-/// Positions that are not finite belong to no face, and have no number.
-std::vector<std::uint32_t> numbered_by_position(const PerVertex<Vec3>& positions);
 
 /// The connected components of some faces or vertices.
 class Clusters {

@@ -10,12 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/bvh.h"
-#include "geometry/closest_point.h"
-#include "geometry/largest_coordinate.h"
 #include "parallel/progress_meter.h"
 #include "prohull/error.h"
-#include "verify/distance.h"
+#include "verify/nearest_face.h"
 
 namespace prohull {
 namespace {
@@ -30,84 +27,9 @@ Corners key_of(const Triangle& t) {
   return key;
 }
 
-/// How far faces are from a hull.
-class Nearness {
- public:
-  Nearness(const TriangleMesh& hull, const Box& of_mesh) : hull_(hull) {
-    std::vector<Box> boxes;
-    Box all = of_mesh;
-    for (const FaceId f : hull.triangles.ids()) boxes.push_back(box_of(hull.triangle(f)));
-    for (const Box& box : boxes) all.extend(box);
-    tree_ = Bvh(std::move(boxes));
-    rounding_ = 64 * 0x1p-53 * largest_coordinate(all);  // as distance_bounds derives it
-  }
-
-  /// True only if no point of t is farther away. A part of a face is no farther from a triangle than the farthest of
-  /// its corners, because the distance to a convex set is a convex function.
-  bool is_within(const Triangle& t, double distance) const {
-    constexpr std::size_t kMostParts = 1'000'000;
-    std::vector<Triangle> parts{t};
-    for (std::size_t seen = 0; !parts.empty(); ++seen) {
-      const Triangle part = parts.back();
-      parts.pop_back();
-      bool is_near = false;
-      for (const Vec3& p : {part.a, part.b, part.c}) {
-        const auto [face, least] = nearest(p);
-        if (least + rounding_ > distance) return false;
-        is_near = is_near || reach(part, face) + rounding_ <= distance;
-      }
-      if (is_near) continue;
-      if (seen == kMostParts) return false;
-      halve(part, parts);
-    }
-    return true;
-  }
-
- private:
-  struct Nearest {
-    FaceId face;
-    double distance;
-  };
-
-  double distance(const Vec3& p, FaceId f) const { return norm(p - closest_point(p, hull_.triangle(f))); }
-
-  Nearest nearest(const Vec3& p) const {
-    Nearest best{FaceId{0}, std::numeric_limits<double>::infinity()};
-    tree_.least([&](const Box& box) { return verify::distance(p, box); },
-                [&](std::uint32_t i) {
-                  const double d = distance(p, FaceId{i});
-                  if (d < best.distance) best = {FaceId{i}, d};
-                  return d;
-                });
-    return best;
-  }
-
-  double reach(const Triangle& t, FaceId f) const {
-    return std::max({distance(t.a, f), distance(t.b, f), distance(t.c, f)});
-  }
-
-  // At the middle of the longest edge.
-  static void halve(const Triangle& t, std::vector<Triangle>& parts) {
-    const double ab = squared_norm(t.b - t.a), bc = squared_norm(t.c - t.b), ca = squared_norm(t.a - t.c);
-    const auto [a, b, c] = ab >= bc && ab >= ca ? t : bc >= ca ? Triangle{t.b, t.c, t.a} : Triangle{t.c, t.a, t.b};
-    const Vec3 middle = a * 0.5 + b * 0.5;
-    parts.push_back({a, middle, c});
-    parts.push_back({middle, b, c});
-  }
-
-  const TriangleMesh& hull_;
-  Bvh tree_;
-  double rounding_;
-};
-
 void check(const TriangleMesh& hull, const TriangleMesh& mesh, const PerFace<double>& tolerances) {
-  for (const TriangleMesh* const m : {&hull, &mesh}) {
-    if (m->face_count() == 0) throw InputError(Defect::EmptyMesh, "there is no distance without faces");
-    for (const auto& corners : m->triangles)
-      for (const VertexId v : corners)
-        if (!is_finite(m->positions[v]))
-          throw InputError(Defect::NonFiniteCoordinate, "there is no distance from coordinates that are not finite");
-  }
+  verify::require_distances(hull);
+  verify::require_distances(mesh);
   if (tolerances.size() != mesh.face_count())
     throw InputError(Defect::InvalidOption, fmt::format("{} tolerances for {} faces: there must be one for each face",
                                                         tolerances.size(), mesh.face_count()));
@@ -123,15 +45,27 @@ std::size_t count_missing(const TriangleMesh& hull, const TriangleMesh& mesh, co
   return missing;
 }
 
+/// True only if no point of t is farther away from the faces.
+bool is_within(const Triangle& t, const verify::NearestFace& faces, double distance) {
+  constexpr std::size_t kMostParts = 1'000'000;
+  const verify::FarFromFaces rule(faces);
+  verify::FarFromFaces::Search search(rule, {.max_parts = kMostParts, .at_most = distance});
+  search.add({{t.a, t.b, t.c}, {rule.look_at(t.a, search), rule.look_at(t.b, search), rule.look_at(t.c, search)}});
+  return search.run([] {}).upper <= distance;
+}
+
 std::size_t count_far(const TriangleMesh& hull, const TriangleMesh& mesh, const PerFace<double>& tolerances,
                       const Progress& progress) {
-  const Nearness nearness(hull, bounding_box(mesh));
+  const double largest = std::max(verify::largest_coordinate(hull), verify::largest_coordinate(mesh));
+  const double unit = verify::usable_unit(largest), rounding = verify::rounding_of_distances(largest * unit);
+  const TriangleMesh to = verify::scaled(hull, unit), from = verify::scaled(mesh, unit);
+  const verify::NearestFace faces(to);
   ProgressMeter meter(progress, "verify");
   std::atomic<std::size_t> far = 0, done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, mesh.face_count(), [&](std::size_t i) {
     const FaceId f{static_cast<std::uint32_t>(i)};
     const bool is_asked = tolerances[f] > 0 && tolerances[f] < std::numeric_limits<double>::infinity();
-    if (is_asked && !nearness.is_within(mesh.triangle(f), tolerances[f])) ++far;
+    if (is_asked && !is_within(from.triangle(f), faces, tolerances[f] * unit - rounding)) ++far;
     meter.at(++done, mesh.face_count());
   });
   return far;

@@ -14,6 +14,7 @@
 #include "verify/exposed_surface.h"
 #include "verify/offenders.h"
 #include "verify/original.h"
+#include "verify/solid_volume.h"
 #include "verify/solids.h"
 #include "verify/surface.h"
 #include "verify/union_clipping.h"
@@ -89,7 +90,7 @@ class UnionJudge {
       return;
     }
     found_.union_volume = union_volume(pieces_.meshes);
-    found_.void_ratio = found_.union_volume / found_.original_volume - 1;
+    if (found_.original_volume > 0) found_.void_ratio = found_.union_volume / found_.original_volume - 1;
   }
 
  private:
@@ -135,7 +136,7 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
   UnionVerification found;
   const verify::PreparedOriginal prepared = verify::prepare_original(original, found.notes);
   found.original_closed = prepared.closed;
-  found.original_volume = prepared.volume;
+  if (prepared.closed) found.original_volume = verify::solid_volume(original, meter);
   const verify::Pieces sound = verify::prepare_pieces(pieces, meter.part(0, 0.1));
   found.turned_pieces = sound.turned;
   UnionJudge judge(sound, original, options, meter, found);
@@ -145,6 +146,7 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
     judge.cover_triangles();
     if (prepared.closed) judge.fill_inside();
   }
+  verify::refuse_non_finite_faces(prepared.non_finite_faces, options, found.covers, found.why_not);
   judge.measure();
   meter.at(1);
   return found;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -23,6 +22,7 @@
 #include "verify/exact.h"
 #include "verify/offenders.h"
 #include "verify/original.h"
+#include "verify/solid_volume.h"
 #include "verify/surface.h"
 #include "verify/winding.h"
 
@@ -46,6 +46,10 @@ constexpr double kSmallest = 1e-10;
 constexpr std::size_t kFewFaces = 64;  ///< in a cube; where there are more, it is cut
 /// Of a triangle, and of all cubes together: some seconds.
 constexpr std::size_t kMostParts = 1'000'000, kMostCubes = 4'000'000;
+/// Beside a place in doubt, points outside are looked for in parts of at least this fraction of the whole.
+constexpr double kCoarse = 1.0 / 16;
+
+enum class Decision : std::uint8_t { Covered, Outside, Undecided };
 
 using BallIndex = std::uint32_t;
 using BallSet = std::vector<BallIndex>;  // sorted
@@ -143,11 +147,12 @@ class TriangleCutter {
   TriangleCutter(const Triangle& t, const Balls& balls, double smallest, ProgressMeter& meter)
       : triangle_(t), balls_(balls), near_(balls.near(box_of(t))), smallest_(smallest), meter_(meter) {}
 
-  /// A point that no ball holds, or where the balls have too little to spare; none if the triangle is covered.
-  std::optional<Vec3> uncovered_point() {
+  Decision decide() {
     std::vector<std::array<Corner, 3>> parts{{corner({1, 0, 0}), corner({0, 1, 0}), corner({0, 0, 1})}};
     for (const Corner& c : parts[0])
-      if (c.holders.empty()) return c.position;
+      if (c.holders.empty()) return found(c, Decision::Outside);
+    const double coarse = kCoarse * longest_side(parts[0]).second;
+    Decision decision = Decision::Covered;
     for (std::size_t count = 1; !parts.empty(); count += 2) {
       meter_.go_on();
       const auto part = std::move(parts.back());
@@ -156,21 +161,28 @@ class TriangleCutter {
       const auto [i, length] = longest_side(part);
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       Corner middle = corner(part[i].weights * 0.5 + part[j].weights * 0.5);
-      if (middle.holders.empty()) return middle.position;
-      if (length < smallest_ || is_fine(middle.weights) || count > kMostParts) {
-        is_certain_ = false;
-        return middle.position;
+      if (middle.holders.empty()) return found(middle, Decision::Outside);
+      const bool is_small = length < (decision == Decision::Covered ? smallest_ : std::max(smallest_, coarse));
+      if (is_small || is_fine(middle.weights) || count > kMostParts) {
+        if (decision == Decision::Covered) decision = found(middle, Decision::Undecided);
+        if (count > kMostParts) break;
+        continue;
       }
       parts.push_back({part[i], middle, part[k]});
       parts.push_back({std::move(middle), part[j], part[k]});
     }
-    return std::nullopt;
+    return decision;
   }
 
-  /// Whether no ball holds the point that was found.
-  bool is_certain() const { return is_certain_; }
+  /// That is outside, or in doubt.
+  const Corner& point() const { return point_; }
 
  private:
+  Decision found(const Corner& point, Decision decision) {
+    point_ = point;
+    return decision;
+  }
+
   Corner corner(const Vec3& weights) const {
     const Triangle& t = triangle_;
     Corner result{weights, t.a * weights.x + t.b * weights.y + t.c * weights.z, {}};
@@ -199,11 +211,12 @@ class TriangleCutter {
   const BallSet near_;
   const double smallest_;
   ProgressMeter& meter_;
-  bool is_certain_ = true;
+  Corner point_;
 };
 
 /// Whether a triangle may touch a cube: false only if it does not. Separating axes (Akenine-Moller 2001); sums of at
-/// most six products, of factors below 2 largest and 2 reach, are rounded by less than `slack`.
+/// most six products, of factors below 2 largest and 2 reach, are rounded by less than `slack`; what
+/// underflows is less than kUnderflow.
 bool may_touch(const Box& cube, const Triangle& t, double largest) {
   if (!cube.overlaps(box_of(t))) return false;
   const Vec3 m = cube.center(), half = (cube.max - cube.min) * 0.5;
@@ -216,11 +229,11 @@ bool may_touch(const Box& cube, const Triangle& t, double largest) {
     const auto [least, greatest] = std::minmax({dot(axis, v[0]), dot(axis, v[1]), dot(axis, v[2])});
     return least > r || greatest < -r;
   };
-  constexpr double kRounding = 0x1p-44;
-  if (is_apart(cross(e[0], e[1]), kRounding * largest * reach * reach)) return false;
+  constexpr double kRounding = 0x1p-44, kUnderflow = 0x1p-1000;
+  if (is_apart(cross(e[0], e[1]), kRounding * largest * reach * reach + kUnderflow)) return false;
   for (const Vec3& side : e)
     for (const Vec3& axis : {Vec3{0, -side.z, side.y}, Vec3{side.z, 0, -side.x}, Vec3{-side.y, side.x, 0}})
-      if (is_apart(axis, kRounding * largest * reach)) return false;
+      if (is_apart(axis, kRounding * largest * reach + kUnderflow)) return false;
   return true;
 }
 
@@ -254,21 +267,23 @@ class CubeCutter {
   CubeCutter(const Surface& solid, const Balls& balls, double smallest, const Progress& progress)
       : solid_(solid), balls_(balls), counter_(progress, "verify", kMostCubes), smallest_(smallest) {}
 
-  std::optional<Vec3> uncovered_point() {
+  Decision decide() {
     Box box;
     for (const Triangle& t : solid_.faces) box.extend(box_of(t));
-    if (box.is_empty()) return std::nullopt;
+    if (box.is_empty()) return Decision::Covered;
     const Box root = root_cube(box);
     for (int i = 0; i < 3; ++i) largest_ = std::max({largest_, std::abs(root.min[i]), std::abs(root.max[i])});
     smallest_ = std::max(smallest_, largest_ * 0x1p-50);
     std::vector<FaceIndex> faces(solid_.faces.size());
     for (FaceIndex f = 0; f < faces.size(); ++f) faces[f] = f;
-    const bool covered = is_covered(root, balls_.near(root), faces, false);
+    coarse_ = kCoarse * (root.max.x - root.min.x);
+    const bool has_hole = !is_free_of_holes(root, balls_.near(root), faces, false);
     counter_.finish();
-    return covered ? std::nullopt : std::optional(point_);
+    return has_hole ? Decision::Outside : decision_;
   }
 
-  bool is_certain() const { return is_certain_; }
+  /// That no ball holds.
+  const Vec3& point() const { return point_; }
 
  private:
   static Box root_cube(const Box& box) {
@@ -282,8 +297,9 @@ class CubeCutter {
     return root;
   }
 
-  /// `lies_inside` tells that all of the cube lies inside of the solid; else the faces are those that may touch it.
-  bool is_covered(const Box& cube, const BallSet& near, const std::vector<FaceIndex>& faces, bool lies_inside) {
+  /// False if a point was found that no ball holds. `lies_inside` tells that all of the cube lies inside of the solid;
+  /// else the faces are those that may touch it.
+  bool is_free_of_holes(const Box& cube, const BallSet& near, const std::vector<FaceIndex>& faces, bool lies_inside) {
     counter_.next();
     ++count_;
     const Vec3 m = cube.center();
@@ -299,14 +315,20 @@ class CubeCutter {
         return true;
       }
     }
-    point_ = m;
     const bool is_held = std::any_of(near.begin(), near.end(), [&](BallIndex i) { return holds(balls_[i], m); });
-    if (!is_held && (lies_inside || is_inside(m, touching))) return false;
-    if (cube.max.x - cube.min.x < smallest_ || count_ > kMostCubes) return is_certain_ = false;
+    if (!is_held && (lies_inside || is_inside(m, touching))) {
+      point_ = m;
+      return false;
+    }
+    const double smallest = decision_ == Decision::Covered ? smallest_ : std::max(smallest_, coarse_);
+    if (cube.max.x - cube.min.x < smallest || count_ > kMostCubes) {
+      decision_ = Decision::Undecided;
+      return true;
+    }
     for (int i = 0; i < 8; ++i) {
       Box eighth = cube;
       for (int axis = 0; axis < 3; ++axis) (i >> axis & 1 ? eighth.min : eighth.max)[axis] = m[axis];
-      if (!is_covered(eighth, balls_.near(eighth, near), touching, lies_inside)) return false;
+      if (!is_free_of_holes(eighth, balls_.near(eighth, near), touching, lies_inside)) return false;
     }
     return true;
   }
@@ -365,10 +387,10 @@ class CubeCutter {
   const Surface& solid_;
   const Balls& balls_;
   ProgressCounter counter_;
-  double smallest_, largest_ = 0;
+  double smallest_, largest_ = 0, coarse_ = 0;
   std::size_t count_ = 0;
+  Decision decision_ = Decision::Covered;  ///< of the cubes so far
   Vec3 point_;
-  bool is_certain_ = true;
 };
 
 class BallUnionJudge {
@@ -390,9 +412,14 @@ class BallUnionJudge {
       const auto& [a, b, c] = original_.triangles[f];
       if (have_common(holders[a], holders[b], holders[c])) continue;
       TriangleCutter cutter(original_.triangle(f), balls_, smallest_, meter_);
-      if (const auto point = cutter.uncovered_point()) {
-        offenders.push_back(offender(f, *point));
-        is_certain_ = is_certain_ && cutter.is_certain();
+      const Decision decision = cutter.decide();
+      const auto& [weights, position, holders_there] = cutter.point();
+      if (decision == Decision::Outside) {
+        offenders.push_back(offender(f, position));
+        if (!found_.point_outside) found_.point_outside = {f, {weights.x, weights.y, weights.z}};
+      } else if (decision == Decision::Undecided) {
+        ++found_.faces_undecided;
+        if (found_.undecided.size() < options_.max_offenders) found_.undecided.push_back({f, position, 0});
       }
     }
     found_.faces_outside = offenders.size();
@@ -403,22 +430,26 @@ class BallUnionJudge {
   void fill_inside() {
     const Surface solid(original_, "original");
     CubeCutter cutter(solid, balls_, smallest_, meter_.part(0.5, 1));
-    const auto point = cutter.uncovered_point();
-    if (!point) return;
+    const Decision decision = cutter.decide();
+    found_.inside_undecided = decision == Decision::Undecided;
+    if (decision != Decision::Outside) return;
     found_.holes = 1;
-    is_certain_ = is_certain_ && cutter.is_certain();
+    const Vec3& p = cutter.point();
     std::ostringstream text;
-    text.precision(9);
-    text << "the balls leave a part of the inside open, for instance at (" << point->x << ", " << point->y << ", "
-         << point->z << ')';
+    text.precision(17);
+    text << "the balls leave a part of the inside open, for instance at (" << p.x << ", " << p.y << ", " << p.z << ')';
     refuse(text.str());
   }
 
+  /// What is in doubt is no reason to say that something lies outside.
   void finish() {
-    if (!is_certain_)
-      found_.notes.emplace_back(
-          "in places the balls have less than 1e-9 of the diagonal to spare, which counts as uncovered; make them a "
-          "little larger");
+    if (found_.faces_undecided > 0 || found_.inside_undecided) {
+      std::string what = counted(found_.faces_undecided, "triangle", "triangles");
+      if (found_.inside_undecided) what = found_.faces_undecided > 0 ? what + " and the inside" : "the inside";
+      refuse("it is undecided whether the balls cover all of " + what +
+             ": they have less than 1e-9 of the diagonal to spare there, or the decision takes too long; make them a "
+             "little larger");
+    }
     meter_.at(1);
   }
 
@@ -453,7 +484,6 @@ class BallUnionJudge {
   const VerificationOptions& options_;
   ProgressMeter meter_;
   UnionVerification& found_;
-  bool is_certain_ = true;
 };
 
 void check(std::span<const Ball> balls) {
@@ -479,13 +509,17 @@ UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh origina
   const verify::PreparedOriginal prepared = verify::prepare_original(original, found.notes);
   verify::check(balls);
   found.original_closed = prepared.closed;
-  found.original_volume = prepared.volume;
   found.covers = true;
   verify::BallUnionJudge judge(balls, original, prepared, options, found);
   if (!options.solid_only || !prepared.closed) judge.cover_triangles();
   if (prepared.closed && (inside || options.solid_only)) judge.fill_inside();
   found.union_volume = union_volume(balls);
-  if (prepared.closed) found.void_ratio = found.union_volume / found.original_volume - 1;
+  if (prepared.closed) {
+    ProgressMeter meter(options.progress, "verify");
+    found.original_volume = verify::solid_volume(original, meter);
+  }
+  if (found.original_volume > 0) found.void_ratio = found.union_volume / found.original_volume - 1;
+  verify::refuse_non_finite_faces(prepared.non_finite_faces, options, found.covers, found.why_not);
   judge.finish();
   return found;
 }

@@ -10,8 +10,8 @@
 
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
+#include "verify/cell.h"
 #include "verify/holes.h"
-#include "verify/subdivision.h"
 #include "verify/winding.h"
 
 // Points of the triangle are given by barycentric coordinates, up to a factor. There a plane is a line: its

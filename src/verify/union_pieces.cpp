@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
+#include "mesh/closed.h"
 #include "parallel/progress_meter.h"
-#include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "verify/original.h"
+#include "verify/solids.h"
 #include "verify/surface.h"
 
 namespace prohull::verify {
@@ -33,31 +33,6 @@ Vec3 mean_of_corners(const std::vector<Triangle>& faces, const Box& box) {
 
 void turn(TriangleMesh& mesh) {
   for (auto& corners : mesh.triangles) std::swap(corners[1], corners[2]);
-}
-
-TriangleMesh box_mesh(const Vec3& min, const Vec3& max) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.positions.push_back({(i & 1 ? max : min).x, (i & 2 ? max : min).y, (i & 4 ? max : min).z});
-  constexpr std::array<std::array<unsigned, 4>, 6> kSides{
-      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-  for (const auto& [a, b, c, d] : kSides) {
-    mesh.triangles.push_back({VertexId(a), VertexId(b), VertexId(c)});
-    mesh.triangles.push_back({VertexId(a), VertexId(c), VertexId(d)});
-  }
-  return mesh;
-}
-
-/// Inside out, the mesh winds at least once around such points. A box far away, of greater volume, sees to it that it
-/// does not count as turned.
-bool winds_negatively_somewhere(TriangleMesh mesh, const Progress& progress) {
-  const Box box = bounding_box(mesh);
-  const double size = box.diagonal() * (2 + std::cbrt(static_cast<double>(mesh.face_count())));
-  const Vec3 diagonal{size, size, size};
-  const TriangleMesh far = box_mesh(box.max + diagonal, box.max + 2 * diagonal);
-  turn(mesh);
-  append(mesh, far);
-  return !verify_enclosure(mesh, far, {.progress = progress}).encloses;
 }
 
 [[noreturn]] void refuse(std::size_t piece, Defect defect, std::string_view why) {
@@ -124,7 +99,7 @@ Pieces prepare_pieces(std::span<const TriangleMesh> pieces, const Progress& prog
     counter.next();
     const TriangleMesh& mesh = result.meshes.emplace_back(closed_piece(pieces[i], i, result.turned));
     result.kernels.emplace_back(mesh);
-    if (!result.kernels.back().is_solid() && winds_negatively_somewhere(mesh, progress))
+    if (!result.kernels.back().is_solid() && winds_negatively(mesh, progress))
       refuse(i, Defect::InconsistentOrientation,
              "it intersects itself and is inside out in parts, so that it bounds no solid; take its convex hull, or "
              "`prohull build`, instead");

@@ -11,13 +11,16 @@
 
 #include "base/text.h"
 #include "geometry/usable_size.h"
+#include "mesh/closed.h"
 #include "parallel/progress_meter.h"
 #include "prohull/error.h"
-#include "prohull/replay.h"
 #include "verify/gap.h"
 #include "verify/original.h"
+#include "verify/replay.h"
 #include "verify/self_intersection.h"
+#include "verify/solid_volume.h"
 #include "verify/solids.h"
+#include "verify/stand_in.h"
 #include "verify/surface.h"
 
 namespace prohull {
@@ -61,23 +64,31 @@ class Judge {
     original_box = prepared.box;
     found.original_closed = prepared.closed;
     found.turned_original_faces = prepared.turned_faces;
-    found.original_volume = prepared.volume;
-    if (!is_outer() && !found.original_closed)
+    found.non_finite_faces = prepared.non_finite_faces;
+    if (!found.original_closed && options.closed) stand_in_ = verify::stand_in(*options.closed, original);
+    if (stand_in_) found.cap_faces = stand_in_->caps;
+    found.has_solid = found.original_closed || stand_in_;
+    if (!is_outer() && !found.has_solid)
       throw InputError(Defect::OpenEdge,
                        "the original is not closed: it has no inside that could enclose an inner hull");
-    found.every_triangle = !options.solid_only || !found.original_closed;
+    found.every_triangle = !options.solid_only || !found.has_solid;
   }
 
   bool is_outer() const { return found.side == HullSide::Outer; }
 
+  /// The closed mesh that the hull is compared with, if there is one.
+  const TriangleMesh& solid() const { return stand_in_ ? stand_in_->mesh : original_; }
+
   EnclosureOptions next_step() {
     const double from = static_cast<double>(done_++), steps = static_cast<double>(steps_);
-    return {.max_offenders = options_.max_offenders, .progress = meter_.part(from / steps, (from + 1) / steps)};
+    return {.max_offenders = options_.max_offenders,
+            .progress = meter_.part(from / steps, (from + 1) / steps),
+            .max_steps = verify::most_steps(original_.face_count())};
   }
 
   /// Hulls are not turned, but refused: who uses one believes that it looks outwards.
   bool refuses_inverted(const TriangleMesh& hull) {
-    verify::require_closed(hull, "hull");
+    require_closed(hull, "hull");
     TriangleMesh turned = hull;
     found.inverted_hull_faces = verify::turn_outwards(turned, "hull");
     if (found.inverted_hull_faces == 0) return false;
@@ -94,12 +105,12 @@ class Judge {
 
   void enclose_solid(const TriangleMesh& hull) {
     const verify::Surface hull_surface(hull, "hull");
-    const verify::Surface& original = original_surface();
+    const verify::Surface& solid = solid_surface();
     if (is_outer())
-      take(verify::verify_enclosure(original, hull_surface, next_step()),
+      take(verify::verify_enclosure(solid, hull_surface, next_step()),
            "a part of the solid that the original bounds lies outside of the hull");
     else
-      take(verify::verify_enclosure(hull_surface, original, next_step()),
+      take(verify::verify_enclosure(hull_surface, solid, next_step()),
            "a part of the solid that the hull bounds lies outside of the original");
   }
 
@@ -110,23 +121,34 @@ class Judge {
 
   /// Where solids are enclosed, triangles that bound them are covered: what is left are the others.
   void cover_the_rest(const TriangleMesh& hull) {
-    const TriangleMesh& inner = is_outer() ? original_ : hull;
+    const TriangleMesh& inner = is_outer() ? solid() : hull;
     const EnclosureOptions looking = next_step(), how = next_step();
     if (!is_one_solid_) look_at_solid(inner);
     if (*is_one_solid_) return;
     const std::vector<FaceId> rest =
-        is_outer() ? verify::faces_beside_the_solid(original_surface(), inner, looking.progress)
+        is_outer() ? verify::faces_beside_the_solid(solid_surface(), inner, looking.progress)
                    : verify::faces_beside_the_solid(verify::Surface(inner, "hull"), inner, looking.progress);
     found.faces_beside_solid = rest.size();
     if (rest.empty()) return;
-    TriangleMesh triangles{inner.positions, {}};
-    for (const FaceId f : rest) triangles.triangles.push_back(inner.triangles[f]);
-    EnclosureReport report = verify_cover(triangles, is_outer() ? hull : original_, how);
-    for (Offender& o : report.worst) o.face = rest[index(o.face)];
-    take(std::move(report), is_outer() ? "triangles of folds of the original, or of parts that are inside out, lie "
-                                         "outside of the hull; its solid is enclosed"
-                                       : "triangles of folds of the hull, or of parts that are inside out, lie outside "
-                                         "of the original; its solid is enclosed");
+    take(covered(inner, rest, is_outer() ? hull : solid(), how),
+         is_outer() ? "triangles of folds of the original, or of parts that are inside out, lie "
+                      "outside of the hull; its solid is enclosed"
+                    : "triangles of folds of the hull, or of parts that are inside out, lie outside "
+                      "of the original; its solid is enclosed");
+  }
+
+  /// The triangles of the original that are no faces of its stand-in, as those that repair has dropped.
+  void cover_what_is_not_in_the_solid(const TriangleMesh& hull) {
+    if (!stand_in_ || !is_outer() || !found.encloses || stand_in_->rest.empty()) return;
+    EnclosureReport report = covered(original_, stand_in_->rest, hull, next_step());
+    found.encloses = report.encloses;
+    if (!report.encloses) found.why_not = "triangles of the original lie outside of the hull, or in part";
+    found.faces_outside = report.faces_outside;
+    found.worst = std::move(report.worst);
+  }
+
+  void refuse_non_finite_faces() {
+    verify::refuse_non_finite_faces(found.non_finite_faces, options_, found.encloses, found.why_not);
   }
 
   /// Of what cover_the_rest looks at: may run beside other steps.
@@ -134,7 +156,7 @@ class Judge {
 
   void keep_gap(const TriangleMesh& hull) {
     verify::GapReport report = verify::verify_gap(hull, original_, options_.gap, next_step());
-    found.keeps_gap = report.faces_too_near == 0;
+    found.keeps_gap = report.keeps_gap();
     found.faces_too_near = report.faces_too_near;
     found.nearest = std::move(report.nearest);
     found.least_distance = report.least_distance;
@@ -145,9 +167,11 @@ class Judge {
   }
 
   void measure(const TriangleMesh& hull) {
-    found.hull_volume = signed_volume(hull);
-    found.void_ratio = found.hull_volume / found.original_volume - 1;
     found.self_intersections = verify::count_self_intersections(hull, meter_);
+    found.hull_volume = found.inverted_hull_faces > 0 ? signed_volume(hull) : verify::solid_volume(hull, meter_);
+    if (found.has_solid)
+      found.original_volume = verify::solid_volume(solid(), meter_, is_outer() ? is_one_solid_ : std::optional<bool>());
+    if (found.original_volume > 0) found.void_ratio = found.hull_volume / found.original_volume - 1;
     meter_.at(1);
   }
 
@@ -157,19 +181,34 @@ class Judge {
  private:
   void take(EnclosureReport report, std::string_view why_not) {
     found.encloses = report.encloses;
-    if (!report.encloses) found.why_not = why_not;
+    const bool is_known = report.faces_outside > 0 || report.cavities > 0;
+    if (!report.encloses) found.why_not = is_known ? why_not : verify::undecided(report.faces_undecided);
+    found.faces_undecided = report.faces_undecided;
     found.faces_outside = report.faces_outside;
     found.worst = std::move(report.worst);
+    if (stand_in_ && is_outer())
+      for (Offender& o : found.worst) o.face = stand_in_->number[index(o.face)];
     found.cavities += report.cavities;
   }
 
-  const verify::Surface& original_surface() {
-    if (!original_surface_) original_surface_.emplace(original_, "original");
-    return *original_surface_;
+  /// verify_cover of some faces of a mesh.
+  static EnclosureReport covered(const TriangleMesh& mesh, const std::vector<FaceId>& faces, const TriangleMesh& outer,
+                                 const EnclosureOptions& how) {
+    TriangleMesh triangles{mesh.positions, {}};
+    for (const FaceId f : faces) triangles.triangles.push_back(mesh.triangles[f]);
+    EnclosureReport report = verify_cover(triangles, outer, how);
+    for (Offender& o : report.worst) o.face = faces[index(o.face)];
+    return report;
+  }
+
+  const verify::Surface& solid_surface() {
+    if (!solid_surface_) solid_surface_.emplace(solid(), "original");
+    return *solid_surface_;
   }
 
   TriangleMesh& original_;
-  std::optional<verify::Surface> original_surface_;
+  std::optional<verify::StandIn> stand_in_;
+  std::optional<verify::Surface> solid_surface_;
   std::optional<bool> is_one_solid_;  ///< bounds_one_solid of what must be covered
   const VerificationOptions& options_;
   ProgressMeter meter_;
@@ -184,17 +223,19 @@ Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSi
   if (!(options.gap >= 0 && std::isfinite(options.gap)))
     throw InputError(Defect::InvalidOption,
                      fmt::format("the gap is {:g}; it must be a finite number of at least 0", options.gap));
-  Judge judge(original, side, options, options.gap > 0 ? 4 : 3);
+  Judge judge(original, side, options, options.gap > 0 ? 5 : 4);
   Verification& found = judge.found;
-  found.proof = found.original_closed ? "enclosure" : "coverage";
+  found.proof = found.has_solid ? "enclosure" : "coverage";
   note_units(verify::usable_box(hull, "hull"), judge.original_box, found.notes);
   if (!judge.refuses_inverted(hull)) {
-    if (found.original_closed)
+    if (found.has_solid)
       judge.enclose_solid(hull);
     else
       judge.cover_all(hull);
-    if (found.original_closed && found.encloses && found.every_triangle) judge.cover_the_rest(hull);
+    if (found.has_solid && found.encloses && found.every_triangle) judge.cover_the_rest(hull);
+    judge.cover_what_is_not_in_the_solid(hull);
   }
+  judge.refuse_non_finite_faces();
   if (options.gap > 0) judge.keep_gap(hull);
   judge.measure(hull);
   return std::move(judge.found);
@@ -206,26 +247,29 @@ Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, con
                      "levels of a hull touch each other, so there is no gap to verify; name a mesh, as `prohull lod` "
                      "writes it of one level");
   const bool is_of_input = hull.finest_level() == FinestLevel::Input;
-  Judge judge(original, hull.side(), options, is_of_input ? 3 : 4);
+  Judge judge(original, hull.side(), options, is_of_input ? 4 : 5);
   Verification& found = judge.found;
   found.proof = "replay";
   note_units(usable_box(hull), judge.original_box, found.notes);
-  const bool is_finest = found.original_closed && is_of_input;  // the original has to be the finest level
+  const bool is_finest = found.has_solid && is_of_input;  // the solid has to be the finest level
   const TriangleMesh finest = is_finest ? TriangleMesh{} : hull.original();
   ReplayReport replay;
   const EnclosureOptions replaying = judge.next_step();
-  oneapi::tbb::parallel_invoke([&] { replay = verify_replay(hull, is_finest ? original : finest, replaying.progress); },
-                               [&] {
-                                 if (is_finest && found.every_triangle && judge.is_outer())
-                                   judge.look_at_solid(original);
-                               });
+  oneapi::tbb::parallel_invoke(
+      [&] {
+        replay = is_finest ? verify::replay(hull, judge.solid(), replaying.progress)
+                           : verify_replay(hull, finest, replaying.progress);
+      },
+      [&] {
+        if (is_finest && found.every_triangle && judge.is_outer()) judge.look_at_solid(judge.solid());
+      });
   found.encloses = replay.holds;
   found.why_not = std::move(replay.why_not);
   found.splits = replay.splits;
   found.signs = replay.signs;
   if (!replay.holds) return std::move(judge.found);
   const TriangleMesh base = hull.base();
-  if (!found.original_closed) {
+  if (!found.has_solid) {
     judge.cover_all(finest);
   } else if (!judge.refuses_inverted(base)) {
     if (!is_finest) judge.enclose_solid(finest);
@@ -236,6 +280,8 @@ Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, con
                       "covers {}, finer levels may not",
                       counted(beside, "face", "faces"), beside == 1 ? "s" : "", beside == 1 ? "it" : "them"));
   }
+  judge.cover_what_is_not_in_the_solid(base);
+  judge.refuse_non_finite_faces();
   judge.measure(base);
   return std::move(judge.found);
 }

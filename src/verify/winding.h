@@ -5,8 +5,8 @@
 #include <random>
 
 #include "geometry/predicates.h"
+#include "verify/cell.h"
 #include "verify/exact.h"
-#include "verify/subdivision.h"
 #include "verify/surface.h"
 
 namespace prohull::verify {
@@ -45,6 +45,7 @@ class SurfacePoint {
   int axis() const { return axis_; }
   double lower(int coordinate) const { return point_.lower(coordinate); }
   double upper(int coordinate) const { return point_.upper(coordinate); }
+  const Number& operator[](int coordinate) const { return point_[coordinate]; }
   Vec3 rounded() const { return point_.rounded(); }
 
   std::array<int, 3> turns(const Triangle& h) const { return point_.turns(axis_, h); }

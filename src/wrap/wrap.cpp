@@ -54,8 +54,11 @@ struct InTetrahedron {
   InTetrahedron(const Grid& grid, const Vec3& p) {
     const std::array at{std::size_t(p.x), std::size_t(p.y), std::size_t(p.z)};
     const Vec3 rest{p.x - double(at[0]), p.y - double(at[1]), p.z - double(at[2])};
-    std::array order{0, 1, 2};
-    std::ranges::stable_sort(order, std::greater(), [&](int axis) { return rest[axis]; });
+    std::array order{0, 1, 2};  // the greatest rest first
+    const auto put_in_order = [&](std::size_t i) {
+      if (rest[order[i]] < rest[order[i + 1]]) std::swap(order[i], order[i + 1]);
+    };
+    put_in_order(0), put_in_order(1), put_in_order(0);
     const std::array<std::size_t, 3> stride{1, grid.nodes(0), grid.nodes(0) * grid.nodes(1)};
     nodes[0] = grid.node(at[0], at[1], at[2]);
     double before = 1;
@@ -74,27 +77,69 @@ struct InTetrahedron {
   }
 };
 
-/// Calls use(point), in spacings, for points of the triangle that are near each other.
-template <class Use>
-void sample(const Grid& grid, const TriangleMesh& triangles, FaceId f, Use use) {
-  const Triangle t = triangles.triangle(f);
-  const Vec3 a = grid.in_spacings(t.a), u = grid.in_spacings(t.b) - a, v = grid.in_spacings(t.c) - a;
-  const int steps_u = 1 + int(norm(u) / kSampling), steps_v = 1 + int(norm(v) / kSampling);
-  for (int i = 0; i <= steps_u; ++i) {
-    const double s = double(i) / steps_u;
-    const int last = int(std::ceil((1 - s) * steps_v));
-    for (int j = 0; j <= last; ++j) use(a + u * s + v * (last == 0 ? 0 : (1 - s) * j / last));
+/// Points of triangles, near each other.
+class Samples {
+ public:
+  Samples(const Grid& grid, const TriangleMesh& triangles) : grid_(grid), triangles_(triangles) {
+    for (const FaceId f : triangles.triangles.ids()) {
+      const auto [a, u, v] = corner_of(f);
+      total_ += double(steps(u)) * steps(v);
+    }
   }
-}
 
-/// Of all triangles.
-template <class Use>
-void sample(const Grid& grid, const TriangleMesh& triangles, ProgressMeter& meter, Use use) {
-  for (const FaceId f : triangles.triangles.ids()) {
-    if (index(f) % 1024 == 0) meter.at(0.5);
-    sample(grid, triangles, f, use);
+  /// Calls use(point), in spacings, for those of a triangle. Of a needle, both sides at the corner are long: where that
+  /// makes too many of all, it is sampled in two right triangles.
+  template <class Use>
+  void of(FaceId f, Use use) const {
+    constexpr double kMany = 0x1p25;
+    const auto [a, u, v] = corner_of(f);
+    if (total_ <= kMany) return of_corner(a, u, v, use);
+    const std::array corners{a, a + u, a + v};
+    int i = 0;  // from which the longest side goes to the next one
+    for (int k = 1; k < 3; ++k)
+      if (squared_norm(corners[(k + 1) % 3] - corners[k]) > squared_norm(corners[(i + 1) % 3] - corners[i])) i = k;
+    const Vec3 &from = corners[i], &to = corners[(i + 1) % 3], &third = corners[(i + 2) % 3], side = to - from;
+    const double length = squared_norm(side);
+    const Vec3 foot = from + side * (length > 0 ? dot(third - from, side) / length : 0);
+    of_corner(foot, to - foot, third - foot, use);
+    of_corner(foot, from - foot, third - foot, use);
   }
-}
+
+  template <class Use>
+  void of_all(ProgressMeter& meter, Use use) const {
+    for (const FaceId f : triangles_.triangles.ids()) {
+      if (index(f) % 1024 == 0) meter.at(0.5);
+      of(f, use);
+    }
+  }
+
+ private:
+  struct CornerOf {
+    Vec3 at, u, v;
+  };
+
+  CornerOf corner_of(FaceId f) const {
+    const Triangle t = triangles_.triangle(f);
+    const Vec3 a = grid_.in_spacings(t.a);
+    return {a, grid_.in_spacings(t.b) - a, grid_.in_spacings(t.c) - a};
+  }
+
+  static int steps(const Vec3& side) { return 1 + int(norm(side) / kSampling); }
+
+  template <class Use>
+  static void of_corner(const Vec3& a, const Vec3& u, const Vec3& v, Use use) {
+    const int steps_u = steps(u), steps_v = steps(v);
+    for (int i = 0; i <= steps_u; ++i) {
+      const double s = double(i) / steps_u;
+      const int last = int(std::ceil((1 - s) * steps_v));
+      for (int j = 0; j <= last; ++j) use(a + u * s + v * (last == 0 ? 0 : (1 - s) * j / last));
+    }
+  }
+
+  const Grid& grid_;
+  const TriangleMesh& triangles_;
+  double total_ = 0;
+};
 
 /// The triangles that have nodes outside near them. The others are not on the boundary of the inside: their distances
 /// would cut into it.
@@ -107,9 +152,10 @@ TriangleMesh without_hidden(const Grid& grid, const TriangleMesh& triangles, con
     grid.around(n, [&](std::size_t m) { is_near_outside[m] = 1; });
   }
   TriangleMesh rest{triangles.positions, {}};
+  const Samples samples(grid, triangles);
   for (const FaceId f : triangles.triangles.ids()) {
     bool is_near = false;
-    sample(grid, triangles, f, [&](const Vec3& p) {
+    samples.of(f, [&](const Vec3& p) {
       for (const std::size_t n : InTetrahedron(grid, p).nodes) is_near = is_near || is_near_outside[n];
     });
     if (is_near) rest.triangles.push_back(triangles.triangles[f]);
@@ -133,7 +179,7 @@ Wrap wrap(const TriangleMesh& triangles, const WrapOptions& options) {
   // The values are linear between the nodes, distances are not: where it matters, as along edges, they are lowered.
   std::vector<float>& values = inside.signed_distances;
   for (const TriangleMesh* mesh : {&triangles, &std::as_const(inside.doors)})
-    sample(grid, *mesh, meter, [&](const Vec3& p) {
+    Samples(grid, *mesh).of_all(meter, [&](const Vec3& p) {
       const InTetrahedron at(grid, p);
       const float excess = at.value(values) - (offset - kClearance);
       if (excess > 0)
@@ -160,7 +206,7 @@ TriangleMesh inner_wrap(const TriangleMesh& triangles, const WrapOptions& option
   if (boundary.face_count() == 0) return {};
   Inside inside = find_inside(grid, boundary, {}, meter);
   std::vector<float>& values = inside.signed_distances;
-  sample(grid, boundary, meter, [&](const Vec3& p) {
+  Samples(grid, boundary).of_all(meter, [&](const Vec3& p) {
     const InTetrahedron at(grid, p);
     const float missing = (kClearance - offset) - at.value(values);
     if (missing > 0)

@@ -14,6 +14,7 @@ says out "build certifies" "certified: yes"
 says hull.json "report: certified" '"certified": true'
 says hull.json "report: stopped" '"stopped": "target_reached"'
 says hull.json "report: void" '"void_ratio": 0.'
+expect 0 "the mesh after --faces" $prohull build --faces 500,100 rock.ply -o "level_{faces}.obj"
 expect 0 "verify two files" $prohull verify hull.stl rock.ply --report verify.json
 says verify.json "report: encloses" '"encloses": true'
 expect 0 "verify a proof" $prohull verify rock.phull rock.ply
@@ -57,18 +58,84 @@ cp away.ply by_gap.ply
 expect 0 "padding is the same" $prohull build rock.ply --faces 300 --padding 1% -o away.ply
 checks=$((checks + 1))
 cmp -s away.ply by_gap.ply || fail "--padding is another name of --gap"
-expect 2 "a gap in another unit" $prohull build rock.ply --gap 1mm -o away.ply
-says err "a gap in another unit" "must be a number"
 expect 2 "a gap below 0" $prohull verify away.ply rock.ply --gap -1%
 expect 2 "a gap of levels" $prohull verify rock.phull rock.ply --gap 1%
 says err "a gap of levels" "touch each other"
 expect 3 "an inner gap without room" $prohull build rock.ply --side inner --gap 70% -o core.ply
 says err "an inner gap without room" "thicker than twice the gap"
 
+# --- lengths with units: of a mesh in millimetres, and of others that say their unit, or not ---
+awk '/^v / { printf "v %.17g %.17g %.17g\n", $2 * 1000, $3 * 1000, $4 * 1000; next } { print }' inner.obj >mm.obj
+small="--faces 100 -o small.ply --report small.json"
+expect 0 "a gap in millimetres" $prohull build mm.obj --unit mm $small --gap 0.25mm
+says small.json "a gap in millimetres" '"padding": 0.00025'
+expect 0 "the same gap in metres" $prohull build mm.obj --unit mm $small --gap 0.00025
+expect 0 "a distance in feet" $prohull build mm.obj --unit mm $small --max-distance 2ft --seal-holes 1in
+says small.json "a distance in feet" '"max_distance": 0.6096'
+says small.json "holes in inches" '"seal_holes": 0.0254'
+expect 0 "a distance in per cent" $prohull convex mm.obj --max-distance 50% -o pieces.obj --report small.json
+is "a distance in per cent" awk '/"diagonal"/ { d = $2 } /"max_distance"/ { m = $2 } END { exit !(m + 0 == 0.5 * d) }' small.json
+expect 0 "a distance in centimetres" $prohull spheres mm.obj --unit mm --max-distance 30cm -o small.yaml --count 40
+expect 0 "glTF is in metres" $prohull build inner.obj -o small.glb --faces 100
+expect 0 "glTF is in metres" $prohull cage small.glb --gap 1mm -o small.obj --report small.json
+says small.json "glTF is in metres" '"gap": 0.001'
+for no_unit in "build rock.ply -o x.ply" "cage rock.ply -o x.ply" "verify rock.ply rock.ply"; do
+  expect 2 "no unit: $no_unit" $prohull $no_unit --gap 1mm
+  says err "no unit: $no_unit" "--gap 1mm: rock.ply does not say its unit; add --unit mm (lengths are then in metres), or"
+done
+for no_unit in "build rock.ply -o x.ply" "convex rock.ply -o x.obj" "spheres rock.ply -o x.yaml"; do
+  expect 2 "no unit: $no_unit" $prohull $no_unit --max-distance 1ft
+  says err "no unit: $no_unit" "--max-distance 1ft: rock.ply does not say its unit"
+done
+expect 2 "no unit: a scale" $prohull build small.glb --scale 2 --gap 1mm -o x.ply
+says err "no unit: a scale" "with --scale, the unit of small.glb is not known"
+for wrong in 1mmm 5km mm 1mm% nan; do
+  expect 2 "no length: $wrong" $prohull build rock.ply --unit mm --seal-holes $wrong -o x.ply
+  says err "no length: $wrong" "--seal-holes must be a number, or one with mm, cm, m, in, ft or % behind it, not '$wrong'"
+done
+expect 2 "no length: below 0" $prohull build rock.ply --unit mm --gap -1mm -o x.ply
+says err "no length: below 0" "--gap must be greater than 0, not -1mm"
+
+# --- the solid of a mesh ---
+awk '/^f / { n++; if (n > 10 && n < 20 || n == 100) next } { print }' inner.obj >open.obj
+expect 3 "no inside" $prohull contains open.obj --random 10
+says err "no inside" "\`prohull repair\` closes it"
+expect 0 "repair" $prohull repair open.obj -o solid.ply --report solid.json
+says out "repair: openings" "openings, the largest"
+says out "repair: certified" "certified: yes, the file as written covers every triangle of the original, and its inside with its openings closed by"
+says solid.json "repair: report" '"largest": 0.'
+says solid.json "repair: source" '"source": "mesh"'
+expect 0 "repair: an inside" $prohull contains solid.ply --random 10
+expect 0 "repair: verified" $prohull verify solid.ply open.obj
+expect 0 "repair in float32" $prohull repair open.obj --spacing 2% -o solid.stl --report solid.json
+says out "repair in float32" "it is another solid than the mesh: a wrap with a spacing of"
+says out "repair in float32" "with float32 coordinates"
+says solid.json "repair in float32" '"certified": true'
+expect 0 "repair in float32: verified" $prohull verify solid.stl open.obj
+printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 -1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n' >book.off
+expect 0 "repair: a wrap" $prohull repair book.off --spacing 0.05 -o solid.off
+says out "repair: a wrap" "not closed:"
+says out "repair: a wrap" "a wrap with a spacing of 0.05"
+expect 0 "repair: a wrap verified" $prohull verify solid.off book.off
+expect 2 "repair: no spacing" $prohull repair book.off --spacing 1mm -o solid.off
+
 # --- the same mesh in metres and in millimetres ---
 awk '/^v / { printf "v %.17g %.17g %.17g\n", $2 / 1000, $3 / 1000, $4 / 1000; next } { print }' inner.obj >metres.obj
 expect 1 "another unit" $prohull verify metres.obj rock.ply
 says out "another unit" "about 1,000 times smaller than the original"
+
+expect 1 "a thousand times as large" $prohull verify hull.stl metres.obj --report verify.json
+says out "a thousand times as large" "UNITS: hull.stl encloses metres.obj, exactly, but the hull is about 1,000 times as large as the original"
+says verify.json "a thousand times as large: enclosed" '"encloses": true'
+says verify.json "a thousand times as large" '"units_doubtful": true'
+expect 0 "a thousand times as large is meant" $prohull verify hull.stl metres.obj --any-scale
+expect 0 "the same unit again" $prohull verify hull.stl metres.obj --scale 1000 --report verify.json
+says verify.json "the same unit again" '"units_doubtful": false'
+expect 1 "an inner hull of another unit" $prohull verify metres.obj rock.ply --side inner
+says out "an inner hull of another unit" "the original is about 1,000 times as large as the hull"
+expect 1 "pieces of another unit" $prohull verify --union hull.stl metres.obj
+says out "pieces of another unit" "UNITS: 1 piece covers"
+expect 0 "pieces of any scale" $prohull verify --union hull.stl metres.obj --any-scale
 
 # --- at map coordinates ---
 awk '/^v / { printf "v %.17g %.17g %.17g\n", $2 + 500000.3, $3 + 5400000.7, $4 - 30; next } { print }' inner.obj >utm.obj
@@ -569,7 +636,7 @@ says out "void" "void 4."
 expect 2 "negative void" $prohull build rock.ply --max-void -5 -o x.ply
 expect 0 "an open mesh" $prohull build open.off --faces 100 -o capped.stl --hierarchy capped.phull --report capped.json
 says out "an open mesh" "closed 1 opening, 1.414 across"
-says out "an open mesh" "encloses the original"
+says out "an open mesh" "its inside with its openings closed"
 says out "an open mesh" "its finest level is the input after repairs, not the input itself"
 says capped.json "report: repaired" '"repair": "repaired"'
 says capped.json "report: its source" '"source": "mesh"'
@@ -583,7 +650,7 @@ expect 0 "NaN" $prohull build nan.off --faces 100 -o wrapped.off --report wrappe
 says out "NaN" "dropped 3 faces with a corner that is not finite"
 says wrapped.json "report: a wrap" '"repair": "wrap"'
 says wrapped.json "report: its source" '"source": "wrap"'
-expect 0 "NaN, verified" $prohull verify wrapped.off nan.off
+expect 0 "NaN, verified" $prohull verify wrapped.off nan.off --finite-only
 says out "NaN, verified" "3 faces of the original are not finite"
 expect 0 "a sheet, by levels" $prohull build sheet.off --faces 200 -o wrapped.ply --hierarchy wrapped.phull
 says out "a sheet, by levels" "its finest level is a wrap of the input, not the input itself"
@@ -685,7 +752,8 @@ expect 0 "millimetres, proven" $prohull verify metres.phull mm.obj --unit mm
 expect 0 "millimetres, scaled" $prohull verify metres.ply mm.obj --scale 0.001
 expect 1 "millimetres and metres" $prohull verify metres.ply mm.obj
 says out "millimetres and metres" "the hull is about 1,000 times smaller than the original"
-expect 0 "metres and millimetres" $prohull verify mm.obj metres.ply
+expect 1 "metres and millimetres" $prohull verify mm.obj metres.ply
+says out "metres and millimetres" "UNITS: mm.obj encloses metres.ply, exactly, but the hull is about 1,000 times as large"
 says out "metres and millimetres" "the hull is about 1,000 times larger than the original"
 expect 0 "inches" $prohull info unit.off --unit in
 says out "inches" "(0.0254, 0.0254, 0.0254)"

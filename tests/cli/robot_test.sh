@@ -71,6 +71,11 @@ says out "a robot with hulls passes the check" "yes: the collision geometry cove
 expect 0 "the coarse one too" $prohull urdf made/deep/robot_60.urdf --check
 absent "made/deep/.[a-z]* made/deep/meshes/*/.[a-z]*" "unfinished files"
 
+is "the SRDF has no sampled pairs" test -z "$(grep sampled made/deep/robot.srdf)"
+says made/deep/robot.srdf "the SRDF has adjacent pairs" 'reason="Adjacent"'
+expect 0 "sampled pairs, in a folder with a slash" $urdf -o sampled/ $small --sampled-pairs
+says sampled/robot.srdf "sampled pairs are called so" "it is no proof"
+expect 2 "sampled pairs without configurations" $urdf -o none --configurations 0 --sampled-pairs
 expect 0 "a second run" $urdf -o made/deep $small
 says out "a second run" "up to date"
 expect 0 "without the coarse set" $urdf -o made/deep --faces 200 --configurations 20 --no-pictures
@@ -86,6 +91,37 @@ expect 2 "a damaged report.json" $urdf -o made/deep $small
 says err "a damaged report.json" "choose a new folder"
 rm -r made/deep
 expect 0 "made once more" $urdf -o made/deep $small
+# report.json names files of others, with the right fingerprints
+mkdir victim && cp made/deep/meshes/collision/base.stl victim/base.stl
+cp -r made/deep forged
+sed -i 's|"meshes/collision/base.stl": "|"../victim/base.stl": "|' forged/report.json
+expect 2 "a report that names files elsewhere" $urdf -o forged --faces 100 --configurations 0 --no-pictures
+says err "a report that names files elsewhere" "choose a new folder"
+is "files elsewhere stay" test -s victim/base.stl
+sed "s|\"[.][.]/victim|\"$PWD/victim|" forged/report.json >absolute.json && mv absolute.json forged/report.json
+expect 2 "a report with an absolute path" $urdf -o forged --faces 100 --configurations 0 --no-pictures
+is "a file with an absolute path stays" test -s victim/base.stl
+rm -r forged && cp -r made/deep forged && mv forged/meshes elsewhere && ln -s ../elsewhere forged/meshes
+expect 2 "a link that leads out of the folder" $urdf -o forged --faces 100 --configurations 0 --no-pictures
+is "files behind a link stay" cmp elsewhere/collision/base.stl made/deep/meshes/collision/base.stl
+sed 's/"exit_code": 0/"exit_code": 77/' made/deep/report.json >odd.json && cp odd.json made/deep/report.json
+expect 2 "an exit code that no run has" $urdf -o made/deep $small
+rm -r made/deep
+expect 0 "made again" $urdf -o made/deep $small
+echo '<robot name="r"><link name="a"><visual><geometry><box size="1 1 1"/></geometry></visual></link></robot>' >box.urdf
+expect 0 "a robot of one box" $prohull urdf box.urdf -o box --configurations 0 --no-pictures
+crashes=0
+for seed in $(seq 60); do
+  awk -v seed="$seed" 'BEGIN { srand(seed) }
+    { n = length($0); i = 1 + int(rand() * n)
+      if (rand() < 0.2) $0 = substr($0, 1, i - 1) substr("[]{}\"-9,:x", 1 + int(rand() * 10), 1) substr($0, i + 1)
+      if (rand() < 0.05) print $0
+      if (rand() > 0.03) print $0 }' box/report.json >mutant.json
+  rm -rf mutant && cp -r box mutant && cp mutant.json mutant/report.json
+  $prohull urdf box.urdf -o mutant --configurations 0 --no-pictures >out 2>err
+  test $? -le 3 || crashes=$((crashes + 1))
+done
+is "no mutant of report.json is a crash" test $crashes -eq 0
 rm made/deep/meshes/collision/base.stl
 expect 0 "a lost file" $urdf -o made/deep $small
 is "a lost file comes again" test -s made/deep/meshes/collision/base.stl

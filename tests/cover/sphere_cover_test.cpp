@@ -158,6 +158,12 @@ TEST(SphereCover, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+// Squares of its lengths squared underflow, so that finer searches find nothing, and coarser ones find too much.
+TEST(SphereCover, OfATinyBoxEnds) {
+  const SphereCover cover = sphere_cover(meshes::box({0, 0, 0}, {1e-98, 1e-98, 1e-98}), {.max_balls = 4});
+  EXPECT_TRUE(cover.certified);
+}
+
 TEST(SphereCover, CoversTrianglesThatBoundNothing) {
   const TriangleMesh plate = meshes::make({{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}}, {{0, 1, 2}, {0, 2, 3}});
   const TriangleMesh needle = meshes::make({{0, 0, 0}, {1, 0, 0}, {2, 1e-12, 0}}, {{0, 1, 2}});

@@ -150,6 +150,28 @@ TEST(EnclosingHull, OfAMeshWithAnOpeningIsSolid) {
   EXPECT_TRUE(verify_cover(room(), hull.mesh).encloses);
 }
 
+// A box without a lid.
+TEST(EnclosingHull, NamesWhatClosesAnOpenMesh) {
+  TriangleMesh open = box({0, 0, 0}, {1, 1, 1});
+  open.triangles.resize(open.triangles.size() - 2);
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    const EnclosingHulls made = hull_of(open, 12, {.hull = {.side = side}});
+    const Verification& verdict = made.hulls[0].verdict;
+    EXPECT_TRUE(made.hulls[0].certified && verdict.encloses && verdict.has_solid);
+    EXPECT_FALSE(verdict.original_closed);
+    EXPECT_EQ(verdict.cap_faces, 2u);
+    EXPECT_DOUBLE_EQ(verdict.original_volume, 1);
+  }
+}
+
+TEST(EnclosingHull, HasNoVoidBelowZeroWherePartsOverlap) {
+  const TriangleMesh two = together(box({0, 0, 0}, {2, 2, 2}), box({0.5, 0.5, 0.5}, {2.5, 1.5, 1.5}));
+  const EnclosingHulls made = hull_of(two, 100);
+  EXPECT_FALSE(made.is_estimated);
+  EXPECT_NEAR(made.volume, 8.5, 1e-9);
+  EXPECT_GE(made.hulls[0].void_ratio, -1e-9);
+}
+
 TEST(EnclosingHull, KeepsOpenShellsIfAskedTo) {
   const EnclosingHulls made = hull_of(room(), 400, {.hull = {.relax_guards = true}, .open_shells = OpenShells::Keep});
   const EnclosingHull hull = only(made);
@@ -270,6 +292,28 @@ TEST(EnclosingHull, MissesBoundsByAsLittleAsItCan) {
   const EnclosingHull easy = enclosing_hull(soup, 100, {.bounds = {.max_distance = 1}});
   EXPECT_TRUE(easy.within_bounds);
   EXPECT_LE(easy.excess, 1);
+}
+
+// The wrap is as fine as the bound asks for, whatever the number of faces.
+TEST(EnclosingHull, OfASoupKeepsACloseBound) {
+  const TriangleMesh soup = without_a_face(make_sample("bracket", 500));
+  const double diagonal = bounding_box(soup).diagonal();
+  std::size_t faces = 0;
+  for (const double share : {0.04, 0.01}) {
+    const EnclosingHull hull = enclosing_hull(
+        soup, 20,
+        {.bounds = {.max_distance = share * diagonal}, .repair = Repair::Wrap, .open_shells = OpenShells::Keep});
+    EXPECT_TRUE(hull.certified && hull.within_bounds) << share;
+    EXPECT_GT(hull.mesh.face_count(), faces) << share;
+    faces = hull.mesh.face_count();
+  }
+}
+
+TEST(EnclosingHull, IsNeverWorseWhenTight) {
+  const TriangleMesh parts = together(make_sample("bracket", 500), moved(make_sample("torus", 300), {0.1, 0.2, 0.3}));
+  const EnclosingHull plain = enclosing_hull(parts, 100), tight = enclosing_hull(parts, 100, {.tight = true});
+  EXPECT_TRUE(tight.certified);
+  EXPECT_LE(signed_volume(tight.mesh), signed_volume(plain.mesh));
 }
 
 TEST(EnclosingHull, SaysWhatItsFinestLevelIs) {

@@ -37,19 +37,13 @@ double winding_number(const TriangleMesh& mesh, const Vec3& p) {
   return sum / (2 * std::numbers::pi);
 }
 
-/// The hull's faces without its inside: one of them comes twice, so that the mesh is not closed.
-TriangleMesh faces_alone(TriangleMesh hull) {
-  hull.triangles.push_back(hull.triangles[FaceId{0}]);
-  return hull;
-}
-
 /// By other means than those of the construction: points near the triangles are inside, and no face is.
 void expect_padding(const TriangleMesh& triangles, const EnclosingHull& hull, double padding, SoupMaker& random) {
   ASSERT_TRUE(hull.certified);
   EXPECT_EQ(hull.proof, "padding");
   EXPECT_GE(hull.padding, padding);
   EXPECT_FALSE(hull.levels);
-  const CollisionIndex surface(faces_alone(hull.mesh)), parts(soup(faces_alone(triangles)));
+  const CollisionIndex surface(hull.mesh, StandsFor::Surface), parts(soup(triangles), StandsFor::Surface);
   EXPECT_GE(separation(surface, {}, parts, {}).lower, padding);
   for (int i = 0; i < rounds(100); ++i) {
     const FaceId f{static_cast<std::uint32_t>(random.uniform(0, int(triangles.face_count()) - 1))};
@@ -95,6 +89,7 @@ TEST(Padding, OfSoupsIsProven) {
     const double padding = soup.size() * std::pow(10.0, random.real(-4, 0.5));
     SCOPED_TRACE("soup " + std::to_string(i) + " padding " + std::to_string(padding / soup.size()));
     // Where doubles are coarser than the padding is not tested here.
+    if (!std::ranges::all_of(soup.mesh.positions, is_finite)) continue;
     if (norm(bounding_box(soup.mesh).center()) > 1e6 * soup.size()) continue;
     expect_padding(soup.mesh, padded(soup.mesh, std::size_t(random.uniform(12, 200)), padding), padding, random);
   }

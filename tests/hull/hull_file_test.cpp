@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +16,7 @@
 #include "meshes.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
+#include "prohull/mesh_report.h"
 #include "prohull/sample.h"
 #include "random.h"
 
@@ -197,23 +199,38 @@ TEST(HullFile, APayloadThatItsChecksumVouchesForIsCheckedToo) {
   const std::string payload = decompressed(file_of(hull).substr(kHeaderSize));
   ASSERT_EQ(load_hull(with_payload(payload), "x"), hull);
   std::mt19937 random(test_seed());
-  const std::size_t numbers = 28 + 24 * hull.positions().size();
-  int refused = 0;
+  constexpr std::size_t kCounts = 28;
+  const std::size_t numbers = kCounts + 24 * hull.positions().size();
+  int refused = 0, sound = 0;
   for (int i = 0; i < rounds(3000); ++i) {
     std::string changed = payload;
-    // Counts, or corners and splits.
-    const std::size_t at = random() % 4 == 0 ? random() % 28 : numbers + random() % (payload.size() - numbers);
-    changed[at] = static_cast<char>(random());
+    // Counts, positions, or corners and splits, which are words of four bytes; a few of them, or two that change
+    // places.
+    for (auto count = random() % 3 + 1; count > 0; --count) {
+      const std::size_t end = payload.size() - 3, at = random() % 8 == 0 ? random() % kCounts
+                                                       : random() % 8 == 0
+                                                           ? kCounts + random() % (numbers - kCounts)
+                                                           : numbers + random() % (end - numbers) / 4 * 4;
+      const std::size_t other = numbers + random() % (end - numbers) / 4 * 4;
+      if (random() % 2 == 0 && at >= numbers)
+        std::swap_ranges(&changed[at], &changed[at] + 4, &changed[other]);
+      else
+        changed[at] = static_cast<char>(random());
+    }
     if (random() % 8 == 0) changed.resize(random() % changed.size());
     try {
       const ProgressiveHull other = load_hull(with_payload(changed), "x");
+      ++sound;
       ASSERT_EQ(first_defect(other), std::nullopt);
       ASSERT_EQ(other.original().face_count(), other.original_face_count());
+      ASSERT_TRUE(inspect(other.base()).is_closed_manifold());
+      ASSERT_TRUE(inspect(other.original()).is_closed_manifold());
     } catch (const InputError&) {
       ++refused;
     }
   }
   EXPECT_GT(refused, rounds(1000));
+  EXPECT_GT(sound, rounds(50));
 }
 
 TEST(HullFile, HostileCountsAreRefused) {

@@ -14,6 +14,7 @@
 #include "prohull/enclosure.h"
 #include "prohull/hull_builder.h"
 #include "prohull/sample.h"
+#include "prohull/verification.h"
 #include "random.h"
 
 namespace prohull {
@@ -209,6 +210,24 @@ TEST(Replay, RejectsAComponentThatIsInsideOutButNotACavity) {
   EXPECT_TRUE(holds(together(ball, beside)));
   EXPECT_TRUE(holds(together(ball, inside_out(cavity))));
   EXPECT_FALSE(holds(together(ball, inside_out(beside)))) << "what is called its hull shrinks around the second ball";
+}
+
+// Two parts meet in an edge with four faces. Compared without orientation, the triangles are those of the original.
+TEST(Replay, RejectsAFinestLevelOfWhichOnePartIsTurned) {
+  TriangleMesh mesh;
+  mesh.positions = {{{0, 0, 0}, {0, 0, 2}, {0, 0, 1}, {0, 0, 1}, {4, -2, 1}, {4, 2, 1}, {-2, -1, 1}, {-2, 1, 1}}};
+  const auto add = [&](std::initializer_list<std::array<std::uint32_t, 3>> faces) {
+    for (const auto& [a, b, c] : faces) mesh.triangles.push_back({VertexId{a}, VertexId{b}, VertexId{c}});
+  };
+  add({{0, 4, 2}, {2, 4, 1}, {1, 5, 3}, {3, 5, 0}, {0, 5, 4}, {1, 4, 5}});
+  add({{0, 3, 6}, {3, 1, 6}, {1, 2, 7}, {2, 0, 7}, {0, 6, 7}, {1, 7, 6}});
+  ASSERT_EQ(turned_outwards(mesh), mesh);
+  EXPECT_TRUE(verify_replay(parts_of(mesh).joined(), mesh).holds);
+  TriangleMesh turned = mesh;
+  for (std::uint32_t f = 6; f < 12; ++f) std::swap(turned.triangles[FaceId{f}][1], turned.triangles[FaceId{f}][2]);
+  ASSERT_FALSE(verify_hull(turned, mesh).encloses);
+  EXPECT_FALSE(verify_replay(parts_of(turned).joined(), mesh).holds);
+  EXPECT_FALSE(verify_hull(parts_of(turned).joined(), mesh).encloses);
 }
 
 TEST(Replay, OfAMeshWithMoreUnusedVerticesThanCorners) {

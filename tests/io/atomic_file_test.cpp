@@ -30,6 +30,16 @@ TEST(AtomicFile, VanishesWhenNotCommitted) {
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
+TEST(AtomicFile, KeepsTheModeOfWhatItReplaces) {
+  using std::filesystem::perms;
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.txt", "old");
+  const perms mode = perms::owner_read | perms::owner_write | perms::others_exec;
+  std::filesystem::permissions(folder / "a.txt", mode);
+  write_file(folder / "a.txt", "new");
+  EXPECT_EQ(std::filesystem::status(folder / "a.txt").permissions(), mode);
+}
+
 TEST(AtomicFile, WritesWhereALinkLeads) {
   const TemporaryFolder folder;
   write_bytes(folder / "a.txt", "old");

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "io_testing.h"
+#include "prohull/length.h"
 #include "random.h"
 
 namespace prohull {

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "meshes.h"
 #include "prohull/error.h"
@@ -23,6 +26,49 @@ TriangleMesh without_ends(const TriangleMesh& mesh) {
     if (const Triangle t = mesh.triangle(f); t.a.z != t.b.z || t.b.z != t.c.z)
       result.triangles.push_back(mesh.triangles[f]);
   return result;
+}
+
+/// The boundary of unit cubes at these integer corners, on welded vertices: an edge at which two of them meet
+/// diagonally has four faces.
+TriangleMesh cubes(const std::vector<Vec3>& corners) {
+  TriangleMesh all;
+  for (const Vec3& p : corners)
+    for (const auto& [normal, u, v] : {std::array<Vec3, 3>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+                                       {{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}},
+                                       {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}})
+      for (const bool is_far : {false, true}) {
+        if (std::ranges::find(corners, is_far ? p + normal : p - normal) != corners.end()) continue;
+        const Vec3 a = is_far ? p + normal : p;
+        const Vec3 b = a + (is_far ? u : v), d = a + (is_far ? v : u);
+        std::array<VertexId, 4> square{};
+        const std::array points{a, b, a + u + v, d};
+        for (std::size_t i = 0; i < 4; ++i) square[i] = all.positions.push_back(points[i]);
+        all.triangles.push_back({square[0], square[1], square[2]});
+        all.triangles.push_back({square[0], square[2], square[3]});
+      }
+  return all;
+}
+
+// Below, a floor joins the two cubes that meet in an edge, so that the faces there form fans that leave it open.
+TEST(RepairedMesh, PairsFacesOfAnEdgeOfFourByWedges) {
+  const RepairedMesh repaired = repaired_mesh(cubes({{0, 0, 0}, {1, 1, 0}, {0, 0, -1}, {1, 0, -1}, {1, 1, -1}}), {});
+  ASSERT_TRUE(repaired.closed) << repaired.obstacle;
+  EXPECT_EQ(repaired.caps.face_count(), 0u);
+  EXPECT_DOUBLE_EQ(signed_volume(repaired.closed->mesh), 5);
+}
+
+// A floor and a ceiling join the second two cubes: their wedges share both ends. The first two ask for wedges.
+TEST(RepairedMesh, SeparatesWedgesThatShareBothEndsOfAnEdge) {
+  const std::vector<Vec3> floor{{0, 0, 0}, {1, 1, 0}, {0, 0, -1}, {1, 0, -1}, {1, 1, -1}};
+  std::vector<Vec3> corners = floor;
+  for (const Vec3& p : floor) corners.push_back(p + Vec3{9, 0, 0});
+  for (const Vec3& p : {Vec3{9, 0, 1}, {10, 0, 1}, {10, 1, 1}}) corners.push_back(p);
+  const TriangleMesh mesh = cubes(corners);
+  const RepairedMesh repaired = repaired_mesh(mesh, {});
+  ASSERT_TRUE(repaired.closed) << repaired.obstacle;
+  EXPECT_EQ(repaired.caps.face_count(), 0u);
+  EXPECT_EQ(repaired.closed->mesh.face_count(), mesh.face_count() + 2) << "two faces without area";
+  EXPECT_DOUBLE_EQ(signed_volume(repaired.closed->mesh), 13);
 }
 
 TEST(RepairedMesh, LeavesASoundMeshAlone) {

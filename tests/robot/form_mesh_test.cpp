@@ -7,7 +7,6 @@
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "random.h"
-#include "robot/curved_form.h"
 #include "robot/link_triangles.h"
 #include "robot/transform.h"
 
@@ -129,7 +128,7 @@ TEST(CurvedForm, LiesBetweenItsMeshesInEveryPose) {
   for (const Form& form : kForms)
     for (int i = 0; i < 4; ++i) {
       const Pose pose = any_pose(random);
-      const CurvedForm curved = *CurvedForm::of(form, pose);
+      const CurvedForm curved = *curved_form(form, pose);
       for (const Vec3& p : curved.mesh(Curved::Within, 16).positions) EXPECT_TRUE(curved.contains(p));
       // The corners on the axis of a cylinder are outside by the margin alone, and so are those in the middle of faces.
       const TriangleMesh around = curved.mesh(Curved::Around, 16);
@@ -142,8 +141,8 @@ TEST(CurvedForm, LiesBetweenItsMeshesInEveryPose) {
 }
 
 TEST(CurvedForm, IsExactOnItsSurface) {
-  const CurvedForm sphere = *CurvedForm::of(SphereForm{5}), cylinder = *CurvedForm::of(CylinderForm{5, 2}),
-                   capsule = *CurvedForm::of(CapsuleForm{5, 2});
+  const CurvedForm sphere = *curved_form(SphereForm{5}), cylinder = *curved_form(CylinderForm{5, 2}),
+                   capsule = *curved_form(CapsuleForm{5, 2});
   const double beyond = std::nextafter(4.0, 5.0);
   EXPECT_TRUE(sphere.contains({3, 4, 0}));
   EXPECT_FALSE(sphere.contains({3, beyond, 0}));
@@ -160,9 +159,7 @@ TEST(CurvedForm, IsExactOnItsSurface) {
 
 TEST(CurvedForm, TellsItsDistance) {
   const Pose pose = pose_of_rpy({1, 2, 3}, {4, 5, 6});
-  const auto at = [&](const Form& form, const Vec3& p) {
-    return CurvedForm::of(form, pose)->distance(placed(pose, p));
-  };
+  const auto at = [&](const Form& form, const Vec3& p) { return curved_form(form, pose)->distance(placed(pose, p)); };
   const std::vector<std::tuple<Form, Vec3, double>> cases{{SphereForm{1}, {0, 3, 4}, 4},
                                                           {CapsuleForm{1, 2}, {0, 3, 5}, 4},
                                                           {CylinderForm{1, 2}, {4, 0, 5}, 5},

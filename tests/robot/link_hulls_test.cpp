@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
 
 #include "effort.h"
+#include "io/compressing.h"
+#include "meshes.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
@@ -15,6 +18,7 @@
 #include "robot/motion/bodies.h"
 #include "robot/transform.h"
 #include "robot_folder.h"
+#include "robot_testing.h"
 
 namespace prohull::robot {
 namespace {
@@ -222,21 +226,19 @@ TEST_F(LinkHullsTest, ComeFromTheCacheWhileNothingChanges) {
 }
 
 TEST_F(LinkHullsTest, HaveAKeyOfAllThatTheyAreMadeFrom) {
-  Link& link = robot_.links[0];
-  link.visual.push_back({.form = CylinderForm{0.1, 0.05}});
-  const auto key = [&] { return key_of(link, options_.budget, options_); };
+  TriangleMesh triangles = make_sample("torus", 600);
+  const auto key = [&] { return key_of(triangles, options_.budget, options_); };
   const std::string before = key();
-  const Link link_before = link;
+  const TriangleMesh triangles_before = triangles;
   const LinkHullOptions options_before = options_;
   const auto change = [&](const char* what, const auto& by) {
     by();
     EXPECT_NE(key(), before) << what;
-    link = link_before, options_ = options_before;
+    triangles = triangles_before, options_ = options_before;
     EXPECT_EQ(key(), before) << what;
   };
-  change("origin", [&] { link.visual[1].origin = translation_by({10, 0, 1e-9}); });
-  change("scale", [&] { std::get<MeshFile>(link.visual[0].form).scale.y = 2; });
-  change("size of a primitive", [&] { link.visual[2].form = CylinderForm{0.1, 0.06}; });
+  change("a vertex", [&] { triangles.positions[VertexId{7}].x += 1e-9; });
+  change("a face", [&] { std::swap(triangles.triangles[FaceId{7}][0], triangles.triangles[FaceId{7}][1]); });
   change("faces", [&] { options_.budget.faces = {201}; });
   change("numbers of faces", [&] { options_.budget.faces = {200, 100}; });
   change("collision", [&] { options_.budget.collision = Collision::Convex; });
@@ -247,11 +249,38 @@ TEST_F(LinkHullsTest, HaveAKeyOfAllThatTheyAreMadeFrom) {
   change("padding", [&] { options_.budget.padding = 0.1; });
   change("format", [&] { options_.format = "obj"; });
   change("tight", [&] { options_.tight = true; });
-  change("from", [&] { options_.from = Geometry::Collision; });
   options_.threads = 3;
   EXPECT_EQ(key(), before);
-  folder_.add("bracket.ply", make_sample("bracket", 700));
-  EXPECT_NE(key(), before);
+}
+
+/// A glTF file with its numbers in part.bin, gzipped, and in capitals.
+TEST_F(LinkHullsTest, HaveAKeyOfWhatOtherFilesHold) {
+  const auto positions = [](double size) {
+    std::string bytes;
+    for (const TriangleMesh box = make_sample("box", 12); const auto& corners : box.triangles)
+      for (const VertexId v : corners)
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto number = static_cast<float>(size * box.positions[v][axis]);
+          bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+        }
+    return bytes;
+  };
+  const std::string gltf =
+      R"({"asset":{"version":"2.0"},"buffers":[{"uri":"part.bin","byteLength":432}],"bufferViews":[{"buffer":0,)"
+      R"("byteLength":432}],"accessors":[{"bufferView":0,"componentType":5126,"count":36,"type":"VEC3"}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]})";
+  for (const char* name : {"part.gltf", "part.GLTF", "part.gltf.gz"}) {
+    write_file(folder_.path() / "part.bin", positions(1));
+    write_file(folder_.path() / name, std::string_view(name).ends_with(".gz") ? gzipped(gltf) : gltf);
+    options_.cache = folder_.path() / "cache", options_.budget.faces = {12};
+    robot_.links = {{.name = "part", .visual = {mesh(name)}}};
+    link_hulls(robot_, options_);
+    write_file(folder_.path() / "part.bin", positions(2));
+    const LinkHulls made = link_hulls(robot_, options_)[0];
+    ASSERT_EQ(made.hulls.size(), 1U) << name;
+    EXPECT_TRUE(made.hulls[0].certified);
+    EXPECT_TRUE(verify_cover(read_mesh(folder_.path() / name), made.hulls[0].mesh).encloses) << name;
+  }
 }
 
 TEST_F(LinkHullsTest, LeaveTheCacheWhenNobodyUsesThem) {
@@ -264,18 +293,18 @@ TEST_F(LinkHullsTest, LeaveTheCacheWhenNobodyUsesThem) {
   };
   for (const char digit : {'1', '2', '3'}) cache.keep(key(digit), {});
   for (const char* name : {".1.0.unfinished", ".2.0.unfinished"}) std::ofstream(folder / (key('4') + name)) << "half";
-  std::ofstream(folder / "mine.cbor") << "not of the cache";
-  for (const char digit : {'1', '2'}) age(key(digit) + ".cbor", std::chrono::hours(24 * 91));
-  age(key('3') + ".cbor", std::chrono::hours(24 * 89));
+  std::ofstream(folder / "mine.hulls") << "not of the cache";
+  for (const char digit : {'1', '2'}) age(key(digit) + ".hulls", std::chrono::hours(24 * 91));
+  age(key('3') + ".hulls", std::chrono::hours(24 * 89));
   age(key('4') + ".1.0.unfinished", std::chrono::hours(2));
-  age("mine.cbor", std::chrono::hours(24 * 91));
+  age("mine.hulls", std::chrono::hours(24 * 91));
   EXPECT_TRUE(cache.find(key('1')));  // which is a use
   cache.keep(key('5'), {});
   EXPECT_TRUE(cache.find(key('1')) && cache.find(key('3')) && cache.find(key('5')));
   EXPECT_FALSE(cache.find(key('2')));
   EXPECT_FALSE(exists(folder / (key('4') + ".1.0.unfinished")));
   EXPECT_TRUE(exists(folder / (key('4') + ".2.0.unfinished")));  // another run may be writing it
-  EXPECT_TRUE(exists(folder / "mine.cbor"));
+  EXPECT_TRUE(exists(folder / "mine.hulls"));
 }
 
 TEST_F(LinkHullsTest, DoNotComeFromADamagedCache) {
@@ -289,6 +318,118 @@ TEST_F(LinkHullsTest, DoNotComeFromADamagedCache) {
   const std::vector<LinkHulls> second = link_hulls(robot_, options_);
   EXPECT_FALSE(second[0].from_cache);
   EXPECT_EQ(second[0].hulls[0].mesh, first[0].hulls[0].mesh);
+}
+
+/// The hulls of the arm as a cache file may have them, with a right checksum.
+class ForgedCacheTest : public LinkHullsTest {
+ protected:
+  ForgedCacheTest() {
+    options_.cache = folder_.path() / "cache";
+    robot_.links.erase(robot_.links.begin());
+  }
+
+  /// Whether `forge` makes the cache useless, and the hulls come out as they were without it.
+  template <class Forge>
+  void expect_made_anew(const char* what, Forge forge) {
+    if (!made_) made_ = link_hulls(robot_, options_)[0];
+    LinkHulls kept = *made_;
+    forge(kept);
+    HullCache(options_.cache).keep(key_of(made_->triangles, options_.budget, options_), kept);
+    const LinkHulls again = link_hulls(robot_, options_)[0];
+    EXPECT_FALSE(again.from_cache) << what;
+    ASSERT_EQ(again.hulls.size(), made_->hulls.size()) << what;
+    EXPECT_TRUE(again.hulls[0].certified) << what;
+    EXPECT_EQ(again.hulls[0].mesh, made_->hulls[0].mesh) << what;
+    EXPECT_EQ(again.hulls[0].distance.upper, made_->hulls[0].distance.upper) << what;
+    EXPECT_TRUE(link_hulls(robot_, options_)[0].from_cache) << what;
+  }
+
+  static TriangleMesh large_box() {
+    TriangleMesh box = make_sample("box", 12);
+    for (Vec3& p : box.positions)
+      for (int axis = 0; axis < 3; ++axis) p[axis] = std::copysign(64, p[axis]);
+    return box;
+  }
+
+  std::optional<LinkHulls> made_;
+};
+
+TEST_F(ForgedCacheTest, OfHulls) {
+  const auto mesh_of_first = [](LinkHulls& kept) -> TriangleMesh& { return kept.hulls[0].mesh; };
+  expect_made_anew("shrunk vertices", [&](LinkHulls& kept) {
+    for (Vec3& p : mesh_of_first(kept).positions) p = p / 2;
+  });
+  expect_made_anew("a corner that does not exist",
+                   [&](LinkHulls& kept) { mesh_of_first(kept).triangles[FaceId{0}][1] = VertexId{1U << 31U}; });
+  expect_made_anew("a coordinate that is none",
+                   [&](LinkHulls& kept) { mesh_of_first(kept).positions[VertexId{3}].y = std::nan(""); });
+  expect_made_anew("a coordinate that no STL file keeps",
+                   [&](LinkHulls& kept) { mesh_of_first(kept).positions[VertexId{3}].y += 1e-12; });
+  expect_made_anew("huge coordinates", [&](LinkHulls& kept) {
+    for (Vec3& p : mesh_of_first(kept).positions) p = 1e300 * p;
+  });
+  expect_made_anew("an open hull", [&](LinkHulls& kept) {
+    mesh_of_first(kept).triangles[FaceId{0}] = kept.hulls[0].mesh.triangles[FaceId{1}];
+  });
+  expect_made_anew("a hull inside out", [&](LinkHulls& kept) {
+    for (auto& corners : mesh_of_first(kept).triangles) std::swap(corners[0], corners[1]);
+  });
+  expect_made_anew("too many faces", [&](LinkHulls& kept) { append(mesh_of_first(kept), make_sample("torus", 600)); });
+  expect_made_anew("no hull", [](LinkHulls& kept) { kept.hulls.clear(); });
+  expect_made_anew("another number of faces", [](LinkHulls& kept) { kept.hulls[0].target_faces = 100; });
+  expect_made_anew("pieces in place of a hull", [](LinkHulls& kept) { kept.hulls[0].pieces = {kept.hulls[0].mesh}; });
+}
+
+TEST_F(ForgedCacheTest, OfHullsThatKeepADistance) {
+  options_.budget.max_distance = 0.2, options_.budget.faces = {20};
+  expect_made_anew("a hull farther away", [](LinkHulls& kept) { kept.hulls[0].mesh = large_box(); });
+}
+
+TEST_F(ForgedCacheTest, OfPaddedHulls) {
+  options_.budget.padding = 0.0625;
+  expect_made_anew("less padding", [](LinkHulls& kept) { kept.hulls[0].padding = 0.03125; });
+  expect_made_anew("more padding than there is", [](LinkHulls& kept) { kept.hulls[0].padding = 1; });
+}
+
+TEST_F(ForgedCacheTest, OfConvexPieces) {
+  options_.budget.collision = Collision::Convex, options_.budget.pieces = 2, options_.budget.vertices = 20;
+  expect_made_anew("a shrunk piece", [](LinkHulls& kept) {
+    for (Vec3& p : kept.hulls[0].pieces[0].positions) p = p / 2;
+  });
+  expect_made_anew("a piece too many",
+                   [](LinkHulls& kept) { kept.hulls[0].pieces.resize(3, kept.hulls[0].pieces[0]); });
+  expect_made_anew("a piece that is not convex", [](LinkHulls& kept) {
+    TriangleMesh piece = large_box();
+    append(piece, placed(translation_by({256, 0, 0}), meshes::octahedron()));
+    kept.hulls[0].pieces = {piece};
+  });
+  expect_made_anew("a piece inside out", [](LinkHulls& kept) {
+    for (auto& corners : kept.hulls[0].pieces[0].triangles) std::swap(corners[0], corners[1]);
+  });
+}
+
+TEST_F(ForgedCacheTest, OfSpheres) {
+  options_.budget.collision = Collision::Spheres, options_.budget.spheres = 6;
+  folder_.add("torus.ply", make_sample("torus", 200));
+  expect_made_anew("a smaller sphere", [](LinkHulls& kept) { kept.hulls[0].balls[0].radius /= 2; });
+  expect_made_anew("a sphere inside out", [](LinkHulls& kept) { kept.hulls[0].balls[0].radius *= -1; });
+  expect_made_anew("too many spheres", [](LinkHulls& kept) { kept.hulls[0].balls.resize(7, kept.hulls[0].balls[0]); });
+}
+
+/// A file may say anything, with a right checksum.
+TEST_F(ForgedCacheTest, OfOtherText) {
+  const HullCache cache(options_.cache);
+  std::filesystem::create_directories(options_.cache);
+  const std::string key(32, '7');
+  for (const std::string& text :
+       {std::string(), std::string("null"), std::string("{}"), std::string(R"({"hulls":3,"sealed_volume":1})"),
+        std::string(R"({"hulls":[3],"sealed_volume":1})"), std::string(R"({"hulls":[],"sealed_volume":"1"})"),
+        std::string(1'000'000, '['), std::string("\xff\x00", 2)}) {
+    Fingerprint checksum;
+    checksum.add(text);
+    write_file(options_.cache / (key + ".hulls"), checksum.text() + text);
+    EXPECT_FALSE(cache.find(key)) << text.substr(0, 40);
+  }
 }
 
 TEST_F(LinkHullsTest, AreCancelled) {

@@ -145,6 +145,32 @@ TEST_F(PackagesTest, SaysWhyNot) {
       << why;
 }
 
+TEST_F(PackagesTest, MayBeTheOnlyFilesThatAreRead) {
+  const FileOptions only_inside{.package_paths = {}, .no_outside_files = true};
+  const auto refused = [&](const std::string& uri, const FileOptions& options) {
+    return refusal_of([&] { find(uri, options); }, Defect::CannotRead);
+  };
+  const fs::path beside = file("ws/src/arm_description/urdf/a.stl"), above = file("ws/src/arm_description/b.stl"),
+                 elsewhere = file("ws/src/other/c.stl");
+  expect_found("a.stl", beside, only_inside);
+  EXPECT_TRUE(has(refused("../b.stl", only_inside), "--no-outside-files")) << "the robot is in no package";
+  file("ws/src/arm_description/package.xml", package_xml("arm_description"));
+  expect_found("../b.stl", above, only_inside);
+  for (const std::string& uri : {std::string("../../other/c.stl"), elsewhere.string(), "file://" + elsewhere.string(),
+                                 std::string("package://other/c.stl")}) {
+    expect_found(uri, elsewhere);
+    EXPECT_TRUE(has(refused(uri, only_inside), "c.stl is outside of " + (robot_.parent_path().parent_path()).string()))
+        << uri;
+  }
+  FileOptions with_other = only_inside;
+  with_other.package_paths = {folder_.path() / "ws/src/other"};
+  expect_found("package://other/c.stl", elsewhere, with_other);
+  fs::create_symlink(elsewhere, robot_.parent_path() / "link.stl");
+  EXPECT_TRUE(has(refused("link.stl", only_inside), "is outside of"));
+  file("ws/src/arm_description/urdf/a.gltf");
+  EXPECT_TRUE(has(refused("a.gltf", only_inside), "may name other files"));
+}
+
 TEST_F(PackagesTest, RelatesPathsToAnotherFolder) {
   file("ws/src/arm_description/urdf/meshes/a.stl");
   const Packages packages(robot_, {});

@@ -64,7 +64,7 @@ class WriteRobotTest : public testing::Test {
 
 TEST_F(WriteRobotTest, WritesARobotForEachNumberOfFaces) {
   const std::filesystem::path out = folder_.path() / "out";
-  write_all(output_files(file_, hulls_, out, how_), out);
+  write_all(output_files(file_, hulls_, out, how_).files, out);
   for (const auto& [name, mesh, faces] : {std::tuple{"arm.urdf", "meshes/collision/a_b.stl", 200U},
                                           std::tuple{"arm_60.urdf", "meshes/collision_60/a_b.stl", 60U}}) {
     const RobotFile again = read_robot(out / name);
@@ -86,7 +86,7 @@ TEST_F(WriteRobotTest, WritesARobotForEachNumberOfFaces) {
 TEST_F(WriteRobotTest, WritesAPackageThatIsFound) {
   const std::filesystem::path out = folder_.path() / "arm_safe";
   how_.package = "arm_safe";
-  write_all(output_files(file_, hulls_, out, how_), out);
+  write_all(output_files(file_, hulls_, out, how_).files, out);
   EXPECT_NE(content(out / "package.xml").find("<name>arm_safe</name>"), std::string::npos);
   const RobotFile again = read_robot(out / "arm.urdf");
   EXPECT_EQ(again.robot.links[0].collision[0].mesh()->uri, "package://arm_safe/meshes/collision/a_b.stl");
@@ -108,7 +108,7 @@ TEST_F(WriteRobotTest, KeepsLongNamesShortAndDistinct) {
   const std::filesystem::path out = folder_.path() / "out", meshes = out / "meshes" / "collision";
   std::vector<LinkHulls> hulls{hulls_[0], hulls_[0]};
   hulls[1].link = 1;
-  write_all(output_files(robot, hulls, out, how_), out);
+  write_all(output_files(robot, hulls, out, how_).files, out);
   EXPECT_TRUE(exists(meshes / (std::string(100, 'x') + ".stl")));
   EXPECT_TRUE(exists(meshes / (std::string(100, 'x') + "_2.stl")));
 }
@@ -118,7 +118,7 @@ TEST_F(WriteRobotTest, WritesAFileForEachConvexPiece) {
   hulls_[0].collision = Collision::Convex;
   hulls_[0].hulls = {{.pieces = {make_sample("sphere", 80), make_sample("box", 12)}, .certified = true}};
   const std::filesystem::path out = folder_.path() / "out";
-  write_all(output_files(file_, hulls_, out, how_), out);
+  write_all(output_files(file_, hulls_, out, how_).files, out);
   const RobotFile again = read_robot(out / "arm.urdf");
   ASSERT_EQ(again.robot.links[0].collision.size(), 2U);
   for (const std::size_t i : {0U, 1U}) {
@@ -139,7 +139,8 @@ TEST_F(WriteRobotTest, KeepsTheNamesOfPiecesDistinctFromThoseOfLinks) {
   hulls[1].link = 1;
   how_.faces = {500};
   std::set<std::filesystem::path> names;
-  for (const OutputFile& file : output_files(read_robot(folder_.path() / "two.urdf"), hulls, folder_.path(), how_))
+  for (const OutputFile& file :
+       output_files(read_robot(folder_.path() / "two.urdf"), hulls, folder_.path(), how_).files)
     EXPECT_TRUE(names.insert(file.path).second) << file.path;
   EXPECT_EQ(names.size(), 3U);
 }
@@ -149,7 +150,7 @@ TEST_F(WriteRobotTest, WritesSpheresIntoTheRobotAndIntoAFileOfTheirOwn) {
   hulls_[0].collision = Collision::Spheres, hulls_[0].frame = {};
   hulls_[0].hulls = {{.balls = {{{0.1, -0.2, 1e-7}, 0.125}, {{0, 0, 1}, 0.3}}, .certified = true}};
   const std::filesystem::path out = folder_.path() / "out";
-  const std::vector<OutputFile> files = output_files(file_, hulls_, out, how_);
+  const std::vector<OutputFile> files = output_files(file_, hulls_, out, how_).files;
   EXPECT_EQ(files.back().path, "arm_spheres.yaml");
   write_all(files, out);
   EXPECT_FALSE(std::filesystem::exists(out / "meshes"));
@@ -175,7 +176,7 @@ TEST_F(WriteRobotTest, WritesSpheresThatALinkHadBeforeToo) {
   EXPECT_EQ(hulls[0].status, LinkStatus::Primitives);
   how_.faces = {500};
   const std::filesystem::path out = folder_.path() / "out";
-  write_all(output_files(ball, hulls, out, how_), out);
+  write_all(output_files(ball, hulls, out, how_).files, out);
   const auto listed = read_sphere_file(content(out / "ball_spheres.yaml"), "ball_spheres.yaml");
   ASSERT_EQ(listed.size(), 1U);
   EXPECT_EQ(listed[0].balls, (std::vector<Ball>{{{1, 2, 3}, 0.5}}));
@@ -184,7 +185,7 @@ TEST_F(WriteRobotTest, WritesSpheresThatALinkHadBeforeToo) {
 TEST_F(WriteRobotTest, KeepsTheCollisionElementsOfALinkWithoutACertificate) {
   for (LinkHull& hull : hulls_[0].hulls) hull.certified = false;
   const std::filesystem::path out = folder_.path() / "out";
-  write_all(output_files(file_, hulls_, out, how_), out);
+  write_all(output_files(file_, hulls_, out, how_).files, out);
   const RobotFile again = read_robot(out / "arm.urdf");
   EXPECT_FALSE(again.robot.links[0].collision[0].mesh());
   EXPECT_FALSE(std::filesystem::exists(out / "meshes"));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <set>
 #include <vector>
 
 #include "verify/oracle.h"
@@ -85,8 +84,7 @@ class Cover {
     return CGAL::ORIGIN + sum / total;
   }
 
-  /// Whether a region with a winding number of at least 1 has p in its closure. Around p the planes through it leave
-  /// cones; each holds the sum of three of its edges, on which two of the planes meet.
+  /// Whether a region with a winding number of at least 1 has p in its closure.
   bool is_covered(const Point& p) const {
     std::vector<Vector> normals;
     for (const Exact::Plane_3& plane : planes_) {
@@ -97,26 +95,9 @@ class Cover {
         normals.push_back(n);
     }
     if (normals.empty()) return winding_around(p) >= 1;
-    std::vector<Vector> frame = normals;  // and planes more, so that all cones are pointed
-    for (const Vector& axis : {Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, 0, 1)}) frame.push_back(axis);
-    std::vector<Vector> edges;
-    for (std::size_t i = 0; i < frame.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        if (const Vector e = CGAL::cross_product(frame[i], frame[j]); e != CGAL::NULL_VECTOR) {
-          edges.push_back(e);
-          edges.push_back(-e);
-        }
-    std::set<std::vector<int>> seen;
-    for (std::size_t i = 0; i < edges.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        for (std::size_t k = 0; k < j; ++k) {
-          const Vector d = edges[i] + edges[j] + edges[k];
-          std::vector<int> sides;
-          for (const Vector& n : normals) sides.push_back(CGAL::sign(n * d));
-          if (std::find(sides.begin(), sides.end(), 0) != sides.end() || !seen.insert(sides).second) continue;
-          if (winding_around(p + d * step(p, d)) >= 1) return true;
-        }
-    return false;
+    const std::vector<Vector> directions = directions_between(normals);
+    return std::any_of(directions.begin(), directions.end(),
+                       [&](const Vector& d) { return winding_around(p + d * step(p, d)) >= 1; });
   }
 
   /// So far that no plane is reached but those through p.

@@ -10,6 +10,8 @@
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
 #include "prohull/sample.h"
+#include "prohull/tolerances.h"
+#include "prohull/union_verification.h"
 #include "verify/distance.h"
 
 namespace prohull {
@@ -76,6 +78,35 @@ TEST(DistanceBounds, OfNeedlesAndPointsAreThoseOfTheirCorners) {
   const TriangleMesh point = make({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, {{0, 1, 2}});
   EXPECT_NEAR(distance_bounds(needle, point).upper, std::sqrt(5.0), 0.03);
   EXPECT_NEAR(distance_bounds(point, needle).upper, 1, 1e-12);
+}
+
+// From 1e-150 to 1e150: the same bounds, times the unit. Distances of the small ones have squares of 0.
+TEST(DistanceBounds, AreTheSameInEveryUnit) {
+  const TriangleMesh mesh = make_sample("knot", 200), hull = build_hull(mesh, {.target_faces = 50}).hull.level(50);
+  const DistanceBounds bounds = distance_bounds(hull, mesh), reach = union_reach(std::vector{hull}, mesh);
+  const std::vector<Ball> balls{{{0, 0, 0}, bounding_box(mesh).diagonal()}};
+  const DistanceBounds of_balls = union_reach(balls, mesh);
+  const double away = std::nextafter(bounds.lower, 0), near = bounds.upper;
+  for (const int exponent : {-498, -400, -260, -190, 190, 330, 498}) {
+    const double unit = std::ldexp(1.0, exponent);
+    const auto scaled = [&](TriangleMesh any) {
+      for (Vec3& p : any.positions) p = p * unit;
+      return any;
+    };
+    const auto expect = [&](const DistanceBounds& found, const DistanceBounds& expected) {
+      EXPECT_EQ(found.lower, expected.lower * unit) << exponent;
+      EXPECT_GE(found.upper, expected.upper * unit) << exponent;
+      EXPECT_LE(found.upper, std::nextafter(expected.upper * unit, 1e300)) << exponent;
+    };
+    expect(distance_bounds(scaled(hull), scaled(mesh)), bounds);
+    expect(union_reach(std::vector{scaled(hull)}, scaled(mesh)), reach);
+    expect(union_reach(std::vector<Ball>{{{0, 0, 0}, balls[0].radius * unit}}, scaled(mesh)), of_balls);
+    const auto are_within = [&](double distance) {
+      return verify_tolerances(scaled(mesh), scaled(hull), PerFace<double>(hull.face_count(), distance * unit)).holds;
+    };
+    EXPECT_TRUE(are_within(near)) << exponent;
+    EXPECT_FALSE(are_within(away)) << exponent;
+  }
 }
 
 TEST(DistanceBounds, RefuseWhatHasNoDistance) {

@@ -96,12 +96,6 @@ TEST(VerifyGap, FindsAVertexThatIsOneUlpTooNear) {
   }
 }
 
-/// Without the inside: one face comes twice, so that the mesh is not closed.
-CollisionIndex faces_alone(TriangleMesh mesh) {
-  mesh.triangles.push_back(mesh.triangles[FaceId{0}]);
-  return CollisionIndex(mesh);
-}
-
 TEST(VerifyGap, AgreesWithTheProvenDistanceOfMeshes) {
   std::mt19937 random(test_seed());
   std::uniform_real_distribution<double> growth(1.05, 1.6), shift(-0.05, 0.05);
@@ -111,12 +105,32 @@ TEST(VerifyGap, AgreesWithTheProvenDistanceOfMeshes) {
     TriangleMesh hull = mesh;
     const double factor = growth(random);
     for (Vec3& p : hull.positions) p = center + (p - center) * factor + Vec3{shift(random), shift(random), 0};
-    const Separation s = separation(faces_alone(hull), {}, faces_alone(mesh), {});
+    const Separation s =
+        separation(CollisionIndex(hull, StandsFor::Surface), {}, CollisionIndex(mesh, StandsFor::Surface), {});
     EXPECT_FALSE(verified(hull, mesh, above(s.upper)).keeps_gap);
     if (s.lower == 0) continue;
     const Verification found = verified(hull, mesh, s.lower);
     EXPECT_TRUE(found.keeps_gap);
     EXPECT_NEAR(found.least_distance, s.upper, 1e-12);
+  }
+}
+
+TriangleMesh scaled(TriangleMesh mesh, int exponent) {
+  for (Vec3& p : mesh.positions) p = p * std::ldexp(1.0, exponent);
+  return mesh;
+}
+
+// From 1e-150 to 1e100. Squares of normals of the small ones are 0 in double precision, those of the large ones
+// infinite.
+TEST(VerifyGap, IsDecidedInEveryUnit) {
+  for (int exponent = -498; exponent <= 331; exponent += 10) {
+    const TriangleMesh hull = scaled(kLarge, exponent), cube = scaled(kCube, exponent);
+    const double gap = std::ldexp(0.25, exponent);
+    EXPECT_TRUE(verified(hull, cube, gap).holds()) << exponent;
+    EXPECT_FALSE(verified(hull, cube, above(gap)).keeps_gap) << exponent;
+    EXPECT_FALSE(verified(hull, cube, 1e100).keeps_gap) << exponent;
+    EXPECT_EQ(verified(hull, cube, gap).least_distance,
+              std::ldexp(verified(kLarge, kCube, 0.25).least_distance, exponent));
   }
 }
 

@@ -1,7 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "meshes.h"
+#include "progress.h"
 #include "prohull/sample.h"
+#include "random.h"
+#include "verify/solid_volume.h"
 #include "verify/solids.h"
 
 namespace prohull::verify {
@@ -48,6 +54,23 @@ TEST(OneSolid, HasFacesWithAnAreaThatDoNotMeet) {
   TriangleMesh flat = make({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
                            {{0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}, {1, 2, 3}});
   EXPECT_FALSE(bounds_one(flat));
+}
+
+// 200 random tetrahedra: 86,000 pairs of faces meet.
+TEST(SolidVolume, IsGivenUpAtOnceWherePartsMeetTooOften) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> x(-1, 1);
+  const auto point = [&] { return Vec3{x(random), x(random), x(random)}; };
+  TriangleMesh mesh;
+  for (int i = 0; i < 200; ++i) {
+    TriangleMesh part = tetrahedron(point(), point(), point(), point());
+    append(mesh, signed_volume(part) > 0 ? part : inside_out(part));
+  }
+  const UnthrottledProgress every_call;
+  int steps = 0;
+  ProgressMeter meter([&](std::string_view, double) { return ++steps > 0; }, "measure");
+  EXPECT_TRUE(std::isnan(solid_volume(mesh, meter)));
+  EXPECT_LT(steps, 5000) << "one for each cell of a face";
 }
 
 }  // namespace

@@ -124,7 +124,8 @@ TEST(UnionOfPieces, AsksOfAnOpenOriginalOnlyTheTriangles) {
   open.triangles.pop_back();
   open.triangles.push_back(open.triangles[FaceId(0)]);
   open.triangles.push_back({open.positions.push_back({kInfinity, 0, 0}), VertexId(0), VertexId(1)});
-  const UnionVerification found = verify_union(small_cubes(kMiddle), open);
+  EXPECT_FALSE(verify_union(small_cubes(kMiddle), open).covers) << "nobody knows where the last triangle is";
+  const UnionVerification found = verify_union(small_cubes(kMiddle), open, {.finite_only = true});
   EXPECT_TRUE(found.covers) << found.why_not;
   EXPECT_FALSE(found.original_closed);
   ASSERT_EQ(found.notes.size(), 2u);
@@ -219,14 +220,58 @@ TEST(UnionOfBalls, MayTouchEachOther) {
   EXPECT_FALSE(verify_union(std::vector<Ball>{{{-1, 0, 0}, less}, {{1, 0, 0}, 1}}, segment, false).covers);
 }
 
-TEST(UnionOfBalls, WithAPointInDoubtCountAsUncoveredAndSaySo) {
+// No point outside is known, so that none is told.
+TEST(UnionOfBalls, WithAPointInDoubtAreUndecided) {
   // The balls meet at x = 1/3, which no middle of middles hits.
   const TriangleMesh segment = make({{-1, 0, 0}, {1, 0, 0}}, {{0, 1, 1}});
   const double third = 1.0 / 3;
   const std::vector<Ball> balls{{{third - 2, 0, 0}, 2}, {{third + 2, 0, 0}, 2}};
   const UnionVerification found = verify_union(balls, segment, false);
   EXPECT_FALSE(found.covers);
-  EXPECT_NE(found.notes.back().find("to spare"), std::string::npos);
+  EXPECT_EQ(found.faces_outside, 0u);
+  EXPECT_TRUE(found.worst.empty());
+  EXPECT_FALSE(found.point_outside);
+  EXPECT_EQ(found.faces_undecided, 1u);
+  ASSERT_EQ(found.undecided.size(), 1u);
+  EXPECT_NEAR(found.undecided[0].point.x, third, 1e-9);
+  EXPECT_NE(found.why_not.find("undecided"), std::string::npos) << found.why_not;
+}
+
+TEST(UnionOfBalls, ThatLeaveAPointOutsideBesideOneInDoubtDoNotCover) {
+  const double third = 1.0 / 3;
+  const std::vector<Ball> balls{{{third - 2, 0, 0}, 2}, {{third + 2, 0, 0}, 2}};
+  const TriangleMesh original = make({{-1, 0, 0}, {1, 0, 0}, {0.5, 0.25, 0}}, {{0, 1, 1}, {0, 1, 2}});
+  const UnionVerification found = verify_union(balls, original, false);
+  EXPECT_FALSE(found.covers);
+  EXPECT_EQ(found.faces_outside, 1u);
+  EXPECT_EQ(found.faces_undecided, 1u);
+  ASSERT_TRUE(found.point_outside);
+  EXPECT_EQ(found.point_outside->face, FaceId{1});
+  using Number = oracle::Exact::FT;
+  const auto& weights = found.point_outside->weights;
+  const auto p = [&](int axis) {
+    const Triangle t = original.triangle(FaceId{1});
+    return Number(t.a[axis]) * weights[0] + Number(t.b[axis]) * weights[1] + Number(t.c[axis]) * weights[2];
+  };
+  EXPECT_EQ(weights[0] + weights[1] + weights[2], 1);
+  for (const Ball& ball : balls)
+    EXPECT_GT(CGAL::squared_distance(oracle::Point(p(0), p(1), p(2)), oracle::exact(ball.center)),
+              Number(ball.radius) * Number(ball.radius));
+}
+
+TEST(UnionOfBalls, AreUndecidedInsideWhereTheyTouch) {
+  const double third = 1.0 / 3;  // all balls meet at (1/3, 1/3, 1/3), and nowhere else have nothing to spare
+  std::vector<Ball> balls;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double away : {-2.0, 2.0}) {
+      balls.push_back({{third, third, third}, 2});
+      balls.back().center[axis] += away;
+    }
+  const UnionVerification found = verify_union(balls, box({0, 0, 0}, {1, 1, 1}), true);
+  EXPECT_FALSE(found.covers);
+  EXPECT_EQ(found.faces_outside + found.faces_undecided + found.holes, 0u);
+  EXPECT_TRUE(found.inside_undecided);
+  EXPECT_NE(found.why_not.find("undecided"), std::string::npos) << found.why_not;
 }
 
 std::vector<Ball> balls_around_small_cubes(int left_out = -1) {
@@ -332,6 +377,13 @@ TEST(UnionReach, FromOpenTrianglesIsThatOfTheSurfaceOfTheUnion) {
   const DistanceBounds found = union_reach(balls, open);
   EXPECT_GT(found.lower, 2.4);
   EXPECT_LT(found.upper, 2.6);
+}
+
+// The small piece lies at the corner that is farthest away. Its faces have no normals in double precision.
+TEST(UnionReach, APieceWithoutNormalsHidesNothing) {
+  const TriangleMesh far = make({{10, 10, 10}, {11, 10, 10}, {10, 11, 10}}, {{0, 1, 2}});
+  const TriangleMesh small = box({-1e-170, -1e-170, -1e-170}, {1e-170, 1e-170, 1e-170});
+  EXPECT_NEAR(union_reach(Pieces{box({0, 0, 0}, {1, 1, 1}), small}, far).upper, std::sqrt(300), 0.2);
 }
 
 TEST(UnionVolume, CountsOverlapsOnce) {

@@ -225,14 +225,61 @@ TEST(VerifyHull, ReplaysAnInnerHullByItsOwnSide) {
   EXPECT_THROW(verify_hull(hull, without_a_face(mesh)), InputError);
 }
 
-TEST(VerifyHull, LeavesOutFacesThatAreNotFiniteAndSaysSo) {
+TEST(VerifyHull, LeavesOutFacesThatAreNotFiniteOnlyIfThatIsAllowed) {
   TriangleMesh original = kSmall;
   const VertexId far = original.positions.push_back({std::numeric_limits<double>::infinity(), 0, 0});
   original.triangles.push_back({VertexId{0}, VertexId{1}, far});
-  const Verification found = verify_hull(kLarge, original);
+  EXPECT_FALSE(verify_hull(kLarge, original).encloses);
+  EXPECT_NE(verify_hull(kLarge, original).why_not.find("not finite"), std::string::npos);
+  const Verification found = verify_hull(kLarge, original, HullSide::Outer, {.finite_only = true});
   EXPECT_TRUE(found.encloses);
+  EXPECT_EQ(found.non_finite_faces, 1u);
   EXPECT_TRUE(found.original_closed) << "what is left is";
   EXPECT_TRUE(says(found, "1 face of the original is not finite"));
+}
+
+TEST(VerifyHull, MeasuresPartsThatOverlapOnceOnly) {
+  const TriangleMesh two = together(box({0, 0, 0}, {2, 2, 2}), box({1, 0.5, 0.5}, {4, 1.5, 1.5}));  // 8 + 2
+  const Verification found = verify_hull(box({0, 0, 0}, {4, 2, 2}), two);
+  EXPECT_TRUE(found.encloses);
+  EXPECT_DOUBLE_EQ(found.original_volume, 10);
+  EXPECT_NEAR(found.void_ratio, 0.6, 1e-12);
+  EXPECT_NEAR(verify_hull(two, two).void_ratio, 0, 1e-12);
+  const TriangleMesh twice = together(box({0, 0, 0}, {2, 2, 2}), box({0, 0, 0}, {1, 2, 2}));  // share faces
+  EXPECT_DOUBLE_EQ(verify_hull(box({0, 0, 0}, {2, 2, 2}), twice).original_volume, 8);
+  const TriangleMesh hollow = together(box({0, 0, 0}, {3, 3, 3}), inside_out(box({1, 1, 1}, {2, 2, 2})));
+  EXPECT_DOUBLE_EQ(verify_hull(box({0, 0, 0}, {3, 3, 3}), hollow).original_volume, 26);
+}
+
+TEST(VerifyHull, HasNoVoidOfAnOriginalWithoutVolume) {
+  TriangleMesh flat = box({0, 0, 0}, {1, 1, 1});
+  for (Vec3& p : flat.positions) p.z = 0;
+  const Verification found = verify_hull(box({0, 0, -1}, {1, 1, 1}), flat);
+  EXPECT_TRUE(found.encloses);
+  EXPECT_TRUE(std::isnan(found.void_ratio));
+}
+
+// Five sides of a box, and its lid.
+TEST(VerifyHull, ComparesWithAClosedMeshThatStandsForAnOpenOne) {
+  const TriangleMesh closed = box({0, 0, 0}, {1, 1, 1});
+  TriangleMesh open = closed;
+  open.triangles.resize(open.triangles.size() - 2);
+  const VerificationOptions with{.closed = &closed};
+  const TriangleMesh inside = box({0.25, 0.25, 0.25}, {0.5, 0.5, 0.5});
+  EXPECT_THROW(verify_hull(inside, open, HullSide::Inner), InputError) << "it has no inside";
+  const Verification inner = verify_hull(inside, open, HullSide::Inner, with);
+  EXPECT_TRUE(inner.encloses && inner.has_solid && !inner.original_closed);
+  EXPECT_EQ(inner.cap_faces, 2u);
+  EXPECT_FALSE(verify_hull(box({0.5, 0.5, 0.5}, {1.5, 0.75, 0.75}), open, HullSide::Inner, with).encloses);
+  EXPECT_TRUE(verify_hull(kLarge, open, HullSide::Outer, with).encloses);
+  TriangleMesh more = open;  // a fin that no face of the closed mesh stands for
+  for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{-90, 0, 0}, Vec3{-90, 1, 0}}) more.positions.push_back(p);
+  const auto n = static_cast<std::uint32_t>(more.vertex_count());
+  more.triangles.push_back({VertexId{n - 3}, VertexId{n - 2}, VertexId{n - 1}});
+  const Verification fin = verify_hull(kLarge, more, HullSide::Outer, with);
+  EXPECT_FALSE(fin.encloses);
+  ASSERT_EQ(fin.worst.size(), 1u);
+  EXPECT_EQ(fin.worst[0].face, FaceId{static_cast<std::uint32_t>(more.face_count() - 1)});
 }
 
 TEST(VerifyHull, TurnsMeshesThatAreInsideOutAndSaysSo) {

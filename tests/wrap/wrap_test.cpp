@@ -127,6 +127,12 @@ TEST(Wrap, OfWhatEnclosesNothingIsASheetAroundIt) {
     expect_sound(mesh, wrap(mesh, {.spacing = 0.1, .seal_rooms = true}).mesh, name);
 }
 
+TEST(Wrap, OfLongNeedlesIsSound) {
+  TriangleMesh needles;  // both sides at a corner are 180 spacings long
+  for (double x = 0; x < 30; ++x) append(needles, make({{x, 0, 0}, {x + 60, 90, 60}, {x + 60.1, 90, 60}}, {{0, 1, 2}}));
+  expect_sound(needles, wrap(needles, {.spacing = 0.7}).mesh, "needles");
+}
+
 TEST(Wrap, IsTheSameForTheSameInput) {
   std::mt19937 random(test_seed());
   const TriangleMesh soup = random_soup(random, 40);

@@ -1,19 +1,19 @@
-#include "robot/check/union_cover.h"
+#include "prohull/solid_pieces.h"
 
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
 #include <queue>
 #include <utility>
 
+#include "geometry/predicates.h"
 #include "prohull/enclosure.h"
 #include "prohull/mesh_query.h"
 #include "prohull/union_verification.h"
-#include "robot/check/convex_pairs.h"
+#include "verify/convex_pairs.h"
 
-namespace prohull::robot {
+namespace prohull {
 namespace {
 
 /// Corners around the axis of the meshes that stand for curved forms, until one tells.
@@ -69,7 +69,7 @@ bool lies_in_one(const Triangle& t, std::span<const CurvedForm> forms) {
 
 /// The pieces that bound solids, but the tangled ones, as one mesh. No winding is negative: the sum is at least 1 where
 /// one of them is.
-TriangleMesh solid_mesh(const Pieces& pieces, Curved curved, std::size_t segments) {
+TriangleMesh solid_mesh(const SolidPieces& pieces, Curved curved, std::size_t segments) {
   TriangleMesh mesh = pieces.solids;
   for (const CurvedForm& form : pieces.curved) append(mesh, form.mesh(curved, segments));
   return mesh;
@@ -102,7 +102,10 @@ PerFace<char> are_outside(const TriangleMesh& faces, const TriangleMesh& solid,
 /// The faces that balls do not cover, or with next to nothing to spare.
 std::vector<Offender> offenders(const TriangleMesh& faces, std::span<const Ball> balls, const Progress& progress) {
   if (faces.face_count() == 0) return {};
-  return verify_union(balls, faces, false, {.max_offenders = faces.face_count(), .progress = progress}).worst;
+  UnionVerification found =
+      verify_union(balls, faces, false, {.max_offenders = faces.face_count(), .progress = progress});
+  found.worst.insert(found.worst.end(), found.undecided.begin(), found.undecided.end());
+  return std::move(found.worst);
 }
 
 TriangleMesh uncovered(const TriangleMesh& faces, std::span<const Ball> balls, const Progress& progress) {
@@ -111,7 +114,7 @@ TriangleMesh uncovered(const TriangleMesh& faces, std::span<const Ball> balls, c
   return faces_that(faces, [&](FaceId f) { return outside[f] != 0; });
 }
 
-TriangleMesh uncovered(const TriangleMesh& faces, const Pieces& pieces, Curved curved, std::size_t segments,
+TriangleMesh uncovered(const TriangleMesh& faces, const SolidPieces& pieces, Curved curved, std::size_t segments,
                        const Progress& progress) {
   const TriangleMesh rest = faces_that(faces, [&](FaceId f) { return !lies_in_one(faces.triangle(f), pieces.curved); });
   const auto outside = are_outside(rest, solid_mesh(pieces, curved, segments), pieces.tangled, progress);
@@ -119,7 +122,7 @@ TriangleMesh uncovered(const TriangleMesh& faces, const Pieces& pieces, Curved c
 }
 
 /// Those with a corner that lies in no solid piece. Exact.
-TriangleMesh with_corner_outside(const TriangleMesh& faces, const Pieces& pieces, const Progress& progress) {
+TriangleMesh with_corner_outside(const TriangleMesh& faces, const SolidPieces& pieces, const Progress& progress) {
   std::vector<Triangle> corners;
   std::vector<FaceId> owners;
   for (const FaceId f : faces.triangles.ids()) {
@@ -137,27 +140,8 @@ TriangleMesh with_corner_outside(const TriangleMesh& faces, const Pieces& pieces
   return faces_that(faces, [&](FaceId f) { return keeps[f] != 0; });
 }
 
-using Rational =
-    boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
-
-template <class Number>
-Number determinant(const Triangle& t, const Vec3& p) {
-  std::array<std::array<Number, 3>, 3> m;
-  for (int i = 0; i < 3; ++i)
-    m[i] = {Number(t.b[i]) - Number(t.a[i]), Number(t.c[i]) - Number(t.a[i]), Number(p[i]) - Number(t.a[i])};
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[1][0] * (m[0][1] * m[2][2] - m[0][2] * m[2][1]) +
-         m[2][0] * (m[0][1] * m[1][2] - m[0][2] * m[1][1]);
-}
-
-/// Whether p lies in the plane of the triangle; also if that has no area. Exact. Differences are at most twice the
-/// largest coordinate; in the determinant, six products of three, less than 20 roundings go into each.
-bool lies_in_plane(const Vec3& p, const Triangle& t) {
-  double largest = 0;
-  for (const Vec3& q : {t.a, t.b, t.c, p})
-    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(q[axis]));
-  if (std::abs(determinant<double>(t, p)) > 0x1p-40 * largest * largest * largest + 1e-300) return false;
-  return determinant<Rational>(t, p) == 0;
-}
+/// Also if the triangle has no area.
+bool lies_in_plane(const Vec3& p, const Triangle& t) { return side(t.a, t.b, t.c, p) == Side::On; }
 
 /// Whether one of the faces, which all leave the solid pieces, leaves the triangles, too: these cover some of a face
 /// only if they lie in its plane. Not all are asked, as many faces may lie in a plane with many triangles.
@@ -183,7 +167,7 @@ bool one_leaves(const TriangleMesh& faces, const TriangleMesh& triangles) {
 /// it.
 class Reach {
  public:
-  Reach(const TriangleMesh& faces, const Pieces& pieces, const Progress& progress)
+  Reach(const TriangleMesh& faces, const SolidPieces& pieces, const Progress& progress)
       : pieces_(pieces),
         progress_(progress),
         balls_(only_balls(pieces)),
@@ -302,12 +286,12 @@ class Reach {
     result.push_back({middle, b, c});
   }
 
-  const Pieces& pieces_;
+  const SolidPieces& pieces_;
   const Progress& progress_;
   const std::vector<Ball> balls_;  // the pieces, if they are nothing else; then there is no solid_
   const TriangleMesh solid_, surface_;
   MeshQuery query_;
-  ConvexPairs pairs_;
+  verify::ConvexPairs pairs_;
   double rounding_ = 0;
   std::priority_queue<Cell> cells_;
   std::size_t seen_ = 0, next_look_ = 1024;
@@ -316,9 +300,9 @@ class Reach {
 };
 
 /// By the exact test of unions of balls, for which no meshes have to stand.
-PartCover cover_by_balls(const TriangleMesh& faces, std::span<const Ball> balls, const Pieces& pieces,
-                         const Progress& progress) {
-  PartCover result{Covers::Unknown, uncovered(faces, balls, progress), {}};
+PieceCover cover_by_balls(const TriangleMesh& faces, std::span<const Ball> balls, const SolidPieces& pieces,
+                          const Progress& progress) {
+  PieceCover result{Covers::Unknown, uncovered(faces, balls, progress), {}};
   if (result.outside.face_count() == 0) return {};
   result.reach = Reach(result.outside, pieces, progress).run();
   if (result.reach.lower > 0 || with_corner_outside(result.outside, pieces, progress).face_count() > 0)
@@ -326,10 +310,10 @@ PartCover cover_by_balls(const TriangleMesh& faces, std::span<const Ball> balls,
   return result;
 }
 
-PartCover cover_flat(const TriangleMesh& faces, const Pieces& pieces, const Progress& progress) {
+PieceCover cover_flat(const TriangleMesh& faces, const SolidPieces& pieces, const Progress& progress) {
   if (const std::vector<Ball> balls = only_balls(pieces); !balls.empty())
     return cover_by_balls(faces, balls, pieces, progress);
-  PartCover result{Covers::Unknown, without_equals(faces, pieces.triangles), {}};
+  PieceCover result{Covers::Unknown, without_equals(faces, pieces.triangles), {}};
   TriangleMesh leaving;  // the solid pieces
   for (const std::size_t segments : kSegments) {
     result.outside = uncovered(result.outside, pieces, Curved::Within, segments, progress);
@@ -348,9 +332,9 @@ PartCover cover_flat(const TriangleMesh& faces, const Pieces& pieces, const Prog
   return result;
 }
 
-PartCover cover_curved_by_balls(const CurvedForm& form, std::span<const Ball> balls, const Pieces& pieces,
-                                const Progress& progress) {
-  PartCover result{Covers::Unknown, {}, {}};
+PieceCover cover_curved_by_balls(const CurvedForm& form, std::span<const Ball> balls, const SolidPieces& pieces,
+                                 const Progress& progress) {
+  PieceCover result{Covers::Unknown, {}, {}};
   for (const std::size_t segments : kSegments) {
     result.outside = uncovered(form.mesh(Curved::Around, segments), balls, progress);
     if (result.outside.face_count() == 0) return {};
@@ -365,11 +349,11 @@ PartCover cover_curved_by_balls(const CurvedForm& form, std::span<const Ball> ba
 }
 
 /// Faces around the form to prove that it is covered, and faces within it to prove that it is not.
-PartCover cover_curved(const CurvedForm& form, const Pieces& pieces, const Progress& progress) {
+PieceCover cover_curved(const CurvedForm& form, const SolidPieces& pieces, const Progress& progress) {
   if (std::find(pieces.curved.begin(), pieces.curved.end(), form) != pieces.curved.end()) return {};
   if (const std::vector<Ball> balls = only_balls(pieces); !balls.empty())
     return cover_curved_by_balls(form, balls, pieces, progress);
-  PartCover result{Covers::Unknown, {}, {}};
+  PieceCover result{Covers::Unknown, {}, {}};
   for (const std::size_t segments : kSegments) {
     result.outside = uncovered(form.mesh(Curved::Around, segments), pieces, Curved::Within, segments, progress);
     if (result.outside.face_count() == 0) return {};
@@ -387,7 +371,7 @@ PartCover cover_curved(const CurvedForm& form, const Pieces& pieces, const Progr
 
 }  // namespace
 
-std::vector<Ball> only_balls(const Pieces& pieces) {
+std::vector<Ball> only_balls(const SolidPieces& pieces) {
   std::vector<Ball> balls;
   for (const CurvedForm& form : pieces.curved)
     if (const auto ball = form.ball()) balls.push_back(*ball);
@@ -396,21 +380,29 @@ std::vector<Ball> only_balls(const Pieces& pieces) {
   return has_others ? std::vector<Ball>() : balls;
 }
 
-/// Inside out, the mesh winds at least once around such points. A box far away, of greater volume, sees to it that it
-/// does not count as turned.
+/// Inside out, the mesh winds at least once around such points. A tetrahedron far away, of greater volume, sees to it
+/// that it does not count as turned.
 bool is_tangled(const TriangleMesh& mesh, const Progress& progress) {
   const Box box = bounding_box(mesh);
-  const double size = box.diagonal() * (2 + std::cbrt(static_cast<double>(mesh.face_count())));
-  const TriangleMesh far = placed(Pose{.translation = box.max + Vec3{size, size, size}},
-                                  form_mesh(BoxForm{{size, size, size}}, Curved::Around));
+  const double size = 2 * box.diagonal() * (2 + std::cbrt(static_cast<double>(mesh.face_count())));
+  const Vec3 origin = box.max + Vec3{size, size, size};
+  const std::array<Vec3, 4> corners{origin, origin + Vec3{size, 0, 0}, origin + Vec3{0, size, 0},
+                                    origin + Vec3{0, 0, size}};
+  const TriangleMesh far =
+      mesh_of(std::array{Triangle{corners[0], corners[2], corners[1]}, Triangle{corners[0], corners[1], corners[3]},
+                         Triangle{corners[0], corners[3], corners[2]}, Triangle{corners[1], corners[2], corners[3]}});
   TriangleMesh turned = mesh;
-  for (auto& corners : turned.triangles) std::swap(corners[1], corners[2]);
+  for (auto& corners_of_face : turned.triangles) std::swap(corners_of_face[1], corners_of_face[2]);
   append(turned, far);
   return !verify_enclosure(turned, far, {.progress = progress}).encloses;
 }
 
-PartCover cover(const Part& part, const Pieces& pieces, const Progress& progress) {
-  return part.curved ? cover_curved(*part.curved, pieces, progress) : cover_flat(part.flat, pieces, progress);
+PieceCover verify_pieces(const TriangleMesh& triangles, const SolidPieces& pieces, const Progress& progress) {
+  return cover_flat(triangles, pieces, progress);
 }
 
-}  // namespace prohull::robot
+PieceCover verify_pieces(const CurvedForm& form, const SolidPieces& pieces, const Progress& progress) {
+  return cover_curved(form, pieces, progress);
+}
+
+}  // namespace prohull

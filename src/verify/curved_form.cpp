@@ -1,20 +1,15 @@
-#include "robot/curved_form.h"
-
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "prohull/error.h"
-#include "robot/transform.h"
+#include "prohull/solid_pieces.h"
+#include "verify/exact.h"
 
-namespace prohull::robot {
+namespace prohull {
 namespace {
-
-using Rational =
-    boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
 
 /// A number that was computed in double precision, and a bound of how wrong it is.
 struct Approximate {
@@ -99,16 +94,6 @@ bool is_exact_sum(double a, double b) {
   return (a - (sum - from_b)) + (b - from_b) == 0;
 }
 
-std::optional<CurvedForm> CurvedForm::of(const Form& form, const Pose& pose) {
-  if (const auto* sphere = std::get_if<SphereForm>(&form))
-    return CurvedForm(Kind::Sphere, sphere->radius, 0, {.translation = pose.translation});
-  if (const auto* cylinder = std::get_if<CylinderForm>(&form))
-    return CurvedForm(Kind::Cylinder, cylinder->radius, cylinder->length, pose);
-  if (const auto* capsule = std::get_if<CapsuleForm>(&form))
-    return CurvedForm(Kind::Capsule, capsule->radius, capsule->length, pose);
-  return std::nullopt;
-}
-
 std::optional<Ball> CurvedForm::ball() const {
   if (kind_ != Kind::Sphere) return std::nullopt;
   return Ball{pose_.translation, radius_};
@@ -130,7 +115,7 @@ bool CurvedForm::keeps(int bound, const Vec3& p) const {
   const auto about = excess<Approximate>(bound, p);
   if (about.value > about.error) return false;
   if (about.value < -about.error) return true;
-  return excess<Rational>(bound, p) <= 0;
+  return excess<verify::Number>(bound, p) <= 0;
 }
 
 bool CurvedForm::contains(const Vec3& p) const {
@@ -207,4 +192,4 @@ TriangleMesh CurvedForm::mesh(Curved curved, std::size_t segments) const {
   return placed(pose_, turned({{0, -half}, {radius, -half}, {radius, half}, {0, half}}, segments));
 }
 
-}  // namespace prohull::robot
+}  // namespace prohull

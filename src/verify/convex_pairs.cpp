@@ -1,4 +1,4 @@
-#include "robot/check/convex_pairs.h"
+#include "verify/convex_pairs.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include "prohull/enclosure.h"
 
-namespace prohull::robot {
+namespace prohull::verify {
 namespace {
 
 constexpr std::size_t kFacesOfHull = 4;
@@ -105,4 +105,4 @@ double ConvexPairs::distance_at_most(FaceId face, const Triangle& triangle) {
   return least;
 }
 
-}  // namespace prohull::robot
+}  // namespace prohull::verify

@@ -9,7 +9,7 @@
 #include "prohull/progress.h"
 #include "prohull/triangle_mesh.h"
 
-namespace prohull::robot {
+namespace prohull::verify {
 
 /// The convex hulls of pairs of faces that share an edge, as far as they are proven to lie in the solid that the faces
 /// bound. The distance to such a hull, a tetrahedron, is a convex function. So it bounds the distance from the solid
@@ -37,4 +37,4 @@ class ConvexPairs {
   PerFace<std::vector<std::size_t>> of_face_;  // in pairs_
 };
 
-}  // namespace prohull::robot
+}  // namespace prohull::verify

@@ -1,0 +1,72 @@
+#include "certificate_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "console.h"
+
+namespace prohull::cli {
+namespace {
+
+std::string lower_suffix(const std::filesystem::path& path) {
+  std::string suffix = path.extension().string();
+  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
+  return suffix;
+}
+
+bool is_packed(const std::filesystem::path& path) {
+  return lower_suffix(path) == ".gz" || lower_suffix(path) == ".zip";
+}
+
+std::filesystem::path unpacked(const std::filesystem::path& path) { return is_packed(path) ? path.stem() : path; }
+
+}  // namespace
+
+CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& file, const std::string& what) {
+  return command
+      .add_option("--certificate", file,
+                  "Also write a certificate: a file with which prohull_check, a program of one C file that shares "
+                  "nothing with this one, decides again from the bytes of " +
+                      what + " and of the original what is proven (docs/certificate.md).")
+      ->type_name("FILE");
+}
+
+void check_certified_original(const std::filesystem::path& certificate, const std::filesystem::path& original) {
+  if (certificate.empty()) return;
+  constexpr std::array<std::string_view, 4> kChecked{".stl", ".obj", ".ply", ".off"};
+  if (is_standard_stream(original))
+    refuse(
+        "--certificate: the original comes from standard input, but it has to be a file that can be checked; save "
+        "it and name the file");
+  if (std::ranges::find(kChecked, lower_suffix(unpacked(original))) == kChecked.end())
+    refuse(
+        fmt::format("--certificate: {}: prohull_check reads .stl, .obj, .ply and .off files only; save the mesh as "
+                    "one of these, and name that file as the original",
+                    original.string()));
+}
+
+void check_certified_output(const std::filesystem::path& certificate, const std::string& suffix,
+                            const std::vector<std::string>& checkable) {
+  if (!certificate.empty() && std::ranges::find(checkable, suffix) == checkable.end())
+    refuse(fmt::format("--certificate: prohull_check reads no {} files; write {}", suffix, alternatives(checkable)));
+}
+
+CertifiedOriginal certified_original(TriangleMesh mesh, const std::filesystem::path& path,
+                                     const InputOptions& options) {
+  CertifiedOriginal original{std::move(mesh), options.factor(), lower_suffix(unpacked(path)) == ".stl"};
+  if (!original.has_loose_corners) read_mesh(path, {.non_finite = NonFinite::Keep, .divided = &original.divided});
+  return original;
+}
+
+void print_certificate(const std::filesystem::path& file, const Certificate& certificate,
+                       const std::vector<std::filesystem::path>& hull, const std::filesystem::path& original) {
+  std::string command = "prohull_check " + file.string();
+  for (const auto& name : hull) command += " " + name.string();
+  say("{}: certificate ({}); to check it: {} {}{}\n", output_name(file), fmt::join(certificate.claims, ", "), command,
+      unpacked(original).string(), is_packed(original) ? ", once that is unpacked" : "");
+}
+
+}  // namespace prohull::cli

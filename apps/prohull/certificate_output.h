@@ -1,0 +1,31 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "inputs.h"
+#include "outputs.h"
+#include "prohull/certificate.h"
+
+namespace prohull::cli {
+
+/// --certificate of a command whose outputs `what` names: "the hull".
+CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& file, const std::string& what);
+
+/// Before any work, if there is to be a certificate: throws InputError(InvalidOption) for an original that
+/// prohull_check does not read.
+void check_certified_original(const std::filesystem::path& certificate, const std::filesystem::path& original);
+/// The same for an output whose name ends in `suffix`, if that is none of `checkable`.
+void check_certified_output(const std::filesystem::path& certificate, const std::string& suffix,
+                            const std::vector<std::string>& checkable = {".stl", ".obj", ".ply", ".off"});
+
+/// The mesh that was read from `path`, for a certificate.
+CertifiedOriginal certified_original(TriangleMesh mesh, const std::filesystem::path& path, const InputOptions& options);
+
+/// A line of the summary: what the certificate claims, and the command that checks it.
+void print_certificate(const std::filesystem::path& file, const Certificate& certificate,
+                       const std::vector<std::filesystem::path>& hull, const std::filesystem::path& original);
+
+}  // namespace prohull::cli

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include "command.h"
+#include "prohull/closed_solid.h"
+#include "prohull/error.h"
+#include "prohull/mesh_io.h"
+#include "verdict.h"
+
+namespace prohull::cli {
+namespace {
+
+struct RepairRunOptions {
+  std::filesystem::path in, out, report;
+  std::string out_format;
+  InputOptions input;
+  Length spacing;
+  ClosedSolidOptions solid;
+};
+
+struct RepairOutcome {
+  ClosedSolid solid;
+  bool certified = false;  ///< and the file holds the very bits of the solid
+  std::string why_not;
+  double read_seconds = 0, seconds = 0;
+
+  bool is_wrap() const { return solid.source == Source::Wrap; }
+};
+
+ClosedSolid solid_of(TriangleMesh mesh, const RepairRunOptions& options) {
+  ProgressLine line;
+  ClosedSolidOptions how = options.solid;
+  how.progress = std::ref(line);
+  try {
+    return closed_solid(std::move(mesh), how);
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
+  }
+}
+
+void print_summary(const RepairRunOptions& options, const RepairOutcome& outcome) {
+  const ClosedSolid& solid = outcome.solid;
+  say("{}: {}, {}\n", input_name(options.in), counted(solid.input.found.faces, "face", "faces"),
+      counted(solid.input.found.components, "component", "components"));
+  for (const std::string& repair : describe(solid.input.repairs)) say("  {}\n", repair);
+  if (!solid.input.closed) say("  not closed: {}\n", solid.input.obstacle);
+  if (outcome.is_wrap() && solid.input.closed)
+    say("  the repaired mesh{} does not cover all triangles\n",
+        options.solid.float32_coordinates ? ", with float32 coordinates (.ply, .obj and .off keep doubles)," : "");
+  say("{}: {} of {}, volume {:.9g}\n", output_name(options.out), outcome.is_wrap() ? "wrap" : "solid",
+      counted(solid.mesh.face_count(), "face", "faces"), signed_volume(solid.mesh));
+  if (outcome.is_wrap())
+    say("  it is another solid than the mesh: a wrap with a spacing of {0:.4g}, about a third of that farther out, "
+        "which "
+        "closes openings narrower than about twice that (--spacing)\n",
+        solid.wrap_spacing);
+  if (outcome.certified)
+    say("  certified: yes, {}\n", claim(solid.verdict, "the file as written", "the original"));
+  else
+    say("  certified: NO, so nothing was written: {}\n", outcome.why_not);
+  say("  read {:.2f} s, repair and verify {:.2f} s\n", outcome.read_seconds, outcome.seconds);
+}
+
+nlohmann::json report_of(const RepairRunOptions& options, const RepairOutcome& outcome) {
+  const ClosedSolid& solid = outcome.solid;
+  const Repairs& repairs = solid.input.repairs;
+  nlohmann::json in = facts(solid.input.found);
+  in["path"] = options.in.string();
+  in["repairs"] = describe(repairs);
+  in["obstacle"] = solid.input.obstacle;
+  return {{"input", in},
+          {"path", options.out.string()},
+          {"faces", solid.mesh.face_count()},
+          {"vertices", solid.mesh.vertex_count()},
+          {"volume", signed_volume(solid.mesh)},
+          {"source", name_of(source_names(), solid.source)},
+          {"wrap_spacing", outcome.is_wrap() ? nlohmann::json(solid.wrap_spacing) : nlohmann::json()},
+          {"openings", {{"closed", repairs.closed_openings}, {"largest", repairs.largest_opening}}},
+          {"certified", outcome.certified},
+          {"why_not", outcome.why_not},
+          {"verdict", facts(solid.verdict)},
+          {"seconds", {{"read", outcome.read_seconds}, {"repair", outcome.seconds}}}};
+}
+
+int run_repair(RepairRunOptions options) {
+  const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
+  check_files({options.in}, {options.out, options.report});
+  options.solid.float32_coordinates = stores_float32(mesh_format("solid" + suffix));
+  RepairOutcome outcome;
+  const Stopwatch reading;
+  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
+  outcome.read_seconds = reading.seconds();
+  options.solid.spacing = MeshUnit(mesh, options.in, options.input).number_of(options.spacing, "--spacing");
+  const Stopwatch repairing;
+  outcome.solid = solid_of(std::move(mesh), options);
+  outcome.seconds = repairing.seconds();
+  const ClosedSolid& solid = outcome.solid;
+  Outputs outputs;
+  outcome.why_not = solid.verdict.why_not;
+  if (solid.verdict.holds()) {
+    outcome.certified = outputs.add(options.out, suffix, [&](const auto& file) {
+      write_mesh(file, solid.mesh);
+      return holds_triangles_of(file, solid.mesh);
+    });
+    if (!outcome.certified) outcome.why_not = "the file does not keep its triangles; write .ply, .obj or .off";
+  }
+  outputs.add_report(options.report, report_of(options, outcome));
+  outputs.commit();
+  print_summary(options, outcome);
+  return outcome.certified ? kDone : kAnswerIsNo;
+}
+
+}  // namespace
+
+void add_repair(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<RepairRunOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "repair",
+      "Writes the solid of a mesh: a closed mesh, whose openings have caps and whose faces look outwards, as `prohull "
+      "build` makes it before it builds a hull. Where repairs do not give one that covers all triangles, it is a wrap, "
+      "a "
+      "new closed surface around them. The file that was written is certified to cover every finite triangle of the "
+      "mesh, exactly; else nothing is written and the exit code is 1.");
+  command.add_option("in", options->in, std::string("Mesh to close. ") + kMeshFiles)->required()->type_name("IN");
+  add_format_option(command, options->input);
+  add_unit_options(command, options->input, "the mesh");
+  add_mesh_output_options(command, options->out, options->out_format, "the solid");
+  add_length(
+      command, "--spacing", options->spacing,
+      "Spacing of the grid that a wrap is made on, if there has to be one. Halving it takes up to 8 times as long. "
+      "Without this option it is 1/256 of the diagonal of the bounding box.");
+  add_choice(
+      command, "--open-shells", options->solid.repair.open_shells, open_shells_names(),
+      "What to do with openings. close gives them caps, so that what they lead into is inside; keep makes a thin "
+      "solid of the triangles. A leaf or a bedsheet always stays a sheet.");
+  command.add_flag("!--drop-inside", options->solid.repair.keep_cavities,
+                   "Drop parts of the mesh that lie inside of other parts, as `prohull build` does.");
+  add_report_option(command, options->report);
+  add_examples(command, {"prohull repair scan.obj -o solid.ply",
+                         "prohull repair part.stl --unit mm --spacing 0.2mm -o solid.stl",
+                         "prohull repair soup.ply -o solid.obj --report solid.json"});
+  command.callback([options, &run] { run = [options] { return run_repair(*options); }; });
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "prohull/enclosing_hull.h"
+#include "prohull/progress.h"
+#include "prohull/repair.h"
+#include "prohull/triangle_mesh.h"
+#include "prohull/verification.h"
+
+namespace prohull {
+
+struct ClosedSolidOptions {
+  RepairOptions repair{.keep_cavities = true};
+  /// Of the wrap that is made where repairs do not do, in the input's unit; 0: 1/256 of the diagonal of the input's
+  /// box.
+  double spacing = 0;
+  bool float32_coordinates = false;  ///< round all coordinates to numbers that STL and GLB files keep
+  Progress progress = {};            ///< stages "wrap" and "verify"
+};
+
+/// What counts as the solid of a mesh.
+struct ClosedSolid {
+  TriangleMesh mesh;             ///< a closed 2-manifold, oriented outwards
+  Source source = Source::Mesh;  ///< the repaired mesh, or a wrap of it, which is another solid
+  double wrap_spacing = 0;       ///< of a wrap
+  RepairedMesh input;            ///< `repairs` has the openings that were closed, `obstacle` why repairs do not do
+  Verification verdict;          ///< of `mesh` as an outer hull of the input; if it `holds`, every triangle is covered
+};
+
+/// Makes a closed solid of any triangles, as enclosing_hulls does before it builds hulls: repaired_mesh, and a wrap
+/// where that gives no closed mesh, or none that covers all triangles.
+/// Guaranteed: what `verdict` says of `mesh`, exactly. Throws InputError as repaired_mesh and wrap do, and for a wrap
+/// that is no closed 2-manifold; Cancelled.
+///
+///     const ClosedSolid solid = closed_solid(read_mesh("scan.stl"));
+///     if (solid.verdict.holds()) write_mesh("scan.ply", solid.mesh);
+ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& options = {});
+
+}  // namespace prohull

@@ -1,0 +1,116 @@
+#include "robot/hulls/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "prohull/error.h"
+#include "prohull/union_verification.h"
+#include "prohull/verification.h"
+
+namespace prohull::robot {
+namespace {
+
+void judge_hull(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Budget& budget,
+                const Progress& go_on) {
+  const double gap = budget.padding > 0 ? hull.padding : 0;
+  const Verification found = verify_hull(hull.mesh, triangles, HullSide::Outer,
+                                         {.gap = gap, .finite_only = true, .max_offenders = 0, .progress = go_on});
+  hull.certified = found.holds() && hull.padding >= budget.padding;
+  hull.proof = budget.padding > 0 ? "padding" : found.proof;
+  hull.volume = found.hull_volume;
+  hull.self_intersections = found.self_intersections;
+  TriangleMesh sealed = input.closed ? input.closed->mesh : input.original;
+  if (!input.closed) append(sealed, input.caps);
+  hull.distance = distance_bounds(hull.mesh, sealed, {.progress = go_on});
+}
+
+void judge_pieces(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Progress& go_on) {
+  const UnionVerification found =
+      verify_union(hull.pieces, triangles, {.finite_only = true, .max_offenders = 1, .progress = go_on});
+  hull.mesh = mesh_of(hull.pieces, {});
+  hull.volume = found.union_volume;
+  hull.certified = found.covers;
+  hull.proof = "union";
+  hull.distance = union_reach(hull.pieces, input.original, {.progress = go_on});
+}
+
+void judge_balls(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Progress& go_on) {
+  hull.certified =
+      verify_union(hull.balls, triangles, false, {.finite_only = true, .max_offenders = 1, .progress = go_on}).covers;
+  hull.proof = "union";
+  hull.mesh = mesh_of({}, hull.balls);
+  hull.volume = union_volume(hull.balls);
+  hull.distance = union_reach(hull.balls, input.closed ? input.closed->mesh : input.original, {.progress = go_on});
+}
+
+bool keeps_float32(const TriangleMesh& mesh) {
+  return std::ranges::all_of(mesh.positions, [](const Vec3& p) {
+    return double(float(p.x)) == p.x && double(float(p.y)) == p.y && double(float(p.z)) == p.z;
+  });
+}
+
+/// Whether a hull is of the kind and of the size that the budget asks for.
+bool is_as_asked(const LinkHull& hull, const Budget& budget, bool float32) {
+  const auto keeps = [&](const TriangleMesh& mesh) { return !float32 || keeps_float32(mesh); };
+  switch (budget.collision) {
+    case Collision::Hull:
+      return hull.pieces.empty() && hull.balls.empty() && keeps(hull.mesh) &&
+             (!hull.target_reached || budget.max_distance > 0 || hull.mesh.face_count() <= hull.target_faces);
+    case Collision::Convex:
+      return !hull.pieces.empty() && hull.pieces.size() <= budget.pieces && hull.balls.empty() &&
+             std::ranges::all_of(hull.pieces, [&](const TriangleMesh& piece) {
+               return keeps(piece) && piece.vertex_count() <= budget.vertices && signed_volume(piece) >= 0;
+             });
+    case Collision::Spheres:
+      return !hull.balls.empty() && hull.balls.size() <= budget.spheres && hull.pieces.empty() &&
+             std::ranges::all_of(hull.balls, [](const Ball& ball) { return ball.radius > 0; });
+  }
+  return false;
+}
+
+/// The construction measures a padded hull before its faces are moved outwards.
+bool is_within_bounds(const LinkHull& hull, const Budget& budget) {
+  return budget.max_distance == 0 || budget.padding > 0 || hull.distance.upper <= budget.max_distance;
+}
+
+std::vector<std::size_t> targets_of(const Budget& budget) {
+  return budget.collision == Collision::Hull ? budget.faces : std::vector<std::size_t>{0};
+}
+
+}  // namespace
+
+void judge(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Budget& budget,
+           const Progress& go_on) {
+  switch (budget.collision) {
+    case Collision::Hull:
+      judge_hull(hull, triangles, input, budget, go_on);
+      break;
+    case Collision::Convex:
+      judge_pieces(hull, triangles, input, go_on);
+      break;
+    case Collision::Spheres:
+      judge_balls(hull, triangles, input, go_on);
+      break;
+  }
+  if (!hull.certified) hull.proof.clear();
+}
+
+std::optional<std::vector<LinkHull>> verified(std::vector<LinkHull> proposal, const TriangleMesh& triangles,
+                                              const RepairedMesh& input, const Budget& budget, bool float32,
+                                              const Progress& go_on) {
+  if (!std::ranges::equal(proposal, targets_of(budget), {}, &LinkHull::target_faces)) return std::nullopt;
+  for (LinkHull& hull : proposal) {
+    if (!is_as_asked(hull, budget, float32)) return std::nullopt;
+    try {
+      judge(hull, triangles, input, budget, go_on);
+    } catch (const InputError&) {  // it bounds no solid
+      return std::nullopt;
+    }
+    const bool is_convex = !std::isnan(hull.volume);  // as verify_union says of pieces
+    if (!hull.certified || !is_convex || (hull.within_bounds && !is_within_bounds(hull, budget))) return std::nullopt;
+  }
+  return proposal;
+}
+
+}  // namespace prohull::robot

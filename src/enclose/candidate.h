@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+
+#include "enclose/solids.h"
+
+namespace prohull {
+
+enum class Method {
+  Levels,          ///< a level of the progressive hull
+  InSteps,         ///< a progressive hull whose vertices move towards the triangles before it has come down, too
+  Tight,           ///< a tight hull (tight_hull.h)
+  TightOfGapBody,  ///< a tight hull of a body that keeps the gap (gap_body.h)
+};
+
+/// A hull that touches a closed mesh is tighter than one that keeps away from single triangles. But where the mesh
+/// intersects itself, it may not cover them all.
+enum class Approach { Touching, Clear };
+
+struct Recipe {
+  Method method;
+  bool moves = false;  ///< towards the triangles in the end, so that it is no level
+  Approach approach = Approach::Touching;
+};
+
+/// What is left to be tried with the same solid where the recipe fails, if anything.
+std::optional<Recipe> other_way(Recipe recipe, const Request& request);
+
+/// What may be tried: nothing else decides what comes of it.
+struct Candidate {
+  SolidId solid;
+  std::size_t target_faces;
+  Recipe recipe;
+};
+
+/// What came of a candidate.
+struct Attempt {
+  Candidate candidate;
+  EnclosingHull hull;
+  std::string why_not_storable = {};  ///< with the float32 coordinates asked for; empty if it is
+  /// With padding, of a hull of the mesh: the void before it was moved away.
+  std::optional<double> void_before_padding = {};
+};
+
+/// Builds and certifies it. None if the recipe cannot be followed: the gap's body of the solid intersects itself.
+std::optional<Attempt> attempt(const Candidate& candidate, const Request& request, Solids& solids);
+
+}  // namespace prohull

@@ -1,0 +1,229 @@
+#include "enclose/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace prohull {
+namespace {
+
+// Handles and gaps take faces, so that hulls swell that have few: the second wraps have less of them. Of sheets, the
+// later ones are smooth.
+constexpr WrapKind kWrapsOfSolids[]{{3.5, 0.3, 1.5}, {6, 0.9, 4}, {3.5, 0.3, 8}};
+constexpr WrapKind kWrapsOfSoups[]{{3.5, 0.3, 1.5}, {6, 0.9, 4}};
+// A padding closes gaps too, and asks for a finer grid.
+constexpr WrapKind kPaddedWraps[]{{6, 0.3, 1.5}, {3.5, 0.3, 0}};
+constexpr WrapKind kWrapsOfSheets[]{{3.5, 0.3, 1.5}, {7, 0.9, 4}, {9, 0.5, 4}};
+constexpr WrapKind kWrapInside{3.5, 0.3, 0};
+// Hulls of four robot parts that keep 1 or 3 % of the diagonal have fewest faces, or up to 1.14 times as many, from a
+// spacing of half of that without closing: 1.03 to 2 times by a third, 1 to 4.4 times by two thirds.
+constexpr WrapKind kBoundedWrap{3.5, 0.3, 0};
+constexpr double kBoundedSpacing = 0.5;  // of the largest distance
+
+constexpr std::size_t kMostWraps = 3;
+
+// The first ones are the same: they tell whether the triangles enclose anything.
+std::span<const WrapKind> wraps(const Request& request, const Solids& solids) {
+  if (request.is_padded()) return kPaddedWraps;
+  if (request.input.closed) return kWrapsOfSolids;
+  return solids.volume() > 0 ? std::span<const WrapKind>(kWrapsOfSoups) : kWrapsOfSheets;
+}
+
+// Where many parts overlap, the mesh's hull is several times larger than the others, if there is any.
+bool is_worth_the_mesh(const Request& request, const Solids& solids) {
+  constexpr std::size_t kMany = 120;
+  return solids.has_mesh() && (!request.is_free() || request.options.levels || solids[0].self_intersections <= kMany);
+}
+
+// With as many nodes as memory and patience allow: 128 MB of distances.
+double finest_spacing(const Request& request) {
+  constexpr double kMostNodes = 0x1p25, kMargin = 12;  // nodes on both sides
+  const Box box = bounding_box(request.to_cover());
+  const Vec3 size = box.max - box.min;
+  double spacing = request.diagonal / std::cbrt(kMostNodes);
+  const auto nodes = [&](double s) { return (size.x / s + kMargin) * (size.y / s + kMargin) * (size.z / s + kMargin); };
+  while (nodes(spacing / 1.1) < kMostNodes) spacing /= 1.1;
+  return spacing;
+}
+
+}  // namespace
+
+Candidates::Candidates(const Request& request, std::size_t target_faces, Notes& notes)
+    : request_(request), target_faces_(target_faces), notes_(notes) {
+  plan_mesh();
+  if (request.is_free()) {
+    plan_convex_hull();
+    request.options.bounds.any() ? plan_bounded_wraps() : plan_wraps();
+  }
+  if (!request.is_outer() && request.options.repair != Repair::None) {
+    if (request.is_padded())
+      plan_inner_with_padding();
+    else if (!request.is_bound_to_mesh() && !request.options.levels)
+      plan_inner();
+  }
+  if (request.options.tight) plan_tight();
+}
+
+std::optional<Candidate> Candidates::next(const Ranking& ranking, Solids& solids) {
+  std::optional<Candidate> next = last_ ? follow_up(ranking, solids) : std::nullopt;
+  while (!next && next_step_ < steps_.size()) next = steps_[next_step_++](ranking, solids);
+  return last_ = next;
+}
+
+/// Another way with the solid that was just tried.
+std::optional<Candidate> Candidates::follow_up(const Ranking& ranking, const Solids& solids) const {
+  // With few faces, a tight hull of the mesh may have less void than one of its gap's body.
+  const bool is_body_of_mesh =
+      last_->recipe.method == Method::TightOfGapBody && solids[last_->solid].source == Source::Mesh;
+  const auto other = other_way(last_->recipe, request_);
+  if (!other || !(is_body_of_mesh || ranking.last_failed())) return std::nullopt;
+  return Candidate{last_->solid, target_faces_, *other};
+}
+
+Candidate Candidates::of(SolidId id, const Solids& solids) const {
+  Candidate candidate = moved(id);
+  if (solids[id].source == Source::Mesh || request_.options.levels)
+    candidate.recipe = {.method = Method::Levels};
+  else if (request_.is_padded() || !request_.input.closed || solids[id].doors.face_count() > 0)
+    candidate.recipe.approach = Approach::Clear;
+  return candidate;
+}
+
+Candidate Candidates::moved(SolidId id) const {
+  return {id, target_faces_, {request_.options.bounds.any() ? Method::Levels : Method::InSteps, /*moves=*/true}};
+}
+
+double Candidates::spacing_for(const WrapKind& kind) const {
+  constexpr double kFewest = 25, kMost = 256;
+  constexpr double kMostPadding = 2.6;  // in spacings, with the offset
+  const double per_diagonal = std::clamp(kind.nodes_per_edge * std::sqrt(double(target_faces_)), kFewest, kMost);
+  return std::max({request_.diagonal / per_diagonal, request_.options.seal_holes / 32,
+                   request_.aim() / (kMostPadding - kind.offset)});
+}
+
+std::optional<SolidId> Candidates::wrap(const WrapKind& kind, double spacing, Solids& solids) const {
+  std::string why_not;
+  const std::optional<SolidId> id = solids.wrap(kind, spacing, why_not);
+  if (!why_not.empty()) notes_.add(why_not);
+  return id;
+}
+
+std::optional<Candidate> Candidates::of_wrap(const WrapKind& kind, Solids& solids) const {
+  const std::optional<SolidId> id = wrap(kind, spacing_for(kind), solids);
+  return id ? std::optional(of(*id, solids)) : std::nullopt;
+}
+
+void Candidates::plan_mesh() {
+  steps_.push_back([this](const Ranking&, Solids& solids) -> std::optional<Candidate> {
+    if (!is_worth_the_mesh(request_, solids)) return std::nullopt;
+    return of(0, solids);
+  });
+}
+
+void Candidates::plan_convex_hull() {
+  steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+    constexpr double kLittleVoid = 0.02;
+    const EnclosingOptions& options = request_.options;
+    const bool is_good = ranking.is_as_asked();
+    if (options.levels || (is_good && (options.keep_cavities || ranking.slack() < kLittleVoid))) return std::nullopt;
+    const auto too_large = is_good ? std::optional(ranking.best_volume()) : std::nullopt;
+    const auto id = solids.convex_hull(too_large);
+    if (!id || (too_large && solids[*id].volume >= *too_large)) return std::nullopt;
+    return of(*id, solids);
+  });
+}
+
+bool Candidates::is_worth_a_wrap(const Ranking& ranking, const Solids& solids, bool is_first) const {
+  if (ranking.is_empty()) return true;
+  const EnclosingHull& best = ranking.best().hull;
+  if (!best.certified || !best.target_reached || !best.within_bounds) return true;
+  if (request_.options.levels || (request_.options.keep_cavities && best.source == Source::Mesh)) return false;
+  if (solids.volume() == 0) return true;
+  constexpr double kLittleVoid = 0.03, kMuchVoid = 0.12, kVeryMuchVoid = 0.3;
+  if (best.source == Source::Mesh && ranking.is_clean()) return ranking.slack() > kVeryMuchVoid;
+  return ranking.slack() > (is_first ? kLittleVoid : kMuchVoid);
+}
+
+void Candidates::plan_wraps() {
+  for (std::size_t i = 0; i < kMostWraps; ++i)
+    steps_.push_back([this, i](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+      const auto kinds = wraps(request_, solids);
+      if (i >= kinds.size() || !is_worth_a_wrap(ranking, solids, i == 0)) return std::nullopt;
+      return of_wrap(kinds[i], solids);
+    });
+}
+
+// Ever finer ones, until one keeps the bounds; a single one if the finest is too far away. Of a mesh that
+// does not intersect itself no wrap does better: its own hull touches it.
+void Candidates::plan_bounded_wraps() {
+  constexpr int kMostBounded = 4;
+  constexpr double kFine = 256;  // to the diagonal; finer ones take ten seconds and more
+  const double finest = finest_spacing(request_), max_distance = request_.options.bounds.max_distance;
+  const bool is_hopeless = kBoundedWrap.offset * finest > max_distance;
+  double spacing = std::min(spacing_for(kBoundedWrap), std::max(kBoundedSpacing * max_distance, request_.aim() / 2));
+  if (is_hopeless) spacing = spacing_for(kBoundedWrap);
+  spacing = std::max(spacing, finest);
+  for (int i = 0; i < (is_hopeless ? 1 : kMostBounded); ++i) {
+    steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+      if (ranking.has_certified() && ranking.best().hull.within_bounds) {
+        const EnclosingHull& best = ranking.best().hull;
+        const bool is_of_clean_mesh = best.source == Source::Mesh && solids[0].self_intersections == 0;
+        const bool is_fine = spacing < request_.diagonal / kFine;
+        if (i > 0 || is_of_clean_mesh || best.mesh.face_count() <= target_faces_ || is_fine) return std::nullopt;
+      }
+      const auto id = wrap(kBoundedWrap, spacing, solids);
+      return id ? std::optional(of(*id, solids)) : std::nullopt;
+    });
+    if (spacing == finest) break;
+    spacing = std::max(spacing / 2, finest);
+  }
+}
+
+void Candidates::plan_inner_with_padding() {
+  for (const WrapKind& kind : kPaddedWraps)
+    steps_.push_back([this, kind](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+      constexpr double kMostLost = 0.06;  // of a wrap, where it has too many handles for so few faces
+      const SolidId id = ranking.best().hull.solid;
+      if (solids[id].source == Source::Wrap && ranking.is_as_asked() &&
+          ranking.best_volume() > (1 - kMostLost) * solids[id].volume)
+        return std::nullopt;
+      return of_wrap(kind, solids);
+    });
+}
+
+// Of the mesh, if that is closed, and of the solid that has the best hull so far. That hull is kept if no tight one is
+// better. Without padding, of 8 robots' parts of which a wrap had it, no tight hull of the wrap was.
+void Candidates::plan_tight() {
+  const auto tight = [this](SolidId id, const Solids& solids) {
+    const bool may_have_body =
+        request_.is_padded() && !request_.options.bounds.any() && solids[id].source != Source::ConvexHull;
+    return Candidate{id, target_faces_, {may_have_body ? Method::TightOfGapBody : Method::Tight}};
+  };
+  steps_.push_back([=, this](const Ranking&, Solids& solids) -> std::optional<Candidate> {
+    return is_worth_the_mesh(request_, solids) ? std::optional(tight(0, solids)) : std::nullopt;
+  });
+  steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+    if (!ranking.has_certified()) return std::nullopt;
+    const SolidId id = ranking.best().hull.solid;
+    if (solids[id].source == Source::Mesh || (is_worth_the_mesh(request_, solids) && !request_.is_padded()))
+      return std::nullopt;
+    return tight(id, solids);
+  });
+}
+
+void Candidates::plan_inner() {
+  constexpr double kLittleVoid = 0.1, kMuchVoid = 0.15;
+  steps_.push_back([this](const Ranking& ranking, Solids&) -> std::optional<Candidate> {
+    if (ranking.is_as_asked() && ranking.best_void() >= -kLittleVoid) return std::nullopt;
+    return moved(0);
+  });
+  steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+    if (ranking.has_certified() && ranking.best_void() >= -kMuchVoid) return std::nullopt;
+    const auto id = wrap(kWrapInside, spacing_for(kWrapInside), solids);
+    return id ? std::optional(moved(*id)) : std::nullopt;
+  });
+}
+
+}  // namespace prohull

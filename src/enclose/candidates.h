@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "enclose/ranking.h"
+
+namespace prohull {
+
+/// What is tried for one number of faces, in order. What cannot win any more is left out.
+class Candidates {
+ public:
+  Candidates(const Request& request, std::size_t target_faces, Notes& notes);
+
+  /// After the last one was built, and `ranking` has taken what came of it.
+  std::optional<Candidate> next(const Ranking& ranking, Solids& solids);
+
+ private:
+  /// None if it is not worth trying, or if there is no such solid.
+  using Step = std::function<std::optional<Candidate>(const Ranking&, Solids&)>;
+
+  void plan_mesh();
+  void plan_convex_hull();
+  void plan_wraps();
+  void plan_bounded_wraps();
+  void plan_inner();
+  void plan_inner_with_padding();
+  void plan_tight();
+  std::optional<Candidate> follow_up(const Ranking& ranking, const Solids& solids) const;
+  bool is_worth_a_wrap(const Ranking& ranking, const Solids& solids, bool is_first) const;
+  std::optional<SolidId> wrap(const WrapKind& kind, double spacing, Solids& solids) const;
+  std::optional<Candidate> of_wrap(const WrapKind& kind, Solids& solids) const;
+  double spacing_for(const WrapKind& kind) const;
+  Candidate of(SolidId id, const Solids& solids) const;
+  Candidate moved(SolidId id) const;
+
+  const Request& request_;
+  const std::size_t target_faces_;
+  Notes& notes_;
+  std::vector<Step> steps_;
+  std::size_t next_step_ = 0;
+  std::optional<Candidate> last_;
+};
+
+}  // namespace prohull

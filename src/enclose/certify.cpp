@@ -1,0 +1,149 @@
+#include "enclose/certify.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "construct/lifting.h"
+#include "construct/turned.h"
+#include "prohull/enclosure.h"
+#include "prohull/padded_hull.h"
+#include "prohull/replay.h"
+#include "prohull/tight_hull.h"
+#include "verify/gap.h"
+
+namespace prohull {
+namespace {
+
+bool covers(const TriangleMesh& hull, const TriangleMesh& triangles, const Progress& progress) {
+  if (triangles.face_count() == 0) return true;
+  return verify_cover(triangles, hull, {.max_offenders = 0, .progress = progress}).encloses;
+}
+
+// What is lifted covers what it has covered before: only the triangles that lay outside have to be looked at again.
+bool lift_over(EnclosingHull& hull, const TriangleMesh& outside, std::vector<Offender> offenders,
+               const Request& request) {
+  constexpr int kLifts = 5;
+  hull.levels.reset();
+  for (int lifts = 0; lifts < kLifts; ++lifts) {
+    std::vector<Protrusion> protrusions;
+    for (const Offender& o : offenders) protrusions.push_back({o.point, o.distance});
+    hull.mesh = lifted_over(hull.mesh, protrusions,
+                            {.least = std::pow(10.0, lifts - 8) * request.diagonal,
+                             .rings = lifts,
+                             .float32_coordinates = request.options.hull.float32_coordinates});
+    EnclosureReport report =
+        verify_cover(outside, hull.mesh, {.max_offenders = offenders.size(), .progress = request.options.progress});
+    if (report.encloses) return true;
+    offenders = std::move(report.worst);
+  }
+  return false;
+}
+
+bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& request) {
+  constexpr std::size_t kMostProtrusions = 200;
+  const EnclosingOptions& options = request.options;
+  const TriangleMesh& original = request.input.original;
+  const auto decide = [&](const auto& what, std::size_t max_offenders, double gap) {
+    const VerificationOptions how{.gap = gap,
+                                  .closed = request.input.closed ? &request.input.closed->mesh : nullptr,
+                                  .max_offenders = max_offenders,
+                                  .progress = options.progress};
+    if constexpr (std::is_same_v<std::decay_t<decltype(what)>, ProgressiveHull>)
+      hull.verdict = verify_hull(what, original, how);
+    else
+      hull.verdict = verify_hull(what, original, options.hull.side, how);
+    hull.proof = hull.verdict.proof;
+  };
+  if (solid.source == Source::Mesh && hull.levels) {
+    if (hull.mesh == hull.levels->base()) {
+      decide(*hull.levels, 0, 0);
+      if (hull.verdict.encloses) return true;
+    }
+    if (!verify_replay(*hull.levels, solid.mesh, options.progress).holds) return false;
+  }
+  const double gap = hull.padding > 0 ? options.padding : 0;
+  const bool may_lift = request.input.closed && request.is_outer() && solid.source == Source::Mesh && !options.levels &&
+                        hull.padding == 0;
+  decide(hull.mesh, may_lift ? kMostProtrusions : 0, gap);
+  if (hull.verdict.holds() || !may_lift) return hull.verdict.holds();
+  if (hull.verdict.worst.size() < hull.verdict.faces_outside) return false;
+  TriangleMesh outside{request.to_cover().positions, {}};
+  for (const Offender& o : hull.verdict.worst) outside.triangles.push_back(request.to_cover().triangles[o.face]);
+  if (!lift_over(hull, outside, hull.verdict.worst, request)) return false;
+  decide(hull.mesh, 0, gap);
+  return hull.verdict.holds();
+}
+
+// The splits of a progressive hull, replayed, lead from its base mesh to the solid; where the hull is another mesh, for
+// it is tight or rounded to float32, it is compared with the mesh. The doors of a wrap have to be covered too.
+bool is_proven(EnclosingHull& hull, const Solid& solid, const Request& request) {
+  const Progress& progress = request.options.progress;
+  if (solid.source != Source::Mesh && hull.levels && !verify_replay(*hull.levels, solid.mesh, progress).holds)
+    return false;
+  if (!encloses_mesh(hull, solid, request)) return false;
+  return !request.is_outer() || (covers(hull.mesh, solid.doors, progress) &&
+                                 (request.input.closed || covers(hull.mesh, request.input.caps, progress)));
+}
+
+void certify_as_it_is(EnclosingHull& hull, const Solid& solid, const Request& request) {
+  hull.certified = is_proven(hull, solid, request);
+  if (!hull.certified) hull.proof = {};
+}
+
+// What is missing is added, and measured again; twice of it after the first time, as faces turn when they move. The
+// distances propose only: verify_gap decides.
+void keep_away(EnclosingHull& hull, const Request& request, Solids& solids) {
+  constexpr int kMostAttempts = 6;
+  constexpr unsigned kMostRounds = 6;
+  const double padding = request.options.padding;
+  const bool is_float32 = request.options.hull.float32_coordinates;
+  const TriangleMesh before = hull.mesh;
+  double added = 0;
+  for (int i = 0;; ++i) {
+    hull.padding = solids.distance_from(hull.mesh, hull.solid);
+    if (hull.padding >= padding || (i > 0 && hull.padding == 0) || i == kMostAttempts) break;
+    added += (i == 0 ? 1 : 2) * (request.aim() - hull.padding);
+    hull.mesh = request.is_outer() ? padded_hull(before, added, is_float32).mesh
+                                   : turned(padded_hull(turned(before), added, is_float32).mesh);
+  }
+  // Where the solid is thin, the faces of an inner hull have passed through each other.
+  if (!request.is_outer() && count_self_intersections(hull.mesh) > 0) hull.padding = 0;
+  if (added == 0 || hull.padding < padding) return;
+  TriangleMesh moved = moved_towards(hull.mesh, solids.to_cover(hull.solid), request.move_options(kMostRounds));
+  if (const double distance = solids.distance_from(moved, hull.solid); distance >= padding)
+    hull.mesh = std::move(moved), hull.padding = distance;
+}
+
+// Why the distance suffices: a point nearer to the triangles than their distance from the surface is joined to a
+// triangle by a segment that does not meet the surface. So the hull winds around it as often as around the triangle,
+// which it covers: at least once. Points inside of the triangles are enclosed.
+void certify_with_padding(Attempt& attempt, const Solid& solid, const Request& request, Solids& solids) {
+  EnclosingHull& hull = attempt.hull;
+  const double padding = request.options.padding;
+  if (solid.source == Source::Mesh) {
+    certify_as_it_is(hull, solid, request);  // also lifts it over what sticks out
+    if (!hull.certified) return;
+    attempt.void_before_padding = solids.void_of(hull.mesh);
+  }
+  hull.certified = false;
+  keep_away(hull, request, solids);
+  if (hull.padding < padding) return;
+  hull.padding = verify::verify_gap(hull.mesh, solids.to_cover(hull.solid), padding, {}).proven_distance;
+  if (hull.padding < padding) return;
+  hull.levels.reset();
+  certify_as_it_is(hull, solid, request);
+  if (hull.certified) hull.proof = "padding";
+}
+
+}  // namespace
+
+void certify(Attempt& attempt, const Request& request, Solids& solids) {
+  const Solid& solid = solids[attempt.hull.solid];
+  if (request.is_padded())
+    certify_with_padding(attempt, solid, request, solids);
+  else
+    certify_as_it_is(attempt.hull, solid, request);
+}
+
+}  // namespace prohull

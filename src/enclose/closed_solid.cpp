@@ -1,0 +1,49 @@
+#include "prohull/closed_solid.h"
+
+#include <utility>
+
+#include "geometry/float32.h"
+#include "prohull/wrap.h"
+
+namespace prohull {
+namespace {
+
+constexpr double kSpacingsPerDiagonal = 256;
+
+void judge(ClosedSolid& solid, const ClosedSolidOptions& options) {
+  if (options.float32_coordinates)
+    for (Vec3& p : solid.mesh.positions) p = nearest_float32(p);
+  const auto& closed = solid.input.closed;
+  solid.verdict = verify_hull(solid.mesh, solid.input.original, HullSide::Outer,
+                              {.closed = closed ? &closed->mesh : nullptr, .progress = options.progress});
+}
+
+TriangleMesh wrap_of(const RepairedMesh& input, double spacing, const ClosedSolidOptions& options) {
+  TriangleMesh to_cover = input.original;
+  append(to_cover, input.caps);
+  Wrap made = wrap(to_cover, {.spacing = spacing,
+                              .seal_rooms = !input.closed && options.repair.open_shells == OpenShells::Close,
+                              .progress = options.progress});
+  return closed_mesh(std::move(made.mesh)).mesh;
+}
+
+}  // namespace
+
+ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& options) {
+  ClosedSolid solid;
+  solid.input = repaired_mesh(std::move(triangles), options.repair);
+  if (solid.input.closed) {
+    solid.mesh = solid.input.closed->mesh;
+    judge(solid, options);
+    if (solid.verdict.holds()) return solid;
+  }
+  solid.source = Source::Wrap;
+  solid.wrap_spacing = options.spacing > 0
+                           ? options.spacing
+                           : finite_bounding_box(solid.input.original).diagonal() / kSpacingsPerDiagonal;
+  solid.mesh = wrap_of(solid.input, solid.wrap_spacing, options);
+  judge(solid, options);
+  return solid;
+}
+
+}  // namespace prohull

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "prohull/enclosing_hull.h"
+
+namespace prohull {
+
+/// EnclosingHull::void_ratio of `hull`, which `made` has or will have.
+double known_void(const EnclosingHulls& made, const EnclosingHull& hull);
+
+}  // namespace prohull

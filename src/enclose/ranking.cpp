@@ -1,0 +1,130 @@
+#include "enclose/ranking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "base/text.h"
+#include "prohull/error.h"
+
+namespace prohull {
+namespace {
+
+std::string described(const Solid& solid) {
+  switch (solid.source) {
+    case Source::Mesh:
+      return "the mesh itself";
+    case Source::ConvexHull:
+      return "the convex hull";
+    default:
+      return fmt::format("the wrap with a spacing of {:.4g}", solid.wrap_spacing);
+  }
+}
+
+}  // namespace
+
+void Notes::add(std::string text) {
+  if (std::ranges::find(notes_, text) == notes_.end()) notes_.push_back(std::move(text));
+}
+
+void Ranking::take(std::optional<Attempt> attempt) {
+  last_failed_ = !attempt || !attempt->hull.certified;
+  if (!attempt) return;
+  const EnclosingHull& hull = attempt->hull;
+  build_seconds_ += hull.build_seconds, verify_seconds_ += hull.verify_seconds;
+  if (attempt->void_before_padding) void_before_padding_ = *attempt->void_before_padding;
+  if (!attempt->why_not_storable.empty())
+    notes_.add(fmt::format("a hull of {} has no float32 coordinates: {}", described(solids_[hull.solid]),
+                           attempt->why_not_storable));
+  else if (!is_as_asked(hull) && request_.is_free() &&
+           (hull.certified || !other_way(attempt->candidate.recipe, request_)))
+    note_why_not(hull);
+  if (!best_ || is_better(hull, best_->hull)) best_ = std::move(attempt);
+}
+
+bool Ranking::is_clean(const EnclosingHull& hull) const {
+  return hull.self_intersections == 0 || !request_.options.hull.refuses_self_intersections();
+}
+
+bool Ranking::is_as_asked(const EnclosingHull& hull) const {
+  return hull.certified && hull.target_reached && hull.within_bounds && is_clean(hull);
+}
+
+bool Ranking::is_better(const EnclosingHull& a, const EnclosingHull& b) const {
+  const auto rank = [&](const EnclosingHull& hull) {
+    return std::tuple(!hull.certified, std::max(hull.excess, 1.0), std::max(hull.mesh.face_count(), hull.target_faces),
+                      hull.relaxed_guards == kRelaxedGuards.size(), weighed_volume(hull));
+  };
+  return rank(a) < rank(b);
+}
+
+double Ranking::weighed_volume(const EnclosingHull& hull) const {
+  constexpr double kOfSelfIntersections = 1.1;
+  const double volume = signed_volume(hull.mesh);
+  if (!request_.is_outer()) return -volume;
+  return is_clean(hull) ? volume : volume + (kOfSelfIntersections - 1) * std::max(0.0, volume - solids_.volume());
+}
+
+// With padding, the void that a hull of the mesh had before tells, and the smallest solid beside a wrap.
+double Ranking::slack() const {
+  if (!request_.is_padded()) return best_void();
+  if (best_->hull.source == Source::Mesh) return void_before_padding_;
+  if (!solids_.has_wrap()) return std::numeric_limits<double>::infinity();
+  double least = best_volume();
+  for (SolidId id = solids_.has_mesh() ? 1 : 0; id < solids_.size(); ++id) least = std::min(least, solids_[id].volume);
+  return best_volume() / least - 1;
+}
+
+void Ranking::note_why_not(const EnclosingHull& hull) {
+  const std::string source = described(solids_[hull.solid]);
+  if (!hull.certified)
+    notes_.add(fmt::format("a hull of {} {}", source,
+                           request_.is_padded()
+                               ? "does not keep the padding everywhere, as in gaps narrower than twice the padding"
+                           : request_.is_outer() ? "does not cover every triangle"
+                                                 : "is not proven to lie inside of the mesh"));
+  else if (!hull.within_bounds)
+    notes_.add(fmt::format("no hull of {} is within the bounds", source));
+  else if (!hull.target_reached)
+    notes_.add(fmt::format("no legal collapse of {} is left at {} faces: of its edges, {}", source,
+                           grouped(hull.mesh.face_count()), describe_refusals(hull.blocked)));
+  else
+    notes_.add(fmt::format("a hull of {} intersects itself in {}", source,
+                           counted(hull.self_intersections, "pair of faces", "pairs of faces")));
+}
+
+void Ranking::refuse(std::size_t target_faces) {
+  const RepairedMesh& input = request_.input;
+  if (!best_)
+    throw InputError(
+        input.closed ? Defect::NoVolume : Defect::OpenEdge,
+        fmt::format("nothing could be wrapped: {}", notes_.all().empty() ? input.obstacle : notes_.all().back()));
+  if (!request_.is_outer() && request_.is_padded())
+    throw InputError(Defect::NoCertificate,
+                     fmt::format("no inner hull of {} faces keeps the gap of {:g}{}; use a smaller gap, or more faces",
+                                 target_faces, request_.options.padding,
+                                 solids_.has_wrap() ? "" : ": the mesh must be thicker than twice the gap somewhere"));
+  if (notes_.all().empty()) note_why_not(best_->hull);
+  throw InputError(Defect::NoCertificate, fmt::format("no hull of {} faces could be certified: {}; try more faces, or "
+                                                      "--repair wrap, or another format if that keeps float32 only",
+                                                      target_faces, notes_.all().back()));
+}
+
+EnclosingHull Ranking::winner(std::size_t target_faces) {
+  if (!has_certified()) refuse(target_faces);
+  EnclosingHull hull = std::move(best_->hull);
+  const Solid& solid = solids_[hull.solid];
+  if (solid.largest_door > 0)
+    notes_.add(
+        fmt::format("the mesh is not closed: openings up to about {:.4g} across count as closed", solid.largest_door));
+  if (solid.source == Source::Wrap && !request_.input.closed && solids_.volume() == 0)
+    notes_.add("the triangles enclose no space: the hull is a sheet around them");
+  hull.build_seconds = build_seconds_, hull.verify_seconds = verify_seconds_;
+  hull.notes = notes_.all();
+  return hull;
+}
+
+}  // namespace prohull

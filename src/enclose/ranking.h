@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "enclose/candidate.h"
+
+namespace prohull {
+
+/// Sentences about one hull, each once.
+class Notes {
+ public:
+  void add(std::string text);
+  const std::vector<std::string>& all() const { return notes_; }
+
+ private:
+  std::vector<std::string> notes_;
+};
+
+/// Which of the attempts is preferred, and why others are not as asked for.
+class Ranking {
+ public:
+  Ranking(const Request& request, const Solids& solids, Notes& notes)
+      : request_(request), solids_(solids), notes_(notes) {}
+
+  void take(std::optional<Attempt> attempt);
+
+  bool is_empty() const { return !best_.has_value(); }
+  const Attempt& best() const { return *best_; }
+  bool has_certified() const { return best_ && best_->hull.certified; }
+  bool last_failed() const { return last_failed_; }  ///< the last attempt is not certified, or could not be made
+
+  bool is_as_asked() const { return best_ && is_as_asked(best_->hull); }
+  bool is_clean() const { return is_clean(best_->hull); }
+  double best_volume() const { return signed_volume(best_->hull.mesh); }
+  double best_void() const { return solids_.void_of(best_->hull.mesh); }
+  /// How much larger the best is than it has to be, about.
+  double slack() const;
+
+  /// The best one, with the times of all that was tried. Throws InputError if none is certified.
+  EnclosingHull winner(std::size_t target_faces);
+
+ private:
+  bool is_clean(const EnclosingHull& hull) const;
+  bool is_as_asked(const EnclosingHull& hull) const;
+  bool is_better(const EnclosingHull& a, const EnclosingHull& b) const;
+  double weighed_volume(const EnclosingHull& hull) const;
+  void note_why_not(const EnclosingHull& hull);
+  [[noreturn]] void refuse(std::size_t target_faces);
+
+  const Request& request_;
+  const Solids& solids_;
+  Notes& notes_;
+  std::optional<Attempt> best_;
+  double void_before_padding_ = 0;  ///< of the last hull of the mesh
+  double build_seconds_ = 0, verify_seconds_ = 0;
+  bool last_failed_ = false;
+};
+
+}  // namespace prohull

@@ -1,0 +1,147 @@
+#include "enclose/solids.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "base/text.h"
+#include "geometry/float32.h"
+#include "mesh/area.h"
+#include "parallel/progress_meter.h"
+#include "prohull/convex_hull.h"
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
+#include "prohull/mesh_report.h"
+#include "prohull/wrap.h"
+#include "verify/solid_volume.h"
+
+namespace prohull {
+namespace {
+
+// Parts that overlap would count twice in a signed volume. Estimated where they overlap too often.
+double volume_without_overlaps(const Request& request) {
+  const TriangleMesh& mesh = request.input.closed->mesh;
+  ProgressMeter meter(request.options.progress, "repair");
+  const double exact = verify::solid_volume(mesh, meter);
+  if (!std::isnan(exact)) return exact;
+  constexpr double kPerDiagonal = 100;
+  return inside_volume(mesh, {.spacing = request.diagonal / kPerDiagonal, .progress = request.options.progress});
+}
+
+}  // namespace
+
+Solids::Solids(const Request& request) : request_(request), repair_seconds_(request.repair_seconds) {
+  const EnclosingOptions& options = request.options;
+  const Stopwatch watch;
+  const auto& closed = request.input.closed;
+  if (closed && options.repair != Repair::Wrap) {
+    const std::size_t pairs = entries_[add({.source = Source::Mesh, .mesh = closed->mesh})].solid.self_intersections;
+    volume_ = closed->report.volume;
+    constexpr std::size_t kMostPairs = 10'000;
+    if (!request.is_outer() && pairs > kMostPairs)
+      throw InputError(Defect::NoVolume,
+                       fmt::format("{} pairs of its faces intersect, too many to prove what lies inside of it; unite "
+                                   "its parts first, for instance by Blender's voxel remesh",
+                                   grouped(pairs)));
+  }
+  const bool is_exact = has_mesh() && entries_[0].solid.self_intersections == 0;
+  if (options.repair != Repair::None && closed && !is_exact && request.is_outer())
+    if (const double volume = volume_without_overlaps(request); volume > 0) volume_ = volume;
+  repair_seconds_ += watch.seconds();
+}
+
+SolidId Solids::add(Solid solid) {
+  solid.volume = signed_volume(solid.mesh);
+  solid.self_intersections = solid.source == Source::Mesh ? count_self_intersections(solid.mesh) : 0;
+  Entry entry;
+  if (solid.doors.face_count() > 0) {
+    entry.with_doors = request_.to_cover();
+    append(entry.with_doors, solid.doors);
+  }
+  entry.solid = std::move(solid);
+  entries_.push_back(std::move(entry));
+  return entries_.size() - 1;
+}
+
+std::optional<SolidId> Solids::convex_hull(std::optional<double> too_large) {
+  if (convex_hull_ || has_no_convex_hull_) return convex_hull_;
+  TriangleMesh convex = prohull::convex_hull(request_.is_padded() ? request_.to_cover() : request_.input.original);
+  if (request_.is_padded()) {
+    if (too_large && signed_volume(convex) + request_.aim() * area_of(convex) >= *too_large) return std::nullopt;
+    convex = padded_convex_solid(convex.face_count() > 0 ? convex : request_.to_cover());
+  }
+  has_no_convex_hull_ = convex.face_count() == 0;
+  if (!has_no_convex_hull_) convex_hull_ = add({.source = Source::ConvexHull, .mesh = std::move(convex)});
+  return convex_hull_;
+}
+
+// A padded convex hull is one of 96 times as many points: where that takes long, those of a hull of the convex hull.
+TriangleMesh Solids::padded_convex_solid(TriangleMesh convex) const {
+  constexpr std::size_t kMany = 2000;
+  if (convex.face_count() > kMany && inspect(convex).is_closed_manifold())
+    convex = build_hull(convex, {.target_faces = kMany}).hull.base();
+  return padded_convex_hull(convex, request_.aim());
+}
+
+std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::string& why_not) {
+  const Stopwatch watch;
+  const EnclosingOptions& options = request_.options;
+  const bool is_closed = request_.input.closed.has_value();
+  const WrapOptions how{.spacing = spacing,
+                        .offset = kind.offset,
+                        .padding = request_.aim(),
+                        .seal_holes = options.seal_holes,
+                        .seal_rooms = !is_closed && options.open_shells == OpenShells::Close,
+                        .closing = kind.closing * spacing,
+                        .progress = options.progress};
+  Wrap made;
+  if (request_.is_outer())
+    made = prohull::wrap(request_.to_cover(), how);
+  else
+    made.mesh = inner_wrap(request_.input.closed->mesh, how);
+  if (options.hull.float32_coordinates)  // the wrap is farther from the triangles than what that moves it
+    for (Vec3& p : made.mesh.positions) p = nearest_float32(p);
+  std::optional<SolidId> id;
+  if (request_.is_outer() || !request_.is_padded() || made.mesh.face_count() > 0) try {
+      id = add({.source = Source::Wrap,
+                .mesh = closed_mesh(std::move(made.mesh)).mesh,
+                .wrap_spacing = spacing,
+                .doors = std::move(made.doors),
+                .largest_door = made.largest_door});
+      if (request_.is_outer() && !is_closed && !has_wrap_) volume_ = made.inside_volume;
+      has_wrap_ = true;
+    } catch (const InputError& error) {
+      why_not = fmt::format("the wrap with a spacing of {:.4g} is no closed 2-manifold: {}", spacing, error.what());
+    }
+  repair_seconds_ += watch.seconds();
+  return id;
+}
+
+const HullResult& Solids::levels(SolidId id) {
+  std::optional<HullResult>& levels = entries_[id].levels;
+  if (!levels) levels = build_hull(entries_[id].solid.mesh, request_.hull_options(request_.fewest_faces));
+  return *levels;
+}
+
+const TriangleMesh& Solids::to_cover(SolidId id) const {
+  const TriangleMesh& with_doors = entries_[id].with_doors;
+  return with_doors.face_count() > 0 ? with_doors : request_.to_cover();
+}
+
+double Solids::distance_from(const TriangleMesh& hull, SolidId id) {
+  std::optional<CollisionIndex>& surface = entries_[id].surface;
+  if (!surface) surface.emplace(to_cover(id), StandsFor::Surface);
+  return separation(CollisionIndex(hull, StandsFor::Surface), {}, *surface, {}).lower;
+}
+
+std::vector<Solid> Solids::taken() {
+  std::vector<Solid> all;
+  for (Entry& entry : entries_) all.push_back(std::move(entry.solid));
+  entries_.clear();
+  return all;
+}
+
+}  // namespace prohull

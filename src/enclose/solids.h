@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "enclose/request.h"
+#include "prohull/collide.h"
+#include "prohull/enclosing_hull.h"
+
+namespace prohull {
+
+using SolidId = std::size_t;  ///< its place in EnclosingHulls::solids
+
+struct WrapKind {
+  double nodes_per_edge;   ///< of a face of the hull: the grid is as fine as these faces can carry, about
+  double offset, closing;  ///< as in WrapOptions, in spacings
+};
+
+/// The closed meshes that hulls are built from, and what is made once of each. All is made when it is asked for first.
+class Solids {
+ public:
+  explicit Solids(const Request& request);
+
+  const Solid& operator[](SolidId id) const { return entries_[id].solid; }
+  std::size_t size() const { return entries_.size(); }
+
+  bool has_mesh() const { return !entries_.empty() && entries_[0].solid.source == Source::Mesh; }
+  bool has_wrap() const { return has_wrap_; }
+  /// None if all lies in a plane, or if its padded volume is known to be `too_large` before it is made.
+  std::optional<SolidId> convex_hull(std::optional<double> too_large);
+  /// None if nothing is thick enough, or `why_not` says why.
+  std::optional<SolidId> wrap(const WrapKind& kind, double spacing, std::string& why_not);
+
+  /// The progressive hull of the solid, down to the fewest faces that are asked for.
+  const HullResult& levels(SolidId id);
+  /// What its hulls must cover: the triangles, their caps, and the doors of the wrap.
+  const TriangleMesh& to_cover(SolidId id) const;
+  /// A lower bound of the distance of a hull from that.
+  double distance_from(const TriangleMesh& hull, SolidId id);
+
+  double volume() const { return volume_; }  ///< of what lies inside of the input; 0 if nothing is known of it
+  double void_of(const TriangleMesh& hull) const { return signed_volume(hull) / volume_ - 1; }
+  double repair_seconds() const { return repair_seconds_; }
+  std::vector<Solid> taken();  ///< all, in the order in which they were made; nothing is left here
+
+ private:
+  struct Entry {
+    Solid solid;
+    TriangleMesh with_doors;                ///< if it has doors: what to cover, and these
+    std::optional<CollisionIndex> surface;  ///< of what to cover
+    std::optional<HullResult> levels;
+  };
+
+  SolidId add(Solid solid);
+  TriangleMesh padded_convex_solid(TriangleMesh convex) const;
+
+  const Request& request_;
+  std::vector<Entry> entries_;
+  double volume_ = 0, repair_seconds_ = 0;
+  bool has_wrap_ = false, has_no_convex_hull_ = false;
+  std::optional<SolidId> convex_hull_;
+};
+
+}  // namespace prohull

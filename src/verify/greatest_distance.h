@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <queue>
+#include <utility>
+
+#include "prohull/distance.h"
+
+namespace prohull::verify {
+
+/// The corner from which the longest side of a triangle goes to the next corner. Halves at its middle stay as round as
+/// the triangle was.
+inline int longest_side(const std::array<Vec3, 3>& corners) {
+  int longest = 0;
+  double length = -1;
+  for (int i = 0; i < 3; ++i)
+    if (const double l = squared_norm(corners[(i + 1) % 3] - corners[i]); l > length) length = l, longest = i;
+  return longest;
+}
+
+/// When a search ends.
+struct SearchLimits {
+  double relative_gap = 0, absolute_gap = 0;  ///< between the bounds
+  std::size_t max_parts = 0;
+  std::optional<double> at_most = {};  ///< instead of a gap: once it is known whether the distance is at most this
+};
+
+/// Bounds the greatest distance of points: the part whose bound is greatest is cut in two, again and again. The rule
+/// says what parts are, such as parts of faces, and from what distances count:
+///
+///   Part                     a part of the points
+///   upper(part, search)      no point of the part that counts is farther away; any bound that search.is_enough() will
+///                            do. For points that are found it calls search.reaches
+///   halves(part, search)     two parts that have all points of the part
+///
+/// A search is as wide as its limits allow; the bound `upper` holds whenever it ends.
+template <class Rule>
+class GreatestDistance {
+ public:
+  using Part = typename Rule::Part;
+
+  GreatestDistance(const Rule& rule, const SearchLimits& limits) : rule_(rule), limits_(limits) {}
+
+  /// There is a point so far away.
+  void reaches(const Vec3& p, double distance) {
+    if (distance > bounds_.lower) bounds_.lower = distance, bounds_.farthest = p;
+  }
+  double lower() const { return bounds_.lower; }
+  bool is_enough(double upper) const {
+    return upper <=
+           (limits_.at_most ? *limits_.at_most : (1 + limits_.relative_gap) * bounds_.lower + limits_.absolute_gap);
+  }
+
+  void add(Part part) {
+    ++seen_;
+    const double upper = rule_.upper(part, *this);
+    if (is_enough(upper))
+      settled_ = std::max(settled_, upper);
+    else
+      open_.push({std::move(part), upper});
+  }
+
+  /// Of all parts that were added; calls `next` before it cuts one.
+  template <class Next>
+  DistanceBounds run(Next next) {
+    while (!open_.empty() && !is_enough(open_.top().upper) && !is_known_to_be_more() && seen_ < limits_.max_parts) {
+      next();
+      const Part part = open_.top().part;
+      open_.pop();
+      for (const Part& half : rule_.halves(part, *this)) add(half);
+    }
+    bounds_.upper = std::max({open_.empty() ? 0 : open_.top().upper, settled_, bounds_.lower});
+    return bounds_;
+  }
+
+ private:
+  struct Open {
+    Part part;
+    double upper;
+    bool operator<(const Open& other) const { return upper < other.upper; }
+  };
+
+  bool is_known_to_be_more() const { return limits_.at_most && bounds_.lower > *limits_.at_most; }
+
+  const Rule& rule_;
+  const SearchLimits limits_;
+  std::priority_queue<Open> open_;
+  double settled_ = 0;  ///< the greatest bound of parts that need not be cut
+  std::size_t seen_ = 0;
+  DistanceBounds bounds_;
+};
+
+}  // namespace prohull::verify

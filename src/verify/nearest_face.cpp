@@ -1,0 +1,92 @@
+#include "verify/nearest_face.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "geometry/closest_point.h"
+#include "geometry/largest_coordinate.h"
+#include "prohull/error.h"
+#include "verify/distance.h"
+
+namespace prohull::verify {
+
+void require_distances(const TriangleMesh& mesh) {
+  if (mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, "there is no distance without faces");
+  for (const FaceId f : mesh.triangles.ids())
+    for (const VertexId v : mesh.triangles[f])
+      if (!is_finite(mesh.positions[v]))
+        throw InputError(Defect::NonFiniteCoordinate, "there is no distance from coordinates that are not finite");
+}
+
+double largest_coordinate(const TriangleMesh& mesh) {
+  const Box box = bounding_box(mesh);
+  return box.is_empty() ? 0 : prohull::largest_coordinate(box);
+}
+
+double usable_unit(double largest_coordinate) {
+  constexpr double kLarge = 0x1p200;
+  if (largest_coordinate == 0 || !std::isfinite(largest_coordinate)) return 1;
+  if (1 / kLarge < largest_coordinate && largest_coordinate < kLarge) return 1;
+  return std::ldexp(1.0, -std::max(std::ilogb(largest_coordinate), -1000));
+}
+
+TriangleMesh scaled(TriangleMesh mesh, double unit) {
+  for (Vec3& p : mesh.positions) p = p * unit;
+  return mesh;
+}
+
+DistanceBounds unscaled(const DistanceBounds& bounds, double unit) {
+  if (unit == 1) return bounds;
+  const double upper = std::nextafter(bounds.upper / unit, std::numeric_limits<double>::infinity());
+  return {bounds.lower / unit, upper, bounds.farthest / unit};
+}
+
+NearestFace::NearestFace(const TriangleMesh& mesh) : mesh_(mesh) {
+  std::vector<Box> boxes;
+  boxes.reserve(mesh.face_count());
+  for (const FaceId f : mesh.triangles.ids()) boxes.push_back(box_of(mesh.triangle(f)));
+  tree_ = Bvh(std::move(boxes));
+}
+
+double NearestFace::distance(const Vec3& p, std::uint32_t face) const {
+  return norm(p - closest_point(p, mesh_.triangle(FaceId(face))));
+}
+
+NearestFace::Found NearestFace::nearest(const Vec3& p, Found known) const {
+  tree_.least([&](const Box& box) { return verify::distance(p, box); },
+              [&](std::uint32_t f) {
+                const double d = distance(p, f);
+                if (d < known.distance) known = {f, d};
+                return d;
+              },
+              known.distance);
+  return known;
+}
+
+double FarFromFaces::upper(const Part& part, const Search&) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t f : part.nearest) {
+    double farthest = 0;
+    for (const Vec3& p : part.corners) farthest = std::max(farthest, faces_.distance(p, f));
+    least = std::min(least, farthest);
+  }
+  return least;
+}
+
+std::uint32_t FarFromFaces::look_at(const Vec3& p, Search& search, const NearestFace::Found& known) const {
+  const NearestFace::Found found = faces_.nearest(p, known);
+  search.reaches(p, found.distance);
+  return found.face;
+}
+
+std::array<FarFromFaces::Part, 2> FarFromFaces::halves(const Part& part, Search& search) const {
+  const auto& [c, near] = part;
+  const int i = longest_side(c), j = (i + 1) % 3, k = (i + 2) % 3;
+  const Vec3 middle = c[i] * 0.5 + c[j] * 0.5;
+  const std::uint32_t found = look_at(middle, search, {near[i], faces_.distance(middle, near[i])});
+  return {Part{{c[i], middle, c[k]}, {near[i], found, near[k]}}, Part{{middle, c[j], c[k]}, {found, near[j], near[k]}}};
+}
+
+}  // namespace prohull::verify

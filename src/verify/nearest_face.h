@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "geometry/bvh.h"
+#include "prohull/triangle_mesh.h"
+#include "verify/greatest_distance.h"
+
+namespace prohull::verify {
+
+/// Throws InputError if the mesh is empty or not finite.
+void require_distances(const TriangleMesh& mesh);
+
+/// Of the corners of faces, by absolute value; 0 without faces.
+double largest_coordinate(const TriangleMesh& mesh);
+
+/// A power of two. Times this, products of four coordinates neither overflow nor underflow, but for coordinates that
+/// are less than rounding; it is 1 unless the largest coordinate is very large or very small, or not finite.
+double usable_unit(double largest_coordinate);
+
+TriangleMesh scaled(TriangleMesh mesh, double unit);
+
+/// Bounds that were found times `unit`.
+DistanceBounds unscaled(const DistanceBounds& bounds, double unit);
+
+/// How far bounds are off that were found in usable units: a closest point is computed from differences, within 16 eps
+/// of the largest coordinate for each of its own (a sum of three with factors in [0, 1]); its distance to p, and parts
+/// cut at rounded midpoints, add as much again.
+inline double rounding_of_distances(double largest_coordinate) { return 64 * 0x1p-53 * largest_coordinate; }
+
+/// Of the faces of a mesh, which must outlive it. Distances are rounded.
+class NearestFace {
+ public:
+  struct Found {
+    std::uint32_t face;
+    double distance;
+  };
+
+  explicit NearestFace(const TriangleMesh& mesh);
+
+  double distance(const Vec3& p, std::uint32_t face) const;
+  static constexpr Found kNone{0, std::numeric_limits<double>::infinity()};
+  /// `known`, or one that is nearer.
+  Found nearest(const Vec3& p, Found known = kNone) const;
+  Found nearest(const Vec3& p, std::uint32_t guess) const { return nearest(p, {guess, distance(p, guess)}); }
+
+ private:
+  const TriangleMesh& mesh_;
+  Bvh tree_;
+};
+
+/// Parts of faces, and how far all of their points are from a mesh. The distance to a triangle is a convex function: no
+/// point of a part is farther from it than the farthest corner.
+class FarFromFaces {
+ public:
+  struct Part {
+    std::array<Vec3, 3> corners;
+    std::array<std::uint32_t, 3> nearest;  ///< faces, to each corner
+  };
+  using Search = GreatestDistance<FarFromFaces>;
+
+  explicit FarFromFaces(const NearestFace& faces) : faces_(faces) {}
+
+  double upper(const Part& part, const Search& search) const;
+  std::array<Part, 2> halves(const Part& part, Search& search) const;
+
+  /// The face nearest to a point, none that is not nearer than `known`. The search is told of the point.
+  std::uint32_t look_at(const Vec3& p, Search& search, const NearestFace::Found& known = NearestFace::kNone) const;
+
+ private:
+  const NearestFace& faces_;
+};
+
+}  // namespace prohull::verify

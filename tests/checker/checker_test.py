@@ -1,0 +1,482 @@
+"""Tests prohull_check: cases by hand for each kind of section, all formats of meshes, files that no one can read, and mutants.
+
+    checker_test.py PROHULL_CHECK [unittest options]
+
+The environment variable PROHULL_CHECK_MUTANTS says how many mutants are tried.
+"""
+
+import os
+import random
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from fractions import Fraction
+
+from certificates import *
+
+PROGRAM = sys.argv.pop(1)
+MUTANTS = int(os.environ.get("PROHULL_CHECK_MUTANTS", "2000"))
+PROVEN, NOT_PROVEN, UNREADABLE = 0, 1, 2
+CUBE = subdivided(box((0, 0, 0), (4, 4, 4)))
+WIDE = box((-1, -1, -1), (9, 9, 9))
+
+
+def both(a, b):
+    return a[0] + b[0], a[1] + [tuple(v + len(a[0]) for v in t) for t in b[1]]
+
+
+class Folder(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def path(self, name, content):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "wb") as file:
+            file.write(content)
+        return path
+
+    def check(self, cert, hull, original, hull_name="hull.off", original_name="original.off"):
+        """Exit code and line. Meshes may be given as bytes."""
+        paths = [self.path("c", cert)]
+        paths += [self.path(n, m if isinstance(m, bytes) else off(m)) for n, m in ((hull_name, hull), (original_name, original))]
+        done = subprocess.run([PROGRAM, *paths], capture_output=True, text=True, timeout=60)
+        self.assertIn(done.returncode, (PROVEN, NOT_PROVEN, UNREADABLE), done.stderr)
+        self.assertEqual(done.stdout.count("\n"), 1)
+        self.assertEqual(done.stderr, "")
+        return done.returncode, done.stdout
+
+    def expect(self, code, words, sections, hull, original, **options):
+        cert = certificate(len(hull[1]), len(original[1]), *sections, **options)
+        got = self.check(cert, hull, original)
+        self.assertEqual((code, words in got[1]), (code, True), got)
+        self.assertEqual(code, got[0], got)
+
+
+class Tetrahedra(Folder):
+    def test_prove_an_outer_and_an_inner_hull(self):
+        for sign, side, words in ((1, 0, "the hull encloses the solid"), (-1, 1, "the solid encloses the hull")):
+            hull, added, fans = moved_outwards(CUBE, random.Random(1), 8, sign)
+            self.assertEqual(len(added), 8)
+            self.expect(PROVEN, words, [tetrahedra(added, fans)], hull, CUBE, side=side)
+            self.expect(PROVEN, words, [tetrahedra(added, fans[::-1])], hull, CUBE, side=side)
+            self.expect(NOT_PROVEN, "wrong side", [tetrahedra(added, fans)], hull, CUBE, side=1 - side)
+            self.expect(NOT_PROVEN, "differ", [tetrahedra(added, fans[1:])], hull, CUBE, side=side)
+
+    def test_are_not_needed_for_the_original_itself(self):
+        self.expect(PROVEN, "encloses", [tetrahedra([], [])], CUBE, CUBE)
+
+    def test_need_a_closed_original(self):
+        open_cube = (CUBE[0], CUBE[1][1:])
+        self.expect(NOT_PROVEN, "not closed", [tetrahedra([], [])], open_cube, open_cube)
+
+    def test_decide_the_last_bit(self):
+        # The tip goes up by one bit, or down by one; the three faces around it are steep.
+        mesh = ([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.1, 0.1, 0.7)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
+        for tip, code in (((0.1, 0.1, 0.7000000000000001), PROVEN), ((0.1, 0.1, 0.6999999999999999), NOT_PROVEN)):
+            hull = (mesh[0][:3] + [tip], mesh[1])
+            self.expect(code, "proven", [tetrahedra([tip], [(4, 3, [0, 1, 2, 0])])], hull, mesh)
+
+    def test_know_turned_components(self):
+        turned = (CUBE[0], [(a, c, b) for a, b, c in CUBE[1]])
+        hull, added, fans = moved_outwards(CUBE, random.Random(2), 5)
+        self.expect(PROVEN, "1 components of the original are turned", [tetrahedra(added, fans)], hull, turned, turned=[7])
+        self.expect(NOT_PROVEN, "", [tetrahedra(added, fans)], hull, turned)
+        self.expect(NOT_PROVEN, "not negative", [tetrahedra(added, fans)], hull, CUBE, turned=[7])
+
+
+class Surfaces(Folder):
+    def test_prove_outer_and_inner_hulls(self):
+        self.expect(PROVEN, "covers every finite triangle; the hull encloses the solid", [surfaces()], WIDE, CUBE)
+        self.expect(PROVEN, "covers every triangle of the hull; the solid encloses the hull", [surfaces()], CUBE, WIDE, side=1)
+        self.expect(NOT_PROVEN, "outside", [surfaces()], CUBE, WIDE)
+        self.expect(PROVEN, "", [surfaces()], CUBE, CUBE)
+        self.expect(PROVEN, "", [surfaces()], box((0, 0, 0), (8, 8, 8)), CUBE)
+
+    def test_prove_moved_hulls(self):
+        for seed in range(30):
+            hull, _, _ = moved_outwards(CUBE, random.Random(seed), 6)
+            cert = certificate(len(hull[1]), len(CUBE[1]), surfaces())
+            self.check(cert, hull, CUBE)  # some intersect themselves
+
+    def test_cover_a_soup(self):
+        rng = random.Random(3)
+        vertices = [tuple(rng.randint(0, 8) for _ in range(3)) for _ in range(30)]
+        cloud = (vertices, [tuple(rng.sample(range(30), 3)) for _ in range(40)])
+        self.expect(PROVEN, "covers every finite triangle", [surfaces(1)], WIDE, cloud)
+        self.expect(NOT_PROVEN, "not closed", [surfaces(3)], WIDE, cloud)
+        self.expect(NOT_PROVEN, "", [surfaces(1)], box((0, 0, 0), (7, 8, 8)), cloud)
+
+    def test_cut_triangles_that_the_hull_crosses(self):
+        original = both(box((0, 0, 0), (4, 4, 4)), box((2, 2, 2), (6, 6, 6)))
+        wide = box((1, 1, 1), (7, 7, 7))
+        self.expect(PROVEN, "covers", [surfaces(1)], both(box((-1, -1, -1), (5, 5, 5)), wide), original)
+        self.expect(PROVEN, "covers", [surfaces(1)], both(box((-1, -1, -1), (4, 5, 5)), wide), original)
+        self.expect(NOT_PROVEN, "hole", [surfaces(3)], both(box((-1, -1, -1), (5, 5, 5)), wide), original)
+        self.expect(NOT_PROVEN, "a part of triangle", [surfaces(1)], both(box((-1, -1, -1), (3, 5, 5)), wide), original)
+
+    def test_leave_no_hole(self):
+        # A thick shell covers the triangles of a cube, but not its inside.
+        inside = box((2, 2, 2), (6, 6, 6))
+        shell = (WIDE[0] + inside[0], WIDE[1] + [(a + 8, c + 8, b + 8) for a, b, c in inside[1]])
+        self.expect(PROVEN, "covers", [surfaces(1)], shell, CUBE)
+        self.expect(NOT_PROVEN, "hole", [surfaces(3)], shell, CUBE)
+
+    def test_refuse_a_hull_that_is_turned_or_open(self):
+        self.expect(NOT_PROVEN, "outside", [surfaces()], (WIDE[0], [(a, c, b) for a, b, c in WIDE[1]]), CUBE)
+        self.expect(NOT_PROVEN, "not closed", [surfaces()], (WIDE[0], WIDE[1][1:]), CUBE)
+
+    def test_see_to_triangles_without_area(self):
+        flat = lambda *p: (CUBE[0] + list(p), CUBE[1] + [tuple(range(len(CUBE[0]), len(CUBE[0]) + len(p)))])
+        self.expect(PROVEN, "covers", [surfaces(1)], WIDE, flat((1, 1, 1), (2, 2, 2), (3, 3, 3)))
+        self.expect(PROVEN, "covers", [surfaces(1)], WIDE, flat((1, 1, 1), (1, 1, 1), (1, 1, 1)))
+        self.expect(NOT_PROVEN, "outside", [surfaces(1)], WIDE, flat((11, 1, 1), (11, 1, 1), (11, 1, 1)))
+        self.expect(NOT_PROVEN, "no area", [surfaces(1)], WIDE, flat((1, 1, 1), (5, 5, 5), (19, 19, 19)))
+
+    def test_leave_out_triangles_that_are_not_finite(self):
+        mesh = (CUBE[0] + [(float("nan"), 0.0, float("inf"))], CUBE[1] + [(0, 1, len(CUBE[0]))])
+        cert = certificate(len(WIDE[1]), len(CUBE[1]), surfaces())
+        code, line = self.check(cert, WIDE, mesh)
+        self.assertEqual(code, PROVEN, line)
+        self.assertIn("1 triangles of the original are not finite", line)
+
+    def test_scale_the_original(self):
+        self.expect(PROVEN, "scaled by 1000", [surfaces()], box((0, 0, 0), (8000, 8000, 8000)), CUBE, scale=1000.0)
+
+    def test_decide_coordinates_of_any_size(self):
+        for size in (2.0**-1060, 1e-200, 2.0**900):
+            cube = ([tuple(float(x) * size for x in p) for p in CUBE[0]], CUBE[1])
+            wide = ([tuple(float(x) * size for x in p) for p in box((0, 0, 0), (8, 8, 8))[0]], WIDE[1])
+            self.expect(PROVEN, "", [surfaces()], wide, cube)
+            small = ([tuple(min(x, 7.999 * size) for x in p) for p in wide[0]], WIDE[1])
+            self.expect(NOT_PROVEN, "", [surfaces()], small, cube)
+
+
+class Formats(Folder):
+    def test_every_format_is_read(self):
+        mesh = (CUBE[0], CUBE[1])
+        cert = certificate(len(WIDE[1]), len(mesh[1]), surfaces())
+        files = [("o.off", off(mesh)), ("o.obj", obj(mesh)), ("o.stl", stl(mesh)), ("o.STL", stl(mesh, True))]
+        for form in ("ascii", "binary_little_endian", "binary_big_endian"):
+            files += [("o.ply", ply(mesh, form, real)) for real in ("double", "float")]
+        for name, content in files:
+            code, line = self.check(cert, WIDE, content, original_name=name)
+            self.assertEqual(code, PROVEN, (name, line))
+            if name != "o.obj":
+                self.assertEqual(self.check(cert, WIDE, content[: len(content) * 2 // 3], original_name=name)[0] == PROVEN, False)
+
+    def test_polygons_are_fans(self):
+        square = b"v 0 0 0\nv 1 0 0\nv 1 1 0 \\\n 5\nv 0 1 0\nf 1 2 3 4\nf 1\nf 1 2\n"
+        self.assertEqual(self.check(certificate(12, 4, surfaces(1)), WIDE, square, original_name="o.obj")[0], PROVEN)
+
+    def test_strips(self):
+        head = b"ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        head += b"element tristrips 2\nproperty list int int vertex_indices\nend_header\n"
+        tetrahedron = b"0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+        strips = b"9 0 2 1 3 -1 0 3 2 2\n4 -1 0 1 3\n"
+        cert = certificate(len(WIDE[1]), 4, surfaces())
+        self.assertEqual(self.check(cert, WIDE, head + tetrahedron + strips, original_name="o.ply")[0], PROVEN)
+        wrong = strips.replace(b"-1 0 1 3", b"-1 0 3 1")
+        self.assertEqual(self.check(cert, WIDE, head + tetrahedron + wrong, original_name="o.ply")[0], NOT_PROVEN)
+        self.assertEqual(self.check(cert, WIDE, head + tetrahedron + strips.replace(b"3 2", b"3 4"), original_name="o.ply")[0], UNREADABLE)
+
+    def test_faces_may_be_divided(self):
+        # An arrow: the fan of its first corner sticks out of the hull, a prism of the arrow's own shape.
+        arrow = b"OFF\n4 1 0\n0 0 0\n4 0 0\n1 1 0\n0 4 0\n4 1 2 3 0\n"
+        prism = (
+            [(0, 0, -1), (4, 0, -1), (1, 1, -1), (0, 4, -1), (0, 0, 1), (4, 0, 1), (1, 1, 1), (0, 4, 1)],
+            [(0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7)]
+            + [t for a, b in ((0, 1), (1, 2), (2, 3), (3, 0)) for t in ((a, b, b + 4), (a, b + 4, a + 4))],
+        )
+        divided = lambda corners: number(7) + number(1) + number(0) + b"".join(map(number, corners))
+        ask = lambda *sections: self.check(certificate(12, 2, *sections), prism, arrow)[0]
+        self.assertEqual(ask(surfaces(1)), NOT_PROVEN)
+        self.assertEqual(ask(divided([0, 1, 5, 1, 2, 5]), surfaces(1)), PROVEN)
+        for wrong in ([0, 1, 5, 1, 5, 2], [0, 0, 0, 1, 2, 5], [1, 2, 5, 1, 2, 5], [0, 1, 2, 0, 4, 5]):
+            self.assertEqual(ask(divided(wrong), surfaces(1)), NOT_PROVEN, wrong)
+        self.assertEqual(ask(divided([0, 1, 5, 1, 2, 6]), surfaces(1)), UNREADABLE)
+        right = divided([0, 1, 5, 1, 2, 5])
+        for sections in ([right], [right, right, surfaces(1)], [right, surfaces(1), right]):
+            self.assertEqual(ask(*sections), UNREADABLE)
+
+    def test_decimals_are_rounded_correctly(self):
+        text = "OFF\n3 1 0\n8.99999999999999999999999 0 0\n0 0 0\n0 1 0\n3 0 1 2\n".encode()
+        hull = box((-1, -1, -1), (9, 9, 9))
+        self.assertEqual(self.check(certificate(12, 1, surfaces(1)), hull, text)[0], PROVEN)
+        text = text.replace(b"8.99999999999999999999999", b"9.0000000000000009")
+        self.assertEqual(self.check(certificate(12, 1, surfaces(1)), hull, text)[0], NOT_PROVEN)
+
+
+class Unreadable(Folder):
+    def test_certificates(self):
+        hull, added, fans = moved_outwards(CUBE, random.Random(1), 3)
+        cert = certificate(len(hull[1]), len(CUBE[1]), tetrahedra(added, fans))
+        self.assertEqual(self.check(cert, hull, CUBE)[0], PROVEN)
+        for n in range(len(cert)):
+            self.assertEqual(self.check(cert[:n], hull, CUBE)[0], UNREADABLE, n)
+        for wrong in (b"", b"x" * 40, cert + b"\0", cert + b"\x09", cert + b"\x02\x02", cert + cert[26:]):
+            self.assertEqual(self.check(wrong, hull, CUBE)[0], UNREADABLE)
+        self.assertEqual(self.check(certificate(2**60, 5, surfaces()), hull, CUBE)[0], NOT_PROVEN)
+
+    def test_meshes(self):
+        cert = certificate(12, 12, surfaces())
+        for name, content in (
+            ("h.off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
+            ("h.off", b"OFF\n1e18 1 0\n0 0 0\n"),
+            ("h.off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 x\n3 0 1 2\n"),
+            ("h.off", b""),
+            ("h.obj", b"v 0 0 0\nf 1 2 3\n"),
+            ("h.obj", b"v 0 0 0\nf -2 1 1\n"),
+            ("h.stl", struct.pack("<80xI", 2**32 - 1)),
+            ("h.stl", b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nendloop\nendfacet\nendsolid"),
+            ("h.ply", b"ply\nformat ascii 1.0\nelement face 1\nproperty list char char corners\nend_header\n3 0 1 2\n"),
+            ("h.ply", b"ply\nformat binary_little_endian 1.0\nelement vertex 1e300\nproperty float x\nend_header\n"),
+            ("h.xyz", b"1 2 3\n"),
+        ):
+            code, line = self.check(cert, content, CUBE, hull_name=name)
+            self.assertEqual(code, UNREADABLE, line)
+            self.assertIn(name, line)
+
+
+def two_boxes():
+    """Pieces that cover CUBE and overlap; their mesh, how many triangles they have, trees for CUBE."""
+    a, b = box((-1, -1, -1), (5, 9, 9)), box((3, -1, -1), (9, 9, 9))
+    mesh = (a[0] + b[0], a[1] + [tuple(v + 8 for v in t) for t in b[1]])
+    parts = [soup(a), soup(b)]
+    return mesh, [12, 12], [cut_tree(t, parts, [0, 12], None) for t in soup(CUBE)]
+
+
+def ball_cover(rng, count=40):
+    """Balls that cover CUBE, and trees."""
+    found = []
+    for i in range(27):
+        found.append((*(1.5 + 2.5 * (i // 3**k % 3) for k in range(3)), 2.75 + rng.random()))
+
+    def leaf(t):
+        return next((i for i, b in enumerate(found) if all(in_ball(b, p) for p in t)), None)
+
+    return found, [bisected_tree(t, leaf) for t in soup(CUBE)]
+
+
+class Page(Folder):
+    def test_the_example_of_the_page(self):
+        root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+        with open(os.path.join(root, "docs", "certificate.md"), encoding="utf-8") as file:
+            example = file.read().split("## An example")[1]
+        cert = b"".join(bytes.fromhex(m) for m in re.findall(r"^    ((?:[0-9A-F]{2} +)*[0-9A-F]{2})(?:  |$)", example, re.M))
+        columns = [(row[4:28].strip(), row[28:].strip()) for row in example.split("\n\n")[2].split("\n")]
+        original, hull = ("\n".join(column).encode() for column in zip(*columns))
+        code, line = self.check(cert, hull, original)
+        self.assertEqual((code, line), (PROVEN, "proven: the hull covers every finite triangle; the hull encloses the solid\n"))
+
+
+class Covers(Folder):
+    def test_pieces(self):
+        mesh, counts, trees = two_boxes()
+        self.expect(PROVEN, "covers every finite triangle", [pieces(counts, trees)], mesh, CUBE)
+        self.expect(NOT_PROVEN, "not in piece", [pieces(counts, [number(1)] * len(trees))], mesh, CUBE)
+        self.expect(NOT_PROVEN, "not closed", [pieces([11, 13], trees)], mesh, CUBE)
+        self.expect(NOT_PROVEN, "in no piece", [pieces([12], trees)], mesh, CUBE)
+        dented = ([(6, 3, 3) if i == 8 else p for i, p in enumerate(mesh[0])], mesh[1])
+        self.expect(NOT_PROVEN, "convex", [pieces(counts, trees)], dented, CUBE)
+        self.expect(NOT_PROVEN, "convex", [pieces(counts, trees)], (mesh[0], [(a, c, b) for a, b, c in mesh[1]]), CUBE)
+
+    def test_a_file_for_each_piece(self):
+        mesh, counts, trees = two_boxes()
+        halves = [(mesh[0][:8], mesh[1][:12]), (mesh[0][8:], [tuple(v - 8 for v in t) for t in mesh[1][12:]])]
+        for suffix, write in ((".off", off), (".obj", obj), (".stl", stl), (".stl", lambda m: stl(m, True)), (".ply", ply)):
+            paths = [self.path("c", certificate(24, len(CUBE[1]), pieces(counts, trees)))]
+            paths += [self.path(f"{i}{suffix}", write(half)) for i, half in enumerate(halves)] + [self.path("o.off", off(CUBE))]
+            done = subprocess.run([PROGRAM, *paths], capture_output=True, text=True)
+            self.assertEqual(done.returncode, PROVEN, done.stdout)
+
+    def test_pieces_that_leave_a_slit(self):
+        a, b = box((-1, -1, -1), (4, 9, 9)), box((5, -1, -1), (9, 9, 9))
+        mesh = (a[0] + b[0], a[1] + [tuple(v + 8 for v in t) for t in b[1]])
+        trees = [cut_tree(t, [soup(a), soup(b)], [0, 12], None) for t in soup(CUBE)]
+        self.expect(NOT_PROVEN, "not in piece", [pieces([12, 12], trees)], mesh, CUBE)
+
+    def test_pieces_that_share_a_wall(self):
+        a, b = box((-1, -1, -1), (3, 9, 9)), box((3, -1, -1), (9, 9, 9))
+        mesh = (a[0] + b[0], a[1] + [tuple(v + 8 for v in t) for t in b[1]])
+        trees = [cut_tree(t, [soup(a), soup(b)], [0, 12], None) for t in soup(CUBE)]
+        self.assertIn(b"\0", b"".join(trees))
+        self.expect(PROVEN, "covers", [pieces([12, 12], trees)], mesh, CUBE)
+
+    def test_balls(self):
+        found, trees = ball_cover(random.Random(4))
+        cert = certificate(len(found), len(CUBE[1]), balls(trees))
+        code, line = self.check(cert, yaml(found), CUBE, hull_name="balls.yaml")
+        self.assertEqual((code, line), (PROVEN, "proven: the hull covers every finite triangle\n"))
+        flow = "spheres:\n" + "".join("  - {center: [%r, %r, %r], radius: %r}\n" % b for b in found)
+        self.assertEqual(self.check(cert, flow.encode(), CUBE, hull_name="balls.yaml")[0], PROVEN)
+        small = [(*b[:3], 0.5) for b in found]
+        self.assertEqual(self.check(cert, yaml(small), CUBE, hull_name="balls.yaml")[0], NOT_PROVEN)
+        for wrong in (b"part:\n  - center: [1, 2, 3]\n", b"a:\n  b:\n    c:\n", b"# - center: [1, 2, 3]\n x", b"- center: [1, 2, 3]\n  radius: 0\n"):
+            self.assertEqual(self.check(cert, wrong, CUBE, hull_name="balls.yaml")[0], UNREADABLE)
+
+    def test_a_ball_that_touches_all_corners(self):
+        mesh = ([(3, 4, 0), (-3, 4, 0), (0, -5, 0)], [(0, 1, 2)])
+        for radius, code in ((5.0, PROVEN), (4.999999999999999, NOT_PROVEN)):
+            cert = certificate(1, 1, balls([number(3)]))
+            self.assertEqual(self.check(cert, yaml([(0.0, 0.0, 0.0, radius)]), mesh, hull_name="balls.yaml")[0], code)
+
+
+class Distances(Folder):
+    def test_gap(self):
+        self.expect(PROVEN, "keeps a gap of at least 1", [gap(1.0)], WIDE, CUBE)
+        self.expect(NOT_PROVEN, "nearer", [gap(1.0000000000000002)], WIDE, CUBE)
+        self.expect(PROVEN, "encloses the solid; the hull keeps a gap of at least 0.5", [surfaces(), gap(0.5)], WIDE, CUBE)
+
+    def test_distance(self):
+        corner = 3**0.5
+
+        def leaf(t):
+            for i, o in enumerate(soup(CUBE)):
+                if all(triangle_distance(o, p) <= corner for p in t):
+                    return i
+            return None
+
+        trees = [bisected_tree(t, leaf) for t in soup(WIDE)]
+        self.expect(PROVEN, "no point of the hull is farther than 1.7320508075688", [distance(corner + 1e-15, trees)], WIDE, CUBE)
+        self.expect(NOT_PROVEN, "farther", [distance(1.7, trees)], WIDE, CUBE)
+
+
+class Mutants(Folder):
+    """No yes that brute force in fractions denies."""
+
+    def cases(self):
+        rng = random.Random(5)
+        small = box((0, 0, 0), (6, 6, 6))
+        for name, sections, hull, original, side in (
+            ("tetrahedra", None, None, small, 0),
+            ("tetrahedra inside", None, None, small, 1),
+            ("surfaces", surfaces(3), small, small, 0),
+            ("surfaces around", surfaces(3), box((-1, 0, 0), (7, 7, 6)), small, 0),
+            ("surfaces inside", surfaces(3), small, box((-1, 0, 0), (7, 7, 6)), 1),
+            ("covers", surfaces(1), box((0, 0, 0), (6, 6, 7)), (small[0], small[1][2:9]), 0),
+            ("crossed", surfaces(1), both(box((-1, -1, -1), (4, 6, 6)), box((2, -1, -1), (7, 7, 7))), small, 0),
+        ):
+            if sections is None:
+                hull, added, fans = moved_outwards(original, rng, 5, 1 - 2 * side)
+                sections = tetrahedra(added, fans)
+            yield name, sections, hull, original, side
+        mesh, counts, trees = two_boxes()
+        yield "pieces", pieces(counts, trees), mesh, CUBE, 0
+        yield "gap", surfaces(3) + gap(1.0), box((-1, -1, -1), (7, 7, 7)), small, 0
+
+    def mutant(self, rng, sections, hull, original):
+        hull, original = (list(hull[0]), list(hull[1])), (list(original[0]), list(original[1]))
+        for _ in range(rng.choice((1, 1, 2, 3))):
+            mesh = rng.choice((hull, hull, original))
+            i = rng.randrange(len(mesh[1]))
+            kind = rng.randrange(8)
+            if kind < 3:
+                v = rng.randrange(len(mesh[0]))
+                mesh[0][v] = tuple(x + rng.choice((-2, -1, 0, 0, 1, 2)) for x in mesh[0][v])
+            elif kind == 3 and len(mesh[1]) > 1:
+                del mesh[1][i]
+            elif kind == 4:
+                a, b, c = mesh[1][i]
+                mesh[1][i] = (a, c, b)
+            elif kind == 5:
+                j = rng.randrange(len(mesh[1]))
+                mesh[1][i], mesh[1][j] = mesh[1][j], mesh[1][i]
+            elif kind == 6:
+                mesh[1].append(mesh[1][i])
+            else:
+                k = rng.randrange(len(sections))
+                sections = rng.choice(
+                    (
+                        sections[:k] + bytes([rng.randrange(256)]) + sections[k + 1 :],
+                        sections[:k] + bytes([sections[k] ^ 1 << rng.randrange(8)]) + sections[k + 1 :],
+                        sections[:k] + sections[k + 1 :],
+                        sections[:k] + bytes([rng.randrange(8)]) + sections[k:],
+                    )
+                )
+        return sections, hull, original
+
+    def denied(self, rng, line, hull, original, side):
+        """What is wrong with a yes."""
+        inner, outer = (soup(hull), soup(original)) if side else (soup(original), soup(hull))
+        if not is_closed(outer):
+            return "the outer surface is not closed"
+        if "covers" in line:
+            for t in inner:
+                for _ in range(2):
+                    p = point_of(t, rng)
+                    if not is_covered(outer, p, t, rng):
+                        return f"{p} is not covered"
+        if "encloses" in line:
+            if not is_closed(inner):
+                return "the inner surface is not closed"
+            for _ in range(12):
+                p = tuple(Fraction(rng.randint(-4000, 12000), 1000) for _ in range(3))
+                w, around = winding(inner, p, rng), winding(outer, p, rng)
+                if w is not None and around is not None and w >= 1 and around < 1:
+                    return f"{p} is not enclosed"
+        if "gap" in line:
+            least = float(re.search(r"gap of at least (\S+?)(;|\n)", line)[1])
+            for t in soup(hull):
+                p = point_of(t, rng)
+                if any(triangle_distance(o, p) < least * (1 - 1e-9) for o in soup(original)):
+                    return f"{p} is in the gap"
+        return None
+
+    def test_no_yes_is_false(self):
+        rng = random.Random(6)
+        cases = list(self.cases())
+        answers = {}
+        for i in range(MUTANTS):
+            name, sections, hull, original, side = cases[i % len(cases)]
+            sections, hull, original = self.mutant(rng, sections, hull, original)
+            cert = certificate(len(hull[1]), len(original[1]), sections, side=side)
+            code, line = self.check(cert, hull, original)
+            answers[name, code] = answers.get((name, code), 0) + 1
+            if code == PROVEN:
+                self.assertIsNone(self.denied(rng, line, hull, original, side), (name, i, line, hull, original, cert))
+        for name, *_ in cases:
+            self.assertGreater(answers.get((name, PROVEN), 0), 0, answers)
+
+    def test_no_yes_is_false_of_random_solids(self):
+        """Tetrahedra on a small grid, which overlap, touch and repeat, in a box or in more tetrahedra."""
+        rng = random.Random(7)
+
+        def solid(count, mesh):
+            vertices, triangles = list(mesh[0]), list(mesh[1])
+            for _ in range(count):
+                a, b, c, d = (tuple(rng.randint(0, 4) for _ in range(3)) for _ in range(4))
+                if orient(a, b, c, d) > 0:
+                    b, c = c, b
+                n = len(vertices)
+                vertices += [a, b, c, d]
+                triangles += [(n, n + 1, n + 2), (n, n + 3, n + 1), (n + 1, n + 3, n + 2), (n + 2, n + 3, n)]
+            return vertices, triangles
+
+        proven = 0
+        for i in range(MUTANTS // 3):
+            original = solid(rng.randint(1, 2), ([], []))
+            around = [box((0, 0, 0), (4, 4, 4)), box((0, 0, 0), (4, 4, rng.randint(2, 5))), original, ([], [])][i % 4]
+            hull = solid(rng.randint(i % 4 == 3, 2), around)
+            side = int(rng.random() < 0.3)
+            if side:
+                hull, original = original, hull
+            claims = rng.choice((1, 3, 3))
+            cert = certificate(len(hull[1]), len(original[1]), surfaces(claims), side=side)
+            code, line = self.check(cert, hull, original)
+            if code == PROVEN:
+                proven += 1
+                self.assertIsNone(self.denied(rng, line, hull, original, side), (i, line, hull, original, side))
+        self.assertGreater(proven, MUTANTS // 30)
+        if "-v" in sys.argv:
+            print(answers)
+
+if __name__ == "__main__":
+    unittest.main()

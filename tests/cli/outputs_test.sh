@@ -1,0 +1,122 @@
+#!/bin/sh
+# What becomes of the files that a command writes, and of what it quotes: outputs_test.sh PROHULL
+set -u
+prohull=$1
+. "$(dirname "$0")/checks.sh"
+export TMPDIR="$work/temporary"
+mkdir temporary
+$prohull sample torus -o mesh.ply --faces 200 >/dev/null
+build="$prohull build mesh.ply --faces 50"
+
+# --- one file under two names ---
+mkdir folder
+touch there.ply
+ln there.ply hard.ply
+ln -s there.ply soft.ply
+ln -s missing.ply dangling.ply
+ln -s folder other
+ln mesh.ply hard_mesh.ply
+# twice NAME FIRST SECOND: two outputs that are one file
+twice() {
+  expect 2 "$1" $build -o "$2" --report "$3"
+  says err "$1" "are one file, which would be overwritten; choose another name"
+}
+expect 2 "the same name" $build -o x.ply --report x.ply
+says err "the same name" "x.ply is named twice, and would be overwritten"
+twice "./" x.ply ./x.ply
+twice "/./" folder/x.ply folder/./x.ply
+twice "an absolute name" x.ply "$work/x.ply"
+twice ".." x.ply folder/../x.ply
+twice "a link to a folder" folder/x.ply other/x.ply
+twice "a hard link" there.ply hard.ply
+twice "a soft link" there.ply soft.ply
+twice "a link to nothing" missing.ply dangling.ply
+absent "x.ply folder/* missing.ply" "one file under two names"
+for spelled in mesh.ply ./mesh.ply hard_mesh.ply folder/../mesh.ply; do
+  expect 2 "the input as $spelled" $build -o $spelled
+  says err "the input as $spelled" "would be overwritten"
+done
+
+# --- modes ---
+mode() { stat -c %a "$1"; }
+umask 027
+expect 0 "a new file" $build -o new.ply --report new.json
+is "a new file has the mode of the umask" test "$(mode new.ply) $(mode new.json)" = "640 640"
+touch old.ply old.json
+chmod 604 old.ply
+chmod 400 old.json
+expect 0 "a file that is replaced" $build -o old.ply --report old.json
+is "a file that is replaced keeps its mode" test "$(mode old.ply) $(mode old.json)" = "604 400"
+expect 0 "by a link" $build -o soft.ply
+is "a link stays a link" test -L soft.ply
+expect 0 "by a link to nothing" $build -o dangling.ply
+is "a link that led to nothing leads to the file" test -L dangling.ply -a -s missing.ply
+
+# --- standard output ---
+expect 0 "standard output" $build -o - --out-format ply --quiet
+is "standard output has the file" cmp -s out new.ply
+mkfifo fifo
+$build -o - --out-format ply --quiet >fifo 2>err &
+cat fifo >piped.ply
+wait $!
+is "a pipe has the file" cmp -s piped.ply new.ply
+$prohull sample knot -o big.ply --faces 200000 >/dev/null
+for signal in HUP TERM INT; do
+  $prohull sample knot --faces 3e7 -o - --out-format ply >/dev/null 2>err &
+  for _ in $(seq 400); do
+    seen=$(ls temporary)
+    [ -n "$seen" ] && break
+    sleep 0.02
+  done
+  for file in temporary/*; do
+    if [ -e "$file" ]; then is "nobody else reads $file" test "$(mode "$file")" = 600; fi
+  done
+  kill -$signal $!
+  wait $!
+  code=$?
+  is "SIG$signal: exit code $code" test $code -eq 130
+  says err "SIG$signal" "nothing was written"
+  absent "temporary/*" "SIG$signal"
+done
+is "temporaries have no number of a process" test "$(echo "$seen" | tr -d -c 0-9a-f | wc -c)" -ge 16
+
+# --- SIGHUP ---
+$prohull build big.ply --faces 500 --tight -o interrupted.ply >out 2>err &
+sleep 0.4
+kill -HUP $!
+wait $!
+code=$?
+is "SIGHUP: exit code $code" test $code -eq 130
+absent "interrupted* .interrupted*" "SIGHUP"
+trap '' HUP
+$prohull build big.ply --faces 500 -o nohup.ply >out 2>err &
+trap - HUP
+sleep 0.3
+kill -HUP $!
+wait $!
+code=$?
+is "nohup: exit code $code" test $code -eq 0 -a -s nohup.ply
+
+# --- control characters ---
+escape=$(printf '\033')
+hostile="a${escape}[2J.ply"
+# harmless FILE NAME: it holds no escape character, but its name
+harmless() {
+  is "$2: no control characters" test -z "$(tr -d '\n\t -~' <"$1" | LC_ALL=C tr -d '\302-\364\200-\277')"
+  says "$1" "$2" '\x1b['
+}
+expect 3 "a hostile name" $prohull info "$hostile"
+harmless err "a hostile name"
+expect 2 "a hostile option" $prohull info "--no${escape}[2J"
+harmless err "a hostile option"
+cp mesh.ply "$hostile"
+expect 0 "a hostile name of a mesh" $prohull info "$hostile"
+harmless out "a hostile name of a mesh"
+printf '<robot name="r"><link name="a\302\233[2J"/><joint name="%s[2J"/></robot>' "$escape" >hostile.urdf
+expect 3 "a hostile robot" $prohull urdf hostile.urdf -o robot
+is "a hostile robot: no control characters" test -z "$(LC_ALL=C tr -d '\n\t -~' <err)"
+expect 0 "a name in another alphabet" cp mesh.ply "größe.ply"
+expect 0 "a name in another alphabet" $prohull info "größe.ply"
+says out "a name in another alphabet" "größe.ply"
+
+count_checks
