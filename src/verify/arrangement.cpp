@@ -85,8 +85,10 @@ struct RoughPoint {
 
   explicit RoughPoint(const Planar<Interval>& p) : u(CGAL::to_double(p.u)), v(CGAL::to_double(p.v)) {
     const auto reach = [](const Interval& x, double from) {
+      constexpr double kInfinity = std::numeric_limits<double>::infinity();
+      if (!std::isfinite(from)) return kInfinity;
       const Interval d = x - Interval(from);
-      return d.inf() <= d.sup() ? std::max(-d.inf(), d.sup()) : std::numeric_limits<double>::infinity();
+      return d.inf() <= d.sup() ? std::max(-d.inf(), d.sup()) : kInfinity;
     };
     const CGAL::Protect_FPU_rounding<true> upwards;
     error = reach(p.u, u) + reach(p.v, v);
