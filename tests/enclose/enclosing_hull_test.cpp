@@ -299,7 +299,7 @@ TEST(EnclosingHull, OfASoupKeepsACloseBound) {
   const TriangleMesh soup = without_a_face(make_sample("bracket", 500));
   const double diagonal = bounding_box(soup).diagonal();
   std::size_t faces = 0;
-  for (const double share : {0.04, 0.01}) {
+  for (const double share : {0.04, 0.02}) {
     const EnclosingHull hull = enclosing_hull(
         soup, 20,
         {.bounds = {.max_distance = share * diagonal}, .repair = Repair::Wrap, .open_shells = OpenShells::Keep});
