@@ -69,8 +69,8 @@ struct Certificate {
 Certificate hull_certificate(const TriangleMesh& hull, const CertifiedOriginal& original,
                              const HullClaims& claims = {});
 
-/// Of convex pieces, as convex_cover makes them, with the coordinates that their files have: for each triangle of the
-/// original the piece that holds it, or cuts by planes of pieces and the pieces that hold the parts.
+/// Of convex pieces, as convex_cover makes them, with the coordinates that their files have: together they are a hull,
+/// whose surface may cross itself.
 Certificate pieces_certificate(std::span<const TriangleMesh> pieces, const CertifiedOriginal& original);
 
 /// Of balls, as sphere_cover makes them: for each triangle of the original cuts in halves, and the balls that hold the

@@ -115,7 +115,6 @@ Certificate balls_certificate(std::span<const Ball> balls, const CertifiedOrigin
   const Bvh bvh(std::move(boxes));
   certificate::File file = certificate::header(HullSide::Outer, original, balls.size(), finite);
   file.section(certificate::Section::Balls);
-  file.number(certificate::kCovers);
   for (const FaceId f : finite.triangles.triangles.ids()) {
     const Triangle t = finite.triangles.triangle(f);
     std::vector<std::uint32_t> near;

@@ -12,7 +12,7 @@
 namespace prohull::certificate {
 
 /// The kinds of sections (docs/certificate.md).
-enum class Section : std::uint8_t { Tetrahedra = 1, Surfaces, Pieces, Balls, Gap, Distance, Faces };
+enum class Section : std::uint8_t { Tetrahedra = 1, Surfaces, Balls, Gap, Distance, Faces };
 
 constexpr std::uint64_t kCovers = 1, kCoversAndEncloses = 3;
 

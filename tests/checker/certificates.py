@@ -39,20 +39,16 @@ def surfaces(claims=3):
     return numbers(2, claims)
 
 
-def pieces(counts, trees):
-    return numbers(3, 1, len(counts), *counts) + b"".join(trees)
-
-
 def balls(trees):
-    return numbers(4, 1) + b"".join(trees)
+    return number(3) + b"".join(trees)
 
 
 def gap(least):
-    return number(5) + struct.pack("<d", least)
+    return number(4) + struct.pack("<d", least)
 
 
 def distance(most, trees):
-    return number(6) + struct.pack("<d", most) + b"".join(trees)
+    return number(5) + struct.pack("<d", most) + b"".join(trees)
 
 
 def yaml(list_of_balls):
@@ -240,34 +236,6 @@ def is_covered(triangles, p, t, rng):
         if w is None or w >= 1:
             return True
     return False
-
-
-def is_held(piece, p):
-    return all(orient(*t, p) <= 0 for t in piece)
-
-
-def cut_tree(part, parts, first, rng, depth=0):
-    """A tree for a convex part (its corners, in turn) of a triangle: by which pieces (soups, numbered from `first`) it is covered."""
-    for i, piece in enumerate(parts):
-        if all(is_held(piece, p) for p in part):
-            return number(i + 1)
-    for i, piece in enumerate(parts) if depth < 40 else ():
-        for k, t in enumerate(piece):
-            sides = [orient(*t, p) for p in part]
-            if min(sides) < 0 < max(sides):
-                halves = []
-                for sign in (-1, 1):
-                    half = []
-                    for j, p in enumerate(part):
-                        a, b = sign * sides[j - 1], sign * sides[j]
-                        if a * b < 0:
-                            q, s = part[j - 1], Fraction(a, a - b)
-                            half.append(tuple(x + (y - x) * s for x, y in zip(q, p)))
-                        if b >= 0:
-                            half.append(p)
-                    halves.append(cut_tree(half, parts, first, rng, depth + 1))
-                return numbers(0, first[i] + k) + halves[0] + halves[1]
-    return number(1)  # not covered
 
 
 def bisected_tree(t, is_leaf, depth=0):
