@@ -264,6 +264,14 @@ void expect_cover(Case& given, const Cover& cover, bool covers_inside, std::size
   for (const Point& x : given.inside_points()) ASSERT_TRUE(has(x)) << text(x) << " inside is outside of all pieces";
 }
 
+/// Of points of the union from the triangles. Bounds that were asked for hold for the distance from the solid, to which
+/// caps on openings belong.
+template <class Cover>
+double bound_of_reach(const Cover& cover, double max_distance) {
+  const double proven = cover.reach_from_triangles.upper;
+  return cover.within_bounds && !cover.has_openings ? std::min(proven, max_distance) : proven;
+}
+
 /// x is on the surface of the union, but for `slack`.
 void expect_reach(Case& given, const Point& x, double bound, double slack) {
   const Number most = Number(bound) + Number(slack);
@@ -295,8 +303,7 @@ void convex(Case& given) {
   }
   expect_cover(given, cover, cover.covers_inside, pieces.size(),
                [&](std::size_t i, const Point& x) { return pieces[i].has_within_planes(x); });
-  const double bound =
-      cover.within_bounds ? std::min(cover.reach.upper, options.bounds.max_distance) : cover.reach.upper;
+  const double bound = bound_of_reach(cover, options.bounds.max_distance);
   for (std::size_t i = 0; i < pieces.size(); ++i)
     for (const Point& x : pieces[i].points_on_faces(given.random)) {
       bool is_covered = false;
@@ -315,7 +322,7 @@ void spheres(Case& given) {
   // Of what is open, the inside is that of a wrap.
   expect_cover(given, cover, cover.covers_inside && cover.original_closed, cover.balls.size(),
                [&](std::size_t i, const Point& x) { return oracle::contains(cover.balls[i], x); });
-  const double bound = cover.within_bounds ? std::min(cover.reach.upper, options.max_distance) : cover.reach.upper;
+  const double bound = bound_of_reach(cover, options.max_distance);
   for (std::size_t i = 0; i < cover.balls.size(); ++i)
     for (int k = 0; k < rounds(20); ++k) {
       Vec3 d{given.random.real(-1, 1), given.random.real(-1, 1), given.random.real(-1, 1)};
@@ -410,6 +417,13 @@ INSTANTIATE_TEST_SUITE_P(All, Soups,
                                          Product{"cage", cage, 8}, Product{"convex", convex, 3},
                                          Product{"spheres", spheres, 4}, Product{"verify", verify, 8}),
                          [](const auto& product) { return std::string(product.param.name); });
+
+TEST(SoupCovers, OfOpenSoupsReachFromTheirTrianglesNoFartherThanTheySay) {
+  Case box_without_sides(9062);
+  convex(box_without_sides);
+  Case boxes_and_balls(9005);
+  spheres(boxes_and_balls);
+}
 
 // --- the judge ---
 
