@@ -40,19 +40,15 @@ bool lift_over(EnclosingHull& hull, const TriangleMesh& outside, std::vector<Off
   return false;
 }
 
-bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& request) {
+bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& request, Solids& solids) {
   constexpr std::size_t kMostProtrusions = 200;
   const EnclosingOptions& options = request.options;
-  const TriangleMesh& original = request.input.original;
   const auto decide = [&](const auto& what, std::size_t max_offenders, double gap) {
-    const VerificationOptions how{.gap = gap,
-                                  .closed = request.input.closed ? &request.input.closed->mesh : nullptr,
-                                  .max_offenders = max_offenders,
-                                  .progress = options.progress};
+    const VerificationOptions how{.gap = gap, .max_offenders = max_offenders, .progress = options.progress};
     if constexpr (std::is_same_v<std::decay_t<decltype(what)>, ProgressiveHull>)
-      hull.verdict = verify_hull(what, original, how);
+      hull.verdict = verify::verify_hull(what, solids.original(), how);
     else
-      hull.verdict = verify_hull(what, original, options.hull.side, how);
+      hull.verdict = verify::verify_hull(what, solids.original(), options.hull.side, how);
     hull.proof = hull.verdict.proof;
   };
   if (solid.source == Source::Mesh && hull.levels) {
@@ -77,17 +73,17 @@ bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& reque
 
 // The splits of a progressive hull, replayed, lead from its base mesh to the solid; where the hull is another mesh, for
 // it is tight or rounded to float32, it is compared with the mesh. The doors of a wrap have to be covered too.
-bool is_proven(EnclosingHull& hull, const Solid& solid, const Request& request) {
+bool is_proven(EnclosingHull& hull, const Solid& solid, const Request& request, Solids& solids) {
   const Progress& progress = request.options.progress;
   if (solid.source != Source::Mesh && hull.levels && !verify_replay(*hull.levels, solid.mesh, progress).holds)
     return false;
-  if (!encloses_mesh(hull, solid, request)) return false;
+  if (!encloses_mesh(hull, solid, request, solids)) return false;
   return !request.is_outer() || (covers(hull.mesh, solid.doors, progress) &&
                                  (request.input.closed || covers(hull.mesh, request.input.caps, progress)));
 }
 
-void certify_as_it_is(EnclosingHull& hull, const Solid& solid, const Request& request) {
-  hull.certified = is_proven(hull, solid, request);
+void certify_as_it_is(EnclosingHull& hull, const Solid& solid, const Request& request, Solids& solids) {
+  hull.certified = is_proven(hull, solid, request, solids);
   if (!hull.certified) hull.proof = {};
 }
 
@@ -122,7 +118,7 @@ void certify_with_padding(Attempt& attempt, const Solid& solid, const Request& r
   EnclosingHull& hull = attempt.hull;
   const double padding = request.options.padding;
   if (solid.source == Source::Mesh) {
-    certify_as_it_is(hull, solid, request);  // also lifts it over what sticks out
+    certify_as_it_is(hull, solid, request, solids);  // also lifts it over what sticks out
     if (!hull.certified) return;
     attempt.void_before_padding = solids.void_of(hull.mesh);
   }
@@ -132,7 +128,7 @@ void certify_with_padding(Attempt& attempt, const Solid& solid, const Request& r
   hull.padding = verify::verify_gap(hull.mesh, solids.to_cover(hull.solid), padding, {}).proven_distance;
   if (hull.padding < padding) return;
   hull.levels.reset();
-  certify_as_it_is(hull, solid, request);
+  certify_as_it_is(hull, solid, request, solids);
   if (hull.certified) hull.proof = "padding";
 }
 
@@ -143,7 +139,7 @@ void certify(Attempt& attempt, const Request& request, Solids& solids) {
   if (request.is_padded())
     certify_with_padding(attempt, solid, request, solids);
   else
-    certify_as_it_is(attempt.hull, solid, request);
+    certify_as_it_is(attempt.hull, solid, request, solids);
 }
 
 }  // namespace prohull

@@ -21,19 +21,24 @@
 namespace prohull {
 namespace {
 
-// Parts that overlap would count twice in a signed volume. Estimated where they overlap too often.
-double volume_without_overlaps(const Request& request) {
-  const TriangleMesh& mesh = request.input.closed->mesh;
-  ProgressMeter meter(request.options.progress, "repair");
-  const double exact = verify::solid_volume(mesh, meter);
-  if (!std::isnan(exact)) return exact;
-  constexpr double kPerDiagonal = 100;
-  return inside_volume(mesh, {.spacing = request.diagonal / kPerDiagonal, .progress = request.options.progress});
+const TriangleMesh* closed_mesh_of(const RepairedMesh& input) { return input.closed ? &input.closed->mesh : nullptr; }
+
+/// Repairs may have numbered its vertices anew.
+bool has_triangles_of(const TriangleMesh& a, const TriangleMesh& b) {
+  if (a.face_count() != b.face_count()) return false;
+  for (const FaceId f : a.triangles.ids()) {
+    const Triangle s = a.triangle(f), t = b.triangle(f);
+    if (s.a != t.a || s.b != t.b || s.c != t.c) return false;
+  }
+  return true;
 }
 
 }  // namespace
 
-Solids::Solids(const Request& request) : request_(request), repair_seconds_(request.repair_seconds) {
+Solids::Solids(const Request& request)
+    : request_(request),
+      original_(request.input.original, closed_mesh_of(request.input)),
+      repair_seconds_(request.repair_seconds) {
   const EnclosingOptions& options = request.options;
   const Stopwatch watch;
   const auto& closed = request.input.closed;
@@ -49,13 +54,31 @@ Solids::Solids(const Request& request) : request_(request), repair_seconds_(requ
   }
   const bool is_exact = has_mesh() && entries_[0].solid.self_intersections == 0;
   if (options.repair != Repair::None && closed && !is_exact && request.is_outer())
-    if (const double volume = volume_without_overlaps(request); volume > 0) volume_ = volume;
+    if (const double volume = volume_without_overlaps(); volume > 0) volume_ = volume;
   repair_seconds_ += watch.seconds();
+}
+
+std::size_t Solids::self_intersections_of_mesh() {
+  const TriangleMesh& mesh = request_.input.closed->mesh;
+  if (!has_triangles_of(mesh, original_.solid().mesh())) return count_self_intersections(mesh);
+  ProgressMeter meter(request_.options.progress, "repair");
+  return original_.solid().self_intersections(meter).size();
+}
+
+// Parts that overlap would count twice in a signed volume. Estimated where they overlap too often.
+double Solids::volume_without_overlaps() {
+  const TriangleMesh& mesh = request_.input.closed->mesh;
+  ProgressMeter meter(request_.options.progress, "repair");
+  const double exact = has_triangles_of(mesh, original_.solid().mesh()) ? original_.solid().volume(meter)
+                                                                        : verify::solid_volume(mesh, meter);
+  if (!std::isnan(exact)) return exact;
+  constexpr double kPerDiagonal = 100;
+  return inside_volume(mesh, {.spacing = request_.diagonal / kPerDiagonal, .progress = request_.options.progress});
 }
 
 SolidId Solids::add(Solid solid) {
   solid.volume = signed_volume(solid.mesh);
-  solid.self_intersections = solid.source == Source::Mesh ? count_self_intersections(solid.mesh) : 0;
+  solid.self_intersections = solid.source == Source::Mesh ? self_intersections_of_mesh() : 0;
   Entry entry;
   if (solid.doors.face_count() > 0) {
     entry.with_doors = request_.to_cover();

@@ -7,6 +7,7 @@
 #include "enclose/request.h"
 #include "prohull/collide.h"
 #include "prohull/enclosing_hull.h"
+#include "verify/original.h"
 
 namespace prohull {
 
@@ -32,6 +33,8 @@ class Solids {
   /// None if nothing is thick enough, or `why_not` says why.
   std::optional<SolidId> wrap(const WrapKind& kind, double spacing, std::string& why_not);
 
+  /// What hulls are verified against.
+  verify::Original& original() { return original_; }
   /// The progressive hull of the solid, down to the fewest faces that are asked for.
   const HullResult& levels(SolidId id);
   /// What its hulls must cover: the triangles, their caps, and the doors of the wrap.
@@ -53,9 +56,12 @@ class Solids {
   };
 
   SolidId add(Solid solid);
+  std::size_t self_intersections_of_mesh();
+  double volume_without_overlaps();
   TriangleMesh padded_convex_solid(TriangleMesh convex) const;
 
   const Request& request_;
+  verify::Original original_;
   std::vector<Entry> entries_;
   double volume_ = 0, repair_seconds_ = 0;
   bool has_wrap_ = false, has_no_convex_hull_ = false;

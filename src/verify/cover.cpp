@@ -57,13 +57,12 @@ bool is_uncovered(const Windings& w) { return !is_covered(w); }
 /// Which parts of the faces of a surface lie in C.
 class CoveredFaces {
  public:
-  CoveredFaces(const Surface& surface, ProgressMeter& meter, Steps& steps)
+  CoveredFaces(const Surface& surface, const FacePairs& pairs, Steps& steps)
       : surface_(surface),
         steps_(steps),
         meets_(surface.faces.size()),
         sheets_(surface.faces.size()),
         all_(surface.faces.size(), Answer::NotAsked) {
-    const auto pairs = verify::self_intersections(surface, meter);
     for (const auto& [f, g] : pairs) meets_[f].push_back(g), meets_[g].push_back(f);
     self_intersections_ = pairs.size();
   }
@@ -191,7 +190,7 @@ class CoverVerifier {
         options_(options),
         counter_(options.progress, "verify", mesh.face_count()),
         steps_(counter_.meter(), options.max_steps),
-        covered_(outer_, counter_.meter(), steps_),
+        covered_(outer_, self_intersections(outer_, counter_.meter()), steps_),
         number_(numbered_by_position(mesh.positions)),
         groups_(mesh.vertex_count()),
         is_clear_(mesh.vertex_count()) {}
@@ -390,10 +389,11 @@ class CoverVerifier {
 
 }  // namespace
 
-std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const TriangleMesh& mesh, const Progress& progress) {
+std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const TriangleMesh& mesh, const FacePairs& pairs,
+                                           const Progress& progress) {
   ProgressCounter counter(progress, "verify", surface.faces.size());
   Steps steps(counter.meter(), std::numeric_limits<std::size_t>::max());
-  CoveredFaces covered(surface, counter.meter(), steps);
+  CoveredFaces covered(surface, pairs, steps);
   // To find out takes a cut for each pair; from some number on it is faster to ask whether the hull covers them.
   constexpr std::size_t kMostPairs = 1000;
   const bool are_few = covered.self_intersections() <= kMostPairs;
@@ -409,14 +409,14 @@ std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const Triangl
   return result;
 }
 
-// Beside an edge there are its two faces only, so each side of the surface is in one region of space. One of the two
-// regions is that outside of all, with a winding number of 0. Then that of the other one is 1 or -1, as the volume is.
-bool bounds_one_solid(const TriangleMesh& mesh, ProgressMeter& meter) {
+// Beside an edge there are its two faces only, so without self-intersections each side of the surface is in one region
+// of space. One of the two regions is that outside of all, with a winding number of 0. Then that of the other one is 1
+// or -1, as the volume is.
+bool is_outward_sheet(const TriangleMesh& mesh) {
   const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
   for (const FaceId f : mesh.triangles.ids())
     if (!projection_axis(mesh.triangle(f))) return false;
-  return is_one_sheet(mesh) && volume_sign(mesh.face_count(), triangle) > 0 &&
-         count_self_intersections(mesh, meter) == 0;
+  return is_one_sheet(mesh) && volume_sign(mesh.face_count(), triangle) > 0;
 }
 
 }  // namespace verify

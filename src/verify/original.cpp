@@ -56,6 +56,18 @@ PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& 
   return result;
 }
 
+Original::Original(const TriangleMesh& given, const TriangleMesh* closed)
+    : given_(given),
+      changed_(given),
+      facts_(prepare_original(*changed_, notes_)),
+      stand_in_(closed && !facts_.closed ? std::optional(verify::stand_in(*closed, *changed_)) : std::nullopt),
+      solid_(stand_in_      ? stand_in_->mesh
+             : is_changed() ? *changed_
+                            : given_,
+             "original") {
+  if (!is_changed()) changed_.reset();
+}
+
 void refuse_non_finite_faces(std::size_t count, const VerificationOptions& options, bool& yes, std::string& why_not) {
   if (count == 0 || options.finite_only || !yes) return;
   yes = false;

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "prohull/triangle_mesh.h"
 #include "prohull/verification.h"
+#include "verify/known_solid.h"
+#include "verify/stand_in.h"
 
 namespace prohull::verify {
 
@@ -21,6 +24,41 @@ struct PreparedOriginal {
 /// Leaves out faces that are not finite and turns a closed mesh outwards; `notes` tell of both. Throws InputError if
 /// the mesh is empty or too large to verify.
 PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& notes);
+
+/// What hulls are compared with, and what is decided of it: once, however many hulls there are. One thread at a time
+/// may ask.
+class Original {
+ public:
+  /// `closed` is as VerificationOptions::closed. The mesh must outlive it. Throws InputError as prepare_original and
+  /// stand_in do.
+  Original(const TriangleMesh& given, const TriangleMesh* closed);
+  Original(const Original&) = delete;
+  Original& operator=(const Original&) = delete;
+
+  const PreparedOriginal& facts() const { return facts_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+  /// Prepared.
+  const TriangleMesh& mesh() const { return changed_ ? *changed_ : given_; }
+  const std::optional<StandIn>& stand_in() const { return stand_in_; }
+  bool has_solid() const { return facts_.closed || stand_in_; }
+  /// The mesh, or what stands for it. Requires one of the two to be closed.
+  KnownSolid& solid() { return solid_; }
+
+ private:
+  bool is_changed() const { return facts_.turned_faces + facts_.non_finite_faces > 0; }
+
+  const TriangleMesh& given_;
+  std::optional<TriangleMesh> changed_;  ///< if preparation has changed the mesh
+  std::vector<std::string> notes_;
+  PreparedOriginal facts_;
+  std::optional<StandIn> stand_in_;
+  KnownSolid solid_;
+};
+
+/// verify_hull, which says what they mean. The original is one that stays.
+Verification verify_hull(const TriangleMesh& hull, Original& original, HullSide side,
+                         const VerificationOptions& options);
+Verification verify_hull(const ProgressiveHull& hull, Original& original, const VerificationOptions& options);
 
 /// A yes about the other faces is none about the original, unless options.finite_only says so.
 void refuse_non_finite_faces(std::size_t count, const VerificationOptions& options, bool& yes, std::string& why_not);

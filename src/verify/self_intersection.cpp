@@ -176,18 +176,29 @@ class PairSearch {
       levels_;  ///< children of node i are faces, or nodes of the level before, from 4i on
 };
 
-}  // namespace
-
-std::vector<std::pair<FaceIndex, FaceIndex>> self_intersections(const Surface& surface, ProgressMeter& meter) {
-  using Pairs = std::vector<std::pair<FaceIndex, FaceIndex>>;
-  const auto triangle_of = [&](FaceIndex f) -> const Triangle& { return surface.faces[f]; };
-  if (surface.faces.empty()) return {};
-  Pairs pairs = PairSearch(static_cast<FaceIndex>(surface.faces.size()), triangle_of)
-                    .template meeting<Pairs>(
-                        meter, [](Pairs& found, FaceIndex f, FaceIndex g) { found.emplace_back(f, g); },
-                        [](Pairs& found, Pairs other) { found.insert(found.end(), other.begin(), other.end()); });
+template <class TriangleOf>
+FacePairs all_pairs(std::size_t count, const TriangleOf& triangle_of, ProgressMeter& meter) {
+  if (count == 0) return {};
+  FacePairs pairs =
+      PairSearch(static_cast<FaceIndex>(count), triangle_of)
+          .template meeting<FacePairs>(
+              meter, [](FacePairs& found, FaceIndex f, FaceIndex g) { found.emplace_back(f, g); },
+              [](FacePairs& found, FacePairs other) { found.insert(found.end(), other.begin(), other.end()); });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
+}
+
+}  // namespace
+
+FacePairs self_intersections(const Surface& surface, ProgressMeter& meter) {
+  const auto triangle_of = [&](FaceIndex f) -> const Triangle& { return surface.faces[f]; };
+  return all_pairs(surface.faces.size(), triangle_of, meter);
+}
+
+FacePairs self_intersections(const TriangleMesh& mesh, ProgressMeter& meter) {
+  require_usable(mesh, "given");
+  const auto triangle_of = [&](FaceIndex f) { return mesh.triangle(FaceId{f}); };
+  return all_pairs(mesh.face_count(), triangle_of, meter);
 }
 
 std::size_t count_self_intersections(const TriangleMesh& mesh, ProgressMeter& meter) {

@@ -8,10 +8,15 @@
 
 namespace prohull::verify {
 
-/// All pairs f < g of faces that meet beyond shared corners and edges (see triangles_intersect), sorted. Exact.
-std::vector<std::pair<FaceIndex, FaceIndex>> self_intersections(const Surface& surface, ProgressMeter& meter);
+using FacePairs = std::vector<std::pair<FaceIndex, FaceIndex>>;
 
-/// How many there are, also of a mesh that is not closed.
+/// All pairs f < g of faces that meet beyond shared corners and edges (see triangles_intersect), sorted. Exact.
+FacePairs self_intersections(const Surface& surface, ProgressMeter& meter);
+
+/// The same of a mesh, which need not be closed.
+FacePairs self_intersections(const TriangleMesh& mesh, ProgressMeter& meter);
+
+/// How many there are.
 std::size_t count_self_intersections(const TriangleMesh& mesh, ProgressMeter& meter);
 
 }  // namespace prohull::verify

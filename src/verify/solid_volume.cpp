@@ -9,8 +9,7 @@
 
 #include "geometry/triangle_predicates.h"
 #include "verify/cell.h"
-#include "verify/self_intersection.h"
-#include "verify/solids.h"
+#include "verify/known_solid.h"
 #include "verify/surface.h"
 #include "verify/winding.h"
 
@@ -34,7 +33,7 @@ Vec3 doubled_area(const Polygon& cell) {
 /// Sums up the boundary of the solid, in pieces beside which the winding numbers are constant.
 class Boundary {
  public:
-  Boundary(const Surface& surface, const std::vector<std::pair<FaceIndex, FaceIndex>>& pairs, ProgressMeter& meter)
+  Boundary(const Surface& surface, const FacePairs& pairs, ProgressMeter& meter)
       : surface_(surface), meter_(meter), meets_(surface.faces.size()) {
     Box box;
     for (const Triangle& t : surface.faces)
@@ -160,10 +159,9 @@ class Boundary {
 
 }  // namespace
 
-double solid_volume(const TriangleMesh& mesh, ProgressMeter& meter, std::optional<bool> bounds_one) {
-  if (bounds_one.value_or(false) || (!bounds_one && bounds_one_solid(mesh, meter))) return signed_volume(mesh);
-  const Surface surface(mesh, "given");
-  const auto pairs = self_intersections(surface, meter);
+double solid_volume(const TriangleMesh& mesh, ProgressMeter& meter) { return KnownSolid(mesh, "given").volume(meter); }
+
+double solid_volume(const Surface& surface, const FacePairs& pairs, ProgressMeter& meter) {
   if (2 * pairs.size() > kMostCells) return std::numeric_limits<double>::quiet_NaN();  // nearly all of them cut cells
   try {
     return Boundary(surface, pairs, meter).volume();

@@ -6,6 +6,7 @@
 
 #include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
+#include "verify/self_intersection.h"
 #include "verify/surface.h"
 
 namespace prohull::verify {
@@ -30,14 +31,16 @@ struct Holes {
 /// The faces of a mesh that lie, in part, outside of the closure of what it winds around at least once: those of folds
 /// and of components that are inside out; and those without area. Whatever encloses the mesh covers all others
 /// (verify_enclosure, verify_cover). Exact; but where more than 1,000 pairs of faces intersect, all of these are there.
-std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const TriangleMesh& mesh, const Progress& progress);
+/// `pairs` are the self_intersections of the surface, which is that of the mesh.
+std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const TriangleMesh& mesh, const FacePairs& pairs,
+                                           const Progress& progress);
 
 /// Whether a closed mesh winds around some point a negative number of times, as in a lobe that is inside out. Exact.
 bool winds_negatively(TriangleMesh mesh, const Progress& progress);
 
-/// Whether the mesh is a surface in one piece, with two faces along every edge, with an area of every face and without
-/// self-intersections, that looks outwards: then all of its faces bound the solid. Much faster to find out, and in less
-/// memory, than faces_beside_the_solid, which knows of any mesh. Exact.
-bool bounds_one_solid(const TriangleMesh& mesh, ProgressMeter& meter);
+/// Whether the mesh is a surface in one piece, with two faces along every edge and with an area of every face, that
+/// looks outwards. Without self-intersections all of its faces then bound the solid. Much faster to find out, and in
+/// less memory, than faces_beside_the_solid, which knows of any mesh. Exact.
+bool is_outward_sheet(const TriangleMesh& mesh);
 
 }  // namespace prohull::verify

@@ -17,10 +17,7 @@
 #include "verify/gap.h"
 #include "verify/original.h"
 #include "verify/replay.h"
-#include "verify/self_intersection.h"
-#include "verify/solid_volume.h"
 #include "verify/solids.h"
-#include "verify/stand_in.h"
 #include "verify/surface.h"
 
 namespace prohull {
@@ -57,17 +54,20 @@ Box usable_box(const ProgressiveHull& hull) {
 /// One verification, step by step. Each step has its share of the progress.
 class Judge {
  public:
-  Judge(TriangleMesh& original, HullSide side, const VerificationOptions& options, std::size_t steps)
-      : original_(original), options_(options), meter_(options.progress, "verify"), steps_(steps) {
+  Judge(verify::Original& original, HullSide side, const VerificationOptions& options, std::size_t steps)
+      : original_(original),
+        stand_in_(original.stand_in()),
+        options_(options),
+        meter_(options.progress, "verify"),
+        steps_(steps) {
     found.side = side;
-    const verify::PreparedOriginal prepared = verify::prepare_original(original, found.notes);
-    original_box = prepared.box;
+    const verify::PreparedOriginal& prepared = original.facts();
+    found.notes = original.notes();
     found.original_closed = prepared.closed;
     found.turned_original_faces = prepared.turned_faces;
     found.non_finite_faces = prepared.non_finite_faces;
-    if (!found.original_closed && options.closed) stand_in_ = verify::stand_in(*options.closed, original);
     if (stand_in_) found.cap_faces = stand_in_->caps;
-    found.has_solid = found.original_closed || stand_in_;
+    found.has_solid = original.has_solid();
     if (!is_outer() && !found.has_solid)
       throw InputError(Defect::OpenEdge,
                        "the original is not closed: it has no inside that could enclose an inner hull");
@@ -77,13 +77,13 @@ class Judge {
   bool is_outer() const { return found.side == HullSide::Outer; }
 
   /// The closed mesh that the hull is compared with, if there is one.
-  const TriangleMesh& solid() const { return stand_in_ ? stand_in_->mesh : original_; }
+  const TriangleMesh& solid() const { return original_.solid().mesh(); }
 
   EnclosureOptions next_step() {
     const double from = static_cast<double>(done_++), steps = static_cast<double>(steps_);
     return {.max_offenders = options_.max_offenders,
             .progress = meter_.part(from / steps, (from + 1) / steps),
-            .max_steps = verify::most_steps(original_.face_count())};
+            .max_steps = verify::most_steps(original_.mesh().face_count())};
   }
 
   /// Hulls are not turned, but refused: who uses one believes that it looks outwards.
@@ -103,34 +103,29 @@ class Judge {
     return true;
   }
 
-  void enclose_solid(const TriangleMesh& hull) {
-    const verify::Surface hull_surface(hull, "hull");
-    const verify::Surface& solid = solid_surface();
+  void enclose_solid(verify::KnownSolid& hull) {
+    const verify::Surface &inside = inner(hull).surface(), &outside = outer(hull).surface();
     if (is_outer())
-      take(verify::verify_enclosure(solid, hull_surface, next_step()),
+      take(verify::verify_enclosure(inside, outside, next_step()),
            "a part of the solid that the original bounds lies outside of the hull");
     else
-      take(verify::verify_enclosure(hull_surface, solid, next_step()),
+      take(verify::verify_enclosure(inside, outside, next_step()),
            "a part of the solid that the hull bounds lies outside of the original");
   }
 
   /// Of an original that is not closed.
   void cover_all(const TriangleMesh& hull) {
-    take(verify_cover(original_, hull, next_step()), "triangles of the original lie outside of the hull, or in part");
+    take(verify_cover(original_.mesh(), hull, next_step()),
+         "triangles of the original lie outside of the hull, or in part");
   }
 
   /// Where solids are enclosed, triangles that bound them are covered: what is left are the others.
-  void cover_the_rest(const TriangleMesh& hull) {
-    const TriangleMesh& inner = is_outer() ? solid() : hull;
+  void cover_the_rest(verify::KnownSolid& hull) {
     const EnclosureOptions looking = next_step(), how = next_step();
-    if (!is_one_solid_) look_at_solid(inner);
-    if (*is_one_solid_) return;
-    const std::vector<FaceId> rest =
-        is_outer() ? verify::faces_beside_the_solid(solid_surface(), inner, looking.progress)
-                   : verify::faces_beside_the_solid(verify::Surface(inner, "hull"), inner, looking.progress);
+    const std::vector<FaceId>& rest = inner(hull).faces_beside(looking.progress);
     found.faces_beside_solid = rest.size();
     if (rest.empty()) return;
-    take(covered(inner, rest, is_outer() ? hull : solid(), how),
+    take(covered(inner(hull).mesh(), rest, outer(hull).mesh(), how),
          is_outer() ? "triangles of folds of the original, or of parts that are inside out, lie "
                       "outside of the hull; its solid is enclosed"
                     : "triangles of folds of the hull, or of parts that are inside out, lie outside "
@@ -140,7 +135,7 @@ class Judge {
   /// The triangles of the original that are no faces of its stand-in, as those that repair has dropped.
   void cover_what_is_not_in_the_solid(const TriangleMesh& hull) {
     if (!stand_in_ || !is_outer() || !found.encloses || stand_in_->rest.empty()) return;
-    EnclosureReport report = covered(original_, stand_in_->rest, hull, next_step());
+    EnclosureReport report = covered(original_.mesh(), stand_in_->rest, hull, next_step());
     found.encloses = report.encloses;
     if (!report.encloses) found.why_not = "triangles of the original lie outside of the hull, or in part";
     found.faces_outside = report.faces_outside;
@@ -151,11 +146,11 @@ class Judge {
     verify::refuse_non_finite_faces(found.non_finite_faces, options_, found.encloses, found.why_not);
   }
 
-  /// Of what cover_the_rest looks at: may run beside other steps.
-  void look_at_solid(const TriangleMesh& inner) { is_one_solid_ = verify::bounds_one_solid(inner, meter_); }
+  /// What cover_the_rest asks first of an outer hull: may run beside other steps.
+  void look_at_solid() { original_.solid().bounds_one(meter_); }
 
   void keep_gap(const TriangleMesh& hull) {
-    verify::GapReport report = verify::verify_gap(hull, original_, options_.gap, next_step());
+    verify::GapReport report = verify::verify_gap(hull, original_.mesh(), options_.gap, next_step());
     found.keeps_gap = report.keeps_gap();
     found.faces_too_near = report.faces_too_near;
     found.nearest = std::move(report.nearest);
@@ -166,17 +161,15 @@ class Judge {
                       found.faces_too_near == 1 ? "is" : "are");
   }
 
-  void measure(const TriangleMesh& hull) {
-    found.self_intersections = verify::count_self_intersections(hull, meter_);
-    found.hull_volume = found.inverted_hull_faces > 0 ? signed_volume(hull) : verify::solid_volume(hull, meter_);
-    if (found.has_solid)
-      found.original_volume = verify::solid_volume(solid(), meter_, is_outer() ? is_one_solid_ : std::optional<bool>());
+  void measure(verify::KnownSolid& hull) {
+    found.self_intersections = hull.self_intersections(meter_).size();
+    found.hull_volume = found.inverted_hull_faces > 0 ? signed_volume(hull.mesh()) : hull.volume(meter_);
+    if (found.has_solid) found.original_volume = original_.solid().volume(meter_);
     if (found.original_volume > 0) found.void_ratio = found.hull_volume / found.original_volume - 1;
     meter_.at(1);
   }
 
   Verification found;
-  Box original_box;
 
  private:
   void take(EnclosureReport report, std::string_view why_not) {
@@ -201,15 +194,11 @@ class Judge {
     return report;
   }
 
-  const verify::Surface& solid_surface() {
-    if (!solid_surface_) solid_surface_.emplace(solid(), "original");
-    return *solid_surface_;
-  }
+  verify::KnownSolid& inner(verify::KnownSolid& hull) { return is_outer() ? original_.solid() : hull; }
+  verify::KnownSolid& outer(verify::KnownSolid& hull) { return is_outer() ? hull : original_.solid(); }
 
-  TriangleMesh& original_;
-  std::optional<verify::StandIn> stand_in_;
-  std::optional<verify::Surface> solid_surface_;
-  std::optional<bool> is_one_solid_;  ///< bounds_one_solid of what must be covered
+  verify::Original& original_;
+  const std::optional<verify::StandIn>& stand_in_;
   const VerificationOptions& options_;
   ProgressMeter meter_;
   const std::size_t steps_;
@@ -218,30 +207,31 @@ class Judge {
 
 }  // namespace
 
-Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSide side,
-                         const VerificationOptions& options) {
+Verification verify::verify_hull(const TriangleMesh& hull, Original& original, HullSide side,
+                                 const VerificationOptions& options) {
   if (!(options.gap >= 0 && std::isfinite(options.gap)))
     throw InputError(Defect::InvalidOption,
                      fmt::format("the gap is {:g}; it must be a finite number of at least 0", options.gap));
   Judge judge(original, side, options, options.gap > 0 ? 5 : 4);
   Verification& found = judge.found;
   found.proof = found.has_solid ? "enclosure" : "coverage";
-  note_units(verify::usable_box(hull, "hull"), judge.original_box, found.notes);
+  note_units(usable_box(hull, "hull"), original.facts().box, found.notes);
+  KnownSolid known(hull, "hull");
   if (!judge.refuses_inverted(hull)) {
     if (found.has_solid)
-      judge.enclose_solid(hull);
+      judge.enclose_solid(known);
     else
       judge.cover_all(hull);
-    if (found.has_solid && found.encloses && found.every_triangle) judge.cover_the_rest(hull);
+    if (found.has_solid && found.encloses && found.every_triangle) judge.cover_the_rest(known);
     judge.cover_what_is_not_in_the_solid(hull);
   }
   judge.refuse_non_finite_faces();
   if (options.gap > 0) judge.keep_gap(hull);
-  judge.measure(hull);
+  judge.measure(known);
   return std::move(judge.found);
 }
 
-Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, const VerificationOptions& options) {
+Verification verify::verify_hull(const ProgressiveHull& hull, Original& original, const VerificationOptions& options) {
   if (options.gap != 0)
     throw InputError(Defect::InvalidOption,
                      "levels of a hull touch each other, so there is no gap to verify; name a mesh, as `prohull lod` "
@@ -250,7 +240,7 @@ Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, con
   Judge judge(original, hull.side(), options, is_of_input ? 4 : 5);
   Verification& found = judge.found;
   found.proof = "replay";
-  note_units(usable_box(hull), judge.original_box, found.notes);
+  note_units(prohull::usable_box(hull), original.facts().box, found.notes);
   const bool is_finest = found.has_solid && is_of_input;  // the solid has to be the finest level
   const TriangleMesh finest = is_finest ? TriangleMesh{} : hull.original();
   ReplayReport replay;
@@ -261,7 +251,7 @@ Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, con
                            : verify_replay(hull, finest, replaying.progress);
       },
       [&] {
-        if (is_finest && found.every_triangle && judge.is_outer()) judge.look_at_solid(judge.solid());
+        if (is_finest && found.every_triangle && judge.is_outer()) judge.look_at_solid();
       });
   found.encloses = replay.holds;
   found.why_not = std::move(replay.why_not);
@@ -269,11 +259,13 @@ Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, con
   found.signs = replay.signs;
   if (!replay.holds) return std::move(judge.found);
   const TriangleMesh base = hull.base();
+  KnownSolid known(base, "hull");
   if (!found.has_solid) {
     judge.cover_all(finest);
   } else if (!judge.refuses_inverted(base)) {
-    if (!is_finest) judge.enclose_solid(finest);
-    if (found.encloses && found.every_triangle) judge.cover_the_rest(base);
+    KnownSolid level(finest, "hull");
+    if (!is_finest) judge.enclose_solid(level);
+    if (found.encloses && found.every_triangle) judge.cover_the_rest(known);
     if (const std::size_t beside = found.faces_beside_solid; beside > 0 && found.encloses && judge.is_outer())
       found.notes.push_back(
           fmt::format("{} of the original bound{} no part of its solid, as in folds: the base mesh "
@@ -282,8 +274,19 @@ Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, con
   }
   judge.cover_what_is_not_in_the_solid(base);
   judge.refuse_non_finite_faces();
-  judge.measure(base);
+  judge.measure(known);
   return std::move(judge.found);
+}
+
+Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSide side,
+                         const VerificationOptions& options) {
+  verify::Original known(original, options.closed);
+  return verify::verify_hull(hull, known, side, options);
+}
+
+Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, const VerificationOptions& options) {
+  verify::Original known(original, options.closed);
+  return verify::verify_hull(hull, known, options);
 }
 
 }  // namespace prohull

@@ -7,6 +7,7 @@
 #include "progress.h"
 #include "prohull/sample.h"
 #include "random.h"
+#include "verify/known_solid.h"
 #include "verify/solid_volume.h"
 #include "verify/solids.h"
 
@@ -17,14 +18,14 @@ using namespace meshes;
 
 bool bounds_one(const TriangleMesh& mesh) {
   ProgressMeter silent({}, "verify");
-  return bounds_one_solid(mesh, silent);
+  return KnownSolid(mesh, "given").bounds_one(silent);
 }
 
 TEST(OneSolid, IsBoundByClosedSurfacesInOnePiece) {
   for (const TriangleMesh& mesh : {sphere(2), torus(8, 6), box({0, 0, 0}, {1, 1, 1}), make_sample("bracket", 2000),
                                    make_sample("gyroid", 3000), soup(sphere(1))}) {
     EXPECT_TRUE(bounds_one(mesh));
-    EXPECT_TRUE(faces_beside_the_solid(Surface(mesh, "given"), mesh, {}).empty());
+    EXPECT_TRUE(faces_beside_the_solid(Surface(mesh, "given"), mesh, {}, {}).empty());
   }
 }
 

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "parallel/progress_meter.h"
+#include "verify/self_intersection.h"
+#include "verify/surface.h"
+
+namespace prohull::verify {
+
+/// A closed mesh, and what is decided of it: once, when it is asked for first. One thread at a time may ask.
+class KnownSolid {
+ public:
+  /// The mesh must outlive it. Messages call it `name`.
+  KnownSolid(const TriangleMesh& mesh, std::string name) : mesh_(mesh), name_(std::move(name)) {}
+
+  const TriangleMesh& mesh() const { return mesh_; }
+  const Surface& surface();
+  /// Pairs of faces of the mesh that meet (self_intersections).
+  const FacePairs& self_intersections(ProgressMeter& meter);
+  /// Whether it is_outward_sheet without self-intersections: then all of its faces bound the solid.
+  bool bounds_one(ProgressMeter& meter);
+  /// As faces_beside_the_solid.
+  const std::vector<FaceId>& faces_beside(const Progress& progress);
+  /// As solid_volume.
+  double volume(ProgressMeter& meter);
+
+ private:
+  FacePairs pairs_of_surface(ProgressMeter& meter);
+
+  const TriangleMesh& mesh_;
+  const std::string name_;
+  std::optional<Surface> surface_;
+  std::optional<FacePairs> pairs_;
+  std::optional<bool> bounds_one_;
+  std::optional<std::vector<FaceId>> beside_;
+  std::optional<double> volume_;
+};
+
+}  // namespace prohull::verify
