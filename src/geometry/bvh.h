@@ -23,7 +23,8 @@ class Bvh {
   explicit Bvh(std::vector<Box> boxes) : items_(boxes.size()) {
     std::iota(items_.begin(), items_.end(), 0u);
     nodes_.reserve(most_nodes(boxes.size()));
-    if (!boxes.empty()) build(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
+    std::vector<Key> keys(boxes.size());
+    if (!boxes.empty()) build(boxes, keys, 0, static_cast<std::uint32_t>(boxes.size()));
     sort_as_items(boxes);
     item_boxes_ = std::move(boxes);
   }
@@ -65,22 +66,35 @@ class Bvh {
     bool is_leaf() const { return right == 0; }
   };
 
-  std::uint32_t build(const std::vector<Box>& boxes, std::uint32_t begin, std::uint32_t end) {
+  /// By which items are halved.
+  struct Key {
+    double center;  ///< along the longest side
+    std::uint32_t item;
+    bool operator<(const Key& other) const {
+      return center != other.center ? center < other.center : item < other.item;
+    }
+  };
+
+  std::uint32_t build(const std::vector<Box>& boxes, std::vector<Key>& keys, std::uint32_t begin, std::uint32_t end) {
     const auto self = static_cast<std::uint32_t>(nodes_.size());
-    Box box, centers;
-    for (std::uint32_t i = begin; i < end; ++i) box.extend(boxes[items_[i]]), centers.extend(boxes[items_[i]].center());
-    nodes_.push_back({box, begin, end, 0});
-    if (end - begin <= kLeafSize) return self;
+    nodes_.push_back({{}, begin, end, 0});
+    if (end - begin <= kLeafSize) {
+      for (std::uint32_t i = begin; i < end; ++i) nodes_[self].box.extend(boxes[items_[i]]);
+      return self;
+    }
+    Box centers;
+    for (std::uint32_t i = begin; i < end; ++i) centers.extend(boxes[items_[i]].center());
     const Vec3 size = centers.max * 0.5 - centers.min * 0.5;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
-                     [&](std::uint32_t i, std::uint32_t j) {
-                       const double ci = boxes[i].center()[axis], cj = boxes[j].center()[axis];
-                       return ci != cj ? ci < cj : i < j;
-                     });
-    build(boxes, begin, middle);
-    nodes_[self].right = build(boxes, middle, end);
+    for (std::uint32_t i = begin; i < end; ++i) keys[i] = {boxes[items_[i]].center()[axis], items_[i]};
+    std::nth_element(keys.begin() + begin, keys.begin() + middle, keys.begin() + end);
+    for (std::uint32_t i = begin; i < end; ++i) items_[i] = keys[i].item;
+    const std::uint32_t left = build(boxes, keys, begin, middle), right = build(boxes, keys, middle, end);
+    Node& node = nodes_[self];
+    node.right = right;
+    node.box = nodes_[left].box;
+    node.box.extend(nodes_[right].box);
     return self;
   }
 

@@ -20,13 +20,13 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
   const verify::FarFromFaces rule(faces);
   verify::FarFromFaces::Search search(rule, {.relative_gap = options.relative_gap, .max_parts = options.max_cells});
   ProgressCounter counter(options.progress, "measure", options.max_cells + from.face_count());
-  constexpr std::uint32_t kUnknown = 0xffffffff;
-  PerVertex<std::uint32_t> nearest(from.vertex_count(), kUnknown);
+  PerVertex<verify::NearestFace::Found> nearest(from.vertex_count(), verify::NearestFace::kNone);
   for (const FaceId f : from.triangles.ids()) {
     counter.next();
     const auto& corners = from.triangles[f];
     for (const VertexId v : corners)
-      if (nearest[v] == kUnknown) nearest[v] = rule.look_at(from.positions[v], search);
+      if (nearest[v].distance == verify::NearestFace::kNone.distance)
+        nearest[v] = rule.look_at(from.positions[v], search);
     const auto& [a, b, c] = corners;
     const Triangle t = from.triangle(f);
     search.add({{t.a, t.b, t.c}, {nearest[a], nearest[b], nearest[c]}});

@@ -66,26 +66,31 @@ NearestFace::Found NearestFace::nearest(const Vec3& p, Found known) const {
 }
 
 double FarFromFaces::upper(const Part& part, const Search&) const {
+  const auto& near = part.nearest;
   double least = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t f : part.nearest) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t f = near[i].face;
+    if ((i > 0 && near[0].face == f) || (i > 1 && near[1].face == f)) continue;
     double farthest = 0;
-    for (const Vec3& p : part.corners) farthest = std::max(farthest, faces_.distance(p, f));
+    for (std::size_t j = 0; j < 3 && farthest < least; ++j)
+      farthest = std::max(farthest, near[j].face == f ? near[j].distance : faces_.distance(part.corners[j], f));
     least = std::min(least, farthest);
   }
   return least;
 }
 
-std::uint32_t FarFromFaces::look_at(const Vec3& p, Search& search, const NearestFace::Found& known) const {
+NearestFace::Found FarFromFaces::look_at(const Vec3& p, Search& search, const NearestFace::Found& known) const {
   const NearestFace::Found found = faces_.nearest(p, known);
   search.reaches(p, found.distance);
-  return found.face;
+  return found;
 }
 
 std::array<FarFromFaces::Part, 2> FarFromFaces::halves(const Part& part, Search& search) const {
   const auto& [c, near] = part;
   const int i = longest_side(c), j = (i + 1) % 3, k = (i + 2) % 3;
   const Vec3 middle = c[i] * 0.5 + c[j] * 0.5;
-  const std::uint32_t found = look_at(middle, search, {near[i], faces_.distance(middle, near[i])});
+  const std::uint32_t guess = near[i].face;
+  const NearestFace::Found found = look_at(middle, search, {guess, faces_.distance(middle, guess)});
   return {Part{{c[i], middle, c[k]}, {near[i], found, near[k]}}, Part{{middle, c[j], c[k]}, {found, near[j], near[k]}}};
 }
 

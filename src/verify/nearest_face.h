@@ -57,7 +57,7 @@ class FarFromFaces {
  public:
   struct Part {
     std::array<Vec3, 3> corners;
-    std::array<std::uint32_t, 3> nearest;  ///< faces, to each corner
+    std::array<NearestFace::Found, 3> nearest;  ///< to each corner
   };
   using Search = GreatestDistance<FarFromFaces>;
 
@@ -67,7 +67,7 @@ class FarFromFaces {
   std::array<Part, 2> halves(const Part& part, Search& search) const;
 
   /// The face nearest to a point, none that is not nearer than `known`. The search is told of the point.
-  std::uint32_t look_at(const Vec3& p, Search& search, const NearestFace::Found& known = NearestFace::kNone) const;
+  NearestFace::Found look_at(const Vec3& p, Search& search, const NearestFace::Found& known = NearestFace::kNone) const;
 
  private:
   const NearestFace& faces_;

@@ -56,14 +56,26 @@ void Clusters::join(std::uint32_t i, std::uint32_t j) {
   parent_[std::max(i, j)] = std::min(i, j);
 }
 
+// By the lesser end first, in linear time: few sides share it.
 std::vector<FaceEdge> edges(const Surface& surface) {
-  std::vector<FaceEdge> result;
-  result.reserve(3 * surface.faces.size());
-  for (FaceIndex f = 0; f < surface.faces.size(); ++f)
-    for (std::uint8_t e = 0; e < 3; ++e)
-      result.push_back({edge_key(surface.corners[f][e], surface.corners[f][(e + 1) % 3]), f, e});
-  std::sort(result.begin(), result.end(),
-            [](const FaceEdge& a, const FaceEdge& b) { return a.key != b.key ? a.key < b.key : a.face < b.face; });
+  std::vector<std::size_t> first;
+  const auto lesser_end = [](std::uint64_t key) { return static_cast<std::size_t>(key >> 32); };
+  const auto for_each_side = [&](auto visit) {
+    for (FaceIndex f = 0; f < surface.faces.size(); ++f)
+      for (std::uint8_t e = 0; e < 3; ++e)
+        visit(FaceEdge{edge_key(surface.corners[f][e], surface.corners[f][(e + 1) % 3]), f, e});
+  };
+  for_each_side([&](const FaceEdge& side) {
+    if (lesser_end(side.key) + 1 >= first.size()) first.resize(lesser_end(side.key) + 2);
+    ++first[lesser_end(side.key) + 1];
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<FaceEdge> result(3 * surface.faces.size());
+  std::vector<std::size_t> next = first;
+  for_each_side([&](const FaceEdge& side) { result[next[lesser_end(side.key)]++] = side; });
+  for (std::size_t v = 1; v < first.size(); ++v)
+    std::sort(result.begin() + std::ptrdiff_t(first[v - 1]), result.begin() + std::ptrdiff_t(first[v]),
+              [](const FaceEdge& a, const FaceEdge& b) { return a.key != b.key ? a.key < b.key : a.face < b.face; });
   return result;
 }
 
