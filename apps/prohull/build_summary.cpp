@@ -180,6 +180,7 @@ nlohmann::json facts_of_hull(const BuildOutcome& outcome, const Written& written
           {"source", name_of(source_names(), hull.source)},
           {"wrap_spacing",
            hull.source == Source::Wrap ? nlohmann::json(outcome.solid(hull).wrap_spacing) : nlohmann::json()},
+          {"folds", facts(outcome.solid(hull).folds)},
           {"distance_bound", written.to_solid.upper},
           {"distance_to_solid", facts(written.to_solid)},
           {"distance_to_triangles", facts(written.to_triangles)},

@@ -48,6 +48,8 @@ void print_summary(const RepairRunOptions& options, const RepairOutcome& outcome
         options.solid.float32_coordinates ? ", with float32 coordinates (.ply, .obj and .off keep doubles)," : "");
   say("{}: {} of {}, volume {:.9g}\n", output_name(options.out), outcome.is_wrap() ? "wrap" : "solid",
       counted(solid.mesh.face_count(), "face", "faces"), signed_volume(solid.mesh));
+  if (solid.folds.faces > 0)
+    say("  {}: the faces around them were replaced by others, which cover them\n", describe(solid.folds));
   if (outcome.is_wrap())
     say("  it is another solid than the mesh: a wrap with a spacing of {0:.4g}, about a third of that farther out, "
         "which "
@@ -74,6 +76,7 @@ nlohmann::json report_of(const RepairRunOptions& options, const RepairOutcome& o
           {"volume", signed_volume(solid.mesh)},
           {"source", name_of(source_names(), solid.source)},
           {"wrap_spacing", outcome.is_wrap() ? nlohmann::json(solid.wrap_spacing) : nlohmann::json()},
+          {"folds", facts(solid.folds)},
           {"openings", {{"closed", repairs.closed_openings}, {"largest", repairs.largest_opening}}},
           {"certified", outcome.certified},
           {"why_not", outcome.why_not},

@@ -100,6 +100,10 @@ nlohmann::json facts(const Verification& found) {
           {"void_ratio", finite_or_null(found.void_ratio)}};
 }
 
+nlohmann::json facts(const Folds& folds) {
+  return {{"faces", folds.faces}, {"place", {folds.place.x, folds.place.y, folds.place.z}}};
+}
+
 nlohmann::json facts(const DistanceBounds& bounds) {
   return {{"lower", bounds.lower}, {"upper", finite_or_null(bounds.upper)}};
 }

@@ -48,5 +48,6 @@ std::string text_of_openings(bool has_openings, const DistanceBounds& from_trian
 /// As reports have them: what was proven, against what.
 nlohmann::json facts(const Verification& found);
 nlohmann::json facts(const DistanceBounds& bounds);
+nlohmann::json facts(const Folds& folds);
 
 }  // namespace prohull::cli

@@ -22,14 +22,15 @@ struct ClosedSolid {
   TriangleMesh mesh;             ///< a closed 2-manifold, oriented outwards
   Source source = Source::Mesh;  ///< the repaired mesh, or a wrap of it, which is another solid
   double wrap_spacing = 0;       ///< of a wrap
+  Folds folds = {};              ///< of the repaired mesh, if `mesh` was changed around them so that it covers them
   RepairedMesh input;            ///< `repairs` has the openings that were closed, `obstacle` why repairs do not do
   Verification verdict;          ///< of `mesh` as an outer hull of the input; if it `holds`, every triangle is covered
 };
 
 /// Makes a closed solid of any triangles, as enclosing_hulls does before it builds hulls: repaired_mesh, and a wrap
-/// where that gives no closed mesh, or none that covers all triangles.
-/// Guaranteed: what `verdict` says of `mesh`, exactly. Throws InputError as repaired_mesh and wrap do, and for a wrap
-/// that is no closed 2-manifold; Cancelled.
+/// where that gives no closed mesh, or none that covers all triangles. Where only folds stick out of it, inside out,
+/// the faces around them are replaced, and all others stay. Guaranteed: what `verdict` says of `mesh`, exactly. Throws
+/// InputError as repaired_mesh and wrap do, and for a wrap that is no closed 2-manifold; Cancelled.
 ///
 ///     const ClosedSolid solid = closed_solid(read_mesh("scan.stl"));
 ///     if (solid.verdict.holds()) write_mesh("scan.ply", solid.mesh);

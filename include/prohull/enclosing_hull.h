@@ -88,6 +88,15 @@ struct EnclosingHull {
   double build_seconds = 0, verify_seconds = 0;  ///< with those of all that was tried for it
 };
 
+/// Places where a closed mesh folds over itself, inside out: faces there bound no part of its solid, and stick out.
+struct Folds {
+  std::size_t faces = 0;  ///< faces that the mesh itself does not cover
+  Vec3 place;             ///< a point of the one that sticks out farthest
+};
+
+/// "6 faces fold over, inside out, as at (0.1, 0.2, 0.3)"
+std::string describe(const Folds& folds);
+
 /// A closed mesh that hulls were built from.
 struct Solid {
   Source source;
@@ -97,6 +106,7 @@ struct Solid {
   double largest_door = 0;  ///< as in Wrap
   double volume = 0;
   std::size_t self_intersections = 0;  ///< pairs of faces that intersect
+  Folds folds = {};  ///< of the repaired input, if `mesh` is that, changed around its folds so that it covers them
 };
 
 struct EnclosingHulls {
@@ -134,7 +144,8 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
 /// How it works: hulls are built from up to three sources, and the best is taken.
 ///  1. The repaired input, with caps on its openings, if that closes it. Where few triangles are left uncovered, as
 ///  those
-///     of folds, vertices of the hull are lifted over them.
+///     of folds, vertices of the hull are lifted over them. Where that does not help, the folds of the input are
+///     covered first: edges around them are collapsed.
 ///  2. The convex hull of the input.
 ///  3. Wraps, whose grid fits the number of faces. The vertices of such a hull, and of one of the convex hull, move
 ///  back

@@ -53,6 +53,7 @@ double finest_spacing(const Request& request) {
 Candidates::Candidates(const Request& request, std::size_t target_faces, Notes& notes)
     : request_(request), target_faces_(target_faces), notes_(notes) {
   plan_mesh();
+  if (request.is_outer() && !request.is_bound_to_mesh()) plan_unfolded_mesh();
   if (request.is_free()) {
     plan_convex_hull();
     request.options.bounds.any() ? plan_bounded_wraps() : plan_wraps();
@@ -119,6 +120,15 @@ void Candidates::plan_mesh() {
   steps_.push_back([this](const Ranking&, Solids& solids) -> std::optional<Candidate> {
     if (!is_worth_the_mesh(request_, solids)) return std::nullopt;
     return of(0, solids);
+  });
+}
+
+// Where the mesh's own hull leaves folds uncovered, as with many faces.
+void Candidates::plan_unfolded_mesh() {
+  steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+    if (ranking.is_empty() || ranking.has_certified()) return std::nullopt;
+    const auto id = solids.unfolded();
+    return id ? std::optional(of(*id, solids)) : std::nullopt;
   });
 }
 
@@ -201,8 +211,10 @@ void Candidates::plan_tight() {
         request_.is_padded() && !request_.options.bounds.any() && solids[id].source != Source::ConvexHull;
     return Candidate{id, target_faces_, {may_have_body ? Method::TightOfGapBody : Method::Tight}};
   };
-  steps_.push_back([=, this](const Ranking&, Solids& solids) -> std::optional<Candidate> {
-    return is_worth_the_mesh(request_, solids) ? std::optional(tight(0, solids)) : std::nullopt;
+  steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+    if (!is_worth_the_mesh(request_, solids)) return std::nullopt;
+    const bool is_of_mesh = ranking.best().hull.source == Source::Mesh;  // with its folds, or without
+    return tight(is_of_mesh ? ranking.best().hull.solid : 0, solids);
   });
   steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
     if (!ranking.has_certified()) return std::nullopt;

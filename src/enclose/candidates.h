@@ -21,6 +21,7 @@ class Candidates {
   using Step = std::function<std::optional<Candidate>(const Ranking&, Solids&)>;
 
   void plan_mesh();
+  void plan_unfolded_mesh();
   void plan_convex_hull();
   void plan_wraps();
   void plan_bounded_wraps();

@@ -1,11 +1,10 @@
 #include "enclose/certify.h"
 
-#include <cmath>
 #include <utility>
 #include <vector>
 
-#include "construct/lifting.h"
 #include "construct/turned.h"
+#include "enclose/folds.h"
 #include "prohull/enclosure.h"
 #include "prohull/padded_hull.h"
 #include "prohull/replay.h"
@@ -18,26 +17,6 @@ namespace {
 bool covers(const TriangleMesh& hull, const TriangleMesh& triangles, const Progress& progress) {
   if (triangles.face_count() == 0) return true;
   return verify_cover(triangles, hull, {.max_offenders = 0, .progress = progress}).encloses;
-}
-
-// What is lifted covers what it has covered before: only the triangles that lay outside have to be looked at again.
-bool lift_over(EnclosingHull& hull, const TriangleMesh& outside, std::vector<Offender> offenders,
-               const Request& request) {
-  constexpr int kLifts = 5;
-  hull.levels.reset();
-  for (int lifts = 0; lifts < kLifts; ++lifts) {
-    std::vector<Protrusion> protrusions;
-    for (const Offender& o : offenders) protrusions.push_back({o.point, o.distance});
-    hull.mesh = lifted_over(hull.mesh, protrusions,
-                            {.least = std::pow(10.0, lifts - 8) * request.diagonal,
-                             .rings = lifts,
-                             .float32_coordinates = request.options.hull.float32_coordinates});
-    EnclosureReport report =
-        verify_cover(outside, hull.mesh, {.max_offenders = offenders.size(), .progress = request.options.progress});
-    if (report.encloses) return true;
-    offenders = std::move(report.worst);
-  }
-  return false;
 }
 
 bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& request, Solids& solids) {
@@ -66,7 +45,10 @@ bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& reque
   if (hull.verdict.worst.size() < hull.verdict.faces_outside) return false;
   TriangleMesh outside{request.to_cover().positions, {}};
   for (const Offender& o : hull.verdict.worst) outside.triangles.push_back(request.to_cover().triangles[o.face]);
-  if (!lift_over(hull, outside, hull.verdict.worst, request)) return false;
+  auto lifted = lifted_until_covered(hull.mesh, outside, hull.verdict.worst, request.hull_options(hull.target_faces));
+  if (!lifted) return false;
+  hull.mesh = std::move(*lifted);
+  hull.levels.reset();
   decide(hull.mesh, 0, gap);
   return hull.verdict.holds();
 }

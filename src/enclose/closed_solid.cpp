@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "enclose/folds.h"
 #include "geometry/float32.h"
 #include "prohull/wrap.h"
 
@@ -36,6 +37,14 @@ ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& optio
     solid.mesh = solid.input.closed->mesh;
     judge(solid, options);
     if (solid.verdict.holds()) return solid;
+    if (auto made =
+            unfolded(solid.mesh, {.float32_coordinates = options.float32_coordinates, .progress = options.progress})) {
+      solid.mesh = std::move(made->mesh);
+      solid.folds = made->folds;
+      judge(solid, options);
+      if (solid.verdict.holds()) return solid;
+      solid.folds = {};
+    }
   }
   solid.source = Source::Wrap;
   solid.wrap_spacing = options.spacing > 0

@@ -9,7 +9,8 @@ FinestLevel finest_level(const EnclosingHulls& made, const EnclosingHull& hull) 
     case Source::Wrap:
       return FinestLevel::Wrap;
     default:
-      return made.input.repairs.any() ? FinestLevel::Repaired : FinestLevel::Input;
+      return made.input.repairs.any() || made.solids[hull.solid].folds.faces > 0 ? FinestLevel::Repaired
+                                                                                 : FinestLevel::Input;
   }
 }
 

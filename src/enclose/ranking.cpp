@@ -117,6 +117,9 @@ EnclosingHull Ranking::winner(std::size_t target_faces) {
   if (!has_certified()) refuse(target_faces);
   EnclosingHull hull = std::move(best_->hull);
   const Solid& solid = solids_[hull.solid];
+  if (solid.folds.faces > 0)
+    notes_.add(describe(solid.folds) +
+               ": the hull is built from the mesh with other faces around them, which cover them");
   if (solid.largest_door > 0)
     notes_.add(
         fmt::format("the mesh is not closed: openings up to about {:.4g} across count as closed", solid.largest_door));

@@ -8,6 +8,7 @@
 
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "enclose/folds.h"
 #include "geometry/float32.h"
 #include "mesh/area.h"
 #include "parallel/progress_meter.h"
@@ -58,8 +59,7 @@ Solids::Solids(const Request& request)
   repair_seconds_ += watch.seconds();
 }
 
-std::size_t Solids::self_intersections_of_mesh() {
-  const TriangleMesh& mesh = request_.input.closed->mesh;
+std::size_t Solids::self_intersections_of(const TriangleMesh& mesh) {
   if (!has_triangles_of(mesh, original_.solid().mesh())) return count_self_intersections(mesh);
   ProgressMeter meter(request_.options.progress, "repair");
   return original_.solid().self_intersections(meter).size();
@@ -78,7 +78,7 @@ double Solids::volume_without_overlaps() {
 
 SolidId Solids::add(Solid solid) {
   solid.volume = signed_volume(solid.mesh);
-  solid.self_intersections = solid.source == Source::Mesh ? self_intersections_of_mesh() : 0;
+  solid.self_intersections = solid.source == Source::Mesh ? self_intersections_of(solid.mesh) : 0;
   Entry entry;
   if (solid.doors.face_count() > 0) {
     entry.with_doors = request_.to_cover();
@@ -87,6 +87,17 @@ SolidId Solids::add(Solid solid) {
   entry.solid = std::move(solid);
   entries_.push_back(std::move(entry));
   return entries_.size() - 1;
+}
+
+std::optional<SolidId> Solids::unfolded() {
+  const Stopwatch watch;
+  if (!unfolded_) {
+    unfolded_.emplace();
+    if (auto made = prohull::unfolded(entries_[0].solid.mesh, request_.hull_options(request_.fewest_faces)))
+      *unfolded_ = add({.source = Source::Mesh, .mesh = std::move(made->mesh), .folds = made->folds});
+    repair_seconds_ += watch.seconds();
+  }
+  return *unfolded_;
 }
 
 std::optional<SolidId> Solids::convex_hull(std::optional<double> too_large) {

@@ -28,6 +28,8 @@ class Solids {
 
   bool has_mesh() const { return !entries_.empty() && entries_[0].solid.source == Source::Mesh; }
   bool has_wrap() const { return has_wrap_; }
+  /// The mesh, with its folds covered (folds.h). None if that does not help.
+  std::optional<SolidId> unfolded();
   /// None if all lies in a plane, or if its padded volume is known to be `too_large` before it is made.
   std::optional<SolidId> convex_hull(std::optional<double> too_large);
   /// None if nothing is thick enough, or `why_not` says why.
@@ -56,7 +58,7 @@ class Solids {
   };
 
   SolidId add(Solid solid);
-  std::size_t self_intersections_of_mesh();
+  std::size_t self_intersections_of(const TriangleMesh& mesh);
   double volume_without_overlaps();
   TriangleMesh padded_convex_solid(TriangleMesh convex) const;
 
@@ -65,6 +67,7 @@ class Solids {
   std::vector<Entry> entries_;
   double volume_ = 0, repair_seconds_ = 0;
   bool has_wrap_ = false, has_no_convex_hull_ = false;
+  std::optional<std::optional<SolidId>> unfolded_;  ///< once it was asked for
   std::optional<SolidId> convex_hull_;
 };
 

@@ -11,6 +11,7 @@
 #include "geometry/float32.h"
 #include "meshes.h"
 #include "progress.h"
+#include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
@@ -271,6 +272,36 @@ TEST(EnclosingHull, LiftsItsVerticesOverFolds) {
   const EnclosingHull hull = only(hull_of(mesh, 200, {.hull = {.relax_guards = true}}));
   EXPECT_TRUE(hull.certified);
   EXPECT_TRUE(verify_cover(mesh, hull.mesh).encloses);
+}
+
+/// A closed mesh of which one vertex was pulled across a neighbour, so that faces there look inwards.
+TriangleMesh folded_rock() {
+  TriangleMesh rock = make_sample("asteroid", 500);
+  const auto& corners = rock.triangles[FaceId{0}];
+  Vec3& p = rock.positions[corners[0]];
+  p += 2.5 * (rock.positions[corners[1]] - p);
+  return rock;
+}
+
+TEST(EnclosingHull, OfManyFacesReplacesOnlyWhatIsAroundAFold) {
+  const TriangleMesh mesh = folded_rock();
+  ASSERT_FALSE(verify_cover(mesh, mesh).encloses);
+  const EnclosingHulls made = hull_of(mesh, mesh.face_count(), {.repair = Repair::None});
+  const Solid& solid = made.solids[only(made).solid];
+  EXPECT_TRUE(only(made).certified);
+  EXPECT_GT(solid.folds.faces, 0U);
+  EXPECT_GT(solid.mesh.face_count(), mesh.face_count() - 40);
+  EXPECT_LT(only(made).void_ratio, 0.1);
+  EXPECT_EQ(finest_level(made, only(made)), FinestLevel::Repaired);
+}
+
+TEST(ClosedSolid, KeepsAllFacesThatAreNotAroundAFold) {
+  const TriangleMesh mesh = folded_rock();
+  const ClosedSolid solid = closed_solid(mesh);
+  EXPECT_TRUE(solid.verdict.holds());
+  EXPECT_EQ(solid.source, Source::Mesh);
+  EXPECT_GT(solid.folds.faces, 0U);
+  EXPECT_GT(solid.mesh.face_count(), mesh.face_count() - 40);
 }
 
 TEST(EnclosingHull, OnTheInnerSideLiesWithinTheUnionOfParts) {
