@@ -239,24 +239,36 @@ static uint64_t mixed(uint64_t x) {
   return x ^ x >> 32;
 }
 
-/* The value of a key: 0 if it is new. */
-static int64_t* value_at(Map* m, uint64_t a, uint64_t b, uint64_t c) {
+static size_t home(const Map* m, const uint64_t k[3]) {
+  return mixed(k[0] ^ mixed(k[1] ^ mixed(k[2]))) & (m->size - 1);
+}
+
+/* The slot of a key: with the value 0 if it is new. */
+static Slot* slot_at(Map* m, uint64_t a, uint64_t b, uint64_t c) {
   const uint64_t key[3] = {a, b, c};
-  size_t i;
   if (2 * m->used >= m->size) {
     const Map old = *m;
-    m->size = old.size ? 2 * old.size : 1024, m->used = 0, m->slot = filled(m->size, sizeof *m->slot, 255);
-    for (i = 0; i < old.size; ++i)
-      if (old.slot[i].key[0] != FREE)
-        *value_at(m, old.slot[i].key[0], old.slot[i].key[1], old.slot[i].key[2]) = old.slot[i].value;
+    m->size = old.size ? 4 * old.size : 1024, m->used = 0, m->slot = filled(m->size, sizeof *m->slot, 255);
+    for (const Slot* s = old.slot; s < old.slot + old.size; ++s)
+      if (s->key[0] != FREE) *slot_at(m, s->key[0], s->key[1], s->key[2]) = *s;
     free(old.slot);
   }
-  for (i = mixed(a ^ mixed(b ^ mixed(c))) & (m->size - 1); m->slot[i].key[0] != FREE;
-       i = (i + 1) & (m->size - 1), spend(1))
-    if (!memcmp(m->slot[i].key, key, sizeof key)) return &m->slot[i].value;
-  memcpy(m->slot[i].key, key, sizeof key), ++m->used;
-  m->slot[i].value = 0;
-  return &m->slot[i].value;
+  size_t i = home(m, key);
+  for (; m->slot[i].key[0] != FREE; i = (i + 1) & (m->size - 1), spend(1))
+    if (!memcmp(m->slot[i].key, key, sizeof key)) return &m->slot[i];
+  memcpy(m->slot[i].key, key, sizeof key), m->slot[i].value = 0, ++m->used;
+  return &m->slot[i];
+}
+
+/* Adds to a term of a sum, which goes if it is 0 then: the slots behind it move up. */
+static void add_term(Map* m, uint64_t a, uint64_t b, uint64_t c, int times) {
+  Slot* const s = slot_at(m, a, b, c);
+  if ((s->value += times)) return;
+  size_t hole = (size_t)(s - m->slot);
+  for (size_t i = (hole + 1) & (m->size - 1); m->slot[i].key[0] != FREE; i = (i + 1) & (m->size - 1), spend(1))
+    if (((i - home(m, m->slot[i].key)) & (m->size - 1)) >= ((i - hole) & (m->size - 1)))
+      m->slot[hole] = m->slot[i], hole = i;
+  m->slot[hole].key[0] = FREE, --m->used;
 }
 
 /* The number of the point at p: equal positions have one number. NONE if p is not finite. */
@@ -266,7 +278,7 @@ static uint32_t point_at(double x, double y, double z) {
   uint64_t bits[3];
   if (!fit(x) || !fit(y) || !fit(z)) return NONE;
   memcpy(bits, at, sizeof bits);
-  int64_t* const number = value_at(&map, bits[0], bits[1], bits[2]);
+  int64_t* const number = &slot_at(&map, bits[0], bits[1], bits[2])->value;
   if (*number) return (uint32_t)(*number - 1);
   if (point_count >= NONE / 2) end(2, "more than 2^31 points");
   points = room(points, point_count, sizeof *points), memcpy(points[point_count], at, sizeof at);
@@ -274,13 +286,11 @@ static uint32_t point_at(double x, double y, double z) {
   return (uint32_t)(point_count - 1);
 }
 
-static int64_t* value_of_edge(Map* m, uint32_t a, uint32_t b) {
-  return value_at(m, a < b ? a : b, a < b ? b : a, NONE);
-}
-
 static void add_edges(Map* sum, const uint32_t t[3], int sign) {
-  for (int k = 0; k < 3; ++k)
-    if (t[k] != t[(k + 1) % 3]) *value_of_edge(sum, t[k], t[(k + 1) % 3]) += t[k] < t[(k + 1) % 3] ? sign : -sign;
+  for (int k = 0; k < 3; ++k) {
+    const uint32_t a = t[k], b = t[(k + 1) % 3];
+    if (a != b) add_term(sum, a < b ? a : b, a < b ? b : a, NONE, a < b ? sign : -sign);
+  }
 }
 
 static void add_triangle(Map* sum, uint32_t a, uint32_t b, uint32_t c, int sign) {
@@ -290,15 +300,7 @@ static void add_triangle(Map* sum, uint32_t a, uint32_t b, uint32_t c, int sign)
     const uint32_t x = k[i % 2];
     if (x > k[i % 2 + 1]) k[i % 2] = k[i % 2 + 1], k[i % 2 + 1] = x, sign = -sign;
   }
-  *value_at(sum, k[0], k[1], k[2]) += sign;
-}
-
-/* How many terms of the sum are left. */
-static size_t end_sum(Map* sum) {
-  size_t left = 0;
-  for (size_t i = 0; i < sum->size; ++i) left += sum->slot[i].key[0] != FREE && sum->slot[i].value;
-  free(sum->slot), memset(sum, 0, sizeof *sum);
-  return left;
+  add_term(sum, k[0], k[1], k[2], sign);
 }
 
 /* ---- Files ---- */
@@ -787,13 +789,15 @@ static uint32_t* each_alone(size_t n) {
   return parent;
 }
 
+static int has_corner(const uint32_t t[3], uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
+
 /* The signs of the corners of f against the plane of t; returns the sides of t on which corners lie. */
 static unsigned place(const uint32_t t[3], const uint32_t f[3], int sign[3]) {
   const Point a = points[t[0]];
   unsigned sides = 0;
   for (int i = 0; i < 3; ++i) {
     const uint32_t v = f[i];
-    sign[i] = v == t[0] || v == t[1] || v == t[2] ? 0 : det(points[t[1]], a, points[t[2]], a, points[v], a);
+    sign[i] = has_corner(t, v) ? 0 : det(points[t[1]], a, points[t[2]], a, points[v], a);
     if (sign[i]) sides |= sign[i] > 0 ? OUTER : INNER;
   }
   return sides;
@@ -869,7 +873,8 @@ typedef struct {
 static int is_closed(const Mesh* m) {
   Map sum = {NULL, 0, 0};
   for (size_t i = 0; i < m->n; ++i) add_edges(&sum, m->t[i], 1);
-  return !end_sum(&sum);
+  free(sum.slot);
+  return !sum.used;
 }
 
 /* Turns the components of the named triangles, whose volumes must be negative. */
@@ -879,7 +884,8 @@ static void turn_components(const Mesh* m, File* f, uint64_t count) {
   unsigned char* const named = filled(m->n, 1, 0);
   Map edges = {NULL, 0, 0};
   for (size_t i = 0; i < 3 * m->n; ++i) {
-    int64_t* const first = value_of_edge(&edges, m->t[i / 3][i % 3], m->t[i / 3][(i + 1) % 3]);
+    const uint32_t a = m->t[i / 3][i % 3], b = m->t[i / 3][(i + 1) % 3];
+    int64_t* const first = &slot_at(&edges, a < b ? a : b, a < b ? b : a, NONE)->value;
     if (!*first) *first = (int64_t)(i / 3 + 1);
     parent[root(parent, (uint32_t)*first - 1)] = root(parent, (uint32_t)(i / 3));
   }
@@ -895,7 +901,7 @@ static void turn_components(const Mesh* m, File* f, uint64_t count) {
   for (uint32_t i = 0; i < m->n; ++i)
     if (named[i] && !(volume[i][0] < -volume[i][1]))
       end(1, "the volume of the component of triangle %u of the original is not negative", i);
-  end_sum(&edges), free(parent), free(volume), free(named);
+  free(edges.slot), free(parent), free(volume), free(named);
 }
 
 static void prove_tetrahedra(Case* c) {
@@ -925,23 +931,24 @@ static void prove_tetrahedra(Case* c) {
     add_triangle(&sum, centre, from, apex, -1);
   }
   for (size_t i = 0; i < c->hull.n; ++i) add_triangle(&sum, c->hull.t[i][0], c->hull.t[i][1], c->hull.t[i][2], -1);
-  const size_t differences = end_sum(&sum);
-  if (differences)
-    end(1, "hull and original differ by %lu triangles from what the tetrahedra bound", COUNT(differences));
+  if (sum.used) end(1, "hull and original differ by %lu triangles from what the tetrahedra bound", COUNT(sum.used));
+  free(sum.slot);
   c->claims |= ENCLOSES;
 }
 
-/* Whether a triangle without area lies on an edge, or on a corner, of a triangle of s that has one. */
-static int is_on_edge(Map* edges, const Surface* s, const uint32_t t[3]) {
-  const int is_new = !edges->size;
-  for (size_t j = 0; j < 6 * s->n && is_new; ++j)
-    if (has_area(s->t[j / 6])) *value_of_edge(edges, s->t[j / 6][j % 3], s->t[j / 6][(j % 3 + j % 6 / 3) % 3]) = 1;
-  for (int i = 0; i < 3; ++i) {
-    const Point a = points[t[i]], b = points[t[(i + 1) % 3]], c = points[t[(i + 2) % 3]];
-    int within = 1;
-    for (int k = 0; k < 3; ++k) within &= (a[k] <= c[k] && c[k] <= b[k]) || (b[k] <= c[k] && c[k] <= a[k]);
-    if (within && *value_of_edge(edges, t[i], t[(i + 1) % 3])) return 1;
-  }
+/* Whether triangle i of s, without area, lies on an edge or at a corner of one that has an area. */
+static int is_on_edge(const Surface* s, size_t i) {
+  static List list;
+  const uint32_t* const t = s->t[i];
+  const Box box = box_of(s->t + i, 1);
+  for (find_near(s, &box, 0, &list); list.n-- > 0;)
+    for (int e = 0; e < 3; ++e) {
+      const uint32_t *const g = s->t[list.i[list.n]], u = t[e], v = t[(e + 1) % 3];
+      const Point a = points[u], b = points[v], c = points[t[(e + 2) % 3]];
+      int within = has_corner(g, u) && has_corner(g, v) && has_area(g);
+      for (int k = 0; k < 3; ++k) within &= (a[k] <= c[k] && c[k] <= b[k]) || (b[k] <= c[k] && c[k] <= a[k]);
+      if (within) return 1;
+    }
   return 0;
 }
 
@@ -1048,7 +1055,6 @@ static void prove_surfaces(Case* c) {
   Sides on_a = sides_of(&a, &b), on_b = sides_of(&b, &a);
   const uint64_t claims = number(&c->file, 4);
   List list = {NULL, 0};
-  Map edges = {NULL, 0, 0};
   if (claims != 1 && claims != 3) unreadable(&c->file, "this claim is not known");
   if (!is_closed(out)) end(1, "%s is not closed", b.name);
   for (size_t j = 0; j < b.n; ++j) {
@@ -1064,7 +1070,7 @@ static void prove_surfaces(Case* c) {
     if (!(on_a.blocked[i] & OUTER) && winding_on(&on_a, i, 1) >= 1) continue;
     if (!(on_a.blocked[i] & INNER) && winding_on(&on_a, i, 0) >= 1) continue;
     if (!on_a.blocked[i]) end(1, "triangle %u of %s lies outside of %s", a.number[i], a.name, b.name);
-    if (has_area(a.t[i]) || !is_on_edge(&edges, &a, a.t[i])) prove_crossed(&a, i, &b);
+    if (has_area(a.t[i]) || !is_on_edge(&a, i)) prove_crossed(&a, i, &b);
   }
   c->claims |= (int)claims;
   if (claims == 3 && !is_closed(in)) end(1, "%s is not closed", a.name);
@@ -1231,9 +1237,8 @@ static void divide_faces(Case* c) {
       m->t[first + i / 3][i % 3] = fan[from / 3][from % 3];
     }
     for (size_t i = 0; i < n; ++i) add_edges(&sum, m->t[first + i], -1);
-    if (end_sum(&sum))
-      end(1, "the face of triangle %lu is divided into triangles that bound another one", COUNT(first));
-    free(fan);
+    if (sum.used) end(1, "the face of triangle %lu is divided into triangles that bound another one", COUNT(first));
+    free(fan), free(sum.slot);
   }
 }
 
