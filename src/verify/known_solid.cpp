@@ -34,6 +34,9 @@ const std::vector<FaceId>& KnownSolid::faces_beside(const Progress& progress) {
 double KnownSolid::volume(ProgressMeter& meter) {
   if (!volume_)
     volume_ = bounds_one(meter) ? signed_volume(mesh_) : solid_volume(surface(), pairs_of_surface(meter), meter);
+  // It takes some 220 bytes per face, which hulls of large meshes need while they are built.
+  constexpr std::size_t kMostKept = 1'000'000;
+  if (mesh_.face_count() > kMostKept) surface_.reset();
   return *volume_;
 }
 

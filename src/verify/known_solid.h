@@ -18,7 +18,7 @@ class KnownSolid {
   KnownSolid(const TriangleMesh& mesh, std::string name) : mesh_(mesh), name_(std::move(name)) {}
 
   const TriangleMesh& mesh() const { return mesh_; }
-  const Surface& surface();
+  const Surface& surface();  ///< good until the volume is asked for
   /// Pairs of faces of the mesh that meet (self_intersections).
   const FacePairs& self_intersections(ProgressMeter& meter);
   /// Whether it is_outward_sheet without self-intersections: then all of its faces bound the solid.

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "meshes.h"
 #include "progress.h"
+#include "prohull/enclosure.h"
 #include "prohull/sample.h"
 #include "random.h"
 #include "verify/known_solid.h"
@@ -55,6 +57,19 @@ TEST(OneSolid, HasFacesWithAnAreaThatDoNotMeet) {
   TriangleMesh flat = make({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
                            {{0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}, {1, 2, 3}});
   EXPECT_FALSE(bounds_one(flat));
+}
+
+// A surface numbers its faces anew where it leaves some out.
+TEST(KnownSolid, KnowsWhichFacesMeetBehindOnesWithoutArea) {
+  const TriangleMesh corner = make({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
+                                   {{0, 1, 4}, {0, 2, 1}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+  const TriangleMesh both = together(corner, moved(corner, {0.125, 0.125, 0.125}));
+  ProgressMeter silent({}, "verify");
+  KnownSolid known(both, "given");
+  EXPECT_FALSE(known.bounds_one(silent));
+  EXPECT_EQ(known.self_intersections(silent).size(), count_self_intersections(both));
+  EXPECT_EQ(known.faces_beside({}), (std::vector{FaceId(0), FaceId(6)}));
+  EXPECT_NEAR(known.volume(silent), 2 * 8.0 / 6 - 1.625 * 1.625 * 1.625 / 6, 1e-12);
 }
 
 // 200 random tetrahedra: 86,000 pairs of faces meet.
