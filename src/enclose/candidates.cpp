@@ -37,14 +37,16 @@ bool is_worth_the_mesh(const Request& request, const Solids& solids) {
   return solids.has_mesh() && (!request.is_free() || request.options.levels || solids[0].self_intersections <= kMany);
 }
 
-// With as many nodes as memory and patience allow: 128 MB of distances.
+// With as many nodes as memory and patience allow: 128 MB of distances, and less for a mesh of few faces. A wrap of a
+// million nodes has up to 340,000 faces, and a hull of it takes seconds.
 double finest_spacing(const Request& request) {
-  constexpr double kMostNodes = 0x1p25, kMargin = 12;  // nodes on both sides
+  constexpr double kMargin = 12;  // nodes on both sides
+  const double most_nodes = std::clamp(0x1p12 * double(request.to_cover().face_count()), 0x1p20, 0x1p25);
   const Box box = bounding_box(request.to_cover());
   const Vec3 size = box.max - box.min;
-  double spacing = request.diagonal / std::cbrt(kMostNodes);
+  double spacing = request.diagonal / std::cbrt(most_nodes);
   const auto nodes = [&](double s) { return (size.x / s + kMargin) * (size.y / s + kMargin) * (size.z / s + kMargin); };
-  while (nodes(spacing / 1.1) < kMostNodes) spacing /= 1.1;
+  while (nodes(spacing / 1.1) < most_nodes) spacing /= 1.1;
   return spacing;
 }
 

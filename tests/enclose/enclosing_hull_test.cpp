@@ -340,6 +340,15 @@ TEST(EnclosingHull, OfASoupKeepsACloseBound) {
   }
 }
 
+TEST(EnclosingHull, OfOneTriangleTakesNoWrapOfManyMillionNodes) {
+  const TriangleMesh blade = make({{0, 0, 0}, {1, 1, 1}, {1, 1, 0.8}}, {{0, 1, 2}});
+  const std::size_t faces[]{20};
+  const EnclosingHulls made =
+      enclosing_hulls(blade, faces, {.bounds = {.max_distance = 0.0045}, .repair = Repair::Wrap});
+  EXPECT_TRUE(made.hulls.front().certified);
+  for (const Solid& solid : made.solids) EXPECT_TRUE(solid.source != Source::Wrap || solid.wrap_spacing >= 0.01);
+}
+
 TEST(EnclosingHull, IsNeverWorseWhenTight) {
   const TriangleMesh parts = together(make_sample("bracket", 500), moved(make_sample("torus", 300), {0.1, 0.2, 0.3}));
   const EnclosingHull plain = enclosing_hull(parts, 100), tight = enclosing_hull(parts, 100, {.tight = true});
