@@ -193,6 +193,13 @@ TriangleMesh tightened(const TriangleMesh& hull, const Original& original, const
   return mesh.triangle_mesh();
 }
 
+// A trial takes some 3 ms (hulls of 100 faces), and a whole hull without a search some 20 us for each face of the
+// original.
+std::size_t affordable_trials(std::size_t original_faces) {
+  constexpr std::size_t kFacesOfATrial = 16, kLeast = 32;
+  return std::min(trials_of_few_faces, std::max(original_faces / kFacesOfATrial, kLeast));
+}
+
 }  // namespace
 
 TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original, const TriangleMesh& coarse,
@@ -204,9 +211,10 @@ TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original
     return one;
   };
   const Original around = Original::closed(coarse, options.side, options.threads);
-  TriangleMesh best = Search(hull, around, part(0, 0.85)).run(trials_of_few_faces);
+  const std::size_t trials = affordable_trials(original.mesh().face_count());
+  TriangleMesh best = Search(hull, around, part(0, 0.85)).run(trials);
   best = tightened(best, original, part(0.85, 0.9));
-  return Search(best, original, part(0.9, 1)).run(trials_of_few_faces / 16);
+  return Search(best, original, part(0.9, 1)).run(trials / 16);
 }
 
 }  // namespace prohull
