@@ -17,6 +17,7 @@ constexpr int kBadInput = 3;
 // Each adds its subcommand to the program and leaves in `run` what to do when it is chosen; run returns the exit code.
 using Run = std::function<int()>;
 void add_aimed(CLI::App& app, Run& run);
+void add_asked(CLI::App& app, Run& run);
 void add_collide(CLI::App& app, Run& run);
 void add_construction(CLI::App& app, Run& run);
 void add_corpus(CLI::App& app, Run& run);

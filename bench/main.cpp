@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   add_queries(app, run);
   add_rays(app, run);
   add_aimed(app, run);
+  add_asked(app, run);
   add_collide(app, run);
   add_filters(app, run);
   add_gaps(app, run);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <memory>
 
 #include "command.h"
@@ -24,8 +23,6 @@ struct TightOptions {
   HullSide side = HullSide::Outer;
   std::filesystem::path out;
 };
-
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 class TightBench {
  public:
