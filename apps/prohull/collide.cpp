@@ -121,7 +121,9 @@ void print_summary(const CollideOptions& options, const Answers& answers) {
 }
 
 void print_notes(const Body& body, const std::filesystem::path& path) {
-  if (!body.index.is_solid()) say("  {} is not closed: only its faces count, not what lies inside\n", input_name(path));
+  if (!body.index.is_solid())
+    say("  {} is not closed: only its faces count, not what lies inside (`prohull repair` closes it)\n",
+        input_name(path));
   if (const std::string finest = described_finest_level(body.finest_level); !finest.empty())
     say("  {} stands for {}: the finest level of the file is not the input itself\n", input_name(path), finest);
 }

@@ -194,7 +194,9 @@ bool collides(const CollisionData& a, const CollisionData& b, const PosePair& at
 
 void require_closed(const CollisionIndex& a, const CollisionIndex& b) {
   if (!a.is_solid() || !b.is_solid())
-    throw InputError(Defect::OpenEdge, "a mesh is not closed, so that it encloses nothing: ask for the exact answer");
+    throw InputError(
+        Defect::OpenEdge,
+        "a mesh is not closed, so that it encloses nothing: ask for the exact answer, or close it (`prohull repair`)");
 }
 
 /// answer(pose) for each of them.

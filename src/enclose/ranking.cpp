@@ -13,6 +13,23 @@
 namespace prohull {
 namespace {
 
+/// " near (0.1, 0.2, 0.3)", if it is known where triangles stick out.
+std::string place_of(const Verification& verdict) {
+  if (verdict.worst.empty()) return "";
+  const Vec3& p = verdict.worst.front().point;
+  return fmt::format(", as near ({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+}
+
+/// Another format is a way out if that keeps doubles.
+std::string what_to_try(const EnclosingOptions& options) {
+  std::string ways = options.hull.side == HullSide::Inner ? "more faces, or mend the mesh where it intersects itself"
+                     : options.repair == Repair::Wrap     ? "more faces"
+                     : options.repair == Repair::None     ? "fewer faces, or --repair auto"
+                                                          : "more faces, or --repair wrap";
+  if (options.hull.float32_coordinates) ways += ", or a .ply, .obj or .off file, which keep doubles";
+  return ways;
+}
+
 std::string described(const Solid& solid) {
   switch (solid.source) {
     case Source::Mesh:
@@ -81,11 +98,12 @@ double Ranking::slack() const {
 void Ranking::note_why_not(const EnclosingHull& hull) {
   const std::string source = described(solids_[hull.solid]);
   if (!hull.certified)
-    notes_.add(fmt::format("a hull of {} {}", source,
-                           request_.is_padded()
-                               ? "does not keep the padding everywhere, as in gaps narrower than twice the padding"
-                           : request_.is_outer() ? "does not cover every triangle"
-                                                 : "is not proven to lie inside of the mesh"));
+    notes_.add(fmt::format(
+        "a hull of {} {}", source,
+        request_.is_padded()
+            ? std::string("does not keep the padding everywhere, as in gaps narrower than twice the padding")
+        : request_.is_outer() ? "does not cover every triangle" + place_of(hull.verdict)
+                              : "is not proven to lie inside of the mesh"));
   else if (!hull.within_bounds)
     notes_.add(fmt::format("no hull of {} is within the bounds", source));
   else if (!hull.target_reached)
@@ -108,9 +126,9 @@ void Ranking::refuse(std::size_t target_faces) {
                                  target_faces, request_.options.padding,
                                  solids_.has_wrap() ? "" : ": the mesh must be thicker than twice the gap somewhere"));
   if (notes_.all().empty()) note_why_not(best_->hull);
-  throw InputError(Defect::NoCertificate, fmt::format("no hull of {} faces could be certified: {}; try more faces, or "
-                                                      "--repair wrap, or another format if that keeps float32 only",
-                                                      target_faces, notes_.all().back()));
+  throw InputError(Defect::NoCertificate,
+                   fmt::format("no hull of {} faces could be certified: {}; try {}", target_faces, notes_.all().back(),
+                               what_to_try(request_.options)));
 }
 
 EnclosingHull Ranking::winner(std::size_t target_faces) {
