@@ -245,8 +245,9 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
   if (outcome.certified)
     say("  certified: yes, the pieces as written cover every {}triangle of the original{}\n",
         cover.non_finite_faces == 0 ? "" : "finite ",
-        cover.covers_inside ? ", and its inside"
-                            : "; it is not closed, so nothing is proven of its inside: `prohull repair` closes it");
+        !cover.covers_inside    ? "; it is not closed, so nothing is proven of its inside: `prohull repair` closes it"
+        : cover.original_closed ? ", and its inside"
+                                : ", and its inside with its openings closed");
   else
     say("  certified: NO: nothing was written; please report this mesh\n");
   const auto in_shape = static_cast<std::size_t>(std::ranges::count(cover.pieces, options.cover.shape, shape_of));

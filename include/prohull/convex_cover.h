@@ -43,8 +43,9 @@ struct ConvexPiece {
 
 struct ConvexCover {
   std::vector<ConvexPiece> pieces;
-  bool certified = false;      ///< the meshes of the pieces cover, proven exactly (verify_union)
-  bool covers_inside = false;  ///< what was proven: also the inside, because the input bounds a solid
+  bool certified = false;        ///< the meshes of the pieces cover, proven exactly (verify_union)
+  bool covers_inside = false;    ///< what was proven: also the inside, with the openings of the input closed
+  bool original_closed = false;  ///< the input bounds a solid by itself: `covers_inside` is about that
   double volume = 0;  ///< of the union; overlaps count once. Of capsules and spheres that of polytopes around them, as
                       ///< is `reach`
   double original_volume = 0;  ///< as EnclosingHulls::volume
@@ -62,7 +63,7 @@ struct ConvexCover {
 
 /// Covers triangles by a few convex pieces. Guaranteed: `certified` is decided exactly, on the coordinates returned, by
 /// code that shares nothing with the search. Every finite triangle is covered, and the inside too where the triangles
-/// bound a solid.
+/// bound a solid, or bound one with their openings closed (repaired_mesh).
 ///
 /// Throws InputError if no triangle is finite, and for options outside of their range; Cancelled.
 ///

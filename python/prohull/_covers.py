@@ -77,7 +77,7 @@ class ConvexCover(_Cover):
 
     pieces: list[ConvexPiece]
     certified: bool  #: whether it is proven, exactly, that the pieces cover the mesh
-    covers_inside: bool  #: whether the inside of the mesh is covered too, because it bounds a solid; else its triangles
+    covers_inside: bool  #: whether the inside is covered too, of an open mesh with its openings closed; else its triangles
     volume: float  #: of the union, in cubic units; overlaps count once
     original_volume: float  #: of what lies inside of the mesh, in cubic units
     reach: tuple[float, float]  #: bounds of how far the union reaches out of the mesh, in its unit; the second is proven

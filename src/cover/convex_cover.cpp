@@ -275,6 +275,7 @@ class Covering {
     ConvexCover cover = in_shape(polytopes, material);
     // The mesh of a box is larger than the box: what it covers proves less than that the polytope in the box covers it.
     cover.certified = cover.certified && polytopes.certified;
+    cover.original_closed = polytopes.original_closed;
     cover.covers_inside = cover.certified && polytopes.covers_inside;
     note_size(cover);
     return cover;
@@ -321,10 +322,14 @@ class Covering {
 
   void prove(ConvexCover& cover) const {
     const Stopwatch watch;
-    const UnionVerification found =
-        verify_union(meshes_of(cover.pieces), prepared_.original, {.max_offenders = 1, .progress = options_.progress});
+    const auto verified = [&](const TriangleMesh& original) {
+      return verify_union(meshes_of(cover.pieces), original, {.max_offenders = 1, .progress = options_.progress});
+    };
+    const UnionVerification found = verified(prepared_.original);
     cover.certified = found.covers;
-    cover.covers_inside = found.covers && found.original_closed;
+    cover.original_closed = found.original_closed;
+    cover.covers_inside =
+        found.covers && (found.original_closed || (prepared_.closed && verified(prepared_.closed->mesh).covers));
     cover.verify_seconds = watch.seconds();
   }
 

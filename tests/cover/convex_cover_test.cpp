@@ -60,6 +60,16 @@ TEST(ConvexCover, OfABoxIsTheBox) {
   EXPECT_LT(cover.reach.upper, 1e-8);
 }
 
+TEST(ConvexCover, OfABoxWithoutALidCoversWhatItsOpeningLeadsInto) {
+  const TriangleMesh box = meshes::box({0, 0, 0}, {1, 2, 3});
+  TriangleMesh bucket{box.positions, {}};
+  for (std::uint32_t f = 2; f < box.face_count(); ++f) bucket.triangles.push_back(box.triangles[FaceId{f}]);
+  const ConvexCover cover = convex_cover(bucket);
+  EXPECT_TRUE(cover.certified && cover.covers_inside);
+  EXPECT_FALSE(cover.original_closed);
+  EXPECT_NEAR(cover.void_ratio, 0, 1e-6);
+}
+
 TEST(ConvexCover, FindsTheCutThatLeavesNoVoid) {
   const ConvexCover cover = convex_cover(angle_of_bars(), {.max_pieces = 2});
   EXPECT_EQ(cover.pieces.size(), 2u);
