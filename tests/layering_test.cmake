@@ -51,9 +51,10 @@ refused(apps/prohull/info.cpp "#include \"mesh/half_edge_mesh.h\"" "apps may not
 refused(render/camera.cpp "#include \"apps/command.h\"" "render may not include apps/command.h")
 refused(src/query/mesh_query.cpp "#include \"kdop/kdop_index.h\"" "query may not include kdop/kdop_index.h")
 refused(src/io/mesh_io.cpp "#include \"tests/meshes.h\"" "io may not include tests/meshes.h")
-# A decision with exact numbers, beside the rooms that decide.
-refused(apps/prohull/info.cpp "#include <CGAL/Lazy_exact_nt.h>" "exact numbers are for")
-refused(src/cover/part.cpp "#include <boost/multiprecision/cpp_int.hpp>" "exact numbers are for")
+# Exact numbers of others.
+refused(apps/prohull/info.cpp "#include <CGAL/Lazy_exact_nt.h>" "exact numbers are those of")
+refused(src/geometry/exact_number.cpp "#include <boost/multiprecision/cpp_int.hpp>" "exact numbers are those of")
+refused(src/verify/exact.h "#include <gmpxx.h>" "exact numbers are those of")
 # What nobody has put into the table.
 refused(include/prohull/newcomer.h "#pragma once" "prohull/newcomer.h has no owner")
 refused(src/newcomer/newcomer.h "#pragma once" "src/newcomer/newcomer.h: its folder newcomer has no rule")

@@ -1,28 +1,58 @@
 #include "geometry/predicates.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "geometry/exact_number.h"
+#include "geometry/interval.h"
 
 namespace prohull {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+template <class Field>
+std::array<Field, 3> row(const Vec3& from, const Vec3& to) {
+  return {Field(to.x) - Field(from.x), Field(to.y) - Field(from.y), Field(to.z) - Field(from.z)};
+}
 
-Kernel::Point_3 point(const Vec3& v) { return {v.x, v.y, v.z}; }
+template <class Field>
+Field determinant(const std::array<Field, 3>& u, const std::array<Field, 3>& v, const std::array<Field, 3>& w) {
+  return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
 
-Kernel::Point_2 projected(int axis, const Vec3& v) { return {v[(axis + 1) % 3], v[(axis + 2) % 3]}; }
+template <class Field>
+Field side_determinant(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
+  return determinant(row<Field>(a, b), row<Field>(a, c), row<Field>(a, p));
+}
+
+/// Each difference, product and sum is rounded by at most 2^-53 of itself, so that 4 times as much of the sizes of both
+/// products is enough (Shewchuk 1997). The rest is more than what underflows; what overflows is not certain.
+std::optional<int> filtered_turn(double au, double av, double bu, double bv, double cu, double cv) {
+  const double left = (bu - au) * (cv - av), right = (bv - av) * (cu - au), determinant = left - right;
+  const double error = 0x1p-51 * (std::abs(left) + std::abs(right)) + 0x1p-1000;
+  if (determinant > error) return 1;
+  if (-determinant > error) return -1;
+  return std::nullopt;
+}
+
+template <class Field>
+Field turn_determinant(double au, double av, double bu, double bv, double cu, double cv) {
+  const Field u(au), v(av);
+  return (Field(bu) - u) * (Field(cv) - v) - (Field(bv) - v) * (Field(cu) - u);
+}
 
 }  // namespace
 
 Side exact_side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
-  return Side(static_cast<int>(CGAL::orientation(point(a), point(b), point(c), point(p))));
+  if (const auto sign = certain_sign(side_determinant<Interval>(a, b, c, p))) return Side(*sign);
+  return Side(sign(side_determinant<ExactNumber>(a, b, c, p)));
 }
 
 int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
-  return static_cast<int>(CGAL::orientation(projected(axis, a), projected(axis, b), projected(axis, c)));
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  if (const auto sign = filtered_turn(a[u], a[v], b[u], b[v], c[u], c[v])) return *sign;
+  if (const auto sign = certain_sign(turn_determinant<Interval>(a[u], a[v], b[u], b[v], c[u], c[v]))) return *sign;
+  return sign(turn_determinant<ExactNumber>(a[u], a[v], b[u], b[v], c[u], c[v]));
 }
 
 int exact_determinant_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e, const Vec3& f) {
@@ -30,13 +60,7 @@ int exact_determinant_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
     return p == q || (p == r && q == s) || (p == s && q == r);
   };
   if (are_parallel(a, b, c, d) || are_parallel(c, d, e, f) || are_parallel(e, f, a, b)) return 0;  // often
-  using Number = ExactNumber;
-  const auto row = [](const Vec3& from, const Vec3& to) {
-    return std::array{Number(to.x) - Number(from.x), Number(to.y) - Number(from.y), Number(to.z) - Number(from.z)};
-  };
-  const auto u = row(a, b), v = row(c, d), w = row(e, f);
-  return int(CGAL::sign(u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-                        u[2] * (v[0] * w[1] - v[1] * w[0])));
+  return sign(determinant(row<ExactNumber>(a, b), row<ExactNumber>(c, d), row<ExactNumber>(e, f)));
 }
 
 }  // namespace prohull

@@ -10,14 +10,14 @@ enum class Side { Inside = -1, On = 0, Outside = 1 };
 
 constexpr Side opposite(Side s) { return Side(-int(s)); }
 
-/// The exact answer, by CGAL; slow. Coordinates must be finite.
+/// The exact answer; slow. Coordinates must be finite.
 Side exact_side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p);
 
 /// The sign of the 2x2 determinant |b-a c-a| of the points without the coordinate `axis`, taken in cyclic order: of
 /// (y, z), (z, x) or (x, y) for axis 0, 1, 2. Exact; positive if a, b, c turn counter-clockwise seen from +axis.
 int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// The exact answer of determinant_sign, by CGAL; slow.
+/// The exact answer of determinant_sign; slow.
 int exact_determinant_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e, const Vec3& f);
 
 /// The sign of the determinant of the rows b - a, d - c, f - e. Exact for all finite coordinates, by the filter of

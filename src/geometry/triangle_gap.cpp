@@ -1,32 +1,17 @@
 #include "geometry/triangle_gap.h"
 
-#include <CGAL/Gmpz.h>
-
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "geometry/exact_number.h"
 #include "geometry/predicates.h"
 #include "geometry/triangle_distance.h"
 
 namespace prohull {
 namespace {
 
-using Number = CGAL::Gmpz;
+using Number = ExactNumber;
 using Vector = std::array<Number, 3>;
-
-/// A double is a whole number of 53 bits times a power of two, of which this is the exponent.
-int exponent_of(double x) {
-  int exponent = 0;
-  std::frexp(x, &exponent);
-  return exponent - 53;
-}
-
-/// In units of 2^exponent, which is none of a part of x.
-Number in_units(double x, int exponent) {
-  if (x == 0) return {0};
-  return Number(std::ldexp(x, -exponent_of(x))) << static_cast<unsigned long>(exponent_of(x) - exponent);
-}
 
 Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
@@ -36,12 +21,13 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// A corner of a triangle: as it is, and as whole numbers.
+/// A corner of a triangle: as it is, and as exact numbers.
 struct Corner {
+  explicit Corner(const Vec3& p) : position(p), exact{p.x, p.y, p.z} {}
   Vec3 position;
   Vector exact;
 };
-using Corners = std::array<Corner, 3>;
+using ExactTriangle = std::array<Corner, 3>;
 
 /// Whether the segment passes from one side of the triangle to the other through its inside.
 bool pierces(const Vec3& p, const Vec3& q, const Triangle& t) {
@@ -60,18 +46,11 @@ bool pierces(const Triangle& s, const Triangle& t) {
 /// perpendicular of two edges. Each question is about one such pair. Where the feet are elsewhere, the answer is no.
 class Nearer {
  public:
-  Nearer(const Triangle& s, const Triangle& t, double distance) : distance_(distance) {
-    int exponent = exponent_of(distance);
-    for (const Vec3& p : {s.a, s.b, s.c, t.a, t.b, t.c})
-      for (int axis = 0; axis < 3; ++axis)
-        if (p[axis] != 0) exponent = std::min(exponent, exponent_of(p[axis]));
-    const auto corner = [&](const Vec3& p) {
-      return Corner{p, {in_units(p.x, exponent), in_units(p.y, exponent), in_units(p.z, exponent)}};
-    };
-    s_ = {corner(s.a), corner(s.b), corner(s.c)}, t_ = {corner(t.a), corner(t.b), corner(t.c)};
-    const Number d = in_units(distance, exponent);
-    squared_ = d * d;
-  }
+  Nearer(const Triangle& s, const Triangle& t, double distance)
+      : distance_(distance),
+        s_{Corner(s.a), Corner(s.b), Corner(s.c)},
+        t_{Corner(t.a), Corner(t.b), Corner(t.c)},
+        squared_(Number(distance) * Number(distance)) {}
 
   bool any() const {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -100,7 +79,7 @@ class Nearer {
     if (is_far({p.position, p.position, p.position}, {a.position, b.position, b.position})) return false;
     const Vector edge = b.exact - a.exact, to = p.exact - a.exact;
     const Number along = dot(edge, to), all = dot(edge, edge);
-    if (along <= 0 || along >= all) return false;
+    if (sign(along) <= 0 || along >= all) return false;
     const Vector n = cross(edge, to);
     return dot(n, n) < squared_ * all;
   }
@@ -110,24 +89,24 @@ class Nearer {
       return false;
     const Vector u = p_end.exact - p.exact, v = q_end.exact - q.exact, w = q.exact - p.exact, n = cross(u, v);
     const Number all = dot(n, n), s = dot(cross(w, v), n), t = dot(cross(w, u), n);
-    if (all == 0 || s < 0 || s > all || t < 0 || t > all) return false;
+    if (sign(all) == 0 || sign(s) < 0 || s > all || sign(t) < 0 || t > all) return false;
     const Number height = dot(w, n);
     return height * height < squared_ * all;
   }
 
-  bool corner_and_face(const Corner& p, const Corners& t) const {
+  bool corner_and_face(const Corner& p, const ExactTriangle& t) const {
     if (is_far({p.position, p.position, p.position}, {t[0].position, t[1].position, t[2].position})) return false;
     const Vector n = cross(t[1].exact - t[0].exact, t[2].exact - t[0].exact);
     const Number all = dot(n, n);
-    if (all == 0) return false;
+    if (sign(all) == 0) return false;
     for (std::size_t i = 0; i < 3; ++i)
-      if (dot(cross(t[(i + 1) % 3].exact - t[i].exact, p.exact - t[i].exact), n) < 0) return false;
+      if (sign(dot(cross(t[(i + 1) % 3].exact - t[i].exact, p.exact - t[i].exact), n)) < 0) return false;
     const Number height = dot(p.exact - t[0].exact, n);
     return height * height < squared_ * all;
   }
 
   double distance_;
-  Corners s_, t_;
+  ExactTriangle s_, t_;
   Number squared_;
 };
 

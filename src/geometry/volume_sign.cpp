@@ -1,14 +1,11 @@
-#include <CGAL/Interval_nt.h>
-
 #include <array>
 
 #include "geometry/exact_number.h"
+#include "geometry/interval.h"
 #include "geometry/orientation.h"
 
 namespace prohull {
 namespace {
-
-using Interval = CGAL::Interval_nt_advanced;
 
 /// Six times the volume, seen from a corner of the mesh, so that a distant mesh loses no digits.
 template <class Field, class TriangleOf>
@@ -29,13 +26,8 @@ Field sixfold_volume(std::size_t count, TriangleOf triangle) {
 
 template <class TriangleOf>
 int sign_of_volume(std::size_t count, TriangleOf triangle) {
-  {
-    const CGAL::Protect_FPU_rounding<true> upwards;
-    const Interval sum = sixfold_volume<Interval>(count, triangle);
-    if (sum.inf() > 0) return 1;
-    if (sum.sup() < 0) return -1;
-  }
-  return int(CGAL::sign(sixfold_volume<ExactNumber>(count, triangle)));
+  if (const auto certain = certain_sign(sixfold_volume<Interval>(count, triangle))) return *certain;
+  return sign(sixfold_volume<ExactNumber>(count, triangle));
 }
 
 }  // namespace

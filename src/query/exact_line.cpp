@@ -33,7 +33,7 @@ Vector normal(const Triangle& face) { return cross(between(face.a, face.b), betw
 /// Of the change that the move (e, e^2, e^3) makes to something linear with that gradient.
 int sign_of_move(const Vector& gradient) {
   for (const Number& g : gradient)
-    if (const int sign = int(CGAL::sign(g)); sign != 0) return sign;
+    if (const int s = sign(g); s != 0) return s;
   return 0;
 }
 
@@ -46,8 +46,6 @@ struct Plane {
   Vector normal;
   Number speed, above;  ///< t = above / speed
 };
-
-int sign(const Number& x) { return int(CGAL::sign(x)); }
 
 }  // namespace
 
@@ -75,7 +73,7 @@ int exact_order(const DirectedLine& line, const Triangle& first, const Triangle&
 
 double exact_parameter(const DirectedLine& line, const Triangle& face) {
   const Plane plane(line, face);
-  return CGAL::to_double(CGAL::Gmpq(plane.above) / CGAL::Gmpq(plane.speed));
+  return (Rational(plane.above) / Rational(plane.speed)).rounded();
 }
 
 }  // namespace prohull

@@ -36,8 +36,6 @@ using LineId = std::uint32_t;
 using PointId = std::uint32_t;
 using PieceId = std::uint32_t;
 
-using Rational = mpq_class;
-
 /// In the projection of a triangle, from its first corner on.
 template <class Field>
 struct Planar {
@@ -83,15 +81,14 @@ struct Rough {
 struct RoughPoint {
   double u, v, error;
 
-  explicit RoughPoint(const Planar<Interval>& p) : u(CGAL::to_double(p.u)), v(CGAL::to_double(p.v)) {
+  explicit RoughPoint(const Planar<Interval>& p) : u(p.u.middle()), v(p.v.middle()) {
     const auto reach = [](const Interval& x, double from) {
       constexpr double kInfinity = std::numeric_limits<double>::infinity();
       if (!std::isfinite(from)) return kInfinity;
       const Interval d = x - Interval(from);
-      return d.inf() <= d.sup() ? std::max(-d.inf(), d.sup()) : kInfinity;
+      return std::max(-d.inf(), d.sup());
     };
-    const CGAL::Protect_FPU_rounding<true> upwards;
-    error = reach(p.u, u) + reach(p.v, v);
+    error = (Interval(reach(p.u, u)) + Interval(reach(p.v, v))).sup();
   }
 };
 
@@ -172,10 +169,7 @@ Planar<Field> way_point(const Planar<Field>& from, const Planar<Field>& to, cons
 }
 
 /// Where the line on which two points have these values is 0.
-template <class Field>
-Field zero_between(const Field& from, const Field& to) {
-  return from / (from - to);
-}
+Interval zero_between(const Interval& from, const Interval& to) { return from / (from - to); }
 
 class Segments {
  public:
@@ -274,7 +268,7 @@ class Segments {
       return n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
     };
     return way_point<Field>(relative<Field>(edge.from), relative<Field>(edge.to),
-                            zero_between<Field>(height(edge.from), height(edge.to)));
+                            zero_between(height(edge.from), height(edge.to)));
   }
 
   template <class Field>
@@ -293,10 +287,9 @@ class Segments {
     if constexpr (std::is_same_v<Field, Interval>)
       return {p.u.approx(), p.v.approx()};
     else
-      return {CGAL::exact(p.u), CGAL::exact(p.v)};
+      return {p.u.exact(), p.v.exact()};
   }
 
-  /// An interval needs CGAL::Protect_FPU_rounding, here and below.
   template <class Field>
   const Planar<Field>& at(PointId p) {
     ArrangedPoint& point = points_[p];
@@ -318,16 +311,13 @@ class Segments {
   /// How far from p to q the line is met.
   template <class Field>
   Field fraction_at(PointId p, PointId q, LineId l) {
-    return zero_between<Field>(beside<Field>(l, p), beside<Field>(l, q));
+    return zero_between(beside<Field>(l, p), beside<Field>(l, q));
   }
 
   template <class Origin>
   PointId add_point(Origin origin) {
     ArrangedPoint& point = points_.emplace_back(ArrangedPoint{origin});
-    {
-      const CGAL::Protect_FPU_rounding<true> upwards;
-      point.near = made<Interval>(origin);
-    }
+    point.near = made<Interval>(origin);
     rough_points_.emplace_back(point.near);
     return static_cast<PointId>(points_.size() - 1);
   }
@@ -370,21 +360,18 @@ class Segments {
     std::vector<LineId>& lines = points_[p].lines;
     if (std::ranges::find(lines, l) != lines.end()) return 0;
     steps_.take(kStepsOfExactSign);
-    const auto sign = sgn(beside<Rational>(l, p));
-    if (sign == 0) lines.push_back(l);
-    return sign;
+    const int exact = sign(beside<Rational>(l, p));
+    if (exact == 0) lines.push_back(l);
+    return exact;
   }
 
   /// Of points on the line of a piece: negative if p comes before q.
   int order_along(PieceId i, PointId p, PointId q) {
     if (p == q) return 0;
     const ContactPiece& piece = pieces_[i];
-    {
-      const CGAL::Protect_FPU_rounding<true> upwards;
-      if (const auto sign = certain_sign(way<Interval>(q, p, piece))) return *sign;
-    }
+    if (const auto certain = certain_sign(way<Interval>(q, p, piece))) return *certain;
     steps_.take(kStepsOfExactSign);
-    return sgn(way<Rational>(q, p, piece));
+    return sign(way<Rational>(q, p, piece));
   }
 
   template <class Field>
@@ -461,14 +448,11 @@ class Segments {
   }
 
   Box box_around(PointId p, PointId q) const {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    const auto low = [](const Interval& x) { return x.inf() >= -kInfinity ? x.inf() : -kInfinity; };  // not NaN
-    const auto high = [](const Interval& x) { return x.sup() <= kInfinity ? x.sup() : kInfinity; };
     Box box;
     for (const PointId i : {p, q}) {
       const auto& [u, v] = points_[i].near;
-      box.extend(Vec3{low(u), low(v), 0});
-      box.extend(Vec3{high(u), high(v), 0});
+      box.extend(Vec3{u.inf(), v.inf(), 0});
+      box.extend(Vec3{u.sup(), v.sup(), 0});
     }
     return box;
   }
@@ -582,7 +566,8 @@ class Segments {
     if (e.place.value - f.place.value > apart) return 1;
     if (e.by == f.by) return 0;
     steps_.take(kStepsOfExactSign);
-    return cmp(exact_place(piece, e), exact_place(piece, f));
+    const auto exact = exact_place(piece, e) <=> exact_place(piece, f);
+    return (exact > 0) - (exact < 0);
   }
 
   const Rational& exact_place(const ContactPiece& piece, const Event& e) {
@@ -673,14 +658,14 @@ class Segments {
 
   Planar<double> rounded_point(PointId p) {
     const Planar<Rational>& exact = at<Rational>(p);
-    return {exact.u.get_d(), exact.v.get_d()};
+    return {exact.u.rounded(), exact.v.rounded()};
   }
 
   /// Halfway from the middle of a stretch to what bounds the part on that side.
   Vec3 point_beside(const Stretch& s, bool left) {
     const ContactPiece piece = pieces_[s.piece];
-    const double from = s.from ? exact_place(piece, *s.from).get_d() : 0;
-    const double to = s.to ? exact_place(piece, *s.to).get_d() : 1;
+    const double from = s.from ? exact_place(piece, *s.from).rounded() : 0;
+    const double to = s.to ? exact_place(piece, *s.to).rounded() : 1;
     const Planar<double> begin = rounded_point(piece.begin), end = rounded_point(piece.end);
     const Planar<double> p = way_point<double>(begin, end, (from + to) / 2);
     const double u = end.u - begin.u, v = end.v - begin.v;

@@ -1,6 +1,3 @@
-#include <CGAL/Gmpq.h>
-#include <CGAL/Interval_nt.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,15 +68,12 @@ std::array<Field, 3> weighted(const Triangle& t, const Vec3& weights) {
 
 /// Whether the ball holds the point of t with these weights. Exact.
 bool holds(const Ball& ball, const Triangle& t, const Vec3& weights) {
-  {
-    const CGAL::Protect_FPU_rounding<true> upwards;
-    const Interval radius(ball.radius);
-    const Interval room = radius * radius - squared_distance(weighted<Interval>(t, weights), ball.center);
-    if (room.inf() >= 0) return true;
-    if (room.sup() < 0) return false;
-  }
-  const CGAL::Gmpq radius(ball.radius);
-  return radius * radius >= squared_distance(weighted<CGAL::Gmpq>(t, weights), ball.center);
+  const Interval rough =
+      Interval(ball.radius) * ball.radius - squared_distance(weighted<Interval>(t, weights), ball.center);
+  if (rough.inf() >= 0) return true;
+  if (rough.sup() < 0) return false;
+  const ExactNumber radius(ball.radius);
+  return radius * radius >= squared_distance(weighted<ExactNumber>(t, weights), ball.center);
 }
 
 bool holds(const Ball& ball, const Vec3& p) { return holds(ball, {p, p, p}, {1, 0, 0}); }
@@ -252,9 +246,8 @@ std::vector<std::array<Field, 3>> clipped(const Triangle& t, const Box& box) {
         const Field here = beyond(p), next = beyond(q);
         if (!(here > Field(0))) rest.push_back(p);
         if (!((here > Field(0) && next < Field(0)) || (here < Field(0) && next > Field(0)))) continue;
-        const Field fraction = here / (here - next);
         auto& x = rest.emplace_back();
-        for (int k = 0; k < 3; ++k) x[k] = p[k] + fraction * (q[k] - p[k]);
+        for (int k = 0; k < 3; ++k) x[k] = (here * q[k] - next * p[k]) / (here - next);
       }
       polygon = std::move(rest);
     }
@@ -361,8 +354,8 @@ class CubeCutter {
   }
 
   bool holds_part(const Ball& ball, FaceIndex f, const Box& cube) const {
-    const CGAL::Gmpq radius(ball.radius);
-    const auto polygon = clipped<CGAL::Gmpq>(solid_.faces[f], cube);
+    const Rational radius(ball.radius);
+    const auto polygon = clipped<Rational>(solid_.faces[f], cube);
     return std::all_of(polygon.begin(), polygon.end(),
                        [&](const auto& p) { return squared_distance(p, ball.center) <= radius * radius; });
   }

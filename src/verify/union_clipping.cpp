@@ -1,7 +1,5 @@
 #include "verify/union_clipping.h"
 
-#include <CGAL/Gmpzf.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,21 +52,17 @@ enum class Covering {
   Beyond,   ///< the points just outside of it
 };
 
-/// Sums and products of doubles, without fractions that would have to be reduced.
-using Exact = CGAL::Gmpzf;
-
 /// A plane as a line in the triangle t, positive outside.
 class Line {
  public:
   Line(const Triangle& t, const Triangle& plane) : t_(&t), plane_(plane), is_edge_(false) {
-    const CGAL::Protect_FPU_rounding<true> upwards;
     rough = coefficients<Interval>();
   }
   /// The side of t on which barycentric coordinate i is 0.
   explicit Line(int i) : is_edge_(true), edge_(i), rough(coefficients<Interval>()) {}
 
-  const Triple<Exact>& exact() const {
-    if (!exact_) exact_ = coefficients<Exact>();
+  const Triple<ExactNumber>& exact() const {
+    if (!exact_) exact_ = coefficients<ExactNumber>();
     return *exact_;
   }
 
@@ -83,7 +77,7 @@ class Line {
   Triangle plane_;
   bool is_edge_;
   int edge_ = 0;
-  mutable std::optional<Triple<Exact>> exact_;
+  mutable std::optional<Triple<ExactNumber>> exact_;
 
  public:
   Triple<Interval> rough;
@@ -108,7 +102,6 @@ class Clipper {
  public:
   Clipper(const Triangle& t, int axis) : t_(t), axis_(axis) {
     for (int i = 0; i < 3; ++i) lines_.emplace_back(i);
-    const CGAL::Protect_FPU_rounding<true> upwards;
     parts_.push_back(part_of({0, 1, 2}));
   }
 
@@ -181,7 +174,6 @@ class Clipper {
       lines_.emplace_back(t_, *plane);
     }
     std::vector<Part> left;
-    const CGAL::Protect_FPU_rounding<true> upwards;
     for (Part& part : parts_) add_outside(std::move(part), cutters, left);
     parts_ = std::move(left);
   }
@@ -190,7 +182,6 @@ class Clipper {
     return turn(axis_, plane.a, plane.b, plane.c) == turn(axis_, t_.a, t_.b, t_.c);
   }
 
-  /// Needs CGAL::Protect_FPU_rounding.
   Part part_of(const std::vector<LineIndex>& sides) const {
     Part part;
     for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -201,13 +192,13 @@ class Clipper {
     return part;
   }
 
-  /// 1 outside of the line, -1 inside, 0 on it. Exact. Needs CGAL::Protect_FPU_rounding.
+  /// 1 outside of the line, -1 inside, 0 on it. Exact.
   int side_of(const Corner& corner, LineIndex line) const {
     if (corner.first == line || corner.second == line) return 0;
     const auto height = certain_sign(dot_product(lines_[line].rough, corner.rough));
     if (height && corner.weight_sign) return *height * *corner.weight_sign;
-    const Triple<Exact> point = cross_product(lines_[corner.first].exact(), lines_[corner.second].exact());
-    return int(CGAL::sign(dot_product(lines_[line].exact(), point))) * int(CGAL::sign(sum(point)));
+    const Triple<ExactNumber> point = cross_product(lines_[corner.first].exact(), lines_[corner.second].exact());
+    return sign(dot_product(lines_[line].exact(), point)) * sign(sum(point));
   }
 
   std::vector<int> sides_of(const Part& part, LineIndex line) const {
@@ -277,9 +268,8 @@ class Clipper {
   }
 
   static Vec3 rough_weights(const Corner& corner) {
-    const CGAL::Protect_FPU_rounding<true> upwards;
     const Interval total = sum(corner.rough);
-    const auto weight = [&](int i) { return CGAL::to_double(corner.rough[i]) / CGAL::to_double(total); };
+    const auto weight = [&](int i) { return corner.rough[i].middle() / total.middle(); };
     return {weight(0), weight(1), weight(2)};
   }
 
@@ -295,7 +285,6 @@ class Clipper {
     if (!(weights.x > 0 && weights.y > 0 && weights.z > 0)) return false;
     for (std::size_t i = 0; i < part.size(); ++i) {
       const LineIndex line = part[i].first;
-      const CGAL::Protect_FPU_rounding<true> upwards;
       const int inner = side_of(part[(i + 1) % part.size()], line);
       const Triple<Interval> point{Interval(weights.x), Interval(weights.y), Interval(weights.z)};
       if (certain_sign(dot_product(lines_[line].rough, point)) != inner) return false;
@@ -318,8 +307,7 @@ class Clipper {
       const Number x = (weights[0] * t_.a[i] + weights[1] * t_.b[i] + weights[2] * t_.c[i]) / total;
       // Where lines are nearly parallel, intervals are wide, and would decide nothing about the point.
       const double size = std::abs(t_.b[i] - t_.a[i]) + std::abs(t_.c[i] - t_.a[i]);
-      if (!(x.approx().sup() - x.approx().inf() <= kWide * size)) CGAL::exact(x);
-      return x;
+      return x.approx().sup() - x.approx().inf() <= kWide * size ? x : x.narrowed();
     };
     return {coordinate((axis_ + 1) % 3), coordinate((axis_ + 2) % 3)};
   }

@@ -39,38 +39,27 @@ std::array<Number, 3> random_point(const Triangle& t, int axis, const Cell& cell
 
 }  // namespace
 
-ExactPoint::ExactPoint(std::array<Number, 3> coordinates) : exact_(std::move(coordinates)) {
-  for (int i = 0; i < 3; ++i) approximate_[i] = exact_[i].approx();
-}
+ExactPoint::ExactPoint(std::array<Number, 3> coordinates) : exact_(std::move(coordinates)) {}
 
 ExactPoint::ExactPoint(const Vec3& p) : ExactPoint({Number(p.x), Number(p.y), Number(p.z)}) {}
 
 std::array<int, 3> ExactPoint::turns(int axis, const Triangle& h) const {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const std::array<Vec3, 3> corner{h.a, h.b, h.c};
-  std::array<std::optional<int>, 3> certain;
-  {
-    const CGAL::Protect_FPU_rounding<true> upwards;
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 &a = corner[i], &b = corner[(i + 1) % 3];
-      certain[i] = certain_sign(turn_determinant<Interval>(a[u], a[v], b[u], b[v], approximate_[u], approximate_[v]));
-    }
-  }
   std::array<int, 3> result;
   for (int i = 0; i < 3; ++i) {
     const Vec3 &a = corner[i], &b = corner[(i + 1) % 3];
-    result[i] = certain[i] ? *certain[i]
-                           : int(CGAL::sign(turn_determinant<Number>(a[u], a[v], b[u], b[v], exact_[u], exact_[v])));
+    const auto certain =
+        certain_sign(turn_determinant<Interval>(a[u], a[v], b[u], b[v], exact_[u].approx(), exact_[v].approx()));
+    result[i] = certain ? *certain : sign(turn_determinant<Number>(a[u], a[v], b[u], b[v], exact_[u], exact_[v]));
   }
   return result;
 }
 
 Side ExactPoint::side(const Triangle& h) const {
-  {
-    const CGAL::Protect_FPU_rounding<true> upwards;
-    if (const auto sign = certain_sign(side_determinant(h, approximate_))) return Side(*sign);
-  }
-  return Side(int(CGAL::sign(side_determinant(h, exact_))));
+  const std::array<Interval, 3> rough{exact_[0].approx(), exact_[1].approx(), exact_[2].approx()};
+  if (const auto certain = certain_sign(side_determinant(h, rough))) return Side(*certain);
+  return Side(sign(side_determinant(h, exact_)));
 }
 
 int winding_at(const Surface& surface, const ExactPoint& p) {

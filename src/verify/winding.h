@@ -18,8 +18,8 @@ class ExactPoint {
   explicit ExactPoint(const Vec3& p);
 
   const Number& operator[](int coordinate) const { return exact_[coordinate]; }
-  double lower(int coordinate) const { return approximate_[coordinate].inf(); }
-  double upper(int coordinate) const { return approximate_[coordinate].sup(); }
+  double lower(int coordinate) const { return exact_[coordinate].approx().inf(); }
+  double upper(int coordinate) const { return exact_[coordinate].approx().sup(); }
   Vec3 rounded() const { return verify::rounded(exact_); }
 
   /// The turn from each corner of h to the next to this point, seen along the axis; exact.
@@ -29,7 +29,6 @@ class ExactPoint {
 
  private:
   std::array<Number, 3> exact_;
-  std::array<Interval, 3> approximate_;
 };
 
 /// The winding number of a surface around a point that is not on it.

@@ -22,7 +22,7 @@ for deb in *.deb; do
   documents=root/usr/share/doc/$package
   gzip -t "$documents/changelog.gz" "$documents/changelog.Debian.gz"
   grep -q "Permission is hereby granted" "$documents/copyright" || fail "$package: copyright"
-  dpkg-deb -f "$deb" Depends | grep -q libgmp || fail "$package: libraries are missing in Depends"
+  dpkg-deb -f "$deb" Depends | grep -q libtbb || fail "$package: libraries are missing in Depends"
   dpkg-deb -f "$deb" Maintainer | grep -q '^[A-Z].* <.*@.*>$' || fail "$package: Maintainer"
 done
 
@@ -42,7 +42,6 @@ unbuilt() {
 }
 root/usr/bin/prohull sample box -o box.stl --faces 200
 unbuilt root/usr/bin/prohull build box.stl --faces 50 -o hull.stl | grep -q "certified: yes" || fail "prohull build"
-grep -q "LGPL, version 3" root/usr/share/doc/prohull/copyright || fail "the licence of CGAL's kernels is not told"
 if [ "$has_importer" = 1 ]; then
   printf 'AC3Db\nMATERIAL "m" rgb 1 1 1 amb 0 0 0 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x00\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n' >part.ac
   unbuilt root/usr/bin/prohull info part.ac | grep -q "faces  *1$" || fail "prohull-import of the package is not found"
