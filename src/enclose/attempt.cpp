@@ -92,16 +92,23 @@ std::size_t faces_within_moved(const ProgressiveHull& hull, std::size_t target, 
   return enough;
 }
 
-// Of the levels, the coarsest that keeps the bounds, if any does.
+// Of the levels, the coarsest that keeps the bounds, if any does. One that moves may keep what its wrap misses; if it
+// does not either, it is near at least.
 std::size_t faces_of_level(const HullResult& result, const Making& making) {
+  constexpr std::size_t kFinestMoved = 4000;  // faces; moving finer ones takes several seconds
   const std::size_t target = making.candidate.target_faces;
-  const HullBounds& bounds = making.options().bounds;
+  const bool moves = making.recipe().moves, is_bounded = making.options().bounds.any();
   std::size_t faces = target;
-  if (bounds.any() && excess_of(making.solid().mesh, making) <= 1)
-    faces = making.recipe().moves ? faces_within_moved(result.hull, target, making)
-                                  : std::max(faces, faces_within(result.hull, [&](const TriangleMesh& level) {
-                                               return is_within_as_stored(level, making);
-                                             }));
+  bool is_possible = is_bounded && excess_of(making.solid().mesh, making) <= 1;
+  if (is_bounded && !is_possible && moves && making.solid().source == Source::Wrap) {
+    faces = std::max(target, kFinestMoved);
+    is_possible = is_within_as_stored(placed(result.hull.level(faces), making), making);
+  }
+  if (is_possible)
+    faces = moves ? faces_within_moved(result.hull, target, making)
+                  : std::max(target, faces_within(result.hull, [&](const TriangleMesh& level) {
+                               return is_within_as_stored(level, making);
+                             }));
   if (!making.request.is_symmetric()) return faces;
   const std::size_t coarser = symmetric_faces(result.hull, *making.options().hull.mirror, faces);
   return faces > target && coarser < faces ? faces + 2 : coarser;  // bounds need the finer one

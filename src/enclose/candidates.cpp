@@ -31,10 +31,12 @@ std::span<const WrapKind> wraps(const Request& request, const Solids& solids) {
   return solids.volume() > 0 ? std::span<const WrapKind>(kWrapsOfSoups) : kWrapsOfSheets;
 }
 
-// Where many parts overlap, the mesh's hull is several times larger than the others, if there is any.
+// Where many parts overlap, the mesh's hull is several times larger than the others, if there is any. But it may be the
+// only one that keeps a bound.
 bool is_worth_the_mesh(const Request& request, const Solids& solids) {
   constexpr std::size_t kMany = 120;
-  return solids.has_mesh() && (!request.is_free() || request.options.levels || solids[0].self_intersections <= kMany);
+  return solids.has_mesh() && (!request.is_free() || request.options.levels || request.options.bounds.any() ||
+                               solids[0].self_intersections <= kMany);
 }
 
 // With as many nodes as memory and patience allow: 128 MB of distances, and less for a mesh of few faces. A wrap of a
@@ -167,16 +169,18 @@ void Candidates::plan_wraps() {
     });
 }
 
-// Ever finer ones, until one keeps the bounds; a single one if the finest is too far away. Of a mesh that
-// does not intersect itself no wrap does better: its own hull touches it.
+// Ever finer ones, until one keeps the bounds; a single one, as near as patience allows, if none can. A hull of a wrap
+// moves towards the triangles, so that it may keep a bound that the wrap misses. Of a mesh that does not intersect
+// itself no wrap does better: its own hull touches it.
 void Candidates::plan_bounded_wraps() {
   constexpr int kMostBounded = 4;
-  constexpr double kFine = 256;  // to the diagonal; finer ones take ten seconds and more
+  constexpr double kFine = 256, kPlain = 100;  // to the diagonal; finer ones take ten seconds and more, and one second
+  constexpr double kNearerByMoving = 4;        // by moving, a hull comes so much nearer than its wrap
   const double finest = finest_spacing(request_), max_distance = request_.options.bounds.max_distance;
-  const bool is_hopeless = kBoundedWrap.offset * finest > max_distance;
-  double spacing = std::min(spacing_for(kBoundedWrap), std::max(kBoundedSpacing * max_distance, request_.aim() / 2));
-  if (is_hopeless) spacing = spacing_for(kBoundedWrap);
-  spacing = std::max(spacing, finest);
+  const bool is_hopeless = kBoundedWrap.offset * finest > kNearerByMoving * max_distance;
+  const double wanted = std::max(
+      {kBoundedSpacing * max_distance, request_.aim() / 2, request_.diagonal / (is_hopeless ? kPlain : kFine)});
+  double spacing = std::max(std::min(spacing_for(kBoundedWrap), wanted), finest);
   for (int i = 0; i < (is_hopeless ? 1 : kMostBounded); ++i) {
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       if (ranking.has_certified() && ranking.best().hull.within_bounds) {

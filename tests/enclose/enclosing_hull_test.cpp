@@ -325,6 +325,22 @@ TEST(EnclosingHull, MissesBoundsByAsLittleAsItCan) {
   EXPECT_LE(easy.excess, 1);
 }
 
+// And what it misses by is kept when it is allowed.
+TEST(EnclosingHull, OfABoundThatNoHullKeepsIsNear) {
+  const TriangleMesh soup = without_a_face(make_sample("bracket", 500));
+  const double diagonal = bounding_box(soup).diagonal();
+  const auto within = [&](double max_distance) {
+    return enclosing_hull(
+        soup, 20, {.bounds = {.max_distance = max_distance}, .repair = Repair::Wrap, .open_shells = OpenShells::Keep});
+  };
+  const double too_close = 1e-5 * diagonal;
+  const EnclosingHull missing = within(too_close);
+  EXPECT_TRUE(missing.certified && !missing.within_bounds);
+  const double distance = missing.excess * too_close;
+  EXPECT_LT(distance, 0.03 * diagonal);
+  EXPECT_TRUE(within(1.001 * distance).within_bounds);
+}
+
 // The wrap is as fine as the bound asks for, whatever the number of faces.
 TEST(EnclosingHull, OfASoupKeepsACloseBound) {
   const TriangleMesh soup = without_a_face(make_sample("bracket", 500));
