@@ -34,8 +34,8 @@ Verification verify(const VerifyOptions& options, const MeshOrHull& hull, Triang
       .solid_only = options.solid_only, .gap = gap, .finite_only = options.finite_only, .progress = std::ref(line)};
   try {
     const auto* const levels = std::get_if<ProgressiveHull>(&hull);
-    return levels ? verify_hull(*levels, std::move(original), how)
-                  : verify_hull(std::get<TriangleMesh>(hull), std::move(original), options.side, how);
+    return levels ? verify_hull(*levels, original, how)
+                  : verify_hull(std::get<TriangleMesh>(hull), original, options.side, how);
   } catch (const InputError& error) {
     throw InputError(error.defect(), fmt::format("{} and {}: {}", input_name(options.hull),
                                                  input_name(options.original), error.what()));

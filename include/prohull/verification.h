@@ -107,7 +107,7 @@ struct Verification {
 ///
 ///     const Verification found = verify_hull(read_mesh("hull.stl"), read_mesh("part.stl"));
 ///     if (!found.encloses && !found.worst.empty()) show(found.worst[0].point);
-Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSide side = HullSide::Outer,
+Verification verify_hull(const TriangleMesh& hull, const TriangleMesh& original, HullSide side = HullSide::Outer,
                          const VerificationOptions& options = {});
 
 /// The same for a progressive hull, which is its own proof (verify_replay): every level encloses the solid of the
@@ -115,6 +115,7 @@ Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSi
 /// that level must enclose the solid of the original instead. Every triangle is asked of the base mesh; `notes` tell if
 /// the finest level itself leaves some of them uncovered. If the original is not closed, the finest level must cover
 /// its triangles; then every level does. Throws InputError(InvalidOption) if options.gap is not 0.
-Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, const VerificationOptions& options = {});
+Verification verify_hull(const ProgressiveHull& hull, const TriangleMesh& original,
+                         const VerificationOptions& options = {});
 
 }  // namespace prohull

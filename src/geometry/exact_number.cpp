@@ -250,13 +250,13 @@ std::strong_ordering operator<=>(const Rational& a, const Rational& b) {
 }
 
 double Rational::rounded() const {
-  constexpr double kLargest = std::numeric_limits<double>::max(), kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kMost = std::numeric_limits<double>::max(), kInfinity = std::numeric_limits<double>::infinity();
   if (sign(above_) == 0) return 0;
   if (sign(above_) < 0) return -Rational(-above_, below_).rounded();
   // A first guess is wrong by a few units. The middle between it and a neighbour tells which is nearer.
   const ExactNumber::Rough a = above_.rough(), b = below_.rough();
   const auto exponent = std::clamp<std::int64_t>(a.exponent - b.exponent, -5000, 5000);
-  double x = std::min(std::ldexp(a.fraction / b.fraction, static_cast<int>(exponent)), kLargest);
+  double x = std::min(std::ldexp(a.fraction / b.fraction, static_cast<int>(exponent)), kMost);
   const auto against_middle = [&](double low, double high) {
     const ExactNumber beyond = high == kInfinity ? ExactNumber(0x1p1023) * ExactNumber(2) : ExactNumber(high);
     return above_ * ExactNumber(2) <=> (ExactNumber(low) + beyond) * below_;
@@ -264,14 +264,14 @@ double Rational::rounded() const {
   const auto is_odd = [](double d) { return (std::bit_cast<std::uint64_t>(d) & 1) != 0; };
   for (;;) {
     const double above = std::nextafter(x, kInfinity);
-    if (const auto o = against_middle(x, above); o > 0 || (o == 0 && is_odd(x))) {
+    if (const auto o = against_middle(x, above); std::is_gt(o) || (std::is_eq(o) && is_odd(x))) {
       x = above;
       if (x == kInfinity) return x;
       continue;
     }
     if (x == 0) return x;
     const double below = std::nextafter(x, 0);
-    if (const auto o = against_middle(below, x); !(o < 0 || (o == 0 && is_odd(x)))) return x;
+    if (const auto o = against_middle(below, x); !(std::is_lt(o) || (std::is_eq(o) && is_odd(x)))) return x;
     x = below;
   }
 }

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view kMagic("\x89PHULL\r\n", 8);
 constexpr std::uint32_t kVersion = 1;
-constexpr std::size_t kHeaderSize = 12;
+constexpr std::size_t kHullHeaderSize = 12;
 constexpr int kCompressionLevel = 3;
 constexpr int kMostWindowLog = 23;  ///< that level uses 21; a frame may ask for 128 MB, however short it is
 
@@ -135,7 +135,7 @@ std::string unpacked(std::string_view frame, const std::filesystem::path& name) 
     if (ZSTD_isError(state)) malformed(name, fmt::format("it is damaged ({})", ZSTD_getErrorName(state)));
     if (payload.size() > limit) malformed(name, "it is damaged (decompressed, it grows a thousand times)");
     if (state != 0 && in.pos == in.size && out.pos < out.size)
-      malformed(name, fmt::format("it is truncated after {} bytes", frame.size() + kHeaderSize));
+      malformed(name, fmt::format("it is truncated after {} bytes", frame.size() + kHullHeaderSize));
   }
   if (in.pos != in.size) malformed(name, fmt::format("{} bytes too many follow at its end", in.size - in.pos));
   return payload;
@@ -177,14 +177,14 @@ ProgressiveHull load_hull(std::string_view content, const std::filesystem::path&
                      fmt::format("{}: this is not a .phull file, which holds all levels of a hull; `prohull build MESH "
                                  "-o HULL --hierarchy H.phull` makes one from a mesh",
                                  name.string()));
-  if (content.size() < kHeaderSize) malformed(name, fmt::format("it is truncated after {} bytes", content.size()));
+  if (content.size() < kHullHeaderSize) malformed(name, fmt::format("it is truncated after {} bytes", content.size()));
   const auto version = Decoder(content.substr(kMagic.size())).integer<std::uint32_t>();
   if (version != kVersion)
     throw InputError(Defect::UnknownFormat,
                      fmt::format("{}: version {} of the .phull format; this program reads version {}: use the one that "
                                  "wrote it, or a newer one",
                                  name.string(), version, kVersion));
-  return decoded(unpacked(content.substr(kHeaderSize), name), name);
+  return decoded(unpacked(content.substr(kHullHeaderSize), name), name);
 }
 
 }  // namespace prohull

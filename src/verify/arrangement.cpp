@@ -567,7 +567,7 @@ class Segments {
     if (e.by == f.by) return 0;
     steps_.take(kStepsOfExactSign);
     const auto exact = exact_place(piece, e) <=> exact_place(piece, f);
-    return (exact > 0) - (exact < 0);
+    return int{std::is_gt(exact)} - int{std::is_lt(exact)};
   }
 
   const Rational& exact_place(const ContactPiece& piece, const Event& e) {

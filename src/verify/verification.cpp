@@ -278,13 +278,14 @@ Verification verify::verify_hull(const ProgressiveHull& hull, Original& original
   return std::move(judge.found);
 }
 
-Verification verify_hull(const TriangleMesh& hull, TriangleMesh original, HullSide side,
+Verification verify_hull(const TriangleMesh& hull, const TriangleMesh& original, HullSide side,
                          const VerificationOptions& options) {
   verify::Original known(original, options.closed);
   return verify::verify_hull(hull, known, side, options);
 }
 
-Verification verify_hull(const ProgressiveHull& hull, TriangleMesh original, const VerificationOptions& options) {
+Verification verify_hull(const ProgressiveHull& hull, const TriangleMesh& original,
+                         const VerificationOptions& options) {
   verify::Original known(original, options.closed);
   return verify::verify_hull(hull, known, options);
 }
