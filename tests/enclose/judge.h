@@ -11,7 +11,7 @@
 
 #include "prohull/shapes.h"
 #include "prohull/triangle_mesh.h"
-#include "verify/oracle.h"
+#include "verify/exact_kernel.h"
 
 namespace prohull::oracle {
 

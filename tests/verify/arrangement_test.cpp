@@ -9,7 +9,7 @@
 #include "progress.h"
 #include "prohull/enclosure.h"
 #include "random.h"
-#include "verify/cover_oracle.h"
+#include "verify/oracle.h"
 #include "verify/random_chains.h"
 #include "verify/solids.h"
 
@@ -68,10 +68,10 @@ TEST(HullsThatOverlapOften, CoverWhatBruteForceSaysTheyCover) {
   for (int round = 0; round < rounds(8); ++round) {
     const TriangleMesh hull = tetrahedra_on_grid(chains.uniform(20, 60), true, chains);
     if (signed_volume(hull) < 0.1) continue;  // would be turned
-    const oracle::Cover oracle(hull, random);
+    const oracle::Chain oracle(hull);
     for (int i = 0; i < 10; ++i) {
       const Triangle t = small_triangle(chains);
-      const bool truth = oracle.covers(t);
+      const bool truth = oracle.covers(t, random);
       ++(truth ? covered : outside);
       ASSERT_EQ(verify_cover(mesh_of(t), hull).encloses, truth) << "round " << round << ", triangle " << i;
     }
@@ -87,9 +87,9 @@ bool sticks_out_at_a_sample(const TriangleMesh& inner, const TriangleMesh& outer
   std::uniform_real_distribution<double> within(-0.1, 1.1);
   const double size = bounding_box(inner).diagonal();
   for (int i = 0; i < 300; ++i) {
-    const oracle::Point p(size * within(random), size * within(random), size * within(random));
-    const oracle::Point apex(within(random), within(random), 1e4);
-    const auto w_in = oracle::winding(in, apex, p), w_out = oracle::winding(out, apex, p);
+    const Vec3 p{size * within(random), size * within(random), size * within(random)};
+    const Vec3 apex{within(random), within(random), 1e4};
+    const auto w_in = in.winding(apex, p), w_out = out.winding(apex, p);
     if (w_in && w_out && *w_in >= 1 && *w_out < 1) return true;
   }
   return false;

@@ -26,10 +26,10 @@ TEST(Enclosure, AgreesWithBruteForceOnRandomChains) {
     if (!grows) chains.split_face(outer, false);
     if (signed_volume(inner) < 0.1 || signed_volume(outer) < 0.1) continue;  // would be turned
 
-    const bool truth = oracle::encloses(inner, outer, random);
+    const bool truth = oracle::Chain(inner).is_enclosed_by(oracle::Chain(outer), random);
     ASSERT_EQ(verify_enclosure(inner, outer).encloses, truth) << "chain " << enclosed + rejected;
     ASSERT_TRUE(truth || !grows);
-    const bool reverse = oracle::encloses(outer, inner, random);
+    const bool reverse = oracle::Chain(outer).is_enclosed_by(oracle::Chain(inner), random);
     ASSERT_EQ(verify_enclosure(outer, inner).encloses, reverse) << "reverse of chain " << enclosed + rejected;
     ++(truth ? enclosed : rejected);
   }

@@ -8,7 +8,7 @@
 #include "prohull/hull_builder.h"
 #include "prohull/sample.h"
 #include "random.h"
-#include "verify/cover_oracle.h"
+#include "verify/oracle.h"
 #include "verify/random_chains.h"
 
 namespace prohull {
@@ -73,13 +73,13 @@ TEST(Cover, AgreesWithBruteForceOnRandomChains) {
     for (int n = chains.uniform(0, 3); n > 0; --n) chains.split_face(outer, chains.uniform(0, 1));
     if (signed_volume(outer) < 0.1) continue;  // would be turned
     ++chain;
-    const oracle::Cover oracle(outer, random);
+    const oracle::Chain oracle(outer);
     RandomTriangles triangles(outer, chains);
     std::vector<Triangle> all;
     std::size_t expected = 0;
     for (int i = 0; i < 12; ++i) {
       const Triangle& t = all.emplace_back(triangles.next());
-      const bool truth = oracle.covers(t);
+      const bool truth = oracle.covers(t, random);
       ++(truth ? covered : outside);
       expected += !truth;
       ASSERT_EQ(verify_cover(soup_of({t}), outer).encloses, truth) << "chain " << chain << ", triangle " << i;
@@ -185,9 +185,9 @@ TEST(Cover, AcceptsNoMutantThatBruteForceRejects) {
       for (int i = 0; i < 10; ++i) {
         const TriangleMesh mutant = mutant_of(hull, chains);
         if (signed_volume(mutant) < 0.1) continue;
-        const oracle::Cover oracle(mutant, random);
+        const oracle::Chain oracle(mutant);
         const auto outside =
-            std::count_if(soup.begin(), soup.end(), [&](const Triangle& t) { return !oracle.covers(t); });
+            std::count_if(soup.begin(), soup.end(), [&](const Triangle& t) { return !oracle.covers(t, random); });
         ASSERT_EQ(verify_cover(soup_of(soup), mutant).faces_outside, std::size_t(outside)) << "mutant " << i;
         ++(outside == 0 ? accepted : rejected);
       }

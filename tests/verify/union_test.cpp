@@ -10,7 +10,7 @@
 #include "prohull/error.h"
 #include "prohull/sample.h"
 #include "random.h"
-#include "verify/cover_oracle.h"
+#include "verify/oracle.h"
 #include "verify/random_chains.h"
 
 namespace prohull {
@@ -184,11 +184,11 @@ TEST(UnionOfPieces, AgreesWithBruteForce) {
     }
     TriangleMesh all;
     for (const TriangleMesh& piece : pieces) append(all, signed_volume(piece) < 0 ? inside_out(piece) : piece);
-    const oracle::Cover cover(all, random);
+    const oracle::Chain chain(all);
     bool covers = true;
     std::size_t outside = 0;
-    for (const FaceId f : original.triangles.ids()) outside += !cover.covers(original.triangle(f));
-    covers = outside == 0 && oracle::encloses(original, all, random);
+    for (const FaceId f : original.triangles.ids()) outside += !chain.covers(original.triangle(f), random);
+    covers = outside == 0 && oracle::Chain(original).is_enclosed_by(chain, random);
     const UnionVerification found = verify_union(pieces, original);
     ASSERT_EQ(found.covers, covers) << "round " << i;
     ASSERT_EQ(found.faces_outside, outside) << "round " << i;
@@ -247,16 +247,9 @@ TEST(UnionOfBalls, ThatLeaveAPointOutsideBesideOneInDoubtDoNotCover) {
   EXPECT_EQ(found.faces_undecided, 1u);
   ASSERT_TRUE(found.point_outside);
   EXPECT_EQ(found.point_outside->face, FaceId{1});
-  using Number = oracle::Exact::FT;
   const auto& weights = found.point_outside->weights;
-  const auto p = [&](int axis) {
-    const Triangle t = original.triangle(FaceId{1});
-    return Number(t.a[axis]) * weights[0] + Number(t.b[axis]) * weights[1] + Number(t.c[axis]) * weights[2];
-  };
   EXPECT_EQ(weights[0] + weights[1] + weights[2], 1);
-  for (const Ball& ball : balls)
-    EXPECT_GT(CGAL::squared_distance(oracle::Point(p(0), p(1), p(2)), oracle::exact(ball.center)),
-              Number(ball.radius) * Number(ball.radius));
+  for (const Ball& ball : balls) EXPECT_FALSE(oracle::contains(ball, original.triangle(FaceId{1}), weights));
 }
 
 TEST(UnionOfBalls, AreUndecidedInsideWhereTheyTouch) {
@@ -329,15 +322,10 @@ TEST(UnionOfBalls, AgreesWithPointsInExactArithmetic) {
       const Triangle t = original.triangle(FaceId(unsigned(k) % original.face_count()));
       std::uniform_int_distribution<int> weight(0, 16);
       const int u = weight(random), v = std::min(weight(random), 16 - u), depth = k < 1500 ? 16 : weight(random);
-      const auto p = [&](int axis) {
-        using Number = oracle::Exact::FT;
-        return (Number(t.a[axis]) * u + Number(t.b[axis]) * v + Number(t.c[axis]) * (16 - u - v)) * depth / 256;
-      };
-      const oracle::Point point(p(0), p(1), p(2));
-      all_points = std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) {
-        return CGAL::squared_distance(point, oracle::exact(ball.center)) <=
-               oracle::Exact::FT(ball.radius) * oracle::Exact::FT(ball.radius);
-      });
+      const double scale = depth / 256.0;
+      const std::array<double, 3> weights{u * scale, v * scale, (16 - u - v) * scale};
+      all_points =
+          std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) { return oracle::contains(ball, t, weights); });
     }
     ASSERT_LE(covers, all_points) << "round " << i;
     unseen += !covers && all_points;
