@@ -9,167 +9,16 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 #include <optional>
 #include <thread>
 
 #include "prohull/error.h"
 #include "prohull/shapes.h"
+#include "robot/motion/joint_paths.h"
 #include "robot/transform.h"
 
 namespace prohull::robot {
 namespace {
-
-/// A well mixed function of its argument, the same everywhere (splitmix64).
-std::uint64_t scrambled(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
-/// Uniform in [0, 1).
-double unit_random(std::uint64_t seed, std::uint64_t number, std::uint64_t joint) {
-  return static_cast<double>(scrambled(scrambled(scrambled(seed) + number) + joint) >> 11) * 0x1p-53;
-}
-
-double random_turn(const Joint& joint, double unit) {
-  if (std::isfinite(joint.lower) && std::isfinite(joint.upper)) return std::lerp(joint.lower, joint.upper, unit);
-  const double turn = 2 * std::numbers::pi * unit;
-  if (std::isfinite(joint.lower)) return joint.lower + turn;
-  if (std::isfinite(joint.upper)) return joint.upper - turn;
-  return turn - std::numbers::pi;
-}
-
-bool is_limited_slide(const Joint& joint) {
-  constexpr double kFar = 1000;  // metres: such limits mean none, and would leave poses without digits
-  return std::abs(joint.lower) <= kFar && std::abs(joint.upper) <= kFar;
-}
-
-double random_shift(const Joint& joint, double unit) {
-  return is_limited_slide(joint) ? std::lerp(joint.lower, joint.upper, unit)
-                                 : std::min(std::max(0.0, joint.lower), joint.upper);
-}
-
-double random_position(const Joint& joint, double unit) {
-  switch (joint.type) {
-    case JointType::Continuous:
-      return std::numbers::pi * (2 * unit - 1);
-    case JointType::Revolute:
-      return random_turn(joint, unit);
-    case JointType::Prismatic:
-      return random_shift(joint, unit);
-    case JointType::Fixed:
-    case JointType::Ball:
-    case JointType::Planar:
-    case JointType::Floating:
-      break;
-  }
-  return 0;
-}
-
-/// Sets the positions of all joints that mimic. Chains may be long, so none is followed twice, and not by recursion.
-void follow(const Robot& robot, std::vector<double>& positions) {
-  enum class State { Open, OnChain, Known };
-  std::vector<State> states(robot.joints.size(), State::Open);
-  std::vector<std::size_t> chain;
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    std::size_t end = j;
-    for (; states[end] == State::Open && robot.joints[end].mimic; end = robot.joints[end].mimic->joint) {
-      states[end] = State::OnChain;
-      chain.push_back(end);
-    }
-    const bool is_circle = states[end] == State::OnChain;
-    for (; !chain.empty(); chain.pop_back()) {
-      const Mimic& mimic = *robot.joints[chain.back()].mimic;
-      if (!is_circle) positions[chain.back()] = mimic.multiplier * positions[mimic.joint] + mimic.offset;
-      states[chain.back()] = State::Known;
-    }
-  }
-}
-
-Pose motion_of(const Joint& joint, double position) {
-  switch (joint.type) {
-    case JointType::Revolute:
-    case JointType::Continuous:
-      return rotation_about(joint.axis, position);
-    case JointType::Prismatic:
-      return translation_by(joint.axis * position);
-    case JointType::Fixed:
-    case JointType::Ball:
-    case JointType::Planar:
-    case JointType::Floating:
-      break;
-  }
-  return {};
-}
-
-/// Where the child is in the frame of the joint's parent.
-Pose pose_of(const Joint& joint, double position) {
-  const Pose turned = composed(motion_of(joint, position), translation_by(-joint.anchor));
-  return composed(joint.origin, composed(translation_by(joint.anchor), turned));
-}
-
-/// Whether the joint moves the same child on, after the one that stands before it.
-bool continues_row(const Robot& robot, std::size_t joint) {
-  return joint > 0 && robot.joints[joint - 1].child == robot.joints[joint].child;
-}
-
-/// Whether random positions reach all that the joint can do, apart from what it follows.
-bool is_sampled(const Joint& joint) {
-  switch (joint.type) {
-    case JointType::Fixed:
-    case JointType::Revolute:
-    case JointType::Continuous:
-      return true;
-    case JointType::Prismatic:
-      return joint.mimic || is_limited_slide(joint);
-    case JointType::Ball:
-    case JointType::Planar:
-    case JointType::Floating:
-      break;
-  }
-  return false;
-}
-
-/// Which joints random positions move as they can move. As in `follow`, chains may be long.
-std::vector<bool> sampled_joints(const Robot& robot) {
-  std::vector<bool> sampled(robot.joints.size()), is_known(robot.joints.size());
-  std::vector<std::size_t> chain;
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    std::size_t end = j;
-    for (; !is_known[end]; end = robot.joints[end].mimic->joint) {
-      is_known[end] = true;
-      sampled[end] = is_sampled(robot.joints[end]);
-      chain.push_back(end);
-      if (!robot.joints[end].mimic) break;
-    }
-    for (; !chain.empty(); chain.pop_back())
-      if (const auto& mimic = robot.joints[chain.back()].mimic)
-        sampled[chain.back()] = sampled[chain.back()] && sampled[mimic->joint];
-  }
-  return sampled;
-}
-
-/// Numbers of links. Two have the same one if all joints between them are among those that `connects` names; links of
-/// different trees never have.
-std::vector<std::size_t> connected_groups(const Robot& robot, const std::vector<bool>& connects) {
-  std::vector<std::size_t> groups(robot.links.size());
-  for (std::size_t link = 0; link < groups.size(); ++link) groups[link] = link;
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {  // those of the parent come first
-    const Joint& joint = robot.joints[j];
-    const bool was_connected = !continues_row(robot, j) || groups[joint.child] == groups[joint.parent];
-    groups[joint.child] = connects[j] && was_connected ? groups[joint.parent] : joint.child;
-  }
-  return groups;
-}
-
-std::vector<bool> fixed_joints(const Robot& robot) {
-  std::vector<bool> fixed;
-  for (const Joint& joint : robot.joints) fixed.push_back(joint.type == JointType::Fixed);
-  return fixed;
-}
 
 /// Around all vertices.
 Ball ball_around(const std::array<const TriangleMesh*, 3>& meshes) {
@@ -245,40 +94,6 @@ struct Check {
 bool visual_meets(const Check& c) { return collide(c.a->visual, {}, c.b->visual, c.pose); }
 bool hull_meets(const Check& c) { return enclosures_meet(c.a->hull, c.b->hull, c.pose); }
 bool convex_meets(const Check& c) { return enclosures_meet(c.a->convex, c.b->convex, c.pose); }
-
-/// What the joints say about pairs of links.
-class JointPaths {
- public:
-  explicit JointPaths(const Robot& robot)
-      : rigid_group_(connected_groups(robot, fixed_joints(robot))),
-        sampled_group_(connected_groups(robot, sampled_joints(robot))),
-        hangs_on_(robot.links.size()) {
-    for (std::size_t j = 0; j < robot.joints.size(); ++j) hang(robot, j);
-  }
-
-  bool are_adjacent(std::size_t a, std::size_t b) const {
-    return rigid_group_[a] == rigid_group_[b] || hangs_on_[a] == b || hangs_on_[b] == a;
-  }
-  /// Whether random positions move them as they can move.
-  bool are_sampled(std::size_t a, std::size_t b) const { return sampled_group_[a] == sampled_group_[b]; }
-
- private:
-  /// Joints of parents come first, so those of the parent are known.
-  void hang(const Robot& robot, std::size_t j) {
-    const Joint& joint = robot.joints[j];
-    const Link& parent = robot.links[joint.parent];
-    const bool was_free = continues_row(robot, j) && !hangs_on_[joint.child];
-    if (was_free || joint.type == JointType::Floating || joint.type == JointType::Planar)
-      hangs_on_[joint.child].reset();
-    else
-      hangs_on_[joint.child] =
-          parent.visual.empty() && parent.collision.empty() ? hangs_on_[joint.parent] : joint.parent;
-  }
-
-  std::vector<std::size_t> rigid_group_;              // the same number: only fixed joints connect them
-  std::vector<std::size_t> sampled_group_;            // the same number: only sampled joints connect them
-  std::vector<std::optional<std::size_t>> hangs_on_;  // the next link with geometry on the way to the root
-};
 
 /// Tells a Progress on the thread that made it, at most 50 times a second; any thread may call.
 class Meter {
@@ -460,37 +275,6 @@ std::size_t sum(const std::vector<MotionPair>& pairs, std::size_t MotionPair::*c
 }
 
 }  // namespace
-
-std::vector<Pose> link_poses(const Robot& robot, std::span<const double> positions) {
-  std::vector<double> all(positions.begin(), positions.end());
-  all.resize(robot.joints.size());
-  follow(robot, all);
-  std::vector<Pose> poses(robot.links.size());
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    const Joint& joint = robot.joints[j];
-    const std::size_t before = continues_row(robot, j) ? joint.child : joint.parent;
-    poses[joint.child] = composed(poses[before], pose_of(joint, all[j]));
-  }
-  return poses;
-}
-
-std::vector<double> rest_positions(const Robot& robot) {
-  std::vector<double> positions;
-  for (const Joint& joint : robot.joints) {
-    const bool allowed = joint.lower <= 0 && 0 <= joint.upper;
-    positions.push_back(allowed ? 0 : std::midpoint(joint.lower, joint.upper));
-    if (!std::isfinite(positions.back())) positions.back() = 0;
-  }
-  return positions;
-}
-
-std::vector<double> random_positions(const Robot& robot, std::uint64_t seed, std::uint64_t number) {
-  std::vector<double> positions(robot.joints.size());
-  for (std::size_t j = 0; j < positions.size(); ++j)
-    positions[j] = random_position(robot.joints[j], unit_random(seed, number, j));
-  follow(robot, positions);
-  return positions;
-}
 
 std::string_view name_of(PairKind kind) {
   switch (kind) {

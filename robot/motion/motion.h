@@ -10,22 +10,10 @@
 
 #include "prohull/progress.h"
 #include "robot/model.h"
+#include "robot/motion/kinematics.h"
+#include "robot/motion/sampling.h"
 
 namespace prohull::robot {
-
-/// Where each link is, in the frame of the root that it hangs on, for the positions of all joints. The position of a
-/// joint that mimics is multiplier * position of the other + offset, whatever `positions` says. Joints that mimic each
-/// other in a circle keep their positions. A ball, planar or floating joint stays at rest.
-std::vector<Pose> link_poses(const Robot& robot, std::span<const double> positions);
-
-/// Positions of all joints for pictures: 0, or the middle of the limits of a joint that cannot be at 0.
-std::vector<double> rest_positions(const Robot& robot);
-
-/// Random positions of all joints, evenly within their limits; `number` counts the configurations. A continuous joint,
-/// or a revolute one without limits, makes one turn. A prismatic joint stays at 0, or at the limit closest to 0, if a
-/// limit is missing or beyond 1 km. Joints that mimic follow, beyond their own limits too. The same seed and number
-/// give the same positions.
-std::vector<double> random_positions(const Robot& robot, std::uint64_t seed, std::uint64_t number);
 
 /// The bodies that are compared, of each link, in the frame of the link; empty where a link has none. A link that has
 /// some of the three uses those in place of the others: no hull, and its visual geometry stands for it; no visual

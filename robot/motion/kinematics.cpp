@@ -1,0 +1,82 @@
+#include "robot/motion/kinematics.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "robot/transform.h"
+
+namespace prohull::robot {
+namespace {
+
+Pose motion_of(const Joint& joint, double position) {
+  switch (joint.type) {
+    case JointType::Revolute:
+    case JointType::Continuous:
+      return rotation_about(joint.axis, position);
+    case JointType::Prismatic:
+      return translation_by(joint.axis * position);
+    case JointType::Fixed:
+    case JointType::Ball:
+    case JointType::Planar:
+    case JointType::Floating:
+      break;
+  }
+  return {};
+}
+
+/// Where the child is in the frame of the joint's parent.
+Pose pose_of(const Joint& joint, double position) {
+  const Pose turned = composed(motion_of(joint, position), translation_by(-joint.anchor));
+  return composed(joint.origin, composed(translation_by(joint.anchor), turned));
+}
+
+}  // namespace
+
+void follow(const Robot& robot, std::vector<double>& positions) {
+  // Chains may be long, so none is followed twice, and not by recursion.
+  enum class State { Open, OnChain, Known };
+  std::vector<State> states(robot.joints.size(), State::Open);
+  std::vector<std::size_t> chain;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    std::size_t end = j;
+    for (; states[end] == State::Open && robot.joints[end].mimic; end = robot.joints[end].mimic->joint) {
+      states[end] = State::OnChain;
+      chain.push_back(end);
+    }
+    const bool is_circle = states[end] == State::OnChain;
+    for (; !chain.empty(); chain.pop_back()) {
+      const Mimic& mimic = *robot.joints[chain.back()].mimic;
+      if (!is_circle) positions[chain.back()] = mimic.multiplier * positions[mimic.joint] + mimic.offset;
+      states[chain.back()] = State::Known;
+    }
+  }
+}
+
+bool continues_row(const Robot& robot, std::size_t joint) {
+  return joint > 0 && robot.joints[joint - 1].child == robot.joints[joint].child;
+}
+
+std::vector<Pose> link_poses(const Robot& robot, std::span<const double> positions) {
+  std::vector<double> all(positions.begin(), positions.end());
+  all.resize(robot.joints.size());
+  follow(robot, all);
+  std::vector<Pose> poses(robot.links.size());
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const Joint& joint = robot.joints[j];
+    const std::size_t before = continues_row(robot, j) ? joint.child : joint.parent;
+    poses[joint.child] = composed(poses[before], pose_of(joint, all[j]));
+  }
+  return poses;
+}
+
+std::vector<double> rest_positions(const Robot& robot) {
+  std::vector<double> positions;
+  for (const Joint& joint : robot.joints) {
+    const bool allowed = joint.lower <= 0 && 0 <= joint.upper;
+    positions.push_back(allowed ? 0 : std::midpoint(joint.lower, joint.upper));
+    if (!std::isfinite(positions.back())) positions.back() = 0;
+  }
+  return positions;
+}
+
+}  // namespace prohull::robot

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "robot/model.h"
+
+namespace prohull::robot {
+
+/// Where each link is, in the frame of the root that it hangs on, for the positions of all joints. The position of a
+/// joint that mimics is multiplier * position of the other + offset, whatever `positions` says. Joints that mimic each
+/// other in a circle keep their positions. A ball, planar or floating joint stays at rest.
+std::vector<Pose> link_poses(const Robot& robot, std::span<const double> positions);
+
+/// Positions of all joints for pictures: 0, or the middle of the limits of a joint that cannot be at 0.
+std::vector<double> rest_positions(const Robot& robot);
+
+/// Sets the positions of all joints that mimic.
+void follow(const Robot& robot, std::vector<double>& positions);
+
+/// Whether the joint moves the same child on, after the one that stands before it.
+bool continues_row(const Robot& robot, std::size_t joint);
+
+}  // namespace prohull::robot

@@ -1,0 +1,106 @@
+#include "robot/motion/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "robot/motion/kinematics.h"
+
+namespace prohull::robot {
+namespace {
+
+/// A well mixed function of its argument, the same everywhere (splitmix64).
+std::uint64_t scrambled(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
+
+/// Uniform in [0, 1).
+double unit_random(std::uint64_t seed, std::uint64_t number, std::uint64_t joint) {
+  return static_cast<double>(scrambled(scrambled(scrambled(seed) + number) + joint) >> 11) * 0x1p-53;
+}
+
+double random_turn(const Joint& joint, double unit) {
+  if (std::isfinite(joint.lower) && std::isfinite(joint.upper)) return std::lerp(joint.lower, joint.upper, unit);
+  const double turn = 2 * std::numbers::pi * unit;
+  if (std::isfinite(joint.lower)) return joint.lower + turn;
+  if (std::isfinite(joint.upper)) return joint.upper - turn;
+  return turn - std::numbers::pi;
+}
+
+bool is_limited_slide(const Joint& joint) {
+  constexpr double kFar = 1000;  // metres: such limits mean none, and would leave poses without digits
+  return std::abs(joint.lower) <= kFar && std::abs(joint.upper) <= kFar;
+}
+
+double random_shift(const Joint& joint, double unit) {
+  return is_limited_slide(joint) ? std::lerp(joint.lower, joint.upper, unit)
+                                 : std::min(std::max(0.0, joint.lower), joint.upper);
+}
+
+double random_position(const Joint& joint, double unit) {
+  switch (joint.type) {
+    case JointType::Continuous:
+      return std::numbers::pi * (2 * unit - 1);
+    case JointType::Revolute:
+      return random_turn(joint, unit);
+    case JointType::Prismatic:
+      return random_shift(joint, unit);
+    case JointType::Fixed:
+    case JointType::Ball:
+    case JointType::Planar:
+    case JointType::Floating:
+      break;
+  }
+  return 0;
+}
+
+/// Whether random positions reach all that the joint can do, apart from what it follows.
+bool moves_as_it_can(const Joint& joint) {
+  switch (joint.type) {
+    case JointType::Fixed:
+    case JointType::Revolute:
+    case JointType::Continuous:
+      return true;
+    case JointType::Prismatic:
+      return joint.mimic || is_limited_slide(joint);
+    case JointType::Ball:
+    case JointType::Planar:
+    case JointType::Floating:
+      break;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<bool> sampled_joints(const Robot& robot) {
+  // Chains may be long, as in `follow`.
+  std::vector<bool> sampled(robot.joints.size()), is_known(robot.joints.size());
+  std::vector<std::size_t> chain;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    std::size_t end = j;
+    for (; !is_known[end]; end = robot.joints[end].mimic->joint) {
+      is_known[end] = true;
+      sampled[end] = moves_as_it_can(robot.joints[end]);
+      chain.push_back(end);
+      if (!robot.joints[end].mimic) break;
+    }
+    for (; !chain.empty(); chain.pop_back())
+      if (const auto& mimic = robot.joints[chain.back()].mimic)
+        sampled[chain.back()] = sampled[chain.back()] && sampled[mimic->joint];
+  }
+  return sampled;
+}
+
+std::vector<double> random_positions(const Robot& robot, std::uint64_t seed, std::uint64_t number) {
+  std::vector<double> positions(robot.joints.size());
+  for (std::size_t j = 0; j < positions.size(); ++j)
+    positions[j] = random_position(robot.joints[j], unit_random(seed, number, j));
+  follow(robot, positions);
+  return positions;
+}
+
+}  // namespace prohull::robot

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "robot/model.h"
+
+namespace prohull::robot {
+
+/// Random positions of all joints, evenly within their limits; `number` counts the configurations. A continuous joint,
+/// or a revolute one without limits, makes one turn. A prismatic joint stays at 0, or at the limit closest to 0, if a
+/// limit is missing or beyond 1 km. Joints that mimic follow, beyond their own limits too. The same seed and number
+/// give the same positions.
+std::vector<double> random_positions(const Robot& robot, std::uint64_t seed, std::uint64_t number);
+
+/// Which joints random positions move as they can move.
+std::vector<bool> sampled_joints(const Robot& robot);
+
+}  // namespace prohull::robot
