@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -41,13 +40,7 @@ TriangleMesh placed(const Pose& pose, TriangleMesh mesh);
 /// What a closed mesh stands for.
 enum class StandsFor : std::uint8_t { Solid, Surface };
 
-struct CollisionData;
-
-/// Hulls of a mesh, by which `collide` may know its answer before it looks at the mesh. For meshes in memory they have
-/// cost more than they saved (docs/collisions.md).
-struct CollisionHulls {
-  std::optional<TriangleMesh> outer, inner;
-};
+struct CollisionMesh;
 
 /// A mesh made ready for collisions. It is immutable and cheap to copy: copies share their data, and any number of
 /// threads may share one index. Built once, it serves every pose.
@@ -61,18 +54,13 @@ class CollisionIndex {
   /// finite or beyond 1e100.
   explicit CollisionIndex(const TriangleMesh& mesh, StandsFor what = StandsFor::Solid);
 
-  /// With hulls of the mesh. The answers stay the same, also for an inner hull that is wrong. But the outer hull must
-  /// enclose the mesh, or cover it if it is not closed: the caller has verified that (verification.h). Throws as above,
-  /// and InputError(OpenEdge) if a hull is not closed.
-  CollisionIndex(const TriangleMesh& mesh, const CollisionHulls& hulls);
-
   bool is_solid() const;  ///< whether the mesh is closed and stands for its solid
   std::size_t face_count() const;
   std::size_t memory_bytes() const;  ///< of what all copies share
 
  private:
   friend struct CollisionAccess;
-  std::shared_ptr<const CollisionData> data_;
+  std::shared_ptr<const CollisionMesh> mesh_;
 };
 
 /// Where the two meshes are.

@@ -82,12 +82,9 @@ double surface_distance(const TriangleMesh& a, const TriangleMesh& b) {
 
 void bind_collisions(py::module_& module) {
   py::class_<CollisionIndex>(module, "CollisionIndex")
-      .def(py::init([](const TriangleMesh& mesh, const TriangleMesh* outer, const TriangleMesh* inner) {
+      .def(py::init([](const TriangleMesh& mesh) {
         const py::gil_scoped_release released;
-        CollisionHulls hulls;
-        if (outer) hulls.outer = *outer;
-        if (inner) hulls.inner = *inner;
-        return CollisionIndex(mesh, hulls);
+        return CollisionIndex(mesh);
       }))
       .def_property_readonly("is_solid", &CollisionIndex::is_solid)
       .def("collides", &collides)

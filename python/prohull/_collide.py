@@ -47,15 +47,9 @@ class Collider:
         free = ~arm.collides("wall.stl", poses)
     """
 
-    def __init__(self, mesh: MeshLike, *, outer: Optional[MeshLike] = None, inner: Optional[MeshLike] = None) -> None:
-        """Builds the index.
-
-        mesh: as verify() takes it.
-        outer, inner: closed hulls of the mesh, by which collides() may know its answer sooner. verify() must have
-            said that the outer one encloses the mesh.
-        """
-        core = [None if given is None else mesh_of(given)._core for given in (outer, inner)]
-        self._core = _prohull.CollisionIndex(mesh_of(mesh)._core, *core)
+    def __init__(self, mesh: MeshLike) -> None:
+        """Builds the index of a mesh, as verify() takes it."""
+        self._core = _prohull.CollisionIndex(mesh_of(mesh)._core)
 
     @property
     def is_solid(self) -> bool:

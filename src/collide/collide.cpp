@@ -19,13 +19,8 @@
 
 namespace prohull {
 
-struct CollisionData {
-  CollisionMesh mesh;
-  std::optional<CollisionMesh> outer, inner;
-};
-
 struct CollisionAccess {
-  static const CollisionData& of(const CollisionIndex& index) { return *index.data_; }
+  static const CollisionMesh& of(const CollisionIndex& index) { return *index.mesh_; }
 };
 
 namespace {
@@ -65,19 +60,6 @@ class Scene {
   }
 
   bool collides() const { return !boxes_.are_far_apart() && (surfaces_meet() || one_is_inside()); }
-
-  /// A point near the first pair of triangles found that touch, if any do.
-  std::optional<Vec3> touching_point() const {
-    std::optional<Vec3> point;
-    if (!boxes_.are_far_apart())
-      visit_meeting_leaves(a_.tree, b_.tree, boxes_, [&](const ObbNode& in_a, const ObbNode& in_b) {
-        return visit_touching(in_a, in_b, [&](std::size_t i, std::size_t j) {
-          point = triangle_distance(at_pose(pose_a_, a_.triangle(i)), at_pose(pose_b_, b_.triangle(j))).s;
-          return true;
-        });
-      });
-    return point;
-  }
 
   std::vector<FacePair> intersecting_faces() const {
     std::vector<FacePair> pairs;
@@ -180,16 +162,8 @@ bool may_collide(const CollisionMesh& a, const PosePair& at, const CollisionMesh
   return Scene(a, at.a, b, at.b, margin * (1 + 0x1p-40)).collides();
 }
 
-/// Whether both solids wind around a point at which their inner hulls touch. The hulls propose it, the meshes decide.
-bool inner_hulls_tell(const CollisionData& a, const PosePair& at, const CollisionData& b) {
-  if (!a.inner || !b.inner || !a.mesh.is_solid || !b.mesh.is_solid) return false;
-  const auto point = Scene(*a.inner, at.a, *b.inner, at.b).touching_point();
-  return point && a.mesh.winding_number(at.a, *point) > 0 && b.mesh.winding_number(at.b, *point) > 0;
-}
-
-bool collides(const CollisionData& a, const CollisionData& b, const PosePair& at) {
-  if (a.outer && b.outer && !may_collide(*a.outer, at, *b.outer)) return false;
-  return inner_hulls_tell(a, at, b) || Scene(a.mesh, at.a, b.mesh, at.b).collides();
+bool collides(const CollisionMesh& a, const CollisionMesh& b, const PosePair& at) {
+  return Scene(a, at.a, b, at.b).collides();
 }
 
 void require_closed(const CollisionIndex& a, const CollisionIndex& b) {
@@ -220,18 +194,6 @@ std::vector<T> answers(std::span<const PosePair> poses, const CollisionOptions& 
 }
 
 std::vector<bool> truths(const std::vector<char>& answers) { return {answers.begin(), answers.end()}; }
-
-std::optional<CollisionMesh> closed_hull(const std::optional<TriangleMesh>& hull, std::string_view side) {
-  if (!hull) return std::nullopt;
-  CollisionMesh mesh(*hull);
-  if (!mesh.is_solid) throw InputError(Defect::OpenEdge, fmt::format("the {} hull is not closed", side));
-  return mesh;
-}
-
-std::size_t memory_of(const CollisionMesh& m) {
-  return m.tree.memory_bytes() + m.mesh.vertex_count() * sizeof(Vec3) +
-         m.mesh.face_count() * sizeof(m.mesh.triangles[FaceId{}]) + m.component_ends.size() * sizeof(Segment);
-}
 
 }  // namespace
 
@@ -271,17 +233,14 @@ TriangleMesh placed(const Pose& pose, TriangleMesh mesh) {
 }
 
 CollisionIndex::CollisionIndex(const TriangleMesh& mesh, StandsFor what)
-    : data_(std::make_shared<const CollisionData>(CollisionData{CollisionMesh(mesh, what), {}, {}})) {}
+    : mesh_(std::make_shared<const CollisionMesh>(mesh, what)) {}
 
-CollisionIndex::CollisionIndex(const TriangleMesh& mesh, const CollisionHulls& hulls)
-    : data_(std::make_shared<const CollisionData>(
-          CollisionData{CollisionMesh(mesh), closed_hull(hulls.outer, "outer"), closed_hull(hulls.inner, "inner")})) {}
-
-bool CollisionIndex::is_solid() const { return data_->mesh.is_solid; }
-std::size_t CollisionIndex::face_count() const { return data_->mesh.mesh.face_count(); }
+bool CollisionIndex::is_solid() const { return mesh_->is_solid; }
+std::size_t CollisionIndex::face_count() const { return mesh_->mesh.face_count(); }
 std::size_t CollisionIndex::memory_bytes() const {
-  return sizeof(CollisionData) + memory_of(data_->mesh) + (data_->outer ? memory_of(*data_->outer) : 0) +
-         (data_->inner ? memory_of(*data_->inner) : 0);
+  return sizeof(CollisionMesh) + mesh_->tree.memory_bytes() + mesh_->mesh.vertex_count() * sizeof(Vec3) +
+         mesh_->mesh.face_count() * sizeof(mesh_->mesh.triangles[FaceId{}]) +
+         mesh_->component_ends.size() * sizeof(Segment);
 }
 
 bool collide(const CollisionIndex& a, const Pose& pose_a, const CollisionIndex& b, const Pose& pose_b) {
@@ -292,18 +251,18 @@ bool collide(const CollisionIndex& a, const Pose& pose_a, const CollisionIndex& 
 bool may_collide(const CollisionIndex& a, const Pose& pose_a, const CollisionIndex& b, const Pose& pose_b) {
   require_rigid(pose_a), require_rigid(pose_b);
   require_closed(a, b);
-  return may_collide(CollisionAccess::of(a).mesh, {pose_a, pose_b}, CollisionAccess::of(b).mesh);
+  return may_collide(CollisionAccess::of(a), {pose_a, pose_b}, CollisionAccess::of(b));
 }
 
 std::vector<FacePair> intersecting_faces(const CollisionIndex& a, const Pose& pose_a, const CollisionIndex& b,
                                          const Pose& pose_b) {
   require_rigid(pose_a), require_rigid(pose_b);
-  return Scene(CollisionAccess::of(a).mesh, pose_a, CollisionAccess::of(b).mesh, pose_b).intersecting_faces();
+  return Scene(CollisionAccess::of(a), pose_a, CollisionAccess::of(b), pose_b).intersecting_faces();
 }
 
 Separation separation(const CollisionIndex& a, const Pose& pose_a, const CollisionIndex& b, const Pose& pose_b) {
   require_rigid(pose_a), require_rigid(pose_b);
-  return Scene(CollisionAccess::of(a).mesh, pose_a, CollisionAccess::of(b).mesh, pose_b).separation();
+  return Scene(CollisionAccess::of(a), pose_a, CollisionAccess::of(b), pose_b).separation();
 }
 
 std::vector<bool> collide(const CollisionIndex& a, const CollisionIndex& b, std::span<const PosePair> poses,
@@ -317,7 +276,7 @@ std::vector<bool> may_collide(const CollisionIndex& a, const CollisionIndex& b, 
                               const CollisionOptions& options) {
   require_closed(a, b);
   return truths(answers<char>(poses, options, [&](const PosePair& at) {
-    return may_collide(CollisionAccess::of(a).mesh, at, CollisionAccess::of(b).mesh);
+    return may_collide(CollisionAccess::of(a), at, CollisionAccess::of(b));
   }));
 }
 
