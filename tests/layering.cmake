@@ -19,7 +19,7 @@ room(parallel                                                                   
 room(mesh      OWNS ids length triangle_mesh vertex_split mesh_report mesh_quality mesh_marks regions symmetry MAY geometry base)
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
 room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base)
-room(io        OWNS base64 memory mesh_io hull_file query_io                            MAY hull mesh geometry parallel base
+room(io        OWNS base64 memory mesh_io missing_file hull_file query_io                            MAY hull mesh geometry parallel base
                                                                                      prohull/collide prohull/mesh_query)
 room(repair    OWNS openings repair                                              MAY mesh geometry base)
 room(construct OWNS hull_builder tight_hull float32_hull padded_hull mesh_part   MAY hull mesh geometry parallel base)

@@ -249,8 +249,7 @@ void add_bounds(CLI::App& command, BuildOptions& options) {
   add_length(command, "--max-distance", options.max_distance,
              "Largest allowed distance of any point of the hull from the mesh. What closes openings of the mesh counts "
              "as mesh. The hull is the coarsest of its levels, of at least --faces faces, that provably keeps it; the "
-             "exit code is 1 if "
-             "none does. With --tight, some ten hulls are built to find it.");
+             "exit code is 1 if none does. With --tight, some ten hulls are built to find it.");
   add_number(command, "--max-void", options.max_void_percent, kPositive,
              "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, caps on "
              "its openings included (an inner hull: how much less).")
@@ -315,24 +314,22 @@ void add_build(CLI::App& app, Run& run) {
   CLI::Option* const gap = add_length(
       command, "--gap,--padding", options->gap,
       "Least distance between hull and mesh. It is proven. All points within this distance of the mesh are inside of "
-      "an outer hull. An inner hull "
-      "leaves "
-      "out what is thinner than two gaps. Bounds such as --max-distance count from the gap on. Use --tight for the "
-      "least void. Not for hulls with --hierarchy.");
+      "an outer hull. An inner hull leaves out what is thinner than two gaps. Bounds such as --max-distance count from "
+      "the gap on. Use --tight for the least void.");
   CLI::Option* const tolerance =
       command
           .add_option(
               "--tolerance", options->tolerance,
               "YAML file of regions of the mesh: for each a box, color, group, or numbers of faces or vertices, and "
               "how far its faces may be from the hull, or that they are kept as they are. See "
-              "docs/guides/regions.md. Not with --tight or --gap.")
+              "docs/guides/regions.md.")
           ->excludes(tight)
           ->excludes(gap)
           ->type_name("FILE");
   add_choice(command, "--mirror", hull.mirror, axis_names(),
              "Build a symmetric hull: it is exactly its own mirror image in the plane through the middle of the "
              "bounding box that is perpendicular to this axis. The mesh must be symmetric too, bit for bit. See "
-             "docs/guides/symmetry.md. Not with --tight, --gap or --tolerance.")
+             "docs/guides/symmetry.md.")
       ->excludes(tight)
       ->excludes(gap)
       ->excludes(tolerance);
@@ -360,12 +357,10 @@ void add_build(CLI::App& app, Run& run) {
   add_certificate_option(command, options->certificate, "the hull")->excludes(recenter);
   add_self_intersections(command, *options, tight);
   add_number(command, "--best-of", hull.best_of, {1, 1e6},
-             "Build this many hulls, with a seed each, and keep the one of least void. For the strategy lazy and "
-             "--tight only.")
+             "Build this many hulls, with a seed each, and keep the one of least void.")
       ->capture_default_str();
   add_number(command, "--seed", hull.seed, kSeed,
-             "Number that varies the order of collapses a little, and so the hull; the first seed of --best-of. For "
-             "the strategy lazy and --tight only.")
+             "Number that varies the order of collapses a little, and so the hull; the first seed of --best-of.")
       ->capture_default_str();
   add_threads_option(command, hull.threads, "The hull is the same for any number.");
   command.add_flag("--strict", options->strict,

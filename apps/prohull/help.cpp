@@ -139,7 +139,8 @@ std::string unknown(const CLI::App& app, const std::string& argument) {
   const Command command = command_of(app);
   if (is_option(argument)) {
     const std::string option = argument.substr(0, argument.find('='));
-    return fmt::format("unknown option '{}' of {}{}", option, command.name, suggestion(option, option_names(command)));
+    const std::string begin = option.size() == 2 ? "-" + option : option;  // -f is what --faces begins with
+    return fmt::format("unknown option '{}' of {}{}", option, command.name, suggestion(begin, option_names(command)));
   }
   return fmt::format("'{}' is one argument too many for {}", argument, command.name);
 }

@@ -14,6 +14,7 @@
 #include "prohull/error.h"
 #include "prohull/hull_file.h"
 #include "prohull/memory.h"
+#include "prohull/missing_file.h"
 
 namespace prohull::cli {
 namespace {
@@ -110,13 +111,9 @@ bool is_sphere_file(const std::filesystem::path& path) {
 
 std::string read_bytes(const std::filesystem::path& path) {
   if (!is_standard_stream(path)) require_memory(path);
-  const auto fail = [&] {
-    throw InputError(Defect::CannotRead,
-                     fmt::format("{}: cannot read: {}", input_name(path), std::generic_category().message(errno)));
-  };
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
       is_standard_stream(path) ? stdin : std::fopen(path.c_str(), "rb"), std::fclose);
-  if (!file) fail();
+  if (!file) fail_to_read(input_name(path), errno);
   constexpr std::size_t kChunk = std::size_t{1} << 20;
   std::error_code unknown;  // the size of a pipe
   const auto expected = is_standard_stream(path) ? 0 : std::filesystem::file_size(path, unknown);
@@ -127,7 +124,7 @@ std::string read_bytes(const std::filesystem::path& path) {
     stop_if_interrupted();
     if (bytes.size() < size + kChunk) bytes.resize(std::max(size + kChunk, std::min(2 * size, bytes.capacity())));
     size += std::fread(bytes.data() + size, 1, bytes.size() - size, file.get());
-    if (std::ferror(file.get())) fail();
+    if (std::ferror(file.get())) fail_to_read(input_name(path), errno);
   } while (!std::feof(file.get()));
   bytes.resize(size);
   return bytes;

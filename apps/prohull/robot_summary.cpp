@@ -156,16 +156,19 @@ std::string cover_of(const Budget& budget) {
   return fmt::format("a hull of {} faces", fmt::join(budget.faces, " and "));
 }
 
+constexpr const char* kMissing = "an error, as its mesh is missing";
+
+bool is_missing(const Shape& shape) { return shape.mesh() && shape.mesh()->path.empty(); }
+
 /// What a run would do with a link.
 std::string plan_of(const Link& link, const LinkHullOptions& options) {
   const Budget& budget = options.budget_of(link.name);
   const std::vector<Shape>& all = shapes(link, options.from);
   const auto has = [&](const auto& is_so) { return std::ranges::any_of(all, is_so); };
-  const auto is_missing = [](const Shape& shape) { return shape.mesh() && shape.mesh()->path.empty(); };
   if (all.empty()) return "nothing to do";
   if (budget.skip || has([](const Shape& shape) { return std::holds_alternative<OtherForm>(shape.form); }))
     return "left as it is";
-  if (has(is_missing)) return options.skip_missing ? "left as it is" : "an error, as its mesh is missing";
+  if (has(is_missing)) return options.skip_missing ? "left as it is" : kMissing;
   if (!has([&](const Shape& shape) { return is_covered(shape, budget); })) return "primitives, kept";
   std::string text = cover_of(budget);
   if (budget.max_distance > 0) text += fmt::format(", within {}", millimetres(budget.max_distance));
@@ -216,10 +219,15 @@ void say_robot(const RobotFile& file) {
   for (const std::string& note : file.notes) say("  {}\n", note);
 }
 
-void say_plan(const RobotFile& file, const LinkHullOptions& options) {
-  for (const Link& link : file.robot.links)
-    say("  {}: {}: {}\n", link.name, described(shapes(link, options.from)), plan_of(link, options));
+bool say_plan(const RobotFile& file, const LinkHullOptions& options) {
+  bool is_possible = true;
+  for (const Link& link : file.robot.links) {
+    const std::string plan = plan_of(link, options);
+    say("  {}: {}: {}\n", link.name, described(shapes(link, options.from)), plan);
+    is_possible &= plan != kMissing;
+  }
   say("nothing was written: --dry-run\n");
+  return is_possible;
 }
 
 void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double allow) {

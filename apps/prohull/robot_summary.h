@@ -16,8 +16,8 @@ namespace prohull::cli {
 /// What was read.
 void say_robot(const robot::RobotFile& file);
 
-/// What a run would do with each link.
-void say_plan(const robot::RobotFile& file, const robot::LinkHullOptions& options);
+/// What a run would do with each link. Returns whether all meshes that it needs are there.
+bool say_plan(const robot::RobotFile& file, const robot::LinkHullOptions& options);
 
 /// How the shipped collision geometry lies to the visual one.
 void say_check(const robot::RobotFile& file, std::span<const robot::LinkCheck> checks, double allow);

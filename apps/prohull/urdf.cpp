@@ -247,7 +247,7 @@ int run_urdf(UrdfOptions options) {
   say_robot(file);
   if (!options.write_budgets.empty()) return run_write_budgets(options, file);
   if (options.check) return run_check(options, file);
-  if (options.dry_run) return say_plan(file, options.hulls), kDone;
+  if (options.dry_run) return say_plan(file, options.hulls) ? kDone : kBadInput;
   return run_build(options, file);
 }
 

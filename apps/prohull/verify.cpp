@@ -28,7 +28,7 @@ void print_near_faces(const Verification& found, const std::string& hull) {
         near.distance, index(near.original_face));
 }
 
-Verification verify(const VerifyOptions& options, const MeshOrHull& hull, TriangleMesh original, double gap) {
+Verification verify(const VerifyOptions& options, const MeshOrHull& hull, const TriangleMesh& original, double gap) {
   ProgressLine line;
   const VerificationOptions how{
       .solid_only = options.solid_only, .gap = gap, .finite_only = options.finite_only, .progress = std::ref(line)};
@@ -149,14 +149,13 @@ int run_verify(const VerifyOptions& options) {
   const Vec3 offset{numbers[0], numbers[1], numbers[2]};
   const Stopwatch reading;
   const MeshOrHull hull = read_mesh_or_hull(options.hull, options.hull_input);
-  TriangleMesh original = minus(read_input(options.original, options.original_input, NonFinite::Keep), offset);
+  const TriangleMesh original = minus(read_input(options.original, options.original_input, NonFinite::Keep), offset);
   const double read_seconds = reading.seconds();
-  const std::size_t original_faces = original.face_count();
   const double gap = MeshUnit(original, options.original, options.original_input).number_of(options.gap, "--gap");
   const Box original_box = finite_bounding_box(original);
   stop_if_interrupted();
   const Stopwatch verifying;
-  const Verification found = verify(options, hull, std::move(original), gap);
+  const Verification found = verify(options, hull, original, gap);
   const double seconds = verifying.seconds();
   const SizeComparison sizes(box_of(hull), face_count(hull), original_box, found.side);
   Outputs outputs;
@@ -167,7 +166,7 @@ int run_verify(const VerifyOptions& options) {
   outputs.commit();
   print_summary(options, found, sizes, gap, seconds);
   say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(face_count(hull), "face", "faces"),
-           counted(original_faces, "face", "faces"), found.proof, read_seconds);
+           counted(original.face_count(), "face", "faces"), found.proof, read_seconds);
   return found.holds() && (options.any_scale || !sizes.is_doubtful()) ? kDone : kAnswerIsNo;
 }
 

@@ -6,7 +6,7 @@
 
 #include <new>
 
-#include "prohull/error.h"
+#include "prohull/missing_file.h"
 
 namespace {
 
@@ -22,7 +22,9 @@ void end_idle_threads() {
 
 PYBIND11_MODULE(_prohull, module) {
   module.attr("version") = PROHULL_VERSION;
-  pybind11::register_exception<prohull::InputError>(module, "InputError", PyExc_ValueError);
+  const auto error = pybind11::register_exception<prohull::InputError>(module, "InputError", PyExc_ValueError);
+  pybind11::register_exception<prohull::MissingFile>(
+      module, "MissingFile", pybind11::make_tuple(error, pybind11::handle(PyExc_FileNotFoundError)));
   pybind11::module_::import("os").attr("register_at_fork")(pybind11::arg("before") =
                                                                pybind11::cpp_function(&end_idle_threads));
   prohull::python::bind_meshes(module);

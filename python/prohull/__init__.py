@@ -6,7 +6,8 @@
     (True, 500)
 
 A mesh is given as the path of a file, as vertices and faces, or as a mesh of prohull, trimesh or Open3D. Lengths are in
-the unit of the mesh, angles in degrees. What is wrong with an argument or a file is raised as InputError, a ValueError.
+the unit of the mesh, angles in degrees. What is wrong with an argument or a file is raised as InputError, a ValueError;
+a file that is not there is a FileNotFoundError, too.
 Ctrl-C stops long work (build, cage, convex_pieces, repair, spheres, verify, distance_bounds, queries, read, view) with
 KeyboardInterrupt.
 Files appear whole or not at all.

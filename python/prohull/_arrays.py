@@ -62,6 +62,9 @@ def indices(name: str, values: ArrayLike) -> NDArray[np.int64]:
         raise InputError(f"{name}: an array of shape {array.shape}; expected (m, 3)")
     if array.dtype.kind == "f" and not np.array_equal(array, np.trunc(array)):
         raise InputError(f"{name}: an array of {array.dtype} with fractions or numbers that are not finite")
+    if array.dtype.kind != "i" and array.size > 0 and float(array.max()) >= 2.0**63:  # int64 would wrap
+        greatest = format(array.max(), ".0f" if array.dtype.kind == "f" else "")
+        raise InputError(f"{name}[{array.max(axis=1).argmax()}] names vertex {greatest}, which no mesh has")
     return np.ascontiguousarray(array, dtype=np.int64)
 
 

@@ -17,7 +17,7 @@ from ._types import Axis, Gap, MeshLike, Numbers, OpenShells, Progress, Repair, 
 
 
 @overload
-def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ..., levels: bool = ...,
+def build(mesh: MeshLike, target_faces: int = 2000, *, side: Side = ..., tight: bool = ..., levels: bool = ...,
           max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
           tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: Gap = ...,
@@ -27,7 +27,7 @@ def build(mesh: MeshLike, /, target_faces: int = 2000, *, side: Side = ..., tigh
           max_normal_deviation_degrees: float = ..., max_overhang: float = ...,
           progress: Optional[Progress] = ...) -> Hull: ...
 @overload
-def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ..., levels: bool = ...,
+def build(mesh: MeshLike, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ..., levels: bool = ...,
           max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
           tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: Gap = ...,
@@ -37,7 +37,7 @@ def build(mesh: MeshLike, /, target_faces: Sequence[int], *, side: Side = ..., t
           max_normal_deviation_degrees: float = ..., max_overhang: float = ...,
           progress: Optional[Progress] = ...) -> list[Hull]: ...
 @overload
-def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Side = ..., tight: bool = ...,
+def build(vertices: Rows, /, faces: Rows, target_faces: int = 2000, *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ...,
           padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: Gap = ...,
@@ -47,7 +47,7 @@ def build(vertices: Rows, faces: Rows, /, target_faces: int = 2000, *, side: Sid
           max_normal_deviation_degrees: float = ..., max_overhang: float = ...,
           progress: Optional[Progress] = ...) -> Hull: ...
 @overload
-def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ...,
+def build(vertices: Rows, /, faces: Rows, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ...,
           levels: bool = ..., max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ...,
           padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: Gap = ...,
@@ -56,7 +56,7 @@ def build(vertices: Rows, faces: Rows, /, target_faces: Sequence[int], *, side: 
           max_valence: int = ..., min_compactness_ratio: float = ..., sufficient_compactness: float = ...,
           max_normal_deviation_degrees: float = ..., max_overhang: float = ...,
           progress: Optional[Progress] = ...) -> list[Hull]: ...
-def build(mesh: Any, faces: Any = None, /, target_faces: Any = None, *,  # type: ignore[misc]  # the two ways of calls
+def build(mesh: Any, faces: Any = None, target_faces: Any = None, *,  # type: ignore[misc]  # the two ways of calls
           side: Side = "outer", tight: bool = False, levels: bool = False, max_distance: Gap = math.inf,
           max_void_percent: float = math.inf, max_added_volume: float = math.inf, padding: Gap = 0.0, gap: Gap = 0.0,
           tolerances: Optional[Numbers] = None, mirror: Optional[Axis] = None, repair: Repair = "auto",

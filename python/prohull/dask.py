@@ -25,8 +25,8 @@ import sys
 import time
 import uuid
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import Any, Literal, NamedTuple, Optional, Union, get_args, overload
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Literal, NamedTuple, Optional, TypeVar, Union, get_args, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -45,6 +45,8 @@ from ._meshes import Engine
 from ._types import MeshLike, Path, Side
 
 __all__ = ["RobotRow", "Row", "build_folder", "build_partitioned", "build_robots", "query", "show"]
+
+_untyped: Any = distributed  # it tells only some of its types
 
 #: What Hull.save() writes.
 Suffix = Literal[".ply", ".obj", ".off", ".stl", ".glb", ".phull"]
@@ -254,8 +256,9 @@ def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kin
     # Multiples of what a batch answers at a time, which paper-refinement can tell.
     size = -(-max(1, chunk) // 512) * 512
     chunks = {start: rows[start:start + size] for start in range(0, max(1, len(rows)), size)}
+    workers: Any = client
     with _large_arguments():
-        held = client.submit(_held, bare, pure=False)
+        held = workers.submit(_held, bare, pure=False)
     told = _Told(progress, len(rows))
     answers: dict[int, Any] = {}
     limit = functools.partial(_limit, client)
@@ -263,7 +266,8 @@ def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kin
         for start, future in completed:
             answers[start] = future.result()
             told.add(len(chunks[start]))
-    return _together(kind, [answers[start] for start in chunks])
+    together: Union[FirstHits, NDArray[np.bool_], AllHits] = _together(kind, [answers[start] for start in chunks])
+    return together
 
 
 #: What the parts make up has so many faces for each face of the hull,
@@ -457,11 +461,14 @@ def _jobs(named: dict[str, Any], out: pathlib.Path, suffix: str, options: dict[s
                          "mesh": {"path": mesh, **_state(mesh)} if is_path else {"digest": _digest(mesh)}}
             jobs.append(_Job(name, mesh, str(out / (name + suffix)), options, made_from))
         except Exception as error:
-            jobs.append(_row_of_error(name, error))
+            jobs.append(_row_of_error(name, error, Row))
     return jobs
 
 
-def _row_of_error(name: str, error: BaseException, row: Any = Row) -> Any:
+_AnyRow = TypeVar("_AnyRow", Row, RobotRow)
+
+
+def _row_of_error(name: str, error: BaseException, row: type[_AnyRow]) -> _AnyRow:
     if isinstance(error, InputError):
         return row(name, "refused", message=str(error))
     return row(name, "failed", message=f"{type(error).__name__}: {error}")
@@ -476,8 +483,8 @@ def _state(path: str) -> dict[str, int]:
 def _digest(mesh: Mesh) -> str:
     content = hashlib.blake2b(digest_size=16)
     content.update(f"{len(mesh.vertices)} {len(mesh.faces)}".encode())
-    content.update(mesh.vertices)
-    content.update(mesh.faces)
+    content.update(mesh.vertices.data)
+    content.update(mesh.faces.data)
     return content.hexdigest()
 
 
@@ -488,7 +495,7 @@ def _build(job: _Job) -> Row:
     try:
         return _finished(job) or _built(job)
     except Exception as error:  # whatever it is, the other meshes are to be built
-        return _row_of_error(job.name, error)
+        return _row_of_error(job.name, error, Row)
 
 
 def _finished(job: _Job) -> Optional[Row]:
@@ -552,17 +559,18 @@ def _ask(rows: NDArray[np.float64], mesh: Mesh, kind: str, engine: Any, threads:
 # On the caller's side.
 
 
-def _limit(client: "distributed.Client") -> int:
-    return 2 * max(1, sum(client.nthreads().values()))
+def _limit(client: Any, alone: bool = False) -> int:
+    threads: int = sum(client.nthreads().values())
+    return 1 if alone else 2 * max(1, threads)
 
 
-def _completed(client: "distributed.Client", function: Callable[..., Any], jobs: Iterable[tuple[int, Any]],
-               limit: Callable[[], int], *arguments: Any) -> Iterator[tuple[int, "distributed.Future"]]:
+def _completed(client: Any, function: Callable[..., Any], jobs: Iterable[tuple[int, Any]], limit: Callable[[], int],
+               *arguments: Any) -> Generator[tuple[int, Any], None, None]:
     """The futures of function(job, *arguments), as they come, under the keys of the jobs. No more than limit() are
     under way at once, for the sake of the scheduler's memory; when this is closed, none begins any more."""
     waiting = iter(jobs)
-    under_way: dict["distributed.Future", int] = {}
-    pool = distributed.as_completed(loop=client.loop)
+    under_way: dict[Any, int] = {}
+    pool = _untyped.as_completed(loop=client.loop)
 
     def submit() -> None:
         free = limit() - len(under_way)
@@ -591,11 +599,11 @@ def _large_arguments() -> Iterator[None]:
         yield
 
 
-def _is_killed(future: "distributed.Future") -> bool:
+def _is_killed(future: Any) -> bool:
     return future.status == "error" and isinstance(future.exception(), distributed.KilledWorker)
 
 
-def _row(name: str, future: "distributed.Future", row: Any) -> Any:
+def _row(name: str, future: Any, row: Any) -> Any:
     if _is_killed(future):
         return row(name, "failed",
                    message="KilledWorker: every worker that built it died, as by a crash or for want of memory")
@@ -610,8 +618,7 @@ def _all_rows(client: "distributed.Client", build: Callable[..., Any], jobs: Map
     rows: dict[int, Any] = {}
     for alone in (False, True):  # what was lost with its worker again: something beside it may have killed that
         todo = {i: job for i, job in jobs.items() if i not in rows}
-        limit = (lambda: 1) if alone else functools.partial(_limit, client)
-        with contextlib.closing(_completed(client, build, todo.items(), limit)) as completed:
+        with contextlib.closing(_completed(client, build, todo.items(), functools.partial(_limit, client, alone))) as completed:
             for i, future in completed:
                 if alone or not _is_killed(future):
                     rows[i] = _row(jobs[i].name, future, row)
@@ -642,11 +649,12 @@ def _finite(rows: NDArray[np.float64]) -> NDArray[np.float64]:
 def _together(kind: str, answers: list[Any]) -> Any:
     if kind == "any_hit":
         return np.concatenate(answers)
+    columns: list[Any] = [np.concatenate(column) for column in zip(*answers)]
     if kind == "first_hit":
-        return FirstHits(*map(np.concatenate, zip(*answers)))
+        return FirstHits(*columns)
     begins = np.cumsum([0] + [len(answer.face) for answer in answers])
     offsets = [answer.offsets[:-1] + begin for answer, begin in zip(answers, begins)]
-    return AllHits(np.concatenate([*offsets, begins[-1:]]), *map(np.concatenate, list(zip(*answers))[1:]))
+    return AllHits(np.concatenate([*offsets, begins[-1:]]), *columns[1:])
 
 
 def _csv(rows: Sequence[Any], row: Any = Row) -> str:

@@ -6,6 +6,7 @@ import sys
 
 import numpy as np
 import prohull
+import prohull.robot
 import pytest
 
 
@@ -29,7 +30,8 @@ def test_what_one_types_first_works(pony, tmp_path):
     for call in (lambda: prohull.build(str(tmp_path / "part.ply"), 500), lambda: prohull.build(tmp_path / "part.ply", 500),
                  lambda: prohull.build(pony, 500), lambda: prohull.build(vertices, faces, 500),
                  lambda: prohull.build((vertices, faces), 500), lambda: prohull.build(vertices, faces, target_faces=500),
-                 lambda: prohull.build(vertices.tolist(), faces.tolist(), 500), lambda: prohull.build(pony, [500])[0]):
+                 lambda: prohull.build(vertices.tolist(), faces.tolist(), 500), lambda: prohull.build(pony, [500])[0],
+                 lambda: prohull.build(mesh=pony, target_faces=500), lambda: prohull.build(vertices, faces=faces, target_faces=500)):
         assert np.array_equal(call().vertices, expected)
 
 
@@ -319,8 +321,11 @@ def test_bad_options_are_named(cube, options, message):
 def test_unknown_samples_and_files_are_refused(tmp_path):
     with pytest.raises(prohull.InputError, match="unicorn"):
         prohull.sample("unicorn", 100)
-    with pytest.raises(prohull.InputError, match="none.stl"):
-        prohull.build(tmp_path / "none.stl")
+    for call in (prohull.build, prohull.read, prohull.load, prohull.robot.Robot.load):
+        with pytest.raises(prohull.InputError, match="none.stl: cannot read: there is no such file"):
+            call(tmp_path / "none.stl")
+        with pytest.raises(FileNotFoundError):
+            call(tmp_path / "none.stl")
     (tmp_path / "open.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
     with pytest.raises(prohull.InputError, match="open.off: "):
         prohull.build(tmp_path / "open.off", repair="none")

@@ -71,7 +71,7 @@ std::vector<Vec3> samples(const TriangleMesh& mesh, std::size_t count) {
 }
 
 double mean_distance(const TriangleMesh& from, const TriangleMesh& to) {
-  constexpr std::size_t kSamples = 10'000;
+  constexpr std::size_t kSamples = 1'000;
   MeshQuery query{QueryIndex(to)};
   const std::vector<Vec3> points = samples(from, kSamples);
   double sum = 0;

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <utility>
 
 #include "prohull/error.h"
+#include "prohull/missing_file.h"
 #include "robot/files/mjcf.h"
 #include "robot/files/packages.h"
 #include "robot/files/sdf.h"
@@ -79,7 +79,7 @@ std::string read_text(const fs::path& path) {
   const std::uintmax_t size_on_disk = fs::file_size(path, error);
   if (!error && size_on_disk > kMostBytes) refuse_size(path);
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) refuse(Defect::CannotRead, path, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  if (!stream) fail_to_read(path.string(), errno);
   constexpr std::size_t kChunk = std::size_t{1} << 16;
   std::string text;
   while (stream) {

@@ -2,13 +2,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "certificate/certificate_file.h"
 #include "certificate/finite_original.h"
+#include "geometry/box_around_ball.h"
 #include "geometry/bvh.h"
 #include "prohull/certificate.h"
 #include "verify/exact.h"
@@ -94,24 +94,13 @@ class BallTree {
   File& file_;
 };
 
-/// Never smaller than the ball.
-Box box_around_ball(const Ball& ball) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Box box;
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::nextafter(ball.center[i] - ball.radius, -kInfinity);
-    box.max[i] = std::nextafter(ball.center[i] + ball.radius, kInfinity);
-  }
-  return box;
-}
-
 }  // namespace
 }  // namespace certificate
 
 Certificate balls_certificate(std::span<const Ball> balls, const CertifiedOriginal& original) {
   const certificate::FiniteOriginal finite(original.mesh);
   std::vector<Box> boxes;
-  for (const Ball& ball : balls) boxes.push_back(certificate::box_around_ball(ball));
+  for (const Ball& ball : balls) boxes.push_back(box_around(ball));
   const Bvh bvh(std::move(boxes));
   certificate::File file = certificate::header(HullSide::Outer, original, balls.size(), finite);
   file.section(certificate::Section::Balls);

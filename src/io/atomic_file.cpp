@@ -12,11 +12,13 @@
 namespace prohull {
 namespace {
 
-std::string_view advice(int error) {
+std::string_view advice(int error, const std::filesystem::path& file) {
+  std::error_code ignored;
   switch (error) {
     case ENOENT:
     case ENOTDIR:
-      return "; create the folder first";
+      return std::filesystem::is_directory(file.parent_path(), ignored) ? "; this folder takes no files, choose another"
+                                                                        : "; create the folder first";
     case EACCES:
     case EPERM:
     case EROFS:
@@ -74,7 +76,7 @@ void AtomicFile::commit() {
 void AtomicFile::fail() const {
   const int error = errno;
   throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write: {}{}", path_.string(),
-                                                    std::generic_category().message(error), advice(error)));
+                                                    std::generic_category().message(error), advice(error, target_)));
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

@@ -15,16 +15,12 @@
 #include "io/file.h"
 #include "io/mesh_readers.h"
 #include "prohull/error.h"
+#include "prohull/missing_file.h"
 
 namespace prohull {
 namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 18;
-
-[[noreturn]] void fail_to_read(const std::filesystem::path& path) {
-  throw InputError(Defect::CannotRead,
-                   fmt::format("{}: cannot read: {}", path.string(), std::generic_category().message(errno)));
-}
 
 [[noreturn]] void fail_to_decompress(const std::filesystem::path& name, std::string_view reason) {
   throw InputError(Defect::Malformed, fmt::format("{}: cannot decompress: {}", name.string(), reason));
@@ -142,16 +138,25 @@ FileContent only_mesh(std::string_view bytes, const std::filesystem::path& name)
 
 }  // namespace
 
+void fail_to_read(const std::string& name, int error) {
+  const std::string what = name + ": cannot read: ";
+  if (error == ENOENT || error == ENOTDIR)
+    throw MissingFile(what + "there is no such file; look at its name and its folder");
+  throw InputError(Defect::CannotRead, what + (error == EISDIR   ? "it is a folder; name a file in it"
+                                               : error == EACCES ? "you may not read it; ask its owner, or copy it"
+                                                                 : std::generic_category().message(error)));
+}
+
 std::string read_file(const std::filesystem::path& path) {
   const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  if (!file) fail_to_read(path);
+  if (!file) fail_to_read(path.string(), errno);
   std::error_code unknown;  // the size of a pipe
   const std::uintmax_t expected = std::filesystem::file_size(path, unknown);
   std::string bytes;
   if (!unknown) bytes.reserve(expected + kChunk);
   std::size_t size = 0;
   while (const std::size_t read = std::fread(grow(bytes, size), 1, kChunk, file.get())) size += read;
-  if (std::ferror(file.get())) fail_to_read(path);
+  if (std::ferror(file.get())) fail_to_read(path.string(), errno);
   bytes.resize(size);
   return bytes;
 }

@@ -78,10 +78,12 @@ const FormatTraits& format_of(std::string_view content, const std::filesystem::p
   if (found) return *found;
   if (is_obj_keyword(first_word(content))) return traits(MeshFormat::Obj);
   if (is_hull_content(content))
-    throw InputError(Defect::UnknownFormat,
-                     fmt::format("{}: this is a progressive hull and not a mesh; load_hull (in Python, load) reads it, "
-                                 "and `prohull lod` makes a mesh of any of its levels",
-                                 name.string()));
+    throw InputError(
+        Defect::UnknownFormat,
+        fmt::format("{}: this is a progressive hull and not a mesh; `prohull lod` makes a mesh of any of its "
+                    "levels, and prohull.load of Python reads it",
+                    name.string()));
+  if (content.empty()) throw InputError(Defect::UnknownFormat, fmt::format("{}: it is empty", name.string()));
   throw InputError(Defect::UnknownFormat,
                    fmt::format("{}: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another "
                                "file that is read",

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "geometry/box_around_ball.h"
 #include "geometry/bvh.h"
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
@@ -77,17 +78,6 @@ bool holds(const Ball& ball, const Triangle& t, const Vec3& weights) {
 }
 
 bool holds(const Ball& ball, const Vec3& p) { return holds(ball, {p, p, p}, {1, 0, 0}); }
-
-/// Never smaller than the ball.
-Box box_around(const Ball& ball) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Box box;
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::nextafter(ball.center[i] - ball.radius, -kInfinity);
-    box.max[i] = std::nextafter(ball.center[i] + ball.radius, kInfinity);
-  }
-  return box;
-}
 
 class Balls {
  public:

@@ -34,6 +34,9 @@ expect 2 "no inner hull, but its faces" $cage -o a.obj --inner-faces 100
 says err "no inner hull, but its faces" "--inner"
 expect 2 "two hulls in one file" $cage -o a.obj --inner a.obj
 expect 2 "a gap of nothing" $cage -o a.obj --gap 0
+printf 'OFF\n0 0 0\n' >empty.off
+expect 3 "no faces" $prohull cage empty.off -o a.obj
+says err "no faces" "empty.off: the mesh has no faces: nothing to enclose"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n' >sheet.off
 expect 0 "a sheet" $prohull cage sheet.off -o sheet.obj --strict
 expect 3 "an inner hull of a sheet" $prohull cage sheet.off -o a.obj --inner b.obj

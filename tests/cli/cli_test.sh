@@ -499,6 +499,10 @@ expect 2 "unknown command" $prohull biuld rock.ply -o x.ply
 says err "unknown command" "unknown command 'biuld'; did you mean 'build'?"
 expect 2 "unknown option" $prohull build rock.ply -o x.ply --face 10
 says err "unknown option" "unknown option '--face' of build; did you mean '--faces'?"
+expect 2 "a letter" $prohull build rock.ply -o x.ply -f 10
+says err "a letter" "unknown option '-f' of build; did you mean '--faces'?"
+expect 2 "a letter of nothing" $prohull build rock.ply -o x.ply -z
+is "a letter of nothing: nothing is suggested" sh -c "! grep -q 'did you mean' err"
 expect 2 "an option with =" $prohull build rock.ply -o x.ply --max-viod=10
 says err "an option with =" "unknown option '--max-viod' of build; did you mean '--max-void'?"
 expect 2 "an option before the command" $prohull --quiet info rock.ply
@@ -570,6 +574,8 @@ expect 0 "help of the program" $prohull help
 says out "help of the program" "Commands:"
 expect 2 "help of no command" $prohull help biuld
 says err "help of no command" "did you mean 'build'?"
+expect 0 "exclusions" env COLUMNS=1000 $prohull help build
+is "exclusions are told once" sh -c "! grep -q 'Not with.*Not with' out"
 for command in "" build verify info lod query contains distance collide convex render sample completion manual help; do
   for columns in 40 80 132; do
     expect 0 "help in $columns columns" env COLUMNS=$columns $prohull help $command
@@ -597,8 +603,8 @@ bad() {
 }
 head -c 1000 rock.ply >truncated.ply
 bad "truncated file" truncated.ply "truncated.ply: byte"
-bad "missing file" nowhere.ply "nowhere.ply"
-bad "folder as file" . "."
+bad "missing file" nowhere.ply "nowhere.ply: cannot read: there is no such file; look at its name and its folder"
+bad "folder as file" . "cannot read: it is a folder; name a file in it"
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 nan 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >nan.off
 bad "NaN" nan.off "not finite" "--repair none"
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 9\n3 1 2 3\n3 2 0 3\n' >index.off
@@ -606,6 +612,9 @@ bad "index out of range" index.off "line 8"
 printf 'OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n' >open.off
 printf 'OFF\n0 0 0\n' >empty.off
 bad "empty mesh" empty.off "no faces"
+bad "levels" rock.phull "\`prohull lod\` makes a mesh of any of its levels"
+expect 3 "empty standard input" sh -c "$prohull build - -o x.ply </dev/null"
+says err "empty standard input" "standard input: it is empty"
 printf 'OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n' >flat.off
 printf 'OFF\n4 4 0\n0 0 0\n1e200 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >huge.off
 bad "open mesh" open.off "has 1 face" "--repair none"
@@ -793,6 +802,10 @@ says out "semicolons" "1 hit; 1 of 1 rays hit"
 # --- nothing half-written ---
 expect 3 "no such folder" $prohull build rock.ply --faces 500 -o nowhere/hull.ply
 says err "no such folder" "nowhere/hull.ply"
+if [ -d /proc/self ]; then
+  expect 3 "a folder that takes no files" $prohull build rock.ply --faces 500 -o /proc/x.stl
+  says err "a folder that takes no files" "choose another"
+fi
 if [ "$(id -u)" -ne 0 ]; then
   mkdir read_only && chmod a-w read_only
   expect 3 "read-only folder" $prohull build rock.ply --faces 500 -o read_only/hull.ply

@@ -195,6 +195,9 @@ rm before/meshes/knot.ply
 expect 3 "a missing mesh" $prohull urdf before/robot.urdf -o none
 says err "a missing mesh" "--skip-missing"
 says err "a missing mesh" "knot.ply"
+expect 3 "a dry run with a missing mesh" $prohull urdf before/robot.urdf --dry-run
+says out "a dry run with a missing mesh" "an error, as its mesh is missing"
+expect 0 "a dry run that skips a missing mesh" $prohull urdf before/robot.urdf --dry-run --skip-missing
 absent none "what is refused leaves nothing"
 expect 0 "a missing mesh is skipped" $prohull urdf before/robot.urdf -o skipped --skip-missing $small
 says out "a missing mesh is skipped" "left as it is"

@@ -57,6 +57,8 @@ TEST(AtomicFile, SaysWhyAndWhatToDo) {
   };
   expect(folder / "none/a.txt", "No such file or directory; create the folder first");
   expect(folder.path(), "Is a directory; name a file in it");
+  if (std::filesystem::is_directory("/proc/self"))
+    expect("/proc/self/a.txt", "No such file or directory; this folder takes no files, choose another");
   if (std::filesystem::exists("/dev/full"))
     expect("/dev/full", "No space left on device; make room, or choose another disk");
   if (geteuid() != 0) {

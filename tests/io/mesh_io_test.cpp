@@ -7,6 +7,7 @@
 
 #include "io_testing.h"
 #include "prohull/length.h"
+#include "prohull/missing_file.h"
 #include "random.h"
 
 namespace prohull {
@@ -44,6 +45,7 @@ TEST(MeshFormat, IsToldByTheContentIfTheNameHasNone) {
       "hello", "part",
       "part: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another file that is read",
       Defect::UnknownFormat);
+  expect_refused("", "standard input", "standard input: it is empty", Defect::UnknownFormat);
 }
 
 TEST(MeshFormat, ThatTheContentContradictsIsAnError) {
@@ -53,10 +55,11 @@ TEST(MeshFormat, ThatTheContentContradictsIsAnError) {
 }
 
 TEST(ReadMesh, PointsToWhatReadsAProgressiveHull) {
-  expect_refused("\x89PHULL\r\n", "knot.phull",
-                 "knot.phull: this is a progressive hull and not a mesh; load_hull (in Python, load) reads it, and "
-                 "`prohull lod` makes a mesh of any of its levels",
-                 Defect::UnknownFormat);
+  expect_refused(
+      "\x89PHULL\r\n", "knot.phull",
+      "knot.phull: this is a progressive hull and not a mesh; `prohull lod` makes a mesh of any of its levels, "
+      "and prohull.load of Python reads it",
+      Defect::UnknownFormat);
 }
 
 TEST(ReadMesh, MultipliesCoordinatesByTheScale) {
@@ -75,9 +78,11 @@ TEST(ReadMesh, MultipliesCoordinatesByTheScale) {
 
 TEST(ReadMesh, SaysWhyAFileCannotBeRead) {
   expect_input_error([] { read_mesh("no_such_file.ply"); }, Defect::CannotRead,
-                     "no_such_file.ply: cannot read: No such file or directory");
+                     "no_such_file.ply: cannot read: there is no such file; look at its name and its folder");
+  EXPECT_THROW(read_mesh("no_such_file.ply"), MissingFile);
   const TemporaryFolder folder;
-  EXPECT_THROW(read_mesh(folder.path()), InputError);
+  expect_input_error([&] { read_mesh(folder.path()); }, Defect::CannotRead,
+                     folder.path().string() + ": cannot read: it is a folder; name a file in it");
 }
 
 TEST(WriteMesh, KeepsEveryBitOfDoubles) {
