@@ -47,8 +47,9 @@ std::string check_options(const BuildOptions& options) {
   require_faces_in_name(options, options.out);
   if (options.faces.size() > 1 && !options.hierarchy.empty())
     refuse("--hierarchy is for one number of --faces only; its file holds all finer levels anyway");
-  if (options.allow_self_intersections && !options.is_outer())
-    refuse("--allow-self-intersections is not for inner hulls: one that intersects itself could stick out of the mesh");
+  if (options.enclosing.hull.self_intersections == SelfIntersections::Allowed &&
+      (options.enclosing.tight || !options.is_outer()))
+    refuse("--self-intersections allowed is for outer hulls without --tight; no other may intersect itself");
   check_certified_original(options.certificate, options.in);
   check_certified_output(options.certificate, suffix);
   require_faces_in_name(options, options.certificate);
@@ -167,8 +168,6 @@ void complete(BuildOptions& options, const std::string& suffix) {
   hull.float32_coordinates = stores_float32(mesh_format("hull" + suffix));
   hull.guards.max_normal_deviation = options.normal_deviation_degrees * kDegree;
   if (options.max_void_percent > 0) options.enclosing.bounds.max_void_ratio = options.max_void_percent / 100;
-  if (options.allow_self_intersections) hull.self_intersections = SelfIntersections::Allowed;
-  if (options.no_self_intersections) hull.self_intersections = SelfIntersections::Refused;
   options.enclosing.levels = !options.hierarchy.empty();
 }
 
@@ -211,38 +210,31 @@ int run_build(BuildOptions options) {
 
 void add_guards(CLI::App& command, BuildOptions& options) {
   HullOptions& hull = options.enclosing.hull;
-  constexpr const char* kGuards = "Guards of the shape";
-  command
-      .add_flag("!--keep-guards", hull.relax_guards,
-                "Keep these limits. Otherwise they are relaxed in four steps where the number of faces cannot be "
-                "reached.")
-      ->group(kGuards);
+  command.add_flag(
+      "!--keep-guards", hull.relax_guards,
+      "Keep the limits of the shape that follow. Otherwise they are relaxed in four steps where the number of "
+      "faces cannot be reached.");
   add_number(command, "--max-valence", hull.guards.max_valence, {3, 1e6},
              "Largest valence of a new vertex. The valence of a vertex is the number of faces around it.")
-      ->capture_default_str()
-      ->group(kGuards);
+      ->capture_default_str();
   add_number(command, "--min-compactness-ratio", hull.guards.min_compactness_ratio, {0, 1},
              "Least compactness of the worst face that a collapse leaves, divided by that of the worst face before, 0 "
              "to 1. The compactness of a triangle is 1 if its sides are equal, and 0 if it has no area.")
       ->capture_default_str()
-      ->type_name("RATIO")
-      ->group(kGuards);
+      ->type_name("RATIO");
   add_number(command, "--sufficient-compactness", hull.guards.sufficient_compactness, {0, 1},
              "Compactness, 0 to 1, that is enough for a face whatever it was before. For the strategy lazy only.")
       ->capture_default_str()
-      ->type_name("COMPACTNESS")
-      ->group(kGuards);
+      ->type_name("COMPACTNESS");
   add_number(command, "--max-normal-deviation", options.normal_deviation_degrees, {0, 90},
              "Largest angle by which a collapse may turn a face, in degrees, 0 to 90.")
       ->capture_default_str()
-      ->type_name("DEGREES")
-      ->group(kGuards);
+      ->type_name("DEGREES");
   add_number(command, "--max-overhang", hull.guards.max_overhang, {0, 10},
              "How far a new vertex may lie outside of the bounding box of the mesh, along each axis, divided by the "
              "diagonal of the box, 0 to 10.")
       ->capture_default_str()
-      ->type_name("RATIO")
-      ->group(kGuards);
+      ->type_name("RATIO");
 }
 
 void add_bounds(CLI::App& command, BuildOptions& options) {
@@ -254,22 +246,20 @@ void add_bounds(CLI::App& command, BuildOptions& options) {
              "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, caps on "
              "its openings included (an inner hull: how much less).")
       ->type_name("PERCENT");
-  add_number(command, "--max-added-volume", options.enclosing.bounds.max_added_volume, kPositive,
-             "Largest allowed volume between hull and mesh, in the mesh's unit, cubed.")
-      ->type_name("V");
 }
 
-void add_self_intersections(CLI::App& command, BuildOptions& options, CLI::Option* tight) {
-  CLI::Option* const allow =
-      command.add_flag("--allow-self-intersections", options.allow_self_intersections,
-                       "Allow collapses that make an outer hull intersect itself, which is faster. On by default for "
-                       "the strategies paper1 and paper2.");
-  command
-      .add_flag("--no-self-intersections", options.no_self_intersections,
-                "Refuse collapses that make the hull intersect itself. On by default, except for the strategies paper1 "
-                "and paper2.")
-      ->excludes(allow);
-  allow->excludes(tight);
+/// What `help build` leaves out, under the headings of `help build --all`.
+void group_options(CLI::App& command) {
+  const std::pair<const char*, std::vector<const char*>> groups[] = {
+      {"More about files", {"--in-format", "--scale", "--recenter", "--out-format", "--certificate", "--threads"}},
+      {"More about bounds", {"--max-void", "--tolerance", "--strict"}},
+      {"More about repairs", {"--open-shells", "--keep-cavities", "--seal-holes"}},
+      {"More about hulls", {"--mirror", "--best-of", "--seed"}},
+      {"More for research",
+       {"--strategy", "--self-intersections", "--keep-guards", "--max-valence", "--min-compactness-ratio",
+        "--sufficient-compactness", "--max-normal-deviation", "--max-overhang"}}};
+  for (const auto& [heading, names] : groups)
+    for (const char* const name : names) command.get_option(name)->group(heading);
 }
 
 }  // namespace
@@ -297,7 +287,7 @@ void add_build(CLI::App& app, Run& run) {
   add_mesh_output_options(command, options->out, options->out_format,
                           "the hull, in whose name {faces} becomes the number of faces asked for");
   add_number(
-      command, "--faces,--target-faces", options->faces, {4, 1e9},
+      command, "--faces", options->faces, {4, 1e9},
       "Number of faces that the hull should have, at least 4. Several numbers, as in 1000,100, make a hull each.")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -312,7 +302,7 @@ void add_build(CLI::App& app, Run& run) {
       "Also move vertices towards the mesh between collapses. Such a hull has the least void and never intersects "
       "itself, but takes 2 to 8 times as long to build, and some seconds if it has at most 200 faces.");
   CLI::Option* const gap = add_length(
-      command, "--gap,--padding", options->gap,
+      command, "--gap", options->gap,
       "Least distance between hull and mesh. It is proven. All points within this distance of the mesh are inside of "
       "an outer hull. An inner hull leaves out what is thinner than two gaps. Bounds such as --max-distance count from "
       "the gap on. Use --tight for the least void.");
@@ -355,7 +345,10 @@ void add_build(CLI::App& app, Run& run) {
       ->excludes(gap)
       ->type_name("H.phull");
   add_certificate_option(command, options->certificate, "the hull")->excludes(recenter);
-  add_self_intersections(command, *options, tight);
+  add_choice(
+      command, "--self-intersections", hull.self_intersections, self_intersections_names(),
+      "Whether collapses may make an outer hull intersect itself, which is faster. by-strategy allows it for the "
+      "strategies paper1 and paper2 only.");
   add_number(command, "--best-of", hull.best_of, {1, 1e6},
              "Build this many hulls, with a seed each, and keep the one of least void.")
       ->capture_default_str();
@@ -367,6 +360,7 @@ void add_build(CLI::App& app, Run& run) {
                    "Exit with code 1 if the number of faces is not reached; a bound that is missed always does so.");
   add_report_option(command, options->report);
   add_guards(command, *options);
+  group_options(command);
   add_examples(command, {"prohull build horse.ply --faces 2000 -o hull.ply",
                          "prohull build arm.stl --unit mm --faces 500 -o arm_collision.stl --report arm.json",
                          "prohull build arm.stl --faces 200 --tight -o arm_collision.stl",

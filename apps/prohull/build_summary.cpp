@@ -133,7 +133,6 @@ nlohmann::json options_report(const BuildOptions& options) {
       {"side", name_of(hull_side_names(), hull.side)},
       {"max_distance", finite_or_null(bounds.max_distance)},
       {"max_void_percent", options.max_void_percent > 0 ? nlohmann::json(options.max_void_percent) : nlohmann::json()},
-      {"max_added_volume", finite_or_null(bounds.max_added_volume)},
       {"padding", options.enclosing.padding},
       {"repair", name_of(repair_names(), options.enclosing.repair)},
       {"keep_cavities", options.enclosing.keep_cavities},

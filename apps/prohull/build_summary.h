@@ -19,7 +19,7 @@ struct BuildOptions {
   double normal_deviation_degrees = 45;
   double max_void_percent = 0;           ///< 0: any
   Length gap, max_distance, seal_holes;  ///< the numbers in `enclosing` follow from them
-  bool recenter = false, strict = false, allow_self_intersections = false, no_self_intersections = false;
+  bool recenter = false, strict = false;
 
   bool is_outer() const { return enclosing.hull.side == HullSide::Outer; }
 };

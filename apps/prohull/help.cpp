@@ -104,6 +104,9 @@ std::string command_list(const std::vector<Command>& commands, std::size_t width
   return text;
 }
 
+/// Whether only --all shows it.
+bool is_more(const Argument& argument) { return argument.group.starts_with("More "); }
+
 std::string footer(const Command& command, std::size_t width) {
   std::string text;
   for (const std::string& line : command.footer)  // examples are to be copied, so they stay lines
@@ -113,7 +116,7 @@ std::string footer(const Command& command, std::size_t width) {
 
 }  // namespace
 
-std::string HelpFormatter::make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const {
+std::string HelpFormatter::make_help(const CLI::App* app, std::string, CLI::AppFormatMode mode) const {
   const std::size_t width = text_width();
   Command command = command_of(*app);
   const std::vector<Command> commands = commands_of(*app);
@@ -121,7 +124,10 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string, CLI::AppF
   std::string text =
       wrapped(command.description, width, 0) + "\n" + wrapped(usage(command, !commands.empty()), width, 0);
   if (!commands.empty()) text += command_list(commands, width);
-  return text + arguments(command, width) + footer(command, width);
+  std::string hint;
+  if (const auto more = mode == CLI::AppFormatMode::All ? 0 : std::erase_if(command.arguments, is_more); more > 0)
+    hint = fmt::format("\n`prohull help {} --all` shows {} more options.\n", app->get_name(), more);
+  return text + arguments(command, width) + hint + footer(command, width);
 }
 
 namespace {
@@ -200,7 +206,9 @@ std::string what_is_wrong(const CLI::App& app, const CLI::Error& error) {
 }
 
 /// App::help gives that of the command that was chosen.
-std::string help_of(const CLI::App& app) { return HelpFormatter().make_help(&app, "", CLI::AppFormatMode::Normal); }
+std::string help_of(const CLI::App& app, bool all = false) {
+  return HelpFormatter().make_help(&app, "", all ? CLI::AppFormatMode::All : CLI::AppFormatMode::Normal);
+}
 
 }  // namespace
 
@@ -210,23 +218,25 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
   if (chosen.empty() && before_command.empty()) return help_of(*app);
   const std::string what =
       before_command.empty() ? what_is_wrong(*chosen.front(), error) : unknown_before_command(*app, before_command);
-  return fmt::format("prohull: {}\n`prohull help{}` has all {}, with examples.\n", printable(what),
+  return fmt::format("prohull: {}\n`prohull help{}` shows {}, with examples.\n", printable(what),
                      chosen.empty() ? "" : " " + chosen.front()->get_name(), chosen.empty() ? "commands" : "options");
 }
 
 void add_help(CLI::App& app, Run& run) {
   const auto name = std::make_shared<std::string>();
+  const auto all = std::make_shared<bool>(false);
   CLI::App& command = *app.add_subcommand("help", "Shows the help of a command, or of the program.");
   CLI::Option* const option =
       command.add_option("command", *name, "The command. Without it, the help of prohull itself is shown.");
   option->type_name("COMMAND");
-  add_examples(command, {"prohull help", "prohull help build"});
-  command.callback([&app, name, &run] {
+  command.add_flag("--all", *all, "Show all options, also those that are seldom needed.");
+  add_examples(command, {"prohull help", "prohull help build", "prohull help build --all"});
+  command.callback([&app, name, all, &run] {
     const auto words = names_of(commands_of(app));
     if (!name->empty() && std::ranges::find(words, *name) == words.end())
       throw CLI::ValidationError("command", fmt::format("unknown command '{}'{}", *name, suggestion(*name, words)));
-    run = [&app, name] {
-      fmt::print("{}", help_of(name->empty() ? app : *app.get_subcommand(*name)));
+    run = [&app, name, all] {
+      fmt::print("{}", help_of(name->empty() ? app : *app.get_subcommand(*name), *all));
       return kDone;
     };
   });

@@ -34,7 +34,7 @@ std::vector<double> numbers_of(const std::string& text, std::size_t count, const
 /// Refuses what is none of the words, and suggests the nearest.
 CLI::Validator one_of(const std::string& name, const std::vector<std::string>& words);
 
-/// "--faces" of "-f,--faces,--target-faces"; "SHELL" of "shell"
+/// "--out" of "-o,--out"; "SHELL" of "shell"
 std::string main_name(const std::string& names);
 
 /// Values of which each is a number, such as std::size_t or std::vector<double>.

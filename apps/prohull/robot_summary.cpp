@@ -172,7 +172,7 @@ std::string plan_of(const Link& link, const LinkHullOptions& options) {
   if (!has([&](const Shape& shape) { return is_covered(shape, budget); })) return "primitives, kept";
   std::string text = cover_of(budget);
   if (budget.max_distance > 0) text += fmt::format(", within {}", millimetres(budget.max_distance));
-  if (budget.padding > 0) text += fmt::format(", with a padding of {}", millimetres(budget.padding));
+  if (budget.padding > 0) text += fmt::format(", with a gap of {}", millimetres(budget.padding));
   return text;
 }
 

@@ -28,7 +28,7 @@ struct UrdfOptions {
   path in, out, budgets, write_budgets, cache, report, junit, html;
   FileOptions file;
   LinkHullOptions hulls;
-  std::string max_distance = "0", padding = "0", allow = "0", package;
+  std::string max_distance = "0", gap = "0", allow = "0", package;
   bool certificate = false, check = false, dry_run = false, no_cache = false, no_pictures = false,
        sampled_pairs = false;
   MotionOptions motion{.configurations = 1000};
@@ -51,7 +51,7 @@ path default_cache() {
 void complete(UrdfOptions& options) {
   Budget& budget = options.hulls.budget;
   budget.max_distance = length_of(options.max_distance, "--max-distance");
-  budget.padding = length_of(options.padding, "--padding");
+  budget.padding = length_of(options.gap, "--gap");
   if (!options.no_cache) options.hulls.cache = options.cache.empty() ? default_cache() : options.cache;
   options.hulls.threads = options.motion.threads = options.threads;
 }
@@ -280,19 +280,19 @@ CLI::Option* add_budgets(CLI::App& command, UrdfOptions& options) {
       .add_option("--max-distance", options.max_distance,
                   "Largest allowed distance of any point of a hull from the geometry, in metres or with a unit: 2mm. "
                   "Hulls then have the fewest faces that keep it, but at least --faces. Convex pieces and spheres are "
-                  "then as few as keep it, but at most --pieces and --spheres. Padding does not count. The exit code "
+                  "then as few as keep it, but at most --pieces and --spheres. The gap does not count. The exit code "
                   "is 1 if a hull cannot keep it.")
       ->type_name("LENGTH")
       ->group(kBudgets);
   command
-      .add_option("--padding", options.padding,
+      .add_option("--gap", options.gap,
                   "Least distance that the hulls keep from the geometry, in metres or with a unit: 5mm. Not for convex "
                   "pieces and spheres.")
       ->type_name("LENGTH")
       ->group(kBudgets);
   command
       .add_option("--budgets", options.budgets,
-                  "YAML file with collision, faces, pieces, vertices, spheres, max_distance, padding and skip for each "
+                  "YAML file with collision, faces, pieces, vertices, spheres, max_distance, gap and skip for each "
                   "link; see --write-budgets.")
       ->type_name("FILE.yaml")
       ->group(kBudgets);
@@ -417,7 +417,7 @@ void add_urdf(CLI::App& app, Run& run) {
   write_budgets->excludes(out)->excludes(dry_run);
   add_examples(
       command,
-      {"prohull urdf arm.urdf -o arm_safe", "prohull urdf arm.urdf -o arm_safe --faces 500,100 --padding 5mm",
+      {"prohull urdf arm.urdf -o arm_safe", "prohull urdf arm.urdf -o arm_safe --faces 500,100 --gap 5mm",
        "prohull urdf arm.xml -o arm_convex --collision convex --pieces 16",
        "prohull urdf arm.urdf -o arm_spheres --collision spheres --spheres 64",
        "prohull urdf arm.urdf -o arm_safe --certificate",

@@ -42,8 +42,7 @@ EnclosingOptions options_of(const Keywords& given) {
   hull.tolerances = PerFace<double>(given.get<std::vector<double>>("tolerances", "a number for each face"));
   options.bounds.max_distance = given.not_negative("max_distance");
   options.bounds.max_void_ratio = given.not_negative("max_void_percent") / 100;
-  options.bounds.max_added_volume = given.not_negative("max_added_volume");
-  options.padding = given.not_negative("padding");
+  options.padding = given.not_negative("gap");
   options.tight = given.flag("tight");
   options.levels = given.flag("levels");
   options.repair = given.choice("repair", repair_names());
@@ -119,9 +118,8 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
   facts["covered"] = judges.covered(hull);
   facts["volume_inside"] = std::isnan(hull.void_ratio) ? 0 : made.volume;
   if (options.bounds.any() && options.padding == 0)
-    facts["bounds"] =
-        py::make_tuple(judges.measured(hull), made.volume > 0 ? made.volume : solid.volume, options.bounds.max_distance,
-                       options.bounds.max_void_ratio, options.bounds.max_added_volume);
+    facts["bounds"] = py::make_tuple(judges.measured(hull), made.volume > 0 ? made.volume : solid.volume,
+                                     options.bounds.max_distance, options.bounds.max_void_ratio);
   facts["replay_suffices"] =
       solid.source == Source::Mesh && solid.self_intersections == 0 && made.input.dropped.face_count() == 0;
   facts["source"] = name_of(source_names(), hull.source);

@@ -119,7 +119,7 @@ LinkHullOptions options_of(const Robot& robot, const py::dict& given) {
   options.budget.vertices = given["vertices"].cast<std::size_t>();
   options.budget.spheres = given["spheres"].cast<std::size_t>();
   options.budget.max_distance = given["max_distance"].cast<double>();
-  options.budget.padding = given["padding"].cast<double>();
+  options.budget.padding = given["gap"].cast<double>();
   options.format = given["format"].cast<std::string>();
   options.tight = given["tight"].cast<bool>();
   options.skip_missing = given["skip_missing"].cast<bool>();

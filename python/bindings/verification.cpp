@@ -96,9 +96,9 @@ std::string proof_of(const TriangleMesh& hull, const TriangleMesh& given, const 
 }
 
 bool is_within(const TriangleMesh& hull, const TriangleMesh& original, double volume, double max_distance,
-               double max_void_ratio, double max_added_volume) {
+               double max_void_ratio) {
   return watched(py::none(), [&](Watch& watch) {
-    return HullBounds{max_distance, max_void_ratio, max_added_volume}.hold(hull, original, volume, watch.progress());
+    return HullBounds{max_distance, max_void_ratio}.hold(hull, original, volume, watch.progress());
   });
 }
 

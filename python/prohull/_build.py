@@ -18,7 +18,7 @@ from ._types import Axis, Gap, MeshLike, Numbers, OpenShells, Progress, Repair, 
 
 @overload
 def build(mesh: MeshLike, target_faces: int = 2000, *, side: Side = ..., tight: bool = ..., levels: bool = ...,
-          max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
+          max_distance: Gap = ..., max_void_percent: float = ..., gap: Gap = ...,
           tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: Gap = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
@@ -28,7 +28,7 @@ def build(mesh: MeshLike, target_faces: int = 2000, *, side: Side = ..., tight: 
           progress: Optional[Progress] = ...) -> Hull: ...
 @overload
 def build(mesh: MeshLike, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ..., levels: bool = ...,
-          max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ..., padding: Gap = ..., gap: Gap = ...,
+          max_distance: Gap = ..., max_void_percent: float = ..., gap: Gap = ...,
           tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: Gap = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
@@ -38,8 +38,8 @@ def build(mesh: MeshLike, target_faces: Sequence[int], *, side: Side = ..., tigh
           progress: Optional[Progress] = ...) -> list[Hull]: ...
 @overload
 def build(vertices: Rows, /, faces: Rows, target_faces: int = 2000, *, side: Side = ..., tight: bool = ...,
-          levels: bool = ..., max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
+          levels: bool = ..., max_distance: Gap = ..., max_void_percent: float = ...,
+          gap: Gap = ..., tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: Gap = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
@@ -48,8 +48,8 @@ def build(vertices: Rows, /, faces: Rows, target_faces: int = 2000, *, side: Sid
           progress: Optional[Progress] = ...) -> Hull: ...
 @overload
 def build(vertices: Rows, /, faces: Rows, target_faces: Sequence[int], *, side: Side = ..., tight: bool = ...,
-          levels: bool = ..., max_distance: Gap = ..., max_void_percent: float = ..., max_added_volume: float = ...,
-          padding: Gap = ..., gap: Gap = ..., tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
+          levels: bool = ..., max_distance: Gap = ..., max_void_percent: float = ...,
+          gap: Gap = ..., tolerances: Optional[Numbers] = ..., mirror: Optional[Axis] = ..., repair: Repair = ..., keep_cavities: bool = ...,
           open_shells: OpenShells = ..., seal_holes: Gap = ...,
           float32_coordinates: bool = ..., strategy: Strategy = ..., best_of: int = ..., seed: int = ...,
           threads: int = ..., self_intersections: SelfIntersections = ..., relax_guards: bool = ...,
@@ -58,7 +58,7 @@ def build(vertices: Rows, /, faces: Rows, target_faces: Sequence[int], *, side: 
           progress: Optional[Progress] = ...) -> list[Hull]: ...
 def build(mesh: Any, faces: Any = None, target_faces: Any = None, *,  # type: ignore[misc]  # the two ways of calls
           side: Side = "outer", tight: bool = False, levels: bool = False, max_distance: Gap = math.inf,
-          max_void_percent: float = math.inf, max_added_volume: float = math.inf, padding: Gap = 0.0, gap: Gap = 0.0,
+          max_void_percent: float = math.inf, gap: Gap = 0.0,
           tolerances: Optional[Numbers] = None, mirror: Optional[Axis] = None, repair: Repair = "auto",
           keep_cavities: bool = False, open_shells: OpenShells = "close", seal_holes: Gap = 0.0,
           float32_coordinates: bool = False,
@@ -87,13 +87,11 @@ def build(mesh: Any, faces: Any = None, target_faces: Any = None, *,  # type: ig
     levels: whether to keep levels whatever the source is. Vertices then do not move after the last collapse, neither
         back towards the mesh nor over its folds.
     max_distance: largest distance of a point of the hull from the mesh, at least 0, said as gap is. It is proven.
-        The hull is the coarsest one, of at least target_faces faces, that keeps this bound and the next two.
+        The hull is the coarsest one, of at least target_faces faces, that keeps this bound and the next.
     max_void_percent: largest void, in per cent of the mesh's volume, at least 0.
-    max_added_volume: largest void, in cubic units, at least 0.
     gap: least distance between hull and mesh, in the mesh's unit, at least 0; or as in "0.5%" of the diagonal of the
         mesh's bounding box. It is proven. All points that near are inside of an outer hull. An inner hull leaves out
         what is thinner than two gaps. The bounds above then count from there. For hulls without levels only.
-    padding: another name of gap.
     tolerances: a number for each face of the mesh, at least 0: no point of the face is farther from the hull, in the
         mesh's unit. It is proven. 0 keeps the face, so that the hull has it with the same coordinates; math.inf allows
         any distance. Numbers for each vertex become such ones by `per_vertex[faces].min(axis=1)`. For hulls of meshes
@@ -135,13 +133,10 @@ def build(mesh: Any, faces: Any = None, target_faces: Any = None, *,  # type: ig
         hull.save("part_collision.stl")
     """
     given, targets = _given(mesh, faces, target_faces)
-    if gap and padding:
-        raise InputError(f"gap={gap!r}, padding={padding!r}: these are two names of one number; give one of them")
     keywords = dict(
         side=side, tight=tight, levels=levels,
         max_distance=bound_of("max_distance", max_distance, given), max_void_percent=max_void_percent,
-        max_added_volume=max_added_volume,
-        padding=distance_of("gap" if gap else "padding", gap or padding, given),
+        gap=distance_of("gap", gap, given),
         tolerances=() if tolerances is None else tolerances, mirror=mirror,
         repair=repair, keep_cavities=keep_cavities,
         open_shells=open_shells, seal_holes=bound_of("seal_holes", seal_holes, given),

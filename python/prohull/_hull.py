@@ -21,11 +21,11 @@ class Hull(Mesh):
 
     certified: bool  #: whether it is proven, exactly, by code that shares nothing with the construction
     proof: Proof  #: how it was proven: "replay", "enclosure", "coverage" or "padding" (docs/repair.md); empty if not
-    padding: float  #: least distance from the triangles of the mesh, proven, if build() was asked for a padding; else 0
+    padding: float  #: least distance from the triangles of the mesh, proven, if build() was asked for a gap; else 0
     side: Side  #: "outer" if the hull encloses its original, "inner" if it is enclosed by it
     target_faces: int  #: number of faces that was asked for; of a loaded hull its own
     target_reached: bool  #: whether the hull has at most target_faces faces, or the bounds allow no fewer
-    within_bounds: bool  #: whether max_distance, max_void_percent and max_added_volume hold
+    within_bounds: bool  #: whether max_distance and max_void_percent hold
     refusals: dict[str, int]  #: how often collapses were refused during the construction, by reason
     blocked: dict[str, int]  #: how many of the edges that are left cannot be collapsed, by reason
     relaxed_guards: int  #: number of steps, 0 to 4, by which the guards of the shape were relaxed in the end
@@ -41,7 +41,7 @@ class Hull(Mesh):
     _given: _prohull.Mesh  # the finite triangles that the proof is about
     _original: Mesh
     _covered: Optional[_prohull.Mesh]  # triangles that the hull has to cover beside enclosing its original
-    _bounds: tuple[Any, ...]  # mesh and volume that they are about, max_distance, max_void_ratio, max_added_volume
+    _bounds: tuple[Any, ...]  # mesh and volume that they are about, max_distance, max_void_ratio
     _padding_asked: float
     _mirror: Optional[Axis] = None  # that build() was asked for
     _volume_inside: float  # that void is measured against

@@ -4,7 +4,7 @@
     client = distributed.Client("scheduler:8786")
     rows = prohull.dask.build_folder(client, "meshes", "hulls", 500)
     hull = prohull.dask.build_partitioned(client, "scan.ply", 2000, parts=16)
-    rows = prohull.dask.build_robots(client, ["arm.urdf", "gripper.urdf"], "safe", padding=0.005)
+    rows = prohull.dask.build_robots(client, ["arm.urdf", "gripper.urdf"], "safe", gap=0.005)
     hits = prohull.dask.query(client, hull.original, segments)
 
 The workers need prohull, and must see the same files by the same paths as the caller. What a worker had under way when

@@ -1,7 +1,7 @@
 """Robots: certified collision meshes of all links, and checks of those that a robot ships with (docs/guides/robots.md).
 
     robot = prohull.robot.Robot.load("arm.urdf")
-    hulls = robot.hulls(500, padding=0.005)
+    hulls = robot.hulls(500, gap=0.005)
     hulls.save("arm_safe")
 
 Reads URDF, SDF and MJCF, and expands xacro where the program xacro is installed. Lengths are in metres, angles in
@@ -95,7 +95,7 @@ class LinkHull(NamedTuple):
     source: Source  #: what it was built from
     volume_ratio: float  #: its volume / the volume inside of the geometry; nan if that encloses no space
     distance_bound: float  #: no point of the hull is farther than this from the geometry: proven
-    padding: float  #: least distance from the geometry, proven, if a padding was asked for; else 0
+    padding: float  #: least distance from the geometry, proven, if a gap was asked for; else 0
     self_intersections: int  #: pairs of its faces that intersect
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
 
@@ -310,7 +310,7 @@ class Robot(Shown):
         return self._core.poses(self._positions(positions))
 
     def hulls(self, faces: Union[int, Sequence[int]] = 500, *, collision: Collision = "hull", pieces: int = 8,
-              vertices: int = 64, spheres: int = 64, padding: float = 0, max_distance: Optional[float] = None,
+              vertices: int = 64, spheres: int = 64, gap: float = 0, max_distance: Optional[float] = None,
               tight: bool = False, budgets: Optional[Path] = None, cache: Optional[Path] = None,
               from_: Geometry = "visual", format: Format = "stl", skip_missing: bool = False, threads: int = 0,
               progress: Optional[Progress] = None) -> Hulls:
@@ -324,11 +324,11 @@ class Robot(Shown):
         pieces, vertices: with collision="convex", the largest number of pieces of each link, at least 1, and of
             vertices of each piece, at least 4.
         spheres: with collision="spheres", the largest number of spheres of each link, at least 1.
-        padding: least distance that hulls keep from the geometry, proven. Not for pieces and spheres.
+        gap: least distance that hulls keep from the geometry, proven. Not for pieces and spheres.
         max_distance: largest distance of a point of a hull from the geometry, proven; greater than 0. None: no bound.
             Pieces and spheres are as few as keep it.
         tight: whether to build tight hulls, which takes some five times as long. Not for pieces and spheres.
-        budgets: a YAML file with collision, faces, pieces, vertices, spheres, max_distance, padding and skip for single
+        budgets: a YAML file with collision, faces, pieces, vertices, spheres, max_distance, gap and skip for single
             links.
         cache: a folder that keeps hulls for the next time.
         from_: the geometry that the hulls enclose, "visual" or "collision".
@@ -352,7 +352,7 @@ class Robot(Shown):
         if max_distance is not None and distance == 0:
             raise InputError(f"max_distance={max_distance!r}: expected a number greater than 0, or None for no bound")
         given = {"faces": counts.tolist(), "collision": collision, "pieces": int(pieces), "vertices": int(vertices),
-                 "spheres": int(spheres), "padding": _arrays.not_negative("padding", padding),
+                 "spheres": int(spheres), "gap": _arrays.not_negative("gap", gap),
                  "max_distance": distance, "tight": bool(tight), "cache": cache, "from": from_, "format": format,
                  "skip_missing": bool(skip_missing), "threads": _arrays.count("threads", threads),
                  "budgets": None if budgets is None else pathlib.Path(budgets).read_text(encoding="utf-8"),

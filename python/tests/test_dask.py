@@ -170,7 +170,7 @@ def test_a_fleet_of_robots(client, tmp_path):
     out = tmp_path / "out"
     for _ in range(2):
         good, bad = prohull.dask.build_robots(client, [tmp_path / "good.urdf", tmp_path / "bad.urdf"], out, 100,
-                                              padding=0.01, progress=None)
+                                              gap=0.01, progress=None)
         assert (good.status, good.links, good.hulls, bad.status) == ("built", 1, 1, "refused") and "none.ply" in bad.message
         assert prohull.robot.Robot.load(good.file).check().passes
     with open(out / "robots.csv", newline="") as file:

@@ -44,7 +44,7 @@ def robot(path):
 
 @pytest.fixture(scope="module")
 def hulls(robot):
-    return robot.hulls([200, 100], padding=0.01)
+    return robot.hulls([200, 100], gap=0.01)
 
 
 def test_a_robot_has_links_and_joints(robot):
@@ -70,7 +70,7 @@ def test_poses_follow_the_joints(robot):
 
 
 def test_hulls_are_certified_in_the_frame_that_they_tell(robot, hulls):
-    assert hulls.certified and [link.status for link in hulls] == ["hulled"] * 3  # also a ball gets a padding
+    assert hulls.certified and [link.status for link in hulls] == ["hulled"] * 3  # also a ball gets a gap
     for link in robot.links[:2]:
         for hull, faces in zip(hulls[link.name].hulls, (200, 100)):
             assert len(hull.mesh.faces) <= faces == hull.target_faces
@@ -157,9 +157,9 @@ def test_what_is_wrong_is_told(path, robot, tmp_path):
     ({"max_distance": math.nan}, "max_distance=nan: expected a number"),
     ({"max_distance": 0}, "max_distance=0: expected a number greater than 0, or None"),
     ({"max_distance": "2mm"}, "max_distance='2mm': expected a number"),
-    ({"padding": -0.1}, "padding=-0.1: expected a number, at least 0"),
-    ({"padding": math.inf}, "padding=inf: expected a number"),
-    ({"padding": 10**400}, "expected a number"),
+    ({"gap": -0.1}, "gap=-0.1: expected a number, at least 0"),
+    ({"gap": math.inf}, "gap=inf: expected a number"),
+    ({"gap": 10**400}, "expected a number"),
     ({"threads": -1}, "threads=-1: expected a whole number, at least 0"),
     ({"threads": 1.5}, "threads=1.5: expected a whole number"),
     ({"format": "fbx"}, "format='fbx': expected one of stl, obj, glb"),
@@ -167,7 +167,7 @@ def test_what_is_wrong_is_told(path, robot, tmp_path):
     ({"collision": "convex", "pieces": 0}, "pieces=0: expected a whole number, at least 1"),
     ({"collision": "convex", "vertices": 3}, "vertices=3: expected a whole number, at least 4"),
     ({"collision": "spheres", "spheres": 1.5}, "spheres=1.5: expected a whole number"),
-    ({"collision": "spheres", "padding": 0.1}, "padding"),
+    ({"collision": "spheres", "gap": 0.1}, "gap"),
     ({"from_": "inertial"}, "from_='inertial': expected one of visual, collision"),
 ])
 def test_wrong_options_are_named(robot, options, message):
@@ -182,7 +182,7 @@ def test_wrong_options_of_checks_and_motion_are_named(robot, hulls):
     for options in ({"configurations": -5}, {"configurations": 2.5}, {"seed": -1}, {"threads": 1 << 40}):
         with pytest.raises(prohull.InputError, match=f"{next(iter(options))}=.*: expected a whole number"):
             hulls.motion(**options)
-    assert robot.hulls(np.int32(100), padding=np.float32(0.25)).certified
+    assert robot.hulls(np.int32(100), gap=np.float32(0.25)).certified
 
 
 def test_a_budget_of_no_link_is_told_with_its_line(robot, tmp_path):

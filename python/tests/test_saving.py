@@ -53,7 +53,7 @@ def test_the_hull_of_an_open_shell_is_saved_certified(part, tmp_path):
 
 def test_what_cannot_be_certified_any_more_is_not_written(part, tmp_path):
     hull = prohull.build(part, 300, max_distance=1.0)
-    hull._bounds = (part._core, part.volume, hull.distance_bound / 2, np.inf, np.inf)  # as if it had been at the very bound
+    hull._bounds = (part._core, part.volume, hull.distance_bound / 2, np.inf)  # as if it had been at the very bound
     with pytest.raises(prohull.InputError, match="hull.stl: .*not within its bounds.* float32_coordinates=True, or save it as .ply"):
         hull.save(tmp_path / "hull.stl")
     hull = prohull.build(part, 300)

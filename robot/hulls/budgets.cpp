@@ -47,14 +47,14 @@ class BudgetReader : YamlReader {
   }
 
   void read_budget(const YAML::Node& node, Budget& budget) const {
-    require_keys(node, {"collision", "faces", "pieces", "vertices", "spheres", "max_distance", "padding", "skip"});
+    require_keys(node, {"collision", "faces", "pieces", "vertices", "spheres", "max_distance", "gap", "skip"});
     if (node["collision"]) budget.collision = collision(node["collision"]);
     if (node["faces"]) budget.faces = faces(node["faces"]);
     if (node["pieces"]) budget.pieces = count(node["pieces"], 1, "pieces");
     if (node["vertices"]) budget.vertices = count(node["vertices"], 4, "vertices");
     if (node["spheres"]) budget.spheres = count(node["spheres"], 1, "spheres");
     if (node["max_distance"]) budget.max_distance = length(node["max_distance"], "max_distance");
-    if (node["padding"]) budget.padding = length(node["padding"], "padding");
+    if (node["gap"]) budget.padding = length(node["gap"], "gap");
     if (node["skip"]) budget.skip = value<bool>(node["skip"], "true or false");
   }
 
@@ -113,7 +113,7 @@ std::string size_of(const Budget& budget) {
   return fmt::format("faces: [{}]", fmt::join(budget.faces, ", "));
 }
 
-/// "{faces: [500], padding: 5mm}": what counts, and is not so anyhow.
+/// "{faces: [500], gap: 5mm}": what counts, and is not so anyhow.
 std::string text_of(const Budget& budget, const Budget& anyhow) {
   std::string text("{");
   if (budget.collision != anyhow.collision)
@@ -121,7 +121,7 @@ std::string text_of(const Budget& budget, const Budget& anyhow) {
   text += size_of(budget);
   if (budget.max_distance > 0 || anyhow.max_distance > 0)
     text += ", max_distance: " + in_millimetres(budget.max_distance);
-  if (budget.padding > 0 || anyhow.padding > 0) text += ", padding: " + in_millimetres(budget.padding);
+  if (budget.padding > 0 || anyhow.padding > 0) text += ", gap: " + in_millimetres(budget.padding);
   if (budget.skip || anyhow.skip) text += fmt::format(", skip: {}", budget.skip);
   return text + "}";
 }
@@ -135,7 +135,7 @@ void read_budgets(std::string_view text, const std::string& name, const Robot& r
 
 std::string budgets_text(const Robot& robot, const LinkHullOptions& options) {
   std::string text =
-      "# Budgets of hulls. Of each link: faces, max_distance, padding (lengths with a unit: mm, cm, m, in), and\n"
+      "# Budgets of hulls. Of each link: faces, max_distance, gap (lengths with a unit: mm, cm, m, in), and\n"
       "# skip: true to leave its collision elements as they are. What is left out is as under default.\n"
       "# collision: convex takes pieces and vertices, collision: spheres takes spheres, in place of faces.\n";
   text += fmt::format("default: {}\nlinks:\n", text_of(options.budget, {}));

@@ -10,7 +10,7 @@ namespace prohull::robot {
 
 /// Reads a YAML file of budgets:
 ///
-///     default: {faces: [500], padding: 2mm}
+///     default: {faces: [500], gap: 2mm}
 ///     links:
 ///       forearm_link: {faces: 800, max_distance: 1.5mm}
 ///       hand_link: {collision: convex, pieces: 12, vertices: 32}

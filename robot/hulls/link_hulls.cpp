@@ -45,7 +45,7 @@ void require_hull(const Link& link, const Budget& budget) {
   if (budget.collision == Collision::Hull) return;
   const std::string where =
       fmt::format("link {}: collision '{}'", link.name, prohull::name_of(collision_names(), budget.collision));
-  if (budget.padding > 0) refuse(where + " takes no padding; use hulls, or let the planner add it");
+  if (budget.padding > 0) refuse(where + " takes no gap; use hulls, or let the planner add it");
   if (budget.faces.size() > 1) refuse(where + " comes in one set; say one number of faces, or use hulls");
 }
 

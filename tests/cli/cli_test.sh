@@ -54,10 +54,6 @@ says away.json "report: it encloses" '"encloses": true'
 expect 0 "an inner gap" $prohull build rock.ply --faces 300 --side inner --gap 1% -o core.ply
 expect 0 "an inner gap verified" $prohull verify core.ply rock.ply --side inner --gap 1%
 expect 1 "no gap on the wrong side" $prohull verify core.ply rock.ply --gap 1%
-cp away.ply by_gap.ply
-expect 0 "padding is the same" $prohull build rock.ply --faces 300 --padding 1% -o away.ply
-checks=$((checks + 1))
-cmp -s away.ply by_gap.ply || fail "--padding is another name of --gap"
 expect 2 "a gap below 0" $prohull verify away.ply rock.ply --gap -1%
 expect 2 "a gap of levels" $prohull verify rock.phull rock.ply --gap 1%
 says err "a gap of levels" "touch each other"
@@ -198,7 +194,7 @@ says out "quality" "triangles: median compactness 0."
 says guarded.json "report: self-intersections" '"self_intersections": 0'
 says guarded.json "report: guarded by default" '"self_intersections": "refused"'
 says guarded.json "report: quality" '"dihedral_degrees": {'
-expect 0 "unguarded" $prohull build knot.ply --faces 100 -o loose.ply --allow-self-intersections --repair none --report loose.json
+expect 0 "unguarded" $prohull build knot.ply --faces 100 -o loose.ply --self-intersections allowed --repair none --report loose.json
 says out "unguarded" "pairs of faces (the mesh: 0; added: "
 says loose.json "report: unguarded" '"self_intersections": "allowed"'
 expect 0 "of a self-intersecting mesh" $prohull build loose.ply --faces 80 -o looser.ply
@@ -207,12 +203,11 @@ expect 0 "of a self-intersecting mesh, as it is" $prohull build loose.ply --face
 says out "of a self-intersecting mesh, as it is" "added: 0)"
 expect 0 "paper1" $prohull build knot.ply --faces 100 --strategy paper1 --repair none -o hull.off
 says out "paper1 is unguarded" "added: "
-expect 0 "paper1, guarded" $prohull build knot.ply --faces 100 --strategy paper1 --no-self-intersections -o hull.off
+expect 0 "paper1, guarded" $prohull build knot.ply --faces 100 --strategy paper1 --self-intersections refused -o hull.off
 says out "paper1, guarded" "self-intersections: none"
-expect 2 "guarded or not" $prohull build knot.ply -o x.ply --allow-self-intersections --no-self-intersections
-expect 2 "tight is guarded" $prohull build knot.ply -o x.ply --allow-self-intersections --tight
-expect 2 "inner is guarded" $prohull build knot.ply -o x.ply --allow-self-intersections --side inner
-says err "inner is guarded" "--allow-self-intersections"
+expect 2 "tight is guarded" $prohull build knot.ply -o x.ply --self-intersections allowed --tight
+expect 2 "inner is guarded" $prohull build knot.ply -o x.ply --self-intersections allowed --side inner
+says err "inner is guarded" "--self-intersections allowed is for outer hulls"
 $prohull sample knot -o thread.ply --faces $((1500 / divisor)) >/dev/null
 expect 0 "tight within a distance" $prohull build thread.ply --faces 50 --tight --max-distance 0.05 -o x.stl --report x.json
 says out "tight within a distance" "self-intersections: none"
@@ -532,7 +527,7 @@ expect 2 "no distance" $prohull build rock.ply --max-distance 0 -o x.ply
 says err "no distance" "--max-distance must be greater than 0, not 0"
 expect 2 "too many degrees" $prohull build rock.ply --max-normal-deviation 91 -o x.ply
 says err "too many degrees" "--max-normal-deviation must be between 0 and 90, not 91"
-expect 0 "scientific notation" $prohull build rock.ply --target-faces 1e3,500 -o x_{faces}.ply --seed 18446744073709551615
+expect 0 "scientific notation" $prohull build rock.ply --faces 1e3,500 -o x_{faces}.ply --seed 18446744073709551615
 says out "scientific notation" "x_1000.ply: outer hull of 1,000 faces"
 rm x_*.ply
 expect 2 "negative faces" $prohull build rock.ply --faces -5 -o x.ply
@@ -570,11 +565,13 @@ says out "help has examples" "prohull build"
 cp out build_help
 expect 0 "help of a command" $prohull help build
 same "help of a command" out build_help
+says out "help of a command: there is more" "\`prohull help build --all\` shows"
 expect 0 "help of the program" $prohull help
 says out "help of the program" "Commands:"
 expect 2 "help of no command" $prohull help biuld
 says err "help of no command" "did you mean 'build'?"
-expect 0 "exclusions" env COLUMNS=1000 $prohull help build
+expect 0 "exclusions" env COLUMNS=1000 $prohull help build --all
+says out "help --all: groups" "More for research:"
 is "exclusions are told once" sh -c "! grep -q 'Not with.*Not with' out"
 for command in "" build verify info lod query contains distance collide convex render sample completion manual help; do
   for columns in 40 80 132; do

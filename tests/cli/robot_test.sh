@@ -133,10 +133,10 @@ says three_safe/robot.urdf "a package" 'package://three_safe/meshes/collision/ba
 expect 0 "a package is found" $prohull urdf three_safe/robot.urdf --check
 
 expect 0 "budgets to begin with" $urdf --write-budgets budgets.yaml --faces 150
-sed -i 's/"base": .*/"base": {faces: [80], padding: 2mm}/' budgets.yaml
+sed -i 's/"base": .*/"base": {faces: [80], gap: 2mm}/' budgets.yaml
 expect 0 "budgets" $urdf -o budgeted --budgets budgets.yaml --faces 150 --configurations 0 --no-pictures
 says budgeted/report.json "budgets: faces" '"target_faces": 80'
-says budgeted/report.json "budgets: padding" '"proof": "padding"'
+says budgeted/report.json "budgets: gap" '"proof": "padding"'
 absent budgeted/robot.srdf "without configurations"
 
 # --- convex pieces and spheres ---
@@ -162,8 +162,8 @@ expect 0 "spheres pass the check" $prohull urdf balls/robot.urdf --check
 says out "spheres pass the check" "yes: the collision geometry covers"
 expect 2 "--pieces without convex pieces" $urdf -o none --pieces 3
 says err "--pieces without convex pieces" "--pieces needs --collision convex"
-expect 2 "padding of pieces" $urdf -o none --collision convex --padding 1mm
-says err "padding of pieces" "takes no padding"
+expect 2 "a gap of pieces" $urdf -o none --collision convex --gap 1mm
+says err "a gap of pieces" "takes no gap"
 expect 2 "--tight without hulls" $urdf -o none --collision spheres --tight
 expect 2 "two sets of spheres" $urdf -o none --collision spheres --faces 200,60
 printf 'default: {faces: [100]}\nlinks:\n  base: {collision: convex, pieces: 2}\n' >mixed.yaml

@@ -45,7 +45,7 @@ bash_completes "--version" --v
 bash_completes "$read_files" build ""
 bash_completes "part.stl parts" build part
 bash_completes "part.stl parts" build --faces 500 --tight part
-bash_completes "--max-added-volume --max-distance --max-normal-deviation --max-overhang --max-valence --max-void" build part.stl --max-
+bash_completes "--max-distance --max-normal-deviation --max-overhang --max-valence --max-void" build part.stl --max-
 bash_completes "$words" build part.stl --repair ""
 bash_completes "wrap" build part.stl --repair w
 bash_completes "$words" build part.stl --repair =
@@ -90,7 +90,7 @@ fi
 commands=$("$prohull" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
 [ "$(echo "$commands" | wc -l)" -ge 9 ] || fail "only these commands found: $commands"
 for command in $commands; do
-  names=$("$prohull" "$command" --help | grep -oE '^  (-[a-z], )?--[a-z0-9-]+(, --[a-z0-9-]+)*' | grep -oE -- '-[-a-z0-9]+')
+  names=$("$prohull" help --all "$command" | grep -oE '^  (-[a-z], )?--[a-z0-9-]+(, --[a-z0-9-]+)*' | grep -oE -- '-[-a-z0-9]+')
   options=$(echo "$names" | grep -- '^--')
   echo "$options" | grep -qx -- --help || fail "no options of $command found"
   bash_completes "$(echo "$names" | one_line)" "$command" -

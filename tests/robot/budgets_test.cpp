@@ -24,7 +24,7 @@ std::string message_of(std::string_view text) {
 
 TEST(Budgets, OfALinkBeginWithTheDefault) {
   const LinkHullOptions options = read(
-      "default: {faces: 300, padding: 5mm}\n"
+      "default: {faces: 300, gap: 5mm}\n"
       "links:\n"
       "  forearm: {max_distance: 0.1in}\n"
       "  tool0: {skip: true}\n"
@@ -58,7 +58,7 @@ TEST(Budgets, SayOfWhichKindTheCollisionGeometryIs) {
 TEST(Budgets, RefuseWhatTheyDoNotKnowWithItsLine) {
   EXPECT_EQ(
       message_of("links:\n  arm: {face: 3}"),
-      "budgets.yaml: line 2: 'face' is not known; expected collision, faces, max_distance, padding, pieces, skip, "
+      "budgets.yaml: line 2: 'face' is not known; expected collision, faces, gap, max_distance, pieces, skip, "
       "spheres, vertices");
   EXPECT_EQ(message_of("limits: 3"), "budgets.yaml: line 1: 'limits' is not known; expected default, links");
   EXPECT_NE(message_of("default: {faces: many}").find("line 1: 'many': expected at least 4 faces"), std::string::npos);
@@ -68,8 +68,8 @@ TEST(Budgets, RefuseWhatTheyDoNotKnowWithItsLine) {
   EXPECT_NE(message_of("default: {spheres: all}").find("'all': expected at least 1 spheres"), std::string::npos);
   EXPECT_NE(message_of("default: {collision: boxes}").find("'boxes': expected hull, convex or spheres"),
             std::string::npos);
-  EXPECT_NE(message_of("default: {faces: [500], padding: 5 miles}").find("is no length"), std::string::npos);
-  EXPECT_NE(message_of("default: {padding: -1mm}").find("is no length"), std::string::npos);
+  EXPECT_NE(message_of("default: {faces: [500], gap: 5 miles}").find("is no length"), std::string::npos);
+  EXPECT_NE(message_of("default: {gap: -1mm}").find("is no length"), std::string::npos);
   EXPECT_NE(message_of("default: {skip: maybe}").find("true or false"), std::string::npos);
   EXPECT_NE(message_of("- a\n- b").find("expected default, links"), std::string::npos);
   EXPECT_NE(message_of("links: [arm]").find("line 1"), std::string::npos);

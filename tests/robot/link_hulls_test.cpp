@@ -159,7 +159,7 @@ TEST_F(LinkHullsTest, RefuseWhatOnlyHullsCanHave) {
     }
   };
   options_.budgets["arm"] = {.collision = Collision::Convex, .padding = 0.001};
-  refused("link arm: collision 'convex' takes no padding");
+  refused("link arm: collision 'convex' takes no gap");
   options_.budgets["arm"] = {.collision = Collision::Spheres, .faces = {500, 100}};
   refused("link arm: collision 'spheres' comes in one set");
   options_.budgets.clear();

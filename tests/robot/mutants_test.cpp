@@ -81,7 +81,7 @@ TEST(Mutants, OfMjcf) {
 }
 
 TEST(Mutants, OfBudgetsAndSpheres) {
-  take_mutants("default: {faces: [500, 100], padding: 2mm}\nlinks:\n  base: {collision: convex, pieces: 12}\n  arm:\n",
+  take_mutants("default: {faces: [500, 100], gap: 2mm}\nlinks:\n  base: {collision: convex, pieces: 12}\n  arm:\n",
                take_yaml);
   take_mutants(sphere_file(std::vector<LinkBalls>{{"base", {{{1, 2, 3}, 0.5}, {{0, 0, 0}, 1}}}, {"arm", {}}}),
                take_yaml);

@@ -49,7 +49,7 @@ TEST_F(ReadRobot, GoesByTheContent) {
 }
 
 TEST_F(ReadRobot, RefusesWhatIsNoRobot) {
-  expect_refused(folder_ / "none.urdf", Defect::CannotRead, "No such file");
+  expect_refused(folder_ / "none.urdf", Defect::CannotRead, "cannot read: there is no such file");
   expect_refused(folder_.path(), Defect::CannotRead, "this is a folder");
   expect_refused(file("empty.urdf", ""), Defect::Malformed, "the file is empty");
   expect_refused(file("blank.urdf", " \n\t\r\n"), Defect::Malformed, "the file is empty");
