@@ -56,10 +56,9 @@ TEST(Budgets, SayOfWhichKindTheCollisionGeometryIs) {
 }
 
 TEST(Budgets, RefuseWhatTheyDoNotKnowWithItsLine) {
-  EXPECT_EQ(
-      message_of("links:\n  arm: {face: 3}"),
-      "budgets.yaml: line 2: 'face' is not known; expected collision, faces, gap, max_distance, pieces, skip, "
-      "spheres, vertices");
+  EXPECT_EQ(message_of("links:\n  arm: {face: 3}"),
+            "budgets.yaml: line 2: 'face' is not known; expected collision, faces, gap, max_distance, pieces, skip, "
+            "spheres, vertices");
   EXPECT_EQ(message_of("limits: 3"), "budgets.yaml: line 1: 'limits' is not known; expected default, links");
   EXPECT_NE(message_of("default: {faces: many}").find("line 1: 'many': expected at least 4 faces"), std::string::npos);
   EXPECT_NE(message_of("default: {faces: 3}").find("at least 4 faces"), std::string::npos);
