@@ -120,7 +120,7 @@ struct HullOptions {
   std::optional<Axis> mirror = {};
   bool float32_coordinates = false;  ///< give new vertices coordinates that a float32 file (STL, GLB) keeps
   QueueKind queue = QueueKind::Bucket;
-  /// A seed other than 0 changes the order of the collapses a little, and so the hull. Strategy::Lazy only.
+  /// A seed other than 0 changes the order of the collapses a little, and so the hull.
   std::uint64_t seed = 0;
   /// Build with this many seeds, from `seed` on, and keep the hull that is nearest to the target; of several, that with
   /// the least void. At least 1.
