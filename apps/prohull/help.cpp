@@ -126,7 +126,8 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string, CLI::AppF
   if (!commands.empty()) text += command_list(commands, width);
   std::string hint;
   if (const auto more = mode == CLI::AppFormatMode::All ? 0 : std::erase_if(command.arguments, is_more); more > 0)
-    hint = fmt::format("\n`prohull help {} --all` shows {} more options.\n", app->get_name(), more);
+    hint =
+        "\n" + wrapped(fmt::format("`prohull help {} --all` shows {} more options.", app->get_name(), more), width, 0);
   return text + arguments(command, width) + hint + footer(command, width);
 }
 
