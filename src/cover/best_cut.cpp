@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "cover/growing_hull.h"
 #include "geometry/directions.h"
@@ -35,6 +37,40 @@ Cut cut_of(const Plane& plane, double below, double above) {
 Cut no_cut() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return {{}, kInfinity, kInfinity};
+}
+
+/// Of points in a plane, those that their convex hull is that of: Andrew's monotone chains, on a grid on which they are
+/// exact, and which is finer than what GrowingHull tells apart.
+void keep_extreme(std::vector<Vec3>& points, const Vec3& normal) {
+  constexpr double kPerUnit = 0x1p24;
+  if (points.size() < 4) return;
+  struct Flat {
+    double x, y;
+    std::uint32_t number;
+  };
+  static thread_local std::vector<Flat> sorted, chain;
+  static thread_local std::vector<Vec3> kept;
+  sorted.clear(), kept.clear();
+  const Vec3 u = any_normal(normal), v = cross(normal, u);
+  const auto on_grid = [](double x) { return std::nearbyint(x * kPerUnit); };
+  for (const Vec3& p : points)
+    sorted.push_back({on_grid(dot(u, p)), on_grid(dot(v, p)), static_cast<std::uint32_t>(sorted.size())});
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Flat& a, const Flat& b) { return std::tie(a.x, a.y, a.number) < std::tie(b.x, b.y, b.number); });
+  const auto turns_left = [](const Flat& a, const Flat& b, const Flat& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0;
+  };
+  for (int side = 0; side < 2; ++side) {
+    chain.clear();
+    for (const Flat& p : sorted) {
+      while (chain.size() >= 2 && !turns_left(chain[chain.size() - 2], chain.back(), p)) chain.pop_back();
+      chain.push_back(p);
+    }
+    chain.pop_back();  // where the other chain begins
+    for (const Flat& p : chain) kept.push_back(points[p.number]);
+    std::reverse(sorted.begin(), sorted.end());
+  }
+  points.swap(kept);
 }
 
 using Edges = std::vector<std::array<std::uint32_t, 2>>;
@@ -80,8 +116,10 @@ class Sweep {
     choose_offsets(offsets);
     slabs_.resize(offsets_.size());
     for (const auto& [a, b] : edges) heights_[a] < heights_[b] ? add_edge(a, b) : add_edge(b, a);
-    for (std::size_t i = 0; i < offsets_.size(); ++i)
+    for (std::size_t i = 0; i < offsets_.size(); ++i) {
       for (const Vec3& p : new_corners(part, {normal, offsets_[i]}, solid)) slabs_[i].both.push_back(p);
+      keep_extreme(slabs_[i].both, normal);
+    }
   }
 
   Cut best() {
@@ -166,6 +204,77 @@ bool is_flat(const Part& part) {
   return hull.volume() == 0;
 }
 
+/// What planes that are close to each other have in common: the hulls of what lies on the same side of all of them.
+class Neighborhood {
+ public:
+  Neighborhood(const Part& part, const Edges& edges, std::span<const Plane> planes, const Solid& solid)
+      : part_(part), solid_(solid) {
+    std::vector<int> sides;
+    std::vector<Vec3> lower, upper;
+    for (std::uint32_t i = 0; i < part.points.size(); ++i) {
+      sides.push_back(common_side(part.points[i], planes, solid.tolerance()));
+      if (sides[i] != 0)
+        (sides[i] < 0 ? lower : upper).push_back(part.points[i]);
+      else
+        near_.push_back(i);
+    }
+    std::copy_if(edges.begin(), edges.end(), std::back_inserter(edges_),
+                 [&](const auto& e) { return sides[e[0]] * sides[e[1]] != 1; });
+    has_lower_ = !lower.empty(), has_upper_ = !upper.empty();
+    lower_.add(lower);
+    upper_.add(upper);
+  }
+
+  Cut cut_by(const Plane& plane) const {
+    static thread_local std::vector<Vec3> lower, upper, both;
+    static thread_local std::vector<double> heights;
+    lower.clear(), upper.clear(), both.clear(), heights.clear();
+    const double tolerance = solid_.tolerance();
+    for (const Vec3& p : part_.points) heights.push_back(plane.height(p));
+    for (const std::uint32_t i : near_)
+      if (std::abs(heights[i]) > tolerance) (heights[i] < 0 ? lower : upper).push_back(part_.points[i]);
+    for (const Vec3& p : part_.inside) (plane.height(p) < 0 ? lower : upper).push_back(p);
+    if ((lower.empty() && !has_lower_) || (upper.empty() && !has_upper_)) return no_cut();
+    for (const auto& [a, b] : edges_) {
+      const bool a_on = std::abs(heights[a]) <= tolerance, b_on = std::abs(heights[b]) <= tolerance;
+      if (a_on != b_on) {
+        const double other = heights[a_on ? b : a];
+        (other < 0 ? lower : upper).push_back(part_.points[a_on ? a : b]);
+      } else if (!a_on && (heights[a] < 0) != (heights[b] < 0)) {
+        both.push_back(crossing(part_.points[a], part_.points[b], heights[a], heights[b]));
+      }
+    }
+    for (const Vec3& p : new_corners(part_, plane, solid_)) both.push_back(p);
+    keep_extreme(both, plane.normal);
+    for (const Vec3& p : both) lower.push_back(p), upper.push_back(p);
+    return cut_of(plane, volume_with(lower_, lower), volume_with(upper_, upper));
+  }
+
+ private:
+  /// 0 if the point is not clearly on the same side of all planes.
+  static int common_side(const Vec3& p, std::span<const Plane> planes, double tolerance) {
+    const auto is_on = [&](int sign) {
+      return std::all_of(planes.begin(), planes.end(),
+                         [&](const Plane& plane) { return sign * plane.height(p) > tolerance; });
+    };
+    return is_on(-1) ? -1 : is_on(1) ? 1 : 0;
+  }
+
+  static double volume_with(const GrowingHull& hull, const std::vector<Vec3>& points) {
+    static thread_local GrowingHull grown;
+    grown = hull;
+    grown.add(points);
+    return grown.volume();
+  }
+
+  const Part& part_;
+  const Solid& solid_;
+  bool has_lower_, has_upper_;
+  GrowingHull lower_, upper_;
+  std::vector<std::uint32_t> near_;  // points that are not of these hulls
+  Edges edges_;                      // that a plane may cross
+};
+
 /// The plane shifted, and turned about the middle of its meeting with a part: about the foot of the part's centre.
 std::vector<Plane> neighbors(const Plane& plane, const Vec3& center, double angle, double shift) {
   const Vec3 n = plane.normal, u = any_normal(n), v = cross(n, u);
@@ -193,53 +302,35 @@ std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets) {
   return result;
 }
 
-Cut HalvesVolume::operator()(const Plane& plane) const {
-  static thread_local GrowingHull hull;
-  static thread_local std::vector<Vec3> lower, upper;
-  static thread_local std::vector<double> heights;
-  lower.clear(), upper.clear(), heights.clear();
-  const double near = solid_.tolerance();
-  for (const Vec3& p : part_.points) {
-    heights.push_back(plane.height(p));
-    if (std::abs(heights.back()) > near) (heights.back() < 0 ? lower : upper).push_back(p);
-  }
-  for (const Vec3& p : part_.inside) (plane.height(p) < 0 ? lower : upper).push_back(p);
-  if (lower.empty() || upper.empty()) return no_cut();
-  for (const auto& [a, b] : edges_) {
-    const bool a_on = std::abs(heights[a]) <= near, b_on = std::abs(heights[b]) <= near;
-    if (a_on != b_on) {
-      const double other = heights[a_on ? b : a];
-      (other < 0 ? lower : upper).push_back(part_.points[a_on ? a : b]);
-    } else if (!a_on && (heights[a] < 0) != (heights[b] < 0)) {
-      lower.push_back(crossing(part_.points[a], part_.points[b], heights[a], heights[b]));
-      upper.push_back(lower.back());
-    }
-  }
-  for (const Vec3& p : new_corners(part_, plane, solid_)) lower.push_back(p), upper.push_back(p);
-  hull.clear();
-  hull.add(lower);
-  const double below = hull.volume();
-  hull.clear();
-  hull.add(upper);
-  return cut_of(plane, below, hull.volume());
+std::vector<Cut> HalvesVolume::operator()(std::span<const Plane> planes) const {
+  const Neighborhood neighborhood(part_, edges_, planes, solid_);
+  std::vector<Cut> result(planes.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, planes.size(),
+                            [&](std::size_t i) { result[i] = neighborhood.cut_by(planes[i]); });
+  return result;
 }
 
 Cut refined(const Part& part, const Cut& cut, const Solid& solid) {
   const HalvesVolume halves(part, solid);
-  return halves(moved(cut.plane, box_of(part), [&](const Plane& plane) { return halves(plane).merit; }));
+  const auto merits = [&](std::span<const Plane> planes) {
+    std::vector<double> result;
+    for (const Cut& c : halves(planes)) result.push_back(c.merit);
+    return result;
+  };
+  const Plane best = moved(cut.plane, box_of(part), merits);
+  return halves({&best, 1}).front();
 }
 
-Plane moved(const Plane& plane, const Box& box, const std::function<double(const Plane&)>& value) {
+Plane moved(const Plane& plane, const Box& box, const ValuesOfPlanes& values) {
   Plane best = plane;
-  double least = value(plane), angle = 0.25, shift = box.diagonal() / 30;
+  double least = values({&plane, 1}).front(), angle = 0.25, shift = box.diagonal() / 30;
   for (int round = 0; round < 5; ++round, angle /= 2, shift /= 2) {
     for (bool improved = true; improved;) {
       const std::vector<Plane> tries = neighbors(best, box.center(), angle, shift);
-      std::vector<double> values(tries.size());
-      oneapi::tbb::parallel_for(std::size_t{0}, tries.size(), [&](std::size_t i) { values[i] = value(tries[i]); });
-      const auto found = std::min_element(values.begin(), values.end());
+      const std::vector<double> tried = values(tries);
+      const auto found = std::min_element(tried.begin(), tried.end());
       improved = *found < least * (1 - kLeastImprovement);
-      if (improved) least = *found, best = tries[static_cast<std::size_t>(found - values.begin())];
+      if (improved) least = *found, best = tries[static_cast<std::size_t>(found - tried.begin())];
     }
   }
   return best;

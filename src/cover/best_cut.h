@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "cover/part.h"
@@ -22,16 +23,18 @@ std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets);
 /// Turns and moves the plane as long as that makes the volume less.
 Cut refined(const Part& part, const Cut& cut, const Solid& solid);
 
-/// Turns and moves the plane, which meets the box, as long as that makes its value less. `value` is called on several
-/// threads.
-Plane moved(const Plane& plane, const Box& box, const std::function<double(const Plane&)>& value);
+/// Turns and moves the plane, which meets the box, as long as that makes its value less. `values` are those of several
+/// planes that are close to each other.
+using ValuesOfPlanes = std::function<std::vector<double>(std::span<const Plane>)>;
+Plane moved(const Plane& plane, const Box& box, const ValuesOfPlanes& values);
 
 /// The volumes of the convex hulls of both sides of a plane together, for many planes.
 class HalvesVolume {
  public:
   HalvesVolume(const Part& part, const Solid& solid) : part_(part), solid_(solid), edges_(edges(part)) {}
-  /// Its volume is infinite if all is on one side.
-  Cut operator()(const Plane& plane) const;
+  /// Of several planes together: what lies on the same side of all of them is looked at once, so they had better be
+  /// close to each other. The volume is infinite if all is on one side.
+  std::vector<Cut> operator()(std::span<const Plane> planes) const;
 
  private:
   const Part& part_;

@@ -93,18 +93,39 @@ class Cutting {
     const std::size_t count = std::min(effort_.tried, candidate.first_cuts.size());
     work_ += count * static_cast<std::size_t>(effort_.ahead + 1) * candidate.part.points.size();
     if (work_ > kMostWork) return;
-    std::vector<std::optional<Halves>> tried(count);
-    oneapi::tbb::parallel_for(std::size_t{0}, count,
-                              [&](std::size_t i) { tried[i] = halves(candidate, candidate.first_cuts[i]); });
+    const std::vector<Cut> distinct = distinct_refined(candidate, count);
+    std::vector<std::optional<Halves>> tried(distinct.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, tried.size(),
+                              [&](std::size_t i) { tried[i] = halves(candidate.part, distinct[i]); });
     const auto best = std::min_element(tried.begin(), tried.end(),
                                        [](const auto& a, const auto& b) { return a->volume_later < b->volume_later; });
     const double gain = (candidate.volume - (*best)->volume_later) / (1 + effort_.ahead);
     if (gain > least_gain_) open_.push_back({node, std::move(**best), gain});
   }
 
-  Halves halves(const Candidate& candidate, const Cut& coarse) const {
-    Halves result{refined(candidate.part, coarse, solid_), {}};
-    result.sides = sides(candidate.part, result.cut.plane);
+  /// The first cuts, refined; of those that end in nearly the same plane only the best one.
+  std::vector<Cut> distinct_refined(const Candidate& candidate, std::size_t count) const {
+    std::vector<Cut> all(count), distinct;
+    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      all[i] = refined(candidate.part, candidate.first_cuts[i], solid_);
+    });
+    std::ranges::stable_sort(all, {}, &Cut::merit);
+    for (const Cut& cut : all)
+      if (std::ranges::none_of(distinct, [&](const Cut& d) { return nearly_same(d.plane, cut.plane); }))
+        distinct.push_back(cut);
+    return distinct;
+  }
+
+  bool nearly_same(const Plane& a, const Plane& b) const {
+    constexpr double kCosine = 0.9995, kShare = 0.005;  // of 1.8 degrees; of the diagonal
+    const Vec3 center = solid_.box().center();
+    const double sign = dot(a.normal, b.normal) < 0 ? -1 : 1;
+    return sign * dot(a.normal, b.normal) > kCosine &&
+           std::abs(a.height(center) - sign * b.height(center)) < kShare * solid_.box().diagonal();
+  }
+
+  Halves halves(const Part& part, const Cut& cut) const {
+    Halves result{cut, sides(part, cut.plane)};
     result.volume_later = volume_after(effort_.ahead, result.sides);
     return result;
   }
@@ -226,8 +247,14 @@ class Settling {
   Plane moved_plane(const CutTree::Node& node, const Part& part) const {
     const HalvesVolume halves(part, solid_);
     const bool is_last = is_leaf(node.below) && is_leaf(node.above);
-    return moved(node.plane, box_of(part), [&](const Plane& plane) {
-      return is_last ? halves(plane).volume : volume_of_leaves(node, part, plane);
+    return moved(node.plane, box_of(part), [&](std::span<const Plane> planes) {
+      std::vector<double> volumes(planes.size());
+      if (is_last)
+        std::ranges::transform(halves(planes), volumes.begin(), &Cut::volume);
+      else
+        oneapi::tbb::parallel_for(std::size_t{0}, planes.size(),
+                                  [&](std::size_t i) { volumes[i] = volume_of_leaves(node, part, planes[i]); });
+      return volumes;
     });
   }
 

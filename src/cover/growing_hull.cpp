@@ -24,21 +24,19 @@ void GrowingHull::clear() {
   free_.clear();
   seen_.clear();
   next_at_.clear();
+  crowded_.clear();
   stamp_ = 0;
   random_ = {};
 }
 
 void GrowingHull::add(std::span<const Vec3> points) {
-  if (started_) {
-    for (const Vec3& p : points) insert(p);
-    return;
-  }
+  if (started_) return insert(points);
   points_.insert(points_.end(), points.begin(), points.end());
   if (points_.size() < 4 || !start()) return;
   const std::vector<Vec3> waiting(points_.begin() + 4, points_.end());
   points_.resize(4);
   next_at_.assign(4, kNone);
-  for (const Vec3& p : waiting) insert(p);
+  insert(waiting);
 }
 
 /// Brings four points that are not in a plane to the front and makes a tetrahedron of them.
@@ -84,10 +82,11 @@ std::uint32_t GrowingHull::new_face(std::uint32_t a, std::uint32_t b, std::uint3
     free_.pop_back();
   }
   faces_[f].corners = {a, b, c};
+  faces_[f].farthest = kNone;
   const Vec3 &p = points_[a], &q = points_[b], &r = points_[c];
   const Vec3 n = cross(q - p, r - p);
   const double size = norm(n);
-  const Vec3 unit = size > 0 ? n / size : Vec3{};
+  const Vec3 unit = size > 0 ? n * (1 / size) : Vec3{};
   normal_x_[f] = unit.x, normal_y_[f] = unit.y, normal_z_[f] = unit.z, offset_[f] = dot(unit, p);
   sixfold_volume_ += sixfold(p - origin_, q - origin_, r - origin_);
   return f;
@@ -96,25 +95,78 @@ std::uint32_t GrowingHull::new_face(std::uint32_t a, std::uint32_t b, std::uint3
 void GrowingHull::remove_face(std::uint32_t f) {
   const auto [a, b, c] = faces_[f].corners;
   sixfold_volume_ -= sixfold(points_[a] - origin_, points_[b] - origin_, points_[c] - origin_);
+  faces_[f].farthest = kNone;
   normal_x_[f] = normal_y_[f] = normal_z_[f] = 0;
   offset_[f] = 1;
   free_.push_back(f);
 }
 
-void GrowingHull::insert(const Vec3& exact) {
-  const Vec3 p = shifted(exact);
-  double highest = kTolerance;
-  std::uint32_t first = kNone;
+void GrowingHull::insert(std::span<const Vec3> points) {
+  for (const Vec3& p : points) {
+    waiting_.push_back({shifted(p), 0, kNone});
+    keep_where_seen(static_cast<std::uint32_t>(waiting_.size() - 1));
+  }
+  while (!crowded_.empty()) {
+    const std::uint32_t f = crowded_.back();
+    if (faces_[f].farthest == kNone)
+      crowded_.pop_back();
+    else
+      insert_farthest(f);
+  }
+  waiting_.clear();
+}
+
+/// With the first face that sees the point. Eight faces are looked at together.
+void GrowingHull::keep_where_seen(std::uint32_t waiting) {
+  const Vec3 p = waiting_[waiting].point;
   const auto count = static_cast<std::uint32_t>(faces_.size());
-  for (std::uint32_t f = 0; f < count; ++f)
-    if (const double h = height(f, p); h > highest) highest = h, first = f;
-  if (first == kNone) return;
-  find_visible(p, first);
+  const auto sees = [&](std::uint32_t f) { return height(f, p) > kTolerance; };
+  std::uint32_t f = 0;
+  for (; f + 8 <= count; f += 8) {
+    int any = 0;
+    for (std::uint32_t k = 0; k < 8; ++k) any |= sees(f + k);
+    if (any) break;
+  }
+  while (f < count && !sees(f)) ++f;
+  if (f < count) keep(waiting, f, height(f, p));
+}
+
+void GrowingHull::keep_where_fan_sees(std::uint32_t waiting) {
+  for (const std::uint32_t f : fan_)
+    if (const double h = height(f, waiting_[waiting].point); h > kTolerance) return keep(waiting, f, h);
+}
+
+void GrowingHull::keep(std::uint32_t waiting, std::uint32_t face, double height) {
+  std::uint32_t& farthest = faces_[face].farthest;
+  Waiting& kept = waiting_[waiting];
+  kept.height = height;
+  if (farthest == kNone) crowded_.push_back(face);
+  if (farthest == kNone || height > waiting_[farthest].height) {
+    kept.next = farthest;
+    farthest = waiting;
+  } else {
+    kept.next = waiting_[farthest].next;
+    waiting_[farthest].next = waiting;
+  }
+}
+
+void GrowingHull::insert_farthest(std::uint32_t face) {
+  const Waiting chosen = waiting_[faces_[face].farthest];
+  faces_[face].farthest = chosen.next;
+  find_visible(chosen.point, face);
   if (!find_horizon()) return;
-  points_.push_back(p);
+  collect_beyond_visible();
+  points_.push_back(chosen.point);
   next_at_.push_back(kNone);
   for (const std::uint32_t f : visible_) remove_face(f);
   add_fan();
+  for (const std::uint32_t w : orphans_) keep_where_fan_sees(w);
+}
+
+void GrowingHull::collect_beyond_visible() {
+  orphans_.clear();
+  for (const std::uint32_t f : visible_)
+    for (std::uint32_t w = faces_[f].farthest; w != kNone; w = waiting_[w].next) orphans_.push_back(w);
 }
 
 /// The faces around `first` that see p.

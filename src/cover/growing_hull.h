@@ -10,7 +10,9 @@
 namespace prohull::cover {
 
 /// The convex hull of points that are added one by one, in floating point: for the volumes by which cuts are compared.
-/// Nothing depends on its exactness. Coordinates should be of the order of 1.
+/// Nothing depends on its exactness. Coordinates should be of the order of 1. Of the points that are added together,
+/// the farthest come first, and the others are looked for only beyond the faces that they see (Barber, Dobkin,
+/// Huhdanpaa 1996, The quickhull algorithm): so few faces are made that are not of the hull.
 class GrowingHull {
  public:
   void clear();
@@ -23,6 +25,14 @@ class GrowingHull {
   struct Face {
     std::array<std::uint32_t, 3> corners;
     std::array<std::uint32_t, 3> beyond;  ///< the face beyond the edge from corner i to corner i + 1
+    std::uint32_t farthest;               ///< of the waiting points that are kept with it, or none
+  };
+
+  /// A point outside, kept with a face that sees it. Those of a face form a list that begins with the farthest.
+  struct Waiting {
+    Vec3 point;
+    double height;
+    std::uint32_t next;
   };
 
   /// Of the horizon: from a to b, and the face beyond it.
@@ -41,7 +51,12 @@ class GrowingHull {
 
   Vec3 shifted(const Vec3& p);
   bool start();
-  void insert(const Vec3& p);
+  void insert(std::span<const Vec3> points);
+  void keep_where_seen(std::uint32_t waiting);
+  void keep_where_fan_sees(std::uint32_t waiting);
+  void keep(std::uint32_t waiting, std::uint32_t face, double height);
+  void insert_farthest(std::uint32_t face);
+  void collect_beyond_visible();
   void find_visible(const Vec3& p, std::uint32_t first);
   bool find_horizon();
   void add_fan();
@@ -60,6 +75,9 @@ class GrowingHull {
   std::vector<std::uint32_t> free_;
   std::vector<std::uint32_t> visible_, fan_;
   std::vector<Edge> horizon_;
+  std::vector<Waiting> waiting_;
+  std::vector<std::uint32_t> crowded_;  // faces that may have waiting points
+  std::vector<std::uint32_t> orphans_;  // waiting points whose face is gone
   std::vector<std::uint32_t> seen_;     // by face: the last point that saw it
   std::vector<std::uint32_t> next_at_;  // by point: the face of the fan whose edge begins there
   std::uint32_t stamp_ = 0;
