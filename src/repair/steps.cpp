@@ -186,22 +186,29 @@ void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs) {
 }
 
 void weld(TriangleMesh& mesh, Repairs& repairs) {
-  std::vector<VertexId> order;
+  struct Entry {
+    double x;  // of the vertex: mostly decides, without a look at its position
+    VertexId vertex;
+  };
+  std::vector<Entry> order;
   order.reserve(mesh.vertex_count());
   PerVertex<VertexId> representative(mesh.vertex_count());
   for (const VertexId v : mesh.positions.ids()) {
     representative[v] = v;
-    if (is_finite(mesh.positions[v])) order.push_back(v);  // NaN has no place in an order
-  }
-  const auto key = [&](VertexId v) {
     const Vec3& p = mesh.positions[v];
+    if (is_finite(p)) order.push_back({p.x, v});  // NaN has no place in an order
+  }
+  const auto key = [&](const Entry& entry) {
+    const Vec3& p = mesh.positions[entry.vertex];
     return std::array{p.x, p.y, p.z};
   };
-  std::sort(order.begin(), order.end(),
-            [&](VertexId a, VertexId b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  std::sort(order.begin(), order.end(), [&](const Entry& a, const Entry& b) {
+    if (a.x != b.x) return a.x < b.x;
+    return key(a) != key(b) ? key(a) < key(b) : a.vertex < b.vertex;
+  });
   for (std::size_t i = 1; i < order.size(); ++i) {
-    if (key(order[i]) != key(order[i - 1])) continue;
-    representative[order[i]] = representative[order[i - 1]];
+    if (order[i].x != order[i - 1].x || key(order[i]) != key(order[i - 1])) continue;
+    representative[order[i].vertex] = representative[order[i - 1].vertex];
     ++repairs.welded_vertices;
   }
   for (auto& t : mesh.triangles)
