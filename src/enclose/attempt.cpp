@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "construct/tight/gap_body.h"
 #include "enclose/candidate.h"
 #include "enclose/certify.h"
+#include "enclose/level_search.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/mesh_report.h"
@@ -57,70 +59,63 @@ bool is_within_as_stored(const TriangleMesh& hull, const Making& making) {
   return stored && excess_of(stored->mesh, making) <= 1;
 }
 
-// A level of a wrap or of the convex hull moves towards the triangles, if it need not be one of a hierarchy.
+// Moved towards the triangles.
 TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds = kRoundsAtTheEnd) {
-  if (!making.recipe().moves) return level;
   const MoveOptions how = making.request.move_options(max_rounds);
   return making.recipe().approach == Approach::Touching
              ? moved_towards_closed(level, making.request.input.closed->mesh, how.side, how)
              : moved_towards(level, making.to_cover(), how);
 }
 
-// Of a hull that moves, coarse levels are tried first: what moves far may keep a bound that finer levels miss, and
-// moving these takes long.
-std::size_t faces_within_moved(const ProgressiveHull& hull, std::size_t target, const Making& making) {
-  constexpr double kFiner = 1.2, kCloseEnough = 1.02;
-  const auto is_within = [&](std::size_t faces) {
-    return is_within_as_stored(placed(hull.level(faces), making), making);
-  };
-  std::size_t too_few = std::max(target, hull.base_face_count());
-  if (is_within(too_few)) return too_few;
-  const auto finer = [&](double by) {
-    const auto most = double(hull.original_face_count());
-    return std::size_t(std::min(most, std::ceil(by * double(too_few) / 2) * 2));
-  };
-  std::size_t enough = finer(kFiner);
-  while (!is_within(enough)) {
-    if (enough == hull.original_face_count()) return enough;
-    too_few = enough, enough = finer(kFiner);
-  }
-  while (double(enough) > kCloseEnough * double(too_few)) {
-    const std::size_t middle = finer(std::sqrt(double(enough) / double(too_few)));
-    if (middle >= enough) break;
-    (is_within(middle) ? enough : too_few) = middle;
-  }
-  return enough;
+// Of the levels, the coarsest that keeps the bounds, if any does.
+std::size_t faces_of_level(const ProgressiveHull& hull, const Making& making) {
+  const std::size_t target = making.candidate.target_faces;
+  std::size_t faces = target;
+  if (making.options().bounds.any() && excess_of(making.solid().mesh, making) <= 1)
+    faces = std::max(target,
+                     faces_within(hull, [&](const TriangleMesh& level) { return is_within_as_stored(level, making); }));
+  if (!making.request.is_symmetric()) return faces;
+  const std::size_t coarser = symmetric_faces(hull, *making.options().hull.mirror, faces);
+  return faces > target && coarser < faces ? faces + 2 : coarser;  // bounds need the finer one
 }
 
-// Of the levels, the coarsest that keeps the bounds, if any does. One that moves may keep what its wrap misses; if it
-// does not either, it is near at least.
-std::size_t faces_of_level(const HullResult& result, const Making& making) {
-  constexpr std::size_t kFinestMoved = 4000;  // faces; moving finer ones takes several seconds
-  const std::size_t target = making.candidate.target_faces;
-  const bool moves = making.recipe().moves, is_bounded = making.options().bounds.any();
-  std::size_t faces = target;
-  bool is_possible = is_bounded && excess_of(making.solid().mesh, making) <= 1;
-  if (is_bounded && !is_possible && moves && making.solid().source == Source::Wrap) {
-    faces = std::max(target, kFinestMoved);
-    is_possible = is_within_as_stored(placed(result.hull.level(faces), making), making);
-  }
-  if (is_possible)
-    faces = moves ? faces_within_moved(result.hull, target, making)
-                  : std::max(target, faces_within(result.hull, [&](const TriangleMesh& level) {
-                               return is_within_as_stored(level, making);
-                             }));
-  if (!making.request.is_symmetric()) return faces;
-  const std::size_t coarser = symmetric_faces(result.hull, *making.options().hull.mirror, faces);
-  return faces > target && coarser < faces ? faces + 2 : coarser;  // bounds need the finer one
+LevelTrial try_level(const ProgressiveHull& hull, std::size_t faces, const Making& making) {
+  LevelTrial trial{faces, placed(hull.level(faces), making), std::numeric_limits<double>::infinity()};
+  if (const auto [stored, why_not] = as_stored(trial.mesh, making); stored)
+    trial.excess = excess_of(stored->mesh, making);
+  return trial;
+}
+
+// Of a hull that moves, coarse levels are tried first: what moves far may keep a bound that finer levels miss. Where
+// the solid misses the bounds itself, one that moves may keep them; if it does not either, it is near at least.
+LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
+  const std::size_t target = making.candidate.target_faces, finest = hull.original_face_count();
+  const std::size_t fewest = std::min(std::max(target, hull.base_face_count()), finest);
+  const auto trial = [&](std::size_t faces) { return try_level(hull, faces, making); };
+  const bool is_possible = excess_of(making.solid().mesh, making) <= 1;
+  if (!is_possible && making.solid().source != Source::Wrap) return trial(target);
+  if (!is_possible)
+    if (LevelTrial first = trial(std::min(finest, faces_of_first_trial(fewest))); !first.keeps_bounds()) return first;
+  LevelTrial found = search_levels(fewest, finest, trial);
+  if (found.keeps_bounds() || !is_possible) return found;
+  const std::size_t faces = faces_of_level(hull, making);
+  LevelTrial moved = trial(faces);
+  return moved.keeps_bounds() ? moved : LevelTrial{faces, hull.level(faces), 1};
 }
 
 EnclosingHull built_of_levels(const Making& making) {
   const HullResult& result = making.solids.levels(making.candidate.solid);
-  const std::size_t target = making.candidate.target_faces, faces = faces_of_level(result, making);
-  const TriangleMesh level = result.hull.level(faces);
+  const std::size_t target = making.candidate.target_faces;
   EnclosingHull hull;
+  std::size_t faces;
+  if (making.recipe().moves) {
+    LevelTrial found = moved_level(result.hull, making);
+    faces = found.faces, hull.mesh = std::move(found.mesh);
+  } else {
+    faces = faces_of_level(result.hull, making), hull.mesh = result.hull.level(faces);
+  }
+  const TriangleMesh level = result.hull.level(faces);
   hull.target_reached = faces > target || level.face_count() <= target;
-  hull.mesh = placed(level, making);
   if (hull.mesh == level)
     hull.levels = faces > result.hull.base_face_count() ? result.hull.with_base(faces) : result.hull;
   hull.refusals = result.refusals, hull.blocked = result.blocked;

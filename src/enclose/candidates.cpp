@@ -10,8 +10,9 @@ namespace prohull {
 namespace {
 
 // Handles and gaps take faces, so that hulls swell that have few: the second wraps have less of them. Of sheets, the
-// later ones are smooth.
-constexpr WrapKind kWrapsOfSolids[]{{3.5, 0.3, 1.5}, {6, 0.9, 4}, {3.5, 0.3, 8}};
+// later ones are smooth. Of 63 visual meshes of robots at 30 to 1,500 faces, a second wrap of 5 nodes for each edge has
+// hulls that are 2 % emptier in the mean than one of 6 and as far away, and 100 faces take 10 % less time.
+constexpr WrapKind kWrapsOfSolids[]{{3.5, 0.3, 1.5}, {5, 0.75, 3.3}, {3.5, 0.3, 8}};
 constexpr WrapKind kWrapsOfSoups[]{{3.5, 0.3, 1.5}, {6, 0.9, 4}};
 // A padding closes gaps too, and asks for a finer grid.
 constexpr WrapKind kPaddedWraps[]{{6, 0.3, 1.5}, {3.5, 0.3, 0}};
@@ -176,6 +177,10 @@ void Candidates::plan_bounded_wraps() {
   constexpr int kMostBounded = 4;
   constexpr double kFine = 256, kPlain = 100;  // to the diagonal; finer ones take ten seconds and more, and one second
   constexpr double kNearerByMoving = 4;        // by moving, a hull comes so much nearer than its wrap
+  // So many times fewer faces than a wrap has a hull of it that keeps the bounds. Of 10 robots' parts that another hull
+  // keeps 1 % of the diagonal of, with fewer faces than that, a wrap has a better one of 2, and takes 2 to 10 times as
+  // long.
+  constexpr std::size_t kMostReduced = 300;
   const double finest = finest_spacing(request_), max_distance = request_.options.bounds.max_distance;
   const bool is_hopeless = kBoundedWrap.offset * finest > kNearerByMoving * max_distance;
   const double wanted = std::max(
@@ -190,7 +195,10 @@ void Candidates::plan_bounded_wraps() {
         if (i > 0 || is_of_clean_mesh || best.mesh.face_count() <= target_faces_ || is_fine) return std::nullopt;
       }
       const auto id = wrap(kBoundedWrap, spacing, solids);
-      return id ? std::optional(of(*id, solids)) : std::nullopt;
+      if (!id || (ranking.has_certified() && ranking.best().hull.within_bounds &&
+                  ranking.best().hull.mesh.face_count() * kMostReduced < solids[*id].mesh.face_count()))
+        return std::nullopt;
+      return of(*id, solids);
     });
     if (spacing == finest) break;
     spacing = std::max(spacing / 2, finest);
@@ -210,7 +218,8 @@ void Candidates::plan_inner_with_padding() {
 }
 
 // Of the mesh, if that is closed, and of the solid that has the best hull so far. That hull is kept if no tight one is
-// better. Without padding, of 8 robots' parts of which a wrap had it, no tight hull of the wrap was.
+// better. Without padding, of 8 robots' parts of which a wrap had it, no tight hull of the wrap was; nor of soups,
+// where levels of the wrap keep bounds.
 void Candidates::plan_tight() {
   const auto tight = [this](SolidId id, const Solids& solids) {
     const bool may_have_body =
@@ -225,7 +234,9 @@ void Candidates::plan_tight() {
   steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
     if (!ranking.has_certified()) return std::nullopt;
     const SolidId id = ranking.best().hull.solid;
-    if (solids[id].source == Source::Mesh || (is_worth_the_mesh(request_, solids) && !request_.is_padded()))
+    const bool has_levels_that_moved = request_.options.bounds.any() && solids[id].source == Source::Wrap;
+    if (solids[id].source == Source::Mesh ||
+        (!request_.is_padded() && (has_levels_that_moved || is_worth_the_mesh(request_, solids))))
       return std::nullopt;
     return tight(id, solids);
   });
