@@ -30,7 +30,7 @@ struct Making {
   const EnclosingOptions& options() const { return request.options; }
   const Solid& solid() const { return solids[candidate.solid]; }
   const TriangleMesh& to_cover() const { return solids.to_cover(candidate.solid); }
-  HullOptions hull_options() const { return request.hull_options(candidate.target_faces); }
+  HullOptions hull_options() const { return request.hull_options(candidate.faces()); }
 };
 
 // With the coordinates that a file keeps, or why it has none. A hull of a mesh that intersects itself may have no room
@@ -69,7 +69,7 @@ TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned ma
 
 // Of the levels, the coarsest that keeps the bounds, if any does.
 std::size_t faces_of_level(const ProgressiveHull& hull, const Making& making) {
-  const std::size_t target = making.candidate.target_faces;
+  const std::size_t target = making.candidate.faces();
   std::size_t faces = target;
   if (making.options().bounds.any() && excess_of(making.solid().mesh, making) <= 1)
     faces = std::max(target,
@@ -89,7 +89,7 @@ LevelTrial try_level(const ProgressiveHull& hull, std::size_t faces, const Makin
 // Of a hull that moves, coarse levels are tried first: what moves far may keep a bound that finer levels miss. Where
 // the solid misses the bounds itself, one that moves may keep them; if it does not either, it is near at least.
 LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
-  const std::size_t target = making.candidate.target_faces, finest = hull.original_face_count();
+  const std::size_t target = making.candidate.faces(), finest = hull.original_face_count();
   const std::size_t fewest = std::min(std::max(target, hull.base_face_count()), finest);
   const auto trial = [&](std::size_t faces) { return try_level(hull, faces, making); };
   const bool is_possible = excess_of(making.solid().mesh, making) <= 1;
@@ -105,7 +105,7 @@ LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
 
 EnclosingHull built_of_levels(const Making& making) {
   const HullResult& result = making.solids.levels(making.candidate.solid);
-  const std::size_t target = making.candidate.target_faces;
+  const std::size_t target = making.candidate.faces();
   EnclosingHull hull;
   std::size_t faces;
   if (making.recipe().moves) {
@@ -126,7 +126,7 @@ EnclosingHull built_of_levels(const Making& making) {
 // Moved before it has come down to its faces, too, a hull is up to 1 % smaller.
 EnclosingHull built_in_steps(const Making& making) {
   constexpr std::pair<double, unsigned> kSteps[]{{1.5, 2}, {1, kRoundsAtTheEnd}};
-  const double target = double(making.candidate.target_faces);
+  const double target = double(making.candidate.faces());
   EnclosingHull hull;
   hull.mesh = making.solid().mesh;
   for (const auto& [faces, rounds] : kSteps) {
@@ -203,6 +203,7 @@ std::optional<Attempt> attempt(const Candidate& candidate, const Request& reques
   if (!hull) return std::nullopt;
   Attempt made{.candidate = candidate, .hull = std::move(*hull)};
   made.hull.target_faces = candidate.target_faces;
+  made.hull.target_reached |= made.hull.mesh.face_count() <= candidate.target_faces;
   made.hull.solid = candidate.solid;
   made.hull.source = making.solid().source;
   auto [stored, why_not] = as_stored(made.hull.mesh, making);

@@ -62,6 +62,7 @@ Candidates::Candidates(const Request& request, std::size_t target_faces, Notes& 
   if (request.is_free()) {
     plan_convex_hull();
     request.options.bounds.any() ? plan_bounded_wraps() : plan_wraps();
+    if (!request.is_padded() && !request.options.bounds.any() && !request.options.levels) plan_fewer_faces();
   }
   if (!request.is_outer() && request.options.repair != Repair::None) {
     if (request.is_padded())
@@ -203,6 +204,21 @@ void Candidates::plan_bounded_wraps() {
     if (spacing == finest) break;
     spacing = std::max(spacing / 2, finest);
   }
+}
+
+// With a dozen faces and less, each has a large part in the volume, and a hull of fewer may be the smaller one: around
+// a cube, the 10 faces that collapses led to had a void of 466 %, and 6 faces one of 189 %.
+void Candidates::plan_fewer_faces() {
+  constexpr std::size_t kFew = 12, kFewest = 4;
+  if (target_faces_ > kFew) return;
+  for (std::size_t faces = (target_faces_ - 1) / 2 * 2; faces >= kFewest; faces -= 2)
+    steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+      constexpr double kHugeVoid = 1;
+      if (!ranking.has_certified() || !(solids.volume() > 0) || ranking.best_void() < kHugeVoid) return std::nullopt;
+      Candidate candidate = ranking.best().candidate;
+      candidate.fewer_faces = faces;
+      return candidate;
+    });
 }
 
 void Candidates::plan_inner_with_padding() {

@@ -265,6 +265,31 @@ TEST(EnclosingHull, OfFewFacesIsHardlyLargerThanTheConvexHull) {
   }
 }
 
+// Of a cube whose corners have moved a little, no edge can be collapsed: only wraps have hulls of few faces.
+TEST(EnclosingHull, OfFewFacesIsNotLargerThanOneOfFewer) {
+  const TriangleMesh cube = meshes::make({{0.0311, 0.0371, 0.0398},
+                                          {0.0471, 0.0370, 1.0461},
+                                          {0.0015, 1.0233, 0.0472},
+                                          {0.0324, 1.0450, 1.0057},
+                                          {1.0235, 0.0123, 0.0272},
+                                          {1.0287, 0.0007, 1.0108},
+                                          {1.0140, 1.0458, 0.0383},
+                                          {1.0080, 1.0399, 1.0069}},
+                                         {{0, 1, 3},
+                                          {0, 3, 2},
+                                          {4, 6, 7},
+                                          {4, 7, 5},
+                                          {0, 4, 5},
+                                          {0, 5, 1},
+                                          {2, 3, 7},
+                                          {2, 7, 6},
+                                          {0, 2, 6},
+                                          {0, 6, 4},
+                                          {1, 5, 7},
+                                          {1, 7, 3}});
+  EXPECT_LE(enclosing_hull(cube, 8, {}).void_ratio, enclosing_hull(cube, 6, {}).void_ratio);
+}
+
 TEST(EnclosingHull, LiftsItsVerticesOverFolds) {
   // A fold that is inside out and sticks out: it bounds no part of the solid, but is to be covered.
   const TriangleMesh rock = make_sample("asteroid", effort<std::size_t>(1000, 300));
