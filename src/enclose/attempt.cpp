@@ -99,8 +99,7 @@ LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
   LevelTrial found = search_levels(fewest, finest, trial);
   if (found.keeps_bounds() || !is_possible) return found;
   const std::size_t faces = faces_of_level(hull, making);
-  LevelTrial moved = trial(faces);
-  return moved.keeps_bounds() ? moved : LevelTrial{faces, hull.level(faces), 1};
+  return {faces, hull.level(faces), 1};
 }
 
 EnclosingHull built_of_levels(const Making& making) {
