@@ -31,8 +31,7 @@ namespace {
 /// Cuts are looked for on a hull of so many faces: more make them hardly better.
 constexpr std::size_t kSearchFaces = 1500;
 /// Of the hull around triangles that bound no solid: so many for each triangle, up to kSearchFaces. Of the fuzzer's
-/// soups of 31 to 62 triangles, 400 at least took 1.7 to 8 times as long, and no cover had less volume; two of four
-/// went around what lies between the triangles, too.
+/// soups of 31 to 62 triangles, 400 at least took 2 to 8 times as long, and none had a smaller cover.
 constexpr std::size_t kHullFacesPerTriangle = 4, kFewestHullFaces = 100;
 /// Those of the wide search, which is costlier.
 constexpr std::size_t kWideSearchFaces = 800;
