@@ -30,9 +30,8 @@ namespace {
 
 /// Cuts are looked for on a hull of so many faces: more make them hardly better.
 constexpr std::size_t kSearchFaces = 1500;
-/// Of the hull around triangles that bound no solid: so many for each triangle, up to kSearchFaces. Of the fuzzer's
-/// soups of 31 to 62 triangles, 400 at least took 2 to 8 times as long, and none had a smaller cover.
-constexpr std::size_t kHullFacesPerTriangle = 4, kFewestHullFaces = 100;
+/// Of the hull around triangles that bound no solid: so many for each triangle, up to kSearchFaces.
+constexpr std::size_t kHullFacesPerTriangle = 4, kFewestHullFaces = 400;
 /// Those of the wide search, which is costlier.
 constexpr std::size_t kWideSearchFaces = 800;
 constexpr double kSearchTolerance = 1e-6;
