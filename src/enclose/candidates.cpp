@@ -210,12 +210,12 @@ void Candidates::plan_bounded_wraps() {
 void Candidates::plan_fewer_faces() {
   constexpr std::size_t kFew = 12, kFewest = 4;
   if (target_faces_ > kFew) return;
-  for (std::size_t faces = (target_faces_ - 1) / 2 * 2; faces >= kFewest; faces -= 2)
-    steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+  for (std::size_t faces = (target_faces_ + 1) / 2 * 2; faces > kFewest; faces -= 2)
+    steps_.push_back([=](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       constexpr double kHugeVoid = 1;
       if (!ranking.has_certified() || !(solids.volume() > 0) || ranking.best_void() < kHugeVoid) return std::nullopt;
       Candidate candidate = ranking.best().candidate;
-      candidate.fewer_faces = faces;
+      candidate.fewer_faces = faces - 2;
       return candidate;
     });
 }

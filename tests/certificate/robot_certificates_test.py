@@ -11,7 +11,7 @@ PROHULL, CHECKER = sys.argv[1:]
 BUDGETS = """links:
   palm: {collision: convex, pieces: 2}
   left_pad: {collision: spheres, spheres: 12}
-  left_finger: {padding: 0.0001}
+  left_finger: {gap: 0.0001}
 """
 
 
