@@ -43,7 +43,6 @@ Cage cage_of(TriangleMesh mesh, const CageRunOptions& options) {
   CageOptions cage = options.cage;
   cage.progress = std::ref(line);
   try {
-    if (mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces: nothing to enclose");
     if (cage.float32_coordinates) check_float32_spacing(mesh);
     return build_cage(std::move(mesh), cage);
   } catch (const InputError& error) {

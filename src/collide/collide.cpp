@@ -162,10 +162,6 @@ bool may_collide(const CollisionMesh& a, const PosePair& at, const CollisionMesh
   return Scene(a, at.a, b, at.b, margin * (1 + 0x1p-40)).collides();
 }
 
-bool collides(const CollisionMesh& a, const CollisionMesh& b, const PosePair& at) {
-  return Scene(a, at.a, b, at.b).collides();
-}
-
 void require_closed(const CollisionIndex& a, const CollisionIndex& b) {
   if (!a.is_solid() || !b.is_solid())
     throw InputError(
@@ -245,7 +241,7 @@ std::size_t CollisionIndex::memory_bytes() const {
 
 bool collide(const CollisionIndex& a, const Pose& pose_a, const CollisionIndex& b, const Pose& pose_b) {
   require_rigid(pose_a), require_rigid(pose_b);
-  return collides(CollisionAccess::of(a), CollisionAccess::of(b), {pose_a, pose_b});
+  return Scene(CollisionAccess::of(a), pose_a, CollisionAccess::of(b), pose_b).collides();
 }
 
 bool may_collide(const CollisionIndex& a, const Pose& pose_a, const CollisionIndex& b, const Pose& pose_b) {
@@ -267,9 +263,7 @@ Separation separation(const CollisionIndex& a, const Pose& pose_a, const Collisi
 
 std::vector<bool> collide(const CollisionIndex& a, const CollisionIndex& b, std::span<const PosePair> poses,
                           const CollisionOptions& options) {
-  return truths(answers<char>(poses, options, [&](const PosePair& at) {
-    return collides(CollisionAccess::of(a), CollisionAccess::of(b), at);
-  }));
+  return truths(answers<char>(poses, options, [&](const PosePair& at) { return collide(a, at.a, b, at.b); }));
 }
 
 std::vector<bool> may_collide(const CollisionIndex& a, const CollisionIndex& b, std::span<const PosePair> poses,

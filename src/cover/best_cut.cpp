@@ -39,8 +39,8 @@ Cut no_cut() {
   return {{}, kInfinity, kInfinity};
 }
 
-/// Of points in a plane, those that their convex hull is that of: Andrew's monotone chains, on a grid on which they are
-/// exact, and which is finer than what GrowingHull tells apart.
+/// Leaves the points of which the convex hull in their plane is made, by Andrew's monotone chains. The chains are
+/// exact, as coordinates are rounded to a grid that is finer than what GrowingHull tells apart.
 void keep_extreme(std::vector<Vec3>& points, const Vec3& normal) {
   constexpr double kPerUnit = 0x1p24;
   if (points.size() < 4) return;

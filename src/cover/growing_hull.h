@@ -9,7 +9,7 @@
 
 namespace prohull::cover {
 
-/// The convex hull of points that are added one by one, in floating point: for the volumes by which cuts are compared.
+/// The convex hull of points that are added, in floating point: for the volumes by which cuts are compared.
 /// Nothing depends on its exactness. Coordinates should be of the order of 1. Of the points that are added together,
 /// the farthest come first, and the others are looked for only beyond the faces that they see (Barber, Dobkin,
 /// Huhdanpaa 1996, The quickhull algorithm): so few faces are made that are not of the hull.

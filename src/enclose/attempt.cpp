@@ -104,17 +104,13 @@ LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
 
 EnclosingHull built_of_levels(const Making& making) {
   const HullResult& result = making.solids.levels(making.candidate.solid);
-  const std::size_t target = making.candidate.faces();
-  EnclosingHull hull;
-  std::size_t faces;
-  if (making.recipe().moves) {
-    LevelTrial found = moved_level(result.hull, making);
-    faces = found.faces, hull.mesh = std::move(found.mesh);
-  } else {
-    faces = faces_of_level(result.hull, making), hull.mesh = result.hull.level(faces);
-  }
+  std::optional<LevelTrial> moved;
+  if (making.recipe().moves) moved = moved_level(result.hull, making);
+  const std::size_t faces = moved ? moved->faces : faces_of_level(result.hull, making);
   const TriangleMesh level = result.hull.level(faces);
-  hull.target_reached = faces > target || level.face_count() <= target;
+  EnclosingHull hull;
+  hull.mesh = moved ? std::move(moved->mesh) : level;
+  hull.target_reached = faces > making.candidate.faces();  // which bounds ask for
   if (hull.mesh == level)
     hull.levels = faces > result.hull.base_face_count() ? result.hull.with_base(faces) : result.hull;
   hull.refusals = result.refusals, hull.blocked = result.blocked;

@@ -28,7 +28,7 @@ class CageMaker {
  public:
   CageMaker(TriangleMesh triangles, const CageOptions& options) : options_(options), triangles_(std::move(triangles)) {
     cage_.gap = options.gap > 0 ? options.gap : kCageGap * finite_bounding_box(triangles_).diagonal();
-    if (!(cage_.gap > 0))
+    if (!(cage_.gap > 0) && triangles_.face_count() > 0)  // without faces, the hulls have the better message
       throw InputError(Defect::InvalidOption, "the mesh has no size that a gap could be taken from: give the gap");
   }
 

@@ -177,9 +177,9 @@ void Candidates::plan_bounded_wraps() {
   constexpr int kMostBounded = 4;
   constexpr double kFine = 256, kPlain = 100;  // to the diagonal; finer ones take ten seconds and more, and one second
   constexpr double kNearerByMoving = 4;        // by moving, a hull comes so much nearer than its wrap
-  // So many times fewer faces than a wrap has a hull of it that keeps the bounds. Of 10 robots' parts that another hull
-  // keeps 1 % of the diagonal of, with fewer faces than that, a wrap has a better one of 2, and takes 2 to 10 times as
-  // long.
+  // A hull of a wrap that keeps the bounds has at most so many times fewer faces than the wrap. Where another hull
+  // keeps them with fewer still, the wrap is left out: of 10 robots' parts at 1 % of the diagonal, it had a better hull
+  // for 2, and took 2 to 10 times as long.
   constexpr std::size_t kMostReduced = 300;
   const double finest = finest_spacing(request_), max_distance = request_.options.bounds.max_distance;
   const bool is_hopeless = kBoundedWrap.offset * finest > kNearerByMoving * max_distance;

@@ -114,7 +114,7 @@ TEST(Cage, RefusesWhatCannotBe) {
   };
   EXPECT_NE(refusal(unit_box(), {.gap = -1}).find("gap"), std::string::npos);
   EXPECT_NE(refusal(unit_box(), {.outer_faces = 3}).find("4 faces"), std::string::npos);
-  EXPECT_NE(refusal(TriangleMesh{}, {}), "");
+  EXPECT_NE(refusal(TriangleMesh{}, {}).find("no faces"), std::string::npos);
   TriangleMesh sheet;
   for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}) sheet.positions.push_back(p);
   sheet.triangles.push_back({VertexId{0}, VertexId{1}, VertexId{2}});
