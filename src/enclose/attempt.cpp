@@ -109,7 +109,7 @@ EnclosingHull built_of_levels(const Making& making) {
   const std::size_t faces = moved ? moved->faces : faces_of_level(result.hull, making);
   const TriangleMesh level = result.hull.level(faces);
   EnclosingHull hull;
-  hull.mesh = moved ? std::move(moved->mesh) : level;
+  hull.mesh = moved ? std::move(moved->mesh) : TriangleMesh(level);
   hull.target_reached = faces > making.candidate.faces();  // which bounds ask for
   if (hull.mesh == level)
     hull.levels = faces > result.hull.base_face_count() ? result.hull.with_base(faces) : result.hull;
