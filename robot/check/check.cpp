@@ -30,21 +30,18 @@ constexpr std::array<std::pair<std::string_view, CheckVerdict>, 6> kVerdictNames
      {"no-visual", CheckVerdict::NoVisual},
      {"missing", CheckVerdict::Missing}}};
 
-/// What lies inside: by the triangles if they can be closed and do not intersect, else estimated by a wrap of them and
-/// of caps on all openings.
+/// What lies inside: of the closed triangles; where they cannot be closed, or intersect too often, estimated by a wrap
+/// of them and of caps on all openings.
 double enclosed_volume(const TriangleMesh& triangles, const Progress& progress) {
-  if (triangles.face_count() == 0) return 0;
   constexpr double kPerDiagonal = 100;
   const double diagonal = bounding_box(triangles).diagonal();
-  if (diagonal == 0) return 0;
+  if (triangles.face_count() == 0 || diagonal == 0) return 0;
   const RepairedMesh repaired = prepared_for_hulls(triangles);
-  const double signed_one = repaired.closed ? repaired.closed->report.volume : 0;
-  if (repaired.closed && count_self_intersections(repaired.closed->mesh) == 0) return signed_one;
-  const double spacing = diagonal / kPerDiagonal;
+  if (repaired.closed)
+    if (const auto volume = solid_volume(repaired.closed->mesh, progress)) return *volume;
   const TriangleMesh solid =
       repaired.closed ? repaired.closed->mesh : with_caps(repaired.original, find_openings(repaired.original));
-  const double estimate = inside_volume(solid, {.spacing = spacing, .seal_rooms = true, .progress = progress});
-  return estimate > 0 ? estimate : signed_one;
+  return inside_volume(solid, {.spacing = diagonal / kPerDiagonal, .seal_rooms = true, .progress = progress});
 }
 
 double area(const Triangle& t) { return norm(cross(t.b - t.a, t.c - t.a)) / 2; }

@@ -5,12 +5,12 @@
 #include <tuple>
 #include <utility>
 
-#include "prohull/enclosure.h"
+#include "geometry/predicates.h"
+#include "geometry/triangle_predicates.h"
+#include "verify/winding.h"
 
 namespace prohull::verify {
 namespace {
-
-constexpr std::size_t kFacesOfHull = 4;
 
 struct Edge {
   std::array<Vec3, 2> ends;  // in lexicographic order
@@ -40,62 +40,81 @@ std::vector<Edge> sorted_edges(const TriangleMesh& mesh) {
   return edges;
 }
 
-/// Closed and outwards.
+/// Closed, and outwards if the apex is inside of the base.
 TriangleMesh tetrahedron(const Triangle& base, const Vec3& apex) {
   TriangleMesh mesh;
   for (const Vec3& p : {base.a, base.b, base.c, apex}) mesh.positions.push_back(p);
-  constexpr std::uint32_t kFaces[kFacesOfHull][3]{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  constexpr std::uint32_t kFaces[4][3]{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
   for (const auto& [a, b, c] : kFaces) mesh.triangles.push_back({VertexId(a), VertexId(b), VertexId(c)});
   return mesh;
 }
 
-}  // namespace
-
-ConvexPairs::ConvexPairs(const TriangleMesh& mesh, const Progress& progress) {
-  for ([[maybe_unused]] const FaceId f : mesh.triangles.ids()) of_face_.push_back({});
-  find_pairs(mesh);
-  keep_proven(mesh, progress);
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    of_face_[pairs_[i].f].push_back(i);
-    of_face_[pairs_[i].g].push_back(i);
-  }
+/// Whether a triangle (a, b, c) and one on its other side of the edge (a, b), with the corner d, both in one plane,
+/// make up their convex hull.
+bool is_convex_quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const auto axis = projection_axis({a, b, c});
+  if (!axis) return false;
+  return turn(*axis, a, b, c) * turn(*axis, a, b, d) < 0 && turn(*axis, c, d, a) * turn(*axis, c, d, b) <= 0;
 }
 
-/// Those whose edge is convex, or flat, as far as rounding tells.
-void ConvexPairs::find_pairs(const TriangleMesh& mesh) {
+/// If so, the triangle has no point in the interior of the tetrahedron. It may also have none if not.
+bool is_beside(const Triangle& t, const TriangleMesh& tetrahedron) {
+  for (const FaceId f : tetrahedron.triangles.ids()) {
+    const Triangle face = tetrahedron.triangle(f);
+    const auto is_inside = [&](const Vec3& p) { return side(face.a, face.b, face.c, p) == Side::Inside; };
+    if (!is_inside(t.a) && !is_inside(t.b) && !is_inside(t.c)) return true;
+  }
+  const auto has_none = [&](Side which) {
+    return std::ranges::none_of(tetrahedron.positions, [&](const Vec3& p) { return side(t.a, t.b, t.c, p) == which; });
+  };
+  return has_none(Side::Inside) || has_none(Side::Outside);
+}
+
+}  // namespace
+
+ConvexPairs::ConvexPairs(const TriangleMesh& mesh) : of_face_(mesh.face_count()) {
+  if (mesh.face_count() == 0) return;
+  surface_ = Surface(mesh, "pieces", Turning::Never);
   const std::vector<Edge> edges = sorted_edges(mesh);
   for (std::size_t i = 0, end; i < edges.size(); i = end) {
     for (end = i; end < edges.size() && edges[end].key() == edges[i].key();) ++end;
     if (end - i != 2) continue;
-    TriangleMesh hull = tetrahedron(mesh.triangle(edges[i].face), edges[i + 1].opposite);
-    if (signed_volume(hull) >= 0) pairs_.push_back({edges[i].face, edges[i + 1].face, std::move(hull)});
+    const FaceId f = edges[i].face, g = edges[i + 1].face;
+    const Triangle base = mesh.triangle(f);
+    const Vec3& apex = edges[i + 1].opposite;
+    const Side where = side(base.a, base.b, base.c, apex);
+    if (where == Side::Outside) continue;
+    std::optional<bool> is_proven;
+    if (where == Side::On) {  // then it consists of the faces
+      is_proven = is_convex_quad(edges[i].ends[0], edges[i].ends[1], edges[i].opposite, apex);
+      if (!*is_proven) continue;
+    }
+    of_face_[f].push_back(pairs_.size()), of_face_[g].push_back(pairs_.size());
+    pairs_.push_back({tetrahedron(base, apex), is_proven});
   }
 }
 
-/// Each face of a hull has to be covered. Then only a cavity could be left within it: verify_enclosure finds these.
-void ConvexPairs::keep_proven(const TriangleMesh& mesh, const Progress& progress) {
-  if (pairs_.empty()) return;
-  TriangleMesh all;
-  for (const Pair& pair : pairs_) append(all, pair.hull);
-  std::vector<bool> is_out(pairs_.size());
-  const EnclosureOptions options{.max_offenders = all.face_count(), .progress = progress};
-  for (const Offender& offender : verify_cover(all, mesh, options).worst)
-    is_out[index(offender.face) / kFacesOfHull] = true;
-  std::vector<Pair> kept;
-  TriangleMesh rest;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (is_out[i]) continue;
-    append(rest, pairs_[i].hull);
-    kept.push_back(std::move(pairs_[i]));
+// Where no face reaches the interior, the winding number is the same all over it.
+bool ConvexPairs::lies_in_solid(const TriangleMesh& hull) const {
+  Vec3 middle;
+  for (const Vec3& p : hull.positions) middle = middle + p / 4;
+  for (const FaceId f : hull.triangles.ids()) {
+    const Triangle t = hull.triangle(f);
+    if (side(t.a, t.b, t.c, middle) != Side::Inside) return false;  // it is rounded
   }
-  pairs_ = std::move(kept);
-  if (!pairs_.empty() && !verify_enclosure(rest, mesh, {.progress = progress}).encloses) pairs_.clear();
+  const Box box = bounding_box(hull);
+  bool is_empty = true;
+  surface_.bvh.visit([&](const Box& other) { return is_empty && other.overlaps(box); },
+                     [&](FaceIndex f) { is_empty = is_empty && is_beside(surface_.faces[f], hull); });
+  return is_empty && winding_at(surface_, ExactPoint(middle)) >= 1;
 }
 
 double ConvexPairs::distance_at_most(FaceId face, const Triangle& triangle) {
   double least = std::numeric_limits<double>::infinity();
   for (const std::size_t i : of_face_[face]) {
     Pair& pair = pairs_[i];
+    if (!pair.is_proven) pair.is_proven = lies_in_solid(pair.hull);
+    if (!*pair.is_proven) continue;
     if (!pair.query) pair.query.emplace(QueryIndex(pair.hull));
     double farthest = 0;
     for (const Vec3& p : {triangle.a, triangle.b, triangle.c})

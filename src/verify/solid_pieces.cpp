@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <utility>
 
@@ -167,14 +168,16 @@ bool one_leaves(const TriangleMesh& faces, const TriangleMesh& triangles) {
 /// it.
 class Reach {
  public:
-  Reach(const TriangleMesh& faces, const SolidPieces& pieces, const Progress& progress)
+  /// `found`: the offenders among the faces, if somebody knows them.
+  Reach(const TriangleMesh& faces, const SolidPieces& pieces, const Progress& progress,
+        const std::optional<std::vector<Offender>>& found = {})
       : pieces_(pieces),
         progress_(progress),
         balls_(only_balls(pieces)),
         solid_(balls_.empty() ? solid_mesh(pieces, Curved::Within, kSegments[0]) : TriangleMesh()),
         surface_(surface()),
         query_(QueryIndex(surface_)),
-        pairs_(pieces.solids, progress) {
+        pairs_(pieces.solids) {
     double largest = 0;
     for (const TriangleMesh* mesh : {&surface_, &faces})
       for (const Vec3& p : mesh->positions)
@@ -183,11 +186,14 @@ class Reach {
     // Offenders are rounded; cells are cut at rounded midpoints, at most some hundred times one after another; the
     // bounds of distances to curved forms are some 2^-46 of their size apart.
     rounding_ = 0x1p-42 * largest;
-    add(faces);
+    add(faces, found ? *found : offenders_among(faces));
   }
 
   DistanceBounds run() {
-    while (is_wide() && seen_ < kMostCells && !is_stuck()) add(mesh_of(halves()));
+    while (is_wide() && seen_ < kMostCells && !is_stuck()) {
+      const TriangleMesh cells = mesh_of(halves());
+      add(cells, offenders_among(cells));
+    }
     reach_.upper = std::max(cells_.empty() ? 0 : cells_.top().upper, reach_.lower) + rounding_;
     reach_.lower = std::max(0.0, reach_.lower - rounding_);
     return reach_;
@@ -200,6 +206,8 @@ class Reach {
   struct Cell {
     Triangle triangle;
     double upper;
+    std::vector<FaceId> nearest = {};  // whose pairs bound it closer, if it matters
+    void bound_by(double distance) { upper = std::min(upper, distance); }
     bool operator<(const Cell& other) const { return upper < other.upper; }
   };
 
@@ -218,11 +226,14 @@ class Reach {
     return gap > 0.9 * std::exchange(gap_, gap);
   }
 
-  bool is_wide() const { return !cells_.empty() && cells_.top().upper > (1 + kRelativeGap) * reach_.lower + rounding_; }
+  bool is_wide(const Cell& cell) const { return cell.upper > (1 + kRelativeGap) * reach_.lower + rounding_; }
+  bool is_wide() const { return !cells_.empty() && is_wide(cells_.top()); }
 
-  void add(const TriangleMesh& faces) {
-    const std::vector<Offender> found =
-        balls_.empty() ? offenders(faces, solid_, progress_) : offenders(faces, balls_, progress_);
+  std::vector<Offender> offenders_among(const TriangleMesh& faces) const {
+    return balls_.empty() ? offenders(faces, solid_, progress_) : offenders(faces, balls_, progress_);
+  }
+
+  void add(const TriangleMesh& faces, const std::vector<Offender>& found) {
     std::vector<Triangle> cells, points;
     for (const Offender& offender : found) {
       cells.push_back(faces.triangle(offender.face));
@@ -234,7 +245,7 @@ class Reach {
       const Triangle& t = cells[i];
       if (point_leaves[i] != 0) look_at(found[i].point);
       if (solid_.face_count() == 0 && pieces_.tangled.empty()) look_at(t.b), look_at(t.c);
-      cells_.push({t, upper_bound(t)});
+      cells_.push(bounded(t));
       ++seen_;
     }
   }
@@ -253,27 +264,34 @@ class Reach {
     if (distance > reach_.lower) reach_.lower = distance, reach_.farthest = p;
   }
 
-  double upper_bound(const Triangle& t) {
-    double upper = std::numeric_limits<double>::infinity();
+  /// By the curved pieces and by the faces nearest to the corners.
+  Cell bounded(const Triangle& t) {
+    Cell cell{t, std::numeric_limits<double>::infinity()};
     for (const CurvedForm& form : pieces_.curved)
-      upper = std::min(upper, std::max({form.distance(t.a).upper, form.distance(t.b).upper, form.distance(t.c).upper}));
-    if (surface_.face_count() == 0) return upper;
+      cell.bound_by(std::max({form.distance(t.a).upper, form.distance(t.b).upper, form.distance(t.c).upper}));
+    if (surface_.face_count() == 0) return cell;
     std::vector<Triangle> near;
     for (const Vec3& p : {t.a, t.b, t.c}) {
       const FaceId face = query_.closest_point(p)->face;
       near.push_back(surface_.triangle(face));
-      if (index(face) < pieces_.solids.face_count()) upper = std::min(upper, pairs_.distance_at_most(face, t));
+      if (index(face) < pieces_.solids.face_count()) cell.nearest.push_back(face);
     }
-    return std::min(upper, distance_bounds(mesh_of({&t, 1}), mesh_of(near), {.max_cells = 1}).upper);
+    cell.bound_by(distance_bounds(mesh_of({&t, 1}), mesh_of(near), {.max_cells = 1}).upper);
+    return cell;
   }
 
   std::vector<Triangle> halves() {
     // To ask whether cells are covered takes the time of some, and more where the pieces have many faces.
     const std::size_t at_once = std::max<std::size_t>(1024, solid_.face_count() / 4);
     std::vector<Triangle> result;
-    for (std::size_t i = 0; i < at_once && is_wide(); ++i) {
-      add_halves(cells_.top().triangle, result);
+    while (result.size() < 2 * at_once && is_wide()) {
+      Cell cell = cells_.top();
       cells_.pop();
+      for (const FaceId f : std::exchange(cell.nearest, {})) cell.bound_by(pairs_.distance_at_most(f, cell.triangle));
+      if (is_wide(cell))
+        add_halves(cell.triangle, result);
+      else
+        cells_.push(std::move(cell));
     }
     return result;
   }
@@ -310,9 +328,23 @@ PieceCover cover_by_balls(const TriangleMesh& faces, std::span<const Ball> balls
   return result;
 }
 
+/// By one exact test: windings may be added.
+PieceCover cover_by_solids(const TriangleMesh& faces, const SolidPieces& pieces, const Progress& progress) {
+  const std::vector<Offender> found = offenders(faces, pieces.solids, progress);
+  if (found.empty()) return {};
+  PerFace<char> outside(faces.face_count(), 0);
+  for (const Offender& offender : found) outside[offender.face] = 1;
+  PieceCover result{Covers::Unknown, faces_that(faces, [&](FaceId f) { return outside[f] != 0; }), {}};
+  result.reach = Reach(faces, pieces, progress, found).run();
+  if (result.reach.lower > 0 || one_leaves(result.outside, pieces.triangles)) result.covers = Covers::No;
+  return result;
+}
+
 PieceCover cover_flat(const TriangleMesh& faces, const SolidPieces& pieces, const Progress& progress) {
   if (const std::vector<Ball> balls = only_balls(pieces); !balls.empty())
     return cover_by_balls(faces, balls, pieces, progress);
+  if (pieces.curved.empty() && pieces.tangled.empty())
+    return cover_by_solids(without_equals(faces, pieces.triangles), pieces, progress);
   PieceCover result{Covers::Unknown, without_equals(faces, pieces.triangles), {}};
   TriangleMesh leaving;  // the solid pieces
   for (const std::size_t segments : kSegments) {

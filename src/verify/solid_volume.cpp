@@ -171,3 +171,13 @@ double solid_volume(const Surface& surface, const FacePairs& pairs, ProgressMete
 }
 
 }  // namespace prohull::verify
+
+namespace prohull {
+
+std::optional<double> solid_volume(const TriangleMesh& mesh, const Progress& progress) {
+  ProgressMeter meter(progress, "verify");
+  const double volume = verify::solid_volume(mesh, meter);
+  return std::isnan(volume) ? std::nullopt : std::optional(volume);
+}
+
+}  // namespace prohull

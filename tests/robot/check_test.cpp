@@ -523,10 +523,10 @@ TriangleMesh arrowhead() {
 
 TEST(ConvexPairs, KeepsNoHullThatLeavesTheSolid) {
   const auto in_notch = [](double y) { return Triangle{{0, y, 0.01}, {0.01, y, 0.01}, {0, y, 0.02}}; };
-  verify::ConvexPairs pairs(arrowhead(), {});
-  for (const FaceId f : arrowhead().triangles.ids())
+  const TriangleMesh solid = arrowhead(), box = meshes::box({-1, -1, -1}, {1, 1, 0});
+  verify::ConvexPairs pairs(solid), of_box(box);
+  for (const FaceId f : solid.triangles.ids())
     EXPECT_GE(pairs.distance_at_most(f, in_notch(-0.5)), std::sqrt(0.125)) << "face " << index(f);
-  verify::ConvexPairs of_box(meshes::box({-1, -1, -1}, {1, 1, 0}), {});
   double least = 1;
   for (std::uint32_t f = 0; f < 12; ++f) least = std::min(least, of_box.distance_at_most(FaceId(f), in_notch(-0.5)));
   EXPECT_NEAR(least, 0.02, 1e-12) << "two faces make up the top";
@@ -536,7 +536,7 @@ TEST(ConvexPairs, KeepsNoHullWithACavity) {
   const TriangleMesh hollow =
       meshes::together(meshes::tetrahedron({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}),
                        meshes::inside_out(meshes::tetrahedron({.1, .1, .1}, {.2, .1, .1}, {.1, .2, .1}, {.1, .1, .2})));
-  verify::ConvexPairs pairs(hollow, {});
+  verify::ConvexPairs pairs(hollow);
   for (const FaceId f : hollow.triangles.ids())
     EXPECT_GT(pairs.distance_at_most(f, {{.12, .12, .12}, {.13, .12, .12}, {.12, .13, .12}}), 0) << "face " << index(f);
 }
