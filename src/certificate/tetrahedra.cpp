@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "certificate/certificate_file.h"
+#include "geometry/no_index.h"
 #include "mesh/closed.h"
 #include "mesh/half_edge_mesh.h"
 #include "verify/surface.h"
@@ -15,8 +16,6 @@
 
 namespace prohull::certificate {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffff;
 
 /// A sum of oriented triangles, by the numbers of their corners.
 class Chain {

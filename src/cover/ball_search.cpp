@@ -13,7 +13,7 @@
 namespace prohull::cover {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 template <class Body>
 void for_each_index(std::size_t count, Body body) {
@@ -112,8 +112,8 @@ class Coverage {
 struct Member {
   Place place;
   std::vector<std::uint32_t> patches = {};
-  double needed = -kInfinity;      ///< the greatest need of its patches
-  double without_it = -kInfinity;  ///< the same, if the next best balls had its patches
+  double needed = -kUnbounded;      ///< the greatest need of its patches
+  double without_it = -kUnbounded;  ///< the same, if the next best balls had its patches
 };
 
 /// Balls that move until none can do better.
@@ -126,7 +126,7 @@ class Improvement {
   }
 
   double reach() const {
-    double most = -kInfinity;
+    double most = -kUnbounded;
     for (const Member& member : members_) most = std::max(most, member.needed);
     return most;
   }
@@ -186,7 +186,7 @@ class Improvement {
 
   /// The ball with the least need of a patch, and the least need of all others.
   struct Best {
-    double needed = kInfinity, next = kInfinity;
+    double needed = kUnbounded, next = kUnbounded;
     std::uint32_t member = 0;
 
     void offer(double need, std::uint32_t i) {
@@ -248,7 +248,7 @@ class Improvement {
   }
 
   void settle(Member& member) const {
-    member.needed = -kInfinity;
+    member.needed = -kUnbounded;
     for (const std::uint32_t p : member.patches)
       member.needed = std::max(member.needed, need(member.place, task_.patches, task_.patches.patches[p]));
     recentre(member);

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/no_index.h"
+
 namespace prohull::cover {
 namespace {
 
 constexpr double kTolerance = 1e-6;
 /// Points are moved by this much, so that no four of them lie in a plane and no rounding folds the hull.
 constexpr double kShift = 1e-7;
-constexpr std::uint32_t kNone = 0xffffffff;
 
 double sixfold(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
 

@@ -10,7 +10,7 @@
 namespace prohull::cover {
 namespace {
 
-using Cell = std::array<std::int64_t, 3>;
+using CubePlace = std::array<std::int64_t, 3>;
 
 /// Walks down an octree of which the leaves are cubes of the grid.
 class InsideCubes {
@@ -18,7 +18,7 @@ class InsideCubes {
   InsideCubes(const CubeGrid& grid, const Depth& depth, const std::vector<std::uint64_t>& crossed)
       : grid_(grid), depth_(depth), crossed_(crossed) {}
 
-  void visit(const Cell& cell, std::int64_t width) {
+  void visit(const CubePlace& cell, std::int64_t width) {
     const double size = static_cast<double>(width) * grid_.spacing();
     const double depth = depth_.in_solid(corner(cell, width, 0.5));
     if (depth < -size * std::numbers::sqrt3 / 2) return;
@@ -33,17 +33,17 @@ class InsideCubes {
   std::vector<PointInCube> take() { return std::move(points_); }
 
  private:
-  Vec3 corner(const Cell& cell, std::int64_t width, double fraction) const {
+  Vec3 corner(const CubePlace& cell, std::int64_t width, double fraction) const {
     return corner(cell, width, {fraction, fraction, fraction});
   }
-  Vec3 corner(const Cell& cell, std::int64_t width, const Vec3& fraction) const {
+  Vec3 corner(const CubePlace& cell, std::int64_t width, const Vec3& fraction) const {
     Vec3 p;
     for (int axis = 0; axis < 3; ++axis)
       p[axis] = grid_.plane(axis, cell[axis]) + fraction[axis] * static_cast<double>(width) * grid_.spacing();
     return p;
   }
 
-  void add(const Cell& cell, std::int64_t width, bool is_middle_inside) {
+  void add(const CubePlace& cell, std::int64_t width, bool is_middle_inside) {
     const std::uint64_t cube = CubeGrid::number(cell);
     const bool is_crossed = std::ranges::binary_search(crossed_, cube);
     if (!is_crossed && !is_middle_inside) return;
@@ -74,7 +74,7 @@ void add_inside(std::vector<PointInCube>& points, const CubeGrid& grid, const Bo
                 ProgressMeter& meter) {
   constexpr std::int64_t kWidth = 16;  // of the octrees
   const std::vector<std::uint64_t> crossed = cubes_of(points);
-  std::vector<Cell> roots;
+  std::vector<CubePlace> roots;
   const auto last = [&](int axis) { return grid.cell(axis, box.max[axis]); };
   for (std::int64_t x = 0; x <= last(0); x += kWidth)
     for (std::int64_t y = 0; y <= last(1); y += kWidth)

@@ -5,11 +5,10 @@
 
 #include "cover/polytope.h"
 #include "geometry/directions.h"
+#include "geometry/no_index.h"
 
 namespace prohull::cover {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffff;
 
 /// The part of a segment that is not above a plane.
 bool clip(Segment& s, const Plane& plane) {

@@ -37,9 +37,9 @@ void split(const Polygon& polygon, int axis, double plane, Polygon& below, Polyg
 }
 
 /// Cuts polygons along one axis after the other.
-class Cutter {
+class PatchCutter {
  public:
-  Cutter(const CubeGrid& grid, std::vector<PointInCube>& points) : grid_(grid), points_(points) {}
+  PatchCutter(const CubeGrid& grid, std::vector<PointInCube>& points) : grid_(grid), points_(points) {}
 
   void cut(Polygon polygon, int axis = 0) {
     if (axis == 3) return add(polygon);
@@ -100,7 +100,7 @@ std::uint64_t CubeGrid::number(const std::array<std::int64_t, 3>& cell) {
 
 std::vector<PointInCube> points_in_cubes(const TriangleMesh& triangles, const CubeGrid& grid) {
   std::vector<PointInCube> points;
-  Cutter cutter(grid, points);
+  PatchCutter cutter(grid, points);
   for (const FaceId f : triangles.triangles.ids()) {
     const Triangle t = triangles.triangle(f);
     cutter.cut({t.a, t.b, t.c});

@@ -7,11 +7,10 @@
 #include <limits>
 
 #include "cover/polytope.h"
+#include "geometry/no_index.h"
 
 namespace prohull::cover {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffff;
 
 /// A point of the target that a face has to stay outside of.
 struct Contact {

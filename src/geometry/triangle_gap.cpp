@@ -22,12 +22,12 @@ Vector cross(const Vector& a, const Vector& b) {
 }
 
 /// A corner of a triangle: as it is, and as exact numbers.
-struct Corner {
-  explicit Corner(const Vec3& p) : position(p), exact{p.x, p.y, p.z} {}
+struct ExactCorner {
+  explicit ExactCorner(const Vec3& p) : position(p), exact{p.x, p.y, p.z} {}
   Vec3 position;
   Vector exact;
 };
-using ExactTriangle = std::array<Corner, 3>;
+using ExactTriangle = std::array<ExactCorner, 3>;
 
 /// Whether the segment passes from one side of the triangle to the other through its inside.
 bool pierces(const Vec3& p, const Vec3& q, const Triangle& t) {
@@ -48,16 +48,16 @@ class Nearer {
  public:
   Nearer(const Triangle& s, const Triangle& t, double distance)
       : distance_(distance),
-        s_{Corner(s.a), Corner(s.b), Corner(s.c)},
-        t_{Corner(t.a), Corner(t.b), Corner(t.c)},
+        s_{ExactCorner(s.a), ExactCorner(s.b), ExactCorner(s.c)},
+        t_{ExactCorner(t.a), ExactCorner(t.b), ExactCorner(t.c)},
         squared_(Number(distance) * Number(distance)) {}
 
   bool any() const {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Corner &s = s_[i], &s_next = s_[(i + 1) % 3];
+      const ExactCorner &s = s_[i], &s_next = s_[(i + 1) % 3];
       if (corner_and_face(s, t_) || corner_and_face(t_[i], s_)) return true;
       for (std::size_t j = 0; j < 3; ++j) {
-        const Corner &t = t_[j], &t_next = t_[(j + 1) % 3];
+        const ExactCorner &t = t_[j], &t_next = t_[(j + 1) % 3];
         if (corners(s, t) || corner_and_edge(s, t, t_next) || corner_and_edge(t, s, s_next) ||
             edges(s, s_next, t, t_next))
           return true;
@@ -69,13 +69,13 @@ class Nearer {
  private:
   bool is_far(const Triangle& s, const Triangle& t) const { return triangle_distance(s, t).lower >= distance_; }
 
-  bool corners(const Corner& p, const Corner& q) const {
+  bool corners(const ExactCorner& p, const ExactCorner& q) const {
     if (is_far({p.position, p.position, p.position}, {q.position, q.position, q.position})) return false;
     const Vector d = p.exact - q.exact;
     return dot(d, d) < squared_;
   }
 
-  bool corner_and_edge(const Corner& p, const Corner& a, const Corner& b) const {
+  bool corner_and_edge(const ExactCorner& p, const ExactCorner& a, const ExactCorner& b) const {
     if (is_far({p.position, p.position, p.position}, {a.position, b.position, b.position})) return false;
     const Vector edge = b.exact - a.exact, to = p.exact - a.exact;
     const Number along = dot(edge, to), all = dot(edge, edge);
@@ -84,7 +84,7 @@ class Nearer {
     return dot(n, n) < squared_ * all;
   }
 
-  bool edges(const Corner& p, const Corner& p_end, const Corner& q, const Corner& q_end) const {
+  bool edges(const ExactCorner& p, const ExactCorner& p_end, const ExactCorner& q, const ExactCorner& q_end) const {
     if (is_far({p.position, p_end.position, p_end.position}, {q.position, q_end.position, q_end.position}))
       return false;
     const Vector u = p_end.exact - p.exact, v = q_end.exact - q.exact, w = q.exact - p.exact, n = cross(u, v);
@@ -94,7 +94,7 @@ class Nearer {
     return height * height < squared_ * all;
   }
 
-  bool corner_and_face(const Corner& p, const ExactTriangle& t) const {
+  bool corner_and_face(const ExactCorner& p, const ExactTriangle& t) const {
     if (is_far({p.position, p.position, p.position}, {t[0].position, t[1].position, t[2].position})) return false;
     const Vector n = cross(t[1].exact - t[0].exact, t[2].exact - t[0].exact);
     const Number all = dot(n, n);

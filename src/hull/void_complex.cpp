@@ -182,7 +182,7 @@ std::size_t VoidComplex::memory_bytes() const {
 namespace {
 
 /// Flat tetrahedra of one plane, from one face to the next, and the original faces below them.
-struct FlatPart {
+struct FlatFaces {
   int axis;  ///< along which no face of an area is seen edge-on
   std::vector<FaceId> upward, downward;
 };
@@ -193,9 +193,10 @@ std::optional<int> axis_of(const std::array<Vec3, 3>& face) {
   return std::nullopt;
 }
 
-FlatPart flat_part(const VoidComplex& complex, const VoidComplex::Neighbour& first, int axis, std::vector<bool>& seen) {
+FlatFaces flat_part(const VoidComplex& complex, const VoidComplex::Neighbour& first, int axis,
+                    std::vector<bool>& seen) {
   using Kind = VoidComplex::Neighbour::Kind;
-  FlatPart part{axis, {}, {}};
+  FlatFaces part{axis, {}, {}};
   std::vector<VoidComplex::Neighbour> waiting{first};
   seen[first.id] = true;
   while (!waiting.empty()) {
@@ -230,7 +231,7 @@ std::vector<FaceId> sheets_without_thickness(const VoidComplex& complex) {
     const auto [apex, a, b, c] = complex[above].corners;
     const auto axis = axis_of({complex.position(a), complex.position(b), complex.position(c)});
     if (!axis) continue;
-    const FlatPart part = flat_part(complex, above, *axis, seen);
+    const FlatFaces part = flat_part(complex, above, *axis, seen);
     if (part.upward.empty() || part.downward.empty()) continue;
     for (const auto* side : {&part.upward, &part.downward}) faces.insert(faces.end(), side->begin(), side->end());
   }

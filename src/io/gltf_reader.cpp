@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view kMagic = "glTF";
+constexpr std::string_view kGlbMagic = "glTF";
 constexpr std::size_t kGlbHeader = 12, kChunkHeader = 8;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr Place kNowhere{Place::Unit::None, 0};
@@ -94,7 +94,7 @@ class GltfReader {
  public:
   GltfReader(std::string_view content, const std::string& file, const ReadOptions& options)
       : file_(file), content_size_(content.size()), builder_(file, 0, content, options) {
-    const Chunks chunks = content.starts_with(kMagic) ? chunks_of(content) : Chunks{content, {}};
+    const Chunks chunks = content.starts_with(kGlbMagic) ? chunks_of(content) : Chunks{content, {}};
     binary_ = chunks.binary;
     parse(chunks.json);
   }
@@ -125,7 +125,7 @@ class GltfReader {
       fail(file_, {Place::Unit::Byte, content.size()}, fmt::format("the file ends within {}; it is truncated", what));
     };
     if (content.size() < kGlbHeader + kChunkHeader) fail_at_end("the header of a GLB");
-    ByteCursor cursor(content, kMagic.size());
+    ByteCursor cursor(content, kGlbMagic.size());
     if (const auto version = cursor.read<std::uint32_t>(); version != 2)
       fail(file_, {Place::Unit::Byte, 4},
            fmt::format("it has version {} of GLB, and only 2 is read; export as glTF 2.0", version));
@@ -532,7 +532,7 @@ class GltfReader {
 
 }  // namespace
 
-bool is_glb(std::string_view content) { return content.starts_with(kMagic); }
+bool is_glb(std::string_view content) { return content.starts_with(kGlbMagic); }
 
 TriangleMesh read_gltf(std::string_view content, const std::string& file, const ReadOptions& options) {
   return GltfReader(content, file, options).read();

@@ -19,7 +19,7 @@
 namespace prohull {
 namespace {
 
-constexpr std::string_view kMagic("\x89PHULL\r\n", 8);
+constexpr std::string_view kHullMagic("\x89PHULL\r\n", 8);
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHullHeaderSize = 12;
 constexpr int kCompressionLevel = 3;
@@ -154,7 +154,7 @@ void save_hull(const std::filesystem::path& path, const ProgressiveHull& hull) {
   Encoder version;
   version.integer(kVersion);
   AtomicFile file(path);
-  file.write(kMagic);
+  file.write(kHullMagic);
   file.write(version.bytes());
   file.write(frame);
   file.commit();
@@ -162,11 +162,11 @@ void save_hull(const std::filesystem::path& path, const ProgressiveHull& hull) {
 
 ProgressiveHull load_hull(const std::filesystem::path& path) { return load_hull(read_file(path), path); }
 
-bool is_hull_content(std::string_view content) { return content.starts_with(kMagic); }
+bool is_hull_content(std::string_view content) { return content.starts_with(kHullMagic); }
 
 bool is_hull_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
-  std::string start(kMagic.size(), '\0');
+  std::string start(kHullMagic.size(), '\0');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
   return in && is_hull_content(start);
 }
@@ -178,7 +178,7 @@ ProgressiveHull load_hull(std::string_view content, const std::filesystem::path&
                                  "-o HULL --hierarchy H.phull` makes one from a mesh",
                                  name.string()));
   if (content.size() < kHullHeaderSize) malformed(name, fmt::format("it is truncated after {} bytes", content.size()));
-  const auto version = Decoder(content.substr(kMagic.size())).integer<std::uint32_t>();
+  const auto version = Decoder(content.substr(kHullMagic.size())).integer<std::uint32_t>();
   if (version != kVersion)
     throw InputError(Defect::UnknownFormat,
                      fmt::format("{}: version {} of the .phull format; this program reads version {}: use the one that "

@@ -19,7 +19,7 @@ std::optional<QueryFormat> format_of_name(const std::filesystem::path& name) {
   return query_format(name);
 }
 
-QueryFormat format_of(std::string_view content, const std::filesystem::path& name) {
+QueryFormat query_format_of(std::string_view content, const std::filesystem::path& name) {
   std::optional<QueryFormat> found;
   if (content.starts_with(kNpyMagic)) found = QueryFormat::Npy;
   if (is_zip(content)) found = QueryFormat::Npz;
@@ -46,7 +46,7 @@ FileContent array_of_archive(std::string_view bytes, const std::filesystem::path
 
 void read_uncompressed(std::string_view content, const std::filesystem::path& name, const Columns& columns,
                        const RowSink& sink) {
-  switch (format_of(content, name)) {
+  switch (query_format_of(content, name)) {
     case QueryFormat::Npy:
       return read_npy(content, name.string(), columns, sink);
     case QueryFormat::Csv:
@@ -118,7 +118,7 @@ const PoseRow& pose_row(std::size_t numbers) {
 
 /// How many numbers the first row has, as far as that can be seen without reading it.
 std::size_t numbers_per_row(std::string_view content, const std::filesystem::path& name) {
-  switch (format_of(content, name)) {
+  switch (query_format_of(content, name)) {
     case QueryFormat::Npz:
       return numbers_per_row(array_of_archive(content, name, "poses").bytes, "poses.npy");
     case QueryFormat::Npy: {

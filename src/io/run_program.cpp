@@ -24,13 +24,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+[[noreturn]] void fail_with_errno(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
 class Descriptor {
  public:
   /// Takes over what a system call has returned.
   Descriptor(int number, const char* call) : number_(number) {
-    if (number_ < 0) fail(call);
+    if (number_ < 0) fail_with_errno(call);
   }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
@@ -51,7 +51,7 @@ int above_standard(int descriptor) { return fcntl(descriptor, F_DUPFD_CLOEXEC, S
 void write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) fail("write");
+    if (written < 0 && errno != EINTR) fail_with_errno("write");
     if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
@@ -149,7 +149,7 @@ ProgramResult run_program(const std::filesystem::path& program, const std::vecto
   write_all(stdin_file.number(), input);
   lseek(stdin_file.number(), 0, SEEK_SET);
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) fail("pipe2");
+  if (pipe2(ends, O_CLOEXEC) != 0) fail_with_errno("pipe2");
   Descriptor read_end(ends[0], "pipe2"), low_write_end(ends[1], "pipe2");
   Descriptor write_end(above_standard(low_write_end.number()), "fcntl");
   low_write_end.close();
@@ -176,7 +176,7 @@ ProgramResult run_program(const std::filesystem::path& program, const std::vecto
     output.resize(size + static_cast<std::size_t>(std::max<ssize_t>(read, 0)));
     if (output.size() > limits.output) return {End::TooMuchOutput, 0, {}};
     if (read == 0) break;
-    if (read < 0 && errno != EINTR) fail("read");
+    if (read < 0 && errno != EINTR) fail_with_errno("read");
   }
   for (std::chrono::milliseconds pause(1); !child.check_ended();
        pause = std::min(2 * pause, std::chrono::milliseconds(50))) {

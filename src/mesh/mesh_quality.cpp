@@ -25,10 +25,10 @@ Percentiles percentiles(std::vector<double>& values) {
 }
 
 /// Two edges of a triangle, in a unit in which no product of theirs overflows or vanishes.
-struct Sides {
+struct SideLengths {
   Vec3 ab, ac;
 
-  explicit Sides(const Triangle& t) {
+  explicit SideLengths(const Triangle& t) {
     const Vec3 half_ab = t.b * 0.5 - t.a * 0.5, half_ac = t.c * 0.5 - t.a * 0.5;
     double unit = 0;
     for (const Vec3& v : {half_ab, half_ac})
@@ -38,7 +38,7 @@ struct Sides {
 };
 
 /// One side of a face, as its neighbour sees it.
-struct EdgeUse {
+struct SideUse {
   std::uint64_t key;  ///< equal for uses of one edge
   FaceId face;
   bool ascending;
@@ -52,7 +52,7 @@ class Measurement {
     MeshQuality quality;
     std::vector<double> compactnesses, angles;
     for (const FaceId f : mesh_.triangles.ids()) compactnesses.push_back(measure(f));
-    const std::vector<EdgeUse> uses = edge_uses();
+    const std::vector<SideUse> uses = edge_uses();
     for (std::size_t i = 0, end; i < uses.size(); i = end) {
       for (end = i; end < uses.size() && uses[end].key == uses[i].key;) ++end;
       if (end - i == 2 && uses[i].ascending != uses[i + 1].ascending && has_area(uses[i].face) &&
@@ -74,7 +74,7 @@ class Measurement {
   double measure(FaceId f) {
     const Triangle t = mesh_.triangle(f);
     if (!(is_finite(t.a) && is_finite(t.b) && is_finite(t.c))) return 0;
-    const Sides sides(t);
+    const SideLengths sides(t);
     const Vec3 normal = cross(sides.ab, sides.ac);
     const double double_area = norm(normal);
     if (double_area > 0) normals_[f] = normal / double_area;
@@ -84,7 +84,7 @@ class Measurement {
   }
 
   // The smallest angle faces the shortest edge; the shortest altitude stands on the longest one.
-  void measure_shape(const Sides& sides, double double_area) {
+  void measure_shape(const SideLengths& sides, double double_area) {
     std::array<double, 3> lengths{norm(sides.ab), norm(sides.ac), norm(sides.ac - sides.ab)};
     std::ranges::sort(lengths);
     const double cosine = (lengths[1] * lengths[1] + lengths[2] * lengths[2] - lengths[0] * lengths[0]) / 2;
@@ -99,15 +99,15 @@ class Measurement {
     return std::numbers::pi - std::atan2(norm(cross(m, n)), dot(m, n));
   }
 
-  std::vector<EdgeUse> edge_uses() const {
-    std::vector<EdgeUse> uses;
+  std::vector<SideUse> edge_uses() const {
+    std::vector<SideUse> uses;
     uses.reserve(3 * mesh_.face_count());
     for (const FaceId f : mesh_.triangles.ids())
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint64_t v = index(mesh_.triangles[f][i]), w = index(mesh_.triangles[f][i == 2 ? 0 : i + 1]);
         uses.push_back({std::min(v, w) << 32 | std::max(v, w), f, v < w});
       }
-    std::ranges::sort(uses, {}, [](const EdgeUse& use) { return std::pair(use.key, use.face); });
+    std::ranges::sort(uses, {}, [](const SideUse& use) { return std::pair(use.key, use.face); });
     return uses;
   }
 

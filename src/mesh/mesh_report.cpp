@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "geometry/no_index.h"
 #include "geometry/predicates.h"
 #include "mesh/disjoint_sets.h"
 
@@ -107,7 +108,6 @@ class Inspector {
   }
 
   void look_at_vertices() {
-    constexpr std::uint32_t kNone = 0xffffffff;
     PerVertex<std::uint32_t> fan(mesh_.vertex_count(), kNone);
     PerVertex<std::uint8_t> pinched(mesh_.vertex_count(), 0);
     for (std::uint32_t c = 0; c < 3 * mesh_.face_count(); ++c) {

@@ -13,19 +13,19 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, Axis>, 3> kAxisNames{{{"x", Axis::X}, {"y", Axis::Y}, {"z", Axis::Z}}};
 
-using Corner = std::array<double, 3>;
+using PlacedCorner = std::array<double, 3>;
 /// The corners of a face from the least one on, in their order around it.
-using Key = std::array<Corner, 3>;
+using CornersKey = std::array<PlacedCorner, 3>;
 
-Corner corner(const Vec3& p) { return {p.x, p.y, p.z}; }
+PlacedCorner corner(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-Key key_of(const Triangle& t) {
-  Key key{corner(t.a), corner(t.b), corner(t.c)};
+CornersKey key_of(const Triangle& t) {
+  CornersKey key{corner(t.a), corner(t.b), corner(t.c)};
   std::rotate(key.begin(), std::ranges::min_element(key), key.end());
   return key;
 }
 
-std::ptrdiff_t count(const std::vector<Key>& sorted, const Key& key) {
+std::ptrdiff_t count(const std::vector<CornersKey>& sorted, const CornersKey& key) {
   const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), key);
   return last - first;
 }
@@ -46,15 +46,15 @@ class Inspection {
   }
 
  private:
-  std::optional<Corner> image_of(const Vec3& p) const {
+  std::optional<PlacedCorner> image_of(const Vec3& p) const {
     const auto image = plane_ && is_finite(p) ? plane_->image(p) : std::nullopt;
     return image ? std::optional(corner(*image)) : std::nullopt;
   }
 
-  std::optional<Key> image_of(const Triangle& t) const {
+  std::optional<CornersKey> image_of(const Triangle& t) const {
     const auto a = image_of(t.a), b = image_of(t.b), c = image_of(t.c);
     if (!a || !b || !c) return std::nullopt;
-    Key key{*a, *c, *b};
+    CornersKey key{*a, *c, *b};
     std::rotate(key.begin(), std::ranges::min_element(key), key.end());
     return key;
   }
@@ -63,7 +63,7 @@ class Inspection {
     PerVertex<char> is_used(mesh_.vertex_count(), 0);
     for (const auto& corners : mesh_.triangles)
       for (const VertexId v : corners) is_used[v] = 1;
-    std::vector<Corner> places;
+    std::vector<PlacedCorner> places;
     for (const VertexId v : is_used.ids())
       if (is_used[v] && is_finite(mesh_.positions[v])) places.push_back(corner(mesh_.positions[v]));
     std::ranges::sort(places);
@@ -78,7 +78,7 @@ class Inspection {
 
   // Of faces that lie on each other there must be as many on the other side.
   void inspect_faces() {
-    std::vector<Key> keys;
+    std::vector<CornersKey> keys;
     for (const FaceId f : mesh_.triangles.ids())
       if (const Triangle t = mesh_.triangle(f); image_of(t)) keys.push_back(key_of(t));
     std::ranges::sort(keys);

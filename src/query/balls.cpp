@@ -33,11 +33,11 @@ void mark_near(const FloatLine& line, Floats x, Floats y, Floats z, Floats radiu
   }
 }
 
-struct FloatBox {
+struct BallBox {
   float min_x, min_y, min_z, max_x, max_y, max_z;
 };
 
-void mark_overlapping(const FloatBox& box, Floats x, Floats y, Floats z, Floats radius, std::size_t count,
+void mark_overlapping(const BallBox& box, Floats x, Floats y, Floats z, Floats radius, std::size_t count,
                       std::uint8_t* __restrict may_meet) {
   for (std::size_t i = 0; i < count; ++i) {
     const float r = radius[i];
@@ -110,7 +110,7 @@ void Balls::mark(const Box& box, std::span<std::uint8_t> may_meet) const {
   const auto lower = [](double x) { return static_cast<float>(std::clamp(x, -4.0, 4.0) - 0x1p-20); };
   const auto upper = [](double x) { return static_cast<float>(std::clamp(x, -4.0, 4.0) + 0x1p-20); };
   const Vec3 min = in_frame(box.min), max = in_frame(box.max);
-  const FloatBox single{lower(min.x), lower(min.y), lower(min.z), upper(max.x), upper(max.y), upper(max.z)};
+  const BallBox single{lower(min.x), lower(min.y), lower(min.z), upper(max.x), upper(max.y), upper(max.z)};
   mark_overlapping(single, x_.data(), y_.data(), z_.data(), radius_.data(), size(), may_meet.data());
 }
 

@@ -10,13 +10,13 @@
 namespace prohull {
 namespace {
 
-constexpr std::uint32_t kDigits = 1 << 12;
+constexpr std::uint32_t kDigitsOfKey = 1 << 12;
 
 /// Moves `from` to `to` in the order of twelve bits of their keys, without changing that of equal ones.
 void sort_by_digit(std::span<const std::uint32_t> keys, int shift, std::span<const std::uint32_t> from,
                    std::span<std::uint32_t> to) {
-  std::array<std::uint32_t, kDigits> place{};
-  const auto digit = [&](std::uint32_t i) { return keys[i] >> shift & (kDigits - 1); };
+  std::array<std::uint32_t, kDigitsOfKey> place{};
+  const auto digit = [&](std::uint32_t i) { return keys[i] >> shift & (kDigitsOfKey - 1); };
   for (const std::uint32_t i : from) ++place[digit(i)];
   std::exclusive_scan(place.begin(), place.end(), place.begin(), 0u);
   for (const std::uint32_t i : from) to[place[digit(i)]++] = i;

@@ -51,8 +51,8 @@ std::vector<bool> met_by_others(const Level& level) {
 }
 
 /// What all threads share.
-struct Shared {
-  Shared(const TriangleMesh& mesh, const ProgressiveHull& outer_hull, const ProgressiveHull& inner_hull)
+struct FilterData {
+  FilterData(const TriangleMesh& mesh, const ProgressiveHull& outer_hull, const ProgressiveHull& inner_hull)
       : whole(make_bvh_engine(mesh)),
         outer(outer_hull.level(kFilterFaces)),
         inner(inner_hull.level(kFilterFaces)),
@@ -73,7 +73,7 @@ struct Shared {
 
 class FilterWorker final : public QueryWorker {
  public:
-  explicit FilterWorker(const Shared& shared)
+  explicit FilterWorker(const FilterData& shared)
       : shared_(shared),
         whole_(shared.whole->worker()),
         outer_(shared.outer.tree->worker()),
@@ -106,7 +106,7 @@ class FilterWorker final : public QueryWorker {
     return whole_->crosses(mesh, line);
   }
 
-  const Shared& shared_;
+  const FilterData& shared_;
   std::unique_ptr<QueryWorker> whole_, outer_, inner_;
   SomeFaces::Asker sheets_;
 };
@@ -123,7 +123,7 @@ class FilterEngine final : public QueryEngine {
   }
 
  private:
-  Shared shared_;
+  FilterData shared_;
 };
 
 }  // namespace

@@ -65,8 +65,8 @@ std::vector<Vec3> reach_of(const RefinedHull& base, FaceId face, Refine refine) 
 }
 
 /// What all threads share.
-struct Shared {
-  Shared(const ProgressiveHull& progressive, Refine what, const RefinementOptions& between_queries)
+struct RefinementData {
+  RefinementData(const ProgressiveHull& progressive, Refine what, const RefinementOptions& between_queries)
       : hull(std::make_shared<const RefinableHull>(progressive)),
         refine(what),
         options(between_queries),
@@ -98,7 +98,7 @@ struct Shared {
 class Candidates {
  public:
   /// Uses the tags of the hull's faces.
-  Candidates(const Shared& shared, RefinedHull& hull)
+  Candidates(const RefinementData& shared, RefinedHull& hull)
       : shared_(shared),
         hull_(hull),
         base_size_(static_cast<std::uint32_t>(shared.base_faces.size())),
@@ -175,7 +175,7 @@ class Candidates {
   static std::uint32_t tag(std::uint32_t place) { return 2 * place; }
   static std::uint32_t place(std::uint32_t tag) { return tag / 2; }
 
-  const Shared& shared_;
+  const RefinementData& shared_;
   RefinedHull& hull_;
   std::uint32_t base_size_;
   std::vector<std::uint8_t> marks_;  // by place: to be looked at
@@ -186,7 +186,8 @@ class Candidates {
 
 class RefinementWorker final : public QueryWorker {
  public:
-  explicit RefinementWorker(const Shared& shared) : shared_(shared), hull_(shared.hull), candidates_(shared, hull_) {}
+  explicit RefinementWorker(const RefinementData& shared)
+      : shared_(shared), hull_(shared.hull), candidates_(shared, hull_) {}
 
   void collect(const DirectedLine& line, HitCollector& hits) override { answer(LineProbe(line, shared_.frame), hits); }
   void collect(const Triangle& triangle, FaceCollector& faces) override { answer(TriangleProbe(triangle), faces); }
@@ -254,7 +255,7 @@ class RefinementWorker final : public QueryWorker {
     return false;
   }
 
-  const Shared& shared_;
+  const RefinementData& shared_;
   RefinedHull hull_;
   Candidates candidates_;
   QueryCounts counts_;
@@ -269,7 +270,7 @@ class RefinementEngine final : public QueryEngine {
   std::size_t memory_bytes() const override { return shared_.memory_bytes(); }
 
  private:
-  Shared shared_;
+  RefinementData shared_;
 };
 
 }  // namespace

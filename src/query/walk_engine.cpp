@@ -65,8 +65,8 @@ std::vector<std::unique_ptr<Layer>> layers_of(const ProgressiveHull& outer, cons
 }
 
 /// What all threads share.
-struct Shared {
-  Shared(const TriangleMesh& original, const ProgressiveHull& outer, const ProgressiveHull* inner)
+struct WalkData {
+  WalkData(const TriangleMesh& original, const ProgressiveHull& outer, const ProgressiveHull* inner)
       : mesh(original), layers(layers_of(outer, inner)), sheets(mesh, sheets_without_thickness(layers[0]->complex)) {
     for (const auto& layer : layers) frame.extend(layer->complex.box());
   }
@@ -164,7 +164,7 @@ class Sight {
 
 class WalkWorker final : public QueryWorker {
  public:
-  explicit WalkWorker(const Shared& shared) : shared_(shared), sheets_(shared.sheets) {
+  explicit WalkWorker(const WalkData& shared) : shared_(shared), sheets_(shared.sheets) {
     for (const auto& layer : shared.layers) trees_.push_back(layer->tree->worker());
   }
 
@@ -337,7 +337,7 @@ class WalkWorker final : public QueryWorker {
     return beyond[static_cast<std::size_t>(place)];
   }
 
-  const Shared& shared_;
+  const WalkData& shared_;
   SomeFaces::Asker sheets_;
   std::vector<std::unique_ptr<QueryWorker>> trees_;
   std::unique_ptr<QueryWorker> tree_of_original_;
@@ -354,7 +354,7 @@ class WalkEngine final : public QueryEngine {
   std::size_t memory_bytes() const override { return shared_.memory_bytes(); }
 
  private:
-  Shared shared_;
+  WalkData shared_;
 };
 
 }  // namespace

@@ -29,10 +29,10 @@ float below(double x) {
 }
 float above(double x) { return -below(-x); }
 
-struct FloatBox {
+struct NodeBox {
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-  void extend(const FloatBox& other) {
+  void extend(const NodeBox& other) {
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], other.low[axis]);
       high[axis] = std::max(high[axis], other.high[axis]);
@@ -49,29 +49,29 @@ struct FloatBox {
 
 /// A face with its box, moved about together while ranges are split.
 struct Item {
-  FloatBox box;
+  NodeBox box;
   FaceId face;
 };
 
-struct Part {
+struct NodeRange {
   std::uint32_t begin, end;
-  FloatBox box;
+  NodeBox box;
   std::uint32_t size() const { return end - begin; }
 };
 
-Part part_of(const std::vector<Item>& items, std::uint32_t begin, std::uint32_t end) {
-  Part range{begin, end, {}};
+NodeRange part_of(const std::vector<Item>& items, std::uint32_t begin, std::uint32_t end) {
+  NodeRange range{begin, end, {}};
   for (std::uint32_t i = begin; i < end; ++i) range.box.extend(items[i].box);
   return range;
 }
 
 struct Bin {
-  FloatBox box;
+  NodeBox box;
   std::uint32_t count = 0;
 };
 
 /// The plane between two bins, of those along one axis, with the least surface-area cost.
-struct Plane {
+struct SplitPlane {
   float cost = std::numeric_limits<float>::infinity();
   int axis = -1, bin = 0;
 };
@@ -84,7 +84,7 @@ float leaves_of(std::uint32_t faces) {
 
 class Bins {
  public:
-  Bins(const std::vector<Item>& items, const Part& part) {
+  Bins(const std::vector<Item>& items, const NodeRange& part) {
     const auto sum = [&](auto zero, auto add, auto join) {
       if (part.size() < kParallel) {
         for (std::uint32_t i = part.begin; i < part.end; ++i) add(zero, items[i]);
@@ -98,15 +98,15 @@ class Bins {
           },
           join);
     };
-    const FloatBox middles = sum(
-        FloatBox{},
-        [](FloatBox& box, const Item& item) {
+    const NodeBox middles = sum(
+        NodeBox{},
+        [](NodeBox& box, const Item& item) {
           for (int axis = 0; axis < 3; ++axis) {
             const float middle = item.box.middle(axis);
             box.low[axis] = std::min(box.low[axis], middle), box.high[axis] = std::max(box.high[axis], middle);
           }
         },
-        [](FloatBox box, const FloatBox& other) { return box.extend(other), box; });
+        [](NodeBox box, const NodeBox& other) { return box.extend(other), box; });
     low_ = middles.low;
     for (int axis = 0; axis < 3; ++axis)
       per_length_[axis] =
@@ -135,12 +135,12 @@ class Bins {
     return place < kBins - 1 ? static_cast<int>(place) : kBins - 1;
   }
 
-  Plane best() const {
-    Plane best;
+  SplitPlane best() const {
+    SplitPlane best;
     for (int axis = 0; axis < 3; ++axis) {
       if (!(per_length_[axis] > 0)) continue;
       std::array<float, kBins> cost_above{};  // of the bins from i on
-      FloatBox box;
+      NodeBox box;
       std::uint32_t count = 0;
       for (int i = kBins - 1; i > 0; --i) {
         box.extend(bins_[axis][i].box);
@@ -169,9 +169,9 @@ class Bins {
 };
 
 /// Splits a range in two, of which neither is empty.
-std::pair<Part, Part> split(std::vector<Item>& items, const Part& part, int depth) {
+std::pair<NodeRange, NodeRange> split(std::vector<Item>& items, const NodeRange& part, int depth) {
   const Bins bins(items, part);
-  const Plane plane = depth < kDepthOfBins ? bins.best() : Plane{};
+  const SplitPlane plane = depth < kDepthOfBins ? bins.best() : SplitPlane{};
   const auto begin = items.begin() + part.begin, end = items.begin() + part.end;
   auto middle = begin + part.size() / 2;
   if (plane.axis >= 0)
@@ -181,11 +181,11 @@ std::pair<Part, Part> split(std::vector<Item>& items, const Part& part, int dept
 }
 
 /// Up to as many parts as a node has children: the biggest that is no leaf is split until there are.
-std::vector<Part> children_of(std::vector<Item>& items, const Part& whole, int depth) {
-  std::vector<Part> children{whole};
+std::vector<NodeRange> children_of(std::vector<Item>& items, const NodeRange& whole, int depth) {
+  std::vector<NodeRange> children{whole};
   while (children.size() < WideBvh::kWidth) {
     const auto biggest = std::ranges::max_element(
-        children, {}, [](const Part& p) { return p.size() > kLeafFaces ? p.box.half_area() : -1.0f; });
+        children, {}, [](const NodeRange& p) { return p.size() > kLeafFaces ? p.box.half_area() : -1.0f; });
     if (biggest->size() <= kLeafFaces) break;
     const auto [left, right] = split(items, *biggest, depth);
     *biggest = left;
@@ -221,19 +221,19 @@ class WideBvhBuilder {
     std::vector<Vec3> corners;
   };
   struct Below {
-    Part part;
+    NodeRange part;
     int depth;
     Piece piece;
   };
-  using AddInner = std::uint32_t (WideBvhBuilder::*)(Piece&, const Part&, int depth);
+  using AddInner = std::uint32_t (WideBvhBuilder::*)(Piece&, const NodeRange&, int depth);
 
-  std::uint32_t add_node(Piece& piece, const Part& whole, int depth, AddInner add_inner) {
+  std::uint32_t add_node(Piece& piece, const NodeRange& whole, int depth, AddInner add_inner) {
     const auto self = static_cast<std::uint32_t>(piece.nodes.size());
     piece.nodes.emplace_back();
-    const std::vector<Part> children = children_of(items_, whole, depth);
+    const std::vector<NodeRange> children = children_of(items_, whole, depth);
     for (std::uint32_t i = 0; i < WideBvh::kWidth; ++i) {
       const bool is_there = i < children.size();
-      const FloatBox box = is_there ? children[i].box : FloatBox{};
+      const NodeBox box = is_there ? children[i].box : NodeBox{};
       const std::uint32_t child = !is_there                         ? WideBvh::kNoChild
                                   : children[i].size() > kLeafFaces ? (this->*add_inner)(piece, children[i], depth + 1)
                                                                     : add_leaf(piece, children[i]);
@@ -244,19 +244,19 @@ class WideBvhBuilder {
     }
     return self;
   }
-  std::uint32_t add_node_below(Piece& piece, const Part& part, int depth) {
+  std::uint32_t add_node_below(Piece& piece, const NodeRange& part, int depth) {
     return add_node(piece, part, depth, &WideBvhBuilder::add_node_below);
   }
   /// An upper node; or a place in below_, counted from the top of the numbers.
-  std::uint32_t defer(Piece& piece, const Part& part, int depth) {
+  std::uint32_t defer(Piece& piece, const NodeRange& part, int depth) {
     if (part.size() > least_below_) return add_node(piece, part, depth, &WideBvhBuilder::defer);
     below_.push_back({part, depth, {}});
     return WideBvh::kLeafBit - static_cast<std::uint32_t>(below_.size());
   }
 
-  std::uint32_t add_leaf(Piece& piece, const Part& part) {
+  std::uint32_t add_leaf(Piece& piece, const NodeRange& part) {
     WideBvh::Leaf& leaf = piece.leaves.emplace_back();
-    const FloatBox& box = part.box;
+    const NodeBox& box = part.box;
     leaf.low = box.low;
     const float size = std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
     // No corner is more than 65535 quanta away, rounded: a size just below a power of 2 counts as that.

@@ -8,14 +8,13 @@
 #include <tuple>
 #include <unordered_set>
 
+#include "geometry/no_index.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/triangulate_polygon.h"
 #include "repair/steps.h"
 
 namespace prohull {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffff;
 
 std::uint32_t next_corner(std::uint32_t c) { return c % 3 == 2 ? c - 2 : c + 1; }
 
@@ -177,7 +176,7 @@ class Boundary {
   std::vector<Opening> openings_;
 };
 
-using Corners = std::array<VertexId, 3>;
+using CornersOfFace = std::array<VertexId, 3>;
 
 /// Edges between vertices of openings.
 class Edges {
@@ -186,7 +185,7 @@ class Edges {
     PerVertex<char> on_loop(mesh.vertex_count(), 0);
     for (const Opening& opening : openings)
       for (const VertexId v : opening.loop) on_loop[v] = 1;
-    for (const Corners& t : mesh.triangles)
+    for (const CornersOfFace& t : mesh.triangles)
       for (const auto& [v, w] : {std::pair(t[0], t[1]), {t[1], t[2]}, {t[2], t[0]}})
         if (on_loop[v] && on_loop[w]) add(v, w);
   }
@@ -221,8 +220,8 @@ class LeastArea {
       for (std::size_t i = 0; i + length < loop.size(); ++i) choose(i, i + length);
   }
 
-  std::vector<Corners> triangles() const {
-    std::vector<Corners> result;
+  std::vector<CornersOfFace> triangles() const {
+    std::vector<CornersOfFace> result;
     std::vector<std::pair<std::size_t, std::size_t>> open{{0, loop_.size() - 1}};
     while (!open.empty()) {
       const auto [i, k] = open.back();
@@ -290,8 +289,8 @@ class Capper {
   TriangleMesh take() { return std::move(mesh_); }
 
  private:
-  void add(const std::vector<Corners>& triangles) {
-    for (const Corners& t : triangles) {
+  void add(const std::vector<CornersOfFace>& triangles) {
+    for (const CornersOfFace& t : triangles) {
       mesh_.triangles.push_back(t);
       for (const auto& [v, w] : {std::pair(t[0], t[1]), {t[1], t[2]}, {t[2], t[0]}}) edges_.add(v, w);
     }
@@ -309,7 +308,7 @@ class Capper {
       if (!(fan < kClearlyLess * flat_area)) return add(*flat);
     }
     const VertexId apex = mesh_.positions.push_back(center);
-    std::vector<Corners> triangles;
+    std::vector<CornersOfFace> triangles;
     for (std::size_t i = 0; i < loop.size(); ++i) triangles.push_back({loop[i], loop[(i + 1) % loop.size()], apex});
     add(triangles);
   }

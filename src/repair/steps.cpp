@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "geometry/bvh.h"
+#include "geometry/no_index.h"
 #include "geometry/orientation.h"
 #include "geometry/triangle_intersection.h"
 #include "geometry/winding_number.h"
@@ -38,7 +39,6 @@ std::vector<std::uint32_t> component_of_faces(const TriangleMesh& mesh) {
   DisjointSets connected(mesh.vertex_count());
   for (const auto& t : mesh.triangles)
     for (const VertexId v : {t[1], t[2]}) connected.join(index(t[0]), index(v));
-  constexpr std::uint32_t kNone = 0xffffffff;
   std::vector<std::uint32_t> number(mesh.vertex_count(), kNone);
   std::uint32_t count = 0;
   std::vector<std::uint32_t> component;
@@ -279,7 +279,6 @@ void split_vertices(TriangleMesh& mesh, FansAlong along, Repairs& repairs) {
   const std::vector<Neighbours> neighbours = neighbours_of(mesh, along == FansAlong::Wedges);
   for (const Neighbours& n : neighbours)
     for (const std::uint32_t c : {n.a, next(n.a)}) fans.join(c, vertex(c) == vertex(n.b) ? n.b : next(n.b));
-  constexpr std::uint32_t kNone = 0xffffffff;
   PerVertex<std::uint32_t> first(mesh.vertex_count(), kNone);  // the fan that keeps the vertex
   std::vector<VertexId> name(corners);
   for (std::uint32_t c = 0; c < corners; ++c) {

@@ -41,7 +41,7 @@ Outline slot(double half_length, double radius) {
 Outline circle(double radius) { return slot(0, radius); }
 
 /// From one plane of the part to another.
-struct Interval {
+struct CellRange {
   std::uint32_t first, last;
 };
 
@@ -55,7 +55,7 @@ struct Ring {
 /// its cells included, joins ring to ring, from the cells' boundary at the upper end to that at the lower end.
 struct Bore {
   std::size_t axis;
-  Interval u, v, w;         // the cells it is cut from, w along the axis
+  CellRange u, v, w;        // the cells it is cut from, w along the axis
   std::vector<Ring> rings;  // from the upper end down
 };
 
@@ -100,7 +100,7 @@ class PartMesher {
   }
 
   bool is_end_of_bore(const Panel& panel) const {
-    const auto within = [](std::uint32_t cell, const Interval& i) { return i.first <= cell && cell < i.last; };
+    const auto within = [](std::uint32_t cell, const CellRange& i) { return i.first <= cell && cell < i.last; };
     return std::any_of(part_.bores.begin(), part_.bores.end(), [&](const Bore& bore) {
       return bore.axis == panel.axis && within(panel.u, bore.u) && within(panel.v, bore.v) &&
              (panel.plane == bore.w.first || panel.plane == bore.w.last);
@@ -153,7 +153,7 @@ class PartMesher {
       quads += std::size_t(divisions_[(p.axis + 1) % 3][p.u]) * divisions_[(p.axis + 2) % 3][p.v];
     for (std::size_t b = 0; b < part_.bores.size(); ++b) {
       const Bore& bore = part_.bores[b];
-      const auto pieces = [&](std::size_t axis, const Interval& i) {
+      const auto pieces = [&](std::size_t axis, const CellRange& i) {
         return std::accumulate(&divisions_[axis][i.first], &divisions_[axis][0] + i.last, std::size_t(0));
       };
       const std::size_t around = 2 * (pieces((bore.axis + 1) % 3, bore.u) + pieces((bore.axis + 2) % 3, bore.v));
@@ -305,8 +305,8 @@ TriangleMesh make_box(std::size_t faces) {
 TriangleMesh make_bracket(std::size_t faces) {
   const std::vector<double> x{0, 0.5, 1, 2.25, 3.5, 3.75}, y{0, 0.25, 1.5, 2.5, 3.75, 4}, z{0, 0.5, 1.25, 2.75, 3};
   Part bracket{{x, y, z}, [](std::uint32_t i, std::uint32_t, std::uint32_t k) { return i == 0 || k == 0; }, {}};
-  for (const Interval u : {Interval{2, 3}, Interval{3, 4}})
-    for (const Interval v : {Interval{1, 2}, Interval{3, 4}})
+  for (const CellRange u : {CellRange{2, 3}, CellRange{3, 4}})
+    for (const CellRange v : {CellRange{1, 2}, CellRange{3, 4}})
       bracket.bores.push_back(
           {kZ, u, v, {0, 1}, {{0.5, circle(0.4375)}, {0.25, circle(0.4375)}, {0.25, circle(0.25)}, {0, circle(0.25)}}});
   bracket.bores.push_back({kX, {1, 4}, {2, 3}, {0, 1}, {{0.5, slot(0.875, 0.5)}, {0, slot(0.875, 0.5)}}});

@@ -27,7 +27,7 @@ LatticePoint step(int axis, std::int32_t length) {
   return s;
 }
 
-struct Sample {
+struct FieldSample {
   Vec3 position;
   double value;
 };
@@ -110,7 +110,7 @@ class MarchingTetrahedra {
   VertexId crossing(std::uint32_t p, std::uint32_t q) {
     const auto [index, is_new] = edges_.find_or_add(std::uint64_t(p) << 32 | q);
     if (is_new) {
-      const Sample &inside = samples_[p], &outside = samples_[q];
+      const FieldSample &inside = samples_[p], &outside = samples_[q];
       const auto at = [&](double fraction) {
         return inside.position + fraction * (outside.position - inside.position);
       };
@@ -135,7 +135,7 @@ class MarchingTetrahedra {
     return index;
   }
 
-  Sample moved_away(const Sample& s) const {
+  FieldSample moved_away(const FieldSample& s) const {
     const double clearance = kClearance * spacing_;
     if (std::abs(s.value) >= clearance) return s;
     const double h = 1e-3 * spacing_;
@@ -146,14 +146,14 @@ class MarchingTetrahedra {
     const double slope = norm(gradient), missing = clearance - std::abs(s.value) / slope;
     if (!(missing > 0)) return s;  // a slope of zero ends here, too
     const Vec3 away = gradient * ((s.value < 0 ? -missing : missing) / slope);
-    const Sample moved{s.position + away, solid_(s.position + away)};
+    const FieldSample moved{s.position + away, solid_(s.position + away)};
     return (moved.value < 0) == (s.value < 0) && std::abs(moved.value) > std::abs(s.value) ? moved : s;
   }
 
   const DistanceBound& solid_;
   double spacing_;
   IndexOfKey points_, edges_;
-  std::vector<Sample> samples_;
+  std::vector<FieldSample> samples_;
   TriangleMesh mesh_;
 };
 

@@ -46,12 +46,12 @@ double sum_of(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v
 enum Bound { kTube, kTop, kBottom, kUpperBall, kLowerBall };
 
 /// A point of the outline that is turned about the axis.
-struct Corner {
+struct FormCorner {
   double radius, z;
 };
 
 /// The surface of revolution of an outline that begins and ends on the axis, from the lowest z to the highest one.
-TriangleMesh turned(const std::vector<Corner>& outline, std::size_t segments) {
+TriangleMesh turned(const std::vector<FormCorner>& outline, std::size_t segments) {
   TriangleMesh mesh;
   std::vector<std::vector<VertexId>> rings;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -74,8 +74,8 @@ TriangleMesh turned(const std::vector<Corner>& outline, std::size_t segments) {
 }
 
 /// Two half spheres of `steps` rings each, `half` above and below the middle. If half is 0, they share the last ring.
-std::vector<Corner> outline_of_balls(double radius, double half, std::size_t steps) {
-  std::vector<Corner> outline;
+std::vector<FormCorner> outline_of_balls(double radius, double half, std::size_t steps) {
+  std::vector<FormCorner> outline;
   const auto angle = [&](std::size_t i) {
     return std::numbers::pi / 2 * static_cast<double>(i) / static_cast<double>(steps);
   };

@@ -8,14 +8,13 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/no_index.h"
 #include "geometry/predicates.h"
 #include "parallel/progress_meter.h"
 #include "prohull/enclosure.h"
 
 namespace prohull {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffff;
 
 struct LinkEdge {
   VertexId from, to;

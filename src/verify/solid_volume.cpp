@@ -19,12 +19,12 @@ namespace {
 /// By how much the volume of the solid grows where its boundary passes a piece of a face from inside to outside.
 int steps_out(const WindingBeside& w) { return int(w.inside >= 1) - int(w.outside >= 1); }
 
-using Polygon = std::vector<Vec3>;
+using FlatCell = std::vector<Vec3>;
 
 struct TooManyCells {};
 constexpr std::size_t kMostCells = 100'000;  // some seconds
 
-Vec3 doubled_area(const Polygon& cell) {
+Vec3 doubled_area(const FlatCell& cell) {
   Vec3 sum;
   for (std::size_t i = 1; i + 1 < cell.size(); ++i) sum += cross(cell[i] - cell[0], cell[i + 1] - cell[0]);
   return sum;
@@ -72,7 +72,7 @@ class Boundary {
 
   void add_cells(FaceIndex f) {
     const int axis = surface_.axis[f], u = (axis + 1) % 3, v = (axis + 2) % 3;
-    for (const Polygon& cell : cells_of(f)) {
+    for (const FlatCell& cell : cells_of(f)) {
       meter_.go_on();
       Cell projected;
       for (const Vec3& p : cell) projected.push_back({Number(p[u]), Number(p[v])});
@@ -83,10 +83,10 @@ class Boundary {
   }
 
   /// Pieces of face f, rounded, that no other face crosses in more than rounding.
-  std::vector<Polygon> cells_of(FaceIndex f) {
+  std::vector<FlatCell> cells_of(FaceIndex f) {
     const Triangle& t = surface_.faces[f];
     const Vec3 normal = cross(t.b - t.a, t.c - t.a);
-    std::vector<Polygon> cells{{t.a, t.b, t.c}};
+    std::vector<FlatCell> cells{{t.a, t.b, t.c}};
     for (const FaceIndex g : meets_[f]) {
       const Triangle& h = surface_.faces[g];
       if (!coplanar(t, h)) {
@@ -97,17 +97,17 @@ class Boundary {
       }
     }
     constexpr double kSliver = 1e-12;  // of the face's area: nothing but rounding
-    std::erase_if(cells, [&](const Polygon& cell) { return norm(doubled_area(cell)) <= kSliver * norm(normal); });
+    std::erase_if(cells, [&](const FlatCell& cell) { return norm(doubled_area(cell)) <= kSliver * norm(normal); });
     return cells;
   }
 
   /// Cuts the cells near h by the plane through p.
-  void cut(std::vector<Polygon>& cells, const Triangle& h, const Vec3& normal, const Vec3& p) {
+  void cut(std::vector<FlatCell>& cells, const Triangle& h, const Vec3& normal, const Vec3& p) {
     for (std::size_t i = 0, count = cells.size(); i < count; ++i) {
       Box box;
       for (const Vec3& corner : cells[i]) box.extend(corner);
       if (!box.overlaps(box_of(h))) continue;
-      Polygon above, below;
+      FlatCell above, below;
       for (std::size_t c = 0; c < cells[i].size(); ++c) {
         const Vec3 &from = cells[i][c], &to = cells[i][(c + 1) % cells[i].size()];
         const double d = dot(normal, from - p), e = dot(normal, to - p);

@@ -20,7 +20,7 @@ namespace {
 using Corners = std::array<std::array<double, 3>, 3>;
 
 /// Equal for faces that have the same corners in the same orientation.
-Corners key_of(const Triangle& t) {
+Corners positions_of(const Triangle& t) {
   const auto corner = [](const Vec3& p) { return std::array{p.x, p.y, p.z}; };
   Corners key{corner(t.a), corner(t.b), corner(t.c)};
   std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
@@ -37,11 +37,11 @@ void check(const TriangleMesh& hull, const TriangleMesh& mesh, const PerFace<dou
 
 std::size_t count_missing(const TriangleMesh& hull, const TriangleMesh& mesh, const PerFace<double>& tolerances) {
   std::vector<Corners> there;
-  for (const FaceId f : hull.triangles.ids()) there.push_back(key_of(hull.triangle(f)));
+  for (const FaceId f : hull.triangles.ids()) there.push_back(positions_of(hull.triangle(f)));
   std::ranges::sort(there);
   std::size_t missing = 0;
   for (const FaceId f : mesh.triangles.ids())
-    missing += tolerances[f] == 0 && !std::ranges::binary_search(there, key_of(mesh.triangle(f)));
+    missing += tolerances[f] == 0 && !std::ranges::binary_search(there, positions_of(mesh.triangle(f)));
   return missing;
 }
 

@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "geometry/directions.h"
+#include "geometry/no_index.h"
 #include "geometry/predicates.h"
 
 namespace prohull {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffff;
 
 struct HullFace {
   std::array<VertexId, 3> corners;

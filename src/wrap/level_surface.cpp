@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/no_index.h"
+
 namespace prohull {
 namespace {
 
@@ -32,7 +34,6 @@ class LevelSurface {
 
  private:
   static constexpr std::size_t kEdges = 7;  ///< that begin at a node: one for each other corner of its cell
-  static constexpr std::uint32_t kNone = 0xffffffff;
 
   struct Cell {
     std::size_t x, y, z;

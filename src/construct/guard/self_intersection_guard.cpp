@@ -11,7 +11,7 @@
 namespace prohull {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kBoundless = std::numeric_limits<float>::infinity();
 
 Triangle triangle(const HalfEdgeMesh& mesh, const std::array<VertexId, 3>& corners) {
   return {mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2])};
@@ -29,7 +29,7 @@ Triangle triangle(const HalfEdgeMesh& mesh, FaceId f) { return triangle(mesh, me
 }  // namespace
 
 const SelfIntersectionGuard::Node SelfIntersectionGuard::kEmptyNode = [] {
-  const Float4 infinity{kInfinity, kInfinity, kInfinity, kInfinity};
+  const Float4 infinity{kBoundless, kBoundless, kBoundless, kBoundless};
   return Node{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 }();
 

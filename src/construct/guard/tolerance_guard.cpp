@@ -7,7 +7,7 @@ namespace prohull {
 namespace {
 
 // What is less than this, in a star of size 1, is rounding.
-constexpr double kRounding = 1e-9;
+constexpr double kRoundingOfGuard = 1e-9;
 
 // The rest is for the proof, which ends when it knows a distance to 1 %, and for the rounding of coordinates.
 constexpr double kUsedPart = 0.98;
@@ -80,7 +80,7 @@ void ToleranceGuard::set_points(const Star& star, const Vec3& apex) {
 // False if the star or its replacement cannot be told from one that folds.
 bool ToleranceGuard::project_without_folds(const Vec3& direction) {
   const double length = norm(direction);
-  if (!(length > kRounding)) return false;
+  if (!(length > kRoundingOfGuard)) return false;
   const Vec3 n = direction / length;
   const Vec3 axis = std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   Vec3 u = cross(n, axis);
@@ -136,7 +136,7 @@ void ToleranceGuard::bound_at_apex() {
   bool has_tolerance = false;
   for (const OldFace& face : old_faces_) {
     const double inside = std::ranges::min(weights_at(apex_, face.corners));
-    has_tolerance |= inside > -kRounding && face.tolerance < Tolerances::kAny;
+    has_tolerance |= inside > -kRoundingOfGuard && face.tolerance < Tolerances::kAny;
     if (inside > most_inside) most_inside = inside, at = &face;
   }
   if (!has_tolerance && at->tolerance == Tolerances::kAny) return;
@@ -168,7 +168,8 @@ void ToleranceGuard::bound_at_crossings(const Point& from, const Point& to) {
     const double determinant = x * v - y * u;
     if (determinant == 0) continue;  // parallel: corners of the overlay lie at their ends
     const double s = (a * v - b * u) / determinant, t = (a * y - b * x) / determinant;
-    if (!(s >= -kRounding && s <= 1 + kRounding && t >= -kRounding && t <= 1 + kRounding)) continue;
+    if (!(s >= -kRoundingOfGuard && s <= 1 + kRoundingOfGuard && t >= -kRoundingOfGuard && t <= 1 + kRoundingOfGuard))
+      continue;
     const Vec3 was = from.local * (1 - s) + to.local * s, is = apex_.local * (1 - t) + end.local * t;
     raise_apex(1 - t, end.deviation * t, from.deviation * (1 - s) + to.deviation * s + norm(is - was));
   }
@@ -177,8 +178,8 @@ void ToleranceGuard::bound_at_crossings(const Point& from, const Point& to) {
 // So that weight * (deviation of the apex) + rest >= needed.
 void ToleranceGuard::raise_apex(double weight, double rest, double needed) {
   if (needed <= rest) return;
-  apex_.deviation = weight > kRounding ? std::max(apex_.deviation, (needed - rest) / weight)
-                                       : std::numeric_limits<double>::infinity();
+  apex_.deviation = weight > kRoundingOfGuard ? std::max(apex_.deviation, (needed - rest) / weight)
+                                              : std::numeric_limits<double>::infinity();
 }
 
 void ToleranceGuard::set_new_tolerances() {
@@ -215,7 +216,7 @@ bool ToleranceGuard::overlap(const Corners& a, const Corners& b) {
       const Point &p = *edges[i], &q = *edges[(i + 1) % 3];
       const double length = std::hypot(q.x - p.x, q.y - p.y);
       if (std::ranges::all_of(others, [&](const Point* other) {
-            return double_area({&p, &q, other}) <= kRounding * length;
+            return double_area({&p, &q, other}) <= kRoundingOfGuard * length;
           }))
         return true;
     }

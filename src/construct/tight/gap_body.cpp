@@ -20,7 +20,7 @@
 namespace prohull {
 namespace {
 
-constexpr double kHair = 1 + 1e-6;  ///< on the padding, for rounding
+constexpr double kHairOfGap = 1 + 1e-6;  ///< on the padding, for rounding
 
 /// How many faces the body has for each face of the hull: then it has 1 to 5 % more void than the offset surface.
 constexpr std::size_t kFacesPerFace = 16;
@@ -157,7 +157,7 @@ void move_to_padding(HalfEdgeMesh& body, const TriangleMesh& triangles, double p
       if (!q || !(norm(p - *q) > 0)) continue;
       link.clear();
       for (const HalfEdgeId h : body.around(v)) link.push_back(body.tip(h));
-      const Vec3 to = *q + (p - *q) * (kHair * padding / norm(p - *q));
+      const Vec3 to = *q + (p - *q) * (kHairOfGap * padding / norm(p - *q));
       if (guard.would_add_intersections(body, v, link, to)) continue;
       body.move(v, to);
       guard.changed(body, v);
@@ -170,7 +170,7 @@ TriangleMesh gap_body(const TriangleMesh& mesh, const TriangleMesh& triangles, d
                       const HullOptions& options) {
   const TriangleMesh fine = fine_hull(mesh, options);
   const bool inner = options.side == HullSide::Inner;
-  HalfEdgeMesh body(padded_without_folds(inner ? turned(fine) : fine, kHair * padding));
+  HalfEdgeMesh body(padded_without_folds(inner ? turned(fine) : fine, kHairOfGap * padding));
   const TriangleMesh made = finished(body, triangles, padding, options);
   return inner ? turned(made) : made;
 }
