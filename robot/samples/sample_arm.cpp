@@ -234,44 +234,17 @@ constexpr const char* kTail = R"(  <!-- For the simulator; nothing else reads it
 </robot>
 )";
 
-std::string visual(const std::string& mesh, const std::string& material, const std::string& origin = "") {
-  return fmt::format(R"(    <visual>
-{}      <geometry>
-        <mesh filename="meshes/visual/{}.stl"/>
-      </geometry>
-      <material name="{}"/>
-    </visual>
-)",
-                     origin, mesh, material);
+std::string visual(const std::string& name, const char* material, const std::string& origin = {}) {
+  return shape("visual", mesh("visual/" + name), origin, material);
 }
 
-std::string collision(const std::string& geometry, const std::string& origin = "") {
-  return fmt::format(R"(    <collision>
-{}      <geometry>
-        {}
-      </geometry>
-    </collision>
-)",
-                     origin, geometry);
-}
-
-std::string collision_mesh(const std::string& name) {
-  return collision(fmt::format(R"(<mesh filename="meshes/collision/{}.stl"/>)", name));
-}
-
-std::string origin(const Vec3& xyz, const Vec3& rpy = {}) {
-  return fmt::format("      <origin xyz=\"{:.6g} {:.6g} {:.6g}\" rpy=\"{:.10g} {:.10g} {:.10g}\"/>\n", xyz.x, xyz.y,
-                     xyz.z, rpy.x, rpy.y, rpy.z);
-}
-
-std::string link(const std::string& name, const std::string& elements) {
-  return fmt::format("  <link name=\"{}\">\n{}  </link>\n", name, elements);
-}
+std::string collision_mesh(const std::string& name) { return shape("collision", mesh("collision/" + name)); }
 
 /// Two boxes: one around the tube, one around the housing and its cover.
 std::string two_boxes(const Standing& s) {
   const auto box = [](const Vec3& center, const Vec3& size) {
-    return collision(fmt::format(R"(<box size="{:.4f} {:.4f} {:.4f}"/>)", size.x, size.y, size.z), origin(center));
+    return shape("collision", fmt::format(R"(<box size="{:.4f} {:.4f} {:.4f}"/>)", size.x, size.y, size.z),
+                 origin(center));
   };
   const double wide = 2.14 * s.tube, high = 2 * s.housing + 0.002;
   const double back = s.back + 0.012;
@@ -298,7 +271,7 @@ std::string links() {
          link("link6", visual("link6", "shell") + collision_mesh("link6") +
                            inertial(0.9, {0, -0.03, 0.046}, {0.08, 0.13, 0.09})) +
          link("link7", visual("link7", "trim") +
-                           collision(R"(<cylinder radius="0.0375" length="0.049"/>)", origin({0, 0, 0.0245})) +
+                           shape("collision", R"(<cylinder radius="0.0375" length="0.049"/>)", origin({0, 0, 0.0245})) +
                            inertial(0.3, {0, 0, 0.02}, {0.07, 0.07, 0.045}));
 }
 
@@ -307,28 +280,25 @@ struct Limits {
   double lower, upper, effort, velocity;
 };
 
-std::string joint(std::size_t number, const Vec3& xyz, const Vec3& rpy, double axis, const Limits& limits) {
-  return fmt::format(R"(  <joint name="joint{0}" type="revolute">
-    <parent link="{1}"/>
-    <child link="link{0}"/>
-{2}    <axis xyz="0 0 {3}"/>
-    <limit lower="{4}" upper="{5}" effort="{6}" velocity="{7}"/>
-  </joint>
+std::string hinge(std::size_t number, const Vec3& xyz, const Vec3& rpy, double axis, const Limits& limits) {
+  const std::string parent = number == 1 ? "base_link" : fmt::format("link{}", number - 1);
+  return joint(fmt::format("joint{}", number), "revolute", {parent, fmt::format("link{}", number)}, origin(xyz, rpy),
+               fmt::format(R"(    <axis xyz="0 0 {}"/>
+    <limit lower="{}" upper="{}" effort="{}" velocity="{}"/>
 )",
-                     number, number == 1 ? "base_link" : fmt::format("link{}", number - 1), origin(xyz, rpy), axis,
-                     limits.lower, limits.upper, limits.effort, limits.velocity);
+                           axis, limits.lower, limits.upper, limits.effort, limits.velocity));
 }
 
 std::string joint_on(std::size_t number, const Standing& s, double lean, const Limits& limits) {
-  return joint(number, {0, s.side * s.reach, s.height}, {-s.side * kQuarterTurn, lean, 0}, s.side, limits);
+  return hinge(number, {0, s.side * s.reach, s.height}, {-s.side * kQuarterTurn, lean, 0}, s.side, limits);
 }
 
 std::string joint_on(std::size_t number, const Hanging& h, const Limits& limits) {
-  return joint(number, {0, -h.side * h.length, h.middle + h.shift}, {h.side * kQuarterTurn, 0, 0}, 1, limits);
+  return hinge(number, {0, -h.side * h.length, h.middle + h.shift}, {h.side * kQuarterTurn, 0, 0}, 1, limits);
 }
 
 std::string joints() {
-  return joint(1, {0, 0, kBaseHeight}, {}, 1, {-2.9, 2.9, 180, 2}) +
+  return hinge(1, {0, 0, kBaseHeight}, {}, 1, {-2.9, 2.9, 180, 2}) +
          joint_on(2, kStanding[0], -0.35, {-1.85, 2.55, 180, 2}) + joint_on(3, kHanging[0], {-2.9, 2.9, 90, 2.5}) +
          joint_on(4, kStanding[1], 1.75, {-4.5, 1, 90, 2.5}) + joint_on(5, kHanging[1], {-2.9, 2.9, 40, 3.1}) +
          joint_on(6, kStanding[2], 1.55, {-4.1, 1, 40, 3.1}) + joint_on(7, kHanging[2], {-3.05, 3.05, 40, 3.1});

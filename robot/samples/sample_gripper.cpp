@@ -100,53 +100,43 @@ std::vector<std::pair<std::string, TriangleMesh>> meshes() {
           {"meshes/collision/finger.stl", loose_convex_hull(finger(coarse))}};
 }
 
-std::string mesh(const std::string& path, const char* scale = "0.001 0.001 0.001") {
-  return fmt::format(R"(<mesh filename="meshes/{}.stl" scale="{}"/>)", path, scale);
+constexpr const char* kMillimetres = "0.001 0.001 0.001";
+
+std::string looks(const std::string& name, const char* scale = kMillimetres) {
+  return shape("visual", mesh("visual/" + name, scale));
 }
 
-std::string geometry(const char* tag, const std::string& form, const std::string& more = "") {
-  return fmt::format("    <{0}>\n{2}      <geometry>\n        {1}\n      </geometry>\n    </{0}>\n", tag, form, more);
-}
-
-std::string link(const std::string& name, const std::string& elements) {
-  return fmt::format("  <link name=\"{}\">\n{}  </link>\n", name, elements);
+std::string collides(const std::string& name, const char* scale = kMillimetres) {
+  return shape("collision", mesh("collision/" + name, scale));
 }
 
 std::string bar_box() {
   const Vec3 middle = kL * 0.0005;
-  return geometry("collision", fmt::format(R"(<box size="{:.4f} 0.021 0.0124"/>)", norm(kL) * 0.001 + 0.0126),
-                  fmt::format("      <origin xyz=\"{:.6g} 0 {:.6g}\" rpy=\"0 {:.6g} 0\"/>\n", middle.x, middle.z,
-                              -std::atan2(kL.z, kL.x)));
+  return shape("collision", fmt::format(R"(<box size="{:.4f} 0.021 0.0124"/>)", norm(kL) * 0.001 + 0.0126),
+               fmt::format("      <origin xyz=\"{:.6g} 0 {:.6g}\" rpy=\"0 {:.6g} 0\"/>\n", middle.x, middle.z,
+                           -std::atan2(kL.z, kL.x)));
 }
 
 std::string finger_links(const std::string& side, const char* scale) {
-  return link(side + "_driver", geometry("visual", mesh("visual/driver")) +
-                                    geometry("collision", mesh("collision/driver")) +
-                                    inertial(0.06, {0.022, 0, 0.018}, {0.05, 0.03, 0.04})) +
-         link(side + "_follower", geometry("visual", mesh("visual/follower")) + bar_box() +
-                                      inertial(0.03, {0.022, 0, 0.018}, {0.05, 0.02, 0.04})) +
-         link(side + "_finger", geometry("visual", mesh("visual/finger", scale)) +
-                                    geometry("collision", mesh("collision/finger", scale)) +
+  return link(side + "_driver",
+              looks("driver") + collides("driver") + inertial(0.06, {0.022, 0, 0.018}, {0.05, 0.03, 0.04})) +
+         link(side + "_follower",
+              looks("follower") + bar_box() + inertial(0.03, {0.022, 0, 0.018}, {0.05, 0.02, 0.04})) +
+         link(side + "_finger", looks("finger", scale) + collides("finger", scale) +
                                     inertial(0.05, {-0.018, 0, 0.03}, {0.02, 0.02, 0.08})) +
-         link(side + "_pad", geometry("visual", mesh("visual/pad")) +
-                                 geometry("collision", R"(<box size="0.0404 0.0204 0.0034"/>)",
-                                          "      <origin xyz=\"0 0 0.0015\" rpy=\"0 0 0\"/>\n") +
+         link(side + "_pad", looks("pad") +
+                                 shape("collision", R"(<box size="0.0404 0.0204 0.0034"/>)", origin({0, 0, 0.0015})) +
                                  inertial(0.01, {0, 0, 0.001}, {0.04, 0.02, 0.003}));
 }
 
-std::string joint(const std::string& name, const std::string& parent, const std::string& child, const Vec3& at,
-                  double yaw, const std::string& mimic) {
-  return fmt::format(R"(  <joint name="{}" type="revolute">
-    <parent link="{}"/>
-    <child link="{}"/>
-    <origin xyz="{:.6g} {:.6g} {:.6g}" rpy="0 0 {:.10g}"/>
-    <axis xyz="0 -1 0"/>
+std::string hinge(const std::string& name, const JointEnds& ends, const Vec3& at, double yaw,
+                  const std::string& mimic) {
+  const bool is_backwards = mimic.find('-') != std::string::npos;
+  return joint(name, "revolute", ends, origin(at * 0.001, {0, 0, yaw}),
+               fmt::format(R"(    <axis xyz="0 -1 0"/>
     <limit lower="{}" upper="{}" effort="40" velocity="2"/>
-{}  </joint>
-)",
-                     name, parent, child, at.x * 0.001, at.y * 0.001, at.z * 0.001, yaw,
-                     mimic.find('-') == std::string::npos ? "0" : "-0.8",
-                     mimic.find('-') == std::string::npos ? "0.8" : "0", mimic);
+{})",
+                           is_backwards ? "-0.8" : "0", is_backwards ? "0" : "0.8", mimic));
 }
 
 std::string mimic(int multiplier) {
@@ -155,23 +145,17 @@ std::string mimic(int multiplier) {
 
 std::string finger_joints(const std::string& side, double direction, double yaw, const std::string& driver_mimic) {
   const auto on_palm = [&](const Vec3& p) { return Vec3{direction * p.x, 0, p.z}; };
-  return joint(side + "_driver_joint", "palm", side + "_driver", on_palm(kA), yaw, driver_mimic) +
-         joint(side + "_follower_joint", "palm", side + "_follower", on_palm(kC), yaw, mimic(1)) +
-         joint(side + "_finger_joint", side + "_driver", side + "_finger", kL, 0, mimic(-1)) +
-         fmt::format(R"(  <joint name="{0}_pad_joint" type="fixed">
-    <parent link="{0}_finger"/>
-    <child link="{0}_pad"/>
-    <origin xyz="-0.033 0 0.048" rpy="0 {1:.10g} 0"/>
-  </joint>
-)",
-                     side, -kQuarterTurn);
+  return hinge(side + "_driver_joint", {"palm", side + "_driver"}, on_palm(kA), yaw, driver_mimic) +
+         hinge(side + "_follower_joint", {"palm", side + "_follower"}, on_palm(kC), yaw, mimic(1)) +
+         hinge(side + "_finger_joint", {side + "_driver", side + "_finger"}, kL, 0, mimic(-1)) +
+         joint(side + "_pad_joint", "fixed", {side + "_finger", side + "_pad"},
+               origin({-0.033, 0, 0.048}, {0, -kQuarterTurn, 0}));
 }
 
 }  // namespace
 
 SampleRobot make_sample_gripper() {
-  return {
-      fmt::format(R"(<?xml version="1.0"?>
+  return {fmt::format(R"(<?xml version="1.0"?>
 <!-- A gripper that opens 72 mm wide. All joints follow left_driver_joint: 0 is open, 0.8 is closed. -->
 <robot name="sample_gripper">
 {}{}  <!-- The right finger is the left one, mirrored. -->
@@ -181,11 +165,10 @@ SampleRobot make_sample_gripper() {
   </gazebo>
 </robot>
 )",
-                  link("palm", geometry("visual", mesh("visual/palm")) + geometry("collision", mesh("collision/palm")) +
-                                   inertial(0.65, {0, 0, 0.055}, {0.1, 0.06, 0.11})),
-                  finger_links("left", "0.001 0.001 0.001"), finger_links("right", "0.001 -0.001 0.001"),
-                  finger_joints("left", 1, 0, ""), finger_joints("right", -1, std::numbers::pi, mimic(1))),
-      meshes()};
+                      link("palm", looks("palm") + collides("palm") + inertial(0.65, {0, 0, 0.055}, {0.1, 0.06, 0.11})),
+                      finger_links("left", kMillimetres), finger_links("right", "0.001 -0.001 0.001"),
+                      finger_joints("left", 1, 0, ""), finger_joints("right", -1, std::numbers::pi, mimic(1))),
+          meshes()};
 }
 
 }  // namespace prohull::robot

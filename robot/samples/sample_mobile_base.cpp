@@ -119,90 +119,35 @@ constexpr const char* kHead = R"(<?xml version="1.0"?>
 <robot name="sample_mobile_base">
 )";
 
-constexpr const char* kBase = R"(
-  <link name="base_footprint"/>
-  <link name="base_link">
-    <visual>
-      <geometry>
-        <mesh filename="meshes/visual/chassis.stl"/>
-      </geometry>
-      <material name="orange"/>
-    </visual>
-    <!-- emergency stop -->
-    <visual name="stop">
-      <origin xyz="-0.2 0 0.157" rpy="0 0 0"/>
-      <geometry>
-        <cylinder radius="0.02" length="0.03"/>
-      </geometry>
-    </visual>
-    <collision>
-      <geometry>
-        <mesh filename="meshes/collision/chassis.stl"/>
-      </geometry>
-    </collision>
-    <collision name="stop">
-      <origin xyz="-0.2 0 0.157" rpy="0 0 0"/>
-      <geometry>
-        <cylinder radius="0.02" length="0.03"/>
-      </geometry>
-    </collision>
-)";
+/// An emergency stop.
+std::string stop(const std::string& element) {
+  return shape(element + " name=\"stop\"", R"(<cylinder radius="0.02" length="0.03"/>)", origin({-0.2, 0, 0.157}));
+}
 
-constexpr const char* kMiddle = R"(  </link>
-  <joint name="footprint_joint" type="fixed">
-    <parent link="base_footprint"/>
-    <child link="base_link"/>
-    <origin xyz="0 0 0.1" rpy="0 0 0"/>
-  </joint>
+std::string base() {
+  return "\n  <link name=\"base_footprint\"/>\n" +
+         link("base_link", shape("visual", mesh("visual/chassis"), {}, "orange") + "    <!-- emergency stop -->\n" +
+                               stop("visual") + shape("collision", mesh("collision/chassis")) + stop("collision") +
+                               inertial(14, {0, 0, 0.03}, {0.56, 0.36, 0.18})) +
+         joint("footprint_joint", "fixed", {"base_footprint", "base_link"}, origin({0, 0, 0.1})) + "\n";
+}
 
-)";
-
-constexpr const char* kCameraAndAntenna = R"(  <link name="camera">
-    <visual>
-      <geometry>
-        <box size="0.03 0.12 0.03"/>
-      </geometry>
-      <material name="black"/>
-    </visual>
-    <visual>
-      <origin xyz="0.015 0.04 0" rpy="0 1.5707963268 0"/>
-      <geometry>
-        <cylinder radius="0.01" length="0.016"/>
-      </geometry>
-    </visual>
-    <collision>
-      <geometry>
-        <box size="0.05 0.12 0.03"/>
-      </geometry>
-    </collision>
-  </link>
-  <joint name="camera_joint" type="revolute">
-    <parent link="mast"/>
-    <child link="camera"/>
-    <origin xyz="0.03 0 0.42" rpy="0 0 0"/>
-    <axis xyz="0 1 0"/>
+std::string camera() {
+  return link("camera", shape("visual", R"(<box size="0.03 0.12 0.03"/>)", {}, "black") +
+                            shape("visual", R"(<cylinder radius="0.01" length="0.016"/>)",
+                                  "      <origin xyz=\"0.015 0.04 0\" rpy=\"0 1.5707963268 0\"/>\n") +
+                            shape("collision", R"(<box size="0.05 0.12 0.03"/>)")) +
+         joint("camera_joint", "revolute", {"mast", "camera"}, origin({0.03, 0, 0.42}), R"(    <axis xyz="0 1 0"/>
     <limit lower="-0.7" upper="0.9" effort="2" velocity="1"/>
-  </joint>
+)") + "\n";
+}
 
-  <!-- It has nothing to collide with: it bends. -->
-  <link name="antenna">
-    <visual>
-      <origin xyz="0 0 0.07" rpy="0 0 0"/>
-      <geometry>
-        <cylinder radius="0.004" length="0.14"/>
-      </geometry>
-      <material name="black"/>
-    </visual>
-  </link>
-  <joint name="antenna_joint" type="fixed">
-    <parent link="base_link"/>
-    <child link="antenna"/>
-    <origin xyz="-0.22 0.1 0.147" rpy="0 0 0"/>
-  </joint>
-
-)";
-
-constexpr const char* kLidar = R"(<cylinder radius="0.04" length="0.05"/>)";
+std::string antenna() {
+  return "  <!-- It has nothing to collide with: it bends. -->\n" +
+         link("antenna",
+              shape("visual", R"(<cylinder radius="0.004" length="0.14"/>)", origin({0, 0, 0.07}), "black")) +
+         joint("antenna_joint", "fixed", {"base_link", "antenna"}, origin({-0.22, 0.1, 0.147})) + "\n";
+}
 
 constexpr const char* kTail = R"(
   <gazebo reference="caster_front_wheel">
@@ -212,113 +157,47 @@ constexpr const char* kTail = R"(
 )";
 
 /// A link on top of the base.
-std::string mounted(const std::string& name, const std::string& visual, const std::string& collision,
-                    const std::string& xyz) {
-  return fmt::format(R"(  <link name="{0}">
-    <visual>
-      <geometry>
-        {1}
-      </geometry>
-      <material name="black"/>
-    </visual>
-    <collision>
-      <geometry>
-        {2}
-      </geometry>
-    </collision>
-  </link>
-  <joint name="{0}_joint" type="fixed">
-    <parent link="base_link"/>
-    <child link="{0}"/>
-    <origin xyz="{3}" rpy="0 0 0"/>
-  </joint>
+std::string mounted(const std::string& name, const std::string& visual, const std::string& collision, const Vec3& at) {
+  return link(name, shape("visual", visual, {}, "black") + shape("collision", collision)) +
+         joint(name + "_joint", "fixed", {"base_link", name}, origin(at)) + "\n";
+}
 
-)",
-                     name, visual, collision, xyz);
+/// A joint without limits.
+std::string wheel_joint(const std::string& parent, const std::string& child, const Vec3& at, const char* axis) {
+  return joint(child + "_joint", "continuous", {parent, child}, origin(at),
+               fmt::format("    <axis xyz=\"{}\"/>\n", axis));
 }
 
 /// The wheel stands on the left; turned about x, also on the right.
-std::string driven_wheel(const char* side, double direction) {
-  return fmt::format(R"(  <link name="wheel_{0}">
-    <visual>
-      <origin xyz="0 {1} 0" rpy="{2:.10g} 0 0"/>
-      <geometry>
-        <mesh filename="meshes/visual/wheel.stl"/>
-      </geometry>
-      <material name="black"/>
-    </visual>
-    <collision>
-      <origin xyz="0 0 0" rpy="{2:.10g} 0 0"/>
-      <geometry>
-        <cylinder radius="{3}" length="{4}"/>
-      </geometry>
-    </collision>
-{5}  </link>
-  <joint name="wheel_{0}_joint" type="continuous">
-    <parent link="base_link"/>
-    <child link="wheel_{0}"/>
-    <origin xyz="0 {6} 0" rpy="0 0 0"/>
-    <axis xyz="0 1 0"/>
-  </joint>
-)",
-                     side, -direction * kWheelWidth / 2, -direction * kQuarterTurn, kWheelRadius + 0.0015,
-                     kWheelWidth + 0.006, inertial(1.1, {}, {0.2, 0.044, 0.2}), direction * kWheelY);
+std::string driven_wheel(const std::string& name, double direction) {
+  const Vec3 turn{-direction * kQuarterTurn, 0, 0};
+  const std::string around =
+      fmt::format(R"(<cylinder radius="{}" length="{}"/>)", kWheelRadius + 0.0015, kWheelWidth + 0.006);
+  return link(name, shape("visual", mesh("visual/wheel"), origin({0, -direction * kWheelWidth / 2, 0}, turn), "black") +
+                        shape("collision", around, origin({}, turn)) + inertial(1.1, {}, {0.2, 0.044, 0.2})) +
+         wheel_joint("base_link", name, {0, direction * kWheelY, 0}, "0 1 0");
 }
 
-std::string caster(const char* where, double x) {
-  return fmt::format(R"(  <link name="caster_{0}">
-    <visual>
-      <geometry>
-        <mesh filename="meshes/visual/caster_fork.stl"/>
-      </geometry>
-    </visual>
-    <collision>
-      <geometry>
-        <mesh filename="meshes/collision/caster_fork.stl"/>
-      </geometry>
-    </collision>
-{1}  </link>
-  <joint name="caster_{0}_joint" type="continuous">
-    <parent link="base_link"/>
-    <child link="caster_{0}"/>
-    <origin xyz="{2} 0 -0.06" rpy="0 0 0"/>
-    <axis xyz="0 0 1"/>
-  </joint>
-  <link name="caster_{0}_wheel">
-    <visual>
-      <origin xyz="0 0.011 0" rpy="{3:.10g} 0 0"/>
-      <geometry>
-        <mesh filename="meshes/visual/caster_wheel.stl"/>
-      </geometry>
-      <material name="black"/>
-    </visual>
-    <collision>
-      <geometry>
-        <sphere radius="{4}"/>
-      </geometry>
-    </collision>
-{5}  </link>
-  <joint name="caster_{0}_wheel_joint" type="continuous">
-    <parent link="caster_{0}"/>
-    <child link="caster_{0}_wheel"/>
-    <origin xyz="-0.018 0 -0.038" rpy="0 0 0"/>
-    <axis xyz="0 1 0"/>
-  </joint>
-)",
-                     where, inertial(0.15, {0, 0, -0.02}, {0.05, 0.05, 0.05}), x, kQuarterTurn, kCasterRadius,
-                     inertial(0.1, {}, {0.064, 0.022, 0.064}));
+std::string caster(const std::string& name, double x) {
+  return link(name, shape("visual", mesh("visual/caster_fork")) + shape("collision", mesh("collision/caster_fork")) +
+                        inertial(0.15, {0, 0, -0.02}, {0.05, 0.05, 0.05})) +
+         wheel_joint("base_link", name, {x, 0, -0.06}, "0 0 1") +
+         link(name + "_wheel",
+              shape("visual", mesh("visual/caster_wheel"), origin({0, 0.011, 0}, {kQuarterTurn, 0, 0}), "black") +
+                  shape("collision", fmt::format(R"(<sphere radius="{}"/>)", kCasterRadius)) +
+                  inertial(0.1, {}, {0.064, 0.022, 0.064})) +
+         wheel_joint(name, name + "_wheel", {-0.018, 0, -0.038}, "0 1 0");
 }
 
 }  // namespace
 
 SampleRobot make_sample_mobile_base() {
-  return {kHead + material("orange", "0.93 0.46 0.13 1") + material("black", "0.12 0.12 0.13 1") + kBase +
-              inertial(14, {0, 0, 0.03}, {0.56, 0.36, 0.18}) + kMiddle +
-              mounted("lidar", kLidar, kLidar, "0.16 0 0.172") +
-              mounted("mast", R"(<mesh filename="meshes/visual/mast.stl"/>)",
-                      R"(<mesh filename="meshes/collision/mast.stl"/>)", "-0.1 0 0.147") +
-              kCameraAndAntenna + driven_wheel("left", 1) + driven_wheel("right", -1) + caster("front", 0.21) +
-              caster("rear", -0.21) + kTail,
+  const std::string lidar = R"(<cylinder radius="0.04" length="0.05"/>)";
+  return {kHead + material("orange", "0.93 0.46 0.13 1") + material("black", "0.12 0.12 0.13 1") + base() +
+              mounted("lidar", lidar, lidar, {0.16, 0, 0.172}) +
+              mounted("mast", mesh("visual/mast"), mesh("collision/mast"), {-0.1, 0, 0.147}) + camera() + antenna() +
+              driven_wheel("wheel_left", 1) + driven_wheel("wheel_right", -1) + caster("caster_front", 0.21) +
+              caster("caster_rear", -0.21) + kTail,
           meshes()};
 }
 
