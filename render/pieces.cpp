@@ -2,8 +2,9 @@
 
 #include <array>
 #include <limits>
-#include <numeric>
 #include <vector>
+
+#include "prohull/detail/disjoint_sets.h"
 
 namespace prohull::render {
 namespace {
@@ -11,26 +12,20 @@ namespace {
 /// Of each vertex the number of its part; numbers grow with the first face of a part.
 class Parts {
  public:
-  explicit Parts(const TriangleMesh& mesh) : parents_(mesh.vertex_count()), numbers_(mesh.vertex_count(), kNone) {
-    std::iota(parents_.begin(), parents_.end(), 0U);
+  explicit Parts(const TriangleMesh& mesh) : sets_(mesh.vertex_count()), numbers_(mesh.vertex_count(), kNone) {
     for (const auto& t : mesh.triangles)
-      for (const VertexId v : t) parents_[root(index(v))] = root(index(t[0]));
+      for (const VertexId v : t) sets_.join(index(v), index(t[0]));
     for (const auto& t : mesh.triangles)
-      if (std::size_t& number = numbers_[root(index(t[0]))]; number == kNone) number = count_++;
+      if (std::size_t& number = numbers_[sets_.find(index(t[0]))]; number == kNone) number = count_++;
   }
 
   std::size_t count() const { return count_; }
-  std::size_t operator[](VertexId v) { return numbers_[root(index(v))]; }
+  std::size_t operator[](VertexId v) { return numbers_[sets_.find(index(v))]; }
 
  private:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-  std::uint32_t root(std::uint32_t v) {
-    while (parents_[v] != v) v = parents_[v] = parents_[parents_[v]];
-    return v;
-  }
-
-  std::vector<std::uint32_t> parents_;
+  DisjointSets sets_;
   std::vector<std::size_t> numbers_;
   std::size_t count_ = 0;
 };

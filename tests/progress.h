@@ -7,7 +7,7 @@
 #include <string_view>
 #include <thread>
 
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 
 namespace prohull {
 

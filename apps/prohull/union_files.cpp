@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "command.h"
+#include "prohull/detail/disjoint_sets.h"
 #include "prohull/error.h"
 #include "robot/files/link_pieces.h"
 #include "robot/files/sphere_file.h"
@@ -19,23 +19,15 @@ using std::filesystem::path;
 
 /// The parts of a mesh whose faces are connected by shared vertices, in the order of their first faces.
 std::vector<TriangleMesh> components(const TriangleMesh& mesh) {
-  std::vector<std::size_t> parent(mesh.vertex_count());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](VertexId v) {
-    std::size_t i = index(v);
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    parent[root(b)] = root(a);
-    parent[root(c)] = root(a);
-  }
+  DisjointSets connected(mesh.vertex_count());
+  for (const auto& corners : mesh.triangles)
+    for (const VertexId v : corners) connected.join(index(corners[0]), index(v));
   std::vector<TriangleMesh> parts;
-  std::map<std::size_t, std::size_t> part_of;
+  std::map<std::uint32_t, std::size_t> part_of;
   PerVertex<VertexId> place(mesh.vertex_count(), VertexId(0));
   PerVertex<char> is_placed(mesh.vertex_count(), 0);
   for (const auto& corners : mesh.triangles) {
-    const auto [entry, is_new] = part_of.try_emplace(root(corners[0]), parts.size());
+    const auto [entry, is_new] = part_of.try_emplace(connected.find(index(corners[0])), parts.size());
     if (is_new) parts.emplace_back();
     TriangleMesh& part = parts[entry->second];
     auto moved = corners;

@@ -10,8 +10,8 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <thread>
 
+#include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "prohull/shapes.h"
 #include "robot/motion/joint_paths.h"
@@ -95,47 +95,15 @@ bool visual_meets(const Check& c) { return collide(c.a->visual, {}, c.b->visual,
 bool hull_meets(const Check& c) { return enclosures_meet(c.a->hull, c.b->hull, c.pose); }
 bool convex_meets(const Check& c) { return enclosures_meet(c.a->convex, c.b->convex, c.pose); }
 
-/// Tells a Progress on the thread that made it, at most 50 times a second; any thread may call.
-class Meter {
- public:
-  Meter(const Progress& progress, std::size_t all) : progress_(progress), all_(all) {}
-
-  /// One more is done. Throws Cancelled on every thread once the Progress has returned false.
-  void next() {
-    ++done_;
-    ask();
-  }
-
-  /// The same, and nothing more is done.
-  void ask() {
-    if (cancelled_) throw Cancelled();
-    if (!progress_ || std::this_thread::get_id() != caller_) return;
-    const auto now = std::chrono::steady_clock::now();
-    if (now - told_ < std::chrono::milliseconds(20)) return;
-    told_ = now;
-    if (progress_("move", static_cast<double>(done_) / static_cast<double>(all_))) return;
-    cancelled_ = true;
-    throw Cancelled();
-  }
-
- private:
-  const Progress& progress_;
-  const std::size_t all_;
-  const std::thread::id caller_ = std::this_thread::get_id();
-  std::chrono::steady_clock::time_point told_;
-  std::atomic<std::size_t> done_ = 0;
-  std::atomic<bool> cancelled_ = false;
-};
-
 /// In microseconds, in the fastest of three runs, as other programs may slow one down.
-double mean_time(const std::vector<Check>& checks, bool (*meets)(const Check&), Meter& meter) {
+double mean_time(const std::vector<Check>& checks, bool (*meets)(const Check&), ProgressMeter& meter) {
   using Clock = std::chrono::steady_clock;
   constexpr std::size_t kAtOnce = 16;  // checks between two questions, which are not timed
   Clock::duration least = Clock::duration::max();
   for (int run = 0; run < 3; ++run) {
     Clock::duration all{0};
     for (std::size_t first = 0; first < checks.size(); first += kAtOnce) {
-      meter.ask();
+      meter.go_on();
       const auto start = Clock::now();
       for (std::size_t i = first; i < std::min(first + kAtOnce, checks.size()); ++i) meets(checks[i]);
       all += Clock::now() - start;
@@ -157,12 +125,13 @@ class Motion {
   }
 
   MotionResult run() {
-    Meter meter(options_.progress, options_.configurations);
+    ProgressMeter meter(options_.progress, "move");
+    std::atomic<std::size_t> done = 0;
     std::vector<std::vector<Contact>> contacts(options_.configurations);
     arena().execute([&] {
       oneapi::tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t k) {
         contacts[k] = contacts_in(k);
-        meter.next();
+        meter.at(++done, contacts.size());
       });
     });
     MotionResult result = result_of(contacts);
@@ -210,11 +179,11 @@ class Motion {
   }
 
   /// Those whose time is measured.
-  std::vector<Check> first_checks(Meter& meter) const {
+  std::vector<Check> first_checks(ProgressMeter& meter) const {
     constexpr std::size_t kChecks = 1000;
     std::vector<Check> first;
     for (std::size_t k = 0; k < options_.configurations && first.size() < kChecks; ++k) {
-      meter.ask();
+      meter.go_on();
       for (const Check& check : checks_in(k))
         if (first.size() < kChecks) first.push_back(check);
     }

@@ -14,7 +14,7 @@
 #include "geometry/triangle_distance.h"
 #include "geometry/usable_size.h"
 #include "parallel/arena.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 
 namespace prohull {

@@ -9,6 +9,7 @@
 #include "collide/box_pair.h"
 #include "geometry/triangle_predicates.h"
 #include "geometry/usable_size.h"
+#include "prohull/detail/disjoint_sets.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -61,26 +62,22 @@ PerVertex<VertexId> first_at_position(const PerVertex<Vec3>& positions) {
 
 /// The first and the last vertex of each component, by x, y and z.
 std::vector<Segment> component_ends_of(const TriangleMesh& mesh) {
-  PerVertex<VertexId> parent = first_at_position(mesh.positions);
-  const auto root = [&](VertexId v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    parent[root(b)] = root(a);
-    parent[root(c)] = root(a);
-  }
+  const PerVertex<VertexId> first = first_at_position(mesh.positions);
+  DisjointSets connected(mesh.vertex_count());
+  for (const VertexId v : mesh.positions.ids()) connected.join(index(v), index(first[v]));
+  for (const auto& corners : mesh.triangles)
+    for (const VertexId v : corners) connected.join(index(corners[0]), index(v));
   PerVertex<Segment> ends(mesh.vertex_count());
   for (const VertexId v : mesh.positions.ids()) ends[v] = {mesh.positions[v], mesh.positions[v]};
   const auto before = [](const Vec3& p, const Vec3& q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); };
   for (const VertexId v : mesh.positions.ids()) {
-    Segment& of_component = ends[root(v)];
+    Segment& of_component = ends[VertexId(connected.find(index(v)))];
     of_component.a = std::min(of_component.a, mesh.positions[v], before);
     of_component.b = std::max(of_component.b, mesh.positions[v], before);
   }
   std::vector<Segment> result;
   for (const VertexId v : mesh.positions.ids())
-    if (parent[v] == v) result.push_back(ends[v]);
+    if (connected.find(index(v)) == index(v)) result.push_back(ends[v]);
   return result;
 }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "parallel/arena.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_report.h"
 

@@ -5,7 +5,7 @@
 
 #include "cover/depth.h"
 #include "cover/patches.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/shapes.h"
 
 namespace prohull::cover {

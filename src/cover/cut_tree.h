@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cover/part.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 
 namespace prohull::cover {
 

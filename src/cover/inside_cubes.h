@@ -4,7 +4,7 @@
 
 #include "cover/depth.h"
 #include "cover/patches.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 
 namespace prohull::cover {
 

@@ -16,7 +16,7 @@
 #include "geometry/largest_coordinate.h"
 #include "mesh/area.h"
 #include "parallel/arena.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"

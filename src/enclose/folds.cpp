@@ -9,7 +9,7 @@
 
 #include "base/text.h"
 #include "construct/lifting.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "verify/known_solid.h"
 
 namespace prohull {

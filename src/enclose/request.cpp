@@ -7,7 +7,7 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "enclose/tolerances.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
 #include "prohull/tolerances.h"

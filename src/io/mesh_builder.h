@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/place.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/mesh_io.h"
 #include "prohull/triangle_mesh.h"
 

@@ -8,7 +8,7 @@
 
 #include "geometry/no_index.h"
 #include "geometry/predicates.h"
-#include "mesh/disjoint_sets.h"
+#include "prohull/detail/disjoint_sets.h"
 
 namespace prohull {
 namespace {

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "parallel/arena.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "query/coherent_order.h"
 #include "query/engine.h"

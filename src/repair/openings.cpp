@@ -9,8 +9,8 @@
 #include <unordered_set>
 
 #include "geometry/no_index.h"
-#include "mesh/disjoint_sets.h"
 #include "mesh/triangulate_polygon.h"
+#include "prohull/detail/disjoint_sets.h"
 #include "repair/steps.h"
 
 namespace prohull {

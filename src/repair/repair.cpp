@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 #include "geometry/usable_size.h"
-#include "mesh/disjoint_sets.h"
+#include "prohull/detail/disjoint_sets.h"
 #include "prohull/error.h"
 #include "prohull/openings.h"
 #include "prohull/repair.h"

@@ -15,7 +15,7 @@
 #include "geometry/orientation.h"
 #include "geometry/triangle_intersection.h"
 #include "geometry/winding_number.h"
-#include "mesh/disjoint_sets.h"
+#include "prohull/detail/disjoint_sets.h"
 #include "prohull/error.h"
 
 namespace prohull {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/geometry.h"
 #include "verify/surface.h"
 #include "verify/winding.h"

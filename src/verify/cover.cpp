@@ -12,7 +12,7 @@
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
 #include "mesh/closed.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "verify/arrangement.h"

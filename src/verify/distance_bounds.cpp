@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "verify/nearest_face.h"
 
 namespace prohull {

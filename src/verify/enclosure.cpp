@@ -9,7 +9,7 @@
 
 #include "base/text.h"
 #include "geometry/interior_contact.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "verify/arrangement.h"
 #include "verify/cell.h"

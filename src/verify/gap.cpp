@@ -7,7 +7,7 @@
 #include "geometry/bvh.h"
 #include "geometry/triangle_distance.h"
 #include "geometry/triangle_gap.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 
 // A gap is kept if and only if no face of the hull is nearer to a face of the original than that. Boxes and planes rule
 // out pairs that are certainly far apart, and are_apart decides the others.

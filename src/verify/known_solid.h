@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "verify/self_intersection.h"
 #include "verify/surface.h"
 

@@ -10,7 +10,7 @@
 
 #include "geometry/no_index.h"
 #include "geometry/predicates.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
 
 namespace prohull {

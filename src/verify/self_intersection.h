@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "verify/surface.h"
 
 namespace prohull::verify {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "verify/self_intersection.h"
 #include "verify/surface.h"
 

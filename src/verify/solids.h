@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "verify/self_intersection.h"
 #include "verify/surface.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "verify/nearest_face.h"
 

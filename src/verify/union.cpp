@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 #include "geometry/triangle_predicates.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "verify/exposed_surface.h"

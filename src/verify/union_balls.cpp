@@ -14,7 +14,7 @@
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
 #include "geometry/usable_size.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "verify/exact.h"

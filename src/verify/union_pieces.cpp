@@ -9,7 +9,7 @@
 #include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
 #include "mesh/closed.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "verify/original.h"
 #include "verify/solids.h"

@@ -9,7 +9,7 @@
 
 #include "geometry/largest_coordinate.h"
 #include "geometry/winding_number.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/union_verification.h"
 #include "verify/exposed_surface.h"

@@ -12,7 +12,7 @@
 #include "base/text.h"
 #include "geometry/usable_size.h"
 #include "mesh/closed.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "verify/gap.h"
 #include "verify/original.h"

@@ -1,4 +1,4 @@
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@
 #include "geometry/float32.h"
 #include "geometry/predicates.h"
 #include "mesh/half_edge_mesh.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 
 namespace prohull {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "construct/placement.h"
 #include "construct/progressive/whole_mesh.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 
 namespace prohull {
 namespace {

@@ -18,7 +18,7 @@
 #include "geometry/predicates.h"
 #include "geometry/triangle_intersection.h"
 #include "mesh/half_edge_mesh.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/tight_hull.h"
 
 namespace prohull {

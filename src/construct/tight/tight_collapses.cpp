@@ -15,7 +15,7 @@
 #include "construct/star.h"
 #include "construct/tight/tight_placement.h"
 #include "parallel/arena.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 
 namespace prohull {
 namespace {

@@ -15,7 +15,7 @@
 #include "construct/tight/unsearched.h"
 #include "construct/turned.h"
 #include "mesh/half_edge_mesh.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 
 namespace prohull {

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "construct/tight/unsearched.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 #include "prohull/tight_hull.h"
 
 namespace prohull {

@@ -14,7 +14,7 @@
 #include "geometry/compactness.h"
 #include "geometry/predicates.h"
 #include "parallel/arena.h"
-#include "parallel/progress_meter.h"
+#include "prohull/detail/progress_meter.h"
 
 namespace prohull {
 namespace {
