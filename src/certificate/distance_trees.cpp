@@ -20,10 +20,9 @@ constexpr std::size_t kMostPartsPerFace = 8;  ///< of both meshes together
 class DistanceTrees {
  public:
   DistanceTrees(const TriangleMesh& hull, const TriangleMesh& triangles, double distance)
-      : triangles_(triangles), most_parts_(kMostPartsPerFace * (hull.face_count() + triangles.face_count())) {
-    std::vector<Box> boxes;
-    for (const FaceId f : triangles.triangles.ids()) boxes.push_back(box_of(triangles.triangle(f)));
-    bvh_ = Bvh(std::move(boxes));
+      : triangles_(triangles),
+        bvh_(triangles),
+        most_parts_(kMostPartsPerFace * (hull.face_count() + triangles.face_count())) {
     // Distances are rounded: what is nearly too far counts as too far.
     Box box = bounding_box(hull);
     box.extend(bounding_box(triangles));
@@ -83,8 +82,8 @@ class DistanceTrees {
   }
 
   const TriangleMesh& triangles_;
+  const Bvh bvh_;
   const std::size_t most_parts_;
-  Bvh bvh_;
   double enough_;
   std::size_t parts_ = 0;
   File file_;

@@ -53,9 +53,7 @@ TriangleMesh lifted_over(const TriangleMesh& hull, std::span<const Protrusion> p
   constexpr double kLittleMore = 1.1;
   const double rounding = storage_rounding(bounding_box(hull), options.float32_coordinates);
   HalfEdgeMesh mesh(hull);
-  std::vector<Box> boxes;
-  for (const FaceId f : hull.triangles.ids()) boxes.push_back(box_of(hull.triangle(f)));
-  const Bvh tree(boxes);
+  const Bvh tree(hull);
   PerVertex<double> clearances(hull.vertex_count(), 0.0);
   for (const Protrusion& protrusion : protrusions) {
     const Vec3& point = protrusion.point;

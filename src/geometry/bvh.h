@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -28,6 +29,11 @@ class Bvh {
     sort_as_items(boxes);
     item_boxes_ = std::move(boxes);
   }
+  explicit Bvh(const std::vector<Triangle>& triangles) : Bvh(boxes_of(triangles, std::identity())) {}
+  /// Of the triangles of a mesh, by their numbers.
+  template <class Mesh>
+  requires requires(const Mesh& mesh) { mesh.triangles.ids(); }
+  explicit Bvh(const Mesh& mesh) : Bvh(boxes_of(mesh.triangles.ids(), [&](auto f) { return mesh.triangle(f); })) {}
 
   /// visit(item) for every item of which the box, and the boxes above it in the tree, are wanted(box).
   template <class Wanted, class Visit>
@@ -74,6 +80,13 @@ class Bvh {
       return center != other.center ? center < other.center : item < other.item;
     }
   };
+
+  template <class Items, class TriangleOf>
+  static std::vector<Box> boxes_of(const Items& items, TriangleOf triangle_of) {
+    std::vector<Box> boxes;
+    for (const auto& item : items) boxes.push_back(box_of(triangle_of(item)));
+    return boxes;
+  }
 
   std::uint32_t build(const std::vector<Box>& boxes, std::vector<Key>& keys, std::uint32_t begin, std::uint32_t end) {
     const auto self = static_cast<std::uint32_t>(nodes_.size());

@@ -17,11 +17,7 @@ struct Solid {
   WindingNumber winding;
   Bvh bvh;
 
-  explicit Solid(std::vector<Triangle> outwards) : faces(std::move(outwards)), winding(faces) {
-    std::vector<Box> boxes;
-    for (const Triangle& t : faces) boxes.push_back(box_of(t));
-    bvh = Bvh(std::move(boxes));
-  }
+  explicit Solid(std::vector<Triangle> outwards) : faces(std::move(outwards)), winding(faces), bvh(faces) {}
 };
 
 bool has_corner(const Triangle& of, const Triangle& beside, Side where) {

@@ -15,11 +15,7 @@ int turn_of_moved(const Vec3& a, const Vec3& b, const Vec3& p) {
 
 }  // namespace
 
-WindingNumber::WindingNumber(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
-  std::vector<Box> boxes;
-  for (const Triangle& t : triangles_) boxes.push_back(box_of(t));
-  bvh_ = Bvh(std::move(boxes));
-}
+WindingNumber::WindingNumber(std::vector<Triangle> triangles) : triangles_(std::move(triangles)), bvh_(triangles_) {}
 
 std::optional<int> WindingNumber::at(const Vec3& p) const {
   int winding = 0;

@@ -38,13 +38,7 @@ namespace {
 /// One hull, its void and its base mesh.
 struct Layer {
   explicit Layer(const ProgressiveHull& hull)
-      : complex(hull), base(hull.base()), tree(make_bvh_engine(base)), boxes(boxes_of(base)) {}
-
-  static std::vector<Box> boxes_of(const TriangleMesh& mesh) {
-    std::vector<Box> boxes;
-    for (const FaceId f : mesh.triangles.ids()) boxes.push_back(box_of(mesh.triangle(f)));
-    return boxes;
-  }
+      : complex(hull), base(hull.base()), tree(make_bvh_engine(base)), boxes(base) {}
 
   std::size_t memory_bytes() const {
     return sizeof(*this) + complex.memory_bytes() + base.positions.size() * sizeof(Vec3) +
