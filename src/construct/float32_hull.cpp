@@ -196,8 +196,8 @@ Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side, N
   if (std::ranges::all_of(level.positions, is_float32)) return {level, 0};
   check_float32_spacing(level);
   // An inner hull is the outer hull of the mesh turned inside out.
-  Float32Hull result = VertexMover(side == HullSide::Inner ? turned(level) : level, no_room).run();
-  if (side == HullSide::Inner) result.mesh = turned(std::move(result.mesh));
+  Float32Hull result = VertexMover(turned_if_inner(level, side), no_room).run();
+  result.mesh = turned_if_inner(std::move(result.mesh), side);
   return result;
 }
 

@@ -96,7 +96,6 @@ HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
     throw InputError(Defect::NoVolume, "the mesh is inside out or encloses nothing; closed_mesh turns what it can");
   }
   return arena_of(options.threads).execute([&] {
-    // An inner hull is the outer hull of the mesh turned inside out: what was inside of a face is then outside.
     if (options.side == HullSide::Inner) return turned(simplify_in_rounds(turned(mesh), options));
     return simplify_in_rounds(mesh, options);
   });

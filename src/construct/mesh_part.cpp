@@ -63,12 +63,11 @@ SimplifiedPart simplify_part(const MeshPart& part, const HullOptions& options) {
   if (part.own_faces == 0) return {};
   HullOptions of_all = options;
   of_all.target_faces += faces_that_stay(part);
-  const bool is_inner = options.side == HullSide::Inner;
   SimplifiedPart made = arena_of(options.threads).execute([&] {
-    const HullResult result = simplify_in_rounds(is_inner ? turned(part.mesh) : part.mesh, of_all, &part.box);
+    const HullResult result = simplify_in_rounds(turned_if_inner(part.mesh, options.side), of_all, &part.box);
     return own_faces(result.hull, part.own_faces);
   });
-  if (is_inner) made.mesh = turned(std::move(made.mesh));
+  made.mesh = turned_if_inner(std::move(made.mesh), options.side);
   return made;
 }
 

@@ -114,7 +114,7 @@ TriangleMesh finished(HalfEdgeMesh& body, const TriangleMesh& triangles, double 
 
 class Nearest {
  public:
-  explicit Nearest(const TriangleMesh& mesh) : mesh_(mesh), tree_(boxes_of(mesh)) {}
+  explicit Nearest(const TriangleMesh& mesh) : mesh_(mesh), tree_(mesh) {}
 
   std::optional<Vec3> within(const Vec3& p, double distance) const {
     std::optional<Vec3> nearest;
@@ -131,12 +131,6 @@ class Nearest {
   }
 
  private:
-  static std::vector<Box> boxes_of(const TriangleMesh& mesh) {
-    std::vector<Box> boxes;
-    for (const FaceId f : mesh.triangles.ids()) boxes.push_back(box_of(mesh.triangle(f)));
-    return boxes;
-  }
-
   const TriangleMesh& mesh_;
   const Bvh tree_;
 };
@@ -168,21 +162,17 @@ void move_to_padding(HalfEdgeMesh& body, const TriangleMesh& triangles, double p
 
 TriangleMesh gap_body(const TriangleMesh& mesh, const TriangleMesh& triangles, double padding,
                       const HullOptions& options) {
-  const TriangleMesh fine = fine_hull(mesh, options);
-  const bool inner = options.side == HullSide::Inner;
-  HalfEdgeMesh body(padded_without_folds(inner ? turned(fine) : fine, kHairOfGap * padding));
-  const TriangleMesh made = finished(body, triangles, padding, options);
-  return inner ? turned(made) : made;
+  const TriangleMesh fine = turned_if_inner(fine_hull(mesh, options), options.side);
+  HalfEdgeMesh body(padded_without_folds(fine, kHairOfGap * padding));
+  return turned_if_inner(finished(body, triangles, padding, options), options.side);
 }
 
 TriangleMesh gap_body_of_wrap(const TriangleMesh& wrap, const TriangleMesh& triangles, double padding,
                               const HullOptions& options) {
-  const TriangleMesh fine = fine_hull(wrap, options);
-  const bool inner = options.side == HullSide::Inner;
-  HalfEdgeMesh body(inner ? turned(fine) : fine);
+  const TriangleMesh fine = turned_if_inner(fine_hull(wrap, options), options.side);
+  HalfEdgeMesh body(fine);
   move_to_padding(body, triangles, padding);
-  const TriangleMesh made = finished(body, triangles, padding, options);
-  return inner ? turned(made) : made;
+  return turned_if_inner(finished(body, triangles, padding, options), options.side);
 }
 
 }  // namespace prohull

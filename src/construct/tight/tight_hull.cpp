@@ -71,14 +71,12 @@ class TightBuild {
     }
     TriangleMesh hull = hull_->triangle_mesh();
     if (is_searched && is_near(target, hull)) hull = with_less_volume(hull, original_, coarse, search_options());
-    tight_.mesh = is_inner() ? turned(hull) : hull;
+    tight_.mesh = turned_if_inner(hull, options_.side);
     if (tight_.mesh.face_count() <= options_.target_faces) tight_.stopped = Stopped::TargetReached;
     return std::move(tight_);
   }
 
  private:
-  bool is_inner() const { return options_.side == HullSide::Inner; }
-
   // Trials seldom remove more faces, and look for them at all edges.
   static bool is_near(std::size_t target, const TriangleMesh& hull) { return hull.face_count() <= target + target / 4; }
 
@@ -109,7 +107,7 @@ class TightBuild {
 
   // Collapses outside of the hull, which may do what tight ones may not.
   void build_on() {
-    if (hull_) tight_.mesh = is_inner() ? turned(hull_->triangle_mesh()) : hull_->triangle_mesh();
+    if (hull_) tight_.mesh = turned_if_inner(hull_->triangle_mesh(), options_.side);
     step_.guards.max_overhang =
         overhang_left(bounding_box(tight_.mesh), bounding_box(mesh_), options_.guards.max_overhang);
     HullResult result = build_hull(tight_.mesh, step_);
@@ -117,7 +115,7 @@ class TightBuild {
     tight_.blocked = result.blocked;
     tight_.stopped = result.stopped;
     tight_.relaxed_guards = result.relaxed_guards;
-    hull_.emplace(is_inner() ? turned(result.hull.base()) : result.hull.base());
+    hull_.emplace(turned_if_inner(result.hull.base(), options_.side));
     contacts_.emplace(hull_->positions().size());
   }
 
@@ -134,7 +132,7 @@ class TightBuild {
 
 Original original_of(const TriangleMesh& mesh, const TriangleMesh* wrapped, HullSide side, double padding,
                      unsigned threads) {
-  if (!wrapped) return Original::closed(side == HullSide::Inner ? turned(mesh) : mesh, side, threads);
+  if (!wrapped) return Original::closed(turned_if_inner(mesh, side), side, threads);
   if (side == HullSide::Inner && padding == 0)
     throw InputError(Defect::InvalidOption, "nothing is inside of triangles that are not closed: no inner hull");
   if (padding > 0) return Original::padded_triangles(*wrapped, padding, threads);
@@ -170,17 +168,15 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options,
 
 TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& mesh, HullSide side,
                                   const MoveOptions& options) {
-  const bool inner = side == HullSide::Inner;
-  HalfEdgeMesh moving(inner ? turned(hull) : hull);
+  HalfEdgeMesh moving(turned_if_inner(hull, side));
   tighten(moving, original_of(mesh, nullptr, side, 0, options.threads), options);
-  return inner ? turned(moving.triangle_mesh()) : moving.triangle_mesh();
+  return turned_if_inner(moving.triangle_mesh(), side);
 }
 
 TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options) {
-  const bool inner = options.side == HullSide::Inner;
-  HalfEdgeMesh moving(inner ? turned(hull) : hull);
+  HalfEdgeMesh moving(turned_if_inner(hull, options.side));
   tighten(moving, original_of(hull, &triangles, options.side, options.padding, options.threads), options);
-  return inner ? turned(moving.triangle_mesh()) : moving.triangle_mesh();
+  return turned_if_inner(moving.triangle_mesh(), options.side);
 }
 
 }  // namespace prohull
