@@ -125,8 +125,9 @@ struct HullOptions {
   /// Build with this many seeds, from `seed` on, and keep the hull that is nearest to the target; of several, that with
   /// the least void. At least 1.
   unsigned best_of = 1;
-  unsigned threads = 0;    ///< threads at most; 0: one for each core. The hull is the same for any number.
-  Progress progress = {};  ///< stage "build"
+  unsigned tight_trials = 1000;  ///< most trials of the search for a tight hull of few faces (tight_hull.h)
+  unsigned threads = 0;          ///< threads at most; 0: one for each core. The hull is the same for any number.
+  Progress progress = {};        ///< stage "build"
 
   /// Whether collapses are refused that make the hull intersect itself. Inner hulls always refuse them, because an
   /// inner hull that intersects itself may stick out of the mesh.

@@ -21,7 +21,10 @@ namespace {
 using namespace meshes;
 
 /// What is told of all hulls of few faces is true after few trials too.
-const std::size_t few_trials = trials_of_few_faces = effort(60, 12);
+HullOptions few(HullOptions options) {
+  options.tight_trials = effort(60, 12);
+  return options;
+}
 
 class TightHulls : public testing::TestWithParam<const char*> {};
 
@@ -30,7 +33,7 @@ TEST_P(TightHulls, EncloseWithLessVoidAndDoNotIntersectThemselves) {
   const double volume = signed_volume(mesh);
   for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
     const HullOptions options{.target_faces = 300, .side = side};
-    const TightHull tight = build_tight_hull(mesh, options);
+    const TightHull tight = build_tight_hull(mesh, few(options));
     EXPECT_EQ(tight.stopped, Stopped::TargetReached);
     EXPECT_EQ(tight.mesh.face_count(), 300u);
     EXPECT_GT(tight.moved_vertices, 0u);
@@ -49,14 +52,14 @@ INSTANTIATE_TEST_SUITE_P(Samples, TightHulls, testing::Values("asteroid", "knot"
 TEST(TightHull, OfSeveralComponentsAndHandlesEncloses) {
   const TriangleMesh ball = sphere(effort(4, 3));
   const TriangleMesh mesh = together(together(ball, moved(ball, {2.1, 0, 0})), moved(torus(40, 20), {0, 4, 0}));
-  const TightHull tight = build_tight_hull(mesh, {.target_faces = 200});
+  const TightHull tight = build_tight_hull(mesh, few({.target_faces = 200}));
   EXPECT_TRUE(verify_enclosure(mesh, tight.mesh).encloses);
   EXPECT_EQ(count_self_intersections(tight.mesh), 0u);
 }
 
 TEST(TightHull, OfFloat32CoordinatesHasThemAndEncloses) {
   const TriangleMesh mesh = make_sample("asteroid", 2000);
-  const TightHull tight = build_tight_hull(mesh, {.target_faces = 200, .float32_coordinates = true});
+  const TightHull tight = build_tight_hull(mesh, few({.target_faces = 200, .float32_coordinates = true}));
   const Float32Hull rounded = with_float32_coordinates(tight.mesh, HullSide::Outer);
   for (const Vec3& p : rounded.mesh.positions) EXPECT_TRUE(is_float32(p));
   EXPECT_TRUE(verify_enclosure(mesh, rounded.mesh).encloses);
@@ -67,7 +70,7 @@ TEST(TightHull, BeyondFloat32HasFiniteCoordinates) {
   const TriangleMesh mesh = scaled(moved(subdivided(octahedron()), {1e9, 1e9, 1e9}), 1e30);
   for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
     const TriangleMesh tight =
-        build_tight_hull(mesh, {.target_faces = 8, .side = side, .float32_coordinates = true}).mesh;
+        build_tight_hull(mesh, few({.target_faces = 8, .side = side, .float32_coordinates = true})).mesh;
     EXPECT_TRUE(inspect(tight).is_closed_manifold()) << "not finite, for instance";
     EXPECT_TRUE((side == HullSide::Outer ? verify_enclosure(mesh, tight) : verify_enclosure(tight, mesh)).encloses);
   }
@@ -75,9 +78,9 @@ TEST(TightHull, BeyondFloat32HasFiniteCoordinates) {
 
 TEST(TightHull, IsTheSameForAnyNumberOfThreads) {
   const TriangleMesh mesh = make_sample("pony", effort(6000, 2000));
-  const TriangleMesh one = build_tight_hull(mesh, {.target_faces = 200, .threads = 1}).mesh;
+  const TriangleMesh one = build_tight_hull(mesh, few({.target_faces = 200, .threads = 1})).mesh;
   for (const unsigned threads : {2u, 3u, 0u})
-    EXPECT_EQ(one, build_tight_hull(mesh, {.target_faces = 200, .threads = threads}).mesh) << threads;
+    EXPECT_EQ(one, build_tight_hull(mesh, few({.target_faces = 200, .threads = threads})).mesh) << threads;
 }
 
 // The progressive hulls leave much to gain.
@@ -90,8 +93,8 @@ TEST(TightHull, OfFewFacesIsSearchedOnFromAndNeverWorse) {
     };
     const TriangleMesh hull = level(40);
     const Original original = Original::closed(oriented(mesh), side, 1);
-    const TriangleMesh found =
-        with_less_volume(hull, original, level(200), {.target_faces = hull.face_count(), .side = side, .threads = 1});
+    const TriangleMesh found = with_less_volume(hull, original, level(200),
+                                                few({.target_faces = hull.face_count(), .side = side, .threads = 1}));
     EXPECT_LT(signed_volume(found), signed_volume(hull));
     EXPECT_LE(found.face_count(), hull.face_count());
     EXPECT_TRUE(inspect(oriented(found)).is_closed_manifold());
@@ -103,13 +106,10 @@ TEST(TightHull, OfFewFacesIsSearchedOnFromAndNeverWorse) {
 
 TEST(TightHull, OfFewFacesHasLessVoidThanWithoutSearch) {
   const TriangleMesh mesh = make_sample("pony", 2000);
-  const auto with_trials = [&](std::size_t trials) {
-    trials_of_few_faces = trials;
-    const double volume = signed_volume(build_tight_hull(mesh, {.target_faces = 50}).mesh);
-    trials_of_few_faces = few_trials;
-    return volume;
+  const auto with_trials = [&](unsigned trials) {
+    return signed_volume(build_tight_hull(mesh, {.target_faces = 50, .tight_trials = trials}).mesh);
   };
-  constexpr std::size_t kTrials = 60;
+  constexpr unsigned kTrials = 60;
   EXPECT_LT(with_trials(kTrials), with_trials(0));
 }
 
@@ -121,7 +121,7 @@ TEST(TightHull, GoesForwardAndCancels) {
   const TriangleMesh mesh = make_sample("asteroid", effort(2000, 500));
   for (const unsigned best_of : {1u, 2u})
     expect_progress("tighten", 20, [&](const Progress& progress) {
-      build_tight_hull(mesh, {.target_faces = 100, .best_of = best_of, .threads = 1, .progress = progress});
+      build_tight_hull(mesh, few({.target_faces = 100, .best_of = best_of, .threads = 1, .progress = progress}));
     });
 }
 
@@ -134,7 +134,7 @@ TEST(TightHullWithin, KeepsTheDistanceWithFewerFacesThanLevelsHave) {
     const double distance = 0.04 * bounding_box(mesh).diagonal();
     const auto stored_as = [&](const TriangleMesh& h) { return float32 ? with_float32_coordinates(h, side).mesh : h; };
     const auto is_near = [&](const TriangleMesh& h) { return distance_bounds(stored_as(h), mesh).upper <= distance; };
-    const TightHull hull = build_tight_hull_within(mesh, is_near, options);
+    const TightHull hull = build_tight_hull_within(mesh, is_near, few(options));
     const TriangleMesh stored = stored_as(hull.mesh);
     EXPECT_LE(distance_bounds(stored, mesh).upper, distance);
     EXPECT_TRUE((side == HullSide::Outer ? verify_enclosure(mesh, stored) : verify_enclosure(stored, mesh)).encloses);
@@ -147,10 +147,11 @@ TEST(TightHullWithin, KeepsTheDistanceWithFewerFacesThanLevelsHave) {
 
 TEST(TightHullWithin, StopsAtTheTargetOrAtTheMeshItself) {
   const TriangleMesh mesh = make_sample("asteroid", effort(500, 200));
-  const TightHull far = build_tight_hull_within(mesh, [](const TriangleMesh&) { return true; }, {.target_faces = 100});
-  EXPECT_EQ(far.mesh, build_tight_hull(mesh, {.target_faces = 100}).mesh);
+  const TightHull far = build_tight_hull_within(
+      mesh, [](const TriangleMesh&) { return true; }, few({.target_faces = 100}));
+  EXPECT_EQ(far.mesh, build_tight_hull(mesh, few({.target_faces = 100})).mesh);
   const auto is_itself = [&](const TriangleMesh& hull) { return hull == mesh; };
-  EXPECT_EQ(build_tight_hull_within(mesh, is_itself, {.target_faces = 100}).mesh, mesh);
+  EXPECT_EQ(build_tight_hull_within(mesh, is_itself, few({.target_faces = 100})).mesh, mesh);
 }
 
 TEST(TightHullWithin, GoesForwardAndCancels) {
@@ -158,7 +159,7 @@ TEST(TightHullWithin, GoesForwardAndCancels) {
   const double distance = 0.01 * bounding_box(mesh).diagonal();
   const auto is_near = [&](const TriangleMesh& h) { return distance_bounds(h, mesh).upper <= distance; };
   expect_progress("search", 20, [&](const Progress& progress) {
-    build_tight_hull_within(mesh, is_near, {.target_faces = 50, .progress = progress});
+    build_tight_hull_within(mesh, is_near, few({.target_faces = 50, .progress = progress}));
   });
 }
 

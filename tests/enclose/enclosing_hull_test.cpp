@@ -77,7 +77,7 @@ TEST(EnclosingHull, KeepsTheBoundsWithAsFewFacesAsItCan) {
   const TriangleMesh mesh = make_sample("asteroid", effort<std::size_t>(800, 300));
   const double volume = signed_volume(mesh);
   for (const bool tight : {false, true}) {
-    EnclosingOptions options{.bounds = {.max_void_ratio = 0.05}, .tight = tight};
+    EnclosingOptions options{.hull = {.tight_trials = few_trials}, .bounds = {.max_void_ratio = 0.05}, .tight = tight};
     const EnclosingHull hull = only(hull_of(mesh, 4, options));
     EXPECT_TRUE(hull.certified && hull.within_bounds);
     EXPECT_LE(signed_volume(hull.mesh), 1.05 * volume);
@@ -392,7 +392,8 @@ TEST(EnclosingHull, OfOneTriangleTakesNoWrapOfManyMillionNodes) {
 
 TEST(EnclosingHull, IsNeverWorseWhenTight) {
   const TriangleMesh parts = together(make_sample("bracket", 500), moved(make_sample("torus", 300), {0.1, 0.2, 0.3}));
-  const EnclosingHull plain = enclosing_hull(parts, 100), tight = enclosing_hull(parts, 100, {.tight = true});
+  const EnclosingHull plain = enclosing_hull(parts, 100),
+                      tight = enclosing_hull(parts, 100, {.hull = {.tight_trials = few_trials}, .tight = true});
   EXPECT_TRUE(tight.certified);
   EXPECT_LE(signed_volume(tight.mesh), signed_volume(plain.mesh));
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "effort.h"
+#include "few_trials.h"
 #include "geometry/float32.h"
 #include "prohull/collide.h"
 #include "prohull/convex_hull.h"
@@ -57,6 +58,7 @@ void expect_padding(const TriangleMesh& triangles, const EnclosingHull& hull, do
 
 EnclosingHull padded(const TriangleMesh& mesh, std::size_t faces, double padding, EnclosingOptions options = {}) {
   options.hull.relax_guards = true;
+  options.hull.tight_trials = few_trials;
   options.padding = padding;
   return enclosing_hull(mesh, faces, options);
 }

@@ -161,6 +161,7 @@ EnclosingOptions some_options(Case& given) {
   SoupMaker& random = given.random;
   EnclosingOptions options;
   options.hull.threads = 1;
+  options.hull.tight_trials = few_trials;
   options.progress = given.progress;
   options.hull.relax_guards = !noted_flag(given, "--keep-guards", random.one_in(4));
   options.hull.float32_coordinates = noted_flag(given, "-o hull.stl", random.one_in(3));

@@ -194,9 +194,9 @@ TriangleMesh tightened(const TriangleMesh& hull, const Original& original, const
 }
 
 // A trial takes some 3 ms for a hull of 100 faces: the search takes at most 0.2 ms for each face of the original.
-std::size_t affordable_trials(std::size_t original_faces) {
+std::size_t affordable_trials(std::size_t most, std::size_t original_faces) {
   constexpr std::size_t kFacesOfATrial = 16, kLeast = 32;
-  return std::min(trials_of_few_faces, std::max(original_faces / kFacesOfATrial, kLeast));
+  return std::min<std::size_t>(most, std::max(original_faces / kFacesOfATrial, kLeast));
 }
 
 }  // namespace
@@ -210,7 +210,7 @@ TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original
     return one;
   };
   const Original around = Original::closed(coarse, options.side, options.threads);
-  const std::size_t trials = affordable_trials(original.mesh().face_count());
+  const std::size_t trials = affordable_trials(options.tight_trials, original.mesh().face_count());
   TriangleMesh best = Search(hull, around, part(0, 0.85)).run(trials);
   best = tightened(best, original, part(0.85, 0.9));
   return Search(best, original, part(0.9, 1)).run(trials / 16);
