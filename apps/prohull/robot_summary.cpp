@@ -156,24 +156,28 @@ std::string cover_of(const Budget& budget) {
   return fmt::format("a hull of {} faces", fmt::join(budget.faces, " and "));
 }
 
-constexpr const char* kMissing = "an error, as its mesh is missing";
-
 bool is_missing(const Shape& shape) { return shape.mesh() && shape.mesh()->path.empty(); }
 
 /// What a run would do with a link.
-std::string plan_of(const Link& link, const LinkHullOptions& options) {
+struct Plan {
+  std::string text;
+  bool is_possible = true;
+};
+
+Plan plan_of(const Link& link, const LinkHullOptions& options) {
   const Budget& budget = options.budget_of(link.name);
   const std::vector<Shape>& all = shapes(link, options.from);
   const auto has = [&](const auto& is_so) { return std::ranges::any_of(all, is_so); };
-  if (all.empty()) return "nothing to do";
+  if (all.empty()) return {"nothing to do"};
   if (budget.skip || has([](const Shape& shape) { return std::holds_alternative<OtherForm>(shape.form); }))
-    return "left as it is";
-  if (has(is_missing)) return options.skip_missing ? "left as it is" : kMissing;
-  if (!has([&](const Shape& shape) { return is_covered(shape, budget); })) return "primitives, kept";
+    return {"left as it is"};
+  if (has(is_missing) && options.skip_missing) return {"left as it is"};
+  if (has(is_missing)) return {"an error, as its mesh is missing", false};
+  if (!has([&](const Shape& shape) { return is_covered(shape, budget); })) return {"primitives, kept"};
   std::string text = cover_of(budget);
   if (budget.max_distance > 0) text += fmt::format(", within {}", millimetres(budget.max_distance));
   if (budget.padding > 0) text += fmt::format(", with a gap of {}", millimetres(budget.padding));
-  return text;
+  return {text};
 }
 
 std::string verdict_text(const LinkCheck& check, double allow) {
@@ -222,9 +226,9 @@ void say_robot(const RobotFile& file) {
 bool say_plan(const RobotFile& file, const LinkHullOptions& options) {
   bool is_possible = true;
   for (const Link& link : file.robot.links) {
-    const std::string plan = plan_of(link, options);
-    say("  {}: {}: {}\n", link.name, described(shapes(link, options.from)), plan);
-    is_possible &= plan != kMissing;
+    const Plan plan = plan_of(link, options);
+    say("  {}: {}: {}\n", link.name, described(shapes(link, options.from)), plan.text);
+    is_possible &= plan.is_possible;
   }
   say("nothing was written: --dry-run\n");
   return is_possible;
