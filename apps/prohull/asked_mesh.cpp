@@ -74,11 +74,10 @@ void RandomQueries::say_what(std::string_view noun) const {
 
 void add_random_queries(CLI::App& command, CLI::App& group, RandomQueries& random, std::string_view noun,
                         std::string_view spread) {
-  CLI::Option* const count = add_number(group, "--random", random.count, {1, 1e9},
-                                        fmt::format("Number of random {} to ask. {}", noun, spread));
+  CLI::Option* const count = add_optional_number(group, "--random", random.count, {1, 1e9},
+                                                 fmt::format("Number of random {} to ask. {}", noun, spread));
   add_number(command, "--seed", random.seed, kSeed,
              fmt::format("Number that the random {0} depend on. The same seed gives the same {0}.", noun))
-      ->capture_default_str()
       ->needs(count);
   command
       .add_option(fmt::format("--write-{}", noun), random.file,

@@ -215,25 +215,20 @@ void add_guards(CLI::App& command, BuildOptions& options) {
       "Keep the limits of the shape that follow. Otherwise they are relaxed in four steps where the number of "
       "faces cannot be reached.");
   add_number(command, "--max-valence", hull.guards.max_valence, {3, 1e6},
-             "Largest valence of a new vertex. The valence of a vertex is the number of faces around it.")
-      ->capture_default_str();
+             "Largest valence of a new vertex. The valence of a vertex is the number of faces around it.");
   add_number(command, "--min-compactness-ratio", hull.guards.min_compactness_ratio, {0, 1},
              "Least compactness of the worst face that a collapse leaves, divided by that of the worst face before, 0 "
              "to 1. The compactness of a triangle is 1 if its sides are equal, and 0 if it has no area.")
-      ->capture_default_str()
       ->type_name("RATIO");
   add_number(command, "--sufficient-compactness", hull.guards.sufficient_compactness, {0, 1},
              "Compactness, 0 to 1, that is enough for a face whatever it was before. For the strategy lazy only.")
-      ->capture_default_str()
       ->type_name("COMPACTNESS");
   add_number(command, "--max-normal-deviation", options.normal_deviation_degrees, {0, 90},
              "Largest angle by which a collapse may turn a face, in degrees, 0 to 90.")
-      ->capture_default_str()
       ->type_name("DEGREES");
   add_number(command, "--max-overhang", hull.guards.max_overhang, {0, 10},
              "How far a new vertex may lie outside of the bounding box of the mesh, along each axis, divided by the "
              "diagonal of the box, 0 to 10.")
-      ->capture_default_str()
       ->type_name("RATIO");
 }
 
@@ -242,9 +237,10 @@ void add_bounds(CLI::App& command, BuildOptions& options) {
              "Largest allowed distance of any point of the hull from the mesh. What closes openings of the mesh counts "
              "as mesh. The hull is the coarsest of its levels, of at least --faces faces, that provably keeps it; the "
              "exit code is 1 if none does. With --tight, some ten hulls are built to find it.");
-  add_number(command, "--max-void", options.max_void_percent, kPositive,
-             "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, caps on "
-             "its openings included (an inner hull: how much less).")
+  add_optional_number(
+      command, "--max-void", options.max_void_percent, kPositive,
+      "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, caps on "
+      "its openings included (an inner hull: how much less).")
       ->type_name("PERCENT");
 }
 
@@ -274,11 +270,7 @@ void add_build(CLI::App& app, Run& run) {
       "Builds a hull of a mesh: a mesh of fewer faces that provably encloses it. Any triangles will do; what is not "
       "closed is repaired or wrapped. Building repeats one step, the collapse: the two ends of an edge become one new "
       "vertex, and two faces vanish. The file that was written is read again and certified by exact arithmetic.");
-  command.add_option("in", options->in, std::string("Mesh to build a hull of. ") + kMeshFiles)
-      ->required()
-      ->type_name("IN");
-  add_format_option(command, options->input);
-  add_unit_options(command, options->input, "the mesh");
+  add_mesh_input(command, options->in, options->input, "Mesh to build a hull of.");
   CLI::Option* const recenter = command.add_flag(
       "--recenter", options->recenter,
       "Subtract a round offset near the middle of the mesh from all coordinates, where the mesh is far "
@@ -291,7 +283,6 @@ void add_build(CLI::App& app, Run& run) {
       "Number of faces that the hull should have, at least 4. Several numbers, as in 1000,100, make a hull each.")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->capture_default_str()
       ->type_name("N[,N...]");
   add_bounds(command, *options);
   add_choice(command, "--side", hull.side, hull_side_names(),
@@ -350,11 +341,9 @@ void add_build(CLI::App& app, Run& run) {
       "Whether collapses may make an outer hull intersect itself, which is faster. by-strategy allows it for the "
       "strategies paper1 and paper2 only.");
   add_number(command, "--best-of", hull.best_of, {1, 1e6},
-             "Build this many hulls, with a seed each, and keep the one of least void.")
-      ->capture_default_str();
+             "Build this many hulls, with a seed each, and keep the one of least void.");
   add_number(command, "--seed", hull.seed, kSeed,
-             "Number that varies the order of collapses a little, and so the hull; the first seed of --best-of.")
-      ->capture_default_str();
+             "Number that varies the order of collapses a little, and so the hull; the first seed of --best-of.");
   add_threads_option(command, hull.threads, "The hull is the same for any number.");
   command.add_flag("--strict", options->strict,
                    "Exit with code 1 if the number of faces is not reached; a bound that is missed always does so.");

@@ -218,21 +218,16 @@ void add_cage(CLI::App& app, Run& run) {
       "Builds a cage of a mesh: an outer hull, and with --inner an inner hull, that keep a gap from the mesh. No face "
       "of one touches a face of another, which is decided exactly. So the space between them can be filled with "
       "tetrahedra, and every point of the mesh has coordinates in the outer hull.");
-  command.add_option("in", options->in, std::string("Mesh to build a cage of. ") + kMeshFiles)
-      ->required()
-      ->type_name("IN");
-  add_format_option(command, options->input);
-  add_unit_options(command, options->input, "the mesh");
+  add_mesh_input(command, options->in, options->input, "Mesh to build a cage of.");
   add_mesh_output_options(command, options->out, options->out_format, "the outer hull");
   CLI::Option* const inner =
       command.add_option("--inner", options->inner, "Also build an inner hull, and write it to this file.")
           ->type_name("FILE");
   add_certificate_option(command, options->certificate,
                          "the outer hull (with --inner, of both: {side} in the name becomes outer and inner)");
-  add_number(command, "--faces", cage.outer_faces, {4, 1e9}, "Number of faces that a hull should have, at least 4.")
-      ->capture_default_str();
-  add_number(command, "--inner-faces", cage.inner_faces, {4, 1e9},
-             "Number of faces that the inner hull should have, if it is not that of --faces.")
+  add_number(command, "--faces", cage.outer_faces, {4, 1e9}, "Number of faces that a hull should have, at least 4.");
+  add_optional_number(command, "--inner-faces", cage.inner_faces, {4, 1e9},
+                      "Number of faces that the inner hull should have, if it is not that of --faces.")
       ->needs(inner);
   add_length(command, "--gap", options->gap,
              "Distance that both hulls keep from the mesh, at least. Without this option it is 0.1%. Where the mesh is "

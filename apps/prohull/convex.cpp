@@ -362,9 +362,7 @@ void add_convex(CLI::App& app, Run& run) {
       "Covers a mesh by a few convex pieces, as physics engines take them. Together the pieces provably cover every "
       "triangle, and the inside too where the mesh is a solid. Any triangles will do. The files that were written are "
       "read again, and what they hold is certified by exact arithmetic.");
-  command.add_option("in", options->in, std::string("Mesh to cover. ") + kMeshFiles)->required()->type_name("IN");
-  add_format_option(command, options->input);
-  add_unit_options(command, options->input, "the mesh");
+  add_mesh_input(command, options->in, options->input, "Mesh to cover.");
   command
       .add_option("-o,--out", options->out,
                   "File for the pieces. .obj and .glb hold all of them, each with a name. For .stl, .ply and .off each "
@@ -376,16 +374,15 @@ void add_convex(CLI::App& app, Run& run) {
   add_out_format_option(command, options->out_format, piece_outputs());
   add_certificate_option(command, options->certificate, "the pieces");
   add_number(command, "--pieces", cover.max_pieces, {1, 1000},
-             "Largest number of pieces. With 1, the file of the piece has the name OUT, without a number.")
-      ->capture_default_str();
-  add_number(command, "--vertices", cover.max_vertices, {4, 1e6}, "Largest number of vertices of a piece, at least 4.")
-      ->capture_default_str();
+             "Largest number of pieces. With 1, the file of the piece has the name OUT, without a number.");
+  add_number(command, "--vertices", cover.max_vertices, {4, 1e6}, "Largest number of vertices of a piece, at least 4.");
   add_length(command, "--max-distance", options->max_distance,
              "Largest allowed distance of any point of the pieces from the mesh. What closes openings of the mesh "
              "counts as mesh. With such a bound there are as few pieces as keep it.");
-  add_number(command, "--max-void", options->max_void_percent, kPositive,
-             "Largest allowed void, in per cent. The void is how much more volume the pieces have together than the "
-             "mesh. With such a bound there are as few pieces as keep it.")
+  add_optional_number(
+      command, "--max-void", options->max_void_percent, kPositive,
+      "Largest allowed void, in per cent. The void is how much more volume the pieces have together than the "
+      "mesh. With such a bound there are as few pieces as keep it.")
       ->type_name("PERCENT");
   add_choice(command, "--shape", cover.shape, piece_shape_names(),
              "Shape of the pieces. With a bound, a piece has this shape only where the bound allows it, and is a "

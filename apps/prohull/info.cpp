@@ -169,9 +169,7 @@ void add_info(CLI::App& app, Run& run) {
       "points. "
       "The compactness of a triangle is 1 if its sides are equal and 0 if it has no area; an edge is sharp if its two "
       "faces meet at less than 135 degrees.");
-  command.add_option("in", options->in, std::string("Mesh or .phull file. ") + kMeshFiles)->required()->type_name("IN");
-  add_format_option(command, options->input);
-  add_unit_options(command, options->input, "the mesh");
+  add_mesh_input(command, options->in, options->input, "Mesh or .phull file.");
   add_report_option(command, options->report);
   add_examples(command, {"prohull info horse.ply", "prohull info horse.phull --report info.json",
                          "prohull info part.stl --unit mm", "curl -s https://example.com/part.stl | prohull info -"});

@@ -79,14 +79,21 @@ void add_format_option(CLI::App& command, InputOptions& options) {
 }
 
 void add_unit_options(CLI::App& command, InputOptions& options, const std::string& what) {
-  CLI::Option* const scale = add_number(command, "--scale", options.scale, kPositive,
-                                        "Multiply the coordinates of " + what + " by this number when it is read.")
-                                 ->type_name("S");
+  CLI::Option* const scale =
+      add_optional_number(command, "--scale", options.scale, kPositive,
+                          "Multiply the coordinates of " + what + " by this number when it is read.")
+          ->type_name("S");
   add_choice(command, "--unit", options.unit, length_units(),
              "Unit of the numbers in " + what +
                  ", which are converted to metres when it is read; numbers in other options are then metres, too. For "
                  "files that do not say their unit, such as STL, OBJ, PLY and OFF.")
       ->excludes(scale);
+}
+
+void add_mesh_input(CLI::App& command, std::filesystem::path& in, InputOptions& options, const std::string& purpose) {
+  command.add_option("in", in, purpose + " " + kMeshFiles)->required()->type_name("IN");
+  add_format_option(command, options);
+  add_unit_options(command, options, "the mesh");
 }
 
 MeshUnit::MeshUnit(const TriangleMesh& mesh, const std::filesystem::path& path, const InputOptions& options)

@@ -29,6 +29,9 @@ void add_format_option(CLI::App& command, InputOptions& options);
 /// --scale and --unit, which apply to `what`.
 void add_unit_options(CLI::App& command, InputOptions& options, const std::string& what);
 
+/// The argument IN, a mesh that is used as `purpose` says, with all of these options.
+void add_mesh_input(CLI::App& command, std::filesystem::path& in, InputOptions& options, const std::string& purpose);
+
 using robot::is_robot_file;
 /// By the suffix: YAML.
 bool is_sphere_file(const std::filesystem::path& path);

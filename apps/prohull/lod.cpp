@@ -61,8 +61,9 @@ void add_lod(CLI::App& app, Run& run) {
       ->required()
       ->type_name("H.phull");
   add_mesh_output_options(command, options->out, options->out_format, "the level");
-  add_number(command, "--faces", options->faces, {0, 1e10},
-             "Take the finest level that has at most this number of faces. Without it, the coarsest level is taken.");
+  add_optional_number(
+      command, "--faces", options->faces, {0, 1e10},
+      "Take the finest level that has at most this number of faces. Without it, the coarsest level is taken.");
   add_choice(command, "--mirror", options->mirror, axis_names(),
              "Take a symmetric level, of a hull that was built with the same option: of two levels that follow each "
              "other, one is at least.");

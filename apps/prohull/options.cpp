@@ -130,8 +130,7 @@ std::string main_name(const std::string& names) {
 void add_threads_option(CLI::App& command, unsigned& threads, const std::string& note) {
   add_number(
       command, "--threads", threads, {0, 1024},
-      "Use at most this many threads, and no more than one for each core; 0 stands for one for each core. " + note)
-      ->capture_default_str();
+      "Use at most this many threads, and no more than one for each core; 0 stands for one for each core. " + note);
 }
 
 void add_report_option(CLI::App& command, std::filesystem::path& path) {

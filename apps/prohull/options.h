@@ -37,10 +37,10 @@ CLI::Validator one_of(const std::string& name, const std::vector<std::string>& w
 /// "--out" of "-o,--out"; "SHELL" of "shell"
 std::string main_name(const std::string& names);
 
-/// Values of which each is a number, such as std::size_t or std::vector<double>.
+/// Values of which each is a number, such as std::size_t or std::vector<double>; without a default.
 template <class Values>
-CLI::Option* add_number(CLI::App& command, const std::string& names, Values& values, const Range& range,
-                        const std::string& description) {
+CLI::Option* add_optional_number(CLI::App& command, const std::string& names, Values& values, const Range& range,
+                                 const std::string& description) {
   constexpr bool kWhole = [] {
     if constexpr (std::is_arithmetic_v<Values>)
       return std::is_integral_v<Values>;
@@ -50,6 +50,13 @@ CLI::Option* add_number(CLI::App& command, const std::string& names, Values& val
   CLI::Option* const option =
       command.add_option(names, values, description)->transform(number_in(main_name(names), range, kWhole));
   return kWhole ? option->type_name("N") : option;
+}
+
+/// The same with the values as the default, which --help tells.
+template <class Values>
+CLI::Option* add_number(CLI::App& command, const std::string& names, Values& values, const Range& range,
+                        const std::string& description) {
+  return add_optional_number(command, names, values, range, description)->capture_default_str();
 }
 
 /// An option that takes one of the names, of which --help tells the one that `value` has as the default.

@@ -29,11 +29,7 @@ PointAnswers answers_of(const PointOptions& options, const QueryIndex& index, co
 }  // namespace
 
 void add_point_options(CLI::App& command, PointOptions& options, const OutputKind& answers) {
-  command.add_option("in", options.in, std::string("Mesh or .phull file to ask. ") + kMeshFiles)
-      ->required()
-      ->type_name("IN");
-  add_format_option(command, options.input);
-  add_unit_options(command, options.input, "the mesh");
+  add_mesh_input(command, options.in, options.input, "Mesh or .phull file to ask.");
   command
       .add_option("-o,--out", options.out,
                   fmt::format("File for {}, .npz or .csv. With - they go to standard output. Without this option only "

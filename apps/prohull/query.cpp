@@ -261,11 +261,7 @@ void add_query(CLI::App& app, Run& run) {
       "query",
       "Finds where segments, rays or triangles meet a mesh, exactly. The mesh need not be closed, and nothing slips "
       "through at its edges and vertices.");
-  command.add_option("in", options->in, std::string("Mesh or .phull file to ask. ") + kMeshFiles)
-      ->required()
-      ->type_name("IN");
-  add_format_option(command, options->input);
-  add_unit_options(command, options->input, "the mesh");
+  add_mesh_input(command, options->in, options->input, "Mesh or .phull file to ask.");
   command
       .add_option("-o,--out", options->out,
                   "File for the hits, .npz or .csv. With - they go to standard output. Without this option only the "

@@ -419,16 +419,17 @@ void add_content_options(CLI::App& command, RenderOptions& options) {
 void add_look_options(CLI::App& command, RenderOptions& options) {
   constexpr const char* kLook = "Look";
   command.add_flag("--wireframe", options.wireframe, "Draw the edges of IN.")->group(kLook);
-  add_number(command, "--line-width", options.line_widths, {0, 100},
-             std::string("Width of the edges, in pixels.") + kForPanels)
+  add_optional_number(command, "--line-width", options.line_widths, {0, 100},
+                      std::string("Width of the edges, in pixels.") + kForPanels)
       ->allow_extra_args(false)
       ->default_str("1")
       ->type_name("WIDTH")
       ->group(kLook);
-  add_number(command, "--crease", options.crease_degrees, {0, 180},
-             "Faces look smooth where their directions differ by less than this angle, 0 to 180 degrees. Without this "
-             "option it is "
-             "40 for meshes of 10,000 faces or more, and 0 for others.")
+  add_optional_number(
+      command, "--crease", options.crease_degrees, {0, 180},
+      "Faces look smooth where their directions differ by less than this angle, 0 to 180 degrees. Without this "
+      "option it is "
+      "40 for meshes of 10,000 faces or more, and 0 for others.")
       ->type_name("DEGREES")
       ->group(kLook);
   command
@@ -441,7 +442,6 @@ void add_look_options(CLI::App& command, RenderOptions& options) {
       ->group(kLook);
   add_number(command, "--opacity", options.look.opacity, {0, 1},
              "Opacity of IN where it is drawn --over a mesh, 0 to 1.")
-      ->capture_default_str()
       ->type_name("OPACITY")
       ->group(kLook);
   command.add_flag("--ground", options.look.ground, "Draw a ground below the meshes, on which shadows fall.")
@@ -458,15 +458,13 @@ void add_view_options(CLI::App& command, RenderOptions& options) {
   add_choice(command, "--up", options.look.view.up, kAxes, "Axis that points up.")->group(kView);
   add_number(command, "--azimuth", options.azimuth_degrees, {-360, 360},
              "Degrees by which the camera goes around that axis. 0 shows the front, 90 the right side.")
-      ->capture_default_str()
       ->type_name("DEGREES")
       ->group(kView);
   add_number(command, "--elevation", options.elevation_degrees, {-90, 90},
              "Degrees by which the camera is above the horizon, -90 to 90.")
-      ->capture_default_str()
       ->type_name("DEGREES")
       ->group(kView);
-  add_number(
+  add_optional_number(
       command, "--zoom", options.zooms, {0.01, 1000},
       std::string("Magnification. At 1 all of the meshes is seen, at 2 the middle half of the picture.") + kForPanels)
       ->allow_extra_args(false)
@@ -482,7 +480,6 @@ void add_view_options(CLI::App& command, RenderOptions& options) {
       ->group(kView);
   add_number(command, "--fov", options.field_of_view_degrees, {1, 120},
              "Angle that the camera sees across the shorter side of a panel, in degrees, 1 to 120.")
-      ->capture_default_str()
       ->type_name("DEGREES")
       ->group(kView);
 }
@@ -510,8 +507,7 @@ void add_render(CLI::App& app, Run& run) {
       ->capture_default_str()
       ->type_name("WIDTHxHEIGHT");
   add_number(command, "--samples", options->samples, {1, 256},
-             "Number of samples in each pixel, 1 to 256. More of them make smoother edges.")
-      ->capture_default_str();
+             "Number of samples in each pixel, 1 to 256. More of them make smoother edges.");
   command.add_flag("--palette", options->palette,
                    "Use at most 256 colours, so that the file is less than half as large.");
   add_threads_option(command, options->threads, "The picture is the same for any number.");

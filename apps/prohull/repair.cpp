@@ -123,9 +123,7 @@ void add_repair(CLI::App& app, Run& run) {
       "a "
       "new closed surface around them. The file that was written is certified to cover every finite triangle of the "
       "mesh, exactly; else nothing is written and the exit code is 1.");
-  command.add_option("in", options->in, std::string("Mesh to close. ") + kMeshFiles)->required()->type_name("IN");
-  add_format_option(command, options->input);
-  add_unit_options(command, options->input, "the mesh");
+  add_mesh_input(command, options->in, options->input, "Mesh to close.");
   add_mesh_output_options(command, options->out, options->out_format, "the solid");
   add_length(
       command, "--spacing", options->spacing,

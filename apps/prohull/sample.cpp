@@ -138,8 +138,7 @@ void add_sample(CLI::App& app, Run& run) {
   add_out_format_option(command, options->out_format, mesh_outputs());
   const CLI::Option* const faces =
       add_number(command, "--faces", options->faces, {4, 1e9},
-                 "Number of faces, which the mesh has within 20 % where its shape allows. Not with robots.")
-          ->capture_default_str();
+                 "Number of faces, which the mesh has within 20 % where its shape allows. Not with robots.");
   add_examples(command, {"prohull sample asteroid -o asteroid.ply --faces 1e5",
                          "prohull sample knot -o - --out-format stl | prohull info -", "prohull sample arm -o arm"});
   command.callback([options, faces, &run] {

@@ -166,9 +166,7 @@ void add_spheres(CLI::App& app, Run& run) {
       "spheres",
       "Covers a mesh by spheres, for planners that take nothing else. Every triangle is covered, which is proven "
       "exactly, and the spheres reach out of the mesh as little as their number allows.");
-  command.add_option("in", options->in, std::string("Mesh to cover. ") + kMeshFiles)->required()->type_name("IN");
-  add_format_option(command, options->input);
-  add_unit_options(command, options->input, "the mesh");
+  add_mesh_input(command, options->in, options->input, "Mesh to cover.");
   command
       .add_option(
           "-o,--out", options->out,
@@ -179,8 +177,7 @@ void add_spheres(CLI::App& app, Run& run) {
   add_out_format_option(command, options->out_format, sphere_outputs());
   add_certificate_option(command, options->certificate, "the spheres");
   constexpr double kMostSpheres = 100'000;
-  add_number(command, "--count", options->cover.max_balls, {1, kMostSpheres}, "Number of spheres, at most.")
-      ->capture_default_str();
+  add_number(command, "--count", options->cover.max_balls, {1, kMostSpheres}, "Number of spheres, at most.");
   add_length(command, "--max-distance", options->max_distance,
              "Largest allowed distance of any point of the spheres from the mesh. What closes openings of the mesh "
              "counts as mesh. As few spheres as keep it are taken, at most --count. The exit code is 1 if they do not "

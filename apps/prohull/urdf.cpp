@@ -259,17 +259,19 @@ void add_sizes(CLI::App& command, UrdfOptions& options, const char* group) {
     options.sizes.emplace_back(option, kind);
   };
   is_for(Collision::Hull,
-         add_number(command, "--faces", budget.faces, {4, 1e9},
-                    "Number of faces of each hull, at least 4. Several numbers, as in 500,100, make a robot each.")
+         add_optional_number(
+             command, "--faces", budget.faces, {4, 1e9},
+             "Number of faces of each hull, at least 4. Several numbers, as in 500,100, make a robot each.")
              ->delimiter(',')
              ->allow_extra_args(false)
              ->type_name("N[,N...]"));
-  is_for(Collision::Convex, add_number(command, "--pieces", budget.pieces, {1, 1e9},
-                                       "Largest number of convex pieces of each link, with --collision convex."));
-  is_for(Collision::Convex, add_number(command, "--vertices", budget.vertices, {4, 1e9},
-                                       "Largest number of vertices of each convex piece, at least 4."));
-  is_for(Collision::Spheres, add_number(command, "--spheres", budget.spheres, {1, 1e9},
-                                        "Largest number of spheres of each link, with --collision spheres."));
+  is_for(Collision::Convex,
+         add_optional_number(command, "--pieces", budget.pieces, {1, 1e9},
+                             "Largest number of convex pieces of each link, with --collision convex."));
+  is_for(Collision::Convex, add_optional_number(command, "--vertices", budget.vertices, {4, 1e9},
+                                                "Largest number of vertices of each convex piece, at least 4."));
+  is_for(Collision::Spheres, add_optional_number(command, "--spheres", budget.spheres, {1, 1e9},
+                                                 "Largest number of spheres of each link, with --collision spheres."));
 }
 
 /// Returns --write-budgets.
@@ -338,11 +340,8 @@ void add_motion(CLI::App& command, UrdfOptions& options) {
   add_number(command, "--configurations", options.motion.configurations, {0, 1e7},
              "Number of random positions of all joints in which pairs of links are compared: how often hulls collide "
              "where the geometry does not. With 0 this is left out.")
-      ->capture_default_str()
       ->group(kMotion);
-  add_number(command, "--seed", options.motion.seed, kSeed, "Number that the positions depend on.")
-      ->capture_default_str()
-      ->group(kMotion);
+  add_number(command, "--seed", options.motion.seed, kSeed, "Number that the positions depend on.")->group(kMotion);
   command
       .add_flag("--sampled-pairs", options.sampled_pairs,
                 "Also write pairs of links to the SRDF that were never, or always, in collision in these positions. "
