@@ -130,8 +130,8 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
   facts["mesh"] = std::move(hull.mesh);
   facts["certified"] = hull.certified;
   facts["proof"] = hull.proof;
-  facts["padding"] = hull.padding;
-  facts["padding_asked"] = options.padding;
+  facts["gap"] = hull.padding;
+  facts["gap_asked"] = options.padding;
   facts["target_faces"] = hull.target_faces;
   facts["target_reached"] = hull.target_reached;
   facts["within_bounds"] = hull.within_bounds;

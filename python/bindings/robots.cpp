@@ -157,7 +157,7 @@ py::dict facts_of(const LinkHull& hull, const LinkHulls& link) {
   facts["source"] = hull.source;
   facts["volume_ratio"] = link.sealed_volume > 0 ? hull.volume / link.sealed_volume : NAN;
   facts["distance_bound"] = hull.distance.upper;
-  facts["padding"] = hull.padding;
+  facts["gap"] = hull.padding;
   facts["self_intersections"] = hull.self_intersections;
   facts["notes"] = hull.notes;
   return facts;

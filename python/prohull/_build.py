@@ -132,18 +132,11 @@ def build(mesh: Any, faces: Any = None, target_faces: Any = None, *,  # type: ig
         hull = prohull.build("part.stl", 500, tight=True)
         hull.save("part_collision.stl")
     """
+    keywords = {name: value for name, value in locals().items() if name not in ("mesh", "faces", "target_faces", "progress")}
     given, targets = _given(mesh, faces, target_faces)
-    keywords = dict(
-        side=side, tight=tight, levels=levels,
-        max_distance=bound_of("max_distance", max_distance, given), max_void_percent=max_void_percent,
-        gap=distance_of("gap", gap, given),
-        tolerances=() if tolerances is None else tolerances, mirror=mirror,
-        repair=repair, keep_cavities=keep_cavities,
-        open_shells=open_shells, seal_holes=bound_of("seal_holes", seal_holes, given),
-        float32_coordinates=float32_coordinates, strategy=strategy, best_of=best_of, seed=seed, threads=threads,
-        self_intersections=self_intersections, relax_guards=relax_guards, max_valence=max_valence,
-        min_compactness_ratio=min_compactness_ratio, sufficient_compactness=sufficient_compactness,
-        max_normal_deviation_degrees=max_normal_deviation_degrees, max_overhang=max_overhang)
+    keywords.update(max_distance=bound_of("max_distance", max_distance, given), gap=distance_of("gap", gap, given),
+                    seal_holes=bound_of("seal_holes", seal_holes, given),
+                    tolerances=() if tolerances is None else tolerances)
     try:
         made = _prohull.build(given._core, [int(n) for n in np.atleast_1d(targets)], progress, keywords)
     except InputError as error:

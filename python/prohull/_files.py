@@ -80,7 +80,7 @@ def load(path: Path) -> Hull:
     notes = ([why_not] if why_not else []) + ([f"the finest level is {finest}, not the input itself"] if finest else [])
     facts = dict(mesh=levels.level(0), original=original, levels=levels, source="mesh", wrap_spacing=0.0,
                  replay_suffices=False,
-                 certified=proven, proof="replay" if proven else "", padding=0.0, target_faces=faces, target_reached=True,
+                 certified=proven, proof="replay" if proven else "", gap=0.0, target_faces=faces, target_reached=True,
                  within_bounds=True, refusals={}, blocked={}, relaxed_guards=0, rounded_vertices=0, build_seconds=0.0,
                  verify_seconds=0.0, repairs=[], notes=notes)
     return Hull._made(facts, "inner" if levels.is_inner else "outer")

@@ -21,7 +21,7 @@ class Hull(Mesh):
 
     certified: bool  #: whether it is proven, exactly, by code that shares nothing with the construction
     proof: Proof  #: how it was proven: "replay", "enclosure", "coverage" or "padding" (docs/repair.md); empty if not
-    padding: float  #: least distance from the triangles of the mesh, proven, if build() was asked for a gap; else 0
+    gap: float  #: least distance from the triangles of the mesh, proven, if build() was asked for a gap; else 0
     side: Side  #: "outer" if the hull encloses its original, "inner" if it is enclosed by it
     target_faces: int  #: number of faces that was asked for; of a loaded hull its own
     target_reached: bool  #: whether the hull has at most target_faces faces, or the bounds allow no fewer
@@ -42,7 +42,7 @@ class Hull(Mesh):
     _original: Mesh
     _covered: Optional[_prohull.Mesh]  # triangles that the hull has to cover beside enclosing its original
     _bounds: tuple[Any, ...]  # mesh and volume that they are about, max_distance, max_void_ratio
-    _padding_asked: float
+    _gap_asked: float
     _mirror: Optional[Axis] = None  # that build() was asked for
     _volume_inside: float  # that void is measured against
     _replay_suffices: bool  # whether a level that encloses the solid of the original covers every triangle of it
@@ -55,7 +55,7 @@ class Hull(Mesh):
         original = Mesh._of(facts.pop("original"), levels if facts["source"] == "mesh" else None)
         private = dict(_levels=levels, _given=facts.pop("given", original._core), _original=original,
                        _covered=facts.pop("covered", None),
-                       _bounds=facts.pop("bounds", ()), _padding_asked=facts.pop("padding_asked", 0.0),
+                       _bounds=facts.pop("bounds", ()), _gap_asked=facts.pop("gap_asked", 0.0),
                        _mirror=facts.pop("mirror", None), _replay_suffices=facts.pop("replay_suffices"),
                        _volume_inside=facts.pop("volume_inside", original.volume))
         return cls._with(facts.pop("mesh"), side=side, **private, **facts)
@@ -119,10 +119,10 @@ class Hull(Mesh):
         if moved == 0:
             return self
         proof = self._proof_of(rounded) if self.certified else ""
-        padding = self.padding and self._least_distance(rounded)
-        if self._padding_asked > 0:
-            proof = "padding" if proof and padding >= self._padding_asked else ""
-        return self._as(rounded, certified=bool(proof), proof=proof, padding=padding, rounded_vertices=moved,
+        gap = self.gap and self._least_distance(rounded)
+        if self._gap_asked > 0:
+            proof = "padding" if proof and gap >= self._gap_asked else ""
+        return self._as(rounded, certified=bool(proof), proof=proof, gap=gap, rounded_vertices=moved,
                         target_reached=self.target_reached, within_bounds=self._is_within_bounds(rounded))
 
     def save(self, path: Path) -> None:

@@ -95,7 +95,7 @@ class LinkHull(NamedTuple):
     source: Source  #: what it was built from
     volume_ratio: float  #: its volume / the volume inside of the geometry; nan if that encloses no space
     distance_bound: float  #: no point of the hull is farther than this from the geometry: proven
-    padding: float  #: least distance from the geometry, proven, if a gap was asked for; else 0
+    gap: float  #: least distance from the geometry, proven, if a gap was asked for; else 0
     self_intersections: int  #: pairs of its faces that intersect
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
 

@@ -74,7 +74,7 @@ def test_hulls_are_certified_in_the_frame_that_they_tell(robot, hulls):
     for link in robot.links[:2]:
         for hull, faces in zip(hulls[link.name].hulls, (200, 100)):
             assert len(hull.mesh.faces) <= faces == hull.target_faces
-            assert hull.proof == "padding" and hull.padding >= 0.01 and hull.volume_ratio > 1
+            assert hull.proof == "padding" and hull.gap >= 0.01 and hull.volume_ratio > 1
             in_link = hull.mesh.vertices @ hull.origin[:3, :3].T + hull.origin[:3, 3]
             assert prohull.Mesh(in_link, hull.mesh.faces).contains(link.visual.vertices).all()
     with pytest.raises(KeyError):
