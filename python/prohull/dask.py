@@ -14,7 +14,6 @@ not installed; `import prohull` needs neither.
 
 import contextlib
 import csv
-import functools
 import hashlib
 import inspect
 import io
@@ -118,9 +117,7 @@ def build_folder(client: "distributed.Client", meshes: Union[Path, Sequence[Mesh
     told.add(len(rows), sum(row.status != "kept" for row in rows.values()))
     todo = {i: job for i, job in enumerate(jobs) if i not in rows}
     rows.update(_all_rows(client, _build, todo, Row, told))
-    in_order = [rows[i] for i in range(len(jobs))]
-    _write(out / "report.csv", _csv(in_order))
-    return in_order
+    return _reported(out / "report.csv", rows, Row)
 
 
 class RobotRow(NamedTuple):
@@ -156,9 +153,7 @@ def build_robots(client: "distributed.Client", files: Union[Sequence[Path], Mapp
     have; OSError if `out` cannot be written.
     """
     out = pathlib.Path(out).resolve()
-    known = inspect.signature(robot.Robot.hulls).parameters.values()
-    if unknown := options.keys() - {p.name for p in known if p.kind is p.KEYWORD_ONLY and p.name != "progress"}:
-        raise TypeError(f"build_robots() got options that hulls() does not have: {', '.join(sorted(unknown))}")
+    _require_known("build_robots", "hulls", options, _options_of(robot.Robot.hulls) - {"progress"})
     options = {"faces": faces, "threads": 1, "cache": str(out / "cache"), **options}
     for name in ("budgets", "cache"):  # workers may have other working directories
         if options.get(name) is not None:
@@ -169,10 +164,7 @@ def build_robots(client: "distributed.Client", files: Union[Sequence[Path], Mapp
     out.mkdir(parents=True, exist_ok=True)
     told = _Told(progress, len(jobs))
     told.add(0)
-    rows = _all_rows(client, _build_robot, jobs, RobotRow, told)
-    in_order = [rows[i] for i in range(len(jobs))]
-    _write(out / "robots.csv", _csv(in_order, RobotRow))
-    return in_order
+    return _reported(out / "robots.csv", _all_rows(client, _build_robot, jobs, RobotRow, told), RobotRow)
 
 
 def build_partitioned(client: "distributed.Client", mesh: MeshLike, target_faces: int = 2000, *, parts: int = 8,
@@ -261,8 +253,7 @@ def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kin
         held = workers.submit(_held, bare, pure=False)
     told = _Told(progress, len(rows))
     answers: dict[int, Any] = {}
-    limit = functools.partial(_limit, client)
-    with contextlib.closing(_completed(client, _ask, chunks.items(), limit, held, kind, engine, threads)) as completed:
+    with contextlib.closing(_completed(client, _ask, chunks.items(), held, kind, engine, threads)) as completed:
         for start, future in completed:
             answers[start] = future.result()
             told.add(len(chunks[start]))
@@ -347,7 +338,7 @@ def _joined(client: "distributed.Client", mesh: Mesh, count: int, target_faces: 
             yield i, _Part(vertices, faces, len(own), box, max(4, target))
 
     made: dict[int, _Simplified] = {}
-    with contextlib.closing(_completed(client, _simplify, parts(), functools.partial(_limit, client), options)) as completed:
+    with contextlib.closing(_completed(client, _simplify, parts(), options)) as completed:
         for i, future in completed:
             made[i] = future.result()
             told.add(1)
@@ -381,15 +372,34 @@ class _RobotJob(NamedTuple):
     options: dict[str, Any]
 
 
-def _robots_by_name(files: Any) -> dict[str, Any]:
-    pairs = list(files.items() if isinstance(files, Mapping) else ((pathlib.Path(path).stem, path) for path in files))
+def _require_known(caller: str, called: str, options: dict[str, Any], known: set[str]) -> None:
+    if unknown := options.keys() - known:
+        raise TypeError(f"{caller}() got options that {called}() does not have: {', '.join(sorted(unknown))}")
+
+
+def _options_of(function: Callable[..., Any]) -> set[str]:
+    return {p.name for p in inspect.signature(function).parameters.values() if p.kind is p.KEYWORD_ONLY}
+
+
+def _is_path(mesh: Any) -> bool:
+    return isinstance(mesh, (str, os.PathLike))
+
+
+def _by_name(things: Any, what: str, name_of: Callable[[int, Any], str]) -> dict[str, Any]:
+    """A mapping as it is, a sequence under the name of each."""
     named: dict[str, Any] = {}
-    for name, path in pairs:
+    for name, thing in things.items() if isinstance(things, Mapping) else ((name_of(*it), it[1]) for it in enumerate(things)):
         if name in named:
-            raise InputError(f"{path}: another robot is called {name} as well; give them by distinct names")
+            raise InputError(f"{thing}: another {what} is called {name} as well; give them by distinct names")
+        named[name] = thing
+    return named
+
+
+def _robots_by_name(files: Any) -> dict[str, Any]:
+    named = _by_name(files, "robot", lambda i, path: pathlib.Path(path).stem)
+    for name in named:
         if name in ("", ".", "..", "cache", "robots.csv") or pathlib.PurePath(name).name != name:
             raise InputError(f"{name!r}: no name for a folder of a robot")
-        named[name] = path
     return named
 
 
@@ -402,9 +412,7 @@ class _Job(NamedTuple):
 
 
 def _checked(options: dict[str, Any], suffix: str) -> dict[str, Any]:
-    known = inspect.signature(prohull.build).parameters.values()
-    if unknown := options.keys() - {"target_faces", *(p.name for p in known if p.kind is p.KEYWORD_ONLY)}:
-        raise TypeError(f"build_folder() got options that build() does not have: {', '.join(sorted(unknown))}")
+    _require_known("build_folder", "build", options, {"target_faces", *_options_of(prohull.build)})
     if np.ndim(options["target_faces"]) > 0:
         raise InputError(f"target_faces={options['target_faces']!r}: expected one number")
     if suffix.lower() not in get_args(Suffix):
@@ -415,17 +423,9 @@ def _checked(options: dict[str, Any], suffix: str) -> dict[str, Any]:
 
 
 def _named(meshes: Any, out: pathlib.Path) -> dict[str, Any]:
-    if isinstance(meshes, Mapping):
-        return dict(meshes)
-    if isinstance(meshes, (str, os.PathLike)):
+    if _is_path(meshes):
         return _meshes_in(pathlib.Path(meshes).resolve(), out)
-    named: dict[str, Any] = {}
-    for i, mesh in enumerate(meshes):
-        name = pathlib.Path(mesh).name if isinstance(mesh, (str, os.PathLike)) else f"{i:06d}"
-        if name in named:
-            raise InputError(f"{os.fspath(mesh)}: another mesh is called {name} as well; give them by distinct names")
-        named[name] = mesh
-    return named
+    return _by_name(meshes, "mesh", lambda i, mesh: pathlib.Path(mesh).name if _is_path(mesh) else f"{i:06d}")
 
 
 def _meshes_in(folder: pathlib.Path, out: pathlib.Path) -> dict[str, pathlib.Path]:
@@ -455,7 +455,7 @@ def _jobs(named: dict[str, Any], out: pathlib.Path, suffix: str, options: dict[s
     jobs: list[Union[_Job, Row]] = []
     for name, mesh in named.items():
         try:
-            is_path = isinstance(mesh, (str, os.PathLike))
+            is_path = _is_path(mesh)
             mesh = os.path.abspath(mesh) if is_path else mesh_of(mesh, keep_non_finite=True)
             made_from = {"options": json.loads(json.dumps(options, default=repr)),
                          "mesh": {"path": mesh, **_state(mesh)} if is_path else {"digest": _digest(mesh)}}
@@ -471,7 +471,9 @@ _AnyRow = TypeVar("_AnyRow", Row, RobotRow)
 def _row_of_error(name: str, error: BaseException, row: type[_AnyRow]) -> _AnyRow:
     if isinstance(error, InputError):
         return row(name, "refused", message=str(error))
-    return row(name, "failed", message=f"{type(error).__name__}: {error}")
+    why = "every worker that built it died, as by a crash or for want of memory"
+    told = why if isinstance(error, distributed.KilledWorker) else error
+    return row(name, "failed", message=f"{type(error).__name__}: {told}")
 
 
 def _state(path: str) -> dict[str, int]:
@@ -559,22 +561,17 @@ def _ask(rows: NDArray[np.float64], mesh: Mesh, kind: str, engine: Any, threads:
 # On the caller's side.
 
 
-def _limit(client: Any, alone: bool = False) -> int:
-    threads: int = sum(client.nthreads().values())
-    return 1 if alone else 2 * max(1, threads)
-
-
-def _completed(client: Any, function: Callable[..., Any], jobs: Iterable[tuple[int, Any]], limit: Callable[[], int],
-               *arguments: Any) -> Generator[tuple[int, Any], None, None]:
-    """The futures of function(job, *arguments), as they come, under the keys of the jobs. No more than limit() are
-    under way at once, for the sake of the scheduler's memory; when this is closed, none begins any more."""
+def _completed(client: Any, function: Callable[..., Any], jobs: Iterable[tuple[int, Any]], *arguments: Any,
+               alone: bool = False) -> Generator[tuple[int, Any], None, None]:
+    """The futures of function(job, *arguments), as they come, under the keys of the jobs. Two for each thread are under
+    way at once, or only one, for the sake of the scheduler's memory; when this is closed, none begins any more."""
     waiting = iter(jobs)
     under_way: dict[Any, int] = {}
     pool = _untyped.as_completed(loop=client.loop)
 
     def submit() -> None:
-        free = limit() - len(under_way)
-        for _, (key, job) in zip(range(free), waiting):
+        most = 1 if alone else 2 * max(1, sum(client.nthreads().values()))
+        for _, (key, job) in zip(range(most - len(under_way)), waiting):
             with _large_arguments():
                 future = client.submit(function, job, *arguments, pure=False)
             under_way[future] = key
@@ -603,25 +600,17 @@ def _is_killed(future: Any) -> bool:
     return future.status == "error" and isinstance(future.exception(), distributed.KilledWorker)
 
 
-def _row(name: str, future: Any, row: Any) -> Any:
-    if _is_killed(future):
-        return row(name, "failed",
-                   message="KilledWorker: every worker that built it died, as by a crash or for want of memory")
-    if future.status == "error":
-        return _row_of_error(name, future.exception(), row)
-    return future.result()
-
-
 def _all_rows(client: "distributed.Client", build: Callable[..., Any], jobs: Mapping[int, Any], row: Any,
               told: "_Told") -> dict[int, Any]:
     """What build(job) returns for each of the jobs, or a row that says why it did not."""
     rows: dict[int, Any] = {}
     for alone in (False, True):  # what was lost with its worker again: something beside it may have killed that
         todo = {i: job for i, job in jobs.items() if i not in rows}
-        with contextlib.closing(_completed(client, build, todo.items(), functools.partial(_limit, client, alone))) as completed:
+        with contextlib.closing(_completed(client, build, todo.items(), alone=alone)) as completed:
             for i, future in completed:
                 if alone or not _is_killed(future):
-                    rows[i] = _row(jobs[i].name, future, row)
+                    is_error = future.status == "error"
+                    rows[i] = _row_of_error(jobs[i].name, future.exception(), row) if is_error else future.result()
                     told.add(1, rows[i].status != "built")
     return rows
 
@@ -657,12 +646,13 @@ def _together(kind: str, answers: list[Any]) -> Any:
     return AllHits(np.concatenate([*offsets, begins[-1:]]), *columns[1:])
 
 
-def _csv(rows: Sequence[Any], row: Any = Row) -> str:
+def _reported(file: pathlib.Path, rows: Mapping[int, _AnyRow], row: type[_AnyRow]) -> list[_AnyRow]:
+    """The rows in their order, which are written to the file, too."""
+    in_order: list[_AnyRow] = [rows[i] for i in sorted(rows)]
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(row._fields)
-    writer.writerows(rows)
-    return text.getvalue()
+    csv.writer(text, lineterminator="\n").writerows([row._fields, *in_order])
+    _write(file, text.getvalue())
+    return in_order
 
 
 def _write(path: pathlib.Path, text: str) -> None:
