@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <span>
+#include <utility>
 
 #include "construct/progressive/cells.h"
 #include "geometry/triangle_intersection.h"
 
 namespace prohull {
 namespace {
-
-constexpr float kBoundless = std::numeric_limits<float>::infinity();
 
 Triangle triangle(const HalfEdgeMesh& mesh, const std::array<VertexId, 3>& corners) {
   return {mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2])};
@@ -26,36 +24,13 @@ Box bounding_box_of(const HalfEdgeMesh& mesh) {
 
 Triangle triangle(const HalfEdgeMesh& mesh, FaceId f) { return triangle(mesh, mesh.corners(f)); }
 
+/// Lane by lane.
+unsigned overlapping(const FourBoxes& a, const FourBoxes& b) {
+  return mask((a.min[0] <= b.max[0]) & (a.max[0] >= b.min[0]) & (a.min[1] <= b.max[1]) & (a.max[1] >= b.min[1]) &
+              (a.min[2] <= b.max[2]) & (a.max[2] >= b.min[2]));
+}
+
 }  // namespace
-
-const SelfIntersectionGuard::Node SelfIntersectionGuard::kEmptyNode = [] {
-  const Float4 infinity{kBoundless, kBoundless, kBoundless, kBoundless};
-  return Node{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-}();
-
-void SelfIntersectionGuard::Node::set(std::uint32_t child, const FloatBox& box) {
-  for (int axis = 0; axis < 3; ++axis) min[axis][child] = box.min[axis], max[axis][child] = box.max[axis];
-}
-
-FloatBox SelfIntersectionGuard::Node::box() const {
-  FloatBox all;
-  for (int i = 0; i < 3; ++i) {
-    all.min[i] = std::min(std::min(min[i][0], min[i][1]), std::min(min[i][2], min[i][3]));
-    all.max[i] = std::max(std::max(max[i][0], max[i][1]), std::max(max[i][2], max[i][3]));
-  }
-  return all;
-}
-
-SelfIntersectionGuard::Node SelfIntersectionGuard::Node::four(const FloatBox& box) {
-  Node node;
-  for (std::uint32_t child = 0; child < kWidth; ++child) node.set(child, box);
-  return node;
-}
-
-inline unsigned SelfIntersectionGuard::Node::overlapping(const Node& other) const {
-  return mask((min[0] <= other.max[0]) & (max[0] >= other.min[0]) & (min[1] <= other.max[1]) &
-              (max[1] >= other.min[1]) & (min[2] <= other.max[2]) & (max[2] >= other.min[2]));
-}
 
 SelfIntersectionGuard::SelfIntersectionGuard(const HalfEdgeMesh& mesh, std::vector<FaceId> faces)
     : unit_cube_(bounding_box_of(mesh)), face_at_(std::move(faces)), slot_of_(mesh.face_id_count()) {
@@ -66,19 +41,13 @@ SelfIntersectionGuard::SelfIntersectionGuard(const HalfEdgeMesh& mesh, std::vect
 void SelfIntersectionGuard::pack(const HalfEdgeMesh& mesh) {
   std::erase_if(face_at_, [&](FaceId f) { return !mesh.has(f); });
   faces_when_packed_ = face_at_.size();
-  levels_.clear();
-  std::size_t children = face_at_.size();
-  do {
-    children = (children + kWidth - 1) / kWidth;
-    levels_.emplace_back(children, kEmptyNode);
-  } while (children > 1);
+  std::vector<FloatBox> boxes;
+  boxes.reserve(face_at_.size());
   for (std::uint32_t slot = 0; slot < face_at_.size(); ++slot) {
     slot_of_[face_at_[slot]] = slot;
-    levels_[0][slot / kWidth].set(slot % kWidth, unit_cube_.at(triangle(mesh, face_at_[slot])));
+    boxes.push_back(unit_cube_.at(triangle(mesh, face_at_[slot])));
   }
-  for (std::size_t level = 1; level < levels_.size(); ++level)
-    for (std::uint32_t i = 0; i < levels_[level - 1].size(); ++i)
-      levels_[level][i / kWidth].set(i % kWidth, levels_[level - 1][i].box());
+  levels_ = four_wide_tree(std::move(boxes));
 }
 
 void SelfIntersectionGuard::changed(const HalfEdgeMesh& mesh, VertexId s) {
@@ -94,7 +63,7 @@ void SelfIntersectionGuard::place(std::uint32_t slot, const FloatBox& box) {
   levels_[0][slot / kWidth].set(slot % kWidth, box);
   std::uint32_t child = slot / kWidth;
   for (std::size_t level = 1; level < levels_.size(); ++level) {
-    Node& node = levels_[level][child / kWidth];
+    FourBoxes& node = levels_[level][child / kWidth];
     const std::uint32_t lane = child % kWidth;
     bool grows = false;
     for (int i = 0; i < 3; ++i) {
@@ -113,7 +82,7 @@ std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const F
   const auto make_room = [](auto& list, std::size_t size) {
     if (list.size() < size) list.resize(2 * size);
   };
-  const Node boxes = Node::four(box);
+  const FourBoxes boxes = FourBoxes::four(box);
   make_room(nodes_, 1);
   nodes_[0] = 0;
   std::size_t count = 1;
@@ -122,7 +91,7 @@ std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const F
     std::size_t children = 0;
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t i = nodes_[k];
-      const unsigned met = levels_[level][i].overlapping(boxes);
+      const unsigned met = overlapping(levels_[level][i], boxes);
       for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
         children_[children] = kWidth * i + lane;
         children += met >> lane & 1;
@@ -137,7 +106,7 @@ std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const F
     const std::uint32_t slot = nodes_[k];
     const auto corners = mesh.corners(face_at_[slot]);
     const bool has_gone = corners[0] == kNoVertex;
-    if (has_gone) levels_[0][slot / kWidth].set(slot % kWidth, kEmptyNode.box());
+    if (has_gone) levels_[0][slot / kWidth].set(slot % kWidth, kEmptyBox);
     others_[others] = corners;
     others += std::size_t{!has_gone} & std::size_t{is_other(face_at_[slot], corners)};
   }

@@ -5,8 +5,7 @@
 
 #include "construct/guard/fan.h"
 #include "construct/star.h"
-#include "geometry/simd.h"
-#include "geometry/unit_cube.h"
+#include "geometry/four_boxes.h"
 #include "mesh/half_edge_mesh.h"
 
 namespace prohull {
@@ -37,16 +36,7 @@ class SelfIntersectionGuard {
   void changed(const HalfEdgeMesh& mesh, VertexId s);
 
  private:
-  // The boxes of four children, one in each lane.
-  struct Node {
-    Float4 min[3], max[3];
-    void set(std::uint32_t child, const FloatBox& box);
-    FloatBox box() const;
-    unsigned overlapping(const Node& other) const;  ///< lane by lane
-    static Node four(const FloatBox& box);
-  };
-  static constexpr std::uint32_t kWidth = 4;
-  static const Node kEmptyNode;
+  static constexpr std::uint32_t kWidth = FourBoxes::kWidth;
 
   void pack(const HalfEdgeMesh& mesh);
   void place(std::uint32_t slot, const FloatBox& box);
@@ -63,7 +53,7 @@ class SelfIntersectionGuard {
   std::size_t faces_when_packed_ = 0;
   std::vector<FaceId> face_at_;  ///< by slot
   PerFace<std::uint32_t> slot_of_;
-  std::vector<std::vector<Node>> levels_;  ///< children of node i are slots, or nodes of the level before, from 4i on
+  FourWideTree levels_;  ///< over slots
 
   // Scratch.
   Fan fan_;

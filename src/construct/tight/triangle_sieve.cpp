@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/unit_cube.h"
 #include "mesh/half_edge_mesh.h"
 
 namespace prohull {
@@ -17,7 +16,6 @@ namespace {
 /// In the frame, far more than what float32 coordinates, and what is computed of them, are wrong by.
 constexpr double kRounding = 0x1p-20;
 constexpr float kNowhere = std::numeric_limits<float>::infinity();
-constexpr FloatBox kEmptyBox{{kNowhere, kNowhere, kNowhere}, {-kNowhere, -kNowhere, -kNowhere}};
 
 /// Halves the faces along their longest side again and again, down to leaves of four: those of a node lie together.
 class Order {
@@ -101,19 +99,7 @@ TriangleSieve::TriangleSieve(const TriangleMesh& mesh) : mesh_(in_order(mesh)) {
         boxes.back().extend({p, p});
       }
   }
-  do {
-    std::vector<FloatBox> parents((boxes.size() + kWidth - 1) / kWidth, kEmptyBox);
-    std::vector<Node>& level = levels_.emplace_back(parents.size());
-    for (std::size_t i = 0; i < kWidth * parents.size(); ++i) {
-      const FloatBox& box = i < boxes.size() ? boxes[i] : kEmptyBox;
-      parents[i / kWidth].extend(box);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        level[i / kWidth].low[axis][i % kWidth] = box.min[axis];
-        level[i / kWidth].high[axis][i % kWidth] = box.max[axis];
-      }
-    }
-    boxes = std::move(parents);
-  } while (boxes.size() > 1);
+  levels_ = four_wide_tree(std::move(boxes));
 }
 
 // Lanes without a face are beyond all boxes.

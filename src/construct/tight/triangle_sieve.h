@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/simd.h"
+#include "geometry/four_boxes.h"
 #include "geometry/tetrahedron_contact.h"
 #include "prohull/triangle_mesh.h"
 
@@ -42,11 +42,7 @@ class TriangleSieve {
   void visit(const Region& region, Visit visit) const;
 
  private:
-  static constexpr std::uint32_t kWidth = 4;
-  /// The boxes of four children, one in each lane; an empty one where there is none.
-  struct Node {
-    Float4 low[3], high[3];
-  };
+  static constexpr std::uint32_t kWidth = FourBoxes::kWidth;
   struct Leaf {
     Float4 corner[3][3];  ///< [corner][axis], lane i: of face i
   };
@@ -55,23 +51,23 @@ class TriangleSieve {
   void add_box(Region& region, const Box& box, double reach) const;
   static void add_plane(Region& region, const Vec3& normal, const Vec3& on, const Vec3& inside, double reach);
   Leaf leaf_of_faces_from(std::uint32_t first) const;
-  static unsigned reached(const Node& node, const Region& region);
+  static unsigned reached(const FourBoxes& node, const Region& region);
   static unsigned reached(const Leaf& leaf, const Region& region);
 
   TriangleMesh mesh_;
   Vec3 center_;
   double scale_ = 1;
-  std::vector<Leaf> leaves_;               ///< each of the next four faces
-  std::vector<std::vector<Node>> levels_;  ///< children of node i are leaves, or nodes of the level before, from 4i on
+  std::vector<Leaf> leaves_;  ///< each of the next four faces
+  FourWideTree levels_;       ///< over the leaves
 };
 
-inline unsigned TriangleSieve::reached(const Node& node, const Region& r) {
-  Truth4 in = (node.low[0] <= r.high[0]) & (node.high[0] >= r.low[0]) & (node.low[1] <= r.high[1]) &
-              (node.high[1] >= r.low[1]) & (node.low[2] <= r.high[2]) & (node.high[2] >= r.low[2]);
+inline unsigned TriangleSieve::reached(const FourBoxes& node, const Region& r) {
+  Truth4 in = (node.min[0] <= r.high[0]) & (node.max[0] >= r.low[0]) & (node.min[1] <= r.high[1]) &
+              (node.max[1] >= r.low[1]) & (node.min[2] <= r.high[2]) & (node.max[2] >= r.low[2]);
   for (std::size_t i = 0; i < r.plane_count; ++i) {
     const auto& [n, offset] = r.planes[i];
-    const Float4 &x = n[0] > 0 ? node.high[0] : node.low[0], &y = n[1] > 0 ? node.high[1] : node.low[1],
-                 &z = n[2] > 0 ? node.high[2] : node.low[2];
+    const Float4 &x = n[0] > 0 ? node.max[0] : node.min[0], &y = n[1] > 0 ? node.max[1] : node.min[1],
+                 &z = n[2] > 0 ? node.max[2] : node.min[2];
     in &= x * n[0] + y * n[1] + z * n[2] >= offset;
   }
   return mask(in);
