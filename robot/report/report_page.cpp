@@ -16,7 +16,7 @@
 namespace prohull::robot {
 namespace {
 
-constexpr std::string_view kDash = "–";
+constexpr const char* kDash = "–";
 constexpr std::string_view kGrey = "#d9d6d1", kBlue = "#7db4ea", kOrange = "#f09a4e", kRed = "#d4483b";  // of pictures
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -321,7 +321,7 @@ Cell verdict(const LinkCheck& check, double allow) {
 }
 
 std::string sticks_out(const LinkCheck& check) {
-  if (!was_measured(check)) return std::string(kDash);
+  if (!was_measured(check)) return kDash;
   return range_text(check.sticks_out_at_least, check.sticks_out_at_most);
 }
 
@@ -343,7 +343,7 @@ std::string words_for(LinkStatus status) {
 
 std::vector<Cell> hull_cells(const LinkHulls* hulls) {
   const LinkHull* const hull = hulls ? first_hull(*hulls) : nullptr;
-  if (!hull) return {hulls ? words_for(hulls->status) : std::string(kDash), "", "", "", "", ""};
+  if (!hull) return {hulls ? words_for(hulls->status) : kDash, "", "", "", "", ""};
   return {is_certified(*hulls) ? Cell("✓ certified", "good") : Cell("✕ not certified", "bad"),
           count_text(hulls->triangles.face_count()),
           hulls->collision == Collision::Hull ? count_text(hull->mesh.face_count()) : size_text(*hull),
@@ -382,7 +382,7 @@ std::string built_from(const LinkHull& hull) {
   if (hull.source == "mesh") return "the repaired mesh";
   if (hull.source == "convex-hull") return "the convex hull";
   if (hull.source == "wrap") return "a wrap";
-  if (hull.source.empty()) return std::string(kDash);
+  if (hull.source.empty()) return kDash;
   return html_escaped(hull.source);
 }
 
@@ -413,75 +413,41 @@ class FactsTable {
     return row(head, cells);
   }
 
-  /// A line about hulls only.
-  template <class OfHull>
-  std::string hull_line(const std::string& head, OfHull of_hull) const {
-    if (!hulls_ || hulls_->hulls.empty()) return {};
-    return line(head, of_hull, [](const LinkCheck&) { return Cell(std::string(kDash)); });
-  }
-
-  bool any_padding() const {
-    return hulls_ && std::ranges::any_of(hulls_->hulls, [](const LinkHull& hull) { return hull.padding > 0; });
-  }
-
-  std::string rows() const { return enclosure_rows() + size_rows() + distance_rows() + proof_rows(); }
-
-  std::string enclosure_rows() const {
-    std::string text =
-        line("Encloses the geometry", certificate, [&](const LinkCheck& c) { return verdict(c, allow_); });
+  std::string rows() const {
+    using Hull = const LinkHull&;
+    using Check = const LinkCheck&;
+    const auto unknown = [](const auto&) { return kDash; };
+    std::string text = line("Encloses the geometry", certificate, [&](Check c) { return verdict(c, allow_); });
     if (check_)
       text += line(
-          "Geometry sticks out by", [](const LinkHull& hull) { return Cell(hull.certified ? "0 mm" : "?"); },
-          [](const LinkCheck& c) { return Cell(sticks_out(c)); });
-    return text;
-  }
-
-  std::string size_rows() const {
-    std::string text = line(
-        "Faces",
-        [&](const LinkHull& hull) {
-          return Cell(hulls_->collision == Collision::Hull ? count_text(hull.mesh.face_count())
-                      : hull.pieces.empty()
-                          ? size_text(hull)
-                          : fmt::format("{} in {}", count_text(hull.mesh.face_count()), size_text(hull)));
-        },
-        [](const LinkCheck& c) {
-          return Cell(c.pieces > 1 ? fmt::format("{} in {}", count_text(c.collision_faces), counted(c.pieces, "piece"))
-                                   : count_text(c.collision_faces));
-        });
+          "Geometry sticks out by", [](Hull h) { return h.certified ? "0 mm" : "?"; }, sticks_out);
+    const auto faces = [](std::size_t count, const std::string& parts) {
+      return parts.empty() ? count_text(count) : fmt::format("{} in {}", count_text(count), parts);
+    };
+    const auto size = [&](Hull h) {
+      if (hulls_->collision != Collision::Hull && h.pieces.empty()) return size_text(h);
+      return faces(h.mesh.face_count(), h.pieces.empty() ? "" : size_text(h));
+    };
+    text += line("Faces", size,
+                 [&](Check c) { return faces(c.collision_faces, c.pieces > 1 ? counted(c.pieces, "piece") : ""); });
     text += line(
-        "Volume / original",
-        [&](const LinkHull& hull) { return Cell(ratio_text(ratio(hull.volume, hulls_->sealed_volume))); },
-        [](const LinkCheck& c) { return Cell(ratio_text(ratio(c.collision_volume, c.visual_volume))); });
+        "Volume / original", [&](Hull h) { return ratio_text(ratio(h.volume, hulls_->sealed_volume)); },
+        [](Check c) { return ratio_text(ratio(c.collision_volume, c.visual_volume)); });
     text += line(
-        "Volume / convex hull",
-        [&](const LinkHull& hull) { return Cell(ratio_text(ratio(hull.volume, hulls_->convex_volume))); },
-        [](const LinkCheck& c) { return Cell(ratio_text(ratio(c.collision_volume, c.convex_volume))); });
-    return text;
-  }
-
-  std::string distance_rows() const {
-    std::string text = line(
-        "Greatest distance from the geometry",
-        [](const LinkHull& hull) { return Cell(range_text(hull.distance.lower, hull.distance.upper)); },
-        [](const LinkCheck& c) { return Cell(range_text(c.fat.lower, c.fat.upper)); });
+        "Volume / convex hull", [&](Hull h) { return ratio_text(ratio(h.volume, hulls_->convex_volume)); },
+        [](Check c) { return ratio_text(ratio(c.collision_volume, c.convex_volume)); });
+    text += line(
+        "Greatest distance from the geometry", [](Hull h) { return range_text(h.distance.lower, h.distance.upper); },
+        [](Check c) { return range_text(c.fat.lower, c.fat.upper); });
     if (check_)
+      text += line("Mean distance from the geometry", unknown, [](Check c) { return length_text(c.mean_fat); });
+    if (!hulls_ || hulls_->hulls.empty()) return text;
+    if (std::ranges::any_of(hulls_->hulls, [](Hull h) { return h.padding > 0; }))
       text += line(
-          "Mean distance from the geometry", [](const LinkHull&) { return Cell(std::string(kDash)); },
-          [](const LinkCheck& c) { return Cell(length_text(c.mean_fat)); });
-    if (any_padding())
-      text += hull_line("Padding, proven", [](const LinkHull& hull) {
-        return Cell(fmt::format("at least {}", length_text(hull.padding, Rounded::Down)));
-      });
-    return text;
-  }
-
-  std::string proof_rows() const {
-    std::string text = hull_line("Proof", [](const LinkHull& hull) {
-      return Cell(hull.proof.empty() ? std::string(kDash) : html_escaped(hull.proof));
-    });
-    text += hull_line("Built from", [](const LinkHull& hull) { return Cell(built_from(hull)); });
-    return text;
+          "Padding, proven", [](Hull h) { return "at least " + length_text(h.padding, Rounded::Down); }, unknown);
+    text += line(
+        "Proof", [](Hull h) { return h.proof.empty() ? kDash : html_escaped(h.proof); }, unknown);
+    return text + line("Built from", built_from, unknown);
   }
 
   const LinkHulls* hulls_;
@@ -595,15 +561,15 @@ std::size_t sum(const MotionResult& motion, std::size_t MotionPair::*count) {
 }
 
 std::string time_text(double microseconds) {
-  return microseconds > 0 && std::isfinite(microseconds) ? fmt::format("{:.1f} µs", microseconds) : std::string(kDash);
+  return microseconds > 0 && std::isfinite(microseconds) ? fmt::format("{:.1f} µs", microseconds) : kDash;
 }
 
 std::string motion_summary(const MotionResult& m, const std::string& head) {
   const std::string rows =
-      row("Visual geometry", {count_text(m.visual_configurations), count_text(sum(m, &MotionPair::visual)),
-                              std::string(kDash), std::string(kDash), time_text(m.visual_us)}) +
+      row("Visual geometry", {count_text(m.visual_configurations), count_text(sum(m, &MotionPair::visual)), kDash,
+                              kDash, time_text(m.visual_us)}) +
       row("Convex hulls", {count_text(m.convex_configurations), count_text(sum(m, &MotionPair::convex)),
-                           count_text(m.false_convex()), std::string(kDash), std::string(kDash)}) +
+                           count_text(m.false_convex()), kDash, kDash}) +
       row(head, {count_text(m.hull_configurations), count_text(sum(m, &MotionPair::hull)), count_text(m.false_hull()),
                  missed_cell(m.missed()), time_text(m.hull_us)});
   return table("",
