@@ -52,7 +52,7 @@ CLI::Option* add_optional_number(CLI::App& command, const std::string& names, Va
   return kWhole ? option->type_name("N") : option;
 }
 
-/// The same with the values as the default, which --help tells.
+/// add_optional_number() with the values as the default, which --help tells.
 template <class Values>
 CLI::Option* add_number(CLI::App& command, const std::string& names, Values& values, const Range& range,
                         const std::string& description) {
@@ -72,7 +72,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& names, Value& valu
       ->default_str(std::string(name_of(choices, value)));
 }
 
-/// The same without a default.
+/// A choice without a default.
 template <class Value>
 CLI::Option* add_choice(CLI::App& command, const std::string& names, std::optional<Value>& value,
                         std::type_identity_t<Names<Value>> choices, const std::string& description) {

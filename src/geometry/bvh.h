@@ -30,7 +30,7 @@ class Bvh {
     item_boxes_ = std::move(boxes);
   }
   explicit Bvh(const std::vector<Triangle>& triangles) : Bvh(boxes_of(triangles, std::identity())) {}
-  /// Of the triangles of a mesh, by their numbers.
+  /// Over the triangles of a mesh, by their numbers.
   template <class Mesh>
   requires requires(const Mesh& mesh) { mesh.triangles.ids(); }
   explicit Bvh(const Mesh& mesh) : Bvh(boxes_of(mesh.triangles.ids(), [&](auto f) { return mesh.triangle(f); })) {}
