@@ -317,11 +317,11 @@ Cut refined(const Part& part, const Cut& cut, const Solid& solid) {
     for (const Cut& c : halves(planes)) result.push_back(c.merit);
     return result;
   };
-  const Plane best = moved(cut.plane, box_of(part), merits);
+  const Plane best = with_least_value(cut.plane, box_of(part), merits);
   return halves({&best, 1}).front();
 }
 
-Plane moved(const Plane& plane, const Box& box, const ValuesOfPlanes& values) {
+Plane with_least_value(const Plane& plane, const Box& box, const ValuesOfPlanes& values) {
   Plane best = plane;
   double least = values({&plane, 1}).front(), angle = 0.25, shift = box.diagonal() / 30;
   for (int round = 0; round < 5; ++round, angle /= 2, shift /= 2) {
@@ -329,7 +329,8 @@ Plane moved(const Plane& plane, const Box& box, const ValuesOfPlanes& values) {
       const std::vector<Plane> tries = neighbors(best, box.center(), angle, shift);
       const std::vector<double> tried = values(tries);
       const auto found = std::min_element(tried.begin(), tried.end());
-      improved = *found < least * (1 - kLeastImprovement);
+      // Rounding makes merits below 0, too.
+      improved = *found < least * (least > 0 ? 1 - kLeastImprovement : 1 + kLeastImprovement);
       if (improved) least = *found, best = tries[static_cast<std::size_t>(found - tried.begin())];
     }
   }

@@ -26,7 +26,7 @@ Cut refined(const Part& part, const Cut& cut, const Solid& solid);
 /// Turns and moves the plane, which meets the box, as long as that makes its value less. `values` are those of several
 /// planes that are close to each other.
 using ValuesOfPlanes = std::function<std::vector<double>(std::span<const Plane>)>;
-Plane moved(const Plane& plane, const Box& box, const ValuesOfPlanes& values);
+Plane with_least_value(const Plane& plane, const Box& box, const ValuesOfPlanes& values);
 
 /// The volumes of the convex hulls of both sides of a plane together, for many planes.
 class HalvesVolume {

@@ -247,7 +247,7 @@ class Settling {
   Plane moved_plane(const CutTree::Node& node, const Part& part) const {
     const HalvesVolume halves(part, solid_);
     const bool is_last = is_leaf(node.below) && is_leaf(node.above);
-    return moved(node.plane, box_of(part), [&](std::span<const Plane> planes) {
+    return with_least_value(node.plane, box_of(part), [&](std::span<const Plane> planes) {
       std::vector<double> volumes(planes.size());
       if (is_last)
         std::ranges::transform(halves(planes), volumes.begin(), &Cut::volume);

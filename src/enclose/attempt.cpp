@@ -51,7 +51,9 @@ double excess_of(const TriangleMesh& hull, const Making& making) {
   const double volume = making.solids.volume() > 0 && !has_padding ? making.solids.volume() : solid.volume;
   HullBounds bounds = making.options().bounds;
   if (has_padding) bounds.max_distance += making.options().padding;
-  return bounds.excess(hull, from_mesh ? solid.mesh : making.to_cover(), volume, making.options().progress);
+  // What lies around folds is not of the mesh.
+  const TriangleMesh& near = from_mesh && solid.folds.faces == 0 ? solid.mesh : making.to_cover();
+  return bounds.excess(hull, near, volume, making.options().progress);
 }
 
 bool is_within_as_stored(const TriangleMesh& hull, const Making& making) {

@@ -104,6 +104,17 @@ TEST(TightHull, OfFewFacesIsSearchedOnFromAndNeverWorse) {
   }
 }
 
+TEST(TightHull, OfFewFacesMayHaveComponentsOfTwoFaces) {
+  const TriangleMesh leaf = make({{3, 0, 0}, {4, 0, 0}, {3, 1, 0}}, {{0, 1, 2}, {0, 2, 1}});
+  const TriangleMesh mesh = together(octahedron(), leaf);
+  const Original original = Original::closed(mesh, HullSide::Outer, 1);
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const TriangleMesh found = with_less_volume(mesh, original, mesh, {.target_faces = 10, .seed = seed});
+    EXPECT_TRUE(inspect(found).is_closed_manifold()) << seed;
+    EXPECT_TRUE(verify_enclosure(mesh, found).encloses) << seed;
+  }
+}
+
 TEST(TightHull, OfFewFacesHasLessVoidThanWithoutSearch) {
   const TriangleMesh mesh = make_sample("pony", 2000);
   const auto with_trials = [&](unsigned trials) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "cover/best_cut.h"
 #include "effort.h"
 #include "meshes.h"
 #include "progress.h"
@@ -75,6 +76,12 @@ TEST(ConvexCover, FindsTheCutThatLeavesNoVoid) {
   EXPECT_EQ(cover.pieces.size(), 2u);
   EXPECT_TRUE(cover.certified);
   EXPECT_LT(cover.void_ratio, 0.02) << "their convex hull has 40 % void";
+}
+
+TEST(ConvexCover, MovesNoCutAgainThatGetsNoBetter) {
+  const cover::ValuesOfPlanes below_zero = [](auto planes) { return std::vector<double>(planes.size(), -1); };
+  const cover::Plane plane{{1, 0, 0}, 0.5};
+  EXPECT_EQ(cover::with_least_value(plane, {{0, 0, 0}, {1, 1, 1}}, below_zero).offset, plane.offset);
 }
 
 TEST(ConvexCover, SeparatesComponents) {

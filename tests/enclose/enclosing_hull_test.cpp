@@ -13,6 +13,7 @@
 #include "progress.h"
 #include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
+#include "prohull/distance.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
@@ -318,6 +319,15 @@ TEST(EnclosingHull, OfManyFacesReplacesOnlyWhatIsAroundAFold) {
   EXPECT_GT(solid.mesh.face_count(), mesh.face_count() - 40);
   EXPECT_LT(only(made).void_ratio, 0.1);
   EXPECT_EQ(finest_level(made, only(made)), FinestLevel::Repaired);
+}
+
+TEST(EnclosingHull, MeasuresFromTheMeshNotFromWhatReplacesAFold) {
+  const TriangleMesh mesh = folded_rock();
+  const EnclosingHulls made =
+      hull_of(mesh, mesh.face_count(), {.bounds = {.max_distance = 1e-9}, .repair = Repair::None});
+  ASSERT_GT(made.solids[only(made).solid].folds.faces, 0U);
+  EXPECT_GT(distance_bounds(only(made).mesh, mesh).lower, 1e-9);
+  EXPECT_FALSE(only(made).within_bounds);
 }
 
 TEST(ClosedSolid, KeepsAllFacesThatAreNotAroundAFold) {

@@ -114,9 +114,9 @@ void expect_inside(Case& given, const Judge& hull, const TriangleMesh* stand_in)
         << text(x) << " on the hull is outside of the original";
 }
 
-void expect_near(Case& given, const Judge& hull, double distance) {
+void expect_near(Case& given, const Judge& hull, const Judge& original, double distance) {
   for (const Point& x : hull.points_on_faces(given.random))
-    ASSERT_TRUE(given.judge.is_within(x, Number(distance) * Number(distance)))
+    ASSERT_TRUE(original.is_within(x, Number(distance) * Number(distance)))
         << text(x) << " on the hull is farther than " << distance << " from all triangles";
 }
 
@@ -187,7 +187,7 @@ void build(Case& given, const EnclosingOptions& options) {
   expect_claims(given, hull.mesh, side, made.input);
   if (options.bounds.max_distance < std::numeric_limits<double>::infinity() && hull.within_bounds &&
       options.padding == 0)
-    expect_near(given, Judge(hull.mesh), options.bounds.max_distance);
+    expect_near(given, Judge(hull.mesh), Judge(triangles_to_cover(made, hull)), options.bounds.max_distance);
   if (options.padding > 0) expect_gap(given, Judge(hull.mesh), hull.padding);
   EXPECT_TRUE(options.repair == Repair::None || verify_hull(hull.mesh, given.finite, side).encloses)
       << "verify_hull says no";

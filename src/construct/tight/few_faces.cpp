@@ -125,13 +125,14 @@ class Search {
     return std::clamp(options_.target_faces / 4, kLeast, kMost);
   }
 
-  /// On any edge.
+  /// On any edge, but of a component of two faces, which would meet in more edges than one then.
   void insert_vertex(Hull& hull) {
     TriangleMesh& mesh = hull.mesh;
     const HalfEdgeMesh edges(mesh);
     const HalfEdgeId h{static_cast<std::uint32_t>(below(3 * mesh.face_count()))}, g = edges.twin(h);
     const VertexId a = edges.tail(h), b = edges.tail(g);
     const VertexId l = edges.tail(edges.previous(h)), r = edges.tail(edges.previous(g));
+    if (l == r) return;
     const auto position = outside_of_edge(mesh.positions[a], mesh.positions[b], mesh.positions[l], mesh.positions[r],
                                           rounding_, options_.float32_coordinates);
     if (!position) return;
