@@ -197,7 +197,7 @@ class SphereCoverer {
     made_.reach.upper += slack_;
     if (slack_ > 0 || input_.dropped.face_count() > 0) made_.reach.lower = 0;
     made_.original_closed = is_closed(input_.original);
-    made_.has_openings = input_.closed && input_.caps.face_count() > 0;
+    made_.has_openings = !input_.closed || input_.caps.face_count() > 0;  // a wrap closes them, too
     made_.non_finite_faces = input_.repairs.dropped_non_finite_faces;
     made_.reach_from_triangles =
         made_.has_openings ? union_reach(made_.balls, input_.original, {.progress = options_.progress}) : made_.reach;
