@@ -196,7 +196,15 @@ static double rounded(const Point p[6], double* error) {
 /* The sign of det(a - a0, b - b0, q - c), where q is the middle of n points with positive weights. */
 static int sign_at(Point a, Point a0, Point b, Point b0, int n, const Point* q, const Number* weight, Point c) {
   Number normal[3], way[3], sum, part, product;
-  int sign = UNSURE;
+  double value = 0, lost = 1e-290;
+  for (int i = 0; i < n; ++i) {
+    const Point p[6] = {a, a0, b, b0, q[i], c};
+    const double w = size_of(weight[i].value), doubt = weight[i].error;
+    double error;
+    const double x = w + doubt > 0 ? rounded(p, &error) : (error = 0);
+    value += weight[i].value * x, lost += 1.01 * (w + doubt) * error + (1.01 * doubt + 1e-15 * w) * size_of(x);
+  }
+  int sign = value > lost ? 1 : value < -lost ? -1 : UNSURE;
   for (int pass = 0; sign == UNSURE; ++pass) {
     exactly = pass, sum = zero, set_normal(normal, a, a0, b, b0);
     for (int i = 0; i < n; ++i)
@@ -210,10 +218,7 @@ static int sign_at(Point a, Point a0, Point b, Point b0, int n, const Point* q, 
 static const Number one = {1, 0, 1, {1}};
 
 static int det(Point a, Point a0, Point b, Point b0, Point c, Point c0) {
-  const Point p[6] = {a, a0, b, b0, c, c0};
-  double error;
-  const double value = rounded(p, &error);
-  return value > error ? 1 : value < -error ? -1 : sign_at(a, a0, b, b0, 1, &c, &one, c0);
+  return sign_at(a, a0, b, b0, 1, &c, &one, c0);
 }
 
 static const double origin[3] = {0, 0, 0}, axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -653,33 +658,71 @@ static int by_code(const void* a, const void* b) {
   return x->code != y->code ? (x->code < y->code ? -1 : 1) : (x->face > y->face) - (x->face < y->face);
 }
 
-static Box box_of(uint32_t (*t)[3], size_t n) {
+static Box box_of(const uint32_t* corners, size_t n) {
   Box b = {{LARGEST, LARGEST, LARGEST}, {-LARGEST, -LARGEST, -LARGEST}};
-  for (size_t i = 0; i < 3 * n; ++i)
+  for (size_t i = 0; i < n; ++i)
     for (int k = 0; k < 3; ++k) {
-      const double x = points[t[i / 3][i % 3]][k];
+      const double x = points[corners[i]][k];
       if (x < b.low[k]) b.low[k] = x;
       if (x > b.high[k]) b.high[k] = x;
     }
   return b;
 }
 
-static int are_apart(const Box* a, const Box* b, double reach) {
-  for (int k = 0; k < 3; ++k)
-    if (a->low[k] - b->high[k] > reach || b->low[k] - a->high[k] > reach) return 1;
-  return 0;
+/* Where something is: in a box, and between two planes across n, as seen from a point of it. */
+typedef struct {
+  Box box;
+  double n[3], length, from[3], low, high; /* length: of n, or somewhat more */
+} Zone;
+
+/* Widens the zone's two planes to all n(p - from) of the points p of the box. What underflows is less than 1e-290. */
+static void widen(Zone* z, const Box* b) {
+  double low = -1e-290, high = 1e-290, size = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double x = z->n[k] * (b->low[k] - z->from[k]), y = z->n[k] * (b->high[k] - z->from[k]);
+    low += x < y ? x : y, high += x < y ? y : x, size += 1e-15 * (size_of(x) + size_of(y));
+  }
+  if (!(low - size >= z->low)) z->low = low - size;
+  if (!(high + size <= z->high)) z->high = high + size;
 }
 
-/* The triangles whose boxes may be within reach of the box. */
-static void find_near(const Surface* s, const Box* box, double reach, List* found) {
+/* Of a triangle and its plane, about: any planes around it are right. */
+static Zone zone_of(const uint32_t t[3]) {
+  const double *a = points[t[0]], *b = points[t[1]], *c = points[t[2]];
+  Zone z = {box_of(t, 3), {0, 0, 0}, 0, {a[0], a[1], a[2]}, LARGEST, -LARGEST};
+  double size = 0, guess = 1e-250;
+  for (int k = 0; k < 3; ++k) size += size_of(b[k] - a[k]) + size_of(c[k] - a[k]);
+  for (int k = 0; k < 3 && size < 1e90; ++k) {
+    const int x = (k + 1) % 3, y = (k + 2) % 3;
+    z.n[k] = (b[x] - a[x]) * (c[y] - a[y]) - (b[y] - a[y]) * (c[x] - a[x]), guess += 0.75 * size_of(z.n[k]);
+  }
+  for (int k = 0; k < 3; ++k) z.length += guess / 6 + z.n[k] * (z.n[k] / guess) / 2; /* a step of Heron's, from above */
+  for (int i = 0; i < 3; ++i) {
+    const Box corner = box_of(t + i, 1);
+    widen(&z, &corner);
+  }
+  return z;
+}
+
+/* Whether the box is farther from the zone than the reach, for sure. */
+static int are_apart(const Box* b, const Zone* z, double reach) {
+  for (int k = 0; k < 3; ++k)
+    if (b->low[k] - z->box.high[k] > reach || z->box.low[k] - b->high[k] > reach) return 1;
+  Zone own = *z;
+  own.low = LARGEST, own.high = -LARGEST, widen(&own, b);
+  return own.low - z->high > reach * z->length || z->low - own.high > reach * z->length;
+}
+
+/* The triangles whose boxes may be within reach of the zone. */
+static void find_near(const Surface* s, Zone zone, double reach, List* found) {
   size_t stack[128] = {1}, top = 1;
   for (found->n = 0, spend(1); top > 0;) {
     const size_t node = stack[--top], leaf = node - s->leaves;
-    if (are_apart(&s->box[node], box, reach)) continue;
+    if (are_apart(&s->box[node], &zone, reach)) continue;
     if (node < s->leaves) stack[top++] = 2 * node, stack[top++] = 2 * node + 1;
     for (size_t i = leaf * s->n / s->leaves; node >= s->leaves && i < (leaf + 1) * s->n / s->leaves; ++i) {
-      const Box own = box_of(s->t + i, 1);
-      if (are_apart(&own, box, reach)) continue;
+      const Box own = box_of(s->t[i], 3);
+      if (are_apart(&own, &zone, reach)) continue;
       found->i = room(found->i, found->n, sizeof *found->i), found->i[found->n++] = (uint32_t)i;
     }
   }
@@ -695,7 +738,7 @@ static int has_area(const uint32_t t[3]) { return turn(0, t) || turn(1, t) || tu
 static Surface surface_of(const char* name, const Mesh* m, int flat_too) {
   Surface s = {name, resized(NULL, m->n, sizeof *s.t), resized(NULL, m->n, sizeof *s.number), 0, 1, NULL};
   Key* const keys = resized(NULL, m->n, sizeof *keys);
-  const Box all = box_of(m->t, m->n);
+  const Box all = box_of(*m->t, 3 * m->n);
   for (uint32_t i = 0; i < m->n; ++i) {
     if (!flat_too && !has_area(m->t[i])) continue;
     keys[s.n].face = i, keys[s.n].code = 0;
@@ -712,7 +755,7 @@ static Surface surface_of(const char* name, const Mesh* m, int flat_too) {
   s.box = resized(NULL, 2 * s.leaves, sizeof *s.box);
   for (size_t i = 2 * s.leaves; --i > 0;) {
     const size_t from = (i - s.leaves) * s.n / s.leaves;
-    if (i >= s.leaves) s.box[i] = box_of(s.t + from, (i - s.leaves + 1) * s.n / s.leaves - from);
+    if (i >= s.leaves) s.box[i] = box_of(s.t[from], 3 * ((i - s.leaves + 1) * s.n / s.leaves - from));
     for (int k = 0; k < 3 && i < s.leaves; ++k) {
       const Box *a = &s.box[2 * i], *b = a + 1;
       s.box[i].low[k] = a->low[k] < b->low[k] ? a->low[k] : b->low[k];
@@ -736,16 +779,16 @@ static int winding(const Surface* s, const Spot* spot, int axis, int direction) 
   const int x = (axis + 1) % 3, y = (axis + 2) % 3;
   const Number* const w = spot->weight;
   const double all = w[0].value + w[1].value + w[2].value, lost = w[0].error + w[1].error + w[2].error;
-  Box box = box_of(spot->t, 1);
+  Zone ray = {box_of(*spot->t, 3), {0, 0, 0}, 0, {0, 0, 0}, 0, 0};
   int result = 0;
   for (int k = 0; k < 3 && all > 2 * lost; ++k) {
     const double at = (w[0].value * q[0][k] + w[1].value * q[1][k] + w[2].value * q[2][k]) / all,
                  error = (8 * lost / all + 1e-14) * (size_of(q[0][k]) + size_of(q[1][k]) + size_of(q[2][k])) + 1e-300;
-    if (at - error > box.low[k]) box.low[k] = at - error;
-    if (at + error < box.high[k]) box.high[k] = at + error;
+    if (at - error > ray.box.low[k]) ray.box.low[k] = at - error;
+    if (at + error < ray.box.high[k]) ray.box.high[k] = at + error;
   }
-  (direction > 0 ? box.high : box.low)[axis] = direction * LARGEST;
-  for (find_near(s, &box, 0, &list); list.n-- > 0;) {
+  (direction > 0 ? ray.box.high : ray.box.low)[axis] = direction * LARGEST;
+  for (find_near(s, ray, 0, &list); list.n-- > 0;) {
     const uint32_t* const g = s->t[list.i[list.n]];
     const Point f[3] = {points[g[0]], points[g[1]], points[g[2]]};
     int looks = 0, i = 0;
@@ -940,8 +983,7 @@ static void prove_tetrahedra(Case* c) {
 static int is_on_edge(const Surface* s, size_t i) {
   static List list;
   const uint32_t* const t = s->t[i];
-  const Box box = box_of(s->t + i, 1);
-  for (find_near(s, &box, 0, &list); list.n-- > 0;)
+  for (find_near(s, zone_of(t), 0, &list); list.n-- > 0;)
     for (int e = 0; e < 3; ++e) {
       const uint32_t *const g = s->t[list.i[list.n]], u = t[e], v = t[(e + 1) % 3];
       const Point a = points[u], b = points[v], c = points[t[(e + 2) % 3]];
@@ -1037,12 +1079,11 @@ static void prove_cut(Cut* u, const uint32_t* lines, size_t n, size_t next, int 
 static void prove_crossed(const Surface* a, size_t i, const Surface* b) {
   static Cut u;
   static const uint32_t whole[3] = {0, 1, 2};
-  const Box box = box_of(a->t + i, 1);
   size_t n = 0;
   u.of = a, u.by = b, u.i = i, u.is_flat = !has_area(a->t[i]), u.lines = 3;
   if (!u.line) u.line = resized(NULL, 4, sizeof *u.line);
   for (int k = 0; k < 9; ++k) u.line[k / 3].at[k % 3] = k % 4 ? zero : one;
-  find_near(b, &box, 0, &u.blocking);
+  find_near(b, zone_of(a->t[i]), 0, &u.blocking);
   for (size_t j = 0; j < u.blocking.n; ++j)
     if (blocked_sides(a->t[i], b->t[u.blocking.i[j]], NULL, NULL) & BOTH) u.blocking.i[n++] = u.blocking.i[j];
   u.blocking.n = n, prove_cut(&u, whole, 3, 0, 0);
@@ -1057,14 +1098,12 @@ static void prove_surfaces(Case* c) {
   List list = {NULL, 0};
   if (claims != 1 && claims != 3) unreadable(&c->file, "this claim is not known");
   if (!is_closed(out)) end(1, "%s is not closed", b.name);
-  for (size_t j = 0; j < b.n; ++j) {
-    const Box box = box_of(b.t + j, 1);
-    for (find_near(&a, &box, 0, &list); list.n-- > 0;) {
+  for (size_t j = 0; j < b.n; ++j)
+    for (find_near(&a, zone_of(b.t[j]), 0, &list); list.n-- > 0;) {
       const size_t i = list.i[list.n];
       const unsigned sides = blocked_sides(a.t[i], b.t[j], on_a.touched, on_b.touched);
       on_a.blocked[i] |= (unsigned char)(sides & BOTH), on_b.blocked[j] |= (unsigned char)(sides >> 2);
     }
-  }
   join(&on_a), join(&on_b);
   for (size_t i = 0; i < a.n; ++i) {
     if (!(on_a.blocked[i] & OUTER) && winding_on(&on_a, i, 1) >= 1) continue;
@@ -1076,11 +1115,10 @@ static void prove_surfaces(Case* c) {
   if (claims == 3 && !is_closed(in)) end(1, "%s is not closed", a.name);
   for (size_t i = 0; i < b.n && claims == 3; ++i)
     for (int w = OUTER; w <= INNER; ++w) {
-      const Box box = box_of(b.t + i, 1);
       const Spot middle = {b.t + i, {one, one, one}};
       unsigned self = 0;
       if (!(on_b.blocked[i] & w) && winding_on(&on_b, i, w == OUTER) < 1) continue;
-      for (find_near(&b, &box, 0, &list); list.n-- > 0;)
+      for (find_near(&b, zone_of(b.t[i]), 0, &list); list.n-- > 0;)
         if (list.i[list.n] != i) self |= blocked_sides(b.t[i], b.t[list.i[list.n]], NULL, NULL);
       if (self & (unsigned)w)
         end(1, "triangle %u of %s is crossed by others of it, and there may be a hole", b.number[i], b.name);
@@ -1216,8 +1254,7 @@ static void prove_gap(Case* c) {
   List list = {NULL, 0};
   c->gap = real(&c->file, 5e-324);
   for (size_t i = 0; i < hull.n; ++i) {
-    const Box box = box_of(hull.t + i, 1);
-    for (find_near(&original, &box, c->gap * (1 + 1e-9), &list); list.n-- > 0;)
+    for (find_near(&original, zone_of(hull.t[i]), c->gap * (1 + 1e-9), &list); list.n-- > 0;)
       spend(20), prove_apart(&hull, i, &original, list.i[list.n], c->gap);
   }
   c->claims |= GAP;
