@@ -54,9 +54,10 @@ double NearestFace::distance(const Vec3& p, std::uint32_t face) const {
   return norm(p - closest_point(p, mesh_.triangle(FaceId(face))));
 }
 
-NearestFace::Found NearestFace::nearest(const Vec3& p, Found known) const {
+NearestFace::Found NearestFace::nearest(const Vec3& p, Found known, std::size_t& looked_at) const {
   tree_.least([&](const Box& box) { return verify::distance(p, box); },
               [&](std::uint32_t f) {
+                ++looked_at;
                 const double d = distance(p, f);
                 if (d < known.distance) known = {f, d};
                 return d;
@@ -80,7 +81,9 @@ double FarFromFaces::upper(const Part& part, const Search&) const {
 }
 
 NearestFace::Found FarFromFaces::look_at(const Vec3& p, Search& search, const NearestFace::Found& known) const {
-  const NearestFace::Found found = faces_.nearest(p, known);
+  std::size_t looked_at = 0;
+  const NearestFace::Found found = faces_.nearest(p, known, looked_at);
+  search.took(looked_at);
   search.reaches(p, found.distance);
   return found;
 }

@@ -42,9 +42,12 @@ class NearestFace {
 
   double distance(const Vec3& p, std::uint32_t face) const;
   static constexpr Found kNone{0, std::numeric_limits<double>::infinity()};
-  /// `known`, or one that is nearer.
-  Found nearest(const Vec3& p, Found known = kNone) const;
-  Found nearest(const Vec3& p, std::uint32_t guess) const { return nearest(p, {guess, distance(p, guess)}); }
+  /// `known`, or one that is nearer. Adds how many faces it looked at.
+  Found nearest(const Vec3& p, Found known, std::size_t& looked_at) const;
+  Found nearest(const Vec3& p, std::uint32_t guess) const {
+    std::size_t looked_at = 0;
+    return nearest(p, {guess, distance(p, guess)}, looked_at);
+  }
 
  private:
   const TriangleMesh& mesh_;

@@ -9,6 +9,7 @@
 #include <bit>
 #include <limits>
 
+#include "geometry/cones.h"
 #include "geometry/morton_code.h"
 #include "geometry/simd.h"
 #include "geometry/triangle_intersection.h"
@@ -71,6 +72,7 @@ class PairSearch {
       : triangle_of_(triangle_of), cube_(box_of_all(count, triangle_of)) {
     sort_faces(count);
     pack();
+    cones_ = Cones(count, [&](std::uint32_t slot) { return triangle_of_(face_at_[slot]); });
   }
 
   /// What add(found, f, g) makes of all pairs that meet, from Found{} on, in any order; join(found, other) adds what
@@ -95,7 +97,7 @@ class PairSearch {
   }
 
  private:
-  static constexpr std::uint32_t kWidth = 4, kLeavesToAThread = 1024;
+  static constexpr std::uint32_t kWidth = Cones::kWidth, kLeavesToAThread = 1024;
 
   struct Scratch {
     std::vector<std::uint32_t> nodes, children;
@@ -152,18 +154,25 @@ class PairSearch {
         levels_[level][i / kWidth].set(i % kWidth, levels_[level - 1][i].around());
   }
 
-  /// Sets scratch.nodes to the leaves, from this one on, with a box that overlaps the one around all of its own.
+  /// Sets scratch.nodes to the leaves, from this one on, with a box that overlaps the one around all of its own, but
+  /// for those that their cones tell apart from it.
   void find_leaves_from(std::uint32_t leaf, Scratch& scratch) const {
     FourBoxes around = FourBoxes::none();
     around.set(0, levels_[0][leaf].around());
     around = around.repeated(0);
+    const Cone* const own = cones_.find(0, leaf);
+    const auto may_meet = [&](std::size_t level, std::uint32_t node) {
+      const Cone* const cone = own ? cones_.find(level, node) : nullptr;
+      return !cone || !are_apart(*own, *cone);
+    };
     scratch.nodes.assign(1, 0);
     for (std::size_t level = levels_.size() - 1; level > 0; --level) {
       const std::uint32_t first = leaf >> (2 * (level - 1));  // the child on the way to the leaf
       scratch.children.clear();
       for (const std::uint32_t i : scratch.nodes)
         for (unsigned met = levels_[level][i].overlapping(around); met != 0; met &= met - 1)
-          if (const auto child = kWidth * i + static_cast<std::uint32_t>(std::countr_zero(met)); child >= first)
+          if (const auto child = kWidth * i + static_cast<std::uint32_t>(std::countr_zero(met));
+              child >= first && may_meet(level - 1, child))
             scratch.children.push_back(child);
       std::swap(scratch.nodes, scratch.children);
     }
@@ -171,6 +180,7 @@ class PairSearch {
 
   const TriangleOf& triangle_of_;
   UnitCube cube_;
+  Cones cones_;
   std::vector<std::uint32_t> face_at_;
   std::vector<std::vector<FourBoxes>>
       levels_;  ///< children of node i are faces, or nodes of the level before, from 4i on

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -34,6 +35,25 @@ TEST(SelfIntersections, AreCountedInOpenMeshesAndSoups) {
   two.triangles.pop_back();
   EXPECT_EQ(count_self_intersections(two), 0u) << "a single face";
   EXPECT_EQ(count_self_intersections(meshes::soup(meshes::sphere(2))), 0u) << "corners are shared by position";
+}
+
+TEST(SelfIntersections, AreCountedAroundVerticesOfManyFaces) {
+  std::mt19937 random(test_seed());
+  for (const double noise : {0.0, 0.001, 0.01, 0.1}) {
+    std::uniform_real_distribution<double> jitter(-noise, noise);
+    TriangleMesh mesh = meshes::bipyramid(300);
+    for (Vec3& p : mesh.positions) p += {jitter(random), jitter(random), jitter(random)};
+    const std::size_t expected = oracle::self_intersections(mesh);
+    EXPECT_EQ(expected > 0, noise > 0.05);
+    EXPECT_EQ(count_self_intersections(mesh), expected) << "noise " << noise;
+    std::ranges::shuffle(mesh.triangles, random);
+    EXPECT_EQ(count_self_intersections(mesh), expected) << "noise " << noise;
+  }
+}
+
+TEST(SelfIntersections, OfBillionsOfPairsAroundAVertexFewAreTested) {
+  // Each pair tested takes some 20 ns: of the 5 * 10^9 pairs of faces that share a tip that would be minutes.
+  EXPECT_EQ(count_self_intersections(meshes::bipyramid(100'000)), 0u);
 }
 
 TEST(SelfIntersections, OfNothingAndOfWhatIsNotFiniteAreRefused) {

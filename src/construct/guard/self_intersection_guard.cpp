@@ -48,13 +48,17 @@ void SelfIntersectionGuard::pack(const HalfEdgeMesh& mesh) {
     boxes.push_back(unit_cube_.at(triangle(mesh, face_at_[slot])));
   }
   levels_ = four_wide_tree(std::move(boxes));
+  cones_ = Cones(static_cast<std::uint32_t>(face_at_.size()),
+                 [&](std::uint32_t slot) { return triangle(mesh, face_at_[slot]); });
 }
 
 void SelfIntersectionGuard::changed(const HalfEdgeMesh& mesh, VertexId s) {
   if (mesh.face_count() < faces_when_packed_ / 2) return pack(mesh);
   for (const HalfEdgeId h : mesh.around(s)) {
     const FaceId f{index(h) / 3};
-    place(slot_of_[f], unit_cube_.at(triangle(mesh, f)));
+    const Triangle t = triangle(mesh, f);
+    place(slot_of_[f], unit_cube_.at(t));
+    cones_.place(slot_of_[f], t);
   }
 }
 
@@ -78,10 +82,12 @@ void SelfIntersectionGuard::place(std::uint32_t slot, const FloatBox& box) {
 
 // Puts the corners of those faces near `box` that are others first in others_, and counts them. Level by level, and
 // with few branches, which nothing could predict.
-std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const FloatBox& box, auto&& is_other) {
+std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const FloatBox& box, auto&& is_other,
+                                               auto&& is_apart_from) {
   const auto make_room = [](auto& list, std::size_t size) {
     if (list.size() < size) list.resize(2 * size);
   };
+  constexpr std::size_t kMany = 64;
   const FourBoxes boxes = FourBoxes::four(box);
   make_room(nodes_, 1);
   nodes_[0] = 0;
@@ -99,6 +105,14 @@ std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const F
     }
     std::swap(nodes_, children_);
     count = children;
+    if (count > kMany && level > 0 && !cones_.empty()) {
+      const auto is_apart = [&](std::uint32_t node) {
+        const Cone* const cone = cones_.find(level - 1, node);
+        return cone && is_apart_from(*cone);
+      };
+      count = std::size_t(std::remove_if(nodes_.begin(), nodes_.begin() + std::ptrdiff_t(count), is_apart) -
+                          nodes_.begin());
+    }
   }
   make_room(others_, count);
   std::size_t others = 0;
@@ -133,12 +147,18 @@ std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, 
     set_faces(mesh, link, [&](std::size_t) { return apex; });
     pairs = count_pairs_among_faces();
   }
-  const std::size_t others = find_others(mesh, unit_cube_.at(fan_.box()), has_no_corner_at(o, d));
+  const auto face = [&](std::size_t i) {
+    return Triangle{apex, mesh.position(link[i]), mesh.position(link[i + 1 == link.size() ? 0 : i + 1])};
+  };
+  const auto is_apart_from = [&](const Cone& cone) {
+    for (std::size_t i = 0; i < link.size(); ++i)
+      if (!are_apart(face(i), cone)) return false;
+    return true;
+  };
+  const std::size_t others = find_others(mesh, unit_cube_.at(fan_.box()), has_no_corner_at(o, d), is_apart_from);
   for (const auto& corners : std::span(others_).first(others))
-    for (std::uint64_t met = fan_.perhaps_met(mesh, corners); met != 0; met &= met - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(met)), j = i + 1 == link.size() ? 0 : i + 1;
-      pairs += triangles_intersect({apex, mesh.position(link[i]), mesh.position(link[j])}, triangle(mesh, corners));
-    }
+    for (std::uint64_t met = fan_.perhaps_met(mesh, corners); met != 0; met &= met - 1)
+      pairs += triangles_intersect(face(static_cast<std::size_t>(std::countr_zero(met))), triangle(mesh, corners));
   return pairs;
 }
 
@@ -149,7 +169,9 @@ std::size_t SelfIntersectionGuard::count_pairs(const HalfEdgeMesh& mesh, auto&& 
   FloatBox whole = face_boxes_.front();
   for (const FloatBox& box : face_boxes_) whole.extend(box);
   std::size_t pairs = count_pairs_among_faces();
-  const std::size_t others = find_others(mesh, whole, is_other);
+  const std::size_t others = find_others(mesh, whole, is_other, [&](const Cone& cone) {
+    return std::ranges::all_of(faces_, [&](const Triangle& t) { return are_apart(t, cone); });
+  });
   for (const auto& corners : std::span(others_).first(others)) {
     const Triangle other = triangle(mesh, corners);
     const FloatBox box = unit_cube_.at(other);

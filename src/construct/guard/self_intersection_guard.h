@@ -5,6 +5,7 @@
 
 #include "construct/guard/fan.h"
 #include "construct/star.h"
+#include "geometry/cones.h"
 #include "geometry/four_boxes.h"
 #include "mesh/half_edge_mesh.h"
 
@@ -40,7 +41,7 @@ class SelfIntersectionGuard {
 
   void pack(const HalfEdgeMesh& mesh);
   void place(std::uint32_t slot, const FloatBox& box);
-  std::size_t find_others(const HalfEdgeMesh& mesh, const FloatBox& box, auto&& is_other);
+  std::size_t find_others(const HalfEdgeMesh& mesh, const FloatBox& box, auto&& is_other, auto&& is_apart_from);
   std::size_t count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const std::vector<VertexId>& link,
                                  const Vec3& apex);
   std::size_t count_pairs(const HalfEdgeMesh& mesh, auto&& is_other);
@@ -54,6 +55,7 @@ class SelfIntersectionGuard {
   std::vector<FaceId> face_at_;  ///< by slot
   PerFace<std::uint32_t> slot_of_;
   FourWideTree levels_;  ///< over slots
+  Cones cones_;
 
   // Scratch.
   Fan fan_;
