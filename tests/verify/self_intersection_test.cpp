@@ -44,7 +44,9 @@ TEST(SelfIntersections, AreCountedAroundVerticesOfManyFaces) {
     TriangleMesh mesh = meshes::bipyramid(300);
     for (Vec3& p : mesh.positions) p += {jitter(random), jitter(random), jitter(random)};
     const std::size_t expected = oracle::self_intersections(mesh);
-    EXPECT_EQ(expected > 0, noise > 0.05);
+    if (noise > 0.05) {
+      EXPECT_GT(expected, 0u);
+    }
     EXPECT_EQ(count_self_intersections(mesh), expected) << "noise " << noise;
     std::ranges::shuffle(mesh.triangles, random);
     EXPECT_EQ(count_self_intersections(mesh), expected) << "noise " << noise;
