@@ -17,10 +17,6 @@ constexpr WrapKind kWrapsOfSoups[]{{3.5, 0.3, 1.5}, {6, 0.9, 4}};
 constexpr WrapKind kPaddedWraps[]{{6, 0.3, 1.5}, {3.5, 0.3, 0}};
 constexpr WrapKind kWrapsOfSheets[]{{3.5, 0.3, 1.5}, {7, 0.9, 4}, {9, 0.5, 4}};
 constexpr WrapKind kWrapInside{3.5, 0.3, 0};
-// Hulls of four robot parts that keep 1 or 3 % of the diagonal have fewest faces, or up to 1.14 times as many, from a
-// spacing of half of that without closing: 1.03 to 2 times by a third, 1 to 4.4 times by two thirds.
-constexpr WrapKind kBoundedWrap{3.5, 0.3, 0};
-constexpr double kBoundedSpacing = 0.5;  // of the largest distance
 
 constexpr std::size_t kMostWraps = 3;
 
@@ -37,19 +33,6 @@ bool is_worth_the_mesh(const Request& request, const Solids& solids) {
   constexpr std::size_t kMany = 120;
   return solids.has_mesh() && (!request.is_free() || request.options.levels || request.options.bounds.any() ||
                                solids[0].self_intersections <= kMany);
-}
-
-// With as many nodes as memory and patience allow: 128 MB of distances, and less for a mesh of few faces. A wrap of a
-// million nodes has up to 340,000 faces, and a hull of it takes seconds.
-double finest_spacing(const Request& request) {
-  constexpr double kMargin = 12;  // nodes on both sides
-  const double most_nodes = std::clamp(0x1p12 * double(request.to_cover().face_count()), 0x1p20, 0x1p25);
-  const Box box = bounding_box(request.to_cover());
-  const Vec3 size = box.max - box.min;
-  double spacing = request.diagonal / std::cbrt(most_nodes);
-  const auto nodes = [&](double s) { return (size.x / s + kMargin) * (size.y / s + kMargin) * (size.z / s + kMargin); };
-  while (nodes(spacing / 1.1) < most_nodes) spacing /= 1.1;
-  return spacing;
 }
 
 }  // namespace
@@ -168,41 +151,6 @@ void Candidates::plan_wraps() {
       if (i >= kinds.size() || !is_worth_a_wrap(ranking, solids, i == 0)) return std::nullopt;
       return of_wrap(kinds[i], solids);
     });
-}
-
-// Ever finer ones, until one keeps the bounds; a single one, as near as patience allows, if none can. A hull of a wrap
-// moves towards the triangles, so that it may keep a bound that the wrap misses. Of a mesh that does not intersect
-// itself no wrap does better: its own hull touches it.
-void Candidates::plan_bounded_wraps() {
-  constexpr int kMostBounded = 4;
-  constexpr double kFine = 256, kPlain = 100;  // to the diagonal; finer ones take ten seconds and more, and one second
-  constexpr double kNearerByMoving = 4;        // by moving, a hull comes so much nearer than its wrap
-  // A hull of a wrap that keeps the bounds has at most so many times fewer faces than the wrap. Where another hull
-  // keeps them with fewer still, the wrap is left out: of 10 robots' parts at 1 % of the diagonal, it had a better hull
-  // for 2, and took 2 to 10 times as long.
-  constexpr std::size_t kMostReduced = 300;
-  const double finest = finest_spacing(request_), max_distance = request_.options.bounds.max_distance;
-  const bool is_hopeless = kBoundedWrap.offset * finest > kNearerByMoving * max_distance;
-  const double wanted = std::max(
-      {kBoundedSpacing * max_distance, request_.aim() / 2, request_.diagonal / (is_hopeless ? kPlain : kFine)});
-  double spacing = std::max(std::min(spacing_for(kBoundedWrap), wanted), finest);
-  for (int i = 0; i < (is_hopeless ? 1 : kMostBounded); ++i) {
-    steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-      if (ranking.has_certified() && ranking.best().hull.within_bounds) {
-        const EnclosingHull& best = ranking.best().hull;
-        const bool is_of_clean_mesh = best.source == Source::Mesh && solids[0].self_intersections == 0;
-        const bool is_fine = spacing < request_.diagonal / kFine;
-        if (i > 0 || is_of_clean_mesh || best.mesh.face_count() <= target_faces_ || is_fine) return std::nullopt;
-      }
-      const auto id = wrap(kBoundedWrap, spacing, solids);
-      if (!id || (ranking.has_certified() && ranking.best().hull.within_bounds &&
-                  ranking.best().hull.mesh.face_count() * kMostReduced < solids[*id].mesh.face_count()))
-        return std::nullopt;
-      return of(*id, solids);
-    });
-    if (spacing == finest) break;
-    spacing = std::max(spacing / 2, finest);
-  }
 }
 
 // With a dozen faces and less, each has a large part in the volume, and a hull of fewer may be the smaller one: around
