@@ -14,21 +14,8 @@
 #include "query/wide_line.h"
 
 namespace prohull {
-namespace {
 
-constexpr std::uint32_t kLeafFaces = WideBvh::kWidth;
-/// Coordinates of the frame are rounded to 2^-53, twice: that is negligible in quanta of at least 2^-40.
-constexpr int kLeastQuantum = -40;
-constexpr int kBins = 16;
-constexpr int kDepthOfBins = 60;  // below, ranges are halved, so that the depth is bounded whatever the mesh
-
-/// Floats below and above a value that was rounded to double: its nearest float, moved by at least one of its ulps.
-float below(double x) {
-  const auto nearest = static_cast<float>(x);
-  return nearest - (std::abs(nearest) * 0x1p-23f + 0x1p-126f);
-}
-float above(double x) { return -below(-x); }
-
+// WideBvhBuilder, which WideBvh knows by name, keeps these.
 struct NodeBox {
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -58,6 +45,21 @@ struct NodeRange {
   NodeBox box;
   std::uint32_t size() const { return end - begin; }
 };
+
+namespace {
+
+constexpr std::uint32_t kLeafFaces = WideBvh::kWidth;
+/// Coordinates of the frame are rounded to 2^-53, twice: that is negligible in quanta of at least 2^-40.
+constexpr int kLeastQuantum = -40;
+constexpr int kBins = 16;
+constexpr int kDepthOfBins = 60;  // below, ranges are halved, so that the depth is bounded whatever the mesh
+
+/// Floats below and above a value that was rounded to double: its nearest float, moved by at least one of its ulps.
+float below(double x) {
+  const auto nearest = static_cast<float>(x);
+  return nearest - (std::abs(nearest) * 0x1p-23f + 0x1p-126f);
+}
+float above(double x) { return -below(-x); }
 
 NodeRange part_of(const std::vector<Item>& items, std::uint32_t begin, std::uint32_t end) {
   NodeRange range{begin, end, {}};

@@ -13,11 +13,6 @@
 #include "geometry/predicates.h"
 
 namespace prohull {
-namespace {
-
-constexpr double kReach = 0.5;  ///< how far a vertex moves at once, along each axis, local
-
-double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
 
 /// Of the tetrahedron (0, apex, a, b) that moving a vertex from 0 to `apex` removes: planes with unit normals, which
 /// have it on their inner sides.
@@ -34,6 +29,12 @@ struct Removed {
   HalfSpace new_face;
   std::array<HalfSpace, 3> others;
 };
+
+namespace {
+
+constexpr double kReach = 0.5;  ///< how far a vertex moves at once, along each axis, local
+
+double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
 
 double depth(const HalfSpace& plane, const Vec3& p) { return dot(plane.normal, p) - plane.offset; }
 
