@@ -32,15 +32,15 @@ std::vector<Triangle> triangles_of(const TriangleMesh& mesh) {
 
 /// Faces in the order of `items`, vertices in the order in which these use them.
 TriangleMesh reordered(const TriangleMesh& mesh, std::span<const std::uint32_t> items) {
-  constexpr VertexId kNone{0xffffffffu};
-  PerVertex<VertexId> number(mesh.vertex_count(), kNone);
+  constexpr VertexId kNoNumber{0xffffffffu};
+  PerVertex<VertexId> number(mesh.vertex_count(), kNoNumber);
   TriangleMesh result;
   result.triangles.reserve(items.size());
   result.positions.reserve(mesh.vertex_count());
   for (const std::uint32_t i : items) {
     auto triangle = mesh.triangles[FaceId(i)];
     for (VertexId& v : triangle) {
-      if (number[v] == kNone) number[v] = result.positions.push_back(mesh.positions[v]);
+      if (number[v] == kNoNumber) number[v] = result.positions.push_back(mesh.positions[v]);
       v = number[v];
     }
     result.triangles.push_back(triangle);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/no_index.h"
 #include "prohull/geometry.h"
 
 namespace prohull {
@@ -63,8 +64,6 @@ class Cones {
   }
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffff;
-
   static std::uint32_t nodes_of(std::uint32_t children) { return (children + kWidth - 1) / kWidth; }
 
   template <class FaceAt>

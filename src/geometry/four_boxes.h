@@ -21,13 +21,31 @@ struct FourBoxes {
   static constexpr std::uint32_t kWidth = 4;
   Float4 min[3], max[3];
 
+  /// The same box in all lanes.
   static FourBoxes four(const FloatBox& box) {
     FourBoxes boxes;
-    for (std::uint32_t child = 0; child < kWidth; ++child) boxes.set(child, box);
+    for (int axis = 0; axis < 3; ++axis) {
+      const float low = box.min[axis], high = box.max[axis];
+      boxes.min[axis] = Float4{low, low, low, low}, boxes.max[axis] = Float4{high, high, high, high};
+    }
     return boxes;
   }
   void set(std::uint32_t child, const FloatBox& box) {
     for (int axis = 0; axis < 3; ++axis) min[axis][child] = box.min[axis], max[axis][child] = box.max[axis];
+  }
+  FloatBox child(std::uint32_t i) const {
+    return {{min[0][i], min[1][i], min[2][i]}, {max[0][i], max[1][i], max[2][i]}};
+  }
+  /// The box around all four.
+  FloatBox around() const {
+    FloatBox box = child(0);
+    for (std::uint32_t i = 1; i < kWidth; ++i) box.extend(child(i));
+    return box;
+  }
+  /// Bit i is set if the boxes in lane i overlap.
+  unsigned overlapping(const FourBoxes& other) const {
+    return mask((min[0] <= other.max[0]) & (max[0] >= other.min[0]) & (min[1] <= other.max[1]) &
+                (max[1] >= other.min[1]) & (min[2] <= other.max[2]) & (max[2] >= other.min[2]));
   }
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/predicates.h"
+#include "geometry/tetrahedron_contact.h"
 #include "geometry/triangle_predicates.h"
 #include "verify/winding.h"
 
@@ -57,19 +58,6 @@ bool is_convex_quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
   return turn(*axis, a, b, c) * turn(*axis, a, b, d) < 0 && turn(*axis, c, d, a) * turn(*axis, c, d, b) <= 0;
 }
 
-/// If so, the triangle has no point in the interior of the tetrahedron. It may also have none if not.
-bool is_beside(const Triangle& t, const TriangleMesh& tetrahedron) {
-  for (const FaceId f : tetrahedron.triangles.ids()) {
-    const Triangle face = tetrahedron.triangle(f);
-    const auto is_inside = [&](const Vec3& p) { return side(face.a, face.b, face.c, p) == Side::Inside; };
-    if (!is_inside(t.a) && !is_inside(t.b) && !is_inside(t.c)) return true;
-  }
-  const auto has_none = [&](Side which) {
-    return std::ranges::none_of(tetrahedron.positions, [&](const Vec3& p) { return side(t.a, t.b, t.c, p) == which; });
-  };
-  return has_none(Side::Inside) || has_none(Side::Outside);
-}
-
 }  // namespace
 
 ConvexPairs::ConvexPairs(const TriangleMesh& mesh) : of_face_(mesh.face_count()) {
@@ -97,15 +85,17 @@ ConvexPairs::ConvexPairs(const TriangleMesh& mesh) : of_face_(mesh.face_count())
 // Where no face reaches the interior, the winding number is the same all over it.
 bool ConvexPairs::lies_in_solid(const TriangleMesh& hull) const {
   Vec3 middle;
-  for (const Vec3& p : hull.positions) middle = middle + p / 4;
+  for (const Vec3& p : hull.positions) middle += p / 4;
   for (const FaceId f : hull.triangles.ids()) {
     const Triangle t = hull.triangle(f);
     if (side(t.a, t.b, t.c, middle) != Side::Inside) return false;  // it is rounded
   }
+  const Vec3* const corner = hull.positions.data();
+  const Tetrahedron inside{corner[0], corner[1], corner[2], corner[3]};
   const Box box = bounding_box(hull);
   bool is_empty = true;
   surface_.bvh.visit([&](const Box& other) { return is_empty && other.overlaps(box); },
-                     [&](FaceIndex f) { is_empty = is_empty && is_beside(surface_.faces[f], hull); });
+                     [&](FaceIndex f) { is_empty = is_empty && !meets_interior(surface_.faces[f], inside); });
   return is_empty && winding_at(surface_, ExactPoint(middle)) >= 1;
 }
 

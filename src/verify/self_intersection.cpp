@@ -10,10 +10,9 @@
 #include <limits>
 
 #include "geometry/cones.h"
+#include "geometry/four_boxes.h"
 #include "geometry/morton_code.h"
-#include "geometry/simd.h"
 #include "geometry/triangle_intersection.h"
-#include "geometry/unit_cube.h"
 #include "mesh/closed.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
@@ -21,50 +20,8 @@
 namespace prohull::verify {
 namespace {
 
-// Box-box tests are most of the work: boxes of float32, four at a time.
-
-struct FourBoxes {
-  Float4 min[3], max[3];
-
-  static FourBoxes none() {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    const Float4 infinity{kInfinity, kInfinity, kInfinity, kInfinity};
-    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  }
-
-  void set(std::uint32_t lane, const FloatBox& box) {
-    for (int i = 0; i < 3; ++i) min[i][lane] = box.min[i], max[i][lane] = box.max[i];
-  }
-
-  /// The box in one lane, in all of them.
-  FourBoxes repeated(std::uint32_t lane) const {
-    FourBoxes same;
-    for (int i = 0; i < 3; ++i) {
-      const float low = min[i][lane], high = max[i][lane];
-      same.min[i] = Float4{low, low, low, low}, same.max[i] = Float4{high, high, high, high};
-    }
-    return same;
-  }
-
-  /// Around all four.
-  FloatBox around() const {
-    FloatBox box;
-    for (int i = 0; i < 3; ++i) {
-      box.min[i] = std::min({float{min[i][0]}, float{min[i][1]}, float{min[i][2]}, float{min[i][3]}});
-      box.max[i] = std::max({float{max[i][0]}, float{max[i][1]}, float{max[i][2]}, float{max[i][3]}});
-    }
-    return box;
-  }
-
-  /// Lane by lane.
-  unsigned overlapping(const FourBoxes& other) const {
-    return mask((min[0] <= other.max[0]) & (max[0] >= other.min[0]) & (min[1] <= other.max[1]) &
-                (max[1] >= other.min[1]) & (min[2] <= other.max[2]) & (max[2] >= other.min[2]));
-  }
-};
-
 /// All pairs of some triangles of which the boxes overlap. The triangles lie along a Morton curve, and by fours in a
-/// tree of boxes.
+/// tree of boxes: tests of boxes are most of the work.
 template <class TriangleOf>
 class PairSearch {
  public:
@@ -109,7 +66,7 @@ class PairSearch {
     for (std::uint32_t lane = 0; lane < kWidth && kWidth * leaf + lane < face_at_.size(); ++lane) {
       const std::uint32_t f = face_at_[kWidth * leaf + lane];
       const Triangle t = triangle_of_(f);
-      const FourBoxes box = levels_[0][leaf].repeated(lane);
+      const FourBoxes box = FourBoxes::four(levels_[0][leaf].child(lane));
       for (const std::uint32_t other : scratch.nodes) {
         unsigned met = levels_[0][other].overlapping(box);
         if (other == leaf) met &= ~1u << lane;
@@ -140,26 +97,16 @@ class PairSearch {
   }
 
   void pack() {
-    std::size_t children = face_at_.size();
-    do {
-      children = (children + kWidth - 1) / kWidth;
-      levels_.emplace_back(children, FourBoxes::none());
-    } while (children > 1);
-    oneapi::tbb::parallel_for(std::size_t{0}, levels_[0].size(), [&](std::size_t leaf) {
-      for (std::size_t slot = kWidth * leaf; slot < std::min(kWidth * (leaf + 1), face_at_.size()); ++slot)
-        levels_[0][leaf].set(static_cast<std::uint32_t>(slot % kWidth), cube_.at(triangle_of_(face_at_[slot])));
-    });
-    for (std::size_t level = 1; level < levels_.size(); ++level)
-      for (std::uint32_t i = 0; i < levels_[level - 1].size(); ++i)
-        levels_[level][i / kWidth].set(i % kWidth, levels_[level - 1][i].around());
+    std::vector<FloatBox> boxes(face_at_.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, boxes.size(),
+                              [&](std::size_t slot) { boxes[slot] = cube_.at(triangle_of_(face_at_[slot])); });
+    levels_ = four_wide_tree(std::move(boxes));
   }
 
   /// Sets scratch.nodes to the leaves, from this one on, with a box that overlaps the one around all of its own, but
   /// for those that their cones tell apart from it.
   void find_leaves_from(std::uint32_t leaf, Scratch& scratch) const {
-    FourBoxes around = FourBoxes::none();
-    around.set(0, levels_[0][leaf].around());
-    around = around.repeated(0);
+    const FourBoxes around = FourBoxes::four(levels_[0][leaf].around());
     const Cone* const own = cones_.find(0, leaf);
     const auto may_meet = [&](std::size_t level, std::uint32_t node) {
       const Cone* const cone = own ? cones_.find(level, node) : nullptr;
@@ -182,8 +129,7 @@ class PairSearch {
   UnitCube cube_;
   Cones cones_;
   std::vector<std::uint32_t> face_at_;
-  std::vector<std::vector<FourBoxes>>
-      levels_;  ///< children of node i are faces, or nodes of the level before, from 4i on
+  FourWideTree levels_;  ///< over the faces in this order
 };
 
 template <class TriangleOf>

@@ -109,10 +109,14 @@ std::vector<Offender> offenders(const TriangleMesh& faces, std::span<const Ball>
   return std::move(found.worst);
 }
 
+TriangleMesh faces_of(const std::vector<Offender>& found, const TriangleMesh& faces) {
+  PerFace<char> is_found(faces.face_count(), 0);
+  for (const Offender& offender : found) is_found[offender.face] = 1;
+  return faces_that(faces, [&](FaceId f) { return is_found[f] != 0; });
+}
+
 TriangleMesh uncovered(const TriangleMesh& faces, std::span<const Ball> balls, const Progress& progress) {
-  PerFace<char> outside(faces.face_count(), 0);
-  for (const Offender& offender : offenders(faces, balls, progress)) outside[offender.face] = 1;
-  return faces_that(faces, [&](FaceId f) { return outside[f] != 0; });
+  return faces_of(offenders(faces, balls, progress), faces);
 }
 
 TriangleMesh uncovered(const TriangleMesh& faces, const SolidPieces& pieces, Curved curved, std::size_t segments,
@@ -168,7 +172,7 @@ bool one_leaves(const TriangleMesh& faces, const TriangleMesh& triangles) {
 /// it.
 class Reach {
  public:
-  /// `found`: the offenders among the faces, if somebody knows them.
+  /// `found` are the offenders among the faces, if the caller has them already.
   Reach(const TriangleMesh& faces, const SolidPieces& pieces, const Progress& progress,
         const std::optional<std::vector<Offender>>& found = {})
       : pieces_(pieces),
@@ -328,13 +332,11 @@ PieceCover cover_by_balls(const TriangleMesh& faces, std::span<const Ball> balls
   return result;
 }
 
-/// By one exact test: windings may be added.
+/// Where no piece is curved or tangled, a single exact test decides: the winding numbers of the pieces add up.
 PieceCover cover_by_solids(const TriangleMesh& faces, const SolidPieces& pieces, const Progress& progress) {
   const std::vector<Offender> found = offenders(faces, pieces.solids, progress);
   if (found.empty()) return {};
-  PerFace<char> outside(faces.face_count(), 0);
-  for (const Offender& offender : found) outside[offender.face] = 1;
-  PieceCover result{Covers::Unknown, faces_that(faces, [&](FaceId f) { return outside[f] != 0; }), {}};
+  PieceCover result{Covers::Unknown, faces_of(found, faces), {}};
   result.reach = Reach(faces, pieces, progress, found).run();
   if (result.reach.lower > 0 || one_leaves(result.outside, pieces.triangles)) result.covers = Covers::No;
   return result;

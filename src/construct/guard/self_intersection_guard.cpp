@@ -24,12 +24,6 @@ Box bounding_box_of(const HalfEdgeMesh& mesh) {
 
 Triangle triangle(const HalfEdgeMesh& mesh, FaceId f) { return triangle(mesh, mesh.corners(f)); }
 
-/// Lane by lane.
-unsigned overlapping(const FourBoxes& a, const FourBoxes& b) {
-  return mask((a.min[0] <= b.max[0]) & (a.max[0] >= b.min[0]) & (a.min[1] <= b.max[1]) & (a.max[1] >= b.min[1]) &
-              (a.min[2] <= b.max[2]) & (a.max[2] >= b.min[2]));
-}
-
 }  // namespace
 
 SelfIntersectionGuard::SelfIntersectionGuard(const HalfEdgeMesh& mesh, std::vector<FaceId> faces)
@@ -97,7 +91,7 @@ std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const F
     std::size_t children = 0;
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t i = nodes_[k];
-      const unsigned met = overlapping(levels_[level][i], boxes);
+      const unsigned met = levels_[level][i].overlapping(boxes);
       for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
         children_[children] = kWidth * i + lane;
         children += met >> lane & 1;

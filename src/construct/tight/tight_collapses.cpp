@@ -198,12 +198,12 @@ class TightCollapses {
 
   // Collapses the edge, queues it again, or leaves it; returns from what priority on others have to wait.
   double apply(EdgeId e, double least_waiting) {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
+    constexpr double kNobodyWaits = std::numeric_limits<double>::infinity();
     EdgeState& state = edges_[e];
     const auto found = std::exchange(state.found, {});
     if (!found.empty()) contacts_.keep(mesh_.tail(mesh_.half_edge(e)), found);
-    if (state.is_refused) return kNone;
-    if (mesh_.face_count() <= options_.target_faces) return kNone;
+    if (state.is_refused) return kNobodyWaits;
+    if (mesh_.face_count() <= options_.target_faces) return kNobodyWaits;
     if (state.known != EdgeState::Known::Place || state.priority > least_waiting) {
       queue_.insert(e, state.priority);
       return state.priority;
@@ -212,12 +212,12 @@ class TightCollapses {
     const auto is_free = [&](const Vec3& p) { return !guard_.would_add_intersections(mesh_, placer_.star(), p); };
     if (outside && is_free(state.to)) {
       collapse(e, state.to);
-      return kNone;
+      return kNobodyWaits;
     }
     if (outside) placer_.start_from(*outside, contacts_), placer_.place(*outside, state, is_free);
     state.is_refused = state.is_refused || !outside;
     if (!state.is_refused) queue_.insert(e, state.priority);
-    return kNone;
+    return kNobodyWaits;
   }
 
   void collapse(EdgeId e, const Vec3& to) {

@@ -173,8 +173,8 @@ void TightPlacement::Known::clear() {
 }
 
 void TightPlacement::Known::add(const Vec3& p) {
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();  // is nowhere
-  constexpr Float4 kFour{kNone, kNone, kNone, kNone};
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr Float4 kFour{kNan, kNan, kNan, kNan};
   const std::size_t lane = points.size() % 4;
   if (lane == 0) fours.push_back({kFour, kFour, kFour});
   for (int axis = 0; axis < 3; ++axis) fours.back()[static_cast<std::size_t>(axis)][lane] = static_cast<float>(p[axis]);
