@@ -31,17 +31,30 @@ class Grid {
     return true;
   }
 
+  /// use(node) for each on the border.
+  template <class Use>
+  void along_border(Use&& use) const {
+    const auto is_last = [&](std::size_t axis, std::size_t at) { return at == 0 || at + 1 == nodes_[axis]; };
+    for (std::size_t z = 0; z < nodes_[2]; ++z)
+      for (std::size_t y = 0; y < nodes_[1]; ++y) {
+        const std::size_t step = is_last(1, y) || is_last(2, z) ? 1 : nodes_[0] - 1;
+        for (std::size_t x = 0; x < nodes_[0]; x += step) use(node(x, y, z));
+      }
+  }
+
   /// use(neighbour) for the up to 14 nodes that a tetrahedron has in common with this one (level_surface.h).
   template <class Use>
   void around(std::size_t node, Use&& use) const {
     const std::array<std::size_t, 3> at{node % nodes_[0], node / nodes_[0] % nodes_[1], node / nodes_[0] / nodes_[1]};
+    unsigned has_next = 0, has_last = 0;  // bit i: along axis i
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      has_next |= unsigned{at[axis] + 1 < nodes_[axis]} << axis;
+      has_last |= unsigned{at[axis] > 0} << axis;
+    }
     for (unsigned step = 1; step < 8; ++step) {
       const std::size_t length = (step & 1) + (step >> 1 & 1) * nodes_[0] + (step >> 2) * nodes_[0] * nodes_[1];
-      bool has_next = true, has_last = true;
-      for (unsigned axis = 0; axis < 3; ++axis)
-        if (step >> axis & 1) has_next &= at[axis] + 1 < nodes_[axis], has_last &= at[axis] > 0;
-      if (has_next) use(node + length);
-      if (has_last) use(node - length);
+      if ((step & has_next) == step) use(node + length);
+      if ((step & has_last) == step) use(node - length);
     }
   }
 

@@ -53,16 +53,11 @@ template <class IsOpen>
 std::vector<char> reached_from_border(const Grid& grid, IsOpen is_open) {
   std::vector<char> reached(grid.node_count());
   Nodes front;
-  const auto is_last = [&](int axis, std::size_t at) { return at == 0 || at + 1 == grid.nodes(axis); };
-  for (std::size_t z = 0; z < grid.nodes(2); ++z)
-    for (std::size_t y = 0; y < grid.nodes(1); ++y) {
-      const std::size_t step = is_last(1, y) || is_last(2, z) ? 1 : grid.nodes(0) - 1;
-      for (std::size_t x = 0; x < grid.nodes(0); x += step)
-        if (const std::size_t n = grid.node(x, y, z); is_open(n)) {
-          reached[n] = 1;
-          front.push_back(static_cast<std::uint32_t>(n));
-        }
-    }
+  grid.along_border([&](std::size_t n) {
+    if (!is_open(n)) return;
+    reached[n] = 1;
+    front.push_back(static_cast<std::uint32_t>(n));
+  });
   for (std::size_t i = 0; i < front.size(); ++i)
     grid.around(front[i], [&](std::size_t n) {
       if (reached[n] || !is_open(n)) return;
@@ -119,26 +114,49 @@ struct Rooms {
   bool hold(std::size_t node) const { return !nodes.empty() && nodes[node]; }
 };
 
-/// Adds the hollows whose doors balls of radius `level` do not pass, but in which larger ones fit.
-void add_rooms(const Grid& grid, const std::vector<float>& far, float level, Rooms& rooms) {
-  constexpr float kLarger = 1.5F;
-  std::vector<char> seen = reached_from_border(grid, [&](std::size_t n) { return far[n] > level; });
-  std::vector<char> is_core(grid.node_count());
-  bool found = false;
-  for (std::size_t seed = 0; seed < grid.node_count(); ++seed) {
-    if (seen[seed] || far[seed] <= kLarger * level || rooms.hold(seed)) continue;
+/// Radii of balls, ascending: so many of them, the first ones, are less than `far`.
+std::size_t count_below(float far, const std::vector<float>& levels) {
+  return std::size_t(std::ranges::lower_bound(levels, far) - levels.begin());
+}
+
+/// Of each node, with how many of the balls it is reached from the border.
+std::vector<std::uint8_t> balls_that_reach(const Grid& grid, const std::vector<float>& far,
+                                           const std::vector<float>& levels) {
+  std::vector<std::uint8_t> reached(grid.node_count());
+  std::vector<Nodes> fronts(levels.size() + 1);
+  const auto visit = [&](std::size_t n, std::size_t balls) {
+    const std::size_t passing = std::min(balls, count_below(far[n], levels));
+    if (reached[n] > 0 || passing == 0) return;  // whoever comes first comes with the largest one
+    reached[n] = std::uint8_t(passing);
+    fronts[passing].push_back(static_cast<std::uint32_t>(n));
+  };
+  grid.along_border([&](std::size_t n) { visit(n, levels.size()); });
+  for (std::size_t balls = levels.size(); balls > 0; --balls)
+    for (std::size_t i = 0; i < fronts[balls].size(); ++i)
+      grid.around(fronts[balls][i], [&](std::size_t n) { visit(n, balls); });
+  return reached;
+}
+
+constexpr float kLargerBall = 1.5F;
+
+/// Adds the hollows whose doors balls of a radius do not pass, but in which larger ones fit.
+void add_rooms(const Grid& grid, const std::vector<float>& far, float level, std::size_t ball,
+               const std::vector<std::uint8_t>& reached, const std::vector<std::size_t>& hollows, Rooms& rooms) {
+  std::vector<char> is_core;
+  for (const std::size_t seed : hollows) {
+    if (reached[seed] > ball || far[seed] <= kLargerBall * level || rooms.hold(seed)) continue;
+    is_core.resize(grid.node_count());
+    if (is_core[seed]) continue;
     Nodes core{static_cast<std::uint32_t>(seed)};
-    seen[seed] = 1;
+    is_core[seed] = 1;
     for (std::size_t i = 0; i < core.size(); ++i)
       grid.around(core[i], [&](std::size_t n) {
-        if (seen[n] || far[n] <= level) return;
-        seen[n] = 1;
+        if (is_core[n] || far[n] <= level) return;
+        is_core[n] = 1;
         core.push_back(static_cast<std::uint32_t>(n));
       });
-    for (const std::uint32_t n : core) is_core[n] = 1;
-    found = true;
   }
-  if (!found) return;
+  if (is_core.empty()) return;
   rooms.nodes.resize(grid.node_count());
   rooms.largest_door = std::max(rooms.largest_door, 2.0 * level);
   const std::vector<float> from_core = distances_from_nodes(grid, is_core);
@@ -157,9 +175,15 @@ Rooms find_rooms(const Grid& grid, const std::vector<float>& far, float seal, Pr
   Rooms rooms;
   const float widest = std::ranges::max(far) / 2;
   constexpr float kStep = 1.3F;
-  for (float level = seal; level < widest; level *= kStep) {
+  std::vector<float> levels;
+  for (float level = seal; level < widest; level *= kStep) levels.push_back(level);
+  const std::vector<std::uint8_t> reached = balls_that_reach(grid, far, levels);
+  std::vector<std::size_t> hollows;  // nodes that balls do not reach in which larger ones fit
+  for (std::size_t n = 0; n < grid.node_count(); ++n)
+    if (reached[n] < levels.size() && far[n] > kLargerBall * levels[reached[n]]) hollows.push_back(n);
+  for (std::size_t ball = 0; ball < levels.size() && !hollows.empty(); ++ball) {
     meter.at(0);
-    add_rooms(grid, far, level, rooms);
+    add_rooms(grid, far, levels[ball], ball, reached, hollows, rooms);
   }
   return rooms;
 }

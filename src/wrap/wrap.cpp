@@ -16,6 +16,7 @@ namespace {
 
 constexpr float kClearance = 0.1F;  ///< how far it is from the points that were tried, at least
 constexpr double kSampling = 0.1;   ///< distance between these points
+constexpr float kRounding = 1e-5F;  ///< of values between nodes, at most
 
 Grid grid_for(const TriangleMesh& triangles, const WrapOptions& options) {
   const double spacing = options.spacing;
@@ -105,11 +106,12 @@ class Samples {
     of_corner(foot, from - foot, third - foot, use);
   }
 
-  template <class Use>
-  void of_all(ProgressMeter& meter, Use use) const {
+  /// Of those triangles that have no box of nodes around them which are all left out.
+  template <class Use, class IsLeftOut>
+  void of_all(ProgressMeter& meter, IsLeftOut is_left_out, Use use) const {
     for (const FaceId f : triangles_.triangles.ids()) {
       if (index(f) % 1024 == 0) meter.at(0.5);
-      of(f, use);
+      if (!are_all_around(f, is_left_out)) of(f, use);
     }
   }
 
@@ -122,6 +124,20 @@ class Samples {
     const Triangle t = triangles_.triangle(f);
     const Vec3 a = grid_.in_spacings(t.a);
     return {a, grid_.in_spacings(t.b) - a, grid_.in_spacings(t.c) - a};
+  }
+
+  template <class IsLeftOut>
+  bool are_all_around(FaceId f, IsLeftOut is_left_out) const {
+    const Triangle t = triangles_.triangle(f);
+    const Box box = box_of(Triangle{grid_.in_spacings(t.a), grid_.in_spacings(t.b), grid_.in_spacings(t.c)});
+    const auto last = [&](int axis) {
+      return std::min(std::size_t(box.max[axis]) + 1, grid_.nodes(std::size_t(axis)) - 1);
+    };
+    for (auto z = std::size_t(box.min.z); z <= last(2); ++z)
+      for (auto y = std::size_t(box.min.y); y <= last(1); ++y)
+        for (auto x = std::size_t(box.min.x); x <= last(0); ++x)
+          if (!is_left_out(grid_.node(x, y, z))) return false;
+    return true;
   }
 
   static int steps(const Vec3& side) { return 1 + int(norm(side) / kSampling); }
@@ -178,10 +194,12 @@ Wrap wrap(const TriangleMesh& triangles, const WrapOptions& options) {
                               meter);
   // The values are linear between the nodes, distances are not: where it matters, as along edges, they are lowered.
   std::vector<float>& values = inside.signed_distances;
+  const float most = offset - kClearance;
+  const auto is_low = [&](std::size_t n) { return values[n] <= most - kRounding; };
   for (const TriangleMesh* mesh : {&triangles, &std::as_const(inside.doors)})
-    Samples(grid, *mesh).of_all(meter, [&](const Vec3& p) {
+    Samples(grid, *mesh).of_all(meter, is_low, [&](const Vec3& p) {
       const InTetrahedron at(grid, p);
-      const float excess = at.value(values) - (offset - kClearance);
+      const float excess = at.value(values) - most;
       if (excess > 0)
         for (const std::size_t n : at.nodes) values[n] -= excess;
     });
@@ -206,9 +224,11 @@ TriangleMesh inner_wrap(const TriangleMesh& triangles, const WrapOptions& option
   if (boundary.face_count() == 0) return {};
   Inside inside = find_inside(grid, boundary, {}, meter);
   std::vector<float>& values = inside.signed_distances;
-  Samples(grid, boundary).of_all(meter, [&](const Vec3& p) {
+  const float least = kClearance - offset;
+  const auto is_high = [&](std::size_t n) { return values[n] >= least + kRounding; };
+  Samples(grid, boundary).of_all(meter, is_high, [&](const Vec3& p) {
     const InTetrahedron at(grid, p);
-    const float missing = (kClearance - offset) - at.value(values);
+    const float missing = least - at.value(values);
     if (missing > 0)
       for (const std::size_t n : at.nodes) values[n] += missing;
   });
