@@ -32,6 +32,14 @@ bool is_certainly_beyond(const Triangle& plane, const Triangle& t, double distan
   return std::max(std::min({a, b, c}), -std::max({a, b, c})) >= kLittleMore * distance * length;
 }
 
+/// The same, along an axis, from one to the other.
+bool is_certainly_beyond(const Vec3& axis, const Triangle& s, const Triangle& t, double distance) {
+  constexpr double kLittleMore = 1 + 1e-9;
+  const auto along = [&](const Vec3& p) { return dot(axis, p - s.a); };
+  return std::min({along(t.a), along(t.b), along(t.c)}) - std::max({0.0, along(s.b), along(s.c)}) >=
+         kLittleMore * distance * norm(axis);
+}
+
 /// A point in the inside of the tetrahedron, if rounding leaves one there.
 std::optional<Vec3> point_inside(const Tetrahedron& t) {
   const Vec3 center = t.a * 0.25 + t.b * 0.25 + t.c * 0.25 + t.d * 0.25;
@@ -69,25 +77,37 @@ Original Original::padded_triangles(const TriangleMesh& mesh, double padding, un
   return original;
 }
 
+// What lies side by side is beyond the same axis.
 bool Original::keeps_padding(const Triangle& face) const {
   if (padding_ == 0) return true;
   bool keeps = true;
+  Vec3 axis;
   sieve_.visit(sieve_.around(face, padding_), [&](FaceId f) {
     const Triangle t = mesh().triangle(f);
-    return keeps = is_certainly_beyond(face, t, padding_) || triangle_distance(face, t).lower >= padding_;
+    if (is_certainly_beyond(face, t, padding_) || (axis != Vec3{} && is_certainly_beyond(axis, face, t, padding_)))
+      return true;
+    const TriangleDistance found = triangle_distance(face, t);
+    axis = found.t - found.s;
+    return keeps = found.lower >= padding_;
   });
   return keeps;
 }
 
+// Of those that are as near but for a thousandth of the padding, any.
 std::optional<Original::Near> Original::nearest_within_padding(const Triangle& face) const {
+  constexpr double kAsNear = 1e-6;
   std::optional<Near> nearest;
   double least = padding_;
+  Vec3 axis;
   sieve_.visit(sieve_.around(face, padding_), [&](FaceId f) {
     const Triangle t = mesh().triangle(f);
-    if (is_certainly_beyond(face, t, least)) return true;
+    const double nearer = nearest ? least - kAsNear * padding_ : padding_;
+    if (is_certainly_beyond(face, t, nearer) || (axis != Vec3{} && is_certainly_beyond(axis, face, t, nearer)))
+      return true;
     const TriangleDistance found = triangle_distance(face, t);
+    axis = found.t - found.s;
     if (found.lower < least) least = found.lower, nearest = Near{found.t, found.s - found.t, found.lower};
-    return true;
+    return least > kAsNear * padding_;
   });
   return nearest;
 }
