@@ -92,6 +92,19 @@ double Candidates::spacing_for(const WrapKind& kind) const {
                    request_.aim() / (kMostPadding - kind.offset)});
 }
 
+// The faces of a wrap go with the square of its spacing. Hulls of wraps with so many are no better, and take most of
+// the time: of soups, wraps had 700 and 900 times as many faces as asked for. But sheets get as thin as the spacing.
+double Candidates::finest_worth_its_faces(const Solids& solids) const {
+  constexpr double kMany = 400'000, kMostReduced = 200;
+  double finest = 0;
+  if (!(solids.volume() > 0)) return finest;
+  const double most = std::max(kMany, kMostReduced * double(target_faces_));
+  for (SolidId id = 0; id < solids.size(); ++id)
+    if (const Solid& solid = solids[id]; solid.source == Source::Wrap)
+      finest = std::max(finest, solid.wrap_spacing * std::sqrt(double(solid.mesh.face_count()) / most));
+  return finest;
+}
+
 std::optional<SolidId> Candidates::wrap(const WrapKind& kind, double spacing, Solids& solids) const {
   std::string why_not;
   const std::optional<SolidId> id = solids.wrap(kind, spacing, why_not);
@@ -100,7 +113,7 @@ std::optional<SolidId> Candidates::wrap(const WrapKind& kind, double spacing, So
 }
 
 std::optional<Candidate> Candidates::of_wrap(const WrapKind& kind, Solids& solids) const {
-  const std::optional<SolidId> id = wrap(kind, spacing_for(kind), solids);
+  const std::optional<SolidId> id = wrap(kind, std::max(spacing_for(kind), finest_worth_its_faces(solids)), solids);
   return id ? std::optional(of(*id, solids)) : std::nullopt;
 }
 
@@ -137,6 +150,9 @@ bool Candidates::is_worth_a_wrap(const Ranking& ranking, const Solids& solids, b
   if (ranking.is_empty()) return true;
   const EnclosingHull& best = ranking.best().hull;
   if (!best.certified || !best.target_reached || !best.within_bounds) return true;
+  // No wrap of what is flat and convex comes nearer.
+  if (const Solid& solid = solids[best.solid]; solid.slab_width > 0 && ranking.best_volume() <= 2 * solid.volume)
+    return false;
   if (request_.options.levels || (request_.options.keep_cavities && best.source == Source::Mesh)) return false;
   if (solids.volume() == 0) return true;
   constexpr double kLittleVoid = 0.03, kMuchVoid = 0.12, kVeryMuchVoid = 0.3;

@@ -34,6 +34,7 @@ class Candidates {
   std::optional<SolidId> wrap(const WrapKind& kind, double spacing, Solids& solids) const;
   std::optional<Candidate> of_wrap(const WrapKind& kind, Solids& solids) const;
   double spacing_for(const WrapKind& kind) const;
+  double finest_worth_its_faces(const Solids& solids) const;
   Candidate of(SolidId id, const Solids& solids) const;
   Candidate moved(SolidId id) const;
 

@@ -138,6 +138,8 @@ EnclosingHull Ranking::winner(std::size_t target_faces) {
   if (solid.folds.faces > 0)
     notes_.add(describe(solid.folds) +
                ": the hull is built from the mesh with other faces around them, which cover them");
+  if (solid.slab_width > 0)
+    notes_.add(fmt::format("the triangles are flat: the hull is a slab around them, {:.4g} wide", solid.slab_width));
   if (solid.largest_door > 0)
     notes_.add(
         fmt::format("the mesh is not closed: openings up to about {:.4g} across count as closed", solid.largest_door));

@@ -30,7 +30,8 @@ class Solids {
   bool has_wrap() const { return has_wrap_; }
   /// The mesh, with its folds covered (folds.h). None if that does not help.
   std::optional<SolidId> unfolded();
-  /// None if all lies in a plane, or if its padded volume is known to be `too_large` before it is made.
+  /// A slab around what is flat, if it is convex. None around other flat input, or if its padded volume is known to be
+  /// `too_large` before it is made.
   std::optional<SolidId> convex_hull(std::optional<double> too_large);
   /// None if nothing is thick enough, or `why_not` says why.
   std::optional<SolidId> wrap(const WrapKind& kind, double spacing, std::string& why_not);
@@ -60,6 +61,7 @@ class Solids {
   SolidId add(Solid solid);
   std::size_t self_intersections_of(const TriangleMesh& mesh);
   double volume_without_overlaps();
+  std::optional<Solid> slab() const;
   TriangleMesh padded_convex_solid(TriangleMesh convex) const;
 
   const Request& request_;

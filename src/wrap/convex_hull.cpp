@@ -176,6 +176,15 @@ TriangleMesh convex_hull_of_sums(const TriangleMesh& mesh, const std::vector<Vec
 
 TriangleMesh convex_hull(const TriangleMesh& mesh) { return Quickhull(mesh).run(); }
 
+TriangleMesh slab_around(const TriangleMesh& mesh, double distance) {
+  std::vector<Vec3> corners;
+  for (const double x : {-1., 1.})
+    for (const double y : {-1., 1.})
+      for (const double z : {-1., 1.}) corners.push_back({x, y, z});
+  const TriangleMesh convex = convex_hull(mesh);
+  return convex_hull_of_sums(convex.face_count() > 0 ? convex : mesh, corners, distance);
+}
+
 TriangleMesh padded_convex_hull(const TriangleMesh& mesh, double distance) {
   constexpr int kCorners = 96, kFewCorners = 6;
   constexpr double kThin = 0.01;  // in distances: thickness given to what is flat

@@ -200,6 +200,29 @@ TEST(EnclosingHull, OfALeafIsASheetAroundIt) {
   EXPECT_LT(signed_volume(hull.mesh), 0.2);
 }
 
+TEST(EnclosingHull, OfWhatIsFlatAndConvexIsASlab) {
+  const TriangleMesh square = make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  const TriangleMesh nearly_flat =
+      make({{0.1, 0.2, 0.3}, {1.1, 0.3, 0.7}, {1.5, 1.3, 0.4}, {0.5, 1.2, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  const TriangleMesh on_a_line = make({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}}, {{0, 1, 2}});
+  for (const TriangleMesh& flat : {square, nearly_flat, on_a_line}) {
+    const EnclosingHulls made = hull_of(flat, 500);
+    const EnclosingHull hull = only(made);
+    EXPECT_TRUE(hull.certified);
+    ASSERT_EQ(made.solids.size(), 1u) << "no wrap is needed";
+    EXPECT_GT(made.solids[0].slab_width, 0);
+    EXPECT_LT(distance_bounds(hull.mesh, flat).upper, 1e-3 * bounding_box(flat).diagonal());
+  }
+}
+
+TEST(EnclosingHull, OfWhatIsFlatAndNotConvexFollowsIt) {
+  const TriangleMesh corner = make({{0, 0, 0}, {1, 0, 0}, {0.1, 0.1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  const EnclosingHull hull = hull_of(corner, 200).hulls[0];
+  EXPECT_TRUE(hull.certified);
+  EXPECT_EQ(hull.source, Source::Wrap);
+  EXPECT_LT(distance_bounds(hull.mesh, corner).upper, 0.2);
+}
+
 /// The sides of a box of side 2, each a sheet of its own, 0.1 away from the others, and with a gap of 0.4 in the last.
 TriangleMesh panels() {
   const auto panel = [](double from_u, double to_u, int axis, double at) {
@@ -391,8 +414,8 @@ TEST(EnclosingHull, OfASoupKeepsACloseBound) {
   }
 }
 
-TEST(EnclosingHull, OfOneTriangleTakesNoWrapOfManyMillionNodes) {
-  const TriangleMesh blade = make({{0, 0, 0}, {1, 1, 1}, {1, 1, 0.8}}, {{0, 1, 2}});
+TEST(EnclosingHull, OfABladeTakesNoWrapOfManyMillionNodes) {
+  const TriangleMesh blade = make({{0, 0, 0}, {1, 1, 1}, {0.6, 0.6, 0.55}, {1, 1, 0.8}}, {{0, 1, 2}, {0, 2, 3}});
   const std::size_t faces[]{20};
   const EnclosingHulls made =
       enclosing_hulls(blade, faces, {.bounds = {.max_distance = 0.0045}, .repair = Repair::Wrap});

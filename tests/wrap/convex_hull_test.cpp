@@ -130,6 +130,15 @@ TEST(ConvexHull, OfRandomLatticePointsIsExact) {
   }
 }
 
+TEST(ConvexHull, SlabsReachOutAlongAllAxes) {
+  const TriangleMesh triangle = meshes::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const TriangleMesh slab = slab_around(triangle, 0.25);
+  EXPECT_TRUE(inspect(slab).is_closed_manifold());
+  EXPECT_EQ(bounding_box(slab).min, (Vec3{-0.25, -0.25, -0.25}));
+  EXPECT_EQ(bounding_box(slab).max, (Vec3{1.25, 1.25, 0.25}));
+  EXPECT_TRUE(verify_cover(triangle, slab).encloses);
+}
+
 TEST(ConvexHull, WithPaddingKeepsTheDistance) {
   const TriangleMesh flat = make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   for (const TriangleMesh& mesh : {flat, octahedron(), sphere(2)})
