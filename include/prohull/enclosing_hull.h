@@ -105,6 +105,7 @@ struct Solid {
   double slab_width = 0;    ///< given to the convex hull of what is flat (slab_around), in the input's unit
   TriangleMesh doors = {};  ///< of a wrap: faces across what it closed, which a hull has to cover as well
   double largest_door = 0;  ///< as in Wrap
+  std::size_t components = 0;  ///< parts that no hull of it joins, of at least four faces each
   double volume = 0;
   std::size_t self_intersections = 0;  ///< pairs of faces that intersect
   Folds folds = {};  ///< of the repaired input, if `mesh` is that, changed around its folds so that it covers them

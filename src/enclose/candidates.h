@@ -32,7 +32,9 @@ class Candidates {
   std::optional<Candidate> follow_up(const Ranking& ranking, const Solids& solids) const;
   bool is_worth_a_wrap(const Ranking& ranking, const Solids& solids, bool is_first) const;
   std::optional<SolidId> wrap(const WrapKind& kind, double spacing, Solids& solids) const;
-  std::optional<Candidate> of_wrap(const WrapKind& kind, Solids& solids) const;
+  std::optional<Candidate> of_wrap(const WrapKind& kind, const Ranking& ranking, Solids& solids) const;
+  bool has_too_many_parts(const Solid& solid) const;
+  bool is_worth_the_mesh(const Solids& solids) const;
   double spacing_for(const WrapKind& kind) const;
   double finest_worth_its_faces(const Solids& solids) const;
   Candidate of(SolidId id, const Solids& solids) const;

@@ -45,7 +45,9 @@ Solids::Solids(const Request& request)
   const Stopwatch watch;
   const auto& closed = request.input.closed;
   if (closed && options.repair != Repair::Wrap) {
-    const std::size_t pairs = entries_[add({.source = Source::Mesh, .mesh = closed->mesh})].solid.self_intersections;
+    const std::size_t pairs =
+        entries_[add({.source = Source::Mesh, .mesh = closed->mesh, .components = closed->report.components})]
+            .solid.self_intersections;
     volume_ = closed->report.volume;
     constexpr std::size_t kMostPairs = 10'000;
     if (!request.is_outer() && pairs > kMostPairs)
@@ -155,11 +157,13 @@ std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::s
     for (Vec3& p : made.mesh.positions) p = nearest_float32(p);
   std::optional<SolidId> id;
   if (request_.is_outer() || !request_.is_padded() || made.mesh.face_count() > 0) try {
+      ClosedMesh wrapped = closed_mesh(std::move(made.mesh));
       id = add({.source = Source::Wrap,
-                .mesh = closed_mesh(std::move(made.mesh)).mesh,
+                .mesh = std::move(wrapped.mesh),
                 .wrap_spacing = spacing,
                 .doors = std::move(made.doors),
-                .largest_door = made.largest_door});
+                .largest_door = made.largest_door,
+                .components = wrapped.report.components});
       if (request_.is_outer() && !is_closed && !has_wrap_) volume_ = made.inside_volume;
       has_wrap_ = true;
     } catch (const InputError& error) {

@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+
+#include "enclose/candidates.h"
+
+namespace prohull {
+namespace {
+
+// Handles and gaps take faces, so that hulls swell that have few: the second wraps have less of them. Of sheets, the
+// later ones are smooth.
+constexpr WrapKind kWrapsOfSolids[]{{3.5, 0.3, 1.5}, {6, 0.9, 4}, {3.5, 0.3, 8}};
+constexpr WrapKind kWrapsOfSoups[]{{3.5, 0.3, 1.5}, {6, 0.9, 4}};
+// A padding closes gaps too, and asks for a finer grid.
+constexpr WrapKind kPaddedWraps[]{{6, 0.3, 1.5}, {3.5, 0.3, 0}};
+constexpr WrapKind kWrapsOfSheets[]{{3.5, 0.3, 1.5}, {7, 0.9, 4}, {9, 0.5, 4}};
+constexpr WrapKind kWrapInside{3.5, 0.3, 0};
+
+constexpr std::size_t kMostWraps = 3;
+
+// The first ones are the same: they tell whether the triangles enclose anything.
+std::span<const WrapKind> wraps(const Request& request, const Solids& solids) {
+  if (request.is_padded()) return kPaddedWraps;
+  if (request.input.closed) return kWrapsOfSolids;
+  return solids.volume() > 0 ? std::span<const WrapKind>(kWrapsOfSoups) : kWrapsOfSheets;
+}
+
+}  // namespace
+
+double Candidates::spacing_for(const WrapKind& kind) const {
+  constexpr double kFewest = 25, kMost = 256;
+  constexpr double kMostPadding = 2.6;  // in spacings, with the offset
+  const double per_diagonal = std::clamp(kind.nodes_per_edge * std::sqrt(double(target_faces_)), kFewest, kMost);
+  return std::max({request_.diagonal / per_diagonal, request_.options.seal_holes / 32,
+                   request_.aim() / (kMostPadding - kind.offset)});
+}
+
+// The faces of a wrap go with the square of its spacing. Hulls of wraps with so many are no better, and take most of
+// the time: of soups, wraps had 700 and 900 times as many faces as asked for. But sheets get as thin as the spacing.
+double Candidates::finest_worth_its_faces(const Solids& solids) const {
+  constexpr double kMany = 400'000, kMostReduced = 200;
+  double finest = 0;
+  if (!(solids.volume() > 0)) return finest;
+  const double most = std::max(kMany, kMostReduced * double(target_faces_));
+  for (SolidId id = 0; id < solids.size(); ++id)
+    if (const Solid& solid = solids[id]; solid.source == Source::Wrap)
+      finest = std::max(finest, solid.wrap_spacing * std::sqrt(double(solid.mesh.face_count()) / most));
+  return finest;
+}
+
+std::optional<SolidId> Candidates::wrap(const WrapKind& kind, double spacing, Solids& solids) const {
+  std::string why_not;
+  const std::optional<SolidId> id = solids.wrap(kind, spacing, why_not);
+  if (!why_not.empty()) notes_.add(why_not);
+  return id;
+}
+
+std::optional<Candidate> Candidates::of_wrap(const WrapKind& kind, const Ranking& ranking, Solids& solids) const {
+  const std::optional<SolidId> id = wrap(kind, std::max(spacing_for(kind), finest_worth_its_faces(solids)), solids);
+  if (!id || (ranking.has_certified() && has_too_many_parts(solids[*id]))) return std::nullopt;
+  return of(*id, solids);
+}
+
+bool Candidates::is_worth_a_wrap(const Ranking& ranking, const Solids& solids, bool is_first) const {
+  if (ranking.is_empty()) return true;
+  const EnclosingHull& best = ranking.best().hull;
+  if (!best.certified || !best.target_reached || !best.within_bounds) return true;
+  // No wrap of what is flat and convex comes nearer.
+  if (const Solid& solid = solids[best.solid]; solid.slab_width > 0 && ranking.best_volume() <= 2 * solid.volume)
+    return false;
+  if (request_.options.levels || (request_.options.keep_cavities && best.source == Source::Mesh)) return false;
+  if (solids.volume() == 0) return true;
+  constexpr double kLittleVoid = 0.03, kMuchVoid = 0.12, kVeryMuchVoid = 0.3;
+  if (best.source == Source::Mesh && ranking.is_clean()) return ranking.slack() > kVeryMuchVoid;
+  return ranking.slack() > (is_first ? kLittleVoid : kMuchVoid);
+}
+
+void Candidates::plan_wraps() {
+  for (std::size_t i = 0; i < kMostWraps; ++i)
+    steps_.push_back([this, i](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+      const auto kinds = wraps(request_, solids);
+      if (i >= kinds.size() || !is_worth_a_wrap(ranking, solids, i == 0)) return std::nullopt;
+      return of_wrap(kinds[i], ranking, solids);
+    });
+}
+
+void Candidates::plan_inner_with_padding() {
+  for (const WrapKind& kind : kPaddedWraps)
+    steps_.push_back([this, kind](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+      constexpr double kMostLost = 0.06;  // of a wrap, where it has too many handles for so few faces
+      const SolidId id = ranking.best().hull.solid;
+      if (solids[id].source == Source::Wrap && ranking.is_as_asked() &&
+          ranking.best_volume() > (1 - kMostLost) * solids[id].volume)
+        return std::nullopt;
+      return of_wrap(kind, ranking, solids);
+    });
+}
+
+void Candidates::plan_inner() {
+  constexpr double kLittleVoid = 0.1, kMuchVoid = 0.15;
+  steps_.push_back([this](const Ranking& ranking, Solids&) -> std::optional<Candidate> {
+    if (ranking.is_as_asked() && ranking.best_void() >= -kLittleVoid) return std::nullopt;
+    return moved(0);
+  });
+  steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+    if (ranking.has_certified() && ranking.best_void() >= -kMuchVoid) return std::nullopt;
+    const auto id = wrap(kWrapInside, spacing_for(kWrapInside), solids);
+    return id ? std::optional(moved(*id)) : std::nullopt;
+  });
+}
+
+}  // namespace prohull
