@@ -122,7 +122,7 @@ void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::s
                        fmt::format("{}: vertex {} is ({}, {}, {}); {}", name, index(v), p.x, p.y, p.z, why));
     };
     if (!is_finite(p)) refuse("coordinates must be finite");
-    if (stores_float32(format) && !(is_float32(p.x) && is_float32(p.y) && is_float32(p.z)))
+    if (stores_float32(format) && !float32_stores(p))
       refuse(fmt::format(
           "{} stores float32 and would change it; round the mesh to float32 first, or write PLY, OBJ or OFF",
           traits(format).name));

@@ -24,8 +24,7 @@ void append_line(std::string& out, const Vec3& p) {
 }
 
 bool all_float32(const TriangleMesh& mesh) {
-  return std::all_of(mesh.positions.begin(), mesh.positions.end(),
-                     [](const Vec3& p) { return is_float32(p.x) && is_float32(p.y) && is_float32(p.z); });
+  return std::all_of(mesh.positions.begin(), mesh.positions.end(), float32_stores);
 }
 
 template <class Real>
@@ -151,8 +150,9 @@ void append_obj(std::string& out, const TriangleMesh& mesh, std::uint64_t vertic
 
 }  // namespace
 
-bool is_float32(double value) {
-  return std::abs(value) <= std::numeric_limits<float>::max() && nearest_float32(value) == value;
+bool float32_stores(const Vec3& p) {
+  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return largest <= std::numeric_limits<float>::max() && is_float32(p);
 }
 
 std::string ply_content(const TriangleMesh& mesh) {

@@ -27,7 +27,7 @@ std::string glb_content(std::span<const TriangleMesh> meshes, std::span<const st
 /// At most that many bytes.
 std::uint64_t glb_size(std::span<const TriangleMesh> meshes, std::span<const std::string> names);
 
-/// Whether float32 stores the value without changing it (for -0.0, denormals and all others).
-bool is_float32(double value);
+/// Whether float32 stores p without changing it (-0.0, denormals and all others).
+bool float32_stores(const Vec3& p);
 
 }  // namespace prohull
