@@ -7,10 +7,10 @@ namespace {
 
 class BvhWorker final : public QueryWorker {
  public:
-  explicit BvhWorker(const WideBvh& tree) : tree_(tree), trace_(wide_traces().back().trace) {}
+  explicit BvhWorker(const WideBvh& tree) : tree_(tree), trace_(wide_traces().back()) {}
 
   void collect(const DirectedLine& line, HitCollector& hits) override {
-    if (!tree_.is_empty()) trace_(tree_, line, hits);
+    if (!tree_.is_empty()) trace_.trace(tree_, line, hits);
   }
 
   void all_hits(const TriangleMesh& mesh, const DirectedLine& line, std::vector<Hit>& hits) override {
@@ -32,15 +32,13 @@ class BvhWorker final : public QueryWorker {
   }
 
   void collect(ClosestCollector& closest) override {
-    tree_.visit_nearest(
-        closest.point(), [&] { return closest.limit(); },
-        [&](FaceId face, const Triangle& triangle) { closest.offer(face, triangle); });
+    if (!tree_.is_empty()) trace_.trace_nearest(tree_, closest);
   }
 
  private:
   const WideBvh& tree_;
   HitCollector::Storage scratch_;
-  void (*trace_)(const WideBvh&, const DirectedLine&, HitCollector&);
+  const WideTrace& trace_;
 };
 
 class BvhEngine final : public QueryEngine {

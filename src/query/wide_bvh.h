@@ -70,11 +70,6 @@ class WideBvh {
   template <class Visit>
   void visit(const Box& box, Visit visit) const;
 
-  /// visit(face, triangle) for every face of which the box may be as near to p as limit(), those of nearer boxes first.
-  /// limit() may shrink meanwhile.
-  template <class Limit, class Visit>
-  void visit_nearest(const Vec3& p, Limit limit, Visit visit) const;
-
   /// A point of the mesh's space in the frame, but for rounding.
   Vec3 in_frame(const Vec3& p) const { return (p - center_) * scale_; }
   double scale() const { return scale_; }
@@ -119,53 +114,6 @@ void WideBvh::visit(const Box& box, Visit visit) const {
                        (n.plane[4] >= low[1]) & (n.plane[2] <= high[2]) & (n.plane[5] >= low[2]);
     for (std::uint32_t i = 0; i < kWidth; ++i)
       if (met[i] && n.child[i] != kNoChild) stack[size++] = n.child[i];
-  }
-}
-
-// In the frame q = (p - center) scale is off by at most 2 eps of each of its coordinates, eps = 2^-53. Distances to
-// boxes are rounded by a relative 4 eps, which the limit makes up for, with 2^-500 for squares that underflow.
-template <class Limit, class Visit>
-void WideBvh::visit_nearest(const Vec3& p, Limit limit, Visit visit) const {
-  if (is_empty()) return;
-  struct Near {
-    double squared_distance;
-    std::uint32_t child;
-  };
-  using Lanes = double __attribute__((vector_size(kWidth * sizeof(double))));
-  using line_filter::kEpsilon;
-  const Vec3 q = (p - center_) * scale_;
-  const double slack = 4 * kEpsilon * (std::abs(q.x) + std::abs(q.y) + std::abs(q.z)) + 0x1p-500;
-  Near stack[kStackSize];
-  int size = 0;
-  stack[size++] = {0, kRoot};
-  while (size > 0) {
-    const Near entry = stack[--size];
-    const double reach = limit() * scale_ * (1 + 16 * kEpsilon) + slack, squared_reach = reach * reach;
-    if (entry.squared_distance > squared_reach) continue;
-    if (is_leaf(entry.child)) {
-      const Leaf& l = leaf(entry.child);
-      for (std::uint32_t i = 0; i < faces_of(entry.child); ++i)
-        visit(FaceId{l.face[i]}, triangle(l, static_cast<int>(i)));
-      continue;
-    }
-    const Node& node = nodes_[entry.child];
-    Lanes squared_distance{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const Lanes below = __builtin_convertvector(node.plane[axis], Lanes) - q[axis];
-      const Lanes above = q[axis] - __builtin_convertvector(node.plane[axis + 3], Lanes);
-      Lanes gap = below > above ? below : above;
-      gap = gap > 0 ? gap : Lanes{};
-      squared_distance += gap * gap;
-    }
-    const int first = size;
-    for (std::uint32_t i = 0; i < kWidth; ++i) {
-      if (node.child[i] == kNoChild || squared_distance[i] > squared_reach) continue;
-      const Near child{squared_distance[i], node.child[i]};
-      int place = size++;
-      for (; place > first && stack[place - 1].squared_distance < child.squared_distance; --place)
-        stack[place] = stack[place - 1];
-      stack[place] = child;
-    }
   }
 }
 

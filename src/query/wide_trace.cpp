@@ -44,10 +44,11 @@ TARGET inline __attribute__((always_inline)) unsigned mask_of(const Truth8& lane
 
 std::span<const WideTrace> wide_traces() {
 #if defined(__x86_64__)
-  static constexpr std::array<WideTrace, 2> kTraces{{{"baseline", baseline::trace}, {"avx2", avx2::trace}}};
+  static constexpr std::array<WideTrace, 2> kTraces{
+      {{"baseline", baseline::trace, baseline::trace_nearest}, {"avx2", avx2::trace, avx2::trace_nearest}}};
   static const std::size_t count = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") ? 2 : 1;
 #else
-  static constexpr std::array<WideTrace, 1> kTraces{{{"baseline", baseline::trace}}};
+  static constexpr std::array<WideTrace, 1> kTraces{{{"baseline", baseline::trace, baseline::trace_nearest}}};
   constexpr std::size_t count = 1;
 #endif
   return std::span(kTraces).first(count);

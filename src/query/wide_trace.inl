@@ -1,4 +1,4 @@
-// The way of a line through a WideBvh, for one instruction set: included by wide_trace.cpp with TARGET as the attribute
+// The ways of a line and of a point through a WideBvh, for one instruction set: included by wide_trace.cpp with TARGET as the attribute
 // that allows it and mask_of as the signs of eight lanes. Lanes compute what scalars would: all instruction sets visit
 // the same faces in the same order.
 
@@ -117,5 +117,82 @@ TARGET void trace(const WideBvh& tree, const DirectedLine& directed, HitCollecto
       if (size == 0) return;
       child = stack[--size].child;
     } while (stack[size].from > end);
+  }
+}
+
+/// Offers the faces of a leaf of which the box may be as near to q as the limit. q is a point in the frame, off by at
+/// most `slack`.
+// In quanta, a corner is off by kCornerError < 1/2 + 2^-7, q by slack per_quantum, and its rounding and that of the
+// difference, which is at most 65536 + |q|, by 2^-24 of these each. What is beyond one quantum is left for `slack`.
+TARGET void offer_near_faces(const WideBvh& tree, std::uint32_t child, const Vec3& q, double slack, ClosestCollector& closest) {
+  const WideBvh::Leaf& leaf = tree.leaf(child);
+  tree.prefetch_corners(leaf);
+  Float8 squared_distance{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<float>((q[axis] - leaf.low[static_cast<std::size_t>(axis)]) * leaf.per_quantum);
+    const float error = 1 + 0x1p-22f * std::abs(at) + static_cast<float>(slack * leaf.per_quantum);
+    const Float8 a = __builtin_convertvector(leaf.corner[0][axis], Float8),
+                 b = __builtin_convertvector(leaf.corner[1][axis], Float8),
+                 c = __builtin_convertvector(leaf.corner[2][axis], Float8);
+    const Float8 ab_least = a < b ? a : b, ab_most = a < b ? b : a;
+    const Float8 below = (ab_least < c ? ab_least : c) - at, above = at - (ab_most > c ? ab_most : c);
+    Float8 gap = (below > above ? below : above) - error;
+    gap = gap > 0 ? gap : Float8{};
+    squared_distance += gap * gap;
+  }
+  const double per_unit = tree.scale() * leaf.per_quantum * (1 + 0x1p-20);
+  const unsigned all = (2u << (WideBvh::faces_of(child) - 1)) - 1;
+  double limit = -1;
+  unsigned left = all;
+  for (int lane = 0; (left >> lane) != 0; ++lane) {
+    if (closest.limit() != limit) {
+      limit = closest.limit();
+      const auto squared_limit = static_cast<float>(limit * per_unit * (limit * per_unit)) + 1e-30f;
+      left &= all & ~mask_of(squared_distance > squared_limit);
+    }
+    if ((left >> lane & 1) != 0) closest.offer(FaceId{leaf.face[lane]}, tree.triangle(leaf, lane));
+  }
+}
+
+// In the frame q = (p - center) scale is off by at most 2 eps of each of its coordinates, eps = 2^-53. Distances to
+// boxes are rounded by a relative 4 eps, which the limit makes up for, with 2^-500 for squares that underflow.
+TARGET void trace_nearest(const WideBvh& tree, ClosestCollector& closest) {
+  struct Near {
+    double squared_distance;
+    std::uint32_t child;
+  };
+  using Lanes = double __attribute__((vector_size(WideBvh::kWidth * sizeof(double))));
+  using line_filter::kEpsilon;
+  const Vec3 q = tree.in_frame(closest.point());
+  const double slack = 4 * kEpsilon * (std::abs(q.x) + std::abs(q.y) + std::abs(q.z)) + 0x1p-500;
+  Near stack[WideBvh::kStackSize];
+  int size = 0;
+  stack[size++] = {0, WideBvh::kRoot};
+  while (size > 0) {
+    const Near entry = stack[--size];
+    const double reach = closest.limit() * tree.scale() * (1 + 16 * kEpsilon) + slack, squared_reach = reach * reach;
+    if (entry.squared_distance > squared_reach) continue;
+    if (WideBvh::is_leaf(entry.child)) {
+      offer_near_faces(tree, entry.child, q, slack, closest);
+      continue;
+    }
+    const WideBvh::Node& node = tree.node(entry.child);
+    Lanes squared_distance{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const Lanes below = __builtin_convertvector(node.plane[axis], Lanes) - q[axis];
+      const Lanes above = q[axis] - __builtin_convertvector(node.plane[axis + 3], Lanes);
+      Lanes gap = below > above ? below : above;
+      gap = gap > 0 ? gap : Lanes{};
+      squared_distance += gap * gap;
+    }
+    const int first = size;
+    for (std::uint32_t i = 0; i < WideBvh::kWidth; ++i) {
+      if (node.child[i] == WideBvh::kNoChild || squared_distance[i] > squared_reach) continue;
+      const Near child{squared_distance[i], node.child[i]};
+      int place = size++;
+      for (; place > first && stack[place - 1].squared_distance < child.squared_distance; --place)
+        stack[place] = stack[place - 1];
+      stack[place] = child;
+    }
   }
 }

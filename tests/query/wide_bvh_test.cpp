@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <random>
 
 #include "effort.h"
@@ -60,6 +62,39 @@ void expect_hits_of_brute_force(const TriangleMesh& mesh, const std::vector<Segm
       ASSERT_EQ(answers_by(by, tree, mesh, DirectedLine(s)), truth) << by.instructions;
   }
   EXPECT_GT(hits, segments.size() / 10);
+}
+
+/// Also of points whose closest face is known within a quantum of the leaf, and of points far away.
+void expect_closest_of_brute_force(const TriangleMesh& mesh, const std::vector<Segment>& segments) {
+  const WideBvh tree(mesh);
+  MeshQuery brute{QueryIndex(mesh, Engine::Brute)};
+  const Box box = bounding_box(mesh);
+  for (const Segment& s : segments)
+    for (const Vec3& p : {s.a, s.b, s.a * 0.5 + s.b * 0.5, s.b + (s.b - s.a) * 1e8}) {
+      const auto truth = brute.closest_point(p);
+      std::optional<double> lower;
+      for (const WideTrace& by : wide_traces()) {
+        ClosestCollector closest(mesh, box, p, std::numeric_limits<double>::infinity());
+        by.trace_nearest(tree, closest);
+        const auto best = closest.best();
+        ASSERT_TRUE(best) << by.instructions;
+        ASSERT_EQ(best->face, truth->face) << by.instructions;
+        ASSERT_EQ(best->position, truth->position) << by.instructions;
+        ASSERT_EQ(best->upper, truth->upper) << by.instructions;
+        ASSERT_EQ(best->lower, lower.value_or(best->lower)) << by.instructions;
+        lower = best->lower;
+      }
+    }
+}
+
+TEST(WideTrace, FindsTheClosestFaceWithEveryInstructionSet) {
+  for (const double size : {0x1p-300, 1.0, 0x1p300})
+    for (const TriangleMesh& mesh : {octahedron(), torus(24, 16), soup(sphere(2))})
+      expect_closest_of_brute_force(scaled(mesh, size), awkward_segments(scaled(mesh, size), rounds(50), test_seed()));
+  for (const double size : {1e-6, 1e-9, 1e-12}) {
+    const TriangleMesh speck = moved(scaled(sphere(2), size), {0.7, -0.9, 0.8});
+    expect_closest_of_brute_force(together(octahedron(), speck), awkward_segments(speck, rounds(50), test_seed()));
+  }
 }
 
 TEST(WideTrace, IsTheSameWithEveryInstructionSet) {
