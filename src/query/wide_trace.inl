@@ -186,8 +186,10 @@ TARGET void trace_nearest(const WideBvh& tree, ClosestCollector& closest) {
       squared_distance += gap * gap;
     }
     const int first = size;
-    for (std::uint32_t i = 0; i < WideBvh::kWidth; ++i) {
-      if (node.child[i] == WideBvh::kNoChild || squared_distance[i] > squared_reach) continue;
+    unsigned near = mask_of(__builtin_convertvector(squared_distance <= squared_reach, Truth8));
+    for (; near != 0; near &= near - 1) {
+      const int i = std::countr_zero(near);
+      if (node.child[i] == WideBvh::kNoChild) continue;
       const Near child{squared_distance[i], node.child[i]};
       int place = size++;
       for (; place > first && stack[place - 1].squared_distance < child.squared_distance; --place)
