@@ -26,8 +26,8 @@ struct NodeBox {
     }
   }
   float middle(int axis) const { return 0.5f * (low[axis] + high[axis]); }
-  float half_area() const {
-    const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+  double half_area() const {  // floats would overflow from 1e19 on
+    const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
     return x * y + y * z + z * x;
   }
 
@@ -74,7 +74,7 @@ struct Bin {
 
 /// The plane between two bins, of those along one axis, with the least surface-area cost.
 struct SplitPlane {
-  float cost = std::numeric_limits<float>::infinity();
+  double cost = std::numeric_limits<double>::infinity();
   int axis = -1, bin = 0;
 };
 
@@ -141,7 +141,7 @@ class Bins {
     SplitPlane best;
     for (int axis = 0; axis < 3; ++axis) {
       if (!(per_length_[axis] > 0)) continue;
-      std::array<float, kBins> cost_above{};  // of the bins from i on
+      std::array<double, kBins> cost_above{};  // of the bins from i on
       NodeBox box;
       std::uint32_t count = 0;
       for (int i = kBins - 1; i > 0; --i) {
@@ -155,7 +155,7 @@ class Bins {
         box.extend(bins_[axis][i - 1].box);
         count += bins_[axis][i - 1].count;
         if (count == 0 || count == all) continue;
-        const float cost = box.half_area() * leaves_of(count) + cost_above[i];
+        const double cost = box.half_area() * leaves_of(count) + cost_above[i];
         if (cost < best.cost) best = {cost, axis, i};
       }
     }
@@ -187,7 +187,7 @@ std::vector<NodeRange> children_of(std::vector<Item>& items, const NodeRange& wh
   std::vector<NodeRange> children{whole};
   while (children.size() < WideBvh::kWidth) {
     const auto biggest = std::ranges::max_element(
-        children, {}, [](const NodeRange& p) { return p.size() > kLeafFaces ? p.box.half_area() : -1.0f; });
+        children, {}, [](const NodeRange& p) { return p.size() > kLeafFaces ? p.box.half_area() : -1.0; });
     if (biggest->size() <= kLeafFaces) break;
     const auto [left, right] = split(items, *biggest, depth);
     *biggest = left;
