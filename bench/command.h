@@ -29,6 +29,7 @@ void add_leaks(CLI::App& app, Run& run);
 void add_link_covers(CLI::App& app, Run& run);
 void add_looser(CLI::App& app, Run& run);
 void add_memory(CLI::App& app, Run& run);
+void add_motion(CLI::App& app, Run& run);
 void add_peers(CLI::App& app, Run& run);
 void add_queries(CLI::App& app, Run& run);
 void add_queues(CLI::App& app, Run& run);

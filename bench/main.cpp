@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   add_scale(app, run);
   add_tight(app, run);
   add_corpus(app, run);
+  add_motion(app, run);
   add_robots(app, run);
   try {
     app.parse(argc, argv);

@@ -24,13 +24,12 @@ Pose motion_of(const Joint& joint, double position) {
   return {};
 }
 
-/// Where the child is in the frame of the joint's parent.
-Pose pose_of(const Joint& joint, double position) {
+}  // namespace
+
+Pose joint_pose(const Joint& joint, double position) {
   const Pose turned = composed(motion_of(joint, position), translation_by(-joint.anchor));
   return composed(joint.origin, composed(translation_by(joint.anchor), turned));
 }
-
-}  // namespace
 
 void follow(const Robot& robot, std::vector<double>& positions) {
   // Chains may be long, so none is followed twice, and not by recursion.
@@ -64,7 +63,7 @@ std::vector<Pose> link_poses(const Robot& robot, std::span<const double> positio
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const Joint& joint = robot.joints[j];
     const std::size_t before = continues_row(robot, j) ? joint.child : joint.parent;
-    poses[joint.child] = composed(poses[before], pose_of(joint, all[j]));
+    poses[joint.child] = composed(poses[before], joint_pose(joint, all[j]));
   }
   return poses;
 }

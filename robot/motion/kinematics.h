@@ -8,6 +8,9 @@
 
 namespace prohull::robot {
 
+/// Where the child is in the frame of the joint's parent.
+Pose joint_pose(const Joint& joint, double position);
+
 /// Where each link is, in the frame of the root that it hangs on, for the positions of all joints. The position of a
 /// joint that mimics is multiplier * position of the other + offset, whatever `positions` says. Joints that mimic each
 /// other in a circle keep their positions. A ball, planar or floating joint stays at rest.

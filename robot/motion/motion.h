@@ -11,6 +11,7 @@
 #include "prohull/progress.h"
 #include "robot/model.h"
 #include "robot/motion/kinematics.h"
+#include "robot/motion/pair_proof.h"
 #include "robot/motion/sampling.h"
 
 namespace prohull::robot {
@@ -77,9 +78,6 @@ struct MotionResult {
 /// threads. Bodies are asked as `collide` does; hulls and convex hulls that are closed as `may_collide` does, whose
 /// "no" is certain. Faces with coordinates that are not finite are left out. Throws Cancelled.
 MotionResult check_motion(const Robot& robot, const Bodies& bodies, const MotionOptions& options = {});
-
-/// Two links, numbered as in Robot::links, the lower number first.
-using LinkPair = std::pair<std::size_t, std::size_t>;
 
 /// The pairs that are adjacent, or were in collision always, as sampled.
 std::vector<LinkPair> pairs_always_together(const MotionResult& motion);

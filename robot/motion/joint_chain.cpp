@@ -1,0 +1,264 @@
+#include "robot/motion/joint_chain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "prohull/error.h"
+#include "robot/motion/kinematics.h"
+#include "robot/motion/sampling.h"
+#include "robot/transform.h"
+
+namespace prohull::robot {
+namespace {
+
+// Let the joints between two links move one after the other, each from the middle of its range to any other position.
+// A joint that turns by an angle t moves a point of one link against the other by at most t times the distance of the
+// point from the joint's axis, and by at most twice that distance. This distance is the lever arm. Which of the two
+// links is taken as the one that moves is free, joint by joint, so the one with the smaller arm is taken. An arm at the
+// middle is computed; elsewhere it differs by what the joints between axis and link move the link, which is bounded in
+// the same way. The distance of the links changes by no more than the sum over the joints.
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kSmall = 0x1p-44;  // above what a few operations on doubles lose, relative to the largest number
+
+bool turns(const Joint& joint) { return joint.type == JointType::Revolute || joint.type == JointType::Continuous; }
+bool slides(const Joint& joint) { return joint.type == JointType::Prismatic; }
+
+Vec3 turned(const Pose& pose, const Vec3& v) { return placed({pose.rotation, {}}, v); }
+
+/// The joints above a link, the closest first.
+std::vector<std::size_t> joints_above(const Robot& robot, std::size_t link) {
+  std::vector<std::size_t> above;
+  for (std::size_t j = robot.joints.size(); j-- > 0;) {  // those of a parent come before those of its children
+    if (robot.joints[j].child != link) continue;
+    above.push_back(j);
+    if (!continues_row(robot, j)) link = robot.joints[j].parent;
+  }
+  return above;
+}
+
+std::size_t root_of(const Robot& robot, std::size_t link, std::span<const std::size_t> above) {
+  return above.empty() ? link : robot.joints[above.back()].parent;
+}
+
+/// How far the matrix is from a rotation, in norm: |R^T R - I| is at most three times its largest entry.
+double defect_of(const Pose& pose) {
+  double largest = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      double entry = i == j ? -1 : 0;
+      for (const Vec3& row : pose.rotation) entry += row[i] * row[j];
+      largest = std::max(largest, std::abs(entry));
+    }
+  return 3 * largest;
+}
+
+double largest_norm(std::span<const Vec3> points) {
+  double largest = 0;
+  for (const Vec3& p : points) largest = std::max(largest, norm(p));
+  return largest;
+}
+
+/// Of a line, the direction of which has length 1.
+double largest_distance(std::span<const Vec3> points, const Vec3& on_line, const Vec3& direction) {
+  double largest = 0;
+  for (const Vec3& p : points) {
+    const Vec3 across = cross(p - on_line, direction);
+    largest = std::max(largest, dot(across, across));
+  }
+  return std::sqrt(largest);
+}
+
+/// A whole turn, where the limits have one. Positions that differ by whole turns are the same.
+JointRange one_turn(const JointRange& limits) {
+  constexpr double kTurn = 2 * std::numbers::pi * (1 + 0x1p-40);  // covers the rounding of its ends
+  if (limits.upper - limits.lower < kTurn) return limits;
+  const double start = std::clamp(-kTurn / 2, limits.lower, limits.upper - kTurn);
+  return {start, start + kTurn};
+}
+
+}  // namespace
+
+double JointRange::middle() const { return std::midpoint(lower, upper); }
+
+JointChain::JointChain(const Robot& robot, std::size_t a, std::size_t b, std::vector<Vec3> points_of_a,
+                       std::vector<Vec3> points_of_b)
+    : points_of_a_(std::move(points_of_a)), points_of_b_(std::move(points_of_b)) {
+  std::vector<std::size_t> above_a = joints_above(robot, a), above_b = joints_above(robot, b);
+  if (root_of(robot, a, above_a) != root_of(robot, b, above_b)) {
+    obstacle_ = "no joints connect them";
+    return;
+  }
+  while (!above_a.empty() && !above_b.empty() && above_a.back() == above_b.back())
+    above_a.pop_back(), above_b.pop_back();
+  for (const std::size_t j : above_a) add_hinge(robot, j, true);
+  std::ranges::reverse(above_b);
+  for (const std::size_t j : above_b) add_hinge(robot, j, false);
+  if (obstacle_.empty()) find_ranges(robot);
+  if (obstacle_.empty()) find_rounding(), find_fixed_arms();
+}
+
+void JointChain::add_hinge(const Robot& robot, std::size_t joint, bool climbs) {
+  Hinge hinge{.joint = &robot.joints[joint], .climbs = climbs, .freedom = kNone, .follows = {}};
+  const auto is_free = [](const Joint& j) { return turns(j) || slides(j); };
+  if (!is_free(*hinge.joint)) {
+    if (hinge.joint->type != JointType::Fixed)
+      obstacle_ = fmt::format("joint '{}' is neither one that turns nor one that slides", hinge.joint->name);
+    hinges_.push_back(std::move(hinge));
+    return;
+  }
+  std::size_t master = joint;
+  while (const auto& mimic = robot.joints[master].mimic) {
+    hinge.follows.push_back(*mimic);
+    master = mimic->joint;
+    if (hinge.follows.size() > robot.joints.size() || !is_free(robot.joints[master])) {
+      obstacle_ = fmt::format("joint '{}' follows one whose positions are not known", hinge.joint->name);
+      return;
+    }
+  }
+  std::ranges::reverse(hinge.follows);
+  const auto found = std::ranges::find(freedoms_, master);
+  hinge.freedom = static_cast<std::size_t>(found - freedoms_.begin());
+  if (found == freedoms_.end()) freedoms_.push_back(master);
+  hinges_.push_back(std::move(hinge));
+}
+
+/// Whether positions that differ by a turn are the same for all that the freedom moves.
+bool JointChain::is_periodic(std::size_t freedom) const {
+  return std::ranges::all_of(hinges_, [&](const Hinge& hinge) {
+    return hinge.freedom != freedom ||
+           (turns(*hinge.joint) && std::ranges::all_of(hinge.follows, [](const Mimic& mimic) {
+              return mimic.multiplier == std::round(mimic.multiplier);
+            }));
+  });
+}
+
+void JointChain::find_ranges(const Robot& robot) {
+  constexpr double kFar = 1000;  // as random positions have it: such limits mean none
+  for (std::size_t f = 0; f < freedoms_.size(); ++f) {
+    const Joint& joint = robot.joints[freedoms_[f]];
+    if (!(joint.lower <= joint.upper))
+      throw InputError(
+          Defect::InvalidOption,
+          fmt::format("joint '{}' has a lower limit above its upper one, or one that is no number", joint.name));
+    JointRange range{joint.lower, joint.upper};
+    if (joint.type == JointType::Continuous) range = {-kInfinity, kInfinity};
+    if (turns(joint) && is_periodic(f)) range = one_turn(range);
+    if (!(std::max(std::abs(range.lower), std::abs(range.upper)) <= kFar)) {
+      obstacle_ = fmt::format("joint '{}' has no limits", joint.name);
+      return;
+    }
+    ranges_.push_back(range);
+  }
+}
+
+// No point of either link, and no axis, is farther than the extent from the frame of any link between them. A joint's
+// pose in doubles differs from that of a rotation, in norm, by what its origin differs, and by a few operations. A
+// wrong pose moves all beyond it by its error times the extent.
+void JointChain::find_rounding() {
+  extent_ = largest_norm(points_of_a_) + largest_norm(points_of_b_);
+  double error = kSmall;
+  for (const Hinge& hinge : hinges_) {
+    const Joint& joint = *hinge.joint;
+    extent_ += norm(joint.origin.translation) + 2 * norm(joint.anchor);
+    error += 2 * defect_of(joint.origin) + kSmall;
+    if (hinge.freedom == kNone || !slides(joint)) continue;
+    double farthest = std::max(std::abs(ranges_[hinge.freedom].lower), std::abs(ranges_[hinge.freedom].upper));
+    for (const Mimic& mimic : hinge.follows) farthest = std::abs(mimic.multiplier) * farthest + std::abs(mimic.offset);
+    extent_ += farthest;
+  }
+  rounding_ = error * extent_;
+}
+
+// An arm is the same everywhere where nothing moves between the axis and the link.
+void JointChain::find_fixed_arms() {
+  const auto set = [&](std::span<const Vec3> points, double Hinge::*arm, auto first, auto last, bool from_a) {
+    Pose pose;  // of the frame before the hinge, as the link sees it
+    for (auto hinge = first; hinge != last; ++hinge) {
+      const Joint& joint = *hinge->joint;
+      const bool is_moved = hinge->freedom != kNone;
+      if (is_moved && turns(joint) && hinge->climbs == from_a)
+        (*hinge).*arm = largest_distance(points, placed(pose, joint.anchor), turned(pose, joint.axis));
+      const Pose step = joint_pose(joint, 0);  // the axis stays where it is at any position
+      pose = composed(pose, hinge->climbs == from_a ? inverse(step) : step);
+      if (is_moved && turns(joint) && hinge->climbs != from_a)
+        (*hinge).*arm = largest_distance(points, placed(pose, joint.anchor), turned(pose, joint.axis));
+      if (is_moved) return;
+    }
+  };
+  set(points_of_a_, &Hinge::on_a, hinges_.begin(), hinges_.end(), true);
+  set(points_of_b_, &Hinge::on_b, hinges_.rbegin(), hinges_.rend(), false);
+}
+
+JointChain::Motion JointChain::motion(std::span<const JointRange> box) const {
+  struct Axis {
+    Vec3 point, direction;  // in the frame of a
+    double half = 0;        // how far the joint moves from the middle
+  };
+  std::vector<Axis> axes(hinges_.size());
+  Motion motion;
+  for (std::size_t h = 0; h < hinges_.size(); ++h) {
+    const Hinge& hinge = hinges_[h];
+    double position = 0;
+    if (hinge.freedom != kNone) {
+      const JointRange& range = box[hinge.freedom];
+      position = range.middle();
+      double half = std::max(range.upper - position, position - range.lower);
+      for (const Mimic& mimic : hinge.follows) {
+        const double scaled = mimic.multiplier * position;
+        half = std::abs(mimic.multiplier) * half + 0x1p-50 * (std::abs(scaled) + std::abs(mimic.offset));
+        position = scaled + mimic.offset;
+      }
+      axes[h].half = half * (1 + kSmall);
+    }
+    const Pose step = joint_pose(*hinge.joint, position);
+    const auto set_axis = [&] {
+      axes[h].point = placed(motion.pose, hinge.joint->anchor);
+      axes[h].direction = turned(motion.pose, hinge.joint->axis);
+    };
+    if (hinge.climbs) set_axis();
+    motion.pose = composed(motion.pose, hinge.climbs ? inverse(step) : step);
+    if (!hinge.climbs) set_axis();
+  }
+  const double slack = 2 * rounding_ + kSmall * extent_;
+  const auto moves_by = [&](std::size_t h, double arm) {
+    return turns(*hinges_[h].joint) ? std::min(axes[h].half, 2.0) * arm : axes[h].half;
+  };
+  std::vector<double> arms(hinges_.size());  // of a at first, then the smaller ones
+  double moved = 0;                          // how far the joints between axis and link move the link
+  for (std::size_t h = 0; h < hinges_.size(); ++h) {
+    const Hinge& hinge = hinges_[h];
+    if (hinge.freedom == kNone) continue;
+    if (turns(*hinge.joint))
+      arms[h] = (hinge.on_a >= 0 ? hinge.on_a : largest_distance(points_of_a_, axes[h].point, axes[h].direction)) +
+                moved + slack;
+    moved += moves_by(h, arms[h]);
+  }
+  const Pose back = inverse(motion.pose);
+  motion.parts.resize(freedoms_.size());
+  moved = 0;
+  for (std::size_t h = hinges_.size(); h-- > 0;) {
+    const Hinge& hinge = hinges_[h];
+    if (hinge.freedom == kNone) continue;
+    double arm = 0;
+    if (turns(*hinge.joint))
+      arm = (hinge.on_b >= 0
+                 ? hinge.on_b
+                 : largest_distance(points_of_b_, placed(back, axes[h].point), turned(back, axes[h].direction))) +
+            moved + slack;
+    moved += moves_by(h, arm);
+    const double part = moves_by(h, std::min(arm, arms[h]));
+    motion.parts[hinge.freedom] += part;
+    motion.change += part;
+  }
+  motion.change = motion.change * (1 + kSmall) + rounding_;
+  return motion;
+}
+
+}  // namespace prohull::robot

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "robot/model.h"
+
+namespace prohull::robot {
+
+/// Positions of a joint.
+struct JointRange {
+  double lower = 0, upper = 0;
+
+  double middle() const;
+};
+
+/// What moves two links against each other: the joints between them, and the positions that these can have. Throws
+/// InputError(InvalidOption) if the lower limit of such a joint is above its upper one, or is no number.
+class JointChain {
+ public:
+  /// The points are all that matters of a link: what moves is in their convex hull.
+  JointChain(const Robot& robot, std::size_t a, std::size_t b, std::vector<Vec3> points_of_a,
+             std::vector<Vec3> points_of_b);
+
+  /// Why positions of the joints do not say where the links are, or have no bounds; empty if they do. Then nothing
+  /// below may be called.
+  const std::string& obstacle() const { return obstacle_; }
+
+  /// The joints that move freely, and their ranges. A joint that mimics is not among them, but what it follows is.
+  /// Joints that turn about more than once have one turn, [-pi, pi] if their limits allow it, where that shows all.
+  std::span<const std::size_t> freedoms() const { return freedoms_; }
+  std::span<const JointRange> ranges() const { return ranges_; }
+
+  /// What happens while each freedom stays in a range.
+  struct Motion {
+    Pose pose;                  ///< of b in the frame of a, with all freedoms in the middle; rounded
+    std::vector<double> parts;  ///< of each freedom
+    /// Proven: from the distance at `pose`, that anywhere in the ranges differs by at most this. It is the sum of the
+    /// parts and of what rounding does.
+    double change = 0;
+  };
+  Motion motion(std::span<const JointRange> box) const;
+
+  /// What rounding alone does to a distance, at most.
+  double rounding() const { return rounding_; }
+
+ private:
+  struct Hinge {
+    const Joint* joint = nullptr;
+    bool climbs = false;          // from child to parent, on the way from a to b
+    std::size_t freedom = 0;      // kNone if nothing moves it
+    std::vector<Mimic> follows;   // from the freedom to this joint
+    double on_a = -1, on_b = -1;  // lever arms that are the same everywhere; -1 for others
+  };
+  static constexpr auto kNone = static_cast<std::size_t>(-1);
+
+  void add_hinge(const Robot& robot, std::size_t joint, bool climbs);
+  void find_ranges(const Robot& robot);
+  void find_rounding();
+  void find_fixed_arms();
+  bool is_periodic(std::size_t freedom) const;
+
+  std::vector<Vec3> points_of_a_, points_of_b_;
+  std::vector<Hinge> hinges_;
+  std::vector<std::size_t> freedoms_;
+  std::vector<JointRange> ranges_;
+  std::string obstacle_;
+  double extent_ = 0, rounding_ = 0;
+};
+
+}  // namespace prohull::robot

@@ -1,0 +1,170 @@
+#include "robot/motion/pair_proof.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <queue>
+
+#include "prohull/convex_hull.h"
+#include "prohull/detail/progress_meter.h"
+#include "prohull/shapes.h"
+#include "robot/motion/joint_chain.h"
+#include "robot/motion/kinematics.h"
+
+namespace prohull::robot {
+namespace {
+
+/// A link as the search sees it.
+struct ProofBody {
+  explicit ProofBody(const TriangleMesh& mesh) : index(mesh) {
+    const TriangleMesh convex = convex_hull(mesh);
+    const TriangleMesh& outside = convex.face_count() > 0 ? convex : mesh;
+    corners.assign(outside.positions.begin(), outside.positions.end());
+    Box box;
+    for (const Vec3& corner : corners) box.extend(corner);
+    ball.center = box.center(), ball.radius = 0;
+    for (const Vec3& corner : corners) ball.radius = std::max(ball.radius, norm(corner - ball.center));
+  }
+
+  CollisionIndex index;
+  std::vector<Vec3> corners;  // their convex hull encloses the link
+  Ball ball;                  // around them, but for rounding
+};
+
+/// Ranges of all freedoms, and what is known there.
+struct Cell {
+  std::vector<JointRange> box;
+  double distance = 0;          // in the middle, a lower bound
+  double share = 1;             // of all positions
+  std::size_t number = 0;       // in the order in which they were made
+  std::size_t widest = 0;       // the freedom that can change the distance most
+  bool may_be_smaller = false;  // otherwise rounding decides, and it stays open
+};
+
+struct IsLater {
+  bool operator()(const Cell& x, const Cell& y) const {
+    return std::pair(x.distance, x.number) > std::pair(y.distance, y.number);
+  }
+};
+
+class PairSearch {
+ public:
+  PairSearch(const Robot& robot, const LinkPair& pair, const ProofBody& a, const ProofBody& b)
+      : robot_(robot), a_(a), b_(b), chain_(robot, pair.first, pair.second, a.corners, b.corners) {
+    result_.a = pair.first, result_.b = pair.second;
+  }
+
+  PairProof run(std::size_t cells, ProgressMeter& meter) {
+    result_.why = chain_.obstacle();
+    if (!result_.why.empty()) return result_;
+    const auto ranges = chain_.ranges();
+    look_at({.box = {ranges.begin(), ranges.end()}});
+    while (result_.verdict == PairVerdict::Open && !open_.empty()) {
+      const Cell cell = open_.top();
+      if (result_.cells + 2 > cells) return stopped("the number of cells is used up");
+      if (!cell.may_be_smaller) return stopped("rounding hides whether they touch");
+      open_.pop();
+      meter.go_on();
+      halve(cell);
+    }
+    if (result_.verdict == PairVerdict::Open) result_.verdict = PairVerdict::Never, result_.proven_free = 1;
+    return result_;
+  }
+
+ private:
+  PairProof stopped(std::string why) {
+    result_.why = std::move(why);
+    return result_;
+  }
+
+  void halve(const Cell& cell) {
+    const JointRange range = cell.box[cell.widest];
+    for (const JointRange& half : {JointRange{range.lower, range.middle()}, JointRange{range.middle(), range.upper}}) {
+      Cell part = cell;
+      part.box[cell.widest] = half, part.share /= 2;
+      look_at(std::move(part));
+      if (result_.verdict != PairVerdict::Open) return;
+    }
+  }
+
+  void look_at(Cell cell) {
+    cell.number = result_.cells++;
+    const JointChain::Motion motion = chain_.motion(cell.box);
+    cell.distance = distance_of_balls(motion.pose);
+    if (cell.distance <= motion.change) {
+      const Separation separation = prohull::separation(a_.index, {}, b_.index, motion.pose);
+      if (separation.collide()) return meets_at(cell, motion.pose);
+      cell.distance = separation.lower;
+    }
+    if (cell.distance > motion.change) {
+      result_.proven_free += cell.share;
+      return;
+    }
+    const auto widest = std::ranges::max_element(motion.parts);
+    cell.widest = static_cast<std::size_t>(widest - motion.parts.begin());
+    cell.may_be_smaller = widest != motion.parts.end() && *widest > chain_.rounding();
+    open_.push(std::move(cell));
+  }
+
+  double distance_of_balls(const Pose& pose) const {
+    return norm(placed(pose, b_.ball.center) - a_.ball.center) - a_.ball.radius - b_.ball.radius - chain_.rounding();
+  }
+
+  void meets_at(const Cell& cell, const Pose& pose) {
+    result_.verdict = cell.box.empty() ? PairVerdict::Always : PairVerdict::Meets;
+    result_.positions = rest_positions(robot_);
+    for (std::size_t f = 0; f < cell.box.size(); ++f) result_.positions[chain_.freedoms()[f]] = cell.box[f].middle();
+    follow(robot_, result_.positions);
+    const std::vector<FacePair> faces = intersecting_faces(a_.index, {}, b_.index, pose);
+    if (!faces.empty()) result_.faces = faces.front();
+  }
+
+  const Robot& robot_;
+  const ProofBody &a_, &b_;
+  const JointChain chain_;
+  std::priority_queue<Cell, std::vector<Cell>, IsLater> open_;
+  PairProof result_;
+};
+
+}  // namespace
+
+std::string_view name_of(PairVerdict verdict) {
+  switch (verdict) {
+    case PairVerdict::Never:
+      return "never";
+    case PairVerdict::Always:
+      return "always";
+    case PairVerdict::Meets:
+      return "meets";
+    case PairVerdict::Open:
+      break;
+  }
+  return "open";
+}
+
+std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const TriangleMesh> links,
+                                   std::span<const LinkPair> pairs, const ProofOptions& options) {
+  std::vector<std::optional<ProofBody>> bodies(links.size());
+  for (const auto& [a, b] : pairs)
+    for (const std::size_t link : {a, b})
+      if (!bodies[link]) bodies[link].emplace(links[link]);
+  std::vector<PairProof> proofs(pairs.size());
+  ProgressMeter meter(options.progress, "prove");
+  std::atomic<std::size_t> done = 0;
+  const int cores = oneapi::tbb::this_task_arena::max_concurrency();
+  oneapi::tbb::task_arena arena(options.threads == 0 ? cores : static_cast<int>(std::min(options.threads, 1024U)));
+  arena.execute([&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+      const auto& [a, b] = pairs[i];
+      proofs[i] = PairSearch(robot, pairs[i], *bodies[a], *bodies[b]).run(options.cells, meter);
+      meter.at(++done, pairs.size());
+    });
+  });
+  return proofs;
+}
+
+}  // namespace prohull::robot

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "prohull/progress.h"
+#include "robot/model.h"
+
+namespace prohull::robot {
+
+/// Two links, numbered as in Robot::links, the lower number first.
+using LinkPair = std::pair<std::size_t, std::size_t>;
+
+/// What is known about a pair of links at all positions that the joints between them can have.
+enum class PairVerdict {
+  Never,   ///< proven: they have no point in common at any position
+  Always,  ///< no joint moves them against each other, and they meet
+  Meets,   ///< they meet at PairProof::positions, exactly for the rounded vertices there
+  Open,    ///< neither was found; PairProof::why says why
+};
+std::string_view name_of(PairVerdict verdict);  ///< "never", "always", "meets", "open"
+
+struct PairProof {
+  std::size_t a = 0, b = 0;  ///< links, as asked for
+  PairVerdict verdict = PairVerdict::Open;
+  std::string why = {};                ///< of Open: a clause without a full stop
+  double proven_free = 0;              ///< the share of the positions at which they are proven to be apart
+  std::size_t cells = 0;               ///< of the joints' positions that were looked at
+  std::vector<double> positions = {};  ///< of Always and Meets: of all joints of the robot, within their limits
+  FacePair faces = {};                 ///< two faces that meet there; 0 and 0 where one link is inside of the other
+};
+
+struct ProofOptions {
+  std::size_t cells = 20'000;  ///< most cells of a pair. Time does not count, so that results are the same everywhere
+  unsigned threads = 0;        ///< 0: one for each core
+  Progress progress = {};      ///< stage "prove"
+};
+
+/// Decides for each pair whether the two links can meet. `links` has the mesh of each link, in its frame; a closed mesh
+/// stands for its solid, as in collide.h. The result is the same for any number of threads. Throws Cancelled;
+/// InputError as CollisionIndex, and InvalidOption for limits of a joint that are out of order.
+///
+/// How it works: A cell is a range of positions of each joint between the links. The links are apart in all of it if
+/// their distance in the middle, a proven lower bound, is greater than what the motion can change it by
+/// (JointChain::Motion::change). Otherwise it is halved, across the joint that can change the distance most. Cells with
+/// a small distance come first, so that positions at which the links meet are found early.
+///
+/// What "proven" means: the axes, anchors and limits are those of `robot`, and the origins of its joints are the
+/// rotations closest to their matrices; what doubles lose on the way is bounded, and part of the change.
+std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const TriangleMesh> links,
+                                   std::span<const LinkPair> pairs, const ProofOptions& options = {});
+
+}  // namespace prohull::robot
