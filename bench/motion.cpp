@@ -85,7 +85,7 @@ void add_motion(CLI::App& app, Run& run) {
   command.add_option("--package-path", options->file.package_paths, "Folder of packages; may be given several times");
   command.add_option("--sample", options->samples, "Bundled robot; may be given several times");
   add_faces_option(command, options->faces);
-  command.add_option("--prove", options->proof.cells, "Most cells of a pair")->capture_default_str();
+  command.add_option("--prove", options->proof.cells, "Largest number of cells of a pair")->capture_default_str();
   add_out_option(command, options->out, "motion_pairs");
   command.callback([options, &run] { run = [options] { return run_motion(*options); }; });
 }

@@ -105,7 +105,15 @@ std::string motion_text(const MotionResult& motion, std::string_view covers, boo
       std::ranges::count_if(motion.pairs, [](const MotionPair& pair) { return is_sampled(pair.kind); }));
   const auto adjacent =
       static_cast<std::size_t>(std::ranges::count(motion.pairs, PairKind::Adjacent, &MotionPair::kind));
-  std::string srdf = fmt::format("  SRDF: {}", counted(adjacent, "adjacent pair", "adjacent pairs"));
+  const PairVerdicts verdicts = verdicts_of(motion);
+  std::string srdf;
+  if (verdicts.all() > 0)
+    srdf += fmt::format("  {} that no joint connects: {} proven never to meet, {} always, {} meet somewhere, {} open\n",
+                        counted(verdicts.all(), "pair", "pairs"), verdicts.never, verdicts.always, verdicts.meets,
+                        verdicts.open);
+  srdf += fmt::format("  SRDF: {}", counted(adjacent, "adjacent pair", "adjacent pairs"));
+  if (const std::size_t proven = verdicts.never + verdicts.always; proven > 0)
+    srdf += fmt::format(", {}", counted(proven, "proven pair", "proven pairs"));
   if (sampled > 0 && sampled_pairs)
     srdf += fmt::format(", and {}, which is no proof", counted(sampled, "sampled pair", "sampled pairs"));
   else if (sampled > 0)

@@ -32,6 +32,7 @@ struct UrdfOptions {
   bool certificate = false, check = false, dry_run = false, no_cache = false, no_pictures = false,
        sampled_pairs = false;
   MotionOptions motion{.configurations = 1000};
+  ProofOptions proof;
   unsigned threads = 0;
   std::vector<std::pair<const CLI::Option*, Collision>> sizes;  ///< options that one kind of collision geometry has
 };
@@ -53,7 +54,7 @@ void complete(UrdfOptions& options) {
   budget.max_distance = length_of(options.max_distance, "--max-distance");
   budget.padding = length_of(options.gap, "--gap");
   if (!options.no_cache) options.hulls.cache = options.cache.empty() ? default_cache() : options.cache;
-  options.hulls.threads = options.motion.threads = options.threads;
+  options.hulls.threads = options.motion.threads = options.proof.threads = options.threads;
 }
 
 /// Tells how the shipped collision geometry lies to the visual one.
@@ -119,7 +120,7 @@ std::string run_key(const UrdfOptions& options, const RobotFile& file, std::span
   }
   key.add(std::size_t(options.hulls.from)), key.add(std::size_t(options.hulls.skip_missing)), key.add(options.package);
   key.add(std::size_t(options.certificate)), key.add(std::size_t(options.no_pictures)),
-      key.add(std::size_t(view::has_page())), key.add(options.motion.configurations);
+      key.add(std::size_t(view::has_page())), key.add(options.motion.configurations), key.add(options.proof.cells);
   key.add(std::size_t(options.motion.seed)), key.add(std::size_t(options.sampled_pairs));
   return key.text();
 }
@@ -133,7 +134,11 @@ void look_at_the_rest(const UrdfOptions& options, ReportInput& facts) {
   if (options.motion.configurations > 0 && !robot.joints.empty()) {
     MotionOptions motion = options.motion;
     motion.progress = progress;
-    facts.motion = check_motion(robot, bodies_of(robot, facts.hulls, options.hulls.from), motion);
+    const Bodies bodies = bodies_of(robot, facts.hulls, options.hulls.from);
+    facts.motion = check_motion(robot, bodies, motion);
+    ProofOptions proof = options.proof;
+    proof.progress = progress;
+    if (proof.cells > 0) add_proofs(robot, bodies, proof, *facts.motion);
   }
 }
 
@@ -342,6 +347,11 @@ void add_motion(CLI::App& command, UrdfOptions& options) {
              "where the geometry does not. With 0 this is left out.")
       ->group(kMotion);
   add_number(command, "--seed", options.motion.seed, kSeed, "Number that the positions depend on.")->group(kMotion);
+  add_number(command, "--prove", options.proof.cells, {0, 1e9},
+             "Largest number of cells into which the positions of the joints are divided, for each pair of links that "
+             "no joint connects: to prove that their hulls never meet within the limits, or to find where they do. "
+             "Proven pairs go into the SRDF. With 0 nothing is proven.")
+      ->group(kMotion);
   command
       .add_flag("--sampled-pairs", options.sampled_pairs,
                 "Also write pairs of links to the SRDF that were never, or always, in collision in these positions. "

@@ -230,18 +230,33 @@ py::tuple check_of(const SharedFile& file, double allow, unsigned threads, const
   return py::make_tuple(checks, facts);
 }
 
+py::object facts_of(const Robot& robot, const MotionPair& pair) {
+  if (!pair.proof) return py::none();
+  const PairProof& proof = *pair.proof;
+  py::dict positions;
+  for (std::size_t j = 0; j < proof.positions.size(); ++j)
+    if (robot.joints[j].type != JointType::Fixed) positions[py::str(robot.joints[j].name)] = proof.positions[j];
+  return py::make_tuple(std::string(name_of(proof.verdict)), proof.why, proof.proven_free, proof.cells, positions,
+                        pair.visual_meets_at_witness);
+}
+
 py::tuple motion_of(const RobotHulls& hulls, std::size_t configurations, std::uint64_t seed, bool sampled_pairs,
-                    unsigned threads, const py::object& progress) {
+                    std::size_t prove, unsigned threads, const py::object& progress) {
   const Robot& robot = hulls.file->robot;
   const auto motion = watched(progress, [&](Watch& watch) {
-    return std::make_shared<MotionResult>(check_motion(
-        robot, bodies_of(robot, hulls.links, hulls.options.from),
+    const Bodies bodies = bodies_of(robot, hulls.links, hulls.options.from);
+    auto result = std::make_shared<MotionResult>(check_motion(
+        robot, bodies,
         {.configurations = configurations, .seed = seed, .threads = threads, .progress = watch.progress()}));
+    if (prove > 0)
+      add_proofs(robot, bodies, {.cells = prove, .threads = threads, .progress = watch.progress()}, *result);
+    return result;
   });
   py::list pairs;
   for (const MotionPair& pair : motion->pairs)
     pairs.append(py::make_tuple(robot.links[pair.a].name, robot.links[pair.b].name, std::string(name_of(pair.kind)),
-                                pair.visual, pair.hull, pair.convex, pair.false_hull, pair.false_convex, pair.missed));
+                                pair.visual, pair.hull, pair.convex, pair.false_hull, pair.false_convex, pair.missed,
+                                facts_of(robot, pair)));
   return py::make_tuple(motion, pairs, srdf_of(robot, *motion, sampled_pairs));
 }
 

@@ -24,7 +24,8 @@ from ._shown import Shown
 from ._types import Path, Progress, Proof, Source
 from ._view import Part
 
-__all__ = ["Check", "Hulls", "Joint", "Link", "LinkCheck", "LinkHull", "LinkHulls", "Motion", "MotionPair", "Robot"]
+__all__ = ["Check", "Hulls", "Joint", "Link", "LinkCheck", "LinkHull", "LinkHulls", "Motion", "MotionPair", "PairProof",
+           "Robot"]
 
 Geometry = Literal["visual", "collision"]
 Collision = Literal["hull", "convex", "spheres"]
@@ -32,7 +33,8 @@ Format = Literal["stl", "obj", "glb"]
 JointType = Literal["fixed", "revolute", "continuous", "prismatic", "ball", "planar", "floating"]
 Status = Literal["hulled", "primitives", "skipped", "unread", "empty"]
 Verdict = Literal["covered", "leaks", "undecided", "no-collision", "no-visual", "missing"]
-PairKind = Literal["adjacent", "sampled-always", "sampled-never", "sometimes"]
+PairKind = Literal["adjacent", "sampled-always", "sampled-never", "always", "never", "sometimes"]
+PairVerdict = Literal["never", "always", "meets", "open"]
 
 #: Positions of joints: by name, the others at 0; or of all joints in their order.
 Positions = Union[Mapping[str, float], Sequence[float], NDArray[Any]]
@@ -154,6 +156,17 @@ class Check:
         return f"<prohull.robot.Check: {len(self.links)} links, {result}>"
 
 
+class PairProof(NamedTuple):
+    """What is proven about the hulls of a pair of links, at all positions of the joints within their limits."""
+
+    verdict: PairVerdict  #: "meets" means at `positions`
+    why: str  #: if it is "open"
+    proven_free: float  #: the share of the positions at which they are proven to be apart
+    cells: int  #: of the joints' positions that were looked at
+    positions: dict[str, float]  #: of all joints, where the hulls meet; empty if none is known
+    visual_meets: bool  #: whether the visual geometry meets there, too
+
+
 class MotionPair(NamedTuple):
     """In how many configurations a pair of links collides."""
 
@@ -166,13 +179,14 @@ class MotionPair(NamedTuple):
     false_hull: int  #: the hulls collide, but the visual geometry does not
     false_convex: int  #: the convex hulls collide, but the visual geometry does not
     missed: int  #: the visual geometry collides, but the hulls do not: must be 0
+    proof: Optional[PairProof]  #: None of adjacent pairs, of links without hulls, and with `prove=0`
 
 
 class Motion:
     """What Hulls.motion() has found."""
 
     pairs: list[MotionPair]
-    srdf: str  #: the adjacent pairs, and sampled ones if they were asked for, as a file that MoveIt reads
+    srdf: str  #: adjacent and proven pairs, and sampled ones if they were asked for, as a file that MoveIt reads
 
     def __init__(self, core: _prohull.RobotMotion, pairs: list[MotionPair], srdf: str) -> None:
         self._core, self.pairs, self.srdf = core, pairs, srdf
@@ -240,19 +254,22 @@ class Hulls(Shown):
             written.append(str(target))
         return written
 
-    def motion(self, configurations: int = 1000, *, seed: int = 1, sampled_pairs: bool = False, threads: int = 0,
-               progress: Optional[Progress] = None) -> Motion:
+    def motion(self, configurations: int = 1000, *, seed: int = 1, sampled_pairs: bool = False, prove: int = 20_000,
+               threads: int = 0, progress: Optional[Progress] = None) -> Motion:
         """Moves the robot at random and counts which pairs of links collide: the geometry, hulls and convex hulls.
+        Proves which pairs of hulls never meet, and finds where others do.
 
         configurations: number of random positions of all joints, within their limits.
         seed: other numbers give other positions.
         sampled_pairs: the SRDF has pairs, too, that were never, or always, in collision: sampled, which is no proof.
+        prove: the largest number of cells of the joints' positions for each pair that no joint connects; with 0
+            nothing is proven.
         threads, progress: as of Robot.hulls(). The counts do not depend on threads.
         """
         core, pairs, srdf = self._core.motion(
             _arrays.count("configurations", configurations), _arrays.count("seed", seed, bits=64),
-            bool(sampled_pairs), _arrays.count("threads", threads), progress)
-        return Motion(core, [MotionPair(*pair) for pair in pairs], srdf)
+            bool(sampled_pairs), _arrays.count("prove", prove), _arrays.count("threads", threads), progress)
+        return Motion(core, [MotionPair(*pair, proof and PairProof(*proof)) for *pair, proof in pairs], srdf)
 
     def report_html(self, path: Path, *, check: Optional[Check] = None, motion: Optional[Motion] = None,
                     threads: int = 0, progress: Optional[Progress] = None) -> None:

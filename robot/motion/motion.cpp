@@ -237,6 +237,27 @@ class Motion {
   std::vector<bool> is_known_;  // of each pair: the counts tell its kind
 };
 
+PairKind kind_of(PairVerdict verdict, PairKind sampled) {
+  switch (verdict) {
+    case PairVerdict::Never:
+      return PairKind::ProvenNever;
+    case PairVerdict::Always:
+      return PairKind::ProvenAlways;
+    case PairVerdict::Meets:
+      return sampled == PairKind::Never ? PairKind::Sometimes : sampled;
+    case PairVerdict::Open:
+      break;
+  }
+  return sampled;
+}
+
+bool visual_meets(const Robot& robot, const Bodies& bodies, const PairProof& proof) {
+  const TriangleMesh a = with_finite_faces(bodies.visual[proof.a]), b = with_finite_faces(bodies.visual[proof.b]);
+  if (a.face_count() == 0 || b.face_count() == 0) return false;
+  const std::vector<Pose> poses = link_poses(robot, proof.positions);
+  return collide(CollisionIndex(a), poses[proof.a], CollisionIndex(b), poses[proof.b]);
+}
+
 std::size_t sum(const std::vector<MotionPair>& pairs, std::size_t MotionPair::*count) {
   std::size_t total = 0;
   for (const MotionPair& pair : pairs) total += pair.*count;
@@ -253,6 +274,10 @@ std::string_view name_of(PairKind kind) {
       return "sampled-always";
     case PairKind::Never:
       return "sampled-never";
+    case PairKind::ProvenAlways:
+      return "always";
+    case PairKind::ProvenNever:
+      return "never";
     case PairKind::Sometimes:
       break;
   }
@@ -267,6 +292,38 @@ std::size_t MotionResult::missed() const { return sum(pairs, &MotionPair::missed
 
 MotionResult check_motion(const Robot& robot, const Bodies& bodies, const MotionOptions& options) {
   return Motion(robot, bodies, options).run();
+}
+
+PairVerdicts verdicts_of(const MotionResult& motion) {
+  PairVerdicts verdicts;
+  for (const MotionPair& pair : motion.pairs) {
+    if (!pair.proof) continue;
+    const PairVerdict verdict = pair.proof->verdict;
+    verdicts.never += verdict == PairVerdict::Never, verdicts.always += verdict == PairVerdict::Always;
+    verdicts.meets += verdict == PairVerdict::Meets, verdicts.open += verdict == PairVerdict::Open;
+  }
+  return verdicts;
+}
+
+void add_proofs(const Robot& robot, const Bodies& bodies, const ProofOptions& options, MotionResult& motion) {
+  const auto has_hull = [&](std::size_t link) {
+    return link < bodies.hull.size() && bodies.hull[link].face_count() > 0;
+  };
+  std::vector<MotionPair*> asked;
+  std::vector<LinkPair> links;
+  for (MotionPair& pair : motion.pairs) {
+    if (pair.kind == PairKind::Adjacent || !has_hull(pair.a) || !has_hull(pair.b)) continue;
+    asked.push_back(&pair), links.emplace_back(pair.a, pair.b);
+  }
+  std::vector<TriangleMesh> hulls;
+  for (const TriangleMesh& hull : bodies.hull) hulls.push_back(with_finite_faces(hull));
+  const std::vector<PairProof> proofs = prove_pairs(robot, hulls, links, options);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    MotionPair& pair = *asked[i];
+    pair.proof = proofs[i];
+    pair.kind = kind_of(proofs[i].verdict, pair.kind);
+    if (!proofs[i].positions.empty()) pair.visual_meets_at_witness = visual_meets(robot, bodies, proofs[i]);
+  }
 }
 
 }  // namespace prohull::robot

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,14 +37,16 @@ enum class PairKind {
   /// Fixed joints connect them, or one hangs on the other by a joint, or by joints with only links between them that
   /// have no shapes in Robot::links. Floating and planar joints do not make links adjacent.
   Adjacent,
-  Always,  ///< they collide in 95 % of the configurations or more, as the hulls say; sampled, no proof
-  Never,   ///< they collide in none, as the hulls and the visual geometry say; sampled, no proof
+  Always,        ///< they collide in 95 % of the configurations or more, as the hulls say; sampled, no proof
+  Never,         ///< they collide in none, as the hulls and the visual geometry say; sampled, no proof
+  ProvenAlways,  ///< PairVerdict::Always of the hulls
+  ProvenNever,   ///< PairVerdict::Never of the hulls, and so of what they enclose
   /// All others, and pairs about which nothing is known: if a joint between them stays at rest (a ball, planar or
   /// floating joint, a prismatic one without limits, and those that follow one of these), if no joints connect them, or
   /// if one has no hull.
   Sometimes,
 };
-std::string_view name_of(PairKind kind);  ///< "adjacent", "sampled-always", "sampled-never", "sometimes"
+std::string_view name_of(PairKind kind);  ///< "adjacent", "sampled-always", ..., "always", "never", "sometimes"
 
 /// Whether the kind is what random configurations say: another configuration may say otherwise.
 bool is_sampled(PairKind kind);
@@ -56,6 +59,8 @@ struct MotionPair {
   std::size_t false_hull = 0, false_convex = 0;  ///< the hulls collide, but the visual geometry does not
   /// The visual geometry collides, but the hulls do not: a failed certificate. 0 if one of the links has no hull.
   std::size_t missed = 0;
+  std::optional<PairProof> proof = {};   ///< of the hulls, if it was asked for
+  bool visual_meets_at_witness = false;  ///< whether the visual geometry meets, too, at PairProof::positions
 };
 
 struct MotionResult {
@@ -79,15 +84,28 @@ struct MotionResult {
 /// "no" is certain. Faces with coordinates that are not finite are left out. Throws Cancelled.
 MotionResult check_motion(const Robot& robot, const Bodies& bodies, const MotionOptions& options = {});
 
-/// The pairs that are adjacent, or were in collision always, as sampled.
+/// Sets MotionPair::proof of all pairs that are not adjacent and have hulls, and their kinds: what is proven, or
+/// refuted, takes the place of what was sampled. Throws as prove_pairs.
+void add_proofs(const Robot& robot, const Bodies& bodies, const ProofOptions& options, MotionResult& motion);
+
+/// How many pairs were decided.
+struct PairVerdicts {
+  std::size_t never = 0, always = 0, meets = 0, open = 0;
+
+  std::size_t all() const { return never + always + meets + open; }
+};
+PairVerdicts verdicts_of(const MotionResult& motion);
+
+/// The pairs that are adjacent, or in collision always, proven or as sampled.
 std::vector<LinkPair> pairs_always_together(const MotionResult& motion);
 
 /// The pairs that an SRDF file disables, sorted. Names that the robot does not have are left out. `file` stands in
 /// messages. Throws InputError(Malformed) for text that is no SRDF.
 std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::string file);
 
-/// The adjacent pairs, as an SRDF file that MoveIt reads: it does not check them. With `sampled_pairs` also those that
-/// were never, or always, in collision, with the reason "sampled": they may collide, or be apart, elsewhere.
+/// The pairs that are adjacent, or proven to meet never or always, as an SRDF file that MoveIt reads: it does not check
+/// them. With `sampled_pairs` also those that were never, or always, in collision, with the reason "sampled": they may
+/// collide, or be apart, elsewhere.
 std::string srdf_of(const Robot& robot, const MotionResult& motion, bool sampled_pairs = false);
 
 }  // namespace prohull::robot

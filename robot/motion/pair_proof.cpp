@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <queue>
@@ -53,19 +54,21 @@ struct IsLater {
 
 class PairSearch {
  public:
-  PairSearch(const Robot& robot, const LinkPair& pair, const ProofBody& a, const ProofBody& b)
-      : robot_(robot), a_(a), b_(b), chain_(robot, pair.first, pair.second, a.corners, b.corners) {
+  PairSearch(const Robot& robot, const LinkPair& pair, const ProofBody& a, const ProofBody& b, std::size_t cells)
+      : robot_(robot), a_(a), b_(b), chain_(robot, pair.first, pair.second, a.corners, b.corners), most_cells_(cells) {
     result_.a = pair.first, result_.b = pair.second;
   }
 
-  PairProof run(std::size_t cells, ProgressMeter& meter) {
+  PairProof run(ProgressMeter& meter) {
     result_.why = chain_.obstacle();
     if (!result_.why.empty()) return result_;
     const auto ranges = chain_.ranges();
     look_at({.box = {ranges.begin(), ranges.end()}});
-    while (result_.verdict == PairVerdict::Open && !open_.empty()) {
+    for (std::size_t halved = 0; result_.verdict == PairVerdict::Open && !open_.empty(); ++halved) {
       const Cell cell = open_.top();
-      if (result_.cells + 2 > cells) return stopped("the number of cells is used up");
+      if (halved >= kFirstClimb && std::has_single_bit(halved)) climb(cell, meter);
+      if (result_.verdict != PairVerdict::Open) break;
+      if (result_.cells + 2 > most_cells_) return stopped("the number of cells is used up");
       if (!cell.may_be_smaller) return stopped("rounding hides whether they touch");
       open_.pop();
       meter.go_on();
@@ -76,6 +79,8 @@ class PairSearch {
   }
 
  private:
+  static constexpr std::size_t kFirstClimb = 32;  // by then, most pairs that meet are found
+
   PairProof stopped(std::string why) {
     result_.why = std::move(why);
     return result_;
@@ -96,9 +101,8 @@ class PairSearch {
     const JointChain::Motion motion = chain_.motion(cell.box);
     cell.distance = distance_of_balls(motion.pose);
     if (cell.distance <= motion.change) {
-      const Separation separation = prohull::separation(a_.index, {}, b_.index, motion.pose);
-      if (separation.collide()) return meets_at(cell, motion.pose);
-      cell.distance = separation.lower;
+      cell.distance = distance(cell, motion.pose);
+      if (result_.verdict != PairVerdict::Open) return;
     }
     if (cell.distance > motion.change) {
       result_.proven_free += cell.share;
@@ -108,6 +112,38 @@ class PairSearch {
     cell.widest = static_cast<std::size_t>(widest - motion.parts.begin());
     cell.may_be_smaller = widest != motion.parts.end() && *widest > chain_.rounding();
     open_.push(std::move(cell));
+  }
+
+  /// From the middle of a cell to positions where the links are closer, one freedom after the other: they may meet in a
+  /// corner of the ranges, to which halving comes late.
+  void climb(const Cell& from, ProgressMeter& meter) {
+    Cell best = from;
+    for (JointRange& range : best.box) range = {range.middle(), range.middle()};
+    for (double step = 0.125; step > 1e-3;) {
+      const double before = best.distance;
+      for (std::size_t f = 0; f < best.box.size(); ++f)
+        for (const double way : {-step, step}) {
+          if (result_.cells >= most_cells_) return;
+          const JointRange& range = chain_.ranges()[f];
+          const double there =
+              std::clamp(best.box[f].lower + way * (range.upper - range.lower), range.lower, range.upper);
+          Cell next = best;
+          next.box[f] = {there, there};
+          meter.go_on();
+          ++result_.cells;
+          next.distance = distance(next, chain_.motion(next.box).pose);
+          if (result_.verdict != PairVerdict::Open) return;
+          if (next.distance < best.distance) best = std::move(next);
+        }
+      if (best.distance == before) step /= 2;
+    }
+  }
+
+  /// A lower bound; notes where they meet.
+  double distance(const Cell& cell, const Pose& pose) {
+    const Separation separation = prohull::separation(a_.index, {}, b_.index, pose);
+    if (separation.collide()) meets_at(cell, pose);
+    return separation.lower;
   }
 
   double distance_of_balls(const Pose& pose) const {
@@ -126,6 +162,7 @@ class PairSearch {
   const Robot& robot_;
   const ProofBody &a_, &b_;
   const JointChain chain_;
+  const std::size_t most_cells_;
   std::priority_queue<Cell, std::vector<Cell>, IsLater> open_;
   PairProof result_;
 };
@@ -160,7 +197,7 @@ std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const TriangleM
   arena.execute([&] {
     oneapi::tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
       const auto& [a, b] = pairs[i];
-      proofs[i] = PairSearch(robot, pairs[i], *bodies[a], *bodies[b]).run(options.cells, meter);
+      proofs[i] = PairSearch(robot, pairs[i], *bodies[a], *bodies[b], options.cells).run(meter);
       meter.at(++done, pairs.size());
     });
   });

@@ -10,7 +10,7 @@
 namespace prohull::robot {
 namespace {
 
-/// The reason is free text to MoveIt, which knows "Adjacent" among others.
+/// The reason is free text to MoveIt, which knows "Adjacent", "Always" and "Never" among others.
 std::string reason_of(PairKind kind) {
   switch (kind) {
     case PairKind::Adjacent:
@@ -19,6 +19,10 @@ std::string reason_of(PairKind kind) {
       return R"(reason="sampled"/>  <!-- in collision in 95 % or more of them -->)";
     case PairKind::Never:
       return R"(reason="sampled"/>  <!-- in collision in none of them -->)";
+    case PairKind::ProvenAlways:
+      return R"(reason="Always"/>  <!-- proven: their hulls meet wherever the joints are -->)";
+    case PairKind::ProvenNever:
+      return R"(reason="Never"/>  <!-- proven: their hulls meet nowhere within the limits of the joints -->)";
     case PairKind::Sometimes:
       break;
   }
@@ -36,7 +40,8 @@ std::optional<std::size_t> link_called(const Robot& robot, const std::string& na
 std::vector<LinkPair> pairs_always_together(const MotionResult& motion) {
   std::vector<LinkPair> pairs;
   for (const MotionPair& pair : motion.pairs)
-    if (pair.kind == PairKind::Adjacent || pair.kind == PairKind::Always) pairs.emplace_back(pair.a, pair.b);
+    if (pair.kind == PairKind::Adjacent || pair.kind == PairKind::Always || pair.kind == PairKind::ProvenAlways)
+      pairs.emplace_back(pair.a, pair.b);
   return pairs;
 }
 
@@ -67,7 +72,7 @@ std::string srdf_of(const Robot& robot, const MotionResult& motion, bool sampled
           ? fmt::format(
                 "The reason \"sampled\" is what {} random configurations, seed {}, say of a pair: it is no proof.",
                 motion.configurations, motion.seed)
-          : "Links that joints connect. All other pairs have to be checked.";
+          : "Links that joints connect, and pairs about which this is proven. All others have to be checked.";
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
       "<!-- {} -->\n"

@@ -108,6 +108,29 @@ Json links_of(const ReportInput& input) {
   return links;
 }
 
+/// Where the links meet.
+Json witness_of(const MotionPair& pair, const Robot& robot) {
+  const PairProof& proof = *pair.proof;
+  if (proof.positions.empty()) return {};
+  Json positions = Json::object();
+  for (std::size_t j = 0; j < robot.joints.size(); ++j)
+    if (robot.joints[j].type != JointType::Fixed)
+      positions[clean_text(robot.joints[j].name)] = number(proof.positions[j]);
+  return {{"positions", positions},
+          {"faces", {std::size_t(proof.faces.a), std::size_t(proof.faces.b)}},
+          {"visual_meets", pair.visual_meets_at_witness}};
+}
+
+Json proof_of(const MotionPair& pair, const Robot& robot) {
+  if (!pair.proof) return {};
+  const PairProof& proof = *pair.proof;
+  return {{"verdict", name_of(proof.verdict)},
+          {"why", clean_text(proof.why)},
+          {"proven_free", number(proof.proven_free)},
+          {"cells", proof.cells},
+          {"witness", witness_of(pair, robot)}};
+}
+
 Json facts_of(const MotionPair& pair, const Robot& robot) {
   return {{"links", {clean_text(robot.links[pair.a].name), clean_text(robot.links[pair.b].name)}},
           {"kind", name_of(pair.kind)},
@@ -116,7 +139,8 @@ Json facts_of(const MotionPair& pair, const Robot& robot) {
           {"convex", pair.convex},
           {"false_hull", pair.false_hull},
           {"false_convex", pair.false_convex},
-          {"missed", pair.missed}};
+          {"missed", pair.missed},
+          {"proof", proof_of(pair, robot)}};
 }
 
 Json facts_of(const MotionResult& motion, const Robot& robot) {

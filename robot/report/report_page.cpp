@@ -606,10 +606,17 @@ std::string motion_kinds(const MotionResult& motion) {
   const auto count = [&](PairKind kind) {
     return count_text(static_cast<std::size_t>(std::ranges::count(motion.pairs, kind, &MotionPair::kind)));
   };
+  std::string proven;
+  if (const PairVerdicts verdicts = verdicts_of(motion); verdicts.all() > 0)
+    proven = fmt::format(
+        " Of the other {}, by proof on the hulls: {} never meet within the limits of the joints, {} always do, {} meet "
+        "at some position, {} stayed open.",
+        counted(verdicts.all(), "pair"), verdicts.never, verdicts.always, verdicts.meets, verdicts.open);
   return fmt::format(
-      "<p class=\"muted small\">Pairs that joints connect: {}. Sampled, which is no proof: {} that always collide, {} "
+      "<p class=\"muted small\">Pairs that joints connect: {}.{} Sampled, which is no proof: {} that always collide, "
+      "{} "
       "that never do.</p>\n",
-      count(PairKind::Adjacent), count(PairKind::Always), count(PairKind::Never));
+      count(PairKind::Adjacent), proven, count(PairKind::Always), count(PairKind::Never));
 }
 
 std::string motion_section(const ReportInput& input) {

@@ -11,6 +11,7 @@
 #include "meshes.h"
 #include "prohull/error.h"
 #include "random.h"
+#include "robot_of_joints.h"
 #include "robot_testing.h"
 
 namespace prohull::robot {
@@ -21,34 +22,6 @@ using meshes::box;
 constexpr double kHalfTurn = std::numbers::pi;
 constexpr double kQuarterTurn = std::numbers::pi / 2;
 constexpr Vec3 kX{1, 0, 0}, kY{0, 1, 0}, kZ{0, 0, 1};
-
-Robot robot_of(std::size_t links, std::vector<Joint> joints) {
-  Robot robot{.name = "test", .links = {}, .joints = std::move(joints)};
-  robot.links.resize(links);
-  for (std::size_t i = 0; i < links; ++i) {
-    robot.links[i].name = "link" + std::to_string(i);
-    robot.links[i].visual.push_back({BoxForm{{1, 1, 1}}});
-  }
-  for (Joint& joint : robot.joints) joint.name = "joint" + std::to_string(&joint - robot.joints.data());
-  return robot;
-}
-
-Joint joint(JointType type, std::size_t parent, std::size_t child, const Vec3& at, const Vec3& axis) {
-  Joint joint;
-  joint.type = type, joint.parent = parent, joint.child = child, joint.axis = axis;
-  joint.origin.translation = at;
-  return joint;
-}
-
-Joint limited(Joint joint, double lower, double upper) {
-  joint.lower = lower, joint.upper = upper;
-  return joint;
-}
-
-Joint mimicking(Joint joint, std::size_t other, double multiplier, double offset) {
-  joint.mimic = Mimic{other, multiplier, offset};
-  return joint;
-}
 
 TEST(LinkPoses, OfAPendulumOfTwoLinks) {
   const Robot pendulum =
@@ -478,7 +451,7 @@ TEST(SrdfOf, ListsSampledPairsOnlyOnRequest) {
   motion.pairs = {
       {0, 1, PairKind::Adjacent}, {0, 2, PairKind::Sometimes}, {0, 3, PairKind::Always}, {1, 3, PairKind::Never}};
   EXPECT_EQ(srdf_of(robot, motion), R"(<?xml version="1.0" encoding="utf-8"?>
-<!-- Links that joints connect. All other pairs have to be checked. -->
+<!-- Links that joints connect, and pairs about which this is proven. All others have to be checked. -->
 <robot name="a&amp;b">
   <disable_collisions link1="&lt;b&gt;" link2="z" reason="Adjacent"/>
 </robot>
