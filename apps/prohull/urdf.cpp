@@ -366,7 +366,8 @@ void add_urdf(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(
       "urdf",
       "Gives every link of a robot certified collision geometry. Reads URDF, SDF and MJCF, and writes a copy of the "
-      "robot with its meshes, a report with pictures, and an SRDF of the links that joints connect. With --check, it "
+      "robot with its meshes, a report with pictures, and an SRDF of the links that joints connect or that provably "
+      "never meet. With --check, it "
       "decides whether the collision geometry that the robot ships with covers the robot. The exit code is 1 if a "
       "link is not covered.");
   command

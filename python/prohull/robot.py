@@ -254,7 +254,7 @@ class Hulls(Shown):
             written.append(str(target))
         return written
 
-    def motion(self, configurations: int = 1000, *, seed: int = 1, sampled_pairs: bool = False, prove: int = 20_000,
+    def motion(self, configurations: int = 1000, *, seed: int = 1, sampled_pairs: bool = False, prove: int = 10_000,
                threads: int = 0, progress: Optional[Progress] = None) -> Motion:
         """Moves the robot at random and counts which pairs of links collide: the geometry, hulls and convex hulls.
         Proves which pairs of hulls never meet, and finds where others do.

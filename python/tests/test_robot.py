@@ -175,11 +175,32 @@ def test_wrong_options_are_named(robot, options, message):
         robot.hulls(**options)
 
 
+def test_motion_proves_what_it_says_of_pairs(tmp_path):
+    links = "".join(f'<link name="l{i}"><visual><geometry><box size="1 1 1"/></geometry></visual></link>'
+                    for i in range(3))
+    joints = "".join(
+        f'<joint name="j{i}" type="prismatic"><parent link="l{i}"/><child link="l{i + 1}"/><origin xyz="{x} 0 0"/>'
+        f'<axis xyz="-1 0 0"/><limit lower="0" upper="{upper}" effort="1" velocity="1"/></joint>'
+        for i, (x, upper) in enumerate([(2, 0.5), (2, "UPPER")]))
+    for upper, verdict in (("2.4", "never"), ("2.6", "meets")):
+        (tmp_path / "slides.urdf").write_text(f'<robot name="slides">{links}{joints}</robot>'.replace("UPPER", upper))
+        hulls = prohull.robot.Robot.load(tmp_path / "slides.urdf").hulls()
+        motion = hulls.motion(10)
+        (pair,) = (pair for pair in motion.pairs if pair.kind != "adjacent")
+        assert pair.proof.verdict == verdict and pair.proof.cells > 0 and pair.proof.why == ""
+        assert (pair.kind == "never") == ('reason="Never"' in motion.srdf) == (verdict == "never")
+        if verdict == "meets":
+            assert pair.proof.visual_meets and pair.proof.positions["j0"] + pair.proof.positions["j1"] >= 3
+        else:
+            assert pair.proof.proven_free == 1 and pair.proof.positions == {}
+        assert all(pair.proof is None for pair in hulls.motion(10, prove=0).pairs)
+
+
 def test_wrong_options_of_checks_and_motion_are_named(robot, hulls):
     for allow in (-1, math.nan, "1mm"):
         with pytest.raises(prohull.InputError, match="allow=.*: expected a number, at least 0"):
             robot.check(allow)
-    for options in ({"configurations": -5}, {"configurations": 2.5}, {"seed": -1}, {"threads": 1 << 40}):
+    for options in ({"configurations": -5}, {"configurations": 2.5}, {"seed": -1}, {"prove": -1}, {"threads": 1 << 40}):
         with pytest.raises(prohull.InputError, match=f"{next(iter(options))}=.*: expected a whole number"):
             hulls.motion(**options)
     assert robot.hulls(np.int32(100), gap=np.float32(0.25)).certified

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <optional>
 #include <queue>
@@ -64,10 +63,8 @@ class PairSearch {
     if (!result_.why.empty()) return result_;
     const auto ranges = chain_.ranges();
     look_at({.box = {ranges.begin(), ranges.end()}});
-    for (std::size_t halved = 0; result_.verdict == PairVerdict::Open && !open_.empty(); ++halved) {
+    while (result_.verdict == PairVerdict::Open && !open_.empty()) {
       const Cell cell = open_.top();
-      if (halved >= kFirstClimb && std::has_single_bit(halved)) climb(cell, meter);
-      if (result_.verdict != PairVerdict::Open) break;
       if (result_.cells + 2 > most_cells_) return stopped("the number of cells is used up");
       if (!cell.may_be_smaller) return stopped("rounding hides whether they touch");
       open_.pop();
@@ -79,8 +76,6 @@ class PairSearch {
   }
 
  private:
-  static constexpr std::size_t kFirstClimb = 32;  // by then, most pairs that meet are found
-
   PairProof stopped(std::string why) {
     result_.why = std::move(why);
     return result_;
@@ -101,8 +96,9 @@ class PairSearch {
     const JointChain::Motion motion = chain_.motion(cell.box);
     cell.distance = distance_of_balls(motion.pose);
     if (cell.distance <= motion.change) {
-      cell.distance = distance(cell, motion.pose);
-      if (result_.verdict != PairVerdict::Open) return;
+      const Separation separation = prohull::separation(a_.index, {}, b_.index, motion.pose);
+      if (separation.collide()) return meets_at(cell, motion.pose);
+      cell.distance = separation.lower;
     }
     if (cell.distance > motion.change) {
       result_.proven_free += cell.share;
@@ -112,38 +108,6 @@ class PairSearch {
     cell.widest = static_cast<std::size_t>(widest - motion.parts.begin());
     cell.may_be_smaller = widest != motion.parts.end() && *widest > chain_.rounding();
     open_.push(std::move(cell));
-  }
-
-  /// From the middle of a cell to positions where the links are closer, one freedom after the other: they may meet in a
-  /// corner of the ranges, to which halving comes late.
-  void climb(const Cell& from, ProgressMeter& meter) {
-    Cell best = from;
-    for (JointRange& range : best.box) range = {range.middle(), range.middle()};
-    for (double step = 0.125; step > 1e-3;) {
-      const double before = best.distance;
-      for (std::size_t f = 0; f < best.box.size(); ++f)
-        for (const double way : {-step, step}) {
-          if (result_.cells >= most_cells_) return;
-          const JointRange& range = chain_.ranges()[f];
-          const double there =
-              std::clamp(best.box[f].lower + way * (range.upper - range.lower), range.lower, range.upper);
-          Cell next = best;
-          next.box[f] = {there, there};
-          meter.go_on();
-          ++result_.cells;
-          next.distance = distance(next, chain_.motion(next.box).pose);
-          if (result_.verdict != PairVerdict::Open) return;
-          if (next.distance < best.distance) best = std::move(next);
-        }
-      if (best.distance == before) step /= 2;
-    }
-  }
-
-  /// A lower bound; notes where they meet.
-  double distance(const Cell& cell, const Pose& pose) {
-    const Separation separation = prohull::separation(a_.index, {}, b_.index, pose);
-    if (separation.collide()) meets_at(cell, pose);
-    return separation.lower;
   }
 
   double distance_of_balls(const Pose& pose) const {

@@ -29,13 +29,13 @@ struct PairProof {
   PairVerdict verdict = PairVerdict::Open;
   std::string why = {};                ///< of Open: a clause without a full stop
   double proven_free = 0;              ///< the share of the positions at which they are proven to be apart
-  std::size_t cells = 0;               ///< of the joints' positions that were looked at; single positions count as well
+  std::size_t cells = 0;               ///< of the joints' positions that were looked at
   std::vector<double> positions = {};  ///< of Always and Meets: of all joints of the robot, within their limits
   FacePair faces = {};                 ///< two faces that meet there; 0 and 0 where one link is inside of the other
 };
 
 struct ProofOptions {
-  std::size_t cells = 20'000;  ///< most cells of a pair. Time does not count, so that results are the same everywhere
+  std::size_t cells = 10'000;  ///< most cells of a pair. Time does not count, so that results are the same everywhere
   unsigned threads = 0;        ///< 0: one for each core
   Progress progress = {};      ///< stage "prove"
 };
@@ -47,8 +47,7 @@ struct ProofOptions {
 /// How it works: A cell is a range of positions of each joint between the links. The links are apart in all of it if
 /// their distance in the middle, a proven lower bound, is greater than what the motion can change it by
 /// (JointChain::Motion::change). Otherwise it is halved, across the joint that can change the distance most. Cells with
-/// a small distance come first, so that positions at which the links meet are found early; from time to time, a climb
-/// goes from the first cell to smaller distances.
+/// a small distance come first, so that positions at which the links meet are found early.
 ///
 /// What "proven" means: the axes, anchors and limits are those of `robot`, and the origins of its joints are the
 /// rotations closest to their matrices; what doubles lose on the way is bounded, and part of the change.

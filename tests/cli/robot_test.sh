@@ -72,6 +72,7 @@ expect 0 "the coarse one too" $prohull urdf made/deep/robot_60.urdf --check
 absent "made/deep/.[a-z]* made/deep/meshes/*/.[a-z]*" "unfinished files"
 
 is "the SRDF has no sampled pairs" test -z "$(grep sampled made/deep/robot.srdf)"
+says made/deep/report.json "pairs are decided" '"proven_free"'
 says made/deep/robot.srdf "the SRDF has adjacent pairs" 'reason="Adjacent"'
 expect 0 "sampled pairs, in a folder with a slash" $urdf -o sampled/ $small --sampled-pairs
 says sampled/robot.srdf "sampled pairs are called so" "it is no proof"

@@ -29,7 +29,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr Vec3 kAlongX{1, 0, 0}, kAlongY{0, 1, 0}, kAlongZ{0, 0, 1};
 
 PairProof proof_of(const Robot& robot, const std::vector<TriangleMesh>& links, std::size_t a, std::size_t b,
-                   std::size_t cells = 20'000) {
+                   std::size_t cells = 10'000) {
   const LinkPair pair{a, b};
   return prove_pairs(robot, links, std::span(&pair, 1), {.cells = cells}).front();
 }
@@ -371,7 +371,7 @@ TEST(PairProof, DecidesTheArmAndIsTheSameWithAnyNumberOfThreads) {
     EXPECT_EQ(one[i].positions, four[i].positions);
     EXPECT_EQ(one[i].faces, four[i].faces);
     if (one[i].verdict == PairVerdict::Never)
-      ++nevers, expect_no_contradiction(arm.robot, arm.links, one[i], 500, 5, random);
+      ++nevers, expect_no_contradiction(arm.robot, arm.links, one[i], 200, 5, random);
     else if (!one[i].positions.empty())
       expect_witness(arm.robot, arm.links, one[i]);
   }
