@@ -17,12 +17,13 @@
 namespace prohull::robot {
 namespace {
 
-// Let the joints between two links move one after the other, each from the middle of its range to any other position.
 // A joint that turns by an angle t moves a point of one link against the other by at most t times the distance of the
-// point from the joint's axis, and by at most twice that distance. This distance is the lever arm. Which of the two
-// links is taken as the one that moves is free, joint by joint, so the one with the smaller arm is taken. An arm at the
-// middle is computed; elsewhere it differs by what the joints between axis and link move the link, which is bounded in
-// the same way. The distance of the links changes by no more than the sum over the joints.
+// point from the joint's axis, and by at most twice that distance. This distance is the lever arm, and which of the two
+// links is taken as the one that moves is free, joint by joint. Let the joints move one after the other, each from the
+// middle of its range to any other position. The arm of a about an axis depends on the joints between a and the axis
+// alone. If the first joints, seen from a, count by their arms of a and move the last of them first, and the others
+// count by their arms of b and move the first of them first, then each arm is the one in the middle of all ranges. The
+// distance of the links changes by no more than the sum over the joints.
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSmall = 0x1p-44;  // above what a few operations on doubles lose, relative to the largest number
@@ -101,7 +102,7 @@ JointChain::JointChain(const Robot& robot, std::size_t a, std::size_t b, std::ve
   std::ranges::reverse(above_b);
   for (const std::size_t j : above_b) add_hinge(robot, j, false);
   if (obstacle_.empty()) find_ranges(robot);
-  if (obstacle_.empty()) find_rounding(), find_fixed_arms();
+  if (obstacle_.empty()) find_rounding();
 }
 
 void JointChain::add_hinge(const Robot& robot, std::size_t joint, bool climbs) {
@@ -176,26 +177,6 @@ void JointChain::find_rounding() {
   rounding_ = error * extent_;
 }
 
-// An arm is the same everywhere where nothing moves between the axis and the link.
-void JointChain::find_fixed_arms() {
-  const auto set = [&](std::span<const Vec3> points, double Hinge::*arm, auto first, auto last, bool from_a) {
-    Pose pose;  // of the frame before the hinge, as the link sees it
-    for (auto hinge = first; hinge != last; ++hinge) {
-      const Joint& joint = *hinge->joint;
-      const bool is_moved = hinge->freedom != kNone;
-      if (is_moved && turns(joint) && hinge->climbs == from_a)
-        (*hinge).*arm = largest_distance(points, placed(pose, joint.anchor), turned(pose, joint.axis));
-      const Pose step = joint_pose(joint, 0);  // the axis stays where it is at any position
-      pose = composed(pose, hinge->climbs == from_a ? inverse(step) : step);
-      if (is_moved && turns(joint) && hinge->climbs != from_a)
-        (*hinge).*arm = largest_distance(points, placed(pose, joint.anchor), turned(pose, joint.axis));
-      if (is_moved) return;
-    }
-  };
-  set(points_of_a_, &Hinge::on_a, hinges_.begin(), hinges_.end(), true);
-  set(points_of_b_, &Hinge::on_b, hinges_.rbegin(), hinges_.rend(), false);
-}
-
 JointChain::Motion JointChain::motion(std::span<const JointRange> box) const {
   struct Axis {
     Vec3 point, direction;  // in the frame of a
@@ -226,38 +207,33 @@ JointChain::Motion JointChain::motion(std::span<const JointRange> box) const {
     motion.pose = composed(motion.pose, hinge.climbs ? inverse(step) : step);
     if (!hinge.climbs) set_axis();
   }
-  const double slack = 2 * rounding_ + kSmall * extent_;
-  const auto moves_by = [&](std::size_t h, double arm) {
-    return turns(*hinges_[h].joint) ? std::min(axes[h].half, 2.0) * arm : axes[h].half;
-  };
-  std::vector<double> arms(hinges_.size());  // of a at first, then the smaller ones
-  double moved = 0;                          // how far the joints between axis and link move the link
-  for (std::size_t h = 0; h < hinges_.size(); ++h) {
-    const Hinge& hinge = hinges_[h];
-    if (hinge.freedom == kNone) continue;
-    if (turns(*hinge.joint))
-      arms[h] = (hinge.on_a >= 0 ? hinge.on_a : largest_distance(points_of_a_, axes[h].point, axes[h].direction)) +
-                moved + slack;
-    moved += moves_by(h, arms[h]);
-  }
   const Pose back = inverse(motion.pose);
+  const double slack = 2 * rounding_ + kSmall * extent_;
+  std::vector<double> by_a(hinges_.size()), by_b(hinges_.size());  // what each joint changes, by the arms of a and b
+  for (std::size_t h = 0; h < hinges_.size(); ++h) {
+    const Axis& axis = axes[h];
+    if (hinges_[h].freedom == kNone) continue;
+    by_a[h] = by_b[h] = axis.half;
+    if (!turns(*hinges_[h].joint)) continue;
+    const double angle = std::min(axis.half, 2.0);
+    by_a[h] = angle * (largest_distance(points_of_a_, axis.point, axis.direction) + slack);
+    by_b[h] = angle * (largest_distance(points_of_b_, placed(back, axis.point), turned(back, axis.direction)) + slack);
+  }
+  double change = std::accumulate(by_b.begin(), by_b.end(), 0.0);
+  motion.change = change;
+  std::size_t of_a = 0;  // how many joints count by their arms of a
+  for (std::size_t h = 0; h < hinges_.size(); ++h) {
+    change += by_a[h] - by_b[h];
+    if (change < motion.change) motion.change = change, of_a = h + 1;
+  }
   motion.parts.resize(freedoms_.size());
-  moved = 0;
-  for (std::size_t h = hinges_.size(); h-- > 0;) {
-    const Hinge& hinge = hinges_[h];
-    if (hinge.freedom == kNone) continue;
-    double arm = 0;
-    if (turns(*hinge.joint))
-      arm = (hinge.on_b >= 0
-                 ? hinge.on_b
-                 : largest_distance(points_of_b_, placed(back, axes[h].point), turned(back, axes[h].direction))) +
-            moved + slack;
-    moved += moves_by(h, arm);
-    const double part = moves_by(h, std::min(arm, arms[h]));
-    motion.parts[hinge.freedom] += part;
+  motion.change = rounding_;
+  for (std::size_t h = 0; h < hinges_.size(); ++h) {
+    if (hinges_[h].freedom == kNone) continue;
+    const double part = (h < of_a ? by_a[h] : by_b[h]) * (1 + kSmall);
+    motion.parts[hinges_[h].freedom] += part;
     motion.change += part;
   }
-  motion.change = motion.change * (1 + kSmall) + rounding_;
   return motion;
 }
 

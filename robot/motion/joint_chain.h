@@ -49,17 +49,15 @@ class JointChain {
  private:
   struct Hinge {
     const Joint* joint = nullptr;
-    bool climbs = false;          // from child to parent, on the way from a to b
-    std::size_t freedom = 0;      // kNone if nothing moves it
-    std::vector<Mimic> follows;   // from the freedom to this joint
-    double on_a = -1, on_b = -1;  // lever arms that are the same everywhere; -1 for others
+    bool climbs = false;         // from child to parent, on the way from a to b
+    std::size_t freedom = 0;     // kNone if nothing moves it
+    std::vector<Mimic> follows;  // from the freedom to this joint
   };
   static constexpr auto kNone = static_cast<std::size_t>(-1);
 
   void add_hinge(const Robot& robot, std::size_t joint, bool climbs);
   void find_ranges(const Robot& robot);
   void find_rounding();
-  void find_fixed_arms();
   bool is_periodic(std::size_t freedom) const;
 
   std::vector<Vec3> points_of_a_, points_of_b_;

@@ -274,6 +274,22 @@ TEST(JointChain, BoundsWhatMotionChangesOfDistances) {
   EXPECT_GT(closest, 0.9) << "the bound is far from what happens";
 }
 
+// The first axis goes through the point of b, the second one through that of a: neither moves the distance alone.
+TEST(JointChain, BoundsWhatTwoJointsDoTogether) {
+  const Robot robot = robot_of(3, {limited(joint(JointType::Revolute, 0, 1, {1, 0, 0}, kAlongZ), -1, 1),
+                                   limited(joint(JointType::Revolute, 1, 2, {-1, 0, 0}, kAlongZ), -1, 1)});
+  const JointChain chain(robot, 0, 2, {{0, 0, 0}}, {{1, 0, 0}});
+  const JointChain::Motion motion = chain.motion(chain.ranges());
+  double largest = 0;
+  for (const double first : {-1., 1.})
+    for (const double second : {-1., 1.})
+      largest = std::max(largest, std::abs(norm(placed(link_poses(robot, std::vector{first, second})[2], {1, 0, 0})) -
+                                           norm(placed(motion.pose, {1, 0, 0}))));
+  EXPECT_GT(largest, 0.5);
+  EXPECT_GE(motion.change, largest);
+  EXPECT_LE(motion.change, 1 + 1e-9) << "one joint by its arm of one link, the other by one that is 0";
+}
+
 /// Random positions, and from some of them a climb towards contact, contradict no proof.
 void expect_no_contradiction(const Robot& robot, const std::vector<TriangleMesh>& links, const PairProof& proof,
                              std::size_t poses, std::size_t climbs, Random& random) {
