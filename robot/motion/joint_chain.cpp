@@ -163,16 +163,21 @@ void JointChain::find_ranges(const Robot& robot) {
 // pose in doubles differs from that of a rotation, in norm, by what its origin differs, and by a few operations. A
 // wrong pose moves all beyond it by its error times the extent.
 void JointChain::find_rounding() {
+  constexpr double kLargestPosition = 1e6;
   extent_ = largest_norm(points_of_a_) + largest_norm(points_of_b_);
   double error = kSmall;
   for (const Hinge& hinge : hinges_) {
     const Joint& joint = *hinge.joint;
     extent_ += norm(joint.origin.translation) + 2 * norm(joint.anchor);
     error += 2 * defect_of(joint.origin) + kSmall;
-    if (hinge.freedom == kNone || !slides(joint)) continue;
+    if (hinge.freedom == kNone) continue;
     double farthest = std::max(std::abs(ranges_[hinge.freedom].lower), std::abs(ranges_[hinge.freedom].upper));
     for (const Mimic& mimic : hinge.follows) farthest = std::abs(mimic.multiplier) * farthest + std::abs(mimic.offset);
-    extent_ += farthest;
+    if (!(farthest <= kLargestPosition)) {
+      obstacle_ = fmt::format("joint '{}' follows another one too far", joint.name);
+      return;
+    }
+    if (slides(joint)) extent_ += farthest;
   }
   rounding_ = error * extent_;
 }

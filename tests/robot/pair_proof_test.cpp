@@ -152,6 +152,11 @@ TEST(PairProof, LeavesPairsOpenWhosePositionsAreNotBounded) {
   EXPECT_EQ(
       why_open(robot_of(3, {wheel, mimicking(joint(JointType::Revolute, 0, 2, {6, 0, 0}, kAlongX), 0, 0.5, 0)}), 1, 2),
       "joint 'joint0' has no limits");
+  for (const double multiplier : {1e7, -1e308})
+    EXPECT_EQ(why_open(robot_of(3, {limited(slide, 0, 1),
+                                    mimicking(joint(JointType::Revolute, 0, 2, {6, 0, 0}, kAlongX), 0, multiplier, 0)}),
+                       1, 2),
+              "joint 'joint1' follows another one too far");
   EXPECT_EQ(why_open(robot_of(3, {mimicking(slide, 1, 1, 0), mimicking(slide, 0, 1, 0)})),
             "joint 'joint1' follows one whose positions are not known");
 }
