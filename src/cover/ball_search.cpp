@@ -55,7 +55,7 @@ class Coverage {
  public:
   /// Within a reach of `most`.
   Coverage(const BallTask& task, const std::vector<Place>& places, double most)
-      : patch_count_(task.patches.size()), lists_(places.size()) {
+      : patch_count_(task.patches.size()), lists_(places.size()), per_unit_(std::ldexp(1.0, -std::ilogb(most))) {
     const Bvh tree = tree_of(task.patches);
     for_each_index(places.size(), [&](std::size_t i) {
       task.meter.at(0);
@@ -64,7 +64,7 @@ class Coverage {
       tree.visit([&](const Box& box) { return squared_distance(places[i].center, box) <= radius * radius; },
                  [&](std::uint32_t patch) {
                    const double needed = need(places[i], task.patches, task.patches.patches[patch]);
-                   if (needed <= most) lists_[i].push_back({patch, static_cast<float>(needed)});
+                   if (needed <= most) lists_[i].push_back({patch, static_cast<float>(needed * per_unit_)});
                  });
     });
   }
@@ -72,11 +72,12 @@ class Coverage {
   /// Greedy set cover, within a reach: the place that holds most of what is left comes next. Nothing if that takes more
   /// than `max_places`, or if a patch is out of reach of all.
   std::vector<std::uint32_t> greedy(double reach, std::size_t max_places) const {
+    const double most = reach * per_unit_;
     std::vector<char> covered(patch_count_);
     std::size_t left = patch_count_;
     const auto gain = [&](std::uint32_t place) {
       std::size_t count = 0;
-      for (const auto& [patch, needed] : lists_[place]) count += !covered[patch] && needed <= reach;
+      for (const auto& [patch, needed] : lists_[place]) count += !covered[patch] && needed <= most;
       return count;
     };
     std::priority_queue<std::pair<std::size_t, std::uint32_t>> queue;
@@ -92,7 +93,7 @@ class Coverage {
         queue.push({gained, ~place});
         continue;
       }
-      for (const auto& [patch, needed] : lists_[place]) covered[patch] |= needed <= reach;
+      for (const auto& [patch, needed] : lists_[place]) covered[patch] |= needed <= most;
       left -= gained;
       chosen.push_back(place);
     }
@@ -102,10 +103,11 @@ class Coverage {
  private:
   struct Held {
     std::uint32_t patch;
-    float needed;
+    float needed;  ///< in units near the largest reach, which floats may not hold
   };
   std::size_t patch_count_;
   std::vector<std::vector<Held>> lists_;
+  double per_unit_;
 };
 
 /// A ball of a cover that is being improved.

@@ -1,6 +1,7 @@
 #include "cover/depth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace prohull::cover {
@@ -20,7 +21,10 @@ Vec3 of_length_1(const Vec3& v) {
 }  // namespace
 
 Depth::Depth(TriangleMesh solid, double slack, TriangleMesh sheets)
-    : solid_(std::move(solid)), slack_(slack), query_(queries_of(solid_)) {
+    : solid_(std::move(solid)),
+      slack_(slack),
+      unit_(std::ldexp(1.0, std::ilogb(std::max(bounding_box(solid_).diagonal(), 1e-300)))),
+      query_(queries_of(solid_)) {
   if (sheets.face_count() > 0) sheets_ = queries_of(std::move(sheets));
 }
 
@@ -45,9 +49,9 @@ std::optional<Vec3> Depth::medial_point(const Vec3& p, double tolerance) const {
   const ClosestPoint foot = *query.closest_point(p);
   const Vec3 normal = normal_of(foot.face), touched = foot.position;
   if (normal == Vec3{}) return std::nullopt;
-  const auto across_solid = query.first_hit(Ray{touched - normal * (tolerance / 16), -normal});
+  const auto across_solid = query.first_hit(Ray{touched - normal * (tolerance / 16), -normal * unit_});
   if (!across_solid || across_solid->entering) return std::nullopt;
-  double radius = across_solid->t / 2;
+  double radius = across_solid->t * unit_ / 2;
   constexpr int kMostRounds = 30;
   for (int round = 0; round < kMostRounds; ++round) {
     const Vec3 center = touched - normal * radius;

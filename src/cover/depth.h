@@ -34,7 +34,7 @@ class Depth {
   Vec3 normal_of(FaceId face) const;
 
   TriangleMesh solid_;
-  double slack_;
+  double slack_, unit_;  ///< a power of two near the solid's size
   mutable oneapi::tbb::enumerable_thread_specific<MeshQuery> query_;
   mutable std::optional<oneapi::tbb::enumerable_thread_specific<MeshQuery>> sheets_;
 };

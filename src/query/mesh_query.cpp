@@ -216,16 +216,19 @@ void QueryAccess::append_all(MeshQuery& query, const Primitive& primitive, std::
 
 namespace {
 
-/// Along an axis, from a point of the box.
+/// Along an axis, from a point of the box, and about as long: boxes are ill seen along directions that are 2^60 times
+/// as short (wide_line.h).
 Ray ray_to_nearest_side(const Vec3& point, const Box& box) {
-  Ray ray{point, {-1, 0, 0}};
+  const Vec3 size = box.max - box.min;
+  const double length = std::max({size.x, size.y, size.z, 1e-300});
+  Ray ray{point, {-length, 0, 0}};
   double nearest = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {box.min[axis], box.max[axis]})
       if (const double away = std::abs(side - point[axis]); away < nearest) {
         nearest = away;
         ray.direction = {};
-        ray.direction[axis] = side == box.min[axis] ? -1 : 1;
+        ray.direction[axis] = side == box.min[axis] ? -length : length;
       }
   return ray;
 }

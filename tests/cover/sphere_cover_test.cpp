@@ -159,6 +159,24 @@ TEST(SphereCover, IsTheSameForAnyNumberOfThreads) {
 }
 
 // Squares of its lengths squared underflow, so that finer searches find nothing, and coarser ones find too much.
+// Radii were kept as float32, in which no ball of 1e64 reached anything, so that the search did not end.
+TEST(SphereCover, IsTheSameInAnyUnit) {
+  const TriangleMesh bracket = make_sample("bracket", 200);
+  const SphereCover cover = sphere_cover(bracket, {.max_balls = 5});
+  for (const int exponent : {60, 120, 210}) {
+    TriangleMesh scaled = bracket;
+    const double unit = std::ldexp(1.0, exponent);
+    for (Vec3& p : scaled.positions) p = p * unit;
+    const SphereCover same = sphere_cover(scaled, {.max_balls = 5});
+    EXPECT_TRUE(same.certified);
+    ASSERT_EQ(same.balls.size(), cover.balls.size()) << exponent;
+    for (std::size_t i = 0; i < cover.balls.size(); ++i) {
+      EXPECT_EQ(same.balls[i].center, cover.balls[i].center * unit) << exponent;
+      EXPECT_EQ(same.balls[i].radius, cover.balls[i].radius * unit) << exponent;
+    }
+  }
+}
+
 TEST(SphereCover, OfATinyBoxEnds) {
   const SphereCover cover = sphere_cover(meshes::box({0, 0, 0}, {1e-98, 1e-98, 1e-98}), {.max_balls = 4});
   EXPECT_TRUE(cover.certified);
