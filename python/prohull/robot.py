@@ -269,7 +269,7 @@ class Hulls(Shown):
         core, pairs, srdf = self._core.motion(
             _arrays.count("configurations", configurations), _arrays.count("seed", seed, bits=64),
             bool(sampled_pairs), _arrays.count("prove", prove), _arrays.count("threads", threads), progress)
-        return Motion(core, [MotionPair(*pair, proof and PairProof(*proof)) for *pair, proof in pairs], srdf)
+        return Motion(core, [MotionPair._make([*pair, proof and PairProof(*proof)]) for *pair, proof in pairs], srdf)
 
     def report_html(self, path: Path, *, check: Optional[Check] = None, motion: Optional[Motion] = None,
                     threads: int = 0, progress: Optional[Progress] = None) -> None:

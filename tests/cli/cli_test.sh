@@ -654,8 +654,8 @@ says shell.json "report: its openings" '"open_shells": "keep"'
 expect 0 "an open shell, verified" $prohull verify shell.stl open.off
 expect 0 "NaN" $prohull build nan.off --faces 100 -o wrapped.off --report wrapped.json
 says out "NaN" "dropped 3 faces with a corner that is not finite"
-says wrapped.json "report: a wrap" '"repair": "wrap"'
-says wrapped.json "report: its source" '"source": "wrap"'
+says out "NaN" "the triangles are flat: the hull is a slab around them"
+says wrapped.json "report: its source" '"source": "convex-hull"'
 expect 0 "NaN, verified" $prohull verify wrapped.off nan.off --finite-only
 says out "NaN, verified" "3 faces of the original are not finite"
 expect 0 "a sheet, by levels" $prohull build sheet.off --faces 200 -o wrapped.ply --hierarchy wrapped.phull
@@ -664,8 +664,10 @@ expect 0 "its levels, verified" $prohull verify wrapped.phull sheet.off
 expect 0 "its levels, described" $prohull info wrapped.phull --report wrapped.json
 says out "its levels, described" "finest level   a wrap of the input, not the input itself"
 says wrapped.json "report: finest level" '"finest_level": "wrap"'
-expect 0 "a wrap of a closed mesh, by levels" $prohull build knot.ply --repair wrap --faces 200 -o wrapped.ply --hierarchy wrapped_knot.phull
+expect 0 "a wrap of a closed mesh, by levels" $prohull build knot.ply --repair wrap --faces 200 -o wrapped.ply --hierarchy wrapped_knot.phull --report wrapped.json
 says out "a wrap of a closed mesh, by levels" "certified: yes"
+says wrapped.json "report: a wrap" '"repair": "wrap"'
+says wrapped.json "report: its source" '"source": "wrap"'
 expect 0 "its levels, verified" $prohull verify wrapped_knot.phull knot.ply
 expect 1 "its levels, of another mesh" $prohull verify wrapped_knot.phull rock.ply
 expect 0 "its levels, asked" $prohull query wrapped.phull --random 10
