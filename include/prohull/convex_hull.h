@@ -10,8 +10,9 @@ namespace prohull {
 /// How it works: Quickhull (Barber, Dobkin, Huhdanpaa 1996) with exact predicates.
 TriangleMesh convex_hull(const TriangleMesh& mesh);
 
-/// The convex hull of cubes around the vertices that triangles use, which reach out by `distance`, greater than 0, along
-/// each axis: a slab around what is flat. All of the mesh is inside, unless its coordinates round the distance away.
+/// The convex hull of cubes around the vertices that triangles use, which reach out by `distance`, greater than 0,
+/// along each axis: a slab around what is flat. All of the mesh is inside, unless its coordinates round the distance
+/// away.
 TriangleMesh slab_around(const TriangleMesh& mesh, double distance);
 
 /// The convex hull of all points within `distance` of the mesh, which is greater than 0, and of a few more: its faces

@@ -101,10 +101,10 @@ std::string describe(const Folds& folds);
 struct Solid {
   Source source;
   TriangleMesh mesh;
-  double wrap_spacing = 0;  ///< of the grid of a wrap, in the input's unit
-  double slab_width = 0;    ///< given to the convex hull of what is flat (slab_around), in the input's unit
-  TriangleMesh doors = {};  ///< of a wrap: faces across what it closed, which a hull has to cover as well
-  double largest_door = 0;  ///< as in Wrap
+  double wrap_spacing = 0;     ///< of the grid of a wrap, in the input's unit
+  double slab_width = 0;       ///< given to the convex hull of what is flat (slab_around), in the input's unit
+  TriangleMesh doors = {};     ///< of a wrap: faces across what it closed, which a hull has to cover as well
+  double largest_door = 0;     ///< as in Wrap
   std::size_t components = 0;  ///< parts that no hull of it joins, of at least four faces each
   double volume = 0;
   std::size_t self_intersections = 0;  ///< pairs of faces that intersect
