@@ -18,6 +18,7 @@ constexpr int kBadInput = 3;
 using Run = std::function<int()>;
 void add_aimed(CLI::App& app, Run& run);
 void add_asked(CLI::App& app, Run& run);
+void add_closest(CLI::App& app, Run& run);
 void add_collide(CLI::App& app, Run& run);
 void add_construction(CLI::App& app, Run& run);
 void add_corpus(CLI::App& app, Run& run);

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "geometry/closest_point.h"
 #include "query_peers.h"
 
 namespace prohull::bench {
@@ -115,10 +116,25 @@ class Packets final : public PeerPackets {
   std::vector<Prepared> packets_;
 };
 
+/// What Embree calls for each face whose box is near enough: the radius shrinks, as in its tutorial closest_point.
+struct Nearest {
+  const TriangleMesh* mesh;
+  Vec3 point;
+
+  static bool see(RTCPointQueryFunctionArguments* arguments) {
+    const Nearest& me = *static_cast<const Nearest*>(arguments->userPtr);
+    const auto found =
+        static_cast<float>(norm(closest_point(me.point, me.mesh->triangle(FaceId(arguments->primID))) - me.point));
+    if (!(found < arguments->query->radius)) return false;
+    arguments->query->radius = found;
+    return true;
+  }
+};
+
 class Embree final : public QueryPeer {
  public:
   Embree(const TriangleMesh& mesh, bool robust, unsigned threads)
-      : robust_(robust), device_(rtcNewDevice(fmt::format("threads={}", threads).c_str())) {
+      : mesh_(mesh), robust_(robust), device_(rtcNewDevice(fmt::format("threads={}", threads).c_str())) {
     if (!device_) throw std::runtime_error("Embree does not start");
     rtcSetDeviceMemoryMonitorFunction(device_.get(), &Embree::count_bytes, &bytes_);
     geometry_ = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -158,6 +174,16 @@ class Embree final : public QueryPeer {
 
   std::optional<bool> contains(const Vec3& point) override {
     return all_hits(ray(point, {1, 0, 0}, std::numeric_limits<float>::infinity())).size() % 2 == 1;
+  }
+
+  std::optional<double> distance(const Vec3& point) override {
+    RTCPointQuery query{static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z), 0,
+                        std::numeric_limits<float>::infinity()};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    Nearest nearest{&mesh_, point};
+    rtcPointQuery(scene_.get(), &query, &context, &Nearest::see, &nearest);
+    return query.radius;
   }
 
   std::unique_ptr<PeerPackets> packets(std::span<const Segment> segments, std::size_t width, bool coherent) override {
@@ -209,6 +235,7 @@ class Embree final : public QueryPeer {
     return hits;
   }
 
+  const TriangleMesh& mesh_;
   bool robust_;
   std::atomic<std::ptrdiff_t> bytes_ = 0;
   Owned<RTCDevice> device_;

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   add_rays(app, run);
   add_aimed(app, run);
   add_asked(app, run);
+  add_closest(app, run);
   add_collide(app, run);
   add_filters(app, run);
   add_gaps(app, run);

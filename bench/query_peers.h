@@ -33,6 +33,8 @@ class QueryPeer {
   virtual std::span<const PeerHit> all_hits(const Segment& segment) = 0;
   /// Whether the point is inside of a closed mesh: the parity of the crossings of a ray. Nothing if that was not built.
   virtual std::optional<bool> contains(const Vec3&) { return std::nullopt; }
+  /// From the nearest face. Nothing if that was not built.
+  virtual std::optional<double> distance(const Vec3&) { return std::nullopt; }
   /// By `width` segments, 8 or 16; coherent: neighbours take nearly the same way. Null if the library has no packets.
   virtual std::unique_ptr<PeerPackets> packets(std::span<const Segment>, std::size_t, bool) { return nullptr; }
   /// Of the tree, without the mesh; 0 if the library does not say.
