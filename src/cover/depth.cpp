@@ -39,7 +39,7 @@ double Depth::in_solid(const Vec3& p) const { return -query_.local().signed_dist
 
 Vec3 Depth::normal_of(FaceId face) const {
   const Triangle t = solid_.triangle(face);
-  return of_length_1(cross(t.b - t.a, t.c - t.a));
+  return of_length_1(cross((t.b - t.a) / unit_, (t.c - t.a) / unit_));
 }
 
 // The ball that touches the surface at one point shrinks until no other point of the surface is in it (Ma, Bae, Choi

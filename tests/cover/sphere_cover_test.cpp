@@ -159,11 +159,12 @@ TEST(SphereCover, IsTheSameForAnyNumberOfThreads) {
 }
 
 // Squares of its lengths squared underflow, so that finer searches find nothing, and coarser ones find too much.
-// Radii were kept as float32, in which no ball of 1e64 reached anything, so that the search did not end.
+// Radii were kept as float32, in which no ball of 1e64 reached anything, and areas of lengths of 1e77 overflowed: the
+// search did not end.
 TEST(SphereCover, IsTheSameInAnyUnit) {
   const TriangleMesh bracket = make_sample("bracket", 200);
   const SphereCover cover = sphere_cover(bracket, {.max_balls = 5});
-  for (const int exponent : {60, 120, 210}) {
+  for (const int exponent : {60, 120, 210, 300}) {
     TriangleMesh scaled = bracket;
     const double unit = std::ldexp(1.0, exponent);
     for (Vec3& p : scaled.positions) p = p * unit;
