@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -8,6 +10,7 @@
 #include "machine.h"
 #include "models.h"
 #include "prohull/mesh_query.h"
+#include "prohull/random_segments.h"
 #include "query_peers.h"
 #include "table.h"
 
@@ -30,22 +33,17 @@ struct PointSet {
 constexpr PointSet kSets[]{{"in the box", -1}, {"near the surface", 0.005}, {"on the surface", 0}};
 
 std::vector<Vec3> points_of(const PointSet& set, const TriangleMesh& mesh, std::size_t count) {
-  std::mt19937_64 random(1);
-  const auto fraction = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  constexpr std::uint64_t kSeed = 1;
   const Box box = bounding_box(mesh);
-  const auto in_box = [&](const Vec3& size) {
-    return Vec3{fraction() * size.x, fraction() * size.y, fraction() * size.z};
-  };
-  const double away = set.away * box.diagonal();
-  std::vector<Vec3> points(count);
+  if (set.away < 0) return random_points(box, count, kSeed);
+  const Vec3 away = Vec3{1, 1, 1} * (set.away * box.diagonal());
+  std::vector<Vec3> points = random_points({-away, away}, count, kSeed);
+  std::mt19937_64 random(kSeed);
+  const auto fraction = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   for (Vec3& p : points) {
-    if (set.away < 0) {
-      p = box.min + in_box(box.max - box.min);
-      continue;
-    }
     const Triangle t = mesh.triangle(FaceId(static_cast<std::uint32_t>(random() % mesh.face_count())));
     const double u = std::sqrt(fraction()), v = fraction();
-    p = t.a * (1 - u) + t.b * (u * (1 - v)) + t.c * (u * v) + in_box(Vec3{2, 2, 2} * away) - Vec3{1, 1, 1} * away;
+    p = p + t.a * (1 - u) + t.b * (u * (1 - v)) + t.c * (u * v);
   }
   return points;
 }

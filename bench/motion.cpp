@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <ctime>
 #include <vector>
 
 #include "command.h"
@@ -49,9 +48,9 @@ void measure(const path& path_of_robot, const MotionBenchOptions& options, Table
   how.budget.faces = {options.faces}, how.skip_missing = true;
   const Bodies bodies = bodies_of(robot, link_hulls(robot, how), Geometry::Visual);
   for (const LinkPair& pair : pairs_of(robot, bodies)) {
-    const std::clock_t start = std::clock();  // of one thread: what else the machine does is not counted
-    const PairProof proof = prove_pairs(robot, bodies.hull, std::span(&pair, 1), options.proof).front();
-    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    PairProof proof;
+    const double seconds =
+        seconds_of([&] { proof = prove_pairs(robot, bodies.hull, std::span(&pair, 1), options.proof).front(); });
     ++all.pairs, all.decided += proof.verdict != PairVerdict::Open;
     table.add({as_cell(path_of_robot.stem().string()), as_cell(robot.links[pair.first].name),
                as_cell(robot.links[pair.second].name), std::string(name_of(proof.verdict)),

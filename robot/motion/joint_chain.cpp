@@ -141,7 +141,6 @@ bool JointChain::is_periodic(std::size_t freedom) const {
 }
 
 void JointChain::find_ranges(const Robot& robot) {
-  constexpr double kFar = 1000;  // as random positions have it: such limits mean none
   for (std::size_t f = 0; f < freedoms_.size(); ++f) {
     const Joint& joint = robot.joints[freedoms_[f]];
     if (!(joint.lower <= joint.upper))
@@ -151,7 +150,7 @@ void JointChain::find_ranges(const Robot& robot) {
     JointRange range{joint.lower, joint.upper};
     if (joint.type == JointType::Continuous) range = {-kInfinity, kInfinity};
     if (turns(joint) && is_periodic(f)) range = one_turn(range);
-    if (!(std::max(std::abs(range.lower), std::abs(range.upper)) <= kFar)) {
+    if (!(std::max(std::abs(range.lower), std::abs(range.upper)) <= kFarthestLimit)) {
       obstacle_ = fmt::format("joint '{}' has no limits", joint.name);
       return;
     }

@@ -31,8 +31,7 @@ double random_turn(const Joint& joint, double unit) {
 }
 
 bool is_limited_slide(const Joint& joint) {
-  constexpr double kFar = 1000;  // metres: such limits mean none, and would leave poses without digits
-  return std::abs(joint.lower) <= kFar && std::abs(joint.upper) <= kFar;
+  return std::abs(joint.lower) <= kFarthestLimit && std::abs(joint.upper) <= kFarthestLimit;
 }
 
 double random_shift(const Joint& joint, double unit) {

@@ -7,6 +7,9 @@
 
 namespace prohull::robot {
 
+/// In metres or radians: limits beyond this mean none, and would leave poses without digits.
+inline constexpr double kFarthestLimit = 1000;
+
 /// Random positions of all joints, evenly within their limits; `number` counts the configurations. A continuous joint,
 /// or a revolute one without limits, makes one turn. A prismatic joint stays at 0, or at the limit closest to 0, if a
 /// limit is missing or beyond 1 km. Joints that mimic follow, beyond their own limits too. The same seed and number

@@ -139,7 +139,8 @@ std::vector<std::uint8_t> balls_that_reach(const Grid& grid, const std::vector<f
 
 constexpr float kLargerBall = 1.5F;
 
-/// Adds the hollows whose doors balls of a radius do not pass, but in which larger ones fit.
+/// Adds the hollows whose doors balls of radius `level` do not pass, but in which larger ones fit. `reached` has for
+/// each node how many balls get there; this is the one numbered `ball`.
 void add_rooms(const Grid& grid, const std::vector<float>& far, float level, std::size_t ball,
                const std::vector<std::uint8_t>& reached, const std::vector<std::size_t>& hollows, Rooms& rooms) {
   std::vector<char> is_core;

@@ -106,7 +106,7 @@ class Samples {
     of_corner(foot, from - foot, third - foot, use);
   }
 
-  /// Of those triangles that have no box of nodes around them which are all left out.
+  /// A triangle is passed over if all nodes of the box around it are left out: none of its points would matter.
   template <class Use, class IsLeftOut>
   void of_all(ProgressMeter& meter, IsLeftOut is_left_out, Use use) const {
     for (const FaceId f : triangles_.triangles.ids()) {
