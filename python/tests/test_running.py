@@ -3,6 +3,7 @@
 import _thread
 import concurrent.futures
 import multiprocessing
+import signal
 import threading
 
 import numpy as np
@@ -68,6 +69,7 @@ def test_what_progress_raises_goes_on_to_the_caller(pony):
 @pytest.mark.parametrize("work", ["build", "query"])
 def test_ctrl_c_interrupts(random, work):
     """As Ctrl-C does, by a signal to the main thread while it waits in C++ for what would take an hour."""
+    handler = signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background of a shell
     mesh, rays = prohull.sample("pony", 200000), random().normal(size=(2, 2000000, 3))
     interrupt = threading.Timer(0.3, _thread.interrupt_main)
     interrupt.start()
@@ -77,6 +79,7 @@ def test_ctrl_c_interrupts(random, work):
         else:
             mesh.all_hits(*rays, engine="brute")
     interrupt.join()
+    signal.signal(signal.SIGINT, handler)
 
 
 def test_other_threads_run_meanwhile(pony):

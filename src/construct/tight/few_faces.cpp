@@ -200,10 +200,19 @@ std::size_t affordable_trials(std::size_t most, std::size_t original_faces) {
   return std::min<std::size_t>(most, std::max(original_faces / kFacesOfATrial, kLeast));
 }
 
+/// Whether the hull has the faces asked for and no void but what rounding is: nothing is left to gain. A volume that
+/// counts overlaps of the original twice is greater, and so not near.
+bool is_tightest(const TriangleMesh& hull, const TriangleMesh& original, std::size_t target_faces) {
+  constexpr double kRounding = 1e-12;
+  const double volume = signed_volume(original);
+  return hull.face_count() <= target_faces && std::abs(signed_volume(hull) - volume) <= kRounding * std::abs(volume);
+}
+
 }  // namespace
 
 TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original, const TriangleMesh& coarse,
                               const HullOptions& options) {
+  if (is_tightest(hull, original.mesh(), options.target_faces)) return hull;
   ProgressMeter meter(options.progress, "tighten");
   const auto part = [&](double from, double to) {
     HullOptions one = options;
