@@ -62,7 +62,8 @@ class MjcfReader {
   void add_shape(const MjcfElement& geom, const Link& link, std::vector<Shape>& shapes) {
     shapes.push_back(shape(geom));
     if (const auto* const other = std::get_if<OtherForm>(&shapes.back().form))
-      note(fmt::format("line {}: the {} of body '{}' is not read", geom.element->line, other->what, link.name));
+      note(fmt::format("{}: the {} of body '{}' is not read", document_.short_place_of(*geom.element), other->what,
+                       link.name));
   }
 
   Shape shape(const MjcfElement& geom) const {
@@ -232,7 +233,8 @@ class MjcfReader {
   }
 
   void skip(const XmlElement& element) {
-    note(fmt::format("line {}: how joint '{}' follows others is not read", element.line, *element.attribute("joint1")));
+    note(fmt::format("{}: how joint '{}' follows others is not read", document_.short_place_of(element),
+                     *element.attribute("joint1")));
   }
 
   static bool has_position(const Joint& joint) {

@@ -11,7 +11,7 @@ namespace prohull::robot {
 /// Geoms that collide, by contype, conaffinity or <contact>, are collision geometry, and the others are visual. A body
 /// without others has its geoms as both. Where there is more than one body in the world, it becomes a link "world".
 /// Left out, with a note: geoms of the world, <replicate>, <composite>, <flexcomp>, <attach>, and <equality> but for
-/// joints that follow others in a straight line. <include> is an error.
+/// joints that follow others in a straight line. Included files are part of the document: with_included_files.
 RobotFile read_mjcf(const XmlDocument& document, const Packages& packages);
 
 /// As with_collisions. The hull of a body takes the place, the name and the contact parameters of its first geom that

@@ -14,17 +14,7 @@
 namespace prohull::robot {
 namespace {
 
-bool is_true(const std::string* value) { return value && *value == "true"; }
-
-void refuse_includes(const XmlDocument& document, const XmlElement& element) {
-  for (const XmlElement* child : element.children) {
-    if (child->name == "include")
-      document.refuse(*child,
-                      "<include> is not read; name the file of the robot itself, or merge all files into one "
-                      "by MuJoCo's program: compile scene.xml merged.xml");
-    refuse_includes(document, *child);
-  }
-}
+bool says_true(const std::string* value) { return value && *value == "true"; }
 
 /// The shortest turn that takes the z axis to `z`, of length 1; half a turn about x if that is its opposite.
 Pose turn_of_z_to(const Vec3& z) {
@@ -110,7 +100,6 @@ Pose mjcf_pose(const MjcfModel& model, const MjcfElement& element) {
 }
 
 MjcfModel::MjcfModel(const XmlDocument& document) : document_(document) {
-  refuse_includes(document, document.root());
   read_compiler();
   read_defaults();
   read_meshes();
@@ -130,10 +119,10 @@ void MjcfModel::read_compiler() {
   for (const XmlElement* element : document_.root().children) {
     if (element->name != "compiler") continue;
     const auto text = [&](std::string_view key) { return element->attribute(key); };
-    if (is_true(text("strippath"))) compiler_.strips_paths = true;
-    if (text("strippath")) compiler_.strips_paths = is_true(text("strippath"));
-    if (text("autolimits")) compiler_.auto_limits = is_true(text("autolimits"));
-    if (text("inertiafromgeom")) compiler_.inertia_from_geoms = is_true(text("inertiafromgeom"));
+    if (says_true(text("strippath"))) compiler_.strips_paths = true;
+    if (text("strippath")) compiler_.strips_paths = says_true(text("strippath"));
+    if (text("autolimits")) compiler_.auto_limits = says_true(text("autolimits"));
+    if (text("inertiafromgeom")) compiler_.inertia_from_geoms = says_true(text("inertiafromgeom"));
     if (const auto* folder = text("assetdir")) compiler_.mesh_folder = compiler_.texture_folder = *folder;
     if (const auto* folder = text("meshdir")) compiler_.mesh_folder = *folder;
     if (const auto* folder = text("texturedir")) compiler_.texture_folder = *folder;
@@ -256,7 +245,8 @@ void MjcfModel::read_child(const Place& place, const XmlElement& child) {
     bodies_[place.body].joints.push_back(with_class(place, child));
   }
   if (child.name == "replicate" || child.name == "composite" || child.name == "flexcomp" || child.name == "attach")
-    notes_.push_back(fmt::format("line {}: <{}> is not read, and neither is what it makes", child.line, child.name));
+    notes_.push_back(
+        fmt::format("{}: <{}> is not read, and neither is what it makes", document_.short_place_of(child), child.name));
 }
 
 void MjcfModel::add_body(const Place& place, const XmlElement& element) {

@@ -48,7 +48,7 @@ class MjcfModel {
  public:
   using Attributes = std::map<std::string, std::string, std::less<>>;
 
-  /// Throws InputError(Malformed): default classes that do not exist, names that occur twice, files that are included.
+  /// Throws InputError(Malformed): default classes that do not exist, names that occur twice.
   explicit MjcfModel(const XmlDocument& document);
 
   const XmlDocument& document() const { return document_; }

@@ -251,20 +251,29 @@ void Packages::find_in_package(std::string_view inside, std::string_view scheme,
                                                why_not_at(folders.front() / path), name);
 }
 
-void Packages::require_inside(const MeshFile& mesh) const {
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(Defect::CannotRead, fmt::format("{}: {}, which --no-outside-files refuses", mesh.uri, why));
-  };
-  if (std::ranges::none_of(inside_, [&](const fs::path& folder) { return is_in(mesh.path, folder); }))
-    refuse(fmt::format("{} is outside of {}, and of every folder that --package-path names", mesh.path.string(),
-                       inside_.front().string()));
-  if (!stands_alone(mesh.path)) refuse("a file of this format may name other files; convert it to GLB");
+void Packages::refuse_outside(const MeshFile& file, const std::string& why) {
+  throw InputError(Defect::CannotRead, fmt::format("{}: {}, which --no-outside-files refuses", file.uri, why));
+}
+
+void Packages::require_inside(const MeshFile& file) const {
+  if (inside_.empty() || file.path.empty()) return;
+  if (std::ranges::none_of(inside_, [&](const fs::path& folder) { return is_in(file.path, folder); }))
+    refuse_outside(file, fmt::format("{} is outside of {}, and of every folder that --package-path names",
+                                     file.path.string(), inside_.front().string()));
 }
 
 MeshFile Packages::find(std::string uri, const Vec3& scale, const fs::path& folder) const {
   MeshFile mesh = found(std::move(uri), scale, folder);
-  if (!inside_.empty() && !mesh.path.empty()) require_inside(mesh);
+  require_inside(mesh);
+  if (!inside_.empty() && !mesh.path.empty() && !stands_alone(mesh.path))
+    refuse_outside(mesh, "a file of this format may name other files; convert it to GLB");
   return mesh;
+}
+
+MeshFile Packages::find_description(std::string uri, const fs::path& folder) const {
+  MeshFile file = found(std::move(uri), {1, 1, 1}, folder);
+  require_inside(file);
+  return file;
 }
 
 MeshFile Packages::found(std::string uri, const Vec3& scale, const fs::path& folder) const {

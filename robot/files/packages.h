@@ -28,6 +28,9 @@ class Packages {
   /// Throws InputError(CannotRead) for a file that FileOptions::no_outside_files refuses, wherever symbolic links lead.
   MeshFile find(std::string uri, const Vec3& scale, const std::filesystem::path& folder = {}) const;
 
+  /// Likewise the file of a part of the robot's description, whose own files are found in this way, too.
+  MeshFile find_description(std::string uri, const std::filesystem::path& folder = {}) const;
+
   /// The URI that a robot in `folder` has to name in place of `uri` to find the same file. A relative path that finds
   /// another file from there, or none, becomes a path relative to `folder`. Every other URI stays as it is.
   std::string uri_from(const std::filesystem::path& folder, const MeshFile& mesh) const;
@@ -36,7 +39,8 @@ class Packages {
   const std::vector<std::filesystem::path>& folders_of(const std::string& package) const;
   std::string looked_in() const;
   MeshFile found(std::string uri, const Vec3& scale, const std::filesystem::path& folder) const;
-  void require_inside(const MeshFile& mesh) const;
+  [[noreturn]] static void refuse_outside(const MeshFile& file, const std::string& why);
+  void require_inside(const MeshFile& file) const;
   void find_in_package(std::string_view inside, std::string_view scheme, MeshFile& mesh) const;
 
   std::filesystem::path folder_;  // of the robot's file

@@ -11,6 +11,7 @@
 #include "prohull/error.h"
 #include "prohull/missing_file.h"
 #include "robot/files/mjcf.h"
+#include "robot/files/mjcf_include.h"
 #include "robot/files/packages.h"
 #include "robot/files/sdf.h"
 #include "robot/files/urdf.h"
@@ -100,7 +101,10 @@ RobotFile read_document(const XmlDocument& document, const fs::path& path, const
   if (format == kFormats.end())
     refuse(Defect::UnknownFormat, path,
            fmt::format("no robot: its root is <{}>; that of URDF is <robot>, of SDF <sdf>, of MJCF <mujoco>", root));
-  RobotFile file = format->read(document, Packages(path, options));
+  const Packages packages(path, options);
+  if (format->format == RobotFormat::Mjcf && includes_files(document.root()))
+    return read_document(with_included_files(document, packages, read_text), path, options);
+  RobotFile file = format->read(document, packages);
   file.format = format->format, file.path = path, file.text = document.text();
   return file;
 }

@@ -36,7 +36,7 @@ struct RobotFile {
   Robot robot;
   RobotFormat format = RobotFormat::Urdf;
   std::filesystem::path path;
-  std::string text;                ///< of the file; of a xacro file what the program xacro made of it
+  std::string text;  ///< of the file, with those that MJCF includes; of xacro what the program xacro made of it
   std::vector<std::string> notes;  ///< sentences for the user: what was not read
 };
 

@@ -23,6 +23,12 @@ std::optional<SdfFrame::Kind> kind_of(const XmlElement& element) {
   return std::nullopt;
 }
 
+/// Of old files: SDF reserves the name, and joints that name it as parent are fixed to the world.
+bool stands_for_world(const XmlElement& link) {
+  const std::string* const name = link.attribute("name");
+  return name && *name == "world" && !link.child("visual") && !link.child("collision");
+}
+
 bool is_true(const std::string* value) { return value && (*value == "true" || *value == "1"); }
 
 }  // namespace
@@ -76,7 +82,7 @@ void SdfFrames::add_model(const XmlElement& model, std::size_t frame, const std:
   by_name_[prefix + "__model__"] = frame;
   // Links take their names first: before SDF 1.7 a joint may have the name of a link.
   for (const XmlElement* child : model.children)
-    if (child->name == "link") add(SdfFrame::Kind::Link, *child, scope, prefix);
+    if (child->name == "link" && !stands_for_world(*child)) add(SdfFrame::Kind::Link, *child, scope, prefix);
   for (const XmlElement* child : model.children)
     if (const auto kind = kind_of(*child); kind && *kind != SdfFrame::Kind::Link) add(*kind, *child, scope, prefix);
 }

@@ -48,6 +48,8 @@ class NameTable {
     return name;
   }
 
+  bool has(const std::string& name) const { return elements_.contains(name); }
+
   /// The number of the one that an attribute names.
   std::size_t find(const XmlElement& element, std::string_view attribute) const {
     const std::string& name = document_.required(element, attribute);
@@ -99,7 +101,7 @@ class UrdfReader {
 
   void note_other_form(const Link& link, const Shape& shape) {
     if (const auto* const other = std::get_if<OtherForm>(&shape.form))
-      notes_.push_back(fmt::format("line {}: the <{}> of link '{}' is not read", shape.line, other->what, link.name));
+      notes_.push_back(fmt::format("line {}: the {} of link '{}' is not read", shape.line, other->what, link.name));
   }
 
   Shape shape(const XmlElement& element) const {
@@ -114,13 +116,21 @@ class UrdfReader {
     if (element.name == "mesh") return mesh(element);
     if (element.name == "box") {
       document_.required(element, "size");
-      return BoxForm{positive(element, vector(element, "size", {}))};
+      const Vec3 size = vector(element, "size", {});
+      return std::min({size.x, size.y, size.z}) > 0 ? Form(BoxForm{size}) : flat(element);
     }
-    if (element.name == "sphere") return SphereForm{positive(element, "radius")};
-    if (element.name == "cylinder") return CylinderForm{positive(element, "radius"), positive(element, "length")};
-    if (element.name == "capsule") return CapsuleForm{positive(element, "radius"), positive(element, "length")};
-    return OtherForm{element.name};
+    if (element.name == "sphere") {
+      const double radius = size(element, "radius");
+      return radius > 0 ? Form(SphereForm{radius}) : flat(element);
+    }
+    if (element.name != "cylinder" && element.name != "capsule") return OtherForm{element.name};
+    const double radius = size(element, "radius"), length = size(element, "length");
+    if (radius <= 0 || length <= 0) return flat(element);
+    return element.name == "cylinder" ? Form(CylinderForm{radius, length}) : Form(CapsuleForm{radius, length});
   }
+
+  /// As simulators and viewers, which show nothing there.
+  static OtherForm flat(const XmlElement& element) { return {fmt::format("{} of size 0 or less", element.name)}; }
 
   MeshFile mesh(const XmlElement& element) const {
     const std::string& uri = document_.required(element, "filename");
@@ -140,14 +150,9 @@ class UrdfReader {
     return scale;
   }
 
-  double positive(const XmlElement& element, std::string_view attribute) const {
+  double size(const XmlElement& element, std::string_view attribute) const {
     document_.required(element, attribute);
-    return positive(element, Vec3{number(element, attribute, 0), 1, 1}).x;
-  }
-
-  Vec3 positive(const XmlElement& element, const Vec3& size) const {
-    if (size.x > 0 && size.y > 0 && size.z > 0) return size;
-    document_.refuse(element, fmt::format("the sizes of <{}> have to be greater than 0", element.name));
+    return number(element, attribute, 0);
   }
 
   Pose origin(const XmlElement& parent) const {
@@ -241,9 +246,14 @@ class UrdfReader {
     return std::abs(limit) <= kLargest ? limit : std::copysign(std::numeric_limits<double>::infinity(), limit);
   }
 
-  std::optional<Mimic> mimic(const XmlElement& joint) const {
+  std::optional<Mimic> mimic(const XmlElement& joint) {
     const XmlElement* const element = joint.child("mimic");
     if (!element) return std::nullopt;
+    if (const std::string* const name = element->attribute("joint"); name && !joint_names_.has(*name)) {
+      notes_.push_back(fmt::format(
+          "line {}: <mimic> names a joint that does not exist: '{}'; the joint moves by itself", element->line, *name));
+      return std::nullopt;
+    }
     return Mimic{joint_names_.find(*element, "joint"), number(*element, "multiplier", 1),
                  number(*element, "offset", 0)};
   }

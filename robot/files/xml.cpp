@@ -23,11 +23,6 @@ constexpr std::string_view kBlanks = " \t\r\n";
   throw InputError(Defect::Malformed, fmt::format("{}: line {}: {}", file, line, what));
 }
 
-bool is_utf8(std::string encoding) {
-  std::ranges::transform(encoding, encoding.begin(), [](unsigned char c) { return std::tolower(c); });
-  return encoding.empty() || encoding == "utf-8";
-}
-
 bool is_ascii(std::string_view text) {
   return std::ranges::all_of(text, [](unsigned char c) { return c < 0x80; });
 }
@@ -40,6 +35,8 @@ class Reader {
         file_(file),
         encoding_(encoding),
         elements_(elements),
+        skipped_(blanks_before_declaration(text)),
+        skipped_lines_(std::ranges::count(std::string_view(text).substr(0, skipped_), '\n')),
         parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), on_start, on_end);
@@ -51,11 +48,11 @@ class Reader {
   void read() {
     if (text_.size() > std::size_t(std::numeric_limits<int>::max()))
       throw InputError(Defect::Malformed, fmt::format("{}: too large for a robot: more than 2 GiB", file_));
-    const XML_Status status = XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), XML_TRUE);
+    const char* const begin = text_.data() + skipped_;
+    const XML_Status status = XML_Parse(parser_.get(), begin, static_cast<int>(text_.size() - skipped_), XML_TRUE);
     if (!problem_.empty()) refuse_line(file_, problem_line_, problem_);
     if (status != XML_STATUS_OK)
-      refuse_line(file_, XML_GetCurrentLineNumber(parser_.get()),
-                  fmt::format("no XML: {}", XML_ErrorString(XML_GetErrorCode(parser_.get()))));
+      refuse_line(file_, line(), fmt::format("no XML: {}", XML_ErrorString(XML_GetErrorCode(parser_.get()))));
   }
 
  private:
@@ -77,12 +74,20 @@ class Reader {
   }
 
   void stop(std::string problem) {
-    problem_ = std::move(problem), problem_line_ = XML_GetCurrentLineNumber(parser_.get());
+    problem_ = std::move(problem), problem_line_ = line();
     XML_StopParser(parser_.get(), XML_FALSE);
   }
 
+  /// Blanks before the declaration, which hand-written files have.
+  static std::size_t blanks_before_declaration(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    return first != text.npos && text.substr(first).starts_with("<?xml") ? first : 0;
+  }
+
+  std::size_t line() const { return skipped_lines_ + XML_GetCurrentLineNumber(parser_.get()); }
+
   Span event() const {
-    const auto begin = static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get()));
+    const auto begin = skipped_ + static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get()));
     return {begin, begin + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_.get()))};
   }
 
@@ -95,7 +100,7 @@ class Reader {
          attributes += 2)
       element.attributes.emplace_back(attributes[0], attributes[1]);
     element.start_tag = element.whole = event();
-    element.line = XML_GetCurrentLineNumber(parser_.get());
+    element.line = line();
     if (!open_.empty()) open_.back()->children.push_back(&element);
     open_.push_back(&element);
   }
@@ -110,6 +115,7 @@ class Reader {
   const std::string& file_;
   std::string& encoding_;
   std::deque<XmlElement>& elements_;
+  const std::size_t skipped_, skipped_lines_;
   std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
   std::vector<XmlElement*> open_;
   std::string problem_;
@@ -136,10 +142,21 @@ std::vector<const XmlElement*> XmlElement::children_called(std::string_view tag)
   return called;
 }
 
-XmlDocument::XmlDocument(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {
+XmlDocument::XmlDocument(std::string text, std::string file, std::vector<TextSource> sources)
+    : text_(std::move(text)), file_(std::move(file)), sources_(std::move(sources)) {
   if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff"))
     throw InputError(Defect::Malformed, file_ + ": its text is UTF-16, which is not read; save it as UTF-8");
   Reader(text_, file_, encoding_, elements_).read();
+  if (sources_.empty()) return;
+  std::size_t at = 0, line = 1;
+  auto source = sources_.begin();
+  for (XmlElement& element : elements_) {
+    for (; source != sources_.end() && source->begin <= element.whole.begin; ++source)
+      at = source->begin, line = source->line;
+    const std::string_view between = (*this)[{at, element.whole.begin}];
+    line += static_cast<std::size_t>(std::ranges::count(between, '\n'));
+    element.line = line, at = element.whole.begin;
+  }
 }
 
 std::string_view XmlDocument::operator[](const Span& span) const {
@@ -154,8 +171,21 @@ std::string_view XmlDocument::indentation(const XmlElement& element) const {
   return before.substr(begin);
 }
 
+const std::string& XmlDocument::file_of(const XmlElement& element) const {
+  if (sources_.empty()) return file_;
+  return std::prev(std::ranges::upper_bound(sources_, element.whole.begin, {}, &TextSource::begin))->file;
+}
+
+std::string XmlDocument::place_of(const XmlElement& element) const {
+  return fmt::format("{}: line {}", file_of(element), element.line);
+}
+
+std::string XmlDocument::short_place_of(const XmlElement& element) const {
+  return file_of(element) == file_ ? fmt::format("line {}", element.line) : place_of(element);
+}
+
 void XmlDocument::refuse(const XmlElement& element, const std::string& what) const {
-  refuse_line(file_, element.line, what);
+  refuse_line(file_of(element), element.line, what);
 }
 
 const std::string& XmlDocument::required(const XmlElement& element, std::string_view attribute) const {
@@ -211,11 +241,17 @@ std::string with_edits(std::string_view text, std::vector<XmlEdit> edits) {
 
 std::string edited_text(const XmlDocument& document, std::vector<XmlEdit> edits) {
   for (const XmlEdit& edit : edits)
-    if (!is_utf8(document.encoding()) && !is_ascii(edit.text))
+    if (!is_utf8(document) && !is_ascii(edit.text))
       throw InputError(Defect::Malformed,
                        fmt::format("{}: its text is {}, and what is written has letters beyond ASCII; save it as UTF-8",
                                    document.file(), document.encoding()));
   return with_edits(document.text(), std::move(edits));
+}
+
+bool is_utf8(const XmlDocument& document) {
+  std::string encoding = document.encoding();
+  std::ranges::transform(encoding, encoding.begin(), [](unsigned char c) { return std::tolower(c); });
+  return encoding.empty() || encoding == "utf-8";
 }
 
 std::string xml_escaped(std::string_view text) {

@@ -32,12 +32,20 @@ struct XmlElement {
   std::vector<const XmlElement*> children_called(std::string_view tag) const;
 };
 
+/// Where a part of a text comes from that was put together from several files.
+struct TextSource {
+  std::size_t begin = 0;  ///< of the part, in bytes
+  std::string file;
+  std::size_t line = 1;  ///< of the file, in which the part begins
+};
+
 /// An XML document that is not changed: edits are made to its text, see with_edits.
 class XmlDocument {
  public:
   /// Throws InputError(Malformed) with `file` and the line: for text that is not well-formed, for entities that the
   /// document declares itself, which can grow without bound, for elements nested more than 200 deep, and for UTF-16.
-  XmlDocument(std::string text, std::string file);
+  /// `sources`, by begin: the lines of elements are then those of their own files.
+  XmlDocument(std::string text, std::string file, std::vector<TextSource> sources = {});
   XmlDocument(XmlDocument&&) = default;
 
   const XmlElement& root() const { return elements_.front(); }
@@ -50,6 +58,9 @@ class XmlDocument {
   /// The blanks that the line of an element begins with, if nothing else stands before it; else "".
   std::string_view indentation(const XmlElement& element) const;
 
+  std::string place_of(const XmlElement& element) const;  ///< "arm.urdf: line 12"
+  /// For notes about this file: "line 12"; for an element of another file as place_of.
+  std::string short_place_of(const XmlElement& element) const;
   /// Throws InputError(Malformed): "arm.urdf: line 12: <what>".
   [[noreturn]] void refuse(const XmlElement& element, const std::string& what) const;
 
@@ -62,7 +73,10 @@ class XmlDocument {
   Vec3 vector(const XmlElement& element, std::string_view attribute, const Vec3& fallback) const;
 
  private:
+  const std::string& file_of(const XmlElement& element) const;
+
   std::string text_, file_, encoding_;
+  std::vector<TextSource> sources_;
   std::deque<XmlElement> elements_;  // in document order; a deque does not move them
 };
 
@@ -77,6 +91,9 @@ std::string with_edits(std::string_view text, std::vector<XmlEdit> edits);
 /// The text of a document with edits whose text is UTF-8. Throws InputError(Malformed) if one of them has letters
 /// beyond ASCII, and the document declares another encoding.
 std::string edited_text(const XmlDocument& document, std::vector<XmlEdit> edits);
+
+/// Whether the document is UTF-8, as it says or because it says nothing.
+bool is_utf8(const XmlDocument& document);
 
 /// &, <, > and quotes as entities.
 std::string xml_escaped(std::string_view text);

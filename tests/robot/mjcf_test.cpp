@@ -234,7 +234,6 @@ TEST(Mjcf, BodiesOfOneWorldStandWhereTheyStand) {
 
 TEST(Mjcf, RefusesWithTheLine) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {with_body("", "<include file='x.xml'/>\n"), "line 2: <include>"},
       {with_body("<body name='a'/>"), "line 3: there is a second <body> called 'a'"},
       {with_body("<body name='world'/>"), "reserves"},
       {with_body("<geom type='box' size='1 0 1'/>"), "more than 0"},
@@ -269,6 +268,60 @@ TEST(Mjcf, RefusesWithTheLine) {
     EXPECT_TRUE(message.starts_with("arm.xml: line ")) << text << ": " << message;
     EXPECT_NE(message.find(expected), std::string::npos) << text << ": " << message;
   }
+}
+
+class MjcfIncludes : public testing::Test {
+ protected:
+  MjcfIncludes() {
+    write_file(folder_ / "robot/arm.xml",
+               "<mujoco>\n<include file='parts/assets.xml'/>\n<worldbody>\n"
+               "<body name='a'><include file='parts/chain.xml'/></body><body name='z'/></worldbody></mujoco>");
+    write_file(folder_ / "robot/parts/assets.xml",
+               "<mujocoinclude>\n<compiler meshdir='parts'/><asset><mesh file='x.stl'/></asset></mujocoinclude>");
+    write_file(folder_ / "robot/parts/x.stl");
+    write_file(folder_ / "robot/parts/chain.xml",
+               "<?xml version='1.0'?>\n<mujocoinclude>\n<geom type='mesh' mesh='x'/>\n"
+               "<body name='b'>\n<include file='tip.xml'/></body></mujocoinclude>");
+    write_file(folder_ / "robot/parts/tip.xml", "<mujoco><body name='c'>\n<geom size='1'/></body></mujoco>");
+  }
+
+  RobotFile read_arm(const FileOptions& options = {}) const { return read_robot(folder_ / "robot/arm.xml", options); }
+  std::string refusal(const std::string& tip, Defect defect = Defect::Malformed) const {
+    write_file(folder_ / "robot/parts/tip.xml", tip);
+    return refusal_of([&] { read_arm({.package_paths = {}, .no_outside_files = true}); }, defect);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(MjcfIncludes, StandInThePlaceOfTheElement) {
+  const RobotFile file = read_arm({.package_paths = {}, .no_outside_files = true});
+  std::vector<std::string> names;
+  for (const Link& link : file.robot.links) names.push_back(link.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"a", "b", "c", "z", "world"}));
+  EXPECT_EQ(file.robot.links[0].visual.at(0).mesh()->path, folder_ / "robot/parts/x.stl");
+  EXPECT_EQ(file.robot.links[2].line, 1U) << "of its own file";
+  EXPECT_EQ(file.robot.links[3].line, 4U);
+  const std::string written = with_collisions(file, {{hull_of(kHull, 2)}}, folder_ / "robot");
+  EXPECT_FALSE(has(written, "include")) << written;
+  write_file(folder_ / "robot/written.xml", written);
+  EXPECT_EQ(read_robot(folder_ / "robot/written.xml").robot.links.size(), 5U);
+}
+
+TEST_F(MjcfIncludes, AreRefusedWithTheirLines) {
+  const std::string tip = (folder_ / "robot/parts/tip.xml").string();
+  EXPECT_TRUE(has(refusal("<mujocoinclude>\n\n<body name='a'/></mujocoinclude>"),
+                  tip + ": line 3: there is a second <body> called 'a'"));
+  EXPECT_TRUE(has(refusal("<mujocoinclude>\n<include file='chain.xml'/></mujocoinclude>"),
+                  tip + ": line 2: <include> names 'chain.xml' a second time"));
+  EXPECT_TRUE(has(refusal("<mujocoinclude>\n<include file='none.xml'/></mujocoinclude>", Defect::CannotRead),
+                  tip + ": line 2: <include> names 'none.xml'"));
+  EXPECT_TRUE(has(refusal("<robot/>"), "chain.xml: line 5: <include> names 'tip.xml', whose root is <robot>"));
+  EXPECT_TRUE(has(refusal("<mujocoinclude><body>"), tip + ": line 1: no XML"));
+  EXPECT_TRUE(has(refusal("<?xml version='1.0' encoding='latin1'?><mujocoinclude>\xe9</mujocoinclude>"), "encoding"));
+  write_file(folder_ / "robot/../outside.xml", "<mujocoinclude/>");
+  EXPECT_TRUE(
+      has(refusal("<mujoco><include file='../outside.xml'/></mujoco>", Defect::CannotRead), "--no-outside-files"));
 }
 
 TEST(Mjcf, ReadsManyBodiesQuickly) {

@@ -188,6 +188,7 @@ TEST(Sdf, MakesAForestOfAnyJoints) {
       "<joint name='ca' type='ball'><parent>c</parent><child>a</child></joint>";
   const RobotFile file = read(in_model(loop));
   ASSERT_EQ(file.robot.links.size(), 3U);  // joints to the world are left out
+  EXPECT_EQ(read(in_model("<link name='world'/>" + loop)).robot.links.size(), 3U) << "as old files have it";
   ASSERT_EQ(file.robot.joints.size(), 2U);
   EXPECT_EQ(file.robot.joints[1].name, "bc");
   ASSERT_EQ(file.notes.size(), 1U);
@@ -234,7 +235,8 @@ TEST(Sdf, ReadsTheFirstModelOfAWorldAndSaysSo) {
 TEST(Sdf, RefusesWithTheLine) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"<link name='a'/>\n<link name='a'/>", "line 4: there is a second <link> called 'a', the first is in line 3"},
-      {"<link name='world'/>", "line 3"},
+      {"<link name='world'><visual name='v'><geometry><sphere><radius>1</radius></sphere></geometry></visual></link>",
+       "line 3: <link> is called 'world', a name that SDF reserves"},
       {"<link/>", "line 3: <link> has no name"},
       {"", "no <link>"},
       {"<link name='a'/>\n<joint name='j' type='fixed'><parent>a</parent><child>b</child></joint>", "names 'b'"},

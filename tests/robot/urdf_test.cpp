@@ -71,7 +71,7 @@ TEST(ReadUrdf, ReadsFormsThatNotEveryToolKnows) {
   EXPECT_EQ(form_of<CapsuleForm>("<capsule radius='1' length='4'/>").length, 4);
   EXPECT_EQ(form_of<OtherForm>("<drake:ellipsoid a='1'/>").what, "drake:ellipsoid");
   EXPECT_EQ(robot_of(geometry("<drake:ellipsoid a='1'/>")).notes,
-            std::vector<std::string>{"line 2: the <drake:ellipsoid> of link 'a' is not read"});
+            std::vector<std::string>{"line 2: the drake:ellipsoid of link 'a' is not read"});
   EXPECT_EQ(form_of<MeshFile>("<mesh filename='a' scale='2'/>").scale, (Vec3{2, 2, 2}));
   const Pose pose = robot_of(
                         "<link name='a'><visual><origin quat_xyzw='0 0 2e-200 2e-200'/><geometry><box size='1 1 1'/>"
@@ -80,6 +80,24 @@ TEST(ReadUrdf, ReadsFormsThatNotEveryToolKnows) {
                         .visual[0]
                         .origin;
   EXPECT_NEAR(pose.rotation[1].x, 1, 1e-15);
+}
+
+// Robots that simulators show have them.
+TEST(ReadUrdf, NotesShapesOfNoSize) {
+  for (const char* form : {"<box size='1 1 0'/>", "<sphere radius='-1'/>", "<sphere radius='0'/>",
+                           "<cylinder radius='1' length='0'/>", "<capsule radius='0' length='1'/>"}) {
+    const RobotFile file = robot_of(geometry(form));
+    EXPECT_TRUE(std::holds_alternative<OtherForm>(file.robot.links[0].visual[0].form)) << form;
+    ASSERT_EQ(file.notes.size(), 1U) << form;
+    EXPECT_TRUE(has(file.notes[0], "of size 0 or less of link 'a' is not read")) << file.notes[0];
+  }
+}
+
+TEST(ReadUrdf, NotesJointsThatFollowUnknownOnes) {
+  const RobotFile file = robot_of(link("a") + link("b") + joint("j", "a", "b", "<mimic joint='x'/>"));
+  EXPECT_FALSE(file.robot.joints[0].mimic);
+  ASSERT_EQ(file.notes.size(), 1U);
+  EXPECT_TRUE(has(file.notes[0], "<mimic> names a joint that does not exist: 'x'")) << file.notes[0];
 }
 
 TEST(ReadUrdf, RefusesShapesThatAreNone) {
@@ -91,13 +109,10 @@ TEST(ReadUrdf, RefusesShapesThatAreNone) {
   expect_refused(geometry("<mesh filename='a' scale='1 1'/>"), "three numbers");
   expect_refused(geometry("<box/>"), "<box> has no size");
   expect_refused(geometry("<box size='1 1'/>"), "three numbers");
-  expect_refused(geometry("<box size='1 1 0'/>"), "greater than 0");
-  expect_refused(geometry("<sphere radius='-1'/>"), "greater than 0");
   expect_refused(geometry("<sphere radius='nan'/>"), "'nan' where a number was expected");
   expect_refused(geometry("<sphere radius='1e101'/>"), "<sphere> has the number 1e+101, which is beyond 1e+100");
   expect_refused(geometry("<sphere radius='1e999'/>"), "'1e999' where a number");
   expect_refused(geometry("<cylinder radius='1'/>"), "<cylinder> has no length");
-  expect_refused(geometry("<cylinder radius='1' length='0'/>"), "greater than 0");
   expect_refused(
       "<link name='a'><visual><origin quat_xyzw='0 0 0 0'/><geometry><box size='1 1 1'/></geometry>"
       "</visual></link>",
@@ -191,7 +206,6 @@ TEST(ReadUrdf, RefusesNames) {
   expect_refused(link("a") + joint("j", "x", "a"), "<parent> names a link that does not exist: 'x'");
   expect_refused(link("a") + "<joint name='j' type='fixed'><child link='a'/></joint>", "'j' has no <parent>");
   expect_refused(link("a") + "<joint name='j' type='fixed'><parent/><child link='a'/></joint>", "has no link");
-  expect_refused(link("a") + link("b") + joint("j", "a", "b", "<mimic joint='x'/>"), "<mimic> names a joint that");
   expect_refused(link("a") + link("b") + joint("j", "a", "b", "<mimic/>"), "<mimic> has no joint");
 }
 

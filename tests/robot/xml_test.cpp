@@ -29,6 +29,16 @@ TEST(XmlDocument, KnowsWhereEachElementStands) {
   EXPECT_EQ(document[document.root().whole], text.substr(22, text.size() - 23));
 }
 
+TEST(XmlDocument, ReadsADeclarationAfterBlankLines) {
+  const std::string text = "\n \n<?xml version='1.0'?>\n<robot>\n<link/></robot>";
+  const XmlDocument document(text, "arm.urdf");
+  const XmlElement& link = *document.root().children.at(0);
+  EXPECT_EQ(link.line, 5U);
+  EXPECT_EQ(document[link.whole], "<link/>");
+  EXPECT_EQ(document.text(), text);
+  EXPECT_TRUE(message_of("\n<?xml version='1.0'?>\n<robot>\n<").starts_with("arm.urdf: line 4: no XML"));
+}
+
 TEST(XmlDocument, ReadsNoEntitiesOfTheDocument) {
   const std::string bomb =
       "<!DOCTYPE r [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;&a;\">]>\n<robot name=\"r\">&b;</robot>";
