@@ -5,10 +5,13 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "prohull/collide.h"
+#include "prohull/names.h"
 
 namespace prohull::robot {
 
@@ -91,6 +94,13 @@ struct Robot {
 
 /// Which geometry of a link.
 enum class Geometry { Visual, Collision };
+
+/// "visual", "collision"
+inline Names<Geometry> geometry_names() {
+  static constexpr std::pair<std::string_view, Geometry> kNames[] = {{"visual", Geometry::Visual},
+                                                                     {"collision", Geometry::Collision}};
+  return kNames;
+}
 
 inline const std::vector<Shape>& shapes(const Link& link, Geometry which) {
   return which == Geometry::Visual ? link.visual : link.collision;

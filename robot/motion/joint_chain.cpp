@@ -44,10 +44,6 @@ std::vector<std::size_t> joints_above(const Robot& robot, std::size_t link) {
   return above;
 }
 
-std::size_t root_of(const Robot& robot, std::size_t link, std::span<const std::size_t> above) {
-  return above.empty() ? link : robot.joints[above.back()].parent;
-}
-
 /// How far the matrix is from a rotation, in norm: |R^T R - I| is at most three times its largest entry.
 double defect_of(const Pose& pose) {
   double largest = 0;
@@ -88,21 +84,38 @@ JointRange one_turn(const JointRange& limits) {
 
 double JointRange::middle() const { return std::midpoint(lower, upper); }
 
+std::size_t root_of(const Robot& robot, std::size_t link) {
+  const std::vector<std::size_t> above = joints_above(robot, link);
+  return above.empty() ? link : robot.joints[above.back()].parent;
+}
+
 JointChain::JointChain(const Robot& robot, std::size_t a, std::size_t b, std::vector<Vec3> points_of_a,
                        std::vector<Vec3> points_of_b)
     : points_of_a_(std::move(points_of_a)), points_of_b_(std::move(points_of_b)) {
-  std::vector<std::size_t> above_a = joints_above(robot, a), above_b = joints_above(robot, b);
-  if (root_of(robot, a, above_a) != root_of(robot, b, above_b)) {
+  find_hinges(robot, a, b);
+  if (obstacle_.empty()) find_ranges(robot);
+  if (obstacle_.empty()) find_rounding();
+}
+
+JointChain::JointChain(const Robot& robot, std::size_t a, std::size_t b, std::vector<Vec3> points_of_a,
+                       std::vector<Vec3> points_of_b, std::span<const JointRange> ranges)
+    : points_of_a_(std::move(points_of_a)), points_of_b_(std::move(points_of_b)) {
+  find_hinges(robot, a, b);
+  for (const std::size_t j : freedoms_) ranges_.push_back(ranges[j]);
+  if (obstacle_.empty()) find_rounding();
+}
+
+void JointChain::find_hinges(const Robot& robot, std::size_t a, std::size_t b) {
+  if (root_of(robot, a) != root_of(robot, b)) {
     obstacle_ = "no joints connect them";
     return;
   }
+  std::vector<std::size_t> above_a = joints_above(robot, a), above_b = joints_above(robot, b);
   while (!above_a.empty() && !above_b.empty() && above_a.back() == above_b.back())
     above_a.pop_back(), above_b.pop_back();
   for (const std::size_t j : above_a) add_hinge(robot, j, true);
   std::ranges::reverse(above_b);
   for (const std::size_t j : above_b) add_hinge(robot, j, false);
-  if (obstacle_.empty()) find_ranges(robot);
-  if (obstacle_.empty()) find_rounding();
 }
 
 void JointChain::add_hinge(const Robot& robot, std::size_t joint, bool climbs) {
@@ -182,6 +195,15 @@ void JointChain::find_rounding() {
 }
 
 JointChain::Motion JointChain::motion(std::span<const JointRange> box) const {
+  std::vector<JointReach> reaches;
+  for (const JointRange& range : box) {
+    const double middle = range.middle();
+    reaches.push_back({middle, std::max(range.upper - middle, middle - range.lower)});
+  }
+  return motion(reaches);
+}
+
+JointChain::Motion JointChain::motion(std::span<const JointReach> reaches) const {
   struct Axis {
     Vec3 point, direction;  // in the frame of a
     double half = 0;        // how far the joint moves from the middle
@@ -192,9 +214,8 @@ JointChain::Motion JointChain::motion(std::span<const JointRange> box) const {
     const Hinge& hinge = hinges_[h];
     double position = 0;
     if (hinge.freedom != kNone) {
-      const JointRange& range = box[hinge.freedom];
-      position = range.middle();
-      double half = std::max(range.upper - position, position - range.lower);
+      double half = reaches[hinge.freedom].half;
+      position = reaches[hinge.freedom].middle;
       for (const Mimic& mimic : hinge.follows) {
         const double scaled = mimic.multiplier * position;
         half = std::abs(mimic.multiplier) * half + 0x1p-50 * (std::abs(scaled) + std::abs(mimic.offset));

@@ -16,6 +16,14 @@ struct JointRange {
   double middle() const;
 };
 
+/// Positions of a joint: all that are within `half` of the middle.
+struct JointReach {
+  double middle = 0, half = 0;
+};
+
+/// The link that no joint holds, on which this one hangs.
+std::size_t root_of(const Robot& robot, std::size_t link);
+
 /// What moves two links against each other: the joints between them, and the positions that these can have. Throws
 /// InputError(InvalidOption) if the lower limit of such a joint is above its upper one, or is no number.
 class JointChain {
@@ -23,6 +31,10 @@ class JointChain {
   /// The points are all that matters of a link: what moves is in their convex hull.
   JointChain(const Robot& robot, std::size_t a, std::size_t b, std::vector<Vec3> points_of_a,
              std::vector<Vec3> points_of_b);
+
+  /// The same for positions of the joints in these ranges, one of each joint of the robot, whatever its limits are.
+  JointChain(const Robot& robot, std::size_t a, std::size_t b, std::vector<Vec3> points_of_a,
+             std::vector<Vec3> points_of_b, std::span<const JointRange> ranges);
 
   /// Why positions of the joints do not say where the links are, or have no bounds; empty if they do. Then nothing
   /// below may be called.
@@ -42,6 +54,7 @@ class JointChain {
     double change = 0;
   };
   Motion motion(std::span<const JointRange> box) const;
+  Motion motion(std::span<const JointReach> reaches) const;
 
   /// What rounding alone does to a distance, at most.
   double rounding() const { return rounding_; }
@@ -55,6 +68,7 @@ class JointChain {
   };
   static constexpr auto kNone = static_cast<std::size_t>(-1);
 
+  void find_hinges(const Robot& robot, std::size_t a, std::size_t b);
   void add_hinge(const Robot& robot, std::size_t joint, bool climbs);
   void find_ranges(const Robot& robot);
   void find_rounding();

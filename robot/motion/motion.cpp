@@ -1,12 +1,7 @@
 #include "robot/motion/motion.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -15,6 +10,7 @@
 #include "prohull/error.h"
 #include "prohull/shapes.h"
 #include "robot/motion/joint_paths.h"
+#include "robot/motion/proof_body.h"
 #include "robot/transform.h"
 
 namespace prohull::robot {
@@ -29,17 +25,6 @@ Ball ball_around(const std::array<const TriangleMesh*, 3>& meshes) {
     for (const auto& corners : mesh->triangles)
       for (const VertexId v : corners) ball.radius = std::max(ball.radius, norm(mesh->positions[v] - ball.center));
   return ball;
-}
-
-TriangleMesh with_finite_faces(TriangleMesh mesh) {
-  const auto is_broken = [&](const std::array<VertexId, 3>& corners) {
-    return std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return !is_finite(mesh.positions[v]); });
-  };
-  PerFace<std::array<VertexId, 3>> kept;
-  for (const auto& corners : mesh.triangles)
-    if (!is_broken(corners)) kept.push_back(corners);
-  mesh.triangles = std::move(kept);
-  return mesh;
 }
 
 /// A link in the three geometries that are compared.
@@ -126,14 +111,8 @@ class Motion {
 
   MotionResult run() {
     ProgressMeter meter(options_.progress, "move");
-    std::atomic<std::size_t> done = 0;
     std::vector<std::vector<Contact>> contacts(options_.configurations);
-    arena().execute([&] {
-      oneapi::tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t k) {
-        contacts[k] = contacts_in(k);
-        meter.at(++done, contacts.size());
-      });
-    });
+    in_parallel(contacts.size(), options_.threads, meter, [&](std::size_t k) { contacts[k] = contacts_in(k); });
     MotionResult result = result_of(contacts);
     const std::vector<Check> timed = first_checks(meter);
     result.visual_us = mean_time(timed, visual_meets, meter);
@@ -150,11 +129,6 @@ class Motion {
   }
 
   bool have_hulls(const MotionPair& pair) const { return bodies_[pair.a]->has_hull && bodies_[pair.b]->has_hull; }
-
-  oneapi::tbb::task_arena arena() const {
-    const int cores = oneapi::tbb::this_task_arena::max_concurrency();
-    return oneapi::tbb::task_arena(options_.threads == 0 ? cores : static_cast<int>(std::min(options_.threads, 1024U)));
-  }
 
   /// Of the pairs whose bounding spheres meet.
   std::vector<Check> checks_in(std::size_t configuration) const {

@@ -1,39 +1,16 @@
 #include "robot/motion/pair_proof.h"
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <optional>
 #include <queue>
 
-#include "prohull/convex_hull.h"
 #include "prohull/detail/progress_meter.h"
-#include "prohull/shapes.h"
 #include "robot/motion/joint_chain.h"
 #include "robot/motion/kinematics.h"
+#include "robot/motion/proof_body.h"
 
 namespace prohull::robot {
 namespace {
-
-/// A link as the search sees it.
-struct ProofBody {
-  explicit ProofBody(const TriangleMesh& mesh) : index(mesh) {
-    const TriangleMesh convex = convex_hull(mesh);
-    const TriangleMesh& outside = convex.face_count() > 0 ? convex : mesh;
-    corners.assign(outside.positions.begin(), outside.positions.end());
-    Box box;
-    for (const Vec3& corner : corners) box.extend(corner);
-    ball.center = box.center(), ball.radius = 0;
-    for (const Vec3& corner : corners) ball.radius = std::max(ball.radius, norm(corner - ball.center));
-  }
-
-  CollisionIndex index;
-  std::vector<Vec3> corners;  // their convex hull encloses the link
-  Ball ball;                  // around them, but for rounding
-};
 
 /// Ranges of all freedoms, and what is known there.
 struct Cell {
@@ -94,7 +71,7 @@ class PairSearch {
   void look_at(Cell cell) {
     cell.number = result_.cells++;
     const JointChain::Motion motion = chain_.motion(cell.box);
-    cell.distance = distance_of_balls(motion.pose);
+    cell.distance = distance_of_balls(a_, b_, motion.pose, chain_.rounding());
     if (cell.distance <= motion.change) {
       const Separation separation = prohull::separation(a_.index, {}, b_.index, motion.pose);
       if (separation.collide()) return meets_at(cell, motion.pose);
@@ -108,10 +85,6 @@ class PairSearch {
     cell.widest = static_cast<std::size_t>(widest - motion.parts.begin());
     cell.may_be_smaller = widest != motion.parts.end() && *widest > chain_.rounding();
     open_.push(std::move(cell));
-  }
-
-  double distance_of_balls(const Pose& pose) const {
-    return norm(placed(pose, b_.ball.center) - a_.ball.center) - a_.ball.radius - b_.ball.radius - chain_.rounding();
   }
 
   void meets_at(const Cell& cell, const Pose& pose) {
@@ -155,15 +128,9 @@ std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const TriangleM
       if (!bodies[link]) bodies[link].emplace(links[link]);
   std::vector<PairProof> proofs(pairs.size());
   ProgressMeter meter(options.progress, "prove");
-  std::atomic<std::size_t> done = 0;
-  const int cores = oneapi::tbb::this_task_arena::max_concurrency();
-  oneapi::tbb::task_arena arena(options.threads == 0 ? cores : static_cast<int>(std::min(options.threads, 1024U)));
-  arena.execute([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
-      const auto& [a, b] = pairs[i];
-      proofs[i] = PairSearch(robot, pairs[i], *bodies[a], *bodies[b], options.cells).run(meter);
-      meter.at(++done, pairs.size());
-    });
+  in_parallel(pairs.size(), options.threads, meter, [&](std::size_t i) {
+    const auto& [a, b] = pairs[i];
+    proofs[i] = PairSearch(robot, pairs[i], *bodies[a], *bodies[b], options.cells).run(meter);
   });
   return proofs;
 }

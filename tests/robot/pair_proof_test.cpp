@@ -11,15 +11,14 @@
 #include "meshes.h"
 #include "prohull/convex_hull.h"
 #include "prohull/error.h"
-#include "prohull/hull_builder.h"
 #include "random.h"
 #include "robot/motion/joint_chain.h"
 #include "robot/motion/kinematics.h"
 #include "robot/motion/motion.h"
 #include "robot/motion/sampling.h"
-#include "robot/samples/sample_robots.h"
 #include "robot_of_joints.h"
 #include "robot_testing.h"
+#include "sample_arm.h"
 
 namespace prohull::robot {
 namespace {
@@ -343,24 +342,6 @@ TEST(PairProof, IsContradictedByNoPose) {
   EXPECT_GT(witnesses, 5U);
   EXPECT_LT(open, nevers + witnesses);
 }
-
-/// Coarse hulls around the convex hulls of the sample arm's visual meshes.
-struct Arm {
-  Arm() {
-    const SampleRobot sample = make_sample_robot("arm");
-    robot = read_robot(sample.urdf, "arm.urdf").robot;
-    for (const Link& link : robot.links) {
-      TriangleMesh all;
-      for (const Shape& shape : link.visual)
-        for (const auto& [path, mesh] : sample.meshes)
-          if (shape.mesh() && shape.mesh()->uri.ends_with(path)) append(all, placed(shape.origin, mesh));
-      links.push_back(build_hull(convex_hull(all), {.target_faces = 60}).hull.base());
-    }
-  }
-
-  Robot robot;
-  std::vector<TriangleMesh> links;
-};
 
 /// link1 and link4 come close in a corner of the ranges. A margin around one of them, and they meet there, but at no
 /// random position.

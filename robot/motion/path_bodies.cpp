@@ -1,0 +1,131 @@
+#include "robot/motion/path_bodies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "prohull/enclosure.h"
+#include "prohull/error.h"
+#include "robot/link_triangles.h"
+#include "robot/motion/joint_paths.h"
+
+namespace prohull::robot {
+namespace {
+
+/// The closed shapes of a body, and its others.
+struct Shapes {
+  TriangleMesh closed, open;
+
+  void add(TriangleMesh mesh) {
+    mesh = with_finite_faces(std::move(mesh));
+    if (mesh.face_count() == 0) return;
+    if (is_closed(mesh))
+      append(closed, turned_outwards(std::move(mesh)));
+    else
+      append(open, mesh);
+  }
+
+  std::vector<ProofBody> parts() const {
+    std::vector<ProofBody> parts;
+    for (const TriangleMesh* const mesh : {&closed, &open})
+      if (mesh->face_count() > 0) parts.emplace_back(*mesh);
+    return parts;
+  }
+};
+
+PathBody body_of(const Robot& robot, std::size_t link, Geometry which) {
+  PathBody body{robot.links[link].name, link};
+  Shapes all;
+  for (const Shape& shape : shapes(robot.links[link], which)) {
+    if (const auto* const other = std::get_if<OtherForm>(&shape.form))
+      body.unread = fmt::format("its geometry of type {} is not read", other->what);
+    all.add(link_triangles({&shape, 1}, {}));
+  }
+  body.parts = all.parts();
+  return body;
+}
+
+const char* name_of(Geometry which) { return which == Geometry::Visual ? "visual" : "collision"; }
+
+void require_distinct_names(std::span<const PathBody> bodies) {
+  std::set<std::string> names;
+  for (const PathBody& body : bodies)
+    if (!names.insert(body.name).second)
+      throw InputError(Defect::InvalidOption,
+                       fmt::format("two bodies are called '{}'; give the mesh of the world another name", body.name));
+}
+
+std::size_t body_called(std::span<const PathBody> bodies, const std::string& name) {
+  const auto found = std::ranges::find(bodies, name, &PathBody::name);
+  if (found != bodies.end()) return static_cast<std::size_t>(found - bodies.begin());
+  std::vector<std::string> names;
+  for (const PathBody& body : bodies) names.push_back(body.name);
+  throw InputError(Defect::InvalidOption,
+                   fmt::format("no link with geometry and no mesh of the world is called '{}'; there are {}", name,
+                               fmt::join(names, ", ")));
+}
+
+std::string open_note(const PathBody& body) {
+  const bool is_open = std::ranges::any_of(body.parts, [](const ProofBody& part) { return !part.index.is_solid(); });
+  return is_open ? fmt::format("{}: not closed: only its faces count, not what lies inside", body.name) : "";
+}
+
+}  // namespace
+
+PathBody path_body(std::string name, std::optional<std::size_t> link, const TriangleMesh& mesh) {
+  Shapes all;
+  all.add(mesh);
+  return {std::move(name), link, all.parts()};
+}
+
+PathBodies path_bodies(const Robot& robot, Geometry which, std::span<const WorldMesh> world, const Progress& progress) {
+  PathBodies made;
+  const Geometry other = which == Geometry::Visual ? Geometry::Collision : Geometry::Visual;
+  std::vector<std::string> replaced;
+  ProgressMeter meter(progress, "index");
+  for (std::size_t link = 0; link < robot.links.size(); ++link) {
+    meter.at(link, robot.links.size());
+    const bool has_it = !shapes(robot.links[link], which).empty();
+    PathBody body = body_of(robot, link, has_it ? which : other);
+    if (body.parts.empty() && body.unread.empty()) continue;
+    if (!has_it) replaced.push_back(body.name);
+    made.bodies.push_back(std::move(body));
+  }
+  if (!replaced.empty())
+    made.notes.push_back(fmt::format("links without {} geometry, so that their {} geometry counts: {}", name_of(which),
+                                     name_of(other), fmt::join(replaced, ", ")));
+  for (const WorldMesh& mesh : world) {
+    meter.go_on();
+    if (mesh.mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, mesh.name + ": no triangles");
+    made.bodies.push_back(path_body(mesh.name, {}, mesh.mesh));
+  }
+  require_distinct_names(made.bodies);
+  for (const PathBody& body : made.bodies) {
+    if (!body.unread.empty()) made.notes.push_back(fmt::format("{}: {}", body.name, body.unread));
+    if (std::string note = open_note(body); !note.empty()) made.notes.push_back(std::move(note));
+  }
+  return made;
+}
+
+std::vector<BodyPair> pairs_on_path(const Robot& robot, std::span<const PathBody> bodies,
+                                    std::span<const LinkPair> links,
+                                    std::span<const std::pair<std::string, std::string>> names) {
+  std::set<BodyPair> ignored;
+  for (const auto& [a, b] : names) ignored.insert(std::minmax({body_called(bodies, a), body_called(bodies, b)}));
+  const JointPaths joints(robot);
+  const auto are_ignored_links = [&](std::size_t a, std::size_t b) {
+    return joints.are_adjacent(a, b) || std::ranges::find(links, LinkPair(std::minmax(a, b))) != links.end();
+  };
+  std::vector<BodyPair> pairs;
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < bodies.size(); ++b) {
+      const auto &link_a = bodies[a].link, &link_b = bodies[b].link;
+      if ((!link_a && !link_b) || ignored.contains({a, b})) continue;
+      if (link_a && link_b && are_ignored_links(*link_a, *link_b)) continue;
+      pairs.emplace_back(a, b);
+    }
+  return pairs;
+}
+
+}  // namespace prohull::robot

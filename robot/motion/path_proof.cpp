@@ -1,0 +1,324 @@
+#include "robot/motion/path_proof.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include "robot/motion/joint_chain.h"
+#include "robot/motion/kinematics.h"
+
+namespace prohull::robot {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A piece of the path, and what is known there.
+struct Piece {
+  double begin = 0, end = 0;    // places
+  double distance = 0;          // in the middle, a lower bound
+  double change = 0;            // of the distance, at most, in all of it
+  std::size_t number = 0;       // in the order in which they were made
+  bool is_free = false;         // otherwise the bodies may meet there
+  bool may_be_smaller = false;  // otherwise rounding decides
+};
+
+/// What may still be free comes before what is to be known better, and large changes before small ones.
+struct IsLessUrgent {
+  bool operator()(const Piece& x, const Piece& y) const {
+    return std::tuple(!x.is_free, x.change, y.number) < std::tuple(!y.is_free, y.change, x.number);
+  }
+};
+
+std::vector<Vec3> corners_of(const PathBody& body) {
+  std::vector<Vec3> corners;
+  for (const ProofBody& part : body.parts) corners.insert(corners.end(), part.corners.begin(), part.corners.end());
+  return corners;
+}
+
+/// A mesh of the world may be large, and its own arms are never the shorter ones: the corners of its box are enough.
+std::vector<Vec3> corners_in_root(const PathBody& world) {
+  Box box;
+  for (const Vec3& corner : corners_of(world)) box.extend(corner);
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back({(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                       (i & 4) != 0 ? box.max.z : box.min.z});
+  return corners;
+}
+
+/// The closest parts of two bodies.
+struct Closest {
+  std::size_t part_a = 0, part_b = 0;
+  Separation separation;
+};
+
+class PathSearch {
+ public:
+  PathSearch(const Robot& robot, const JointPath& path, std::span<const JointRange> ranges, const PathBody& a,
+             const PathBody& b, const PathProofOptions& options)
+      : robot_(robot),
+        path_(path),
+        a_(a),
+        b_(b),
+        chain_(robot, *a.link, b.link ? *b.link : root_of(robot, *a.link), corners_of(a),
+               b.link ? corners_of(b) : corners_in_root(b), ranges),
+        options_(options),
+        end_(path.length()) {
+    for (const std::size_t joint : chain_.freedoms()) numbers_.push_back(number_on_path(joint));
+  }
+
+  PathPairProof run(ProgressMeter& meter) {
+    result_.why = !a_.unread.empty() ? a_.unread : !b_.unread.empty() ? b_.unread : chain_.obstacle();
+    if (!result_.why.empty()) return with_verdict({{.begin = 0, .end = path_.length()}});
+    result_.nothing_moves = chain_.freedoms().empty();
+    if (!meets_at(0)) {
+      meets_at(path_.length());
+      look_at(0, path_.length());
+    }
+    while (!open_.empty() && result_.cells + 2 <= options_.cells) {
+      const Piece piece = open_.top();
+      open_.pop();
+      meter.go_on();
+      if (piece.begin >= end_ && !piece.is_free) continue;
+      if (piece.may_be_smaller)
+        halve(piece);
+      else
+        done_.push_back(piece);
+    }
+    result_.why = open_.empty() ? "rounding hides whether they touch" : "the number of cells is used up";
+    for (; !open_.empty(); open_.pop()) done_.push_back(open_.top());
+    return with_verdict(std::move(done_));
+  }
+
+ private:
+  /// In JointPath::joints; none of a joint that the path does not name.
+  std::optional<std::size_t> number_on_path(std::size_t joint) const {
+    const auto found = std::ranges::find(path_.joints(), joint);
+    if (found == path_.joints().end()) return {};
+    return static_cast<std::size_t>(found - path_.joints().begin());
+  }
+
+  JointChain::Motion motion(double begin, double end) const {
+    std::vector<JointReach> reaches;
+    for (std::size_t f = 0; f < numbers_.size(); ++f)
+      reaches.push_back(numbers_[f] ? path_.reach(*numbers_[f], begin, end)
+                                    : JointReach{chain_.ranges()[f].middle(), 0});
+    return chain_.motion(reaches);
+  }
+
+  double distance_of_balls(const Pose& pose) const {
+    double least = kInfinity;
+    for (const ProofBody& a : a_.parts)
+      for (const ProofBody& b : b_.parts)
+        least = std::min(least, robot::distance_of_balls(a, b, pose, chain_.rounding()));
+    return least;
+  }
+
+  Closest closest(const Pose& pose) const {
+    Closest closest;
+    closest.separation.lower = closest.separation.upper = kInfinity;
+    for (std::size_t i = 0; i < a_.parts.size(); ++i)
+      for (std::size_t j = 0; j < b_.parts.size(); ++j) {
+        const Separation separation = prohull::separation(a_.parts[i].index, {}, b_.parts[j].index, pose);
+        const double lower = std::min(closest.separation.lower, separation.lower);
+        if (separation.upper < closest.separation.upper) closest = {i, j, separation};
+        closest.separation.lower = lower;
+      }
+    return closest;
+  }
+
+  /// Looks at a single place.
+  bool meets_at(double place) {
+    const Pose pose = motion(place, place).pose;
+    if (distance_of_balls(pose) > options_.gap) return false;
+    const Closest found = closest(pose);
+    if (found.separation.upper > options_.gap) return false;
+    take_witness(place, pose, found);
+    return true;
+  }
+
+  void take_witness(double place, const Pose& pose, const Closest& found) {
+    end_ = place;
+    result_.verdict = PathVerdict::Meets;
+    result_.part_a = found.part_a, result_.part_b = found.part_b;
+    result_.faces = {found.separation.face_a, found.separation.face_b};
+    if (found.separation.collide()) result_.faces = first_faces(pose, found);
+    result_.positions = path_.positions_at(place);
+    follow(robot_, result_.positions);
+  }
+
+  FacePair first_faces(const Pose& pose, const Closest& found) const {
+    const std::vector<FacePair> faces =
+        intersecting_faces(a_.parts[found.part_a].index, {}, b_.parts[found.part_b].index, pose);
+    return faces.empty() ? FacePair{} : faces.front();
+  }
+
+  void halve(const Piece& piece) {
+    const double middle = middle_place(piece.begin, piece.end);
+    look_at(piece.begin, middle);
+    if (middle < end_) look_at(middle, piece.end);
+  }
+
+  void look_at(double begin, double end) {
+    Piece piece{.begin = begin, .end = end, .number = result_.cells++};
+    const JointChain::Motion motion = this->motion(begin, end);
+    double rounding = chain_.rounding();
+    piece.change = motion.change;
+    piece.distance = distance_of_balls(motion.pose);
+    if (options_.distances || !is_done(piece)) {
+      const Closest found = closest(motion.pose);
+      piece.distance = std::max(piece.distance, found.separation.lower);
+      rounding = std::max(rounding, found.separation.upper - found.separation.lower);
+      const double middle = middle_place(begin, end);
+      if (found.separation.upper <= options_.gap && middle < end_) {
+        take_witness(middle, motion.pose, found);
+        piece.end = middle;
+      }
+    }
+    piece.is_free = piece.distance > piece.change + options_.gap;
+    if (is_done(piece)) return done_.push_back(piece);
+    const double middle = middle_place(piece.begin, piece.end);
+    piece.may_be_smaller = piece.begin < middle && middle < piece.end &&
+                           std::ranges::any_of(motion.parts, [&](double part) { return part > rounding; });
+    if (piece.begin < piece.end)
+      open_.push(piece);
+    else
+      done_.push_back(piece);
+  }
+
+  /// With a distance a of at least four times the change, the bound a - change is no less than 0.6 of any distance in
+  /// the piece, which is at most a + change.
+  bool is_done(const Piece& piece) const {
+    constexpr double kSharp = 4;
+    if (!(piece.distance > piece.change + options_.gap)) return false;
+    return !options_.distances || piece.distance >= kSharp * piece.change;
+  }
+
+  PathPairProof with_verdict(std::vector<Piece> pieces) {
+    std::ranges::sort(pieces, {}, &Piece::begin);
+    std::optional<JointRange> undecided;
+    for (const Piece& piece : pieces) {
+      if (piece.is_free) {
+        result_.bounds.push_back({piece.begin, piece.end, piece.distance - piece.change});
+        continue;
+      }
+      if (result_.verdict == PathVerdict::Meets && piece.begin >= end_) continue;
+      if (!undecided) undecided = JointRange{piece.begin, piece.end};
+      if (undecided->upper == piece.begin) undecided->upper = piece.end;
+    }
+    if (undecided && result_.verdict == PathVerdict::Free) result_.verdict = PathVerdict::Open;
+    if (result_.verdict != PathVerdict::Open) result_.why.clear();
+    const bool meets = result_.verdict == PathVerdict::Meets;
+    result_.begin = undecided ? undecided->lower : end_;
+    result_.end = meets || !undecided ? end_ : undecided->upper;
+    return std::move(result_);
+  }
+
+  const Robot& robot_;
+  const JointPath& path_;
+  const PathBody &a_, &b_;
+  const JointChain chain_;
+  const PathProofOptions& options_;
+  std::vector<std::optional<std::size_t>> numbers_;  // of the chain's freedoms on the path
+  double end_;  // of what is looked at: the first place where they are known to meet
+  std::priority_queue<Piece, std::vector<Piece>, IsLessUrgent> open_;
+  std::vector<Piece> done_;
+  PathPairProof result_;
+};
+
+/// The least bound of all pairs between any two places at which one of them changes.
+std::vector<DistanceBound> least_of(const std::vector<PathPairProof>& pairs, double length) {
+  std::vector<double> places{0, length};
+  for (const PathPairProof& pair : pairs)
+    for (const DistanceBound& bound : pair.bounds) places.insert(places.end(), {bound.begin, bound.end});
+  std::ranges::sort(places);
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::vector<DistanceBound> curve;
+  for (std::size_t i = 0; i + 1 < std::max<std::size_t>(places.size(), 2); ++i)
+    curve.push_back({places[i], places[std::min(i + 1, places.size() - 1)], kInfinity});
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    auto bound = pairs[p].bounds.begin();
+    for (DistanceBound& part : curve) {
+      while (bound != pairs[p].bounds.end() && bound->end <= part.begin && bound->begin < bound->end) ++bound;
+      const bool is_known = bound != pairs[p].bounds.end() && bound->begin <= part.begin;
+      const double distance = is_known ? bound->distance : 0;
+      if (distance < part.distance) part.distance = distance, part.pair = p;
+    }
+  }
+  std::vector<DistanceBound> joined;
+  for (const DistanceBound& part : curve)
+    if (!joined.empty() && joined.back().distance == part.distance && joined.back().pair == part.pair)
+      joined.back().end = part.end;
+    else
+      joined.push_back(part);
+  return joined;
+}
+
+}  // namespace
+
+std::string_view name_of(PathVerdict verdict) {
+  switch (verdict) {
+    case PathVerdict::Free:
+      return "free";
+    case PathVerdict::Meets:
+      return "meets";
+    case PathVerdict::Open:
+      break;
+  }
+  return "open";
+}
+
+PathVerdict PathProof::verdict() const {
+  const auto any = [&](PathVerdict verdict) {
+    return std::ranges::find(pairs, verdict, &PathPairProof::verdict) != pairs.end();
+  };
+  return any(PathVerdict::Meets) ? PathVerdict::Meets : any(PathVerdict::Open) ? PathVerdict::Open : PathVerdict::Free;
+}
+
+double PathProof::free_until() const {
+  double place = kInfinity;
+  for (const PathPairProof& pair : pairs) place = std::min(place, pair.begin);
+  return place;
+}
+
+const PathPairProof* PathProof::first() const {
+  const PathVerdict whole = verdict();
+  const PathPairProof* first = nullptr;
+  const auto place = [&](const PathPairProof& pair) { return whole == PathVerdict::Meets ? pair.end : pair.begin; };
+  for (const PathPairProof& pair : pairs)
+    if (whole != PathVerdict::Free && pair.verdict == whole && (!first || place(pair) < place(*first))) first = &pair;
+  return first;
+}
+
+std::size_t PathProof::cells() const {
+  std::size_t cells = 0;
+  for (const PathPairProof& pair : pairs) cells += pair.cells;
+  return cells;
+}
+
+std::vector<PathProof> prove_paths(const Robot& robot, std::span<const JointPath> paths,
+                                   std::span<const PathBody> bodies, std::span<const BodyPair> pairs,
+                                   const PathProofOptions& options) {
+  std::vector<PathProof> proofs(paths.size());
+  std::vector<Robot> moved;
+  std::vector<std::vector<JointRange>> ranges;
+  for (const JointPath& path : paths) moved.push_back(moved_by(robot, path)), ranges.push_back(path.ranges());
+  for (PathProof& proof : proofs) proof.pairs.resize(pairs.size());
+  ProgressMeter meter(options.progress, "prove");
+  in_parallel(paths.size() * pairs.size(), options.threads, meter, [&](std::size_t task) {
+    const std::size_t p = task / pairs.size(), i = task % pairs.size();
+    const auto& [a, b] = pairs[i];
+    PathSearch search(moved[p], paths[p], ranges[p], bodies[a], bodies[b], options);
+    PathPairProof& proof = proofs[p].pairs[i] = search.run(meter);
+    proof.a = a, proof.b = b;
+  });
+  for (std::size_t p = 0; options.distances && p < paths.size(); ++p)
+    proofs[p].curve = least_of(proofs[p].pairs, paths[p].length());
+  return proofs;
+}
+
+}  // namespace prohull::robot

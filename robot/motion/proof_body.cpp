@@ -1,0 +1,53 @@
+#include "robot/motion/proof_body.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <utility>
+
+#include "prohull/convex_hull.h"
+
+namespace prohull::robot {
+
+ProofBody::ProofBody(const TriangleMesh& mesh) : index(mesh) {
+  const TriangleMesh convex = convex_hull(mesh);
+  const TriangleMesh& outside = convex.face_count() > 0 ? convex : mesh;
+  corners.assign(outside.positions.begin(), outside.positions.end());
+  Box box;
+  for (const Vec3& corner : corners) box.extend(corner);
+  ball.center = box.center(), ball.radius = 0;
+  for (const Vec3& corner : corners) ball.radius = std::max(ball.radius, norm(corner - ball.center));
+}
+
+double distance_of_balls(const ProofBody& a, const ProofBody& b, const Pose& pose, double rounding) {
+  return norm(placed(pose, b.ball.center) - a.ball.center) - a.ball.radius - b.ball.radius - rounding;
+}
+
+TriangleMesh with_finite_faces(TriangleMesh mesh) {
+  const auto is_broken = [&](const std::array<VertexId, 3>& corners) {
+    return std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return !is_finite(mesh.positions[v]); });
+  };
+  PerFace<std::array<VertexId, 3>> kept;
+  for (const auto& corners : mesh.triangles)
+    if (!is_broken(corners)) kept.push_back(corners);
+  mesh.triangles = std::move(kept);
+  return mesh;
+}
+
+void in_parallel(std::size_t count, unsigned threads, ProgressMeter& meter,
+                 const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> done = 0;
+  const int cores = oneapi::tbb::this_task_arena::max_concurrency();
+  oneapi::tbb::task_arena arena(threads == 0 ? cores : static_cast<int>(std::min(threads, 1024U)));
+  arena.execute([&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      work(i);
+      meter.at(++done, count);
+    });
+  });
+}
+
+}  // namespace prohull::robot
