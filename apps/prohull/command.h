@@ -47,6 +47,7 @@ void add_distance(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_lod(CLI::App& app, Run& run);
 void add_manual(CLI::App& app, Run& run);
+void add_motion(CLI::App& app, Run& run);
 void add_query(CLI::App& app, Run& run);
 void add_render(CLI::App& app, Run& run);
 void add_repair(CLI::App& app, Run& run);

@@ -33,6 +33,8 @@ void add_unit_options(CLI::App& command, InputOptions& options, const std::strin
 void add_mesh_input(CLI::App& command, std::filesystem::path& in, InputOptions& options, const std::string& purpose);
 
 using robot::is_robot_file;
+/// --package-path and --no-outside-files.
+void add_robot_file_options(CLI::App& command, robot::FileOptions& options);
 /// By the suffix: YAML.
 bool is_sphere_file(const std::filesystem::path& path);
 

@@ -37,12 +37,6 @@ struct UrdfOptions {
   std::vector<std::pair<const CLI::Option*, Collision>> sizes;  ///< options that one kind of collision geometry has
 };
 
-Names<Geometry> geometry_names() {
-  static constexpr std::pair<std::string_view, Geometry> kNames[] = {{"visual", Geometry::Visual},
-                                                                     {"collision", Geometry::Collision}};
-  return kNames;
-}
-
 path default_cache() {
   if (const char* const folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) return path(folder) / "prohull";
   if (const char* const home = std::getenv("HOME"); home && *home) return path(home) / ".cache" / "prohull";
@@ -381,11 +375,7 @@ void add_urdf(CLI::App& app, Run& run) {
                       "Folder for the robot and its hulls. It is made if it is not there. A folder with files that "
                       "this command has not written is refused.")
           ->type_name("DIR");
-  add_package_path_option(command, options->file.package_paths);
-  command.add_flag("--no-outside-files", options->file.no_outside_files,
-                   "Refuse a robot that names mesh files outside of its package, or of its folder if it is in no "
-                   "package; --package-path and the environment variables of ROS name other folders. Refuse xacro, and "
-                   "meshes such as .gltf that name other files. For robots of people whom you do not trust.");
+  add_robot_file_options(command, options->file);
   add_choice(
       command, "--collision", options->hulls.budget.collision, collision_names(),
       "What covers each link: one hull, which may be concave; convex pieces, for engines that take only these; or "

@@ -1,0 +1,345 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "command.h"
+#include "prohull/error.h"
+#include "robot/hulls/budgets.h"
+#include "robot/motion/motion.h"
+#include "robot/motion/path_proof.h"
+#include "robot_summary.h"
+
+namespace prohull::cli {
+namespace {
+
+using namespace prohull::robot;
+using std::filesystem::path;
+
+struct PathOptions {
+  path in, srdf, curve, report;
+  std::vector<path> paths, world;
+  std::vector<std::string> ignored;
+  std::string gap = "0";
+  robot::FileOptions file;
+  InputOptions input;  ///< of the world
+  Geometry geometry = Geometry::Collision;
+  PathProofOptions proof;
+};
+
+/// What is asked, and what was found.
+struct Decision {
+  const RobotFile& file;
+  PathBodies made;
+  std::vector<BodyPair> pairs;
+  std::vector<JointPath> paths;
+  std::vector<PathProof> proofs = {};
+
+  const std::string& name(std::size_t body) const { return made.bodies[body].name; }
+};
+
+std::vector<WorldMesh> read_world(const PathOptions& options) {
+  std::vector<WorldMesh> world;
+  for (const path& file : options.world) world.push_back({file.stem().string(), read_input(file, options.input)});
+  return world;
+}
+
+std::vector<std::pair<std::string, std::string>> ignored_names(const PathOptions& options) {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const std::string& pair : options.ignored) {
+    const std::size_t comma = pair.find(',');
+    if (comma == pair.npos) refuse(fmt::format("--ignore {}: expected two names with a comma between them", pair));
+    names.emplace_back(pair.substr(0, comma), pair.substr(comma + 1));
+  }
+  return names;
+}
+
+Decision read_all(const PathOptions& options, const RobotFile& file) {
+  ProgressLine line;
+  Decision decision{.file = file,
+                    .made = path_bodies(file.robot, options.geometry, read_world(options), std::ref(line)),
+                    .pairs = {},
+                    .paths = {}};
+  std::vector<LinkPair> disabled;
+  if (!options.srdf.empty()) disabled = disabled_pairs(file.robot, read_bytes(options.srdf), input_name(options.srdf));
+  decision.pairs = pairs_on_path(file.robot, decision.made.bodies, disabled, ignored_names(options));
+  if (decision.pairs.empty()) refuse("there is no pair of bodies that could meet: all are adjacent, or ignored");
+  for (const path& rows : options.paths)
+    decision.paths.emplace_back(file.robot, read_path_rows(read_bytes(rows), input_name(rows)));
+  return decision;
+}
+
+std::string time_text(const JointPath& path, double place) {
+  return path.rows().times.empty() ? fmt::format("row {:.6g}, counted from 0,", place)
+                                   : fmt::format("{:.6g} s", path.time_at(place));
+}
+
+std::string lengths(double metres) { return fmt::format("{:.4g} mm", 1000 * metres); }
+
+std::string pair_name(const Decision& decision, const PathPairProof& pair) {
+  return fmt::format("{} and {}", decision.name(pair.a), decision.name(pair.b));
+}
+
+double least_of(const PathProof& proof) { return std::ranges::min(proof.curve, {}, &DistanceBound::distance).distance; }
+
+std::string verdict_text(const PathOptions& options, const Decision& decision, std::size_t p) {
+  const JointPath& path = decision.paths[p];
+  const PathProof& proof = decision.proofs[p];
+  const PathPairProof* const first = proof.first();
+  if (!first) {
+    std::string text =
+        fmt::format("free all along, proven for {}", counted(path.rows().positions.size(), "row", "rows"));
+    if (!path.rows().times.empty())
+      text += fmt::format(", {:.6g} s", path.rows().times.back() - path.rows().times.front());
+    if (!proof.curve.empty()) text += fmt::format("; at least {} apart", lengths(least_of(proof)));
+    return text;
+  }
+  const std::string until =
+      proof.free_until() > 0 ? fmt::format("; proven free before {}", time_text(path, proof.free_until())) : "";
+  if (first->verdict == PathVerdict::Open)
+    return fmt::format("OPEN from {} to {}: {}: {}{}", time_text(path, first->begin), time_text(path, first->end),
+                       pair_name(decision, *first), first->why, until);
+  return fmt::format("{} at {}: {}{}", options.proof.gap > 0 ? fmt::format("CLOSER THAN {}", options.gap) : "MEETS",
+                     time_text(path, first->end), pair_name(decision, *first), until);
+}
+
+/// "joint1 0.5, joint2 -1", of the joints that move freely
+std::string positions_text(const Robot& robot, std::span<const double> positions) {
+  std::string text;
+  for (std::size_t j = 0; j < positions.size(); ++j)
+    if (robot.joints[j].type != JointType::Fixed)
+      text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", robot.joints[j].name, positions[j]);
+  return text;
+}
+
+/// Of the joints that the path does not name, that no other joint moves.
+std::string rest_text(const Robot& robot, const JointPath& path) {
+  std::vector<std::string> names;
+  const std::vector<double> positions = path.positions_at(0);
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const Joint& joint = robot.joints[j];
+    if (joint.type == JointType::Fixed || joint.mimic || std::ranges::count(path.joints(), j) > 0) continue;
+    names.push_back(fmt::format("{} at {:.6g}", joint.name, positions[j]));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void say_others(const PathProof& proof) {
+  const auto count = [&](PathVerdict verdict) {
+    return std::ranges::count(proof.pairs, verdict, &PathPairProof::verdict);
+  };
+  const auto meet = count(PathVerdict::Meets), open = count(PathVerdict::Open);
+  if (meet + open > 1)
+    say("  of {}, {} meet and {} are open\n", counted(proof.pairs.size(), "pair", "pairs"), meet, open);
+}
+
+void say_path(const PathOptions& options, const Decision& decision, std::size_t p) {
+  const Robot& robot = decision.file.robot;
+  const JointPath& path = decision.paths[p];
+  const PathProof& proof = decision.proofs[p];
+  say("{}: {}\n", path.rows().file, verdict_text(options, decision, p));
+  if (const PathPairProof* const first = proof.first()) {
+    if (!first->positions.empty()) say("  there: {}\n", positions_text(robot, first->positions));
+    if (first->nothing_moves)
+      say("  no joint moves them against each other; if they may touch, add --ignore {},{}\n", decision.name(first->a),
+          decision.name(first->b));
+    say_others(proof);
+  }
+  if (const auto beyond = first_beyond_limits(robot, path)) {
+    const Joint& joint = robot.joints[beyond->joint];
+    say("  BEYOND LIMITS: {} {}: {} is at {:.6g}, and its limits are {:.6g} and {:.6g}\n", path.rows().row,
+        path.rows().numbers.empty() ? beyond->row : path.rows().numbers[beyond->row], joint.name, beyond->position,
+        joint.lower, joint.upper);
+  }
+  if (const std::string rest = rest_text(robot, path); !rest.empty())
+    say("  the path does not name these joints, which stay: {}\n", rest);
+}
+
+nlohmann::json facts(const Decision& decision, const JointPath& path, const PathPairProof& pair) {
+  const Robot& robot = decision.file.robot;
+  nlohmann::json json{{"bodies", {decision.name(pair.a), decision.name(pair.b)}},
+                      {"verdict", name_of(pair.verdict)},
+                      {"why", pair.why},
+                      {"begin", path.time_at(pair.begin)},
+                      {"end", path.time_at(pair.end)},
+                      {"nothing_moves", pair.nothing_moves},
+                      {"cells", pair.cells},
+                      {"witness", nullptr}};
+  if (pair.positions.empty()) return json;
+  nlohmann::json& witness = json["witness"];
+  for (std::size_t j = 0; j < robot.joints.size(); ++j)
+    if (robot.joints[j].type != JointType::Fixed) witness["positions"][robot.joints[j].name] = pair.positions[j];
+  witness["time"] = path.time_at(pair.end);
+  witness["parts"] = {pair.part_a, pair.part_b};
+  witness["faces"] = {index(pair.faces.a), index(pair.faces.b)};
+  return json;
+}
+
+nlohmann::json facts(const Decision& decision, std::size_t p) {
+  const JointPath& path = decision.paths[p];
+  const PathProof& proof = decision.proofs[p];
+  nlohmann::json json{{"file", path.rows().file},
+                      {"rows", path.rows().positions.size()},
+                      {"joints", path.rows().joints},
+                      {"has_times", !path.rows().times.empty()},
+                      {"verdict", name_of(proof.verdict())},
+                      {"begin", path.time_at(0)},
+                      {"end", path.time_at(path.length())},
+                      {"free_until", path.time_at(proof.free_until())},
+                      {"least_distance", proof.curve.empty() ? nlohmann::json() : nlohmann::json(least_of(proof))},
+                      {"cells", proof.cells()},
+                      {"beyond_limits", nullptr},
+                      {"pairs", nlohmann::json::array()}};
+  if (const auto beyond = first_beyond_limits(decision.file.robot, path))
+    json["beyond_limits"] = {{"row", beyond->row},
+                             {"joint", decision.file.robot.joints[beyond->joint].name},
+                             {"position", beyond->position}};
+  for (const PathPairProof& pair : proof.pairs)
+    if (pair.verdict != PathVerdict::Free) json["pairs"].push_back(facts(decision, path, pair));
+  return json;
+}
+
+nlohmann::json report_of(const PathOptions& options, const Decision& decision, double seconds) {
+  nlohmann::json bodies = nlohmann::json::array(), paths = nlohmann::json::array();
+  for (const PathBody& body : decision.made.bodies) bodies.push_back(body.name);
+  for (std::size_t p = 0; p < decision.paths.size(); ++p) paths.push_back(facts(decision, p));
+  return {{"robot", decision.file.robot.name},
+          {"file", decision.file.path.string()},
+          {"geometry", name_of(geometry_names(), options.geometry)},
+          {"gap", options.proof.gap},
+          {"bodies", bodies},
+          {"pairs", decision.pairs.size()},
+          {"notes", decision.made.notes},
+          {"paths", paths},
+          {"seconds", seconds}};
+}
+
+/// With quotes, if it needs them.
+std::string as_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string curve_csv(const Decision& decision) {
+  const PathProof& proof = decision.proofs.front();
+  const JointPath& path = decision.paths.front();
+  std::string text = "begin,end,distance,a,b\n";
+  for (const DistanceBound& bound : proof.curve) {
+    const PathPairProof& pair = proof.pairs[bound.pair];
+    text += fmt::format("{},{},{},{},{}\n", path.time_at(bound.begin), path.time_at(bound.end), bound.distance,
+                        as_cell(decision.name(pair.a)), as_cell(decision.name(pair.b)));
+  }
+  return text;
+}
+
+bool is_as_asked(const Decision& decision, std::size_t p) {
+  return decision.proofs[p].verdict() == PathVerdict::Free &&
+         !first_beyond_limits(decision.file.robot, decision.paths[p]);
+}
+
+int run_motion(PathOptions options) {
+  options.proof.gap = length_of(options.gap, "--gap");
+  options.proof.distances = !options.curve.empty();
+  if (options.proof.distances && options.paths.size() > 1) refuse("--curve is for one path");
+  std::vector<path> inputs{options.in, options.srdf};
+  inputs.insert(inputs.end(), options.paths.begin(), options.paths.end());
+  inputs.insert(inputs.end(), options.world.begin(), options.world.end());
+  check_files(inputs, {options.curve, options.report});
+  const Stopwatch reading;
+  const RobotFile file = read_robot(options.in, options.file);
+  Decision decision = read_all(options, file);
+  const double read_seconds = reading.seconds();
+  const Stopwatch proving;
+  {
+    ProgressLine line;
+    options.proof.progress = std::ref(line);
+    decision.proofs = prove_paths(file.robot, decision.paths, decision.made.bodies, decision.pairs, options.proof);
+  }
+  const double seconds = proving.seconds();
+  Outputs outputs;
+  if (!options.curve.empty()) outputs.add(options.curve, curve_csv(decision));
+  outputs.add_report(options.report, report_of(options, decision, seconds));
+  outputs.commit();
+  say_robot(file);
+  for (const std::string& note : decision.made.notes) say("  {}\n", note);
+  bool all = true;
+  for (std::size_t p = 0; p < decision.paths.size(); ++p)
+    say_path(options, decision, p), all &= is_as_asked(decision, p);
+  say("  {} of bodies; read and index {:.2f} s, prove {:.3f} s\n", counted(decision.pairs.size(), "pair", "pairs"),
+      read_seconds, seconds);
+  return all ? kDone : kAnswerIsNo;
+}
+
+void add_world(CLI::App& command, PathOptions& options) {
+  constexpr const char* kWhat = "What may meet what";
+  command
+      .add_option("--world", options.world,
+                  std::string("Mesh that stands still in the frame of the robot's root, in metres unless --unit says "
+                              "otherwise; may be given several times. It is called by the name of its file without "
+                              "the suffix. ") +
+                      kMeshFiles)
+      ->allow_extra_args(false)
+      ->type_name("MESH")
+      ->group(kWhat);
+  add_unit_options(command, options.input, "the meshes of the world");
+  command
+      .add_option("--ignore", options.ignored,
+                  "Two bodies that may touch, links or meshes of the world, as in base_link,table; may be given "
+                  "several times.")
+      ->allow_extra_args(false)
+      ->type_name("A,B")
+      ->group(kWhat);
+  command.add_option("--srdf", options.srdf, "SRDF file, the disabled pairs of links of which are not checked.")
+      ->type_name("FILE.srdf")
+      ->group(kWhat);
+  add_choice(command, "--geometry", options.geometry, geometry_names(),
+             "Geometry of the links that counts. A link that has none of it counts by the other one.")
+      ->group(kWhat);
+}
+
+}  // namespace
+
+void add_motion(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<PathOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "motion",
+      "Decides whether a robot is free all along a path: proven at every moment, not sampled. Otherwise it finds the "
+      "first moment at which two links, or a link and the world, meet. The exit code is 0 if all paths are free and "
+      "within the limits of the joints, and 1 if one is not.");
+  command
+      .add_option("in", options->in,
+                  "Robot: URDF, SDF or MJCF. A .xacro file is expanded by the program xacro, if that is installed.")
+      ->required()
+      ->type_name("ROBOT");
+  command
+      .add_option("paths", options->paths,
+                  "Paths of joint positions: CSV files with the names of joints in the first line, and time if there "
+                  "is one; or JSON files, such as a JointTrajectory of ROS (docs/guides/motion.md). With - the file "
+                  "is read from standard input.")
+      ->required()
+      ->type_name("PATH");
+  add_robot_file_options(command, options->file);
+  command
+      .add_option("--gap", options->gap,
+                  "How far bodies have to be apart at least, in metres or with a unit: 5mm. Closer counts as meeting.")
+      ->type_name("LENGTH");
+  add_number(command, "--cells", options->proof.cells, {2, 1e9},
+             "Largest number of pieces into which a path is divided for each pair of bodies. What is not decided then "
+             "is open.");
+  command
+      .add_option("--curve", options->curve,
+                  "CSV file for the least distance over time: between begin and end, all pairs are at least that far "
+                  "apart, which is proven. The bounds are no less than 0.6 of the distance, as far as --cells allows.")
+      ->type_name("FILE.csv");
+  add_threads_option(command, options->proof.threads, "The result is the same for any number.");
+  add_report_option(command, options->report);
+  add_world(command, *options);
+  add_examples(command, {"prohull motion arm.urdf pick.csv", "prohull motion arm.urdf pick.csv place.json --gap 5mm",
+                         "prohull motion arm.urdf pick.csv --world table.stl --unit mm --ignore base_link,table",
+                         "prohull motion arm.urdf pick.csv --srdf arm.srdf --curve clearance.csv --report pick.json"});
+  command.callback([options, &run] { run = [options] { return run_motion(*options); }; });
+}
+
+}  // namespace prohull::cli

@@ -1,0 +1,161 @@
+#!/bin/sh
+# Drives `prohull motion` as a user would: motion_test.sh PROHULL
+# Each check names what it defends; the last line counts them.
+set -u
+prohull=$1
+. "$(dirname "$0")/checks.sh"
+# --- a base and a cart, cubes of side 1 m; the joint `slide` says how far they are apart ---
+cat >slide.urdf <<'URDF'
+<robot name="slide">
+  <link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+  <link name="rail"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  <link name="cart"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+  <link name="flag"><visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual></link>
+  <joint name="up" type="prismatic">
+    <parent link="base"/><child link="rail"/><origin xyz="0 0 3"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="5" effort="1" velocity="1"/>
+  </joint>
+  <joint name="slide" type="prismatic">
+    <parent link="rail"/><child link="cart"/><origin xyz="1 0 -3"/><axis xyz="1 0 0"/>
+    <limit lower="-2" upper="5" effort="1" velocity="1"/>
+  </joint>
+  <joint name="turn" type="continuous"><parent link="cart"/><child link="flag"/><origin xyz="0 0 -3"/></joint>
+</robot>
+URDF
+motion="$prohull motion slide.urdf"
+printf 'time,slide\n0,1\n2,0.5\n' >free.csv
+printf 'time,slide\n0,1\n2,-1\n' >meets.csv
+printf '{"joint_names": ["slide"], "points": [{"positions": [1], "velocities": [-3], "time_from_start": 0},
+  {"positions": [1], "velocities": [3], "time_from_start": {"sec": 2, "nanosec": 0}}]}' >cubic.json
+
+expect 0 "free" $motion free.csv --report free.json
+says out "free" "free.csv: free all along, proven for 2 rows, 2 s"
+says out "joints at rest are named" "the path does not name these joints, which stay: up at 0, turn at 0"
+says out "links without collision geometry are named" "their visual geometry counts: flag"
+says free.json "report: free" '"verdict": "free"'
+expect 1 "meets" $motion meets.csv --report meets.json
+says out "meets" "meets.csv: MEETS at 1 s: base and cart; proven free before 1 s"
+says out "where it meets" "there: up 0, slide 0, turn 0"
+says meets.json "report: meets" '"verdict": "meets"'
+says meets.json "report: witness" '"witness": {'
+expect 1 "a cubic meets where straight lines would not" $motion cubic.json
+says out "a cubic" "cubic.json: MEETS at 0.42265 s"
+expect 1 "several paths" $motion free.csv meets.csv cubic.json --threads 1
+says out "several paths" "free.csv: free all along"
+says out "several paths" "cubic.json: MEETS"
+expect 0 "a pair to ignore" $motion meets.csv --ignore cart,base
+expect 0 "a path from standard input" sh -c "$motion - <free.csv"
+says out "a path from standard input" "standard input: free"
+expect 1 "a gap" $motion free.csv --gap 60cm
+says out "a gap" "CLOSER THAN 60cm at 1.6 s: base and cart"
+expect 0 "a smaller gap" $motion free.csv --gap 499mm
+expect 1 "visual geometry, of which the base has none" $motion meets.csv --geometry visual
+says out "visual geometry" "so that their collision geometry counts: base, rail, cart"
+
+# --- limits ---
+printf 'slide,turn\n1,100\n5.5,0\n' >beyond.csv
+expect 1 "beyond limits" $motion beyond.csv
+says out "beyond limits is free" "beyond.csv: free all along"
+says out "beyond limits" "BEYOND LIMITS: line 3: slide is at 5.5, and its limits are -2 and 5"
+
+# --- the curve ---
+expect 0 "curve" $motion free.csv --curve curve.csv
+says out "curve" "; at least "
+says curve.csv "curve" "begin,end,distance,a,b"
+is "the curve is below the distance, and above 0.6 of it" awk -F, 'NR > 1 {
+    if ($1 != end + 0) exit 1
+    end = $2
+    for (t = $1; t <= $2; t += ($2 - $1) / 4) if ($3 > 1 - t / 4 || $3 < 0.6 * (1 - t / 4)) exit 1 }
+  END { exit end != 2 }' curve.csv
+expect 2 "a curve of two paths" $motion free.csv meets.csv --curve curve2.csv
+absent curve2.csv "what is refused writes nothing"
+
+# --- open ---
+printf 'slide,slide.velocity\n1.000001,-4\n1.000001,4\n' >close.csv
+expect 1 "open" $motion close.csv --cells 10
+says out "open" "OPEN from row "
+says out "why it is open" "base and cart: the number of cells is used up"
+expect 0 "with more cells it is free" $motion close.csv
+
+# --- the world ---
+cat >table.off <<'MESH'
+OFF
+8 6 0
+-3000 -3000 -700
+3000 -3000 -700
+3000 3000 -700
+-3000 3000 -700
+-3000 -3000 -500
+3000 -3000 -500
+3000 3000 -500
+-3000 3000 -500
+4 3 2 1 0
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+MESH
+world="--world table.off --unit mm"
+expect 1 "the base stands on the table" $motion free.csv $world
+says out "the base stands on the table" "MEETS at 0 s: base and table"
+says out "what to do about it" "if they may touch, add --ignore base,table"
+expect 1 "the cart touches it, too" $motion free.csv $world --ignore base,table
+says out "the cart touches it, too" "MEETS at 0 s: cart and table"
+expect 0 "lifted" sh -c "printf 'slide,up\n1,0.001\n0.5,0.001\n' | $motion - $world --ignore base,table"
+expect 2 "a name that is not there" $motion free.csv $world --ignore base,desk
+says err "a name that is not there" "is called 'desk'; there are base, rail, cart, flag, table"
+expect 2 "one name" $motion free.csv --ignore base
+cp table.off cart.off
+expect 2 "a mesh with the name of a link" $motion free.csv --world cart.off
+says err "a mesh with the name of a link" "two bodies are called 'cart'"
+expect 3 "a world that is not there" $motion free.csv --world nowhere.stl
+
+# --- SRDF ---
+echo '<robot name="slide"><disable_collisions link1="cart" link2="base" reason="User"/></robot>' >slide.srdf
+expect 0 "disabled pairs" $motion meets.csv --srdf slide.srdf
+expect 3 "no SRDF" $motion meets.csv --srdf free.csv
+cat >all.srdf <<'SRDF'
+<robot name="slide">
+  <disable_collisions link1="cart" link2="base"/><disable_collisions link1="base" link2="flag"/>
+  <disable_collisions link1="rail" link2="flag"/>
+</robot>
+SRDF
+expect 2 "nothing to check is no proof" $motion meets.csv --srdf all.srdf
+says err "nothing to check is no proof" "there is no pair of bodies that could meet"
+
+# --- what is refused ---
+expect 2 "no path" $motion
+expect 3 "a path that is not there" $motion nowhere.csv
+printf 'slide\n1\nnan\n' >nan.csv
+expect 3 "not a number" $motion free.csv nan.csv
+says err "not a number" "nan.csv: line 3: 'nan' is no finite number"
+printf 'slyde\n1\n' >unknown.csv
+expect 3 "an unknown joint" $motion unknown.csv
+says err "an unknown joint" "unknown.csv: the robot has no joint 'slyde'; it has up, slide, turn"
+: >empty.csv
+expect 3 "an empty path" $motion empty.csv
+expect 3 "no robot" $prohull motion free.csv free.csv
+sed 's|<box size="0.1 0.1 0.1"/>|<mesh filename="lost.stl"/>|' slide.urdf >lost.urdf
+expect 3 "a lost mesh" $prohull motion lost.urdf free.csv
+says err "a lost mesh" "lost.stl"
+sed 's|<link name="rail">.*|<link name="rail"><collision><geometry><ellipsoid size="1 1 1"/></geometry></collision></link>|' \
+  slide.urdf >unread.urdf
+expect 1 "geometry that is not read is not free" $prohull motion unread.urdf free.csv
+says out "geometry that is not read is not free" "OPEN from 0 s to 2 s: rail and flag: its geometry of type ellipsoid is not read"
+
+# --- the arm, and Ctrl-C ---
+$prohull sample arm -o arm >/dev/null
+printf 'joint2,joint3,joint4\n0,0,0\n2.541,0.827,-4.489\n' >fold.csv
+expect 1 "the arm's own collision geometry meets where random poses do not find it" $prohull motion arm/arm.urdf fold.csv
+says out "link1 and link4" "MEETS at row "
+awk 'BEGIN { srand(1); print "joint1,joint2,joint3,joint4,joint5,joint6,joint7"
+  for (i = 0; i < 20000; ++i) { for (j = 0; j < 7; ++j) printf "%s%f", j ? "," : "", 2 * rand() - 1; print "" } }' >long.csv
+$prohull motion arm/arm.urdf long.csv >out 2>err &
+sleep 1
+kill -INT $!
+wait $!
+code=$?
+is "Ctrl-C: exit code $code" test $code -eq 130
+
+count_checks
