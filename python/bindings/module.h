@@ -13,5 +13,6 @@ void bind_collisions(pybind11::module_& module);
 void bind_pictures(pybind11::module_& module);
 void bind_pages(pybind11::module_& module);
 void bind_robots(pybind11::module_& module);
+void bind_paths(pybind11::module_& module);
 
 }  // namespace prohull::python

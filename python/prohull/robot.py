@@ -15,19 +15,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, Optional, Union, get_args
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _prohull
 from ._meshes import Mesh
+from ._paths import BeyondLimits, Geometry, PathCheck, PathChecker, PathPair, path_checker
 from ._prohull import InputError
 from ._shown import Shown
-from ._types import Path, Progress, Proof, Source
+from ._types import MeshLike, Path, Progress, Proof, Source
 from ._view import Part
 
-__all__ = ["Check", "Hulls", "Joint", "Link", "LinkCheck", "LinkHull", "LinkHulls", "Motion", "MotionPair", "PairProof",
-           "Robot"]
+__all__ = ["BeyondLimits", "Check", "Hulls", "Joint", "Link", "LinkCheck", "LinkHull", "LinkHulls", "Motion", "MotionPair",
+           "PairProof", "PathCheck", "PathChecker", "PathPair", "Robot"]
 
-Geometry = Literal["visual", "collision"]
 Collision = Literal["hull", "convex", "spheres"]
 Format = Literal["stl", "obj", "glb"]
 JointType = Literal["fixed", "revolute", "continuous", "prismatic", "ball", "planar", "floating"]
@@ -384,6 +384,38 @@ class Robot(Shown):
         allow = _arrays.not_negative("allow", allow)
         core, links = self._core.check(allow, _arrays.count("threads", threads), progress)
         return Check(core, [LinkCheck(**facts) for facts in links], allow)
+
+    def path_checker(self, *, world: Optional[Mapping[str, MeshLike]] = None, geometry: Geometry = "collision",
+                     srdf: Optional[Path] = None, ignore: Sequence[tuple[str, str]] = ()) -> PathChecker:
+        """Makes the robot and its world ready for checks of paths.
+
+        world: meshes by their names, each as verify() takes it, in metres and in the frame of the robot's root, where
+            they stand still.
+        geometry: of the links, "collision" or "visual". A link that has none of it counts by the other one.
+        srdf: an SRDF file, the disabled pairs of which are not compared.
+        ignore: pairs of names, of links or meshes of the world, that may meet: [("base_link", "table")].
+
+        Links that a joint connects are not compared. Raises InputError for names that are not there, and for mesh files
+        that are not found or cannot be read.
+        """
+        names = [joint.name for joint in self.joints
+                 if joint.type in ("revolute", "continuous", "prismatic") and joint.mimics is None]
+        return path_checker(self._core, names, world, geometry, srdf, ignore)
+
+    def check_path(self, positions: Union[ArrayLike, Path], joints: Optional[Sequence[str]] = None, *,
+                   times: Optional[ArrayLike] = None, velocities: Optional[ArrayLike] = None,
+                   accelerations: Optional[ArrayLike] = None, world: Optional[Mapping[str, MeshLike]] = None,
+                   geometry: Geometry = "collision", srdf: Optional[Path] = None,
+                   ignore: Sequence[tuple[str, str]] = (), gap: float = 0, cells: int = 10_000,
+                   distances: bool = False, threads: int = 0, progress: Optional[Progress] = None) -> PathCheck:
+        """Decides whether the robot is free at every moment of a path: proven, not sampled.
+
+        The same as path_checker(world=..., ...).check(positions, joints, ...), which says what each argument is. For
+        many paths keep the PathChecker: it reads the meshes only once.
+        """
+        checker = self.path_checker(world=world, geometry=geometry, srdf=srdf, ignore=ignore)
+        return checker.check(positions, joints, times=times, velocities=velocities, accelerations=accelerations, gap=gap,
+                             cells=cells, distances=distances, threads=threads, progress=progress)
 
     def _view_parts(self) -> list[Part]:
         return [Part(self.name, self._core.shown(), lambda *size: self.picture((), *size))]

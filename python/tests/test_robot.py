@@ -223,3 +223,85 @@ def test_robots_are_shown(robot, hulls, path):
     faces = [len(link.visual.faces) for link in robot.links]
     assert links(prohull.view(robot)) == links(prohull.view(path)) == list(zip(faces, [12, 12, None]))
     assert links(prohull.view(hulls)) == [(n, len(link.hulls[0].mesh.faces)) for n, link in zip(faces, hulls)]
+
+
+SLIDE = """<robot name="slide">
+  <link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+  <link name="rail"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  <link name="cart"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+  <joint name="up" type="prismatic"><parent link="base"/><child link="rail"/><origin xyz="0 0 3"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="5" effort="1" velocity="1"/></joint>
+  <joint name="slide" type="prismatic"><parent link="rail"/><child link="cart"/><origin xyz="1 0 -3"/><axis xyz="1 0 0"/>
+    <limit lower="-2" upper="5" effort="1" velocity="1"/></joint>
+</robot>"""
+
+
+@pytest.fixture
+def slide(tmp_path):
+    """A base and a cart, cubes of side 1; the joint `slide` says how far they are apart."""
+    (tmp_path / "slide.urdf").write_text(SLIDE)
+    return prohull.robot.Robot.load(tmp_path / "slide.urdf")
+
+
+def test_a_path_is_free_or_meets_at_a_known_time(slide, tmp_path):
+    free = slide.check_path([[1], [0.5]], ["slide"], distances=True)
+    assert free and free.verdict == "free" and free.free_until == 1 and free.pairs == []
+    assert free.intervals[0, 0] == 0 and free.intervals[-1, 1] == 1 and len(free.intervals) == len(free.distances)
+    assert np.array_equal(free.intervals[1:, 0], free.intervals[:-1, 1])
+    assert (free.distances <= 1 - free.intervals[:, 1] / 2).all() and (free.distances >= 0.3).all()
+    meets = slide.check_path(np.array([[0, 1.0], [0, -3.0]], dtype=np.float32), times=[10, 12])
+    pair, = meets.pairs
+    assert not meets and meets.verdict == pair.verdict == "meets" and (pair.a, pair.b) == ("base", "cart")
+    assert pair.begin <= 10.5 <= pair.end and pair.end - pair.begin < 1e-9 and meets.free_until == pair.begin
+    assert pair.positions == pytest.approx({"up": 0, "slide": 0}, abs=1e-9) and meets.distances.shape == (0,)
+    assert not slide.check_path([[1], [1]], ["slide"], velocities=[[-4.5], [4.5]])
+    assert not slide.check_path([[1], [0.5]], ["slide"], gap=0.6) and slide.check_path([[1], [0.5]], ["slide"], gap=0.4)
+    beyond = slide.check_path([[1], [6]], ["slide"])
+    assert beyond.verdict == "free" and beyond.beyond_limits == (1, "slide", 6) and not beyond
+    (tmp_path / "path.csv").write_text("slide\n1\n0.5\n")
+    assert slide.check_path(tmp_path / "path.csv")
+
+
+def test_a_checker_serves_many_paths_in_a_world(slide):
+    checker = slide.path_checker(world={"post": (prohull.sample("box", 12).vertices * 0.1 + [4, 0, 0],
+                                                 prohull.sample("box", 12).faces)})
+    assert ("cart", "post") in checker.pairs and ("base", "rail") not in checker.pairs
+    assert [checker.check([[1], [end]], ["slide"]).verdict for end in (1.5, 5)] == ["free", "meets"]
+    assert checker.check([[1], [5]], ["slide"]).pairs[0].b == "post"
+    one, two = (checker.check([[1], [2]], ["slide"], threads=threads, distances=True) for threads in (1, 2))
+    assert one[:5] == two[:5] and np.array_equal(one.distances, two.distances)
+
+
+def test_what_is_wrong_with_a_path_is_told(slide, tmp_path):
+    for positions, options, message in [
+            ([[1]], {}, r"positions: an array of shape \(1, 1\); expected \(n, 2\)"),
+            ([1, 2], {}, "positions: an array of shape"),
+            ([["a", "b"]], {}, "positions: an array of"),
+            (np.empty((0, 2)), {}, "path: there are no rows of positions"),
+            ([[0, math.nan]], {}, "path: row 0: positions of joint 'slide': nan is no number"),
+            ([[0, 1e308]], {}, "1e\\+308 is no number"),
+            ([[0]], {"joints": ["slyde"]}, "the robot has no joint 'slyde'; it has up, slide"),
+            ([[0, 1], [0, 2]], {"times": [1, 1]}, "path: row 1: time 1 does not come after 1"),
+            ([[0, 1], [0, 2]], {"times": [[1], [2]]}, "times: an array of shape"),
+            ([[0, 1], [0, 2]], {"velocities": [[1, 1]]}, "velocities are not of as many rows"),
+            ([[0, 1]], {"accelerations": [[1, 1]]}, "there are accelerations, but no velocities"),
+            ([[0, 1]], {"gap": -1}, "gap=-1: expected a number, at least 0"),
+            ([[0, 1]], {"cells": 1}, "cells=1: expected a whole number, at least 2"),
+            ([[0, 1]], {"geometry": "inertial"}, "geometry='inertial': expected one of visual, collision"),
+            ([[0, 1]], {"ignore": [("cart", "desk")]}, "is called 'desk'"),
+            ([[0, 1]], {"ignore": [("cart", "base")]}, None),
+            ([[0, 1]], {"world": {"cart": prohull.sample("box", 12)}}, "two bodies are called 'cart'"),
+            (tmp_path / "none.csv", {}, None),
+            (slide.path, {"times": [1]}, "are those of the file"),
+            (slide.path, {}, "slide.urdf: line ")]:
+        if message is None and "ignore" in options:
+            with pytest.raises(prohull.InputError, match="no pair of bodies"):
+                slide.check_path(positions, **options)
+        elif message is None:
+            with pytest.raises(FileNotFoundError):
+                slide.check_path(positions, **options)
+        else:
+            with pytest.raises(prohull.InputError, match=message):
+                slide.check_path(positions, **options)
+    with pytest.raises(KeyboardInterrupt):
+        slide.check_path([[0, 1], [0, 2]], progress=lambda stage, fraction: False)

@@ -87,6 +87,8 @@ page: Optional[str] = one.show(progress=lambda stage, fraction: None).html
 page = prohull.view(one, "part.stl", (v, f), pieces, balls, made, [mesh, "piece.stl"], original=mesh, path="view.html").html
 page = prohull.view(pieces.pieces, original="part.stl").html
 page = prohull.view(prohull.robot.Robot.load("arm.urdf"), unit="m", threads=1).html
+checked = prohull.robot.Robot.load("arm.urdf").check_path([[0.0]], ["joint1"], times=[0.0], gap=0.01, distances=True)
+print(checked.verdict, checked.pairs[0].positions["joint1"], checked.distances.min())
 drawn: bytes = pieces.show().picture
 
 prohull.view(3)  # refused
