@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "command.h"
@@ -7,6 +9,8 @@
 #include "robot/motion/bodies.h"
 #include "robot/motion/joint_paths.h"
 #include "robot/motion/pair_proof.h"
+#include "robot/motion/path_proof.h"
+#include "robot/motion/sampling.h"
 #include "sample_robot_files.h"
 #include "table.h"
 
@@ -16,7 +20,7 @@ namespace {
 using namespace prohull::robot;
 using std::filesystem::path;
 
-// What is proven about pairs of links that no joint connects, on their hulls.
+// What is proven about pairs of links that no joint connects, and about paths, on hulls of the links.
 
 struct MotionBenchOptions {
   std::vector<path> robots;
@@ -24,11 +28,21 @@ struct MotionBenchOptions {
   std::vector<std::string> samples;
   std::size_t faces = 500;
   ProofOptions proof;
+  std::size_t paths = 50;
+  PathProofOptions path_proof{.threads = 1};
   path out;
 };
 
 struct Decided {
-  std::size_t pairs = 0, decided = 0;
+  std::size_t all = 0, decided = 0;
+};
+
+/// What is decided of pairs and of paths, each with a row of its own.
+struct Found {
+  Table pairs{{"robot", "link", "other", "verdict", "proven_free_pct", "cells", "cpu_seconds"}};
+  Table paths{{"robot", "path", "verdict", "cells", "cpu_seconds"}};
+  Table robots{{"robot", "pairs", "decided", "free", "median of cells", "median of seconds"}};
+  Decided decided_pairs, decided_paths;
 };
 
 std::vector<LinkPair> pairs_of(const Robot& robot, const Bodies& bodies) {
@@ -41,35 +55,99 @@ std::vector<LinkPair> pairs_of(const Robot& robot, const Bodies& bodies) {
   return pairs;
 }
 
-void measure(const path& path_of_robot, const MotionBenchOptions& options, Table& table, Decided& all) {
-  const RobotFile file = read_robot(path_of_robot, options.file);
-  const Robot& robot = file.robot;
-  LinkHullOptions how;
-  how.budget.faces = {options.faces}, how.skip_missing = true;
-  const Bodies bodies = bodies_of(robot, link_hulls(robot, how), Geometry::Visual);
+void measure_pairs(const std::string& name, const Robot& robot, const Bodies& bodies, const ProofOptions& options,
+                   Found& found) {
   for (const LinkPair& pair : pairs_of(robot, bodies)) {
     PairProof proof;
     const double seconds =
-        seconds_of([&] { proof = prove_pairs(robot, bodies.hull, std::span(&pair, 1), options.proof).front(); });
-    ++all.pairs, all.decided += proof.verdict != PairVerdict::Open;
-    table.add({as_cell(path_of_robot.stem().string()), as_cell(robot.links[pair.first].name),
-               as_cell(robot.links[pair.second].name), std::string(name_of(proof.verdict)),
-               number(100 * proof.proven_free, 2), std::to_string(proof.cells), number(seconds, 3)});
+        seconds_of([&] { proof = prove_pairs(robot, bodies.hull, std::span(&pair, 1), options).front(); });
+    ++found.decided_pairs.all, found.decided_pairs.decided += proof.verdict != PairVerdict::Open;
+    found.pairs.add({name, as_cell(robot.links[pair.first].name), as_cell(robot.links[pair.second].name),
+                     std::string(name_of(proof.verdict)), number(100 * proof.proven_free, 2),
+                     std::to_string(proof.cells), number(seconds, 3)});
   }
+}
+
+/// From one position of all joints straight to another one.
+JointPath path_between(const Robot& robot, std::span<const double> from, std::span<const double> to) {
+  PathRows rows{.joints = {}, .positions = std::vector<std::vector<double>>(2)};
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const Joint& joint = robot.joints[j];
+    if (joint.mimic || !moves(joint)) continue;
+    rows.joints.push_back(joint.name);
+    rows.positions[0].push_back(from[j]), rows.positions[1].push_back(to[j]);
+  }
+  return JointPath(robot, std::move(rows));
+}
+
+/// Those that do not meet at rest, as a user's SRDF leaves them.
+std::vector<BodyPair> free_at_rest(const Robot& robot, const std::vector<PathBody>& bodies) {
+  const std::vector<BodyPair> pairs = pairs_on_path(robot, bodies);
+  const std::vector<double> rest = rest_positions(robot);
+  const JointPath path = path_between(robot, rest, rest);
+  const std::vector<PathProof> proofs = prove_paths(robot, {&path, 1}, bodies, pairs);
+  std::vector<BodyPair> free;
+  for (const PathPairProof& pair : proofs.front().pairs)
+    if (pair.verdict == PathVerdict::Free) free.emplace_back(pair.a, pair.b);
+  return free;
+}
+
+void measure_paths(const std::string& name, const Robot& robot, const Bodies& bodies, const MotionBenchOptions& options,
+                   Found& found) {
+  std::vector<PathBody> moved;
+  for (std::size_t link = 0; link < bodies.hull.size(); ++link)
+    if (bodies.hull[link].face_count() > 0) moved.push_back(path_body(robot.links[link].name, link, bodies.hull[link]));
+  const std::vector<BodyPair> pairs = free_at_rest(robot, moved);
+  Decided decided;
+  std::size_t free = 0;
+  std::vector<double> cells, times;
+  for (std::size_t i = 0; i < options.paths && !pairs.empty(); ++i) {
+    const JointPath path =
+        path_between(robot, random_positions(robot, 1, 2 * i), random_positions(robot, 1, 2 * i + 1));
+    PathProof proof;
+    const double seconds = seconds_of([&] {
+      proof = prove_paths(robot, {&path, 1}, moved, pairs, options.path_proof).front();
+    });
+    ++decided.all, decided.decided += proof.verdict() != PathVerdict::Open;
+    free += proof.verdict() == PathVerdict::Free;
+    cells.push_back(static_cast<double>(proof.cells())), times.push_back(seconds);
+    found.paths.add({name, std::to_string(i), std::string(name_of(proof.verdict())), std::to_string(proof.cells()),
+                     number(seconds, 4)});
+  }
+  found.decided_paths.all += decided.all, found.decided_paths.decided += decided.decided;
+  found.robots.add({name, std::to_string(pairs.size()), fmt::format("{} of {}", decided.decided, decided.all),
+                    std::to_string(free), number(median(cells), 0), number(median(times), 4)});
+}
+
+void measure(const path& path_of_robot, const MotionBenchOptions& options, Found& found) {
+  const RobotFile file = read_robot(path_of_robot, options.file);
+  LinkHullOptions how;
+  how.budget.faces = {options.faces}, how.skip_missing = true;
+  const Bodies bodies = bodies_of(file.robot, link_hulls(file.robot, how), Geometry::Visual);
+  const std::string name = as_cell(path_of_robot.stem().string());
+  measure_pairs(name, file.robot, bodies, options.proof, found);
+  measure_paths(name, file.robot, bodies, options, found);
 }
 
 int run_motion(const MotionBenchOptions& options) {
   const WorkFolder folder;
   std::vector<path> robots = options.robots;
   for (const std::string& sample : options.samples) robots.push_back(sample_robot_in(folder.get(), sample));
-  Table table{{"robot", "link", "other", "verdict", "proven_free_pct", "cells", "cpu_seconds"}};
-  Decided all;
-  for (const path& robot : robots) measure(robot, options, table, all);
+  Found found;
+  for (const path& robot : robots) measure(robot, options, found);
   publish(options.out, "motion_pairs",
           fmt::format("Pairs of links that no joint connects, hulls of {} faces, at most {} cells of a pair, one pair "
                       "after the other. {}\n\n{}\nDecided: {} of {}.\n",
-                      options.faces, options.proof.cells, machine(), table.markdown(), all.decided, all.pairs),
-          table.csv());
+                      options.faces, options.proof.cells, machine(), found.pairs.markdown(),
+                      found.decided_pairs.decided, found.decided_pairs.all),
+          found.pairs.csv());
+  publish(
+      options.out, "motion_paths",
+      fmt::format("Paths from a random position of all joints straight to another one, hulls of {} faces, pairs "
+                  "that do not meet at rest, at most {} cells of a pair, on one thread. {}\n\n{}\nDecided: {} of {}.\n",
+                  options.faces, options.path_proof.cells, machine(), found.robots.markdown(),
+                  found.decided_paths.decided, found.decided_paths.all),
+      found.paths.csv());
   return kDone;
 }
 
@@ -77,15 +155,18 @@ int run_motion(const MotionBenchOptions& options) {
 
 void add_motion(CLI::App& app, Run& run) {
   const auto options = std::make_shared<MotionBenchOptions>();
-  CLI::App& command =
-      *app.add_subcommand("motion", "What is proven about pairs of links: they never meet, or they meet, or neither");
+  CLI::App& command = *app.add_subcommand(
+      "motion", "What is proven about pairs of links, and about paths: they never meet, or they meet, or neither");
   command.add_option("--robot", options->robots, "URDF, SDF or MJCF file; may be given several times")
       ->check(CLI::ExistingFile);
   command.add_option("--package-path", options->file.package_paths, "Folder of packages; may be given several times");
   command.add_option("--sample", options->samples, "Bundled robot; may be given several times");
   add_faces_option(command, options->faces);
   command.add_option("--prove", options->proof.cells, "Largest number of cells of a pair")->capture_default_str();
-  add_out_option(command, options->out, "motion_pairs");
+  command.add_option("--paths", options->paths, "Random paths of each robot")->capture_default_str();
+  command.add_option("--cells", options->path_proof.cells, "Largest number of cells of a pair on a path")
+      ->capture_default_str();
+  add_out_option(command, options->out, "motion_pairs and motion_paths");
   command.callback([options, &run] { run = [options] { return run_motion(*options); }; });
 }
 

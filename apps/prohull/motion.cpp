@@ -70,7 +70,7 @@ Decision read_all(const PathOptions& options, const RobotFile& file) {
 }
 
 std::string time_text(const JointPath& path, double place) {
-  return path.rows().times.empty() ? fmt::format("row {:.6g}, counted from 0,", place)
+  return path.rows().times.empty() ? fmt::format("row {:.6g}", place)
                                    : fmt::format("{:.6g} s", path.time_at(place));
 }
 
@@ -139,6 +139,7 @@ void say_path(const PathOptions& options, const Decision& decision, std::size_t 
   const PathProof& proof = decision.proofs[p];
   say("{}: {}\n", path.rows().file, verdict_text(options, decision, p));
   if (const PathPairProof* const first = proof.first()) {
+    if (path.rows().times.empty()) say("  rows count from 0, as the path has no times\n");
     if (!first->positions.empty()) say("  there: {}\n", positions_text(robot, first->positions));
     if (first->nothing_moves)
       say("  no joint moves them against each other; if they may touch, add --ignore {},{}\n", decision.name(first->a),

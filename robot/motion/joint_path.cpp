@@ -72,10 +72,6 @@ JointRange joined(const JointRange& a, const JointRange& b) {
   return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
 }
 
-bool moves(const Joint& joint) {
-  return joint.type == JointType::Revolute || joint.type == JointType::Continuous || joint.type == JointType::Prismatic;
-}
-
 std::string names_of(const Robot& robot) {
   std::vector<std::string> names;
   for (const Joint& joint : robot.joints)
@@ -84,6 +80,10 @@ std::string names_of(const Robot& robot) {
 }
 
 }  // namespace
+
+bool moves(const Joint& joint) {
+  return joint.type == JointType::Revolute || joint.type == JointType::Continuous || joint.type == JointType::Prismatic;
+}
 
 double middle_place(double begin, double end) {
   const double row = std::floor(std::midpoint(begin, end));
