@@ -70,8 +70,7 @@ Decision read_all(const PathOptions& options, const RobotFile& file) {
 }
 
 std::string time_text(const JointPath& path, double place) {
-  return path.rows().times.empty() ? fmt::format("row {:.6g}", place)
-                                   : fmt::format("{:.6g} s", path.time_at(place));
+  return path.rows().times.empty() ? fmt::format("row {:.6g}", place) : fmt::format("{:.6g} s", path.time_at(place));
 }
 
 std::string lengths(double metres) { return fmt::format("{:.4g} mm", 1000 * metres); }

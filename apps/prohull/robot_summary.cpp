@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "console.h"
+#include "robot/report/report_facts.h"
 
 namespace prohull::cli {
 namespace {
@@ -266,6 +267,27 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
   else
     say("NO: {} of {} not covered; `prohull urdf {} -o DIR` makes collision meshes that cover them\n", failed,
         counted(checks.size(), "link is", "links are"), file.path.string());
+}
+
+void say_disabled(const Robot& robot, const std::string& file, std::span<const DisabledCheck> checks) {
+  const auto count = [&](DisabledVerdict verdict) {
+    return std::ranges::count_if(checks, [&](const DisabledCheck& c) { return c.collision.verdict == verdict; });
+  };
+  for (const DisabledCheck& check : checks) {
+    const auto is = [&](DisabledVerdict verdict) {
+      return check.collision.verdict == verdict || check.visual.verdict == verdict;
+    };
+    if (!is(DisabledVerdict::Meets) && !is(DisabledVerdict::Open) && !is(DisabledVerdict::Unknown)) continue;
+    say("  line {}, {} and {}{}: {}{}\n", check.row.line, check.row.link1, check.row.link2,
+        check.row.reason.empty() ? "" : fmt::format(", \"{}\"", check.row.reason),
+        check.is_refuted() ? "REFUTED: " : "", verdict_text(check, robot));
+  }
+  const auto refuted = std::ranges::count_if(checks, &DisabledCheck::is_refuted);
+  say("{}: {}: {} adjacent, {} never meet, {} always, {} meet, {} open; {}\n", file,
+      counted(checks.size(), "disabled pair", "disabled pairs"), count(DisabledVerdict::Adjacent),
+      count(DisabledVerdict::Never) + count(DisabledVerdict::NoGeometry), count(DisabledVerdict::Always),
+      count(DisabledVerdict::Meets), count(DisabledVerdict::Open),
+      refuted > 0 ? fmt::format("{} REFUTED", refuted) : "none refuted");
 }
 
 std::string robot_summary(const std::filesystem::path& folder, const ReportInput& facts, bool sampled_pairs) {

@@ -22,6 +22,9 @@ bool say_plan(const robot::RobotFile& file, const robot::LinkHullOptions& option
 /// How the shipped collision geometry lies to the visual one.
 void say_check(const robot::RobotFile& file, std::span<const robot::LinkCheck> checks, double allow);
 
+/// What was decided about each pair that an SRDF file disables.
+void say_disabled(const robot::Robot& robot, const std::string& file, std::span<const robot::DisabledCheck> checks);
+
 /// What was made into the folder. `sampled_pairs` as of srdf_of.
 std::string robot_summary(const std::filesystem::path& folder, const robot::ReportInput& facts, bool sampled_pairs);
 

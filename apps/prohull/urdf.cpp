@@ -25,7 +25,7 @@ using namespace prohull::robot;
 using std::filesystem::path;
 
 struct UrdfOptions {
-  path in, out, budgets, write_budgets, cache, report, junit, html;
+  path in, out, budgets, write_budgets, cache, report, junit, html, srdf;
   FileOptions file;
   LinkHullOptions hulls;
   std::string max_distance = "0", gap = "0", allow = "0", package;
@@ -55,11 +55,16 @@ void complete(UrdfOptions& options) {
 int run_check(const UrdfOptions& options, const RobotFile& file) {
   const Stopwatch watch;
   const double allow = length_of(options.allow, "--allow");
-  check_files({options.in}, {options.report, options.junit, options.html});
+  check_files({options.in, options.srdf}, {options.report, options.junit, options.html});
+  std::vector<DisabledRow> rows;
+  if (!options.srdf.empty()) rows = disabled_rows(file.robot, read_bytes(options.srdf), input_name(options.srdf));
   ReportInput facts{.file = file, .hulls = {}, .shipped = {}, .motion = {}, .allow = allow, .version = PROHULL_VERSION};
   {
     ProgressLine line;
     facts.shipped = check_links(file.robot, {.threads = options.threads, .progress = std::ref(line)});
+    ProofOptions proof = options.proof;
+    proof.progress = std::ref(line);
+    facts.disabled = check_disabled_pairs(file.robot, rows, proof);
   }
   facts.seconds = watch.seconds();
   Outputs outputs;
@@ -71,7 +76,9 @@ int run_check(const UrdfOptions& options, const RobotFile& file) {
   }
   outputs.commit();
   say_check(file, facts.shipped, allow);
-  const bool all = std::ranges::all_of(facts.shipped, [&](const LinkCheck& check) { return passes(check, allow); });
+  if (!options.srdf.empty()) say_disabled(file.robot, input_name(options.srdf), facts.disabled);
+  const bool all = std::ranges::all_of(facts.shipped, [&](const LinkCheck& check) { return passes(check, allow); }) &&
+                   std::ranges::none_of(facts.disabled, &DisabledCheck::is_refuted);
   return all ? kDone : kAnswerIsNo;
 }
 
@@ -319,6 +326,14 @@ CLI::Option* add_check(CLI::App& command, UrdfOptions& options) {
       ->needs(check)
       ->type_name("LENGTH")
       ->group(kCheck);
+  command
+      .add_option("--srdf", options.srdf,
+                  "Also decide for each pair of links that this SRDF file disables: proven never to meet, or where the "
+                  "two meet. The exit code is 1 if a pair meets, unless its reason is Adjacent, Always, Default or "
+                  "User.")
+      ->needs(check)
+      ->type_name("FILE.srdf")
+      ->group(kCheck);
   command.add_option("--junit", options.junit, "Also write the verdicts as JUnit XML, which CI services show.")
       ->needs(check)
       ->type_name("FILE.xml")
@@ -423,7 +438,7 @@ void add_urdf(CLI::App& app, Run& run) {
        "prohull urdf arm.urdf -o arm_safe --certificate",
        "prohull urdf arm.urdf -o arm_safe --package arm_safe --package-path ~/ws/src",
        "prohull urdf arm.urdf --write-budgets budgets.yaml", "prohull urdf arm.urdf -o arm_safe --budgets budgets.yaml",
-       "prohull urdf arm.urdf --check --allow 0.5mm --junit leaks.xml",
+       "prohull urdf arm.urdf --check --allow 0.5mm --junit leaks.xml", "prohull urdf arm.urdf --check --srdf arm.srdf",
        "prohull urdf model.sdf -o model_safe --format obj"});
   command.callback([options, &run] { run = [options] { return run_urdf(*options); }; });
 }

@@ -14,7 +14,7 @@
 namespace prohull::robot {
 namespace {
 
-bool says_true(const std::string* value) { return value && *value == "true"; }
+bool is_true(const std::string* value) { return value && *value == "true"; }
 
 /// The shortest turn that takes the z axis to `z`, of length 1; half a turn about x if that is its opposite.
 Pose turn_of_z_to(const Vec3& z) {
@@ -119,10 +119,10 @@ void MjcfModel::read_compiler() {
   for (const XmlElement* element : document_.root().children) {
     if (element->name != "compiler") continue;
     const auto text = [&](std::string_view key) { return element->attribute(key); };
-    if (says_true(text("strippath"))) compiler_.strips_paths = true;
-    if (text("strippath")) compiler_.strips_paths = says_true(text("strippath"));
-    if (text("autolimits")) compiler_.auto_limits = says_true(text("autolimits"));
-    if (text("inertiafromgeom")) compiler_.inertia_from_geoms = says_true(text("inertiafromgeom"));
+    if (is_true(text("strippath"))) compiler_.strips_paths = true;
+    if (text("strippath")) compiler_.strips_paths = is_true(text("strippath"));
+    if (text("autolimits")) compiler_.auto_limits = is_true(text("autolimits"));
+    if (text("inertiafromgeom")) compiler_.inertia_from_geoms = is_true(text("inertiafromgeom"));
     if (const auto* folder = text("assetdir")) compiler_.mesh_folder = compiler_.texture_folder = *folder;
     if (const auto* folder = text("meshdir")) compiler_.mesh_folder = *folder;
     if (const auto* folder = text("texturedir")) compiler_.texture_folder = *folder;

@@ -29,7 +29,7 @@ bool stands_for_world(const XmlElement& link) {
   return name && *name == "world" && !link.child("visual") && !link.child("collision");
 }
 
-bool is_true(const std::string* value) { return value && (*value == "true" || *value == "1"); }
+bool is_true_or_1(const std::string* value) { return value && (*value == "true" || *value == "1"); }
 
 }  // namespace
 
@@ -63,7 +63,7 @@ Pose sdf_pose(const XmlDocument& document, const XmlElement& pose) {
     document.refuse(pose, fmt::format("<pose> has {} numbers, expected {}", v.size(), quaternion ? 7 : 6));
   const Vec3 translation = bounded(document, pose, {v[0], v[1], v[2]});
   if (quaternion) return {quaternion_rotation(document, pose, v[6], v[3], v[4], v[5]).rotation, translation};
-  const double unit = is_true(pose.attribute("degrees")) ? std::numbers::pi / 180 : 1;
+  const double unit = is_true_or_1(pose.attribute("degrees")) ? std::numbers::pi / 180 : 1;
   return pose_of_rpy({v[3] * unit, v[4] * unit, v[5] * unit}, translation);
 }
 

@@ -73,9 +73,9 @@ class PairSearch {
     const JointChain::Motion motion = chain_.motion(cell.box);
     cell.distance = distance_of_balls(a_, b_, motion.pose, chain_.rounding());
     if (cell.distance <= motion.change) {
-      const Separation separation = prohull::separation(a_.index, {}, b_.index, motion.pose);
-      if (separation.collide()) return meets_at(cell, motion.pose);
-      cell.distance = separation.lower;
+      const Closest closest = closest_parts(a_, b_, motion.pose);
+      if (closest.separation.collide()) return meets_at(cell, motion.pose, closest);
+      cell.distance = closest.separation.lower;
     }
     if (cell.distance > motion.change) {
       result_.proven_free += cell.share;
@@ -87,13 +87,12 @@ class PairSearch {
     open_.push(std::move(cell));
   }
 
-  void meets_at(const Cell& cell, const Pose& pose) {
+  void meets_at(const Cell& cell, const Pose& pose, const Closest& closest) {
     result_.verdict = cell.box.empty() ? PairVerdict::Always : PairVerdict::Meets;
     result_.positions = rest_positions(robot_);
     for (std::size_t f = 0; f < cell.box.size(); ++f) result_.positions[chain_.freedoms()[f]] = cell.box[f].middle();
     follow(robot_, result_.positions);
-    const std::vector<FacePair> faces = intersecting_faces(a_.index, {}, b_.index, pose);
-    if (!faces.empty()) result_.faces = faces.front();
+    result_.faces = first_faces(a_, b_, pose, closest);
   }
 
   const Robot& robot_;
@@ -126,11 +125,16 @@ std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const TriangleM
   for (const auto& [a, b] : pairs)
     for (const std::size_t link : {a, b})
       if (!bodies[link]) bodies[link].emplace(links[link]);
+  return prove_pairs(robot, bodies, pairs, options);
+}
+
+std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const std::optional<ProofBody>> links,
+                                   std::span<const LinkPair> pairs, const ProofOptions& options) {
   std::vector<PairProof> proofs(pairs.size());
   ProgressMeter meter(options.progress, "prove");
   in_parallel(pairs.size(), options.threads, meter, [&](std::size_t i) {
     const auto& [a, b] = pairs[i];
-    proofs[i] = PairSearch(robot, pairs[i], *bodies[a], *bodies[b], options.cells).run(meter);
+    proofs[i] = PairSearch(robot, pairs[i], *links[a], *links[b], options.cells).run(meter);
   });
   return proofs;
 }

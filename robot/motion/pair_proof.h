@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "prohull/progress.h"
 #include "robot/model.h"
+#include "robot/motion/proof_body.h"
 
 namespace prohull::robot {
 
@@ -52,6 +54,9 @@ struct ProofOptions {
 /// What "proven" means: the axes, anchors and limits are those of `robot`, and the origins of its joints are the
 /// rotations closest to their matrices; what doubles lose on the way is bounded, and part of the change.
 std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const TriangleMesh> links,
+                                   std::span<const LinkPair> pairs, const ProofOptions& options = {});
+/// The same of bodies; those that the pairs name have to be there.
+std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const std::optional<ProofBody>> links,
                                    std::span<const LinkPair> pairs, const ProofOptions& options = {});
 
 }  // namespace prohull::robot

@@ -26,25 +26,13 @@ struct Shapes {
       append(open, mesh);
   }
 
-  std::vector<ProofBody> parts() const {
-    std::vector<ProofBody> parts;
+  std::optional<ProofBody> shape() const {
+    std::vector<TriangleMesh> meshes;
     for (const TriangleMesh* const mesh : {&closed, &open})
-      if (mesh->face_count() > 0) parts.emplace_back(*mesh);
-    return parts;
+      if (mesh->face_count() > 0) meshes.push_back(*mesh);
+    return meshes.empty() ? std::nullopt : std::optional<ProofBody>(std::span(meshes));
   }
 };
-
-PathBody body_of(const Robot& robot, std::size_t link, Geometry which) {
-  PathBody body{robot.links[link].name, link};
-  Shapes all;
-  for (const Shape& shape : shapes(robot.links[link], which)) {
-    if (const auto* const other = std::get_if<OtherForm>(&shape.form))
-      body.unread = fmt::format("its geometry of type {} is not read", other->what);
-    all.add(link_triangles({&shape, 1}, {}));
-  }
-  body.parts = all.parts();
-  return body;
-}
 
 const char* name_of(Geometry which) { return which == Geometry::Visual ? "visual" : "collision"; }
 
@@ -67,16 +55,28 @@ std::size_t body_called(std::span<const PathBody> bodies, const std::string& nam
 }
 
 std::string open_note(const PathBody& body) {
-  const bool is_open = std::ranges::any_of(body.parts, [](const ProofBody& part) { return !part.index.is_solid(); });
-  return is_open ? fmt::format("{}: not closed: only its faces count, not what lies inside", body.name) : "";
+  const bool is_closed = !body.shape || std::ranges::all_of(body.shape->parts, &CollisionIndex::is_solid);
+  return !is_closed ? fmt::format("{}: not closed: only its faces count, not what lies inside", body.name) : "";
 }
 
 }  // namespace
 
+PathBody link_body(const Robot& robot, std::size_t link, Geometry which) {
+  PathBody body{robot.links[link].name, link};
+  Shapes all;
+  for (const Shape& shape : shapes(robot.links[link], which)) {
+    if (const auto* const other = std::get_if<OtherForm>(&shape.form))
+      body.unread = fmt::format("its geometry of type {} is not read", other->what);
+    all.add(link_triangles({&shape, 1}, {}));
+  }
+  body.shape = all.shape();
+  return body;
+}
+
 PathBody path_body(std::string name, std::optional<std::size_t> link, const TriangleMesh& mesh) {
   Shapes all;
   all.add(mesh);
-  return {std::move(name), link, all.parts()};
+  return {std::move(name), link, all.shape()};
 }
 
 PathBodies path_bodies(const Robot& robot, Geometry which, std::span<const WorldMesh> world, const Progress& progress) {
@@ -87,8 +87,8 @@ PathBodies path_bodies(const Robot& robot, Geometry which, std::span<const World
   for (std::size_t link = 0; link < robot.links.size(); ++link) {
     meter.at(link, robot.links.size());
     const bool has_it = !shapes(robot.links[link], which).empty();
-    PathBody body = body_of(robot, link, has_it ? which : other);
-    if (body.parts.empty() && body.unread.empty()) continue;
+    PathBody body = link_body(robot, link, has_it ? which : other);
+    if (!body.shape && body.unread.empty()) continue;
     if (!has_it) replaced.push_back(body.name);
     made.bodies.push_back(std::move(body));
   }

@@ -17,9 +17,10 @@ namespace prohull::robot {
 /// What may meet others on a path: a link, or a mesh of the world, which stands still in the frame of the root.
 struct PathBody {
   std::string name;
-  std::optional<std::size_t> link;    ///< none: of the world
-  std::vector<ProofBody> parts = {};  ///< its closed shapes, which are one solid, and its others, which are faces alone
-  std::string unread = {};            ///< why nothing can be proven about it; empty if all of it was read
+  std::optional<std::size_t> link;  ///< none: of the world
+  /// Its parts are its closed shapes, which are one solid, and its others, which are faces alone.
+  std::optional<ProofBody> shape = {};
+  std::string unread = {};  ///< why nothing can be proven about it; empty if all of it was read
 };
 
 /// The bodies of a robot and its world. A link without the geometry that is asked for has the other one.
@@ -38,6 +39,9 @@ struct WorldMesh {
 /// the same name; EmptyMesh and NonFiniteCoordinate for what is no mesh. Throws Cancelled.
 PathBodies path_bodies(const Robot& robot, Geometry which, std::span<const WorldMesh> world = {},
                        const Progress& progress = {});
+
+/// A link by one of its geometries; without any it has no shape. Throws as mesh_triangles.
+PathBody link_body(const Robot& robot, std::size_t link, Geometry which);
 
 PathBody path_body(std::string name, std::optional<std::size_t> link, const TriangleMesh& mesh);
 

@@ -33,11 +33,7 @@ struct IsLessUrgent {
   }
 };
 
-std::vector<Vec3> corners_of(const PathBody& body) {
-  std::vector<Vec3> corners;
-  for (const ProofBody& part : body.parts) corners.insert(corners.end(), part.corners.begin(), part.corners.end());
-  return corners;
-}
+std::vector<Vec3> corners_of(const PathBody& body) { return body.shape ? body.shape->corners : std::vector<Vec3>(); }
 
 /// A mesh of the world may be large, and its own arms are never the shorter ones: the corners of its box are enough.
 std::vector<Vec3> corners_in_root(const PathBody& world) {
@@ -49,12 +45,6 @@ std::vector<Vec3> corners_in_root(const PathBody& world) {
                        (i & 4) != 0 ? box.max.z : box.min.z});
   return corners;
 }
-
-/// The closest parts of two bodies.
-struct Closest {
-  std::size_t part_a = 0, part_b = 0;
-  Separation separation;
-};
 
 class PathSearch {
  public:
@@ -111,25 +101,10 @@ class PathSearch {
   }
 
   double distance_of_balls(const Pose& pose) const {
-    double least = kInfinity;
-    for (const ProofBody& a : a_.parts)
-      for (const ProofBody& b : b_.parts)
-        least = std::min(least, robot::distance_of_balls(a, b, pose, chain_.rounding()));
-    return least;
+    return robot::distance_of_balls(*a_.shape, *b_.shape, pose, chain_.rounding());
   }
 
-  Closest closest(const Pose& pose) const {
-    Closest closest;
-    closest.separation.lower = closest.separation.upper = kInfinity;
-    for (std::size_t i = 0; i < a_.parts.size(); ++i)
-      for (std::size_t j = 0; j < b_.parts.size(); ++j) {
-        const Separation separation = prohull::separation(a_.parts[i].index, {}, b_.parts[j].index, pose);
-        const double lower = std::min(closest.separation.lower, separation.lower);
-        if (separation.upper < closest.separation.upper) closest = {i, j, separation};
-        closest.separation.lower = lower;
-      }
-    return closest;
-  }
+  Closest closest(const Pose& pose) const { return closest_parts(*a_.shape, *b_.shape, pose); }
 
   /// Looks at a single place.
   bool meets_at(double place) {
@@ -146,15 +121,9 @@ class PathSearch {
     result_.verdict = PathVerdict::Meets;
     result_.part_a = found.part_a, result_.part_b = found.part_b;
     result_.faces = {found.separation.face_a, found.separation.face_b};
-    if (found.separation.collide()) result_.faces = first_faces(pose, found);
+    if (found.separation.collide()) result_.faces = first_faces(*a_.shape, *b_.shape, pose, found);
     result_.positions = path_.positions_at(place);
     follow(robot_, result_.positions);
-  }
-
-  FacePair first_faces(const Pose& pose, const Closest& found) const {
-    const std::vector<FacePair> faces =
-        intersecting_faces(a_.parts[found.part_a].index, {}, b_.parts[found.part_b].index, pose);
-    return faces.empty() ? FacePair{} : faces.front();
   }
 
   void halve(const Piece& piece) {

@@ -6,20 +6,41 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <limits>
 #include <utility>
 
 #include "prohull/convex_hull.h"
 
 namespace prohull::robot {
 
-ProofBody::ProofBody(const TriangleMesh& mesh) : index(mesh) {
-  const TriangleMesh convex = convex_hull(mesh);
-  const TriangleMesh& outside = convex.face_count() > 0 ? convex : mesh;
+ProofBody::ProofBody(std::span<const TriangleMesh> meshes) {
+  TriangleMesh all;
+  for (const TriangleMesh& mesh : meshes) parts.emplace_back(mesh), append(all, mesh);
+  const TriangleMesh convex = convex_hull(all);
+  const TriangleMesh& outside = convex.face_count() > 0 ? convex : all;
   corners.assign(outside.positions.begin(), outside.positions.end());
   Box box;
   for (const Vec3& corner : corners) box.extend(corner);
   ball.center = box.center(), ball.radius = 0;
   for (const Vec3& corner : corners) ball.radius = std::max(ball.radius, norm(corner - ball.center));
+}
+
+Closest closest_parts(const ProofBody& a, const ProofBody& b, const Pose& pose) {
+  Closest closest;
+  closest.separation.lower = closest.separation.upper = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < a.parts.size(); ++i)
+    for (std::size_t j = 0; j < b.parts.size(); ++j) {
+      const Separation separation = prohull::separation(a.parts[i], {}, b.parts[j], pose);
+      const double lower = std::min(closest.separation.lower, separation.lower);
+      if (separation.upper < closest.separation.upper) closest = {i, j, separation};
+      closest.separation.lower = lower;
+    }
+  return closest;
+}
+
+FacePair first_faces(const ProofBody& a, const ProofBody& b, const Pose& pose, const Closest& closest) {
+  const std::vector<FacePair> faces = intersecting_faces(a.parts[closest.part_a], {}, b.parts[closest.part_b], pose);
+  return faces.empty() ? FacePair{} : faces.front();
 }
 
 double distance_of_balls(const ProofBody& a, const ProofBody& b, const Pose& pose, double rounding) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "prohull/collide.h"
@@ -12,12 +13,23 @@ namespace prohull::robot {
 
 /// A body as proofs about motion see it.
 struct ProofBody {
-  explicit ProofBody(const TriangleMesh& mesh);
+  explicit ProofBody(const TriangleMesh& mesh) : ProofBody(std::span(&mesh, 1)) {}
+  explicit ProofBody(std::span<const TriangleMesh> meshes);
 
-  CollisionIndex index;
-  std::vector<Vec3> corners;  ///< their convex hull encloses the body
-  Ball ball;                  ///< around them, but for rounding
+  std::vector<CollisionIndex> parts;  ///< of each mesh
+  std::vector<Vec3> corners;          ///< their convex hull encloses the body
+  Ball ball;                          ///< around them, but for rounding
 };
+
+/// The closest parts of two bodies, and bounds of their distance, which is that of the bodies.
+struct Closest {
+  std::size_t part_a = 0, part_b = 0;
+  Separation separation;
+};
+Closest closest_parts(const ProofBody& a, const ProofBody& b, const Pose& pose);
+
+/// Two faces that meet where these parts collide; 0 and 0 if one part is inside of the other.
+FacePair first_faces(const ProofBody& a, const ProofBody& b, const Pose& pose, const Closest& closest);
 
 /// The least distance of the balls, `b` being where the pose puts it, less `rounding`.
 double distance_of_balls(const ProofBody& a, const ProofBody& b, const Pose& pose, double rounding);

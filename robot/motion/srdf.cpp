@@ -45,15 +45,28 @@ std::vector<LinkPair> pairs_always_together(const MotionResult& motion) {
   return pairs;
 }
 
-std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::string file) {
+std::vector<DisabledRow> disabled_rows(const Robot& robot, std::string srdf, std::string file) {
   const XmlDocument document(std::move(srdf), std::move(file));
   if (document.root().name != "robot") document.refuse(document.root(), "an SRDF file begins with <robot>");
-  std::vector<LinkPair> pairs;
+  std::vector<DisabledRow> rows;
   for (const XmlElement* const element : document.root().children_called("disable_collisions")) {
-    const auto a = link_called(robot, document.required(*element, "link1"));
-    const auto b = link_called(robot, document.required(*element, "link2"));
-    if (a && b) pairs.push_back(std::minmax(*a, *b));
+    const std::string* const reason = element->attribute("reason");
+    DisabledRow row{document.required(*element, "link1"),
+                    document.required(*element, "link2"),
+                    reason ? *reason : "",
+                    {},
+                    element->line};
+    const auto a = link_called(robot, row.link1), b = link_called(robot, row.link2);
+    if (a && b && a != b) row.links = std::minmax(*a, *b);
+    rows.push_back(std::move(row));
   }
+  return rows;
+}
+
+std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::string file) {
+  std::vector<LinkPair> pairs;
+  for (const DisabledRow& row : disabled_rows(robot, std::move(srdf), std::move(file)))
+    if (row.links) pairs.push_back(*row.links);
   std::ranges::sort(pairs);
   return pairs;
 }

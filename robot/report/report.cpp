@@ -108,27 +108,49 @@ Json links_of(const ReportInput& input) {
   return links;
 }
 
-/// Where the links meet.
-Json witness_of(const MotionPair& pair, const Robot& robot) {
-  const PairProof& proof = *pair.proof;
+Json witness_of(const PairProof& proof, const Robot& robot) {
   if (proof.positions.empty()) return {};
   Json positions = Json::object();
   for (std::size_t j = 0; j < robot.joints.size(); ++j)
     if (robot.joints[j].type != JointType::Fixed)
       positions[clean_text(robot.joints[j].name)] = number(proof.positions[j]);
-  return {{"positions", positions},
-          {"faces", {std::size_t(proof.faces.a), std::size_t(proof.faces.b)}},
-          {"visual_meets", pair.visual_meets_at_witness}};
+  return {{"positions", positions}, {"faces", {std::size_t(proof.faces.a), std::size_t(proof.faces.b)}}};
 }
 
-Json proof_of(const MotionPair& pair, const Robot& robot) {
-  if (!pair.proof) return {};
-  const PairProof& proof = *pair.proof;
+Json facts_of(const PairProof& proof, const Robot& robot) {
   return {{"verdict", name_of(proof.verdict)},
           {"why", clean_text(proof.why)},
           {"proven_free", number(proof.proven_free)},
           {"cells", proof.cells},
-          {"witness", witness_of(pair, robot)}};
+          {"witness", witness_of(proof, robot)}};
+}
+
+Json proof_of(const MotionPair& pair, const Robot& robot) {
+  if (!pair.proof) return {};
+  Json facts = facts_of(*pair.proof, robot);
+  if (!facts["witness"].is_null()) facts["witness"]["visual_meets"] = pair.visual_meets_at_witness;
+  return facts;
+}
+
+Json facts_of(const DisabledFinding& finding, const Robot& robot) {
+  Json facts = facts_of(finding.proof, robot);
+  facts["verdict"] = name_of(finding.verdict);
+  return facts;
+}
+
+Json facts_of(const DisabledCheck& check, const Robot& robot) {
+  return {{"links", {clean_text(check.row.link1), clean_text(check.row.link2)}},
+          {"reason", clean_text(check.row.reason)},
+          {"line", check.row.line},
+          {"refuted", check.is_refuted()},
+          {"collision", facts_of(check.collision, robot)},
+          {"visual", facts_of(check.visual, robot)}};
+}
+
+Json disabled_facts(const ReportInput& input) {
+  Json rows = Json::array();
+  for (const DisabledCheck& check : input.disabled) rows.push_back(facts_of(check, input.file.robot));
+  return rows;
 }
 
 Json facts_of(const MotionPair& pair, const Robot& robot) {
@@ -237,6 +259,15 @@ std::string outcome_of(const LinkHulls& hulls) {
   return element("failure", "not-certified", "a hull is not certified: it may not enclose the link", notes);
 }
 
+std::string outcome_of(const DisabledCheck& check, const Robot& robot) {
+  const auto is = [&](DisabledVerdict verdict) {
+    return check.collision.verdict == verdict || check.visual.verdict == verdict;
+  };
+  if (check.is_refuted()) return element("failure", "meets", verdict_text(check, robot));
+  const bool is_skipped = is(DisabledVerdict::Open) || is(DisabledVerdict::Unknown);
+  return is_skipped ? element("skipped", "", verdict_text(check, robot)) : "";
+}
+
 std::vector<Suite> suites_of(const ReportInput& input) {
   const Robot& robot = input.file.robot;
   const std::string name = clean_text(robot.name);
@@ -248,6 +279,9 @@ std::vector<Suite> suites_of(const ReportInput& input) {
   if (!input.shipped.empty()) suites.push_back({name + ": shipped collision geometry", {}});
   for (const LinkCheck& check : input.shipped)
     suites.back().add(name, robot.links[check.link].name, std::nullopt, outcome_of(check, input.allow));
+  if (!input.disabled.empty()) suites.push_back({name + ": disabled pairs", {}});
+  for (const DisabledCheck& check : input.disabled)
+    suites.back().add(name, check.row.link1 + " and " + check.row.link2, std::nullopt, outcome_of(check, robot));
   return suites;
 }
 
@@ -267,6 +301,7 @@ Json report_json(const ReportInput& input) {
           {"notes", texts(input.file.notes)},
           {"links", links_of(input)},
           {"motion", input.motion ? facts_of(*input.motion, input.file.robot) : Json()},
+          {"disabled_pairs", disabled_facts(input)},
           {"totals", facts_of(totals_of(input))}};
 }
 

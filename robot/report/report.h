@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "robot/check/check.h"
+#include "robot/check/disabled_pairs.h"
 #include "robot/files/robot_file.h"
 #include "robot/hulls/certificates.h"
 #include "robot/hulls/link_hulls.h"
@@ -24,6 +25,7 @@ struct ReportInput {
   std::string version;               ///< of the program
   Geometry from = Geometry::Visual;  ///< LinkHullOptions::from
   std::vector<LinkCertificate> certificates = {};
+  std::vector<DisabledCheck> disabled = {};  ///< the rows of an SRDF file
 };
 
 /// Facts as numbers, texts and lists; docs/guides/robots.md lists the keys. Lengths are in metres. What is not known is
@@ -31,7 +33,8 @@ struct ReportInput {
 nlohmann::json report_json(const ReportInput& input);
 
 /// The hulls and the checks as JUnit XML, for the test reports of a CI: one test case for each link. A hull that is not
-/// certified is a failure, and so is a check that does not pass with `allow`; one that was not made is an error.
+/// certified is a failure, and so is a check that does not pass with `allow`; one that was not made is an error. Rows
+/// of an SRDF are test cases, too: a refuted one is a failure, and one that stays open, or names no pair, is skipped.
 std::string report_junit(const ReportInput& input);
 
 struct PageOptions {

@@ -267,6 +267,39 @@ std::string verdict_text(const LinkCheck& check) {
   return {};
 }
 
+std::string finding_text(const DisabledFinding& finding, const Robot& robot) {
+  switch (finding.verdict) {
+    case DisabledVerdict::Unknown:
+      return "names no two links of the robot";
+    case DisabledVerdict::Adjacent:
+      return "is adjacent";
+    case DisabledVerdict::NoGeometry:
+      return "has no geometry";
+    case DisabledVerdict::Never:
+      return "never meets, proven";
+    case DisabledVerdict::Always:
+      return "always meets, proven";
+    case DisabledVerdict::Open:
+      return fmt::format("is open, {:.1f} % of the positions are proven free: {}", 100 * finding.proof.proven_free,
+                         clean_text(finding.proof.why));
+    case DisabledVerdict::Meets:
+      break;
+  }
+  std::string positions;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j)
+    if (robot.joints[j].type != JointType::Fixed)
+      positions += fmt::format("{}{} {:.6g}", positions.empty() ? "" : ", ", clean_text(robot.joints[j].name),
+                               finding.proof.positions[j]);
+  return "meets at " + positions;
+}
+
+std::string verdict_text(const DisabledCheck& check, const Robot& robot) {
+  const std::string collision = finding_text(check.collision, robot);
+  if (check.collision.verdict == DisabledVerdict::Unknown || check.collision.verdict == DisabledVerdict::Adjacent)
+    return collision;
+  return fmt::format("the collision geometry {}; the visual geometry {}", collision, finding_text(check.visual, robot));
+}
+
 std::vector<Mark> marks_of(const ReportInput& input) {
   std::vector<Mark> marks;
   for (std::size_t link = 0; link < input.file.robot.links.size(); ++link) {
@@ -307,6 +340,11 @@ std::vector<Finding> findings_of(const ReportInput& input) {
                         sum_up_hulls(totals, visual ? "visual meshes" : "collision meshes", cover_words(input.hulls))});
   if (totals.checked > 0) findings.push_back(finding_of_checks(totals));
   if (input.motion) findings.push_back(finding_of_motion(*input.motion, cover_words(input.hulls)));
+  if (!input.disabled.empty()) {
+    const auto refuted = static_cast<std::size_t>(std::ranges::count_if(input.disabled, &DisabledCheck::is_refuted));
+    findings.push_back({refuted == 0, fmt::format("{} of the SRDF {} refuted: the two links meet.",
+                                                  counted(refuted, "disabled pair"), refuted == 1 ? "is" : "are")});
+  }
   if (findings.empty()) findings.push_back({true, "No link has meshes: there was nothing to do."});
   return findings;
 }

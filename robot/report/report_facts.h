@@ -46,6 +46,11 @@ bool was_measured(const LinkCheck& check);
 /// What the shipped collision geometry does: "leaks: the link sticks out by 0.81 to 0.83 mm".
 std::string verdict_text(const LinkCheck& check);
 
+/// What is known of a disabled pair by one geometry: "never meets, proven", "meets at joint2 2.54, joint3 0.83".
+std::string finding_text(const DisabledFinding& finding, const Robot& robot);
+/// By both geometries.
+std::string verdict_text(const DisabledCheck& check, const Robot& robot);
+
 enum class Severity { Failure, Look };
 
 /// What needs a look.

@@ -631,6 +631,17 @@ std::string motion_section(const ReportInput& input) {
       motion_pairs(input));
 }
 
+std::string disabled_section(const ReportInput& input) {
+  if (input.disabled.empty()) return {};
+  std::string rows;
+  for (const DisabledCheck& check : input.disabled)
+    rows += row(html_escaped(fmt::format("{} – {}", check.row.link1, check.row.link2)),
+                {html_escaped(check.row.reason), check.is_refuted() ? Cell("✕ refuted", "bad") : Cell("", ""),
+                 html_escaped(verdict_text(check, input.file.robot))});
+  return fmt::format("<section>\n<h2>Pairs that the SRDF disables</h2>\n<div class=\"card\">\n{}</div>\n</section>\n",
+                     table("", {"Pair", "Reason", "", "Decided"}, rows));
+}
+
 // ---------------------------------------------------------------------------------------------------------------------
 // The end of the page
 
@@ -697,8 +708,8 @@ std::string report_html(const ReportInput& input, const PageOptions& options) {
       "{2}{3}{4}{5}{6}{7}{8}<footer>Made by prohull {9}. Lengths of bounds are rounded to the safe side.</footer>\n"
       "</main>\n</body>\n</html>\n",
       html_escaped(input.file.robot.name), page_style(), head(input, options.view), overview(input, drawn.robot),
-      marks(input), links_table(input), motion_section(input), cards(input, drawn), words(input),
-      html_escaped(input.version));
+      marks(input), links_table(input), motion_section(input) + disabled_section(input), cards(input, drawn),
+      words(input), html_escaped(input.version));
 }
 
 }  // namespace prohull::robot

@@ -49,6 +49,22 @@ expect 2 "--allow without --check" $urdf --allow 1mm -o none
 expect 2 "--allow is a length" $urdf --check --allow 1lb
 says err "--allow is a length" "'1lb' is no length"
 
+cat >robot.srdf <<'SRDF'
+<robot name="three">
+  <disable_collisions link1="base" link2="wheel" reason="Never"/>
+  <disable_collisions link1="base" link2="head" reason="Never"/>
+  <disable_collisions link1="base" link2="arm/&lt;1&gt;" reason="Adjacent"/>
+</robot>
+SRDF
+expect 1 "an SRDF that ships" $urdf --check --allow 1m --srdf robot.srdf --junit rows.xml --report rows.json
+says out "a refuted row" 'line 2, base and wheel, "Never": REFUTED: the collision geometry meets at lift '
+says out "a row of a link that is not there" 'line 3, base and head, "Never": names no two links of the robot'
+says out "rows are counted" "robot.srdf: 3 disabled pairs: 1 adjacent, 0 never meet, 0 always, 1 meet, 0 open; 1 REFUTED"
+says rows.xml "rows in JUnit" "three: disabled pairs"
+says rows.json "rows in JSON" '"disabled_pairs"'
+expect 2 "--srdf without --check" $urdf --srdf robot.srdf -o none
+expect 3 "an SRDF that is not there" $urdf --check --srdf nowhere.srdf
+
 # --- the main job ---
 small="--faces 200,60 --configurations 20 --no-pictures"
 expect 0 "dry run" $urdf -o made $small --dry-run

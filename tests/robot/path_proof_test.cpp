@@ -288,8 +288,8 @@ TEST(PathProof, IsContradictedByNoSample) {
   std::size_t free = 0, meet = 0, open = 0;
   for (std::size_t p = 0; p < paths.size(); ++p) {
     for (const PathPairProof& pair : proofs[p].pairs) {
-      const CollisionIndex& a = bodies[pair.a].parts[0].index;
-      const CollisionIndex& b = bodies[pair.b].parts[0].index;
+      const CollisionIndex& a = bodies[pair.a].shape->parts[0];
+      const CollisionIndex& b = bodies[pair.b].shape->parts[0];
       const auto poses_at = [&](const std::vector<double>& positions) {
         const std::vector<Pose> poses = link_poses(arm.robot, positions);
         return PosePair{poses[*bodies[pair.a].link], bodies[pair.b].link ? poses[*bodies[pair.b].link] : Pose{}};
@@ -330,7 +330,7 @@ TEST(PathProof, HasWitnessesThatMeet) {
     ++meet;
     const std::vector<Pose> poses = link_poses(arm.robot, pair.positions);
     const std::vector<FacePair> faces =
-        intersecting_faces(bodies[pair.a].parts[0].index, {}, bodies[pair.b].parts[0].index,
+        intersecting_faces(bodies[pair.a].shape->parts[0], {}, bodies[pair.b].shape->parts[0],
                            composed(inverse(poses[pair.a]), poses[pair.b]));
     EXPECT_NE(std::ranges::find(faces, pair.faces), faces.end());
   }
@@ -365,9 +365,9 @@ TEST(PathBodies, HaveClosedAndOpenParts) {
   const WorldMesh sheet{"sheet", meshes::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})};
   const PathBodies made = path_bodies(robot, Geometry::Collision, std::span(&sheet, 1));
   ASSERT_EQ(made.bodies.size(), 4U);
-  EXPECT_EQ(made.bodies[0].parts.size(), 1U);
-  EXPECT_TRUE(made.bodies[0].parts[0].index.is_solid());
-  EXPECT_FALSE(made.bodies[3].parts[0].index.is_solid());
+  EXPECT_EQ(made.bodies[0].shape->parts.size(), 1U);
+  EXPECT_TRUE(made.bodies[0].shape->parts[0].is_solid());
+  EXPECT_FALSE(made.bodies[3].shape->parts[0].is_solid());
   EXPECT_EQ(made.notes,
             (std::vector<std::string>{"links without collision geometry, so that their visual geometry counts: link2",
                                       "link1: its geometry of type plane is not read",

@@ -1,0 +1,100 @@
+#include "robot/check/disabled_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include "robot/report/report.h"
+#include "robot_testing.h"
+
+namespace prohull::robot {
+namespace {
+
+/// Cubes of side 1, each of which slides out of the one before; they are 3 apart at rest, and the visual ones are
+/// smaller.
+const char* const kRobot = R"(<robot name="r">
+  <link name="a"><collision><geometry><box size="1 1 1"/></geometry></collision>
+                 <visual><geometry><box size="0.5 0.5 0.5"/></geometry></visual></link>
+  <link name="b"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+  <link name="c"><collision><geometry><box size="1 1 1"/></geometry></collision>
+                 <visual><geometry><box size="0.5 0.5 0.5"/></geometry></visual></link>
+  <link name="d"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+  <link name="e"><collision><geometry><mesh filename="lost.stl"/></geometry></collision></link>
+  <joint name="p" type="prismatic"><parent link="a"/><child link="b"/><origin xyz="3 0 0"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="q" type="prismatic"><parent link="b"/><child link="c"/><origin xyz="0 0 3"/><axis xyz="-1 0 0"/>
+    <limit lower="0" upper="REACH" effort="1" velocity="1"/></joint>
+  <joint name="r" type="fixed"><parent link="c"/><child link="d"/><origin xyz="0 0 -3"/></joint>
+  <joint name="s" type="continuous"><parent link="d"/><child link="e"/></joint>
+</robot>)";
+
+RobotFile robot_with_reach(const std::string& reach) {
+  std::string text = kRobot;
+  text.replace(text.find("REACH"), 5, reach);
+  return read_robot(text, "r.urdf");
+}
+
+std::string row(const std::string& a, const std::string& b, const std::string& reason) {
+  return "<disable_collisions link1=\"" + a + "\" link2=\"" + b + "\" reason=\"" + reason + "\"/>\n";
+}
+
+const std::string kSrdf = "<robot name=\"r\">\n" + row("d", "a", "Never") + row("a", "b", "Adjacent") +
+                          row("a", "c", "Never") + row("a", "head", "Never") + row("a", "a", "Never") +
+                          row("a", "e", "Never") + row("a", "d", "User") + row("d", "b", "Never") + "</robot>";
+
+std::vector<DisabledCheck> checks_with(const RobotFile& file) {
+  return check_disabled_pairs(file.robot, disabled_rows(file.robot, kSrdf, "r.srdf"));
+}
+
+TEST(DisabledPairs, AreDecidedRowByRow) {
+  const RobotFile file = robot_with_reach("1.5");  // d is at least 0.5 from a
+  const std::vector<DisabledCheck> checks = checks_with(file);
+  ASSERT_EQ(checks.size(), 8U);
+  EXPECT_EQ(checks[0].row.link1, "d");
+  EXPECT_EQ(checks[0].row.line, 2U);
+  EXPECT_EQ(checks[0].collision.verdict, DisabledVerdict::Never);
+  EXPECT_EQ(checks[0].visual.verdict, DisabledVerdict::NoGeometry);
+  EXPECT_EQ(checks[1].collision.verdict, DisabledVerdict::Adjacent);
+  EXPECT_EQ(checks[2].collision.verdict, DisabledVerdict::Never);
+  EXPECT_EQ(checks[2].visual.verdict, DisabledVerdict::Never);
+  EXPECT_EQ(checks[3].collision.verdict, DisabledVerdict::Unknown);
+  EXPECT_EQ(checks[4].collision.verdict, DisabledVerdict::Unknown);
+  EXPECT_EQ(checks[5].collision.verdict, DisabledVerdict::Open);
+  EXPECT_TRUE(has(checks[5].collision.proof.why, "lost.stl"));
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_FALSE(checks[i].is_refuted()) << i;
+}
+
+TEST(DisabledPairs, AreRefutedWhereTheyMeetUnlessTheirReasonAllowsForIt) {
+  const RobotFile file = robot_with_reach("2.75");
+  const std::vector<DisabledCheck> checks = checks_with(file);
+  EXPECT_EQ(checks[0].collision.verdict, DisabledVerdict::Meets);
+  EXPECT_TRUE(checks[0].is_refuted());
+  const std::vector<double>& positions = checks[0].collision.proof.positions;
+  EXPECT_LE(3 + positions[0] - positions[1], 1) << "the cubes overlap";
+  EXPECT_FALSE(checks[2].is_refuted());
+  EXPECT_EQ(checks[6].collision.verdict, DisabledVerdict::Meets);
+  EXPECT_FALSE(checks[6].is_refuted()) << "the user disabled it";
+  EXPECT_EQ(checks[7].collision.verdict, DisabledVerdict::Meets) << "b and d are at the same height";
+  EXPECT_TRUE(checks[7].is_refuted());
+}
+
+TEST(DisabledPairs, AreInReports) {
+  const RobotFile file = robot_with_reach("2.75");
+  ReportInput input{.file = file, .hulls = {}, .shipped = {}, .motion = {}, .allow = 0, .seconds = 0, .version = "1"};
+  input.disabled = checks_with(file);
+  const nlohmann::json rows = report_json(input)["disabled_pairs"];
+  ASSERT_EQ(rows.size(), 8U);
+  EXPECT_EQ(rows[0]["links"], (nlohmann::json{"d", "a"}));
+  EXPECT_EQ(rows[0]["refuted"], true);
+  EXPECT_EQ(rows[0]["collision"]["verdict"], "meets");
+  EXPECT_TRUE(rows[0]["collision"]["witness"]["positions"].contains("p"));
+  EXPECT_EQ(rows[3]["collision"]["verdict"], "unknown");
+  const std::string junit = report_junit(input);
+  EXPECT_TRUE(has(junit, "<testsuite name=\"r: disabled pairs\" tests=\"8\" failures=\"2\" errors=\"0\" skipped=\"3\""))
+      << junit;
+  EXPECT_TRUE(has(junit, "<failure type=\"meets\" message=\"the collision geometry meets at p "));
+  const std::string page = report_html(input, {.pictures = false});
+  EXPECT_TRUE(has(page, "Pairs that the SRDF disables"));
+  EXPECT_TRUE(has(page, "2 disabled pairs of the SRDF are refuted"));
+}
+
+}  // namespace
+}  // namespace prohull::robot
