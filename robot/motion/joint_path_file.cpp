@@ -107,18 +107,19 @@ class CsvReader {
 
   /// Velocities and accelerations are of all joints, or of none.
   void check_complete(std::size_t line) {
-    for (const auto& [ending, kind] : kEndings) {
-      const auto count = [&](std::size_t joint) {
-        return std::ranges::count_if(columns_, [&](const Column& c) { return c.kind == kind && c.joint == joint; });
-      };
-      bool any = false;
-      for (std::size_t j = 0; j < rows_.joints.size(); ++j) any |= count(j) > 0;
-      for (std::size_t j = 0; any && j < rows_.joints.size(); ++j)
-        if (count(j) != 1)
-          refuse(line, fmt::format("{} columns '{}{}', expected one", count(j), rows_.joints[j], ending));
-      (kind == Column::Kind::Velocity ? has_velocities_ : has_accelerations_) = any;
-    }
+    has_velocities_ = has_all(Column::Kind::Velocity, ".velocity", line);
+    has_accelerations_ = has_all(Column::Kind::Acceleration, ".acceleration", line);
     if (std::ranges::count(columns_, Column::Kind::Time, &Column::kind) > 1) refuse(line, "two columns 'time'");
+  }
+
+  bool has_all(Column::Kind kind, std::string_view ending, std::size_t line) const {
+    if (std::ranges::find(columns_, kind, &Column::kind) == columns_.end()) return false;
+    for (std::size_t joint = 0; joint < rows_.joints.size(); ++joint) {
+      const auto count =
+          std::ranges::count_if(columns_, [&](const Column& c) { return c.kind == kind && c.joint == joint; });
+      if (count != 1) refuse(line, fmt::format("{} columns '{}{}', expected one", count, rows_.joints[joint], ending));
+    }
+    return true;
   }
 
   void take_numbers(std::string_view row, std::size_t line) {
