@@ -76,6 +76,7 @@ void TightPlacement::set(const Vec3& from, const HalfEdgeMesh& mesh, const std::
   from_ = from;
   is_begun_ = false;
   link_.clear(), local_.clear(), found_.clear();
+  looks_ = 0;
   known_.clear();
   for (const VertexId v : link) link_.push_back(mesh.position(v));
   scale_ = 0;
@@ -253,6 +254,7 @@ std::array<Vec3, 3> TightPlacement::local_corners(FaceId f) const {
 void TightPlacement::find_near(const Tetrahedron& removed) {
   near_.clear();
   original_.find_near(removed, near_);
+  looks_ += near_.size();
   if (original_.clearance() > 0 || near_.empty()) return;
   const auto& [a, b, c, d] = removed;
   const ApartFilter filter({to_local(a), to_local(b), to_local(c), to_local(d)});

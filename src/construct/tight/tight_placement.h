@@ -35,6 +35,8 @@ class TightPlacement {
   void know(const std::vector<Vec3>& points);
   /// The points that have cut since then.
   const std::vector<Vec3>& found() const { return found_; }
+  /// How many triangles near the vertex were looked at, each time they were.
+  std::size_t looks() const { return looks_; }
 
   /// The first of its proposals, as stored, that is_accepted(to) accepts and where the hull still encloses. Exact.
   template <class IsAccepted>
@@ -104,6 +106,7 @@ class TightPlacement {
   std::vector<HalfSpace> constraints_;
 
   // Scratch.
+  std::size_t looks_ = 0;
   std::vector<FaceId> near_;
   std::vector<Vec3> polygon_, clipped_;
 };
