@@ -20,7 +20,7 @@ struct TightHull {
 /// collapses take turns with rounds in which every vertex moves towards the original mesh, as far as enclosure, shape
 /// and freedom from self-intersection allow. This takes 2 to 8 times as long as build_hull, and gives no levels.
 /// A hull of at most 200 faces is then searched on from, in trials that put faces where they are worth more: that
-/// takes some seconds more, and the void is 10 to 30 % less.
+/// takes up to two seconds more, and the void is 10 to 30 % less.
 /// Guaranteed: the hull is a closed 2-manifold and encloses `mesh` (HullSide::Inner: is enclosed by it) in the sense of
 /// winding numbers. Exact predicates on stored coordinates decide every collapse and every move. The hull has no more
 /// pairs of intersecting faces than `mesh`.

@@ -194,9 +194,11 @@ TriangleMesh tightened(const TriangleMesh& hull, const Original& original, const
   return mesh.triangle_mesh();
 }
 
-// A trial takes some 3 ms for a hull of 100 faces: the search takes at most 0.2 ms for each face of the original.
+// A trial takes about 2 ms for a hull of 100 faces, seven times as long as to collapse 48 faces of the original. So of
+// 37 files of robots and broken ones, `build --tight --faces 100` takes 4.7 times as long as without in the median, and
+// 10 times at most. With three times as many trials it took 6.9 and 21 times as long, for 0 to 2 % less volume.
 std::size_t affordable_trials(std::size_t most, std::size_t original_faces) {
-  constexpr std::size_t kFacesOfATrial = 16, kLeast = 32;
+  constexpr std::size_t kFacesOfATrial = 48, kLeast = 16;
   return std::min<std::size_t>(most, std::max(original_faces / kFacesOfATrial, kLeast));
 }
 
