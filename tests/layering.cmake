@@ -34,7 +34,8 @@ room(verify    OWNS enclosure verification union_verification replay distance to
 room(sample    OWNS sample random_segments                                       MAY mesh geometry base)
 room(wrap      OWNS convex_hull wrap                                                         MAY mesh geometry parallel base)
 room(enclose   OWNS cage closed_solid enclosing_hull                                          MAY construct repair verify wrap hull mesh
-                                                                                     geometry parallel base prohull/collide)
+                                                                                     geometry parallel base prohull/collide
+                                                                                     cover/few_vertices cover/polytope)
 
 room(cover     OWNS convex_cover sphere_cover                                    MAY enclose construct repair verify wrap hull mesh
                                                                                      geometry parallel base

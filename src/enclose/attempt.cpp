@@ -30,7 +30,7 @@ struct Making {
   const EnclosingOptions& options() const { return request.options; }
   const Solid& solid() const { return solids[candidate.solid]; }
   const TriangleMesh& to_cover() const { return solids.to_cover(candidate.solid); }
-  HullOptions hull_options() const { return request.hull_options(candidate.faces()); }
+  HullOptions hull_options() const { return request.hull_options(candidate.target_faces); }
 };
 
 // With the coordinates that a file keeps, or why it has none. A hull of a mesh that intersects itself may have no room
@@ -71,7 +71,7 @@ TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned ma
 
 // Of the levels, the coarsest that keeps the bounds, if any does.
 std::size_t faces_of_level(const ProgressiveHull& hull, const Making& making) {
-  const std::size_t target = making.candidate.faces();
+  const std::size_t target = making.candidate.target_faces;
   std::size_t faces = target;
   if (making.options().bounds.any() && excess_of(making.solid().mesh, making) <= 1)
     faces = std::max(target,
@@ -91,7 +91,7 @@ LevelTrial try_level(const ProgressiveHull& hull, std::size_t faces, const Makin
 // Of a hull that moves, coarse levels are tried first: what moves far may keep a bound that finer levels miss. Where
 // the solid misses the bounds itself, one that moves may keep them; if it does not either, it is near at least.
 LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
-  const std::size_t target = making.candidate.faces(), finest = hull.original_face_count();
+  const std::size_t target = making.candidate.target_faces, finest = hull.original_face_count();
   const std::size_t fewest = std::min(std::max(target, hull.base_face_count()), finest);
   const auto trial = [&](std::size_t faces) { return try_level(hull, faces, making); };
   const bool is_possible = excess_of(making.solid().mesh, making) <= 1;
@@ -112,7 +112,7 @@ EnclosingHull built_of_levels(const Making& making) {
   const TriangleMesh level = result.hull.level(faces);
   EnclosingHull hull;
   hull.mesh = moved ? std::move(moved->mesh) : TriangleMesh(level);
-  hull.target_reached = faces > making.candidate.faces();  // which bounds ask for
+  hull.target_reached = faces > making.candidate.target_faces;  // which bounds ask for
   if (hull.mesh == level)
     hull.levels = faces > result.hull.base_face_count() ? result.hull.with_base(faces) : result.hull;
   hull.refusals = result.refusals, hull.blocked = result.blocked;
@@ -123,7 +123,7 @@ EnclosingHull built_of_levels(const Making& making) {
 // Moved before it has come down to its faces, too, a hull is up to 1 % smaller.
 EnclosingHull built_in_steps(const Making& making) {
   constexpr std::pair<double, unsigned> kSteps[]{{1.5, 2}, {1, kRoundsAtTheEnd}};
-  const double target = double(making.candidate.faces());
+  const double target = double(making.candidate.target_faces);
   EnclosingHull hull;
   hull.mesh = making.solid().mesh;
   for (const auto& [faces, rounds] : kSteps) {

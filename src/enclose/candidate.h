@@ -31,9 +31,6 @@ struct Candidate {
   SolidId solid;
   std::size_t target_faces;
   Recipe recipe;
-  std::optional<std::size_t> fewer_faces = {};  ///< than the target, that it is built with
-
-  std::size_t faces() const { return fewer_faces.value_or(target_faces); }
 };
 
 /// What came of a candidate.

@@ -23,9 +23,9 @@ class Candidates {
   void plan_mesh();
   void plan_unfolded_mesh();
   void plan_convex_hull();
+  void plan_polytope();
   void plan_wraps();
   void plan_bounded_wraps();
-  void plan_fewer_faces();
   void plan_inner();
   void plan_inner_with_padding();
   void plan_tight();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "prohull/distance.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -73,12 +74,18 @@ bool Ranking::is_as_asked(const EnclosingHull& hull) const {
 bool Ranking::is_better(const EnclosingHull& a, const EnclosingHull& b) const {
   const auto rank = [&](const EnclosingHull& hull) {
     return std::tuple(!hull.certified, std::max(hull.excess, 1.0), std::max(hull.mesh.face_count(), hull.target_faces),
-                      hull.relaxed_guards == kRelaxedGuards.size(), weighed_volume(hull));
+                      hull.relaxed_guards == kRelaxedGuards.size(), weighed_size(hull));
   };
   return rank(a) < rank(b);
 }
 
-double Ranking::weighed_volume(const EnclosingHull& hull) const {
+bool Ranking::is_near_flat() const {
+  return is_as_asked() && weighed_size(best_->hull) <= kTentHeight * solids_[best_->hull.solid].slab_width;
+}
+
+// Around what is flat, spikes that are far away have hardly any volume.
+double Ranking::weighed_size(const EnclosingHull& hull) const {
+  if (solids_[hull.solid].slab_width > 0) return distance_bounds(hull.mesh, request_.to_cover()).upper;
   constexpr double kOfSelfIntersections = 1.1;
   const double volume = signed_volume(hull.mesh);
   if (!request_.is_outer()) return -volume;

@@ -34,6 +34,9 @@ class Ranking {
 
   bool is_as_asked() const { return best_ && is_as_asked(best_->hull); }
   bool is_clean() const { return is_clean(best_->hull); }
+  /// The best is one of what is flat and convex.
+  bool is_of_flat() const { return best_ && solids_[best_->hull.solid].slab_width > 0; }
+  bool is_near_flat() const;  ///< and as near as a tent
   double best_volume() const { return signed_volume(best_->hull.mesh); }
   double best_void() const { return solids_.void_of(best_->hull.mesh); }
   /// How much larger the best is than it has to be, about.
@@ -46,7 +49,7 @@ class Ranking {
   bool is_clean(const EnclosingHull& hull) const;
   bool is_as_asked(const EnclosingHull& hull) const;
   bool is_better(const EnclosingHull& a, const EnclosingHull& b) const;
-  double weighed_volume(const EnclosingHull& hull) const;
+  double weighed_size(const EnclosingHull& hull) const;
   void note_why_not(const EnclosingHull& hull);
   [[noreturn]] void refuse(std::size_t target_faces);
 

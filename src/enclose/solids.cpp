@@ -10,10 +10,7 @@
 #include "base/text.h"
 #include "enclose/folds.h"
 #include "geometry/float32.h"
-#include "mesh/area.h"
-#include "prohull/convex_hull.h"
 #include "prohull/detail/progress_meter.h"
-#include "prohull/distance.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
@@ -101,40 +98,6 @@ std::optional<SolidId> Solids::unfolded() {
     repair_seconds_ += watch.seconds();
   }
   return *unfolded_;
-}
-
-std::optional<SolidId> Solids::convex_hull(std::optional<double> too_large) {
-  if (convex_hull_ || has_no_convex_hull_) return convex_hull_;
-  const TriangleMesh& points = request_.is_padded() ? request_.to_cover() : request_.input.original;
-  TriangleMesh convex = prohull::convex_hull(points);
-  if (request_.is_padded()) {
-    if (too_large && signed_volume(convex) + request_.aim() * area_of(convex) >= *too_large) return std::nullopt;
-    convex = padded_convex_solid(convex.face_count() > 0 ? convex : request_.to_cover());
-  }
-  std::optional<Solid> solid = Solid{.source = Source::ConvexHull, .mesh = std::move(convex)};
-  constexpr double kThin = 1e-7;
-  if (!has_mesh() && signed_volume(solid->mesh) <= kThin * std::pow(request_.diagonal, 3)) solid = slab();
-  has_no_convex_hull_ = !solid;
-  if (solid) convex_hull_ = add(std::move(*solid));
-  return convex_hull_;
-}
-
-// As thin as the finest wraps, and nearer. Where the triangles are not convex, wraps follow them better.
-std::optional<Solid> Solids::slab() const {
-  constexpr double kWidth = 0x1p-12, kNear = 0x1p-10;  // to the diagonal
-  const double width = kWidth * request_.diagonal;
-  Solid slab{.source = Source::ConvexHull, .mesh = slab_around(request_.to_cover(), width / 2), .slab_width = width};
-  if (slab.mesh.face_count() == 0 || distance_bounds(slab.mesh, request_.to_cover()).upper > kNear * request_.diagonal)
-    return std::nullopt;
-  return slab;
-}
-
-// A padded convex hull is one of 96 times as many points: where that takes long, those of a hull of the convex hull.
-TriangleMesh Solids::padded_convex_solid(TriangleMesh convex) const {
-  constexpr std::size_t kMany = 2000;
-  if (convex.face_count() > kMany && inspect(convex).is_closed_manifold())
-    convex = build_hull(convex, {.target_faces = kMany}).hull.base();
-  return padded_convex_hull(convex, request_.aim());
 }
 
 std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::string& why_not) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "verify/original.h"
 
 namespace prohull {
+
+constexpr double kTentHeight = 64;  ///< above a slab, in its widths: 1/64 of the diagonal
 
 using SolidId = std::size_t;  ///< its place in EnclosingHulls::solids
 
@@ -33,6 +36,9 @@ class Solids {
   /// A slab around what is flat, if it is convex. None around other flat input, or if its padded volume is known to be
   /// `too_large` before it is made.
   std::optional<SolidId> convex_hull(std::optional<double> too_large);
+  /// A convex polytope of at most so many faces, at least 4, around the convex hull, or a tent over what is flat. None
+  /// if the convex hull has no more faces itself.
+  std::optional<SolidId> polytope(std::size_t faces);
   /// None if nothing is thick enough, or `why_not` says why.
   std::optional<SolidId> wrap(const WrapKind& kind, double spacing, std::string& why_not);
 
@@ -71,6 +77,7 @@ class Solids {
   bool has_wrap_ = false, has_no_convex_hull_ = false;
   std::optional<std::optional<SolidId>> unfolded_;  ///< once it was asked for
   std::optional<SolidId> convex_hull_;
+  std::map<std::size_t, SolidId> polytopes_;  ///< by faces
 };
 
 }  // namespace prohull
