@@ -17,6 +17,7 @@
 #include "prohull/mesh_io.h"
 #include "recenter.h"
 #include "regions_file.h"
+#include "several.h"
 
 namespace prohull::cli {
 
@@ -171,7 +172,7 @@ void complete(BuildOptions& options, const std::string& suffix) {
   options.enclosing.levels = !options.hierarchy.empty();
 }
 
-int run_build(BuildOptions options) {
+BuildOutcome build_and_write(BuildOptions options) {
   const std::string suffix = check_options(options);
   complete(options, suffix);
   BuildOutcome outcome;
@@ -200,12 +201,65 @@ int run_build(BuildOptions options) {
       if (written.certified) write_certificate(written, original, options, outputs);
   outputs.add_report(options.report, report_of(options, outcome));
   outputs.commit();
-  print_summary(options, outcome);
+  return outcome;
+}
+
+int exit_code(const BuildOptions& options, const BuildOutcome& outcome) {
   const bool all_certified = std::ranges::all_of(outcome.written, &Written::certified);
   const bool all_as_asked = std::ranges::all_of(outcome.written, &Written::is_as_asked);
   const bool all_within_bounds =
       std::ranges::all_of(outcome.written, [](const Written& written) { return written.hull.within_bounds; });
   return !all_certified || !all_within_bounds || (options.strict && !all_as_asked) ? kAnswerIsNo : kDone;
+}
+
+/// With the names of what is written for this mesh. In a folder, hulls have the format of their meshes if it is
+/// written.
+BuildOptions for_mesh(BuildOptions options, const std::filesystem::path& in) {
+  const std::vector<std::string> formats = mesh_outputs().suffixes;
+  const bool is_written = std::ranges::find(formats, mesh_suffix(in)) != formats.end();
+  const std::string suffix =
+      options.out_format.empty() ? is_written ? mesh_suffix(in) : ".stl" : "." + options.out_format;
+  options.in = in;
+  options.out = pattern_of(options.out, (options.faces.size() > 1 ? "_{faces}" : "") + suffix);
+  for (auto* const file : {&options.out, &options.hierarchy, &options.certificate, &options.report})
+    *file = named_after(*file, in);
+  return options;
+}
+
+/// Before any work, that no file is written twice.
+void check_several(const BuildOptions& options, const std::vector<std::filesystem::path>& meshes) {
+  std::vector<std::filesystem::path> outputs;
+  for (const auto& mesh : meshes) {
+    const BuildOptions one = for_mesh(options, mesh);
+    for (const auto& file : {one.out, one.hierarchy, one.certificate, one.report}) outputs.push_back(file);
+  }
+  const auto is_of_all = [](const std::filesystem::path& file) {
+    return !file.empty() && named_after(file, "a.stl") == file;
+  };
+  for (const auto& file : {pattern_of(options.out, ""), options.hierarchy, options.certificate, options.report})
+    if (is_of_all(file))
+      refuse(
+          fmt::format("{}: several meshes need several names; put {{name}} where the name of the mesh goes, as in "
+                      "hulls/{{name}}.stl, or end -o in / for a folder",
+                      file.string()));
+  check_files(meshes, outputs);
+}
+
+int run_build(const BuildOptions& options) {
+  const std::vector<std::filesystem::path> meshes = mesh_files(options.meshes);
+  Outputs folders;
+  if (!options.out.has_filename()) folders.add_folder(options.out);
+  if (meshes.size() > 1) {
+    check_several(options, meshes);
+    return run_each(meshes, table_head(), [&](const std::filesystem::path& mesh) {
+      const BuildOutcome outcome = build_and_write(for_mesh(options, mesh));
+      return MeshOutcome{exit_code(options, outcome), table_rows(outcome)};
+    });
+  }
+  const BuildOptions one = for_mesh(options, meshes.front());
+  const BuildOutcome outcome = build_and_write(one);
+  print_summary(one, outcome);
+  return exit_code(one, outcome);
 }
 
 void add_guards(CLI::App& command, BuildOptions& options) {
@@ -270,14 +324,16 @@ void add_build(CLI::App& app, Run& run) {
       "Builds a hull of a mesh: a mesh of fewer faces that provably encloses it. Any triangles will do; what is not "
       "closed is repaired or wrapped. Building repeats one step, the collapse: the two ends of an edge become one new "
       "vertex, and two faces vanish. The file that was written is read again and certified by exact arithmetic.");
-  add_mesh_input(command, options->in, options->input, "Mesh to build a hull of.");
+  add_mesh_inputs(command, options->meshes, options->input, "Mesh to build a hull of.");
   CLI::Option* const recenter = command.add_flag(
       "--recenter", options->recenter,
       "Subtract a round offset near the middle of the mesh from all coordinates, where the mesh is far "
       "from the origin. STL and GLB files keep too few digits there. The offset stands in the summary and "
       "in the report; add it to place the hull, and give it to `prohull verify --offset`.");
-  add_mesh_output_options(command, options->out, options->out_format,
-                          "the hull, in whose name {faces} becomes the number of faces asked for");
+  add_mesh_output_options(
+      command, options->out, options->out_format,
+      "the hull, in whose name {faces} becomes the number of faces asked for, and {name} that of the "
+      "mesh's file; or a folder, whose name ends in /");
   add_number(
       command, "--faces", options->faces, {4, 1e9},
       "Number of faces that the hull should have, at least 4. Several numbers, as in 1000,100, make a hull each.")
@@ -356,6 +412,7 @@ void add_build(CLI::App& app, Run& run) {
                          "prohull build arm.stl --faces 200 --tight --best-of 9 -o arm_collision.stl",
                          "prohull build arm.stl --faces 50 --tight --max-distance 2 -o arm_collision.stl",
                          "prohull build arm.stl --unit mm --faces 300 --gap 5mm -o arm_collision.stl",
+                         "prohull build parts/*.stl --faces 300 -o hulls/",
                          "prohull build horse.ply --faces 300 --tight --gap 0.5% -o cage.obj",
                          "prohull build horse.ply --faces 300 --gap 0.5% --side inner -o core.obj",
                          "prohull build arm.obj --faces 800 --tolerance regions.yaml -o arm_collision.obj",

@@ -254,6 +254,24 @@ void print_summary(const BuildOptions& options, const BuildOutcome& outcome) {
   print_search(outcome);
 }
 
+std::string table_head() {
+  return fmt::format("{:>11}  {:>9}  {:>8}  {:>9}  {}", "faces", "hull", "void", "distance", "certified");
+}
+
+std::vector<std::string> table_rows(const BuildOutcome& outcome) {
+  std::vector<std::string> rows;
+  for (const Written& written : outcome.written)
+    rows.push_back(
+        fmt::format("{:>11}  {:>9}  {:>8}  {:>9.4g}  {}", grouped(outcome.made.input.found.faces),
+                    grouped(written.hull.mesh.face_count()),
+                    std::isnan(written.hull.void_ratio) ? "" : fmt::format("{:.2f} %", 100 * written.hull.void_ratio),
+                    written.to_solid.upper,
+                    !written.certified            ? "NO"
+                    : !written.hull.within_bounds ? "yes, NOT within the bounds"
+                                                  : "yes"));
+  return rows;
+}
+
 nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcome) {
   nlohmann::json in = facts(outcome.made.input.found);
   in["path"] = options.in.string();

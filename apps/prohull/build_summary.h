@@ -11,6 +11,7 @@
 namespace prohull::cli {
 
 struct BuildOptions {
+  std::vector<std::filesystem::path> meshes;
   std::filesystem::path in, out, hierarchy, certificate, report, tolerance;
   std::vector<std::size_t> faces{2000};
   EnclosingOptions enclosing;
@@ -59,6 +60,9 @@ struct BuildOutcome {
 };
 
 void print_summary(const BuildOptions& options, const BuildOutcome& outcome);
+/// What each hull has in a table of several meshes, and the head of that table.
+std::string table_head();
+std::vector<std::string> table_rows(const BuildOutcome& outcome);
 nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcome);
 
 }  // namespace prohull::cli

@@ -25,22 +25,15 @@ std::filesystem::path known_as(const std::filesystem::path& path, const InputOpt
   return options.format.empty() ? "standard input" : "standard input." + options.format;
 }
 
-/// In lower case, without the ".gz" that may follow.
-std::string suffix_of(const std::filesystem::path& path) {
-  std::string text = path.extension().string();
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text == ".gz" ? suffix_of(path.stem()) : text;
-}
-
 // A reader of COLLADA makes metres of its coordinates.
 bool carries_its_unit(const std::filesystem::path& path) {
-  const std::string suffix = suffix_of(path);
+  const std::string suffix = mesh_suffix(path);
   return suffix == ".dae" || suffix == ".zae";
 }
 
 // By its standard, glTF is in metres; files that are not are read with --unit.
 bool is_in_metres(const std::filesystem::path& path) {
-  const std::string suffix = suffix_of(path);
+  const std::string suffix = mesh_suffix(path);
   return suffix == ".glb" || suffix == ".gltf" || carries_its_unit(path);
 }
 
@@ -102,6 +95,21 @@ void add_mesh_input(CLI::App& command, std::filesystem::path& in, InputOptions& 
   command.add_option("in", in, purpose + " " + kMeshFiles)->required()->type_name("IN");
   add_format_option(command, options);
   add_unit_options(command, options, "the mesh");
+}
+
+void add_mesh_inputs(CLI::App& command, std::vector<std::filesystem::path>& in, InputOptions& options,
+                     const std::string& purpose) {
+  command.add_option("in", in, purpose + " " + kMeshFiles + " A folder stands for the mesh files in it.")
+      ->required()
+      ->type_name("IN");
+  add_format_option(command, options);
+  add_unit_options(command, options, "the mesh");
+}
+
+std::string mesh_suffix(const std::filesystem::path& path) {
+  std::string text = path.extension().string();
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text == ".gz" ? mesh_suffix(path.stem()) : text;
 }
 
 MeshUnit::MeshUnit(const TriangleMesh& mesh, const std::filesystem::path& path, const InputOptions& options)

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "prohull/length.h"
 #include "prohull/mesh_io.h"
@@ -31,10 +32,15 @@ void add_unit_options(CLI::App& command, InputOptions& options, const std::strin
 
 /// The argument IN, a mesh that is used as `purpose` says, with all of these options.
 void add_mesh_input(CLI::App& command, std::filesystem::path& in, InputOptions& options, const std::string& purpose);
+/// The same for one or several meshes, and folders of them.
+void add_mesh_inputs(CLI::App& command, std::vector<std::filesystem::path>& in, InputOptions& options,
+                     const std::string& purpose);
 
 using robot::is_robot_file;
 /// --package-path and --no-outside-files.
 void add_robot_file_options(CLI::App& command, robot::FileOptions& options);
+/// The suffix of a mesh file, in lower case, without the ".gz" that may follow.
+std::string mesh_suffix(const std::filesystem::path& path);
 /// By the suffix: YAML.
 bool is_sphere_file(const std::filesystem::path& path);
 

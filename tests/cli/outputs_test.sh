@@ -119,4 +119,32 @@ expect 0 "a name in another alphabet" cp mesh.ply "größe.ply"
 expect 0 "a name in another alphabet" $prohull info "größe.ply"
 says out "a name in another alphabet" "größe.ply"
 
+# Several meshes
+mkdir parts
+cp mesh.ply parts/one.ply
+gzip -c mesh.ply >parts/two.ply.gz
+expect 0 "a folder of meshes" $prohull build parts -o hulls/ --faces 60,30
+is "a folder of meshes" test "$(ls hulls | tr '\n' ' ')" = "one_30.ply one_60.ply two_30.ply two_60.ply "
+says out "a folder of meshes" "2 of 2 meshes: as asked"
+cp parts/one.ply three.ply
+echo broken >four.off
+expect 3 "a mesh that is broken" $prohull build four.off three.ply -o 'hulls/{name}.stl' --faces 30 --report 'hulls/{name}.json'
+says err "a mesh that is broken" "four.off: "
+says out "a mesh that is broken" "1 of 2 meshes: as asked"
+is "a mesh that is broken: the other has its files" test -s hulls/three.stl -a -s hulls/three.json
+absent "hulls/four*" "a mesh that is broken"
+expect 1 "a bound that one misses" $prohull build parts -o missed/ --faces 8 --strict --keep-guards --repair none --max-valence 3
+expect 2 "one name for two" $prohull build parts -o one.stl
+says err "one name for two" "several meshes need several names"
+absent one.stl "one name for two"
+expect 2 "two meshes of one name" $prohull build parts/one.ply "$PWD/parts/../parts/one.ply" -o new/
+says err "two meshes of one name" "is named twice"
+absent new "two meshes of one name"
+expect 2 "its own folder" $prohull build parts/one.ply -o parts/
+expect 3 "a folder without meshes" $prohull build hulls/none -o new/
+mkdir none
+expect 3 "a folder without meshes" $prohull build none -o new/
+says err "a folder without meshes" "no mesh file is in this folder"
+absent new "a folder without meshes"
+
 count_checks

@@ -1,0 +1,80 @@
+#include "several.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "command.h"
+#include "prohull/error.h"
+#include "prohull/mesh_io.h"
+
+namespace fs = std::filesystem;
+
+namespace prohull::cli {
+namespace {
+
+constexpr std::string_view kNameInName = "{name}";
+
+bool is_mesh_file(const fs::path& path) {
+  const std::vector<std::string> known = read_mesh_extensions();
+  return fs::is_regular_file(path) && std::ranges::find(known, mesh_suffix(path)) != known.end();
+}
+
+std::vector<fs::path> meshes_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (is_mesh_file(entry.path())) found.push_back(entry.path());
+  if (found.empty())
+    throw InputError(Defect::CannotRead, fmt::format("{}: no mesh file is in this folder", folder.string()));
+  std::ranges::sort(found);
+  return found;
+}
+
+}  // namespace
+
+std::vector<fs::path> mesh_files(const std::vector<fs::path>& named) {
+  std::vector<fs::path> files;
+  for (const fs::path& path : named)
+    if (fs::is_directory(path))
+      std::ranges::copy(meshes_in(path), std::back_inserter(files));
+    else
+      files.push_back(path);
+  return files;
+}
+
+fs::path named_after(const fs::path& pattern, const fs::path& in) {
+  std::string name = pattern.string();
+  if (const auto at = name.find(kNameInName); at != std::string::npos)
+    name.replace(at, kNameInName.size(), (in.extension() == ".gz" ? in.stem().stem() : in.stem()).string());
+  return name;
+}
+
+fs::path pattern_of(const fs::path& out, const std::string& tail) {
+  const bool is_folder = !out.empty() && (!out.has_filename() || fs::is_directory(out));
+  return is_folder ? out / (std::string(kNameInName) + tail) : out;
+}
+
+int run_each(const std::vector<fs::path>& meshes, const std::string& head,
+             const std::function<MeshOutcome(const fs::path&)>& one) {
+  std::size_t width = 4, done = 0;
+  for (const fs::path& mesh : meshes) width = std::max(width, mesh.filename().string().size());
+  int exit_code = kDone;
+  say("{:<{}}  {}\n", "mesh", width, head);
+  for (const fs::path& mesh : meshes) {
+    try {
+      const MeshOutcome outcome = one(mesh);
+      for (const std::string& row : outcome.rows)
+        say("{:<{}}  {}\n", &row == &outcome.rows.front() ? mesh.filename().string() : "", width, row);
+      exit_code = std::max(exit_code, outcome.exit_code);
+      done += outcome.exit_code == kDone;
+    } catch (const InputError& error) {
+      tell(fmt::format("prohull: {}\n", error.what()), stderr);
+      exit_code = kBadInput;
+    }
+  }
+  say("{} of {}: as asked\n", done, counted(meshes.size(), "mesh", "meshes"));
+  return exit_code;
+}
+
+}  // namespace prohull::cli
