@@ -113,8 +113,12 @@ class MjcfPieces {
 
   std::string text() const {
     const std::string assets = assets_.empty() ? "" : "  <asset>\n" + assets_ + "  </asset>\n";
+    // MuJoCo refuses a body without mass, though one that does not move needs none.
     return fmt::format(
-        "<mujoco model=\"{}\">\n{}  <worldbody>\n    <body name=\"{}\">\n{}    </body>\n  </worldbody>\n</mujoco>\n",
+        "<mujoco model=\"{}\">\n{}  <worldbody>\n    <body name=\"{}\">\n"
+        "      <inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>  <!-- a placeholder: before the body moves, "
+        "put its own here -->\n"
+        "{}    </body>\n  </worldbody>\n</mujoco>\n",
         name_, assets, name_, geoms_);
   }
 

@@ -23,9 +23,9 @@ std::vector<std::string> piece_names(const std::string& name, std::size_t count)
 /// a cylinder and two spheres.
 std::string urdf_of(const std::string& name, std::span<const NamedPiece> pieces);
 
-/// An MJCF file of one body with a geom for each piece. The geoms collide and have no mass, and viewers hide them. Mesh
-/// files are STL or OBJ, and their URIs are paths; throws InputError(InvalidOption) for others, as MuJoCo reads no
-/// others, and for names that XML cannot hold.
+/// An MJCF file of one body with a geom for each piece. The geoms collide and have no mass, and viewers hide them; the
+/// inertia of the body is a placeholder. Mesh files are STL or OBJ, and their URIs are paths; throws
+/// InputError(InvalidOption) for others, as MuJoCo reads no others, and for names that XML cannot hold.
 std::string mjcf_of(const std::string& name, std::span<const NamedPiece> pieces);
 
 }  // namespace prohull::robot

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <fstream>
+#include <memory>
+
+#include "prohull/mesh_io.h"
+#include "prohull/mesh_query.h"
+#include "prohull/sample.h"
+#include "random.h"
+#include "robot/robot_testing.h"
+
+namespace prohull::robot {
+namespace {
+
+namespace fs = std::filesystem;
+
+// MuJoCo itself reads what the command writes for it.
+
+using Model = std::unique_ptr<mjModel, decltype(&mj_deleteModel)>;
+using Data = std::unique_ptr<mjData, decltype(&mj_deleteData)>;
+
+Model load(const fs::path& path) {
+  std::array<char, 1000> error{};
+  Model model(mj_loadXML(path.c_str(), nullptr, error.data(), int(error.size())), mj_deleteModel);
+  EXPECT_TRUE(model) << path << ": " << error.data();
+  return model;
+}
+
+class InMujoco : public testing::Test {
+ protected:
+  /// In the folder of the test.
+  void prohull(const std::string& arguments) const {
+    const std::string command =
+        fmt::format("cd '{}' && '{}' {} >out 2>&1", folder_.path().string(), PROHULL_PROGRAM, arguments);
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  }
+  std::string text_of(const char* name) const {
+    std::ifstream stream(folder_ / name);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  TemporaryFolder folder_;
+};
+
+constexpr int kBalls = 200;
+constexpr double kRadius = 0.05;
+
+// Contacts of MuJoCo are soft: balls fall slowly, on contacts that are stiff, so that they do not sink in by their
+// radius.
+
+/// How many of the balls that fall on a part come to have their centre inside of it.
+int balls_inside(const fs::path& scene, const TriangleMesh& part) {
+  const Model model = load(scene);
+  if (!model) return -1;
+  const Data data(mj_makeData(model.get()), mj_deleteData);
+  const QueryIndex index(part);
+  MeshQuery query(index);
+  const Box box = bounding_box(part);
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> at(0, 1);
+  int count = 0;
+  for (int ball = 0; ball < kBalls; ++ball) {
+    mj_resetData(model.get(), data.get());
+    data->qpos[0] = box.min.x + at(random) * (box.max.x - box.min.x);
+    data->qpos[1] = box.min.y + at(random) * (box.max.y - box.min.y);
+    data->qpos[2] = box.max.z + 2 * kRadius;
+    bool is_inside = false;
+    while (!is_inside && data->qpos[2] > box.min.z && data->time < 4) {
+      mj_step(model.get(), data.get());
+      is_inside = query.contains({data->qpos[0], data->qpos[1], data->qpos[2]});
+    }
+    count += is_inside;
+  }
+  return count;
+}
+
+TEST_F(InMujoco, NoBallPassesThroughConvexPieces) {
+  const TriangleMesh part = make_sample("bracket", 3000);
+  write_mesh(folder_ / "part.stl", part);
+  prohull("convex part.stl --pieces 8 -o pieces.xml");
+  const auto scene = [&](const char* name, const std::string& what) {
+    std::ofstream(folder_ / name) << fmt::format(
+        "<mujoco><option timestep='0.001' gravity='0 0 -1'/>{}<worldbody><body><freejoint/>"
+        "<geom type='sphere' size='{}' solref='0.002 1'/></body>"
+        "</worldbody></mujoco>",
+        what, kRadius);
+    return folder_ / name;
+  };
+  EXPECT_EQ(balls_inside(scene("pieces_scene.xml", "<include file='pieces.xml'/>"), part), 0);
+  EXPECT_GT(balls_inside(scene("free.xml", ""), part), kBalls / 2) << "nothing stops them";
+}
+
+// As its URDF allows, the compiler is told that paths of meshes are meant.
+TEST_F(InMujoco, RobotsLoadWithWhateverCoversTheirLinks) {
+  prohull("sample gripper -o gripper");
+  std::string text = text_of("gripper/gripper.urdf");
+  const auto robot = text.find("<robot"), at = text.find('>', robot) + 1;
+  text.insert(at, "<mujoco><compiler strippath=\"false\"/></mujoco>");
+  std::ofstream(folder_ / "gripper/gripper.urdf") << text;
+  const std::string options = " --configurations 0 --prove 0 --no-pictures -o ";
+  prohull("urdf gripper/gripper.urdf --faces 60" + options + "hulls");
+  if (const Model model = load(folder_ / "hulls/gripper.urdf")) {
+    EXPECT_EQ(model->nmesh, 9);
+  }
+  prohull("urdf gripper/gripper.urdf --collision spheres --spheres 16" + options + "spheres");
+  if (const Model model = load(folder_ / "spheres/gripper.urdf")) {
+    EXPECT_EQ(model->nmesh, 0);
+    EXPECT_GE(model->ngeom, 9 * 8);
+  }
+}
+
+}  // namespace
+}  // namespace prohull::robot
