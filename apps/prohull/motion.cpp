@@ -147,8 +147,9 @@ void say_path(const PathOptions& options, const Decision& decision, std::size_t 
   }
   if (const auto beyond = first_beyond_limits(robot, path)) {
     const Joint& joint = robot.joints[beyond->joint];
-    say("  BEYOND LIMITS: {} {}: {} is at {:.6g}, and its limits are {:.6g} and {:.6g}\n", path.rows().row,
-        path.rows().numbers.empty() ? beyond->row : path.rows().numbers[beyond->row], joint.name, beyond->position,
+    say("  BEYOND LIMITS: {}{} {}: {} is at {:.6g}, and its limits are {:.6g} and {:.6g}\n",
+        beyond->is_in_row() ? "" : "after ", path.rows().row,
+        path.rows().numbers.empty() ? beyond->row() : path.rows().numbers[beyond->row()], joint.name, beyond->position,
         joint.lower, joint.upper);
   }
   if (const std::string rest = rest_text(robot, path); !rest.empty())
@@ -191,7 +192,8 @@ nlohmann::json facts(const Decision& decision, std::size_t p) {
                       {"beyond_limits", nullptr},
                       {"pairs", nlohmann::json::array()}};
   if (const auto beyond = first_beyond_limits(decision.file.robot, path))
-    json["beyond_limits"] = {{"row", beyond->row},
+    json["beyond_limits"] = {{"row", beyond->row()},
+                             {"time", path.time_at(beyond->place)},
                              {"joint", decision.file.robot.joints[beyond->joint].name},
                              {"position", beyond->position}};
   for (const PathPairProof& pair : proof.pairs)

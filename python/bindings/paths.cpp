@@ -64,7 +64,7 @@ py::dict facts_of(const PathChecker& checker, const JointPath& path, const PathP
 
 py::object facts_of(const Robot& robot, const std::optional<BeyondLimits>& beyond) {
   if (!beyond) return py::none();
-  return py::make_tuple(beyond->row, robot.joints[beyond->joint].name, beyond->position);
+  return py::make_tuple(beyond->row(), robot.joints[beyond->joint].name, beyond->position);
 }
 
 py::dict facts_of(const PathChecker& checker, const JointPath& path, const PathProof& proof) {

@@ -33,7 +33,7 @@ class PathPair(NamedTuple):
 class BeyondLimits(NamedTuple):
     """A joint outside of its limits."""
 
-    row: int  #: of the path
+    row: int  #: of the path; if it is outside between two rows only, the first of them
     joint: str
     position: float
 

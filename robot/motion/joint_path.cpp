@@ -68,6 +68,18 @@ JointRange range_of(const Curve& curve, double u, double v) {
   return {range.lower - rounding, range.upper + rounding};
 }
 
+/// A fraction between two at which the curve is outside of the limits by more than rounding.
+std::optional<double> fraction_outside(const Curve& curve, const JointRange& limits, double u, double v) {
+  const double rounding = 2 * rounding_of(curve);  // one of which is in range_of
+  const JointRange allowed{limits.lower - rounding, limits.upper + rounding}, range = range_of(curve, u, v);
+  if (allowed.lower <= range.lower && range.upper <= allowed.upper) return {};
+  const double middle = std::midpoint(u, v), position = blossom(curve, middle, middle, 0);
+  if (position < allowed.lower || allowed.upper < position) return middle;
+  if (!(u < middle && middle < v)) return {};
+  const std::optional<double> before = fraction_outside(curve, limits, u, middle);
+  return before ? before : fraction_outside(curve, limits, middle, v);
+}
+
 JointRange joined(const JointRange& a, const JointRange& b) {
   return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
 }
@@ -198,6 +210,14 @@ JointReach JointPath::reach(std::size_t k, double begin, double end) const {
   return reach;
 }
 
+std::optional<double> JointPath::place_outside(std::size_t k, std::size_t row, const JointRange& limits) const {
+  if (row + 1 >= rows_.positions.size()) return {};
+  const Curve& curve = curves_[row * joints_.size() + k];
+  if (curve.size() == 2) return {};  // straight: its rows tell
+  const auto fraction = fraction_outside(curve, limits, 0, 1);
+  return fraction ? std::optional(static_cast<double>(row) + *fraction) : std::nullopt;
+}
+
 // The range of segments in a binary tree whose leaves begin at their number, from both ends upwards.
 JointRange JointPath::range(std::size_t k, std::size_t first, std::size_t last) const {
   const std::size_t leaves = tree_.size() / 2;
@@ -223,11 +243,17 @@ std::vector<JointRange> JointPath::ranges() const {
 std::optional<BeyondLimits> first_beyond_limits(const Robot& robot, const JointPath& path) {
   const std::vector<std::vector<double>>& rows = path.rows().positions;
   for (std::size_t row = 0; row < rows.size(); ++row)
-    for (std::size_t k = 0; k < path.joints().size(); ++k) {
-      const Joint& joint = robot.joints[path.joints()[k]];
-      if (joint.type != JointType::Continuous && !(joint.lower <= rows[row][k] && rows[row][k] <= joint.upper))
-        return BeyondLimits{row, path.joints()[k], rows[row][k]};
-    }
+    for (const bool is_behind : {false, true})
+      for (std::size_t k = 0; k < path.joints().size(); ++k) {
+        const Joint& joint = robot.joints[path.joints()[k]];
+        if (joint.type == JointType::Continuous) continue;
+        std::optional<double> place;
+        if (is_behind)
+          place = path.place_outside(k, row, {joint.lower, joint.upper});
+        else if (!(joint.lower <= rows[row][k] && rows[row][k] <= joint.upper))
+          place = static_cast<double>(row);
+        if (place) return BeyondLimits{*place, path.joints()[k], path.reach(k, *place, *place).middle};
+      }
   return {};
 }
 

@@ -48,6 +48,10 @@ class JointPath {
   /// how far it is from there at most between the two. Rounding is part of `half`.
   JointReach reach(std::size_t k, double begin, double end) const;
 
+  /// A place between a row and the next at which joints()[k] is outside of the limits by more than rounding. None if
+  /// there is none, or if it goes straight, so that it is no farther outside than in the rows.
+  std::optional<double> place_outside(std::size_t k, std::size_t row, const JointRange& limits) const;
+
   /// All positions that each joint of the robot has on the path.
   std::vector<JointRange> ranges() const;
 
@@ -80,12 +84,17 @@ double middle_place(double begin, double end);
 /// Throws InputError(Malformed) with the file and the line or point.
 PathRows read_path_rows(std::string_view text, const std::string& file);
 
-/// A joint outside of its limits, in a row of a path.
+/// A joint outside of its limits.
 struct BeyondLimits {
-  std::size_t row = 0, joint = 0;  ///< joint: in Robot::joints
+  double place = 0;       ///< a row, or between two
+  std::size_t joint = 0;  ///< in Robot::joints
   double position = 0;
+
+  std::size_t row() const { return static_cast<std::size_t>(place); }  ///< the last one that is not behind it
+  bool is_in_row() const { return place == static_cast<double>(row()); }
 };
-/// The first one. Positions between the rows are not looked at.
+/// One that is in the first row or between the first two rows where there is one; between rows, by more than rounding.
+/// Joints that mimic others are not looked at, unless the path names them.
 std::optional<BeyondLimits> first_beyond_limits(const Robot& robot, const JointPath& path);
 
 /// Whether a path can say where the joint is: it turns or slides.

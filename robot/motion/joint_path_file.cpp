@@ -41,7 +41,6 @@ class CsvReader {
   explicit CsvReader(const std::string& file) { rows_.file = file, rows_.row = "line"; }
 
   PathRows read(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     for (std::size_t line = 1; !text.empty(); ++line) {
       const std::size_t end = std::min(text.find('\n'), text.size());
       if (const std::string_view row = text.substr(0, end); !trimmed(row).empty()) take(row, line);
@@ -179,7 +178,11 @@ class JsonReader {
   PathRows read(std::string_view text) {
     Json file = parsed(text);
     for (const char* const name : {"trajectory", "joint_trajectory"})
-      if (file.is_object() && file.contains(name)) file = Json(file[name]);
+      if (file.is_object() && file.contains(name)) {
+        refuse_others(file);
+        Json inner = std::move(file[name]);  // a copy of what is nested deeply would overflow the stack
+        file = std::move(inner);
+      }
     if (!file.is_object()) refuse("expected an object");
     const char* const names = file.contains("joint_names") ? "joint_names" : "joints";
     for (const Json& name : list(member(file, names), names)) {
@@ -196,6 +199,15 @@ class JsonReader {
  private:
   [[noreturn]] void refuse(const std::string& why) const {
     throw InputError(Defect::Malformed, fmt::format("{}: {}", rows_.file, why));
+  }
+
+  /// A RobotTrajectory of MoveIt may move planar and floating joints, too.
+  void refuse_others(const Json& file) const {
+    constexpr const char* kOthers = "multi_dof_joint_trajectory";
+    if (!file.contains(kOthers) || !file[kOthers].is_object()) return;
+    const Json& others = file[kOthers];
+    if (others.contains("points") && !others["points"].empty())
+      refuse(fmt::format("{}: planar and floating joints stay at rest here, and it moves them", kOthers));
   }
 
   Json parsed(std::string_view text) const {
@@ -276,6 +288,7 @@ class JsonReader {
 }  // namespace
 
 PathRows read_path_rows(std::string_view text, const std::string& file) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   const std::string_view content = trimmed(text.substr(0, std::min<std::size_t>(text.size(), 4096)));
   if (content.starts_with('{') || content.starts_with('[')) return JsonReader(file).read(text);
   PathRows rows = CsvReader(file).read(text);

@@ -1,5 +1,7 @@
 #include "robot/motion/joint_paths.h"
 
+#include <algorithm>
+
 #include "robot/motion/kinematics.h"
 #include "robot/motion/sampling.h"
 
@@ -30,7 +32,8 @@ std::vector<bool> fixed_joints(const Robot& robot) {
 JointPaths::JointPaths(const Robot& robot)
     : rigid_group_(connected_groups(robot, fixed_joints(robot))),
       sampled_group_(connected_groups(robot, sampled_joints(robot))),
-      hangs_on_(robot.links.size()) {
+      hangs_on_(robot.links.size()),
+      moves_between_(robot.links.size()) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) hang(robot, j);
 }
 
@@ -38,11 +41,16 @@ JointPaths::JointPaths(const Robot& robot)
 void JointPaths::hang(const Robot& robot, std::size_t j) {
   const Joint& joint = robot.joints[j];
   const Link& parent = robot.links[joint.parent];
+  const bool has_geometry = !parent.visual.empty() || !parent.collision.empty();
+  const std::size_t moves =
+      (has_geometry ? 0 : moves_between_[joint.parent]) + (joint.type == JointType::Fixed ? 0 : 1);
+  std::size_t& all_moves = moves_between_[joint.child];
+  all_moves = continues_row(robot, j) ? std::max(all_moves, moves) : moves;
   const bool was_free = continues_row(robot, j) && !hangs_on_[joint.child];
   if (was_free || joint.type == JointType::Floating || joint.type == JointType::Planar)
     hangs_on_[joint.child].reset();
   else
-    hangs_on_[joint.child] = parent.visual.empty() && parent.collision.empty() ? hangs_on_[joint.parent] : joint.parent;
+    hangs_on_[joint.child] = has_geometry ? joint.parent : hangs_on_[joint.parent];
 }
 
 }  // namespace prohull::robot

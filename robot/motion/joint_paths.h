@@ -16,6 +16,12 @@ class JointPaths {
   bool are_adjacent(std::size_t a, std::size_t b) const {
     return rigid_group_[a] == rigid_group_[b] || hangs_on_[a] == b || hangs_on_[b] == a;
   }
+  /// Whether a single joint connects two adjacent links, or fixed joints do: of those between them, which lead over
+  /// links without geometry, at most one moves. Joints in a row (Joint) are one.
+  bool are_next(std::size_t a, std::size_t b) const {
+    return rigid_group_[a] == rigid_group_[b] || (hangs_on_[a] == b && moves_between_[a] <= 1) ||
+           (hangs_on_[b] == a && moves_between_[b] <= 1);
+  }
   /// Whether random positions move them as they can move.
   bool are_sampled(std::size_t a, std::size_t b) const { return sampled_group_[a] == sampled_group_[b]; }
 
@@ -25,6 +31,7 @@ class JointPaths {
   std::vector<std::size_t> rigid_group_;              // the same number: only fixed joints connect them
   std::vector<std::size_t> sampled_group_;            // the same number: only sampled joints connect them
   std::vector<std::optional<std::size_t>> hangs_on_;  // the next link with geometry on the way to the root
+  std::vector<std::size_t> moves_between_;            // joints that move between the link and this one
 };
 
 }  // namespace prohull::robot

@@ -34,6 +34,8 @@ struct Shapes {
   }
 };
 
+bool has_finite_faces(const TriangleMesh& mesh) { return with_finite_faces(mesh).face_count() == mesh.face_count(); }
+
 const char* name_of(Geometry which) { return which == Geometry::Visual ? "visual" : "collision"; }
 
 void require_distinct_names(std::span<const PathBody> bodies) {
@@ -67,7 +69,10 @@ PathBody link_body(const Robot& robot, std::size_t link, Geometry which) {
   for (const Shape& shape : shapes(robot.links[link], which)) {
     if (const auto* const other = std::get_if<OtherForm>(&shape.form))
       body.unread = fmt::format("its geometry of type {} is not read", other->what);
-    all.add(link_triangles({&shape, 1}, {}));
+    TriangleMesh mesh = link_triangles({&shape, 1}, {});
+    if (shape.mesh() && mesh.face_count() == 0) body.unread = "a mesh of it has no triangles";
+    if (!has_finite_faces(mesh)) body.unread = "a mesh of it has corners that are not finite";
+    all.add(std::move(mesh));
   }
   body.shape = all.shape();
   return body;
@@ -98,6 +103,8 @@ PathBodies path_bodies(const Robot& robot, Geometry which, std::span<const World
   for (const WorldMesh& mesh : world) {
     meter.go_on();
     if (mesh.mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, mesh.name + ": no triangles");
+    if (!has_finite_faces(mesh.mesh))
+      throw InputError(Defect::NonFiniteCoordinate, mesh.name + ": corners of triangles are not finite");
     made.bodies.push_back(path_body(mesh.name, {}, mesh.mesh));
   }
   require_distinct_names(made.bodies);
@@ -115,7 +122,7 @@ std::vector<BodyPair> pairs_on_path(const Robot& robot, std::span<const PathBody
   for (const auto& [a, b] : names) ignored.insert(std::minmax({body_called(bodies, a), body_called(bodies, b)}));
   const JointPaths joints(robot);
   const auto are_ignored_links = [&](std::size_t a, std::size_t b) {
-    return joints.are_adjacent(a, b) || std::ranges::find(links, LinkPair(std::minmax(a, b))) != links.end();
+    return joints.are_next(a, b) || std::ranges::find(links, LinkPair(std::minmax(a, b))) != links.end();
   };
   std::vector<BodyPair> pairs;
   for (std::size_t a = 0; a < bodies.size(); ++a)

@@ -58,6 +58,25 @@ expect 1 "beyond limits" $motion beyond.csv
 says out "beyond limits is free" "beyond.csv: free all along"
 says out "beyond limits" "BEYOND LIMITS: line 3: slide is at 5.5, and its limits are -2 and 5"
 
+printf 'slide,slide.velocity\n4.5,4\n4.5,-4\n' >overshoot.csv
+expect 1 "beyond limits between rows" $motion overshoot.csv --report overshoot.json
+says out "beyond limits between rows" "BEYOND LIMITS: after line 2: slide is at 5.5, and its limits are -2 and 5"
+says overshoot.json "report: beyond limits between rows" '"time": 0.5'
+cat >gantry.urdf <<'URDF'
+<robot name="gantry">
+  <link name="frame"><collision><geometry><box size="2 2 0.1"/></geometry></collision></link>
+  <link name="bridge"/>
+  <link name="tool"><collision><geometry><box size="0.1 0.1 0.5"/></geometry></collision></link>
+  <joint name="x" type="prismatic"><parent link="frame"/><child link="bridge"/><axis xyz="1 0 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="z" type="prismatic"><parent link="bridge"/><child link="tool"/><origin xyz="0 0 1"/><axis xyz="0 0 1"/>
+    <limit lower="-2" upper="1" effort="1" velocity="1"/></joint>
+</robot>
+URDF
+printf 'x,z\n0,0\n0,-1\n' >down.csv
+expect 1 "links between which two joints move are compared" $prohull motion gantry.urdf down.csv
+says out "links between which two joints move are compared" "MEETS at row 0.7: frame and tool"
+
 # --- the curve ---
 expect 0 "curve" $motion free.csv --curve curve.csv
 says out "curve" "; at least "

@@ -386,6 +386,36 @@ TEST(PathBodies, HaveClosedAndOpenParts) {
           "two bodies are called 'link2'"));
 }
 
+TEST(PathBodies, AreComparedAcrossSeveralJointsThatMove) {
+  Robot robot =
+      robot_of(4, {joint(JointType::Prismatic, 0, 1, {}, kAlongX), joint(JointType::Prismatic, 1, 2, {}, kAlongZ),
+                   joint(JointType::Revolute, 2, 3, {}, kAlongZ)});
+  robot.links[1].visual.clear();
+  const auto pairs = [&] { return pairs_on_path(robot, path_bodies(robot, Geometry::Visual).bodies); };
+  EXPECT_EQ(pairs(), (std::vector<BodyPair>{{0, 1}, {0, 2}})) << "link2 moves in two ways against link0";
+  robot.joints[0].type = JointType::Fixed;
+  EXPECT_EQ(pairs(), (std::vector<BodyPair>{{0, 2}}));
+}
+
+TEST(PathBodies, AreNotFreeWithCornersThatAreNotFinite) {
+  Robot robot =
+      robot_of(3, {joint(JointType::Revolute, 0, 1, {}, kAlongX), joint(JointType::Revolute, 1, 2, {}, kAlongX)});
+  const TemporaryFolder folder;
+  write_bytes(folder / "nan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\n");
+  write_bytes(folder / "empty.obj", "v 0 0 0\n");
+  robot.links[0].visual = {{MeshFile{"nan.obj", folder / "nan.obj"}}};
+  robot.links[1].visual = {{MeshFile{"empty.obj", folder / "empty.obj"}}};
+  const PathBodies made = path_bodies(robot, Geometry::Visual);
+  ASSERT_EQ(made.bodies.size(), 3U);
+  EXPECT_EQ(made.bodies[0].unread, "a mesh of it has corners that are not finite");
+  EXPECT_EQ(made.bodies[1].unread, "a mesh of it has no triangles");
+  WorldMesh world{"world", meshes::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})};
+  world.mesh.positions[VertexId{1}].x = std::nan("");
+  EXPECT_TRUE(
+      has(refusal_of([&] { path_bodies(robot, Geometry::Visual, std::span(&world, 1)); }, Defect::NonFiniteCoordinate),
+          "world: corners of triangles are not finite"));
+}
+
 std::string refusal(const Robot& robot, const std::string& text) {
   return refusal_of([&] { JointPath(robot, read_path_rows(text, "p")); });
 }
@@ -455,6 +485,15 @@ TEST(PathFile, RefusesWhatIsNoPathInOneLine) {
        "p: row 1: times are not of as many rows as positions"},
       {R"({"joints": ["joint0"], "positions": [[1]], "velocities": [[1], [2]]})",
        "p: row 1: velocities are not of as many rows as positions"},
+      {"\xef\xbb\xbf{", "p: no JSON: "},
+      {R"({"joint_trajectory": {"joint_names": ["joint0"], "points": [{"positions": [1]}]},
+           "multi_dof_joint_trajectory": {"points": []}})",
+       ""},
+      {R"({"joint_trajectory": {"joint_names": ["joint0"], "points": [{"positions": [1]}]},
+           "multi_dof_joint_trajectory": {"joint_names": ["base"], "points": [{"transforms": []}]}})",
+       "p: multi_dof_joint_trajectory: planar and floating joints stay at rest here, and it moves them"},
+      {"{\"trajectory\": {\"joints\": " + std::string(300'000, '[') + std::string(300'000, ']') + "}}",
+       "p: joints: expected names of joints"},
       {R"({"joint_names": ["joint0"], "points": [{}]})", "p: point 0: there are no \"positions\""},
       {R"({"joint_names": ["joint0"], "points": [3]})", "p: point 0: there are no \"positions\""},
       {R"({"joint_names": ["joint0"], "points": [{"positions": [1]}, {"positions": [1], "time_from_start": 1}]})",
@@ -500,9 +539,24 @@ TEST(JointPath, TellsTheFirstPositionBeyondLimits) {
   const JointPath outside(robot, {.joints = {"joint1", "joint0"}, .positions = {{50, 1}, {-50, -1.25}, {0, 2}}});
   const auto beyond = first_beyond_limits(robot, outside);
   ASSERT_TRUE(beyond);
-  EXPECT_EQ(beyond->row, 1U);
+  EXPECT_EQ(beyond->place, 1);
   EXPECT_EQ(beyond->joint, 0U);
   EXPECT_EQ(beyond->position, -1.25);
+}
+
+TEST(JointPath, TellsPositionsBeyondLimitsBetweenRows) {
+  const Robot robot = robot_of(2, {limited(joint(JointType::Revolute, 0, 1, {}, kAlongX), -1, 1)});
+  const auto beyond = [&](std::vector<std::vector<double>> velocities) {
+    const JointPath path(robot, {.joints = {"joint0"}, .positions = {{0}, {0.5}, {0.5}}, .velocities = velocities});
+    return first_beyond_limits(robot, path);
+  };
+  EXPECT_FALSE(beyond({{0}, {2}, {-2}})) << "0.5 + 2 t - 2 t^2 touches 1";
+  const auto found = beyond({{0}, {2.001}, {-2.001}});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->row(), 1U);
+  EXPECT_FALSE(found->is_in_row());
+  EXPECT_GT(found->position, 1);
+  EXPECT_LT(found->position, 1.001);
 }
 
 }  // namespace
