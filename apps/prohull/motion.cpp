@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
+#include <string>
 
 #include "command.h"
 #include "prohull/error.h"
@@ -73,7 +75,13 @@ std::string time_text(const JointPath& path, double place) {
   return path.rows().times.empty() ? fmt::format("row {:.6g}", place) : fmt::format("{:.6g} s", path.time_at(place));
 }
 
-std::string lengths(double metres) { return fmt::format("{:.4g} mm", 1000 * metres); }
+/// Rounded down, for what is proven is a lower bound.
+std::string at_least(double metres) {
+  const double millimetres = 1000 * metres;
+  double shown = std::stod(fmt::format("{:.4g}", millimetres));
+  if (shown > millimetres) shown -= std::pow(10, std::floor(std::log10(shown)) - 3);
+  return fmt::format("{:.4g} mm", shown);
+}
 
 std::string pair_name(const Decision& decision, const PathPairProof& pair) {
   return fmt::format("{} and {}", decision.name(pair.a), decision.name(pair.b));
@@ -90,7 +98,7 @@ std::string verdict_text(const PathOptions& options, const Decision& decision, s
         fmt::format("free all along, proven for {}", counted(path.rows().positions.size(), "row", "rows"));
     if (!path.rows().times.empty())
       text += fmt::format(", {:.6g} s", path.rows().times.back() - path.rows().times.front());
-    if (!proof.curve.empty()) text += fmt::format("; at least {} apart", lengths(least_of(proof)));
+    if (!proof.curve.empty()) text += fmt::format("; at least {} apart", at_least(least_of(proof)));
     return text;
   }
   const std::string until =

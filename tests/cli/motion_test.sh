@@ -86,6 +86,9 @@ is "the curve is below the distance, and above 0.6 of it" awk -F, 'NR > 1 {
     end = $2
     for (t = $1; t <= $2; t += ($2 - $1) / 4) if ($3 > 1 - t / 4 || $3 < 0.6 * (1 - t / 4)) exit 1 }
   END { exit end != 2 }' curve.csv
+printf 'slide\n0.123456\n' >still.csv
+expect 0 "a bound of a distance is rounded down" $motion still.csv --curve still_curve.csv
+says out "a bound of a distance is rounded down" "; at least 123.4 mm apart"
 expect 2 "a curve of two paths" $motion free.csv meets.csv --curve curve2.csv
 absent curve2.csv "what is refused writes nothing"
 
