@@ -71,17 +71,17 @@ Decision read_all(const PathOptions& options, const RobotFile& file) {
   return decision;
 }
 
-std::string time_text(const JointPath& path, double place) {
-  return path.rows().times.empty() ? fmt::format("row {:.6g}", place) : fmt::format("{:.6g} s", path.time_at(place));
+/// To so many digits, for what is proven is a lower bound.
+double rounded_down(double number, int digits) {
+  if (number == 0) return number;
+  const double shown = std::stod(fmt::format("{:.{}g}", number, digits));
+  return shown <= number ? shown : shown - std::pow(10, std::floor(std::log10(std::abs(number))) - (digits - 1));
 }
 
-/// Rounded down, for what is proven is a lower bound.
-std::string at_least(double metres) {
-  const double millimetres = 1000 * metres;
-  double shown = std::stod(fmt::format("{:.4g}", millimetres));
-  if (shown > millimetres) shown -= std::pow(10, std::floor(std::log10(shown)) - 3);
-  return fmt::format("{:.4g} mm", shown);
+std::string text_of_time(const JointPath& path, double time) {
+  return path.rows().times.empty() ? fmt::format("row {:.6g}", time) : fmt::format("{:.6g} s", time);
 }
+std::string time_text(const JointPath& path, double place) { return text_of_time(path, path.time_at(place)); }
 
 std::string pair_name(const Decision& decision, const PathPairProof& pair) {
   return fmt::format("{} and {}", decision.name(pair.a), decision.name(pair.b));
@@ -98,11 +98,14 @@ std::string verdict_text(const PathOptions& options, const Decision& decision, s
         fmt::format("free all along, proven for {}", counted(path.rows().positions.size(), "row", "rows"));
     if (!path.rows().times.empty())
       text += fmt::format(", {:.6g} s", path.rows().times.back() - path.rows().times.front());
-    if (!proof.curve.empty()) text += fmt::format("; at least {} apart", at_least(least_of(proof)));
+    if (!proof.curve.empty())
+      text += fmt::format("; at least {:.4g} mm apart", rounded_down(1000 * least_of(proof), 4));
     return text;
   }
-  const std::string until =
-      proof.free_until() > 0 ? fmt::format("; proven free before {}", time_text(path, proof.free_until())) : "";
+  const std::string until = proof.free_until() > 0
+                                ? fmt::format("; proven free before {}",
+                                              text_of_time(path, rounded_down(path.time_at(proof.free_until()), 6)))
+                                : "";
   if (first->verdict == PathVerdict::Open)
     return fmt::format("OPEN from {} to {}: {}: {}{}", time_text(path, first->begin), time_text(path, first->end),
                        pair_name(decision, *first), first->why, until);
