@@ -203,13 +203,10 @@ JointChain::Motion JointChain::motion(std::span<const JointRange> box) const {
   return motion(reaches);
 }
 
-JointChain::Motion JointChain::motion(std::span<const JointReach> reaches) const {
-  struct Axis {
-    Vec3 point, direction;  // in the frame of a
-    double half = 0;        // how far the joint moves from the middle
-  };
-  std::vector<Axis> axes(hinges_.size());
-  Motion motion;
+/// Returns the pose of b in the frame of a.
+Pose JointChain::set_axes(std::span<const JointReach> reaches, std::vector<Axis>& axes) const {
+  axes.assign(hinges_.size(), {});
+  Pose pose;
   for (std::size_t h = 0; h < hinges_.size(); ++h) {
     const Hinge& hinge = hinges_[h];
     double position = 0;
@@ -220,20 +217,57 @@ JointChain::Motion JointChain::motion(std::span<const JointReach> reaches) const
         const double scaled = mimic.multiplier * position;
         half = std::abs(mimic.multiplier) * half + 0x1p-50 * (std::abs(scaled) + std::abs(mimic.offset));
         position = scaled + mimic.offset;
+        axes[h].scale *= std::abs(mimic.multiplier);
       }
       axes[h].half = half * (1 + kSmall);
     }
     const Pose step = joint_pose(*hinge.joint, position);
     const auto set_axis = [&] {
-      axes[h].point = placed(motion.pose, hinge.joint->anchor);
-      axes[h].direction = turned(motion.pose, hinge.joint->axis);
+      axes[h].point = placed(pose, hinge.joint->anchor);
+      axes[h].direction = turned(pose, hinge.joint->axis);
     };
     if (hinge.climbs) set_axis();
-    motion.pose = composed(motion.pose, hinge.climbs ? inverse(step) : step);
+    pose = composed(pose, hinge.climbs ? inverse(step) : step);
     if (!hinge.climbs) set_axis();
   }
+  return pose;
+}
+
+double JointChain::slack() const { return 2 * rounding_ + kSmall * extent_; }
+
+// The position of a point of b is a function of the joints' positions. Its derivative by a joint is the lever arm, for
+// a joint that slides 1. Its second derivative by two joints is at most the derivative by the one closer to b if the
+// other turns, and 0 otherwise. So Taylor's formula bounds how far the function is from a linear one around the middle
+// of the line, by `rest`. With it, the function is within 2 rest of the straight way, and what strays adds its
+// derivative. Arms anywhere within the reaches are no longer than in the middle and what joints closer to b move.
+JointChain::Travel JointChain::travel(std::span<const JointReach> reaches, std::span<const double> strays) const {
+  std::vector<Axis> axes;
+  const Pose back = inverse(set_axes(reaches, axes));
+  Travel travel;
+  double rest = 0, moved = 0, angles = 0;
+  for (std::size_t h = hinges_.size(); h-- > 0;) {
+    if (hinges_[h].freedom == kNone) continue;
+    const Axis& axis = axes[h];
+    const bool is_turning = turns(*hinges_[h].joint);
+    const double stray = axis.scale * strays[hinges_[h].freedom];
+    double arm = 1;
+    if (is_turning)
+      arm = moved + slack() + largest_distance(points_of_b_, placed(back, axis.point), turned(back, axis.direction));
+    rest += is_turning ? axis.half * (moved + axis.half * arm / 2) : 0;
+    travel.bend += stray * arm;
+    moved += axis.half * arm;
+    if (is_turning) angles += axis.half + stray;
+  }
+  travel.bend = (travel.bend + 2 * rest) * (1 + kSmall) + slack();
+  travel.turn = angles * (1 + kSmall);
+  return travel;
+}
+
+JointChain::Motion JointChain::motion(std::span<const JointReach> reaches) const {
+  std::vector<Axis> axes;
+  Motion motion;
+  motion.pose = set_axes(reaches, axes);
   const Pose back = inverse(motion.pose);
-  const double slack = 2 * rounding_ + kSmall * extent_;
   std::vector<double> by_a(hinges_.size()), by_b(hinges_.size());  // what each joint changes, by the arms of a and b
   for (std::size_t h = 0; h < hinges_.size(); ++h) {
     const Axis& axis = axes[h];
@@ -241,8 +275,9 @@ JointChain::Motion JointChain::motion(std::span<const JointReach> reaches) const
     by_a[h] = by_b[h] = axis.half;
     if (!turns(*hinges_[h].joint)) continue;
     const double angle = std::min(axis.half, 2.0);
-    by_a[h] = angle * (largest_distance(points_of_a_, axis.point, axis.direction) + slack);
-    by_b[h] = angle * (largest_distance(points_of_b_, placed(back, axis.point), turned(back, axis.direction)) + slack);
+    by_a[h] = angle * (largest_distance(points_of_a_, axis.point, axis.direction) + slack());
+    by_b[h] =
+        angle * (largest_distance(points_of_b_, placed(back, axis.point), turned(back, axis.direction)) + slack());
   }
   double change = std::accumulate(by_b.begin(), by_b.end(), 0.0);
   motion.change = change;

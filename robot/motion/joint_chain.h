@@ -56,6 +56,18 @@ class JointChain {
   Motion motion(std::span<const JointRange> box) const;
   Motion motion(std::span<const JointReach> reaches) const;
 
+  /// What happens while the freedoms go along a line in the space of their positions, each within its reach, and are
+  /// off that line by no more than `strays`.
+  struct Travel {
+    /// Proven: each point of b, in the frame of a, is within `bend` of the straight way between where the poses of the
+    /// line's ends put it, as they are computed by `motion`.
+    double bend = 0;
+    /// Proven: weighted by how far along the line they are, the ends are turned against what lies between by this
+    /// angle at most.
+    double turn = 0;
+  };
+  Travel travel(std::span<const JointReach> reaches, std::span<const double> strays) const;
+
   /// What rounding alone does to a distance, at most.
   double rounding() const { return rounding_; }
 
@@ -68,6 +80,14 @@ class JointChain {
   };
   static constexpr auto kNone = static_cast<std::size_t>(-1);
 
+  /// Of a joint, in the frame of a, with all freedoms in the middle.
+  struct Axis {
+    Vec3 point, direction;
+    double half = 0;   // how far the joint moves from the middle
+    double scale = 1;  // by how much more than its freedom
+  };
+  Pose set_axes(std::span<const JointReach> reaches, std::vector<Axis>& axes) const;
+  double slack() const;
   void find_hinges(const Robot& robot, std::size_t a, std::size_t b);
   void add_hinge(const Robot& robot, std::size_t joint, bool climbs);
   void find_ranges(const Robot& robot);

@@ -218,6 +218,23 @@ std::optional<double> JointPath::place_outside(std::size_t k, std::size_t row, c
   return fraction ? std::optional(static_cast<double>(row) + *fraction) : std::nullopt;
 }
 
+// The control points of a part of a curve, less those of the line, enclose the difference.
+double JointPath::stray(std::size_t k, double begin, double end) const {
+  const double from = reach(k, begin, begin).middle, to = reach(k, end, end).middle;
+  double stray = 0;
+  for (auto segment = static_cast<std::size_t>(begin); static_cast<double>(segment) < end; ++segment) {
+    const auto row = static_cast<double>(segment);
+    const Curve& curve = curves_[segment * joints_.size() + k];
+    const double u = std::max(begin - row, 0.0), v = std::min(end - row, 1.0);
+    for (std::size_t count = 0; count < curve.size(); ++count) {
+      const double place = row + std::lerp(u, v, static_cast<double>(count) / static_cast<double>(curve.size() - 1));
+      const double on_line = std::lerp(from, to, (place - begin) / (end - begin));
+      stray = std::max(stray, std::abs(blossom(curve, u, v, count) - on_line) + 2 * rounding_of(curve));
+    }
+  }
+  return stray + 0x1p-44 * std::max(std::abs(from), std::abs(to));
+}
+
 // The range of segments in a binary tree whose leaves begin at their number, from both ends upwards.
 JointRange JointPath::range(std::size_t k, std::size_t first, std::size_t last) const {
   const std::size_t leaves = tree_.size() / 2;

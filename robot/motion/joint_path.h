@@ -51,6 +51,9 @@ class JointPath {
   /// A place between a row and the next at which joints()[k] is outside of the limits by more than rounding. None if
   /// there is none, or if it goes straight, so that it is no farther outside than in the rows.
   std::optional<double> place_outside(std::size_t k, std::size_t row, const JointRange& limits) const;
+  /// How far joints()[k] is at most from the straight line, over places, between its positions_at two places. Rounding
+  /// is part of it.
+  double stray(std::size_t k, double begin, double end) const;
 
   /// All positions that each joint of the robot has on the path.
   std::vector<JointRange> ranges() const;

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "prohull/sweep.h"
+#include "robot/model.h"
+#include "robot/motion/joint_path.h"
+
+namespace prohull::robot {
+
+/// What encloses all positions of a link on a path, in the frame of the root that it hangs on.
+struct LinkSweep {
+  std::string link;
+  Sweep sweep;  ///< its volume is not measured
+};
+
+/// Encloses all positions of links along a path, by convex pieces, as `sweep` does it for a mesh. `links` are numbers
+/// in Robot::links. Links without the geometry have the other one; those with neither are left out.
+/// SweepOptions::max_distance is in metres; 0: 2 % of the diagonal of each link.
+///
+/// Guaranteed: as of `sweep`, for the path that JointPath describes, in real numbers. Curved shapes count as meshes
+/// around them.
+///
+/// Throws InputError: as mesh_triangles and convex_cover; InvalidOption for geometry that is not read, where positions
+/// of joints do not say where a link is, and for more than kMostSweptPieces. Throws Cancelled.
+///
+/// How it works: The path is divided. In each part of it a vertex of a convex piece stays near the straight way between
+/// its positions at the two ends: JointChain::travel. The convex hull of these positions, made larger by so much,
+/// encloses the piece all along.
+std::vector<LinkSweep> sweep_links(const Robot& robot, const JointPath& path, std::span<const std::size_t> links,
+                                   Geometry which, const SweepOptions& options = {});
+
+}  // namespace prohull::robot

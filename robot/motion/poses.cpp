@@ -1,0 +1,85 @@
+#include "robot/motion/poses.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "prohull/error.h"
+#include "robot/transform.h"
+
+namespace prohull::robot {
+namespace {
+
+/// None if one of the words is no number.
+std::optional<std::vector<double>> numbers_in(std::string_view line) {
+  constexpr const char* kBetween = ",; \t\r";
+  std::vector<double> numbers;
+  for (auto begin = line.find_first_not_of(kBetween); begin != line.npos;) {
+    const std::string_view word = line.substr(begin, line.find_first_of(kBetween, begin) - begin);
+    double number = 0;
+    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc() || rest != word.data() + word.size() || !std::isfinite(number)) return {};
+    numbers.push_back(number);
+    begin = line.find_first_not_of(kBetween, begin + word.size());
+  }
+  return numbers;
+}
+
+Pose normalized(const Pose& pose) {
+  require_rigid(pose);
+  const auto [w, x, y, z] = quaternion_of(pose);
+  return pose_of_quaternion(w, x, y, z, pose.translation);
+}
+
+std::optional<Pose> pose_of(const std::vector<double>& n) {
+  if (n.size() == 7) return pose_of_quaternion(n[3], n[4], n[5], n[6], {n[0], n[1], n[2]});
+  const bool is_matrix = n.size() == 12 || (n.size() == 16 && n[12] == 0 && n[13] == 0 && n[14] == 0 && n[15] == 1);
+  if (!is_matrix) return {};
+  return normalized({{Vec3{n[0], n[1], n[2]}, Vec3{n[4], n[5], n[6]}, Vec3{n[8], n[9], n[10]}}, {n[3], n[7], n[11]}});
+}
+
+RigidMotion motion_between(const Pose& from, const Pose& to) {
+  const Pose turn = composed({to.rotation, {}}, inverse({from.rotation, {}}));
+  auto [w, x, y, z] = quaternion_of(turn);
+  RigidMotion motion{
+      .start = from, .through = from.translation, .axis = {x, y, z}, .shift = to.translation - from.translation};
+  if (w < 0) motion.axis = -motion.axis;
+  motion.angle = 2 * std::atan2(norm(motion.axis), std::abs(w));
+  return motion;
+}
+
+}  // namespace
+
+std::vector<Pose> read_poses(std::string_view text, const std::string& file) {
+  std::vector<Pose> poses;
+  for (std::size_t line = 1; !text.empty(); ++line) {
+    const auto end = std::min(text.find('\n'), text.size());
+    const std::string_view row = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const auto first = row.find_first_not_of(" \t\r");
+    if (first == row.npos || row[first] == '#') continue;
+    const auto numbers = numbers_in(row);
+    const bool has_names = line == 1 && row.find_first_of("xyzw") != row.npos;
+    if (!numbers && has_names) continue;
+    const std::optional<Pose> pose = numbers ? pose_of(*numbers) : std::nullopt;
+    if (!pose)
+      throw InputError(Defect::Malformed, fmt::format("{}: line {}: expected x, y, z and a quaternion w, x, y, z, or "
+                                                      "the 12 or 16 numbers of a matrix",
+                                                      file, line));
+    poses.push_back(*pose);
+  }
+  if (poses.empty()) throw InputError(Defect::Malformed, fmt::format("{}: there are no poses", file));
+  return poses;
+}
+
+std::vector<RigidMotion> motions_between(std::span<const Pose> poses) {
+  if (poses.size() == 1) return {{.start = poses[0]}};
+  std::vector<RigidMotion> motions;
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i) motions.push_back(motion_between(poses[i], poses[i + 1]));
+  return motions;
+}
+
+}  // namespace prohull::robot

@@ -1,0 +1,150 @@
+#include "robot/motion/path_sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "geometry/predicates.h"
+#include "meshes.h"
+#include "prohull/error.h"
+#include "random.h"
+#include "robot/motion/kinematics.h"
+#include "robot/motion/poses.h"
+#include "robot/transform.h"
+#include "robot_of_joints.h"
+
+namespace prohull::robot {
+namespace {
+
+bool is_in_one(const Vec3& p, const std::vector<TriangleMesh>& pieces) {
+  return std::ranges::any_of(pieces, [&](const TriangleMesh& piece) {
+    return std::ranges::all_of(piece.triangles, [&](const auto& t) {
+      return side(piece.positions[t[0]], piece.positions[t[1]], piece.positions[t[2]], p) != Side::Outside;
+    });
+  });
+}
+
+/// Of the corners of the boxes at `count` places, which no piece holds.
+std::size_t outside(const std::vector<LinkSweep>& sweeps, const Robot& robot, const JointPath& path, int count) {
+  std::size_t outside = 0;
+  for (int i = 0; i <= count; ++i) {
+    const std::vector<Pose> poses = link_poses(moved_by(robot, path), path.positions_at(path.length() * i / count));
+    for (std::size_t link = 0; link < sweeps.size(); ++link)
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p{(corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2) - 0.5};
+        outside += !is_in_one(placed(poses[link], p), sweeps[link].sweep.pieces);
+      }
+  }
+  return outside;
+}
+
+TEST(PathSweep, EnclosesAllLinksOfRandomRobots) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto vector = [&] { return Vec3{number(random), number(random), number(random)}; };
+  const auto unit = [&] {
+    const Vec3 v = vector();
+    return v / norm(v);
+  };
+  for (int round = 0; round < 6; ++round) {
+    const Robot robot = robot_of(
+        5, {joint(JointType::Revolute, 0, 1, 2 * vector(), unit()), joint(JointType::Prismatic, 1, 2, vector(), unit()),
+            joint(JointType::Continuous, 2, 3, 2 * vector(), unit()),
+            mimicking(joint(JointType::Revolute, 3, 4, vector(), unit()), 0, -1.5, 0.2)});
+    PathRows rows{.joints = {"joint0", "joint1", "joint2"}};
+    for (int row = 0; row < 4; ++row) {
+      rows.positions.push_back({number(random), number(random), number(random)});
+      if (round % 2 == 1) rows.velocities.push_back({number(random), number(random), number(random)});
+      if (round % 3 == 2 && round % 2 == 1)
+        rows.accelerations.push_back({number(random), number(random), number(random)});
+    }
+    const JointPath path(robot, rows);
+    const std::vector<std::size_t> links{0, 1, 2, 3, 4};
+    const std::vector<LinkSweep> made = sweep_links(robot, path, links, Geometry::Collision,
+                                                    {.max_distance = 0.1, .float32_coordinates = round % 2 == 0});
+    ASSERT_EQ(made.size(), 5U);
+    EXPECT_EQ(made[0].sweep.pieces.size(), 1U) << "what does not move";
+    EXPECT_EQ(outside(made, robot, path, 300), 0U) << round;
+    for (const LinkSweep& link : made) EXPECT_LT(link.sweep.reach, 0.4);
+  }
+}
+
+TEST(PathSweep, IsAboutAsLargeAsWhatIsPassed) {
+  const Robot robot = robot_of(2, {joint(JointType::Revolute, 0, 1, {}, {0, 0, 1})});
+  const JointPath path(robot, {.joints = {"joint0"}, .positions = {{0}, {std::numbers::pi}}});
+  const std::size_t link = 1;
+  const Sweep made = sweep_links(robot, path, {{link}}, Geometry::Visual)[0].sweep;
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> coordinate(-0.8, 0.8);
+  int enclosed = 0, passed = 0;
+  for (int i = 0; i < 20'000; ++i) {  // the cube passes a disk
+    const Vec3 p{coordinate(random), coordinate(random), 0.1};
+    enclosed += is_in_one(p, made.pieces), passed += norm(Vec3{p.x, p.y, 0}) <= std::sqrt(0.5);
+  }
+  EXPECT_LT(enclosed, 1.05 * passed);
+  EXPECT_GE(enclosed, passed);
+}
+
+// Positions between rows that hardly move take one piece for all of them.
+TEST(PathSweep, TakesNoMorePiecesForMoreRows) {
+  const Robot robot = robot_of(2, {joint(JointType::Revolute, 0, 1, {}, {0, 0, 1})});
+  const std::size_t link = 1;
+  const auto pieces = [&](int rows) {
+    PathRows path{.joints = {"joint0"}};
+    for (int row = 0; row <= rows; ++row) path.positions.push_back({1.0 * row / rows});
+    return sweep_links(robot, JointPath(robot, path), {{link}}, Geometry::Visual)[0].sweep.pieces.size();
+  };
+  EXPECT_EQ(pieces(1), pieces(4096));
+}
+
+TEST(PathSweep, RefusesWhatTakesTooMuch) {
+  const Robot robot = robot_of(2, {joint(JointType::Revolute, 0, 1, {}, {0, 0, 1})});
+  const std::size_t link = 1;
+  const JointPath path(robot, {.joints = {"joint0"}, .positions = {{0}, {1}}});
+  EXPECT_THROW(sweep_links(robot, path, {{link}}, Geometry::Visual, {.max_distance = 1e-9}), InputError);
+}
+
+TEST(Poses, AreReadAsQuaternionsOrMatrices) {
+  const auto poses = read_poses(
+      "x,y,z,qw,qx,qy,qz\n1,2,3,1,0,0,0\n\n# half a turn\n1 2 3 0 0 0 2\n"
+      "0;-1;0;4;1;0;0;5;0;0;1;6\n1,0,0,7, 0,1,0,8, 0,0,1,9, 0,0,0,1\n",
+      "p.csv");
+  ASSERT_EQ(poses.size(), 4U);
+  EXPECT_EQ(poses[1].rotation[0], (Vec3{-1, 0, 0}));
+  EXPECT_EQ(poses[2].translation, (Vec3{4, 5, 6}));
+  EXPECT_EQ(poses[3].translation, (Vec3{7, 8, 9}));
+  for (const char* text : {"", "# none\n", "1,2,3\n", "1,2,3,nan,0,0,0\n", "x\n1,2,3,0,0,0,0\n", "1,2,3,1,0,0,z\n",
+                           "2,0,0,0, 0,1,0,0, 0,0,1,0\n"})
+    EXPECT_THROW(read_poses(text, "p.csv"), InputError) << text;
+}
+
+TEST(Poses, AreEnclosedWithTheWaysBetweenThem) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::vector<Pose> poses{{}, pose_of_quaternion(0, 0, 0, 1), pose_of_quaternion(1e-9, 1, 1, 0, {1, 0, 0})};
+  for (int i = 0; i < 5; ++i)
+    poses.push_back(pose_of_quaternion(number(random), number(random), number(random), number(random),
+                                       {number(random), number(random), number(random)}));
+  const TriangleMesh box = meshes::box({0, 0, 0}, {1, 0.5, 0.25});
+  const std::vector<RigidMotion> motions = motions_between(poses);
+  const Sweep made = sweep(box, motions);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    EXPECT_LE(motions[i].angle, std::numbers::pi + 1e-9);
+    for (int t = 0; t <= 50; ++t) {
+      const Pose turn = rotation_about(motions[i].axis, motions[i].angle * t / 50);
+      const Vec3 origin = poses[i].translation + motions[i].shift * (t / 50.0);
+      for (const Vec3& p : box.positions) {
+        const Vec3 at = placed(turn, placed({poses[i].rotation, {}}, p)) + origin;
+        EXPECT_TRUE(is_in_one(at, made.pieces));
+      }
+    }
+    for (const Vec3& p : box.positions) EXPECT_TRUE(is_in_one(placed(poses[i + 1], p), made.pieces));
+  }
+}
+
+}  // namespace
+}  // namespace prohull::robot
