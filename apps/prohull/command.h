@@ -53,6 +53,7 @@ void add_render(CLI::App& app, Run& run);
 void add_repair(CLI::App& app, Run& run);
 void add_sample(CLI::App& app, Run& run);
 void add_spheres(CLI::App& app, Run& run);
+void add_sweep(CLI::App& app, Run& run);
 void add_urdf(CLI::App& app, Run& run);
 void add_verify(CLI::App& app, Run& run);
 void add_view(CLI::App& app, Run& run);

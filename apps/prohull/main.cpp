@@ -24,6 +24,7 @@ void add_commands(CLI::App& app, Run& run) {
   add_spheres(app, run);
   add_urdf(app, run);
   add_motion(app, run);
+  add_sweep(app, run);
   add_repair(app, run);
   add_render(app, run);
   add_view(app, run);

@@ -1,0 +1,324 @@
+#include "prohull/sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "command.h"
+#include "prohull/enclosing_hull.h"
+#include "prohull/error.h"
+#include "prohull/mesh_io.h"
+#include "robot/files/piece_files.h"
+#include "robot/motion/path_sweep.h"
+#include "robot/motion/poses.h"
+#include "robot_summary.h"
+
+namespace prohull::cli {
+namespace {
+
+using namespace prohull::robot;
+using std::filesystem::path;
+
+struct SweepRunOptions {
+  path in, joint_path, out, report, poses;
+  std::string out_format, axis, through, move, links;
+  double degrees = 0;
+  std::size_t faces = 0;  ///< 0: pieces
+  Length max_distance;
+  InputOptions input;
+  robot::FileOptions file;
+  Geometry geometry = Geometry::Collision;
+  SweepOptions sweep;
+};
+
+/// What was swept, and what encloses it.
+struct SweptZone {
+  std::vector<LinkSweep> sweeps;  ///< of a mesh one, without a name
+  std::optional<EnclosingHull> hull;
+  double hull_distance = 0;  ///< of the hull from the pieces, at most
+  bool certified = false;    ///< and the file holds the very bits
+  double read_seconds = 0, seconds = 0;
+
+  std::vector<TriangleMesh> pieces() const {
+    std::vector<TriangleMesh> all;
+    for (const LinkSweep& link : sweeps) all.insert(all.end(), link.sweep.pieces.begin(), link.sweep.pieces.end());
+    return all;
+  }
+  double reach() const {
+    return std::ranges::max(sweeps, {}, [](const LinkSweep& link) { return link.sweep.reach; }).sweep.reach +
+           hull_distance;
+  }
+  bool covers_inside() const {
+    return std::ranges::all_of(sweeps, [](const LinkSweep& link) { return link.sweep.covers_inside; });
+  }
+};
+
+TriangleMesh joined(const std::vector<TriangleMesh>& pieces) {
+  TriangleMesh all;
+  for (const TriangleMesh& piece : pieces) append(all, piece);
+  return all;
+}
+
+Vec3 vector_of(const std::string& text, const char* what) {
+  const std::vector<double> numbers = numbers_of(text, 3, what);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+Vec3 axis_of(const std::string& text) {
+  constexpr Vec3 kAxes[]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const auto named = value_of(axis_names(), text);
+  return named ? kAxes[static_cast<std::size_t>(*named)] : vector_of(text, "axis");
+}
+
+std::vector<RigidMotion> motions_of(const SweepRunOptions& options) {
+  if (!options.poses.empty()) return motions_between(read_poses(read_bytes(options.poses), input_name(options.poses)));
+  if (options.degrees == 0 && options.move.empty()) refuse("how does it move? Say --angle, --move or --poses");
+  RigidMotion motion{.angle = options.degrees * kDegree};
+  if (!options.axis.empty()) motion.axis = axis_of(options.axis);
+  if (!options.through.empty()) motion.through = vector_of(options.through, "point");
+  if (!options.move.empty()) motion.shift = vector_of(options.move, "vector");
+  return {motion};
+}
+
+LinkSweep sweep_of_mesh(const SweepRunOptions& options, SweepOptions how, double& read_seconds) {
+  const std::vector<RigidMotion> motions = motions_of(options);
+  const Stopwatch reading;
+  TriangleMesh mesh = read_input(options.in, options.input);
+  read_seconds = reading.seconds();
+  if (options.max_distance.number > 0)
+    how.max_distance = MeshUnit(mesh, options.in, options.input).number_of(options.max_distance, "--max-distance");
+  try {
+    return {"", sweep(std::move(mesh), motions, how)};
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
+  }
+}
+
+std::vector<std::size_t> links_of(const Robot& robot, const std::string& names) {
+  std::vector<std::size_t> links(robot.links.size());
+  std::iota(links.begin(), links.end(), std::size_t{0});
+  if (names.empty()) return links;
+  links.clear();
+  for (const std::string& name : CLI::detail::split(names, ',')) {
+    const auto found = std::ranges::find(robot.links, name, &Link::name);
+    if (found == robot.links.end()) refuse(fmt::format("--links: the robot has no link '{}'", name));
+    links.push_back(static_cast<std::size_t>(found - robot.links.begin()));
+  }
+  return links;
+}
+
+std::vector<LinkSweep> sweeps_of_robot(const SweepRunOptions& options, SweepOptions how, double& read_seconds) {
+  if (options.joint_path.empty()) refuse("a robot needs a PATH of its joints: prohull sweep ROBOT PATH -o OUT");
+  const Stopwatch reading;
+  const RobotFile file = read_robot(options.in, options.file);
+  const JointPath path(file.robot, read_path_rows(read_bytes(options.joint_path), input_name(options.joint_path)));
+  read_seconds = reading.seconds();
+  const Length& most = options.max_distance;
+  if (most.unit == "%") refuse("--max-distance of a robot is in metres, or has a unit: 5mm");
+  if (most.number > 0) how.max_distance = most.of(0);
+  std::vector<LinkSweep> sweeps =
+      sweep_links(file.robot, path, links_of(file.robot, options.links), options.geometry, how);
+  if (sweeps.empty()) throw InputError(Defect::EmptyMesh, fmt::format("{}: no link has a shape", options.in.string()));
+  say_robot(file);
+  return sweeps;
+}
+
+void add_hull(const SweepRunOptions& options, bool float32, SweptZone& zone) {
+  ProgressLine line;
+  EnclosingOptions how;
+  how.hull.float32_coordinates = float32;
+  how.hull.threads = options.sweep.threads;
+  how.progress = std::ref(line);
+  const TriangleMesh all = joined(zone.pieces());
+  zone.hull = enclosing_hull(all, options.faces, how);
+  zone.hull_distance = distance_bounds(zone.hull->mesh, all).upper;
+}
+
+bool write(const SweepRunOptions& options, const std::string& suffix, const SweptZone& zone, Outputs& outputs) {
+  const std::vector<TriangleMesh> pieces = zone.hull ? std::vector<TriangleMesh>{zone.hull->mesh} : zone.pieces();
+  const TriangleMesh all = joined(pieces);
+  return outputs.add(options.out, suffix, [&](const path& file) {
+    if (!zone.hull && holds_several_meshes(mesh_format(file)))
+      write_meshes(file, pieces, piece_names("piece", pieces.size()));
+    else
+      write_mesh(file, all);
+    return holds_triangles_of(file, all);
+  });
+}
+
+std::string claim_of(const SweptZone& zone, bool is_robot) {
+  const std::string what = zone.hull ? "the hull as written encloses" : "the pieces as written enclose";
+  const std::string whose = is_robot ? "the links" : "the mesh";
+  return fmt::format("{} every triangle of {}{}, at every moment of the motion", what, whose,
+                     zone.covers_inside() ? ", and the inside" : "");
+}
+
+void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
+  const bool is_robot = is_robot_file(options.in);
+  const auto pieces = [](const LinkSweep& link) {
+    return counted(link.sweep.pieces.size(), "convex piece", "convex pieces");
+  };
+  for (const LinkSweep& link : zone.sweeps) {
+    for (const std::string& note : link.sweep.notes) say("  {}{}\n", link.link.empty() ? "" : link.link + ": ", note);
+    if (is_robot)
+      say("  {}: {}, at most {:.4g} mm from what it passes\n", link.link, pieces(link), 1e3 * link.sweep.reach);
+  }
+  if (zone.hull)
+    say("{}: hull of {}, volume {:.4g}", output_name(options.out),
+        counted(zone.hull->mesh.face_count(), "face", "faces"), signed_volume(zone.hull->mesh));
+  else if (is_robot)
+    say("{}: {}", output_name(options.out), counted(zone.pieces().size(), "convex piece", "convex pieces"));
+  else
+    say("{}: {}, volume {:.4g}", output_name(options.out), pieces(zone.sweeps[0]), zone.sweeps[0].sweep.volume);
+  say(", at most {:.4g} from what {} passes\n", zone.reach(), is_robot ? "the robot" : "the mesh");
+  if (zone.certified)
+    say("  certified: yes, {}\n", claim_of(zone, is_robot));
+  else
+    say("  certified: NO: nothing was written; please report this mesh\n");
+  say("  read {:.2f} s, sweep {:.2f} s\n", zone.read_seconds, zone.seconds);
+}
+
+nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) {
+  nlohmann::json sweeps = nlohmann::json::array();
+  for (const LinkSweep& link : zone.sweeps)
+    sweeps.push_back({{"link", link.link.empty() ? nlohmann::json() : nlohmann::json(link.link)},
+                      {"pieces", link.sweep.pieces.size()},
+                      {"cover_pieces", link.sweep.cover_pieces},
+                      {"covers_inside", link.sweep.covers_inside},
+                      {"reach", link.sweep.reach},
+                      {"notes", link.sweep.notes}});
+  const bool has_volume = zone.hull || !is_robot_file(options.in);
+  const double volume = zone.hull ? signed_volume(zone.hull->mesh) : zone.sweeps[0].sweep.volume;
+  return {{"input", {{"path", options.in.string()}}},
+          {"path", options.out.string()},
+          {"pieces", zone.pieces().size()},
+          {"hull_faces", zone.hull ? nlohmann::json(zone.hull->mesh.face_count()) : nlohmann::json()},
+          {"certified", zone.certified},
+          {"reach", zone.reach()},
+          {"volume", has_volume ? nlohmann::json(volume) : nlohmann::json()},
+          {"sweeps", sweeps},
+          {"seconds", {{"read", zone.read_seconds}, {"sweep", zone.seconds}}}};
+}
+
+void check_options(const SweepRunOptions& options) {
+  const bool has_turn = !options.axis.empty() || !options.through.empty() || options.degrees != 0;
+  const bool moves = has_turn || !options.move.empty() || !options.poses.empty();
+  if (is_robot_file(options.in) && moves) refuse("a robot moves by its PATH: leave --angle, --move and --poses out");
+  if (is_robot_file(options.in)) return;
+  if (!options.joint_path.empty()) refuse("PATH is of the joints of a robot: URDF, SDF or MJCF");
+  if (!options.links.empty()) refuse("--links is for robots");
+}
+
+int run_sweep(const SweepRunOptions& options) {
+  const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
+  check_options(options);
+  check_files({options.in, options.joint_path, options.poses}, {options.out, options.report});
+  const bool float32 = stores_float32(mesh_format("x" + suffix));
+  SweptZone zone;
+  const Stopwatch watch;
+  {
+    ProgressLine line;
+    SweepOptions how = options.sweep;
+    how.progress = std::ref(line);
+    how.float32_coordinates = float32;
+    if (is_robot_file(options.in))
+      zone.sweeps = sweeps_of_robot(options, how, zone.read_seconds);
+    else
+      zone.sweeps.push_back(sweep_of_mesh(options, how, zone.read_seconds));
+  }
+  if (options.faces > 0) add_hull(options, float32, zone);
+  zone.seconds = watch.seconds() - zone.read_seconds;
+  Outputs outputs, report;
+  zone.certified = (!zone.hull || zone.hull->certified) && write(options, suffix, zone, outputs);
+  report.add_report(options.report, report_of(options, zone));
+  if (zone.certified) outputs.commit();
+  report.commit();
+  print_summary(options, zone);
+  return zone.certified ? kDone : kAnswerIsNo;
+}
+
+void add_motion_options(CLI::App& command, SweepRunOptions& options) {
+  constexpr const char* kHow = "How a mesh moves";
+  command
+      .add_option("--axis", options.axis,
+                  "Direction of the axis about which the mesh turns: x, y, z or X,Y,Z. The default is z.")
+      ->type_name("AXIS")
+      ->group(kHow);
+  command
+      .add_option("--through", options.through,
+                  "A point of the axis at the beginning. The default is the origin, 0,0,0.")
+      ->type_name("X,Y,Z")
+      ->group(kHow);
+  add_optional_number(command, "--angle", options.degrees, {-1e7, 1e7},
+                      "Angle by which the mesh turns, in degrees, counter-clockwise if one looks against the axis.")
+      ->type_name("DEGREES")
+      ->group(kHow);
+  CLI::Option* const move =
+      command
+          .add_option("--move", options.move,
+                      "Move the mesh straight by this vector. With --angle it turns meanwhile, as a screw does.")
+          ->type_name("X,Y,Z")
+          ->group(kHow);
+  CLI::Option* const poses =
+      command
+          .add_option(
+              "--poses", options.poses,
+              "File with a pose in each line: x, y, z and the quaternion w, x, y, z, or the 12 or 16 numbers of "
+              "a matrix. From one pose to the next the origin goes straight, and the mesh turns about one axis "
+              "the shorter way round.")
+          ->type_name("FILE.csv")
+          ->group(kHow);
+  for (const char* const name : {"--axis", "--through", "--angle"}) poses->excludes(command.get_option(name));
+  poses->excludes(move);
+}
+
+void add_robot_options(CLI::App& command, SweepRunOptions& options) {
+  constexpr const char* kRobots = "Robots";
+  command.add_option("--links", options.links, "Links to sweep, as in link1,link2. Without it, all links are swept.")
+      ->type_name("A,B")
+      ->group(kRobots);
+  add_choice(command, "--geometry", options.geometry, geometry_names(),
+             "Geometry of the links that counts. A link that has none of it counts by the other one.")
+      ->group(kRobots);
+  add_robot_file_options(command, options.file);
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<SweepRunOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "sweep",
+      "Encloses all positions of a mesh along a motion, or of a robot along a path: the swept volume, as a zone to "
+      "keep "
+      "free. It is proven for every moment, not sampled. The result is a union of convex pieces, or with --faces one "
+      "closed mesh around them.");
+  add_mesh_input(command, options->in, options->input, "Mesh to move, or a robot: URDF, SDF or MJCF.");
+  command
+      .add_option("path", options->joint_path,
+                  "Of a robot, the path of its joints: CSV or JSON, as `prohull motion` reads it.")
+      ->type_name("PATH");
+  add_mesh_output_options(command, options->out, options->out_format, "the zone");
+  add_optional_number(command, "--faces", options->faces, {4, 1e10},
+                      "Write one closed mesh of at most this number of faces, which encloses all pieces, in place of "
+                      "the pieces.");
+  add_number(command, "--pieces", options->sweep.max_pieces, {1, 1000},
+             "Largest number of convex pieces by which the mesh, or each link, is covered before it moves.");
+  add_length(command, "--max-distance", options->max_distance,
+             "How far slices of the motion may add to the distance of the pieces from what is passed. Less takes more "
+             "slices. The default is 2 % of the diagonal of the mesh, or of each link.");
+  add_threads_option(command, options->sweep.threads, "The pieces are the same for any number.");
+  add_report_option(command, options->report);
+  add_motion_options(command, *options);
+  add_robot_options(command, *options);
+  add_examples(command, {"prohull sweep door.stl --axis z --through 0,1,0 --angle 90 -o zone.stl",
+                         "prohull sweep tool.stl --move 0,0,-50 -o zone.obj",
+                         "prohull sweep tool.stl --poses path.csv --faces 500 -o zone.stl --report zone.json",
+                         "prohull sweep arm.urdf pick.csv --links link5,link6 -o zone.glb"});
+  command.callback([options, &run] { run = [options] { return run_sweep(*options); }; });
+}
+
+}  // namespace prohull::cli

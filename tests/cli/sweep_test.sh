@@ -1,0 +1,90 @@
+#!/bin/sh
+# Drives `prohull sweep` as a user would: sweep_test.sh PROHULL
+# Each check names what it defends; the last line counts them.
+set -u
+prohull=$1
+. "$(dirname "$0")/checks.sh"
+cat >bar.off <<'MESH'
+OFF
+8 6 0
+0 -0.1 0
+1 -0.1 0
+1 0.1 0
+0 0.1 0
+0 -0.1 0.2
+1 -0.1 0.2
+1 0.1 0.2
+0 0.1 0.2
+4 3 2 1 0
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+MESH
+sweep="$prohull sweep bar.off"
+
+# --- a mesh that turns ---
+expect 0 "a quarter turn" $sweep --angle 90 -o quarter.stl --report quarter.json
+says out "a quarter turn" "certified: yes, the pieces as written enclose every triangle of the mesh, and the inside, at every moment"
+says quarter.json "the report" '"certified": true'
+says quarter.json "the report" '"covers_inside": true'
+expect 0 "it covers the beginning" $prohull verify quarter.stl bar.off
+printf 'OFF\n8 6 0\n0.1 0 0\n0.1 1 0\n-0.1 1 0\n-0.1 0 0\n0.1 0 0.2\n0.1 1 0.2\n-0.1 1 0.2\n-0.1 0 0.2\n' >end.off
+sed -n 11,16p bar.off >>end.off
+expect 0 "it covers the end" $prohull verify quarter.stl end.off
+expect 0 "the axis as a vector, through a point" \
+  $sweep --axis 0,0,2 --through 0,0,7 --angle 90 -o vector.obj --threads 1
+says vector.obj "an object for each piece" "o piece_01"
+expect 0 "more slices" $sweep --angle 90 --max-distance 0.2% -o fine.ply
+expect 0 "one mesh" $sweep --angle 90 --faces 100 -o hull.stl
+says out "one mesh" "hull of 100 faces"
+says out "one mesh" "certified: yes, the hull as written encloses every triangle of the mesh, and the inside"
+expect 0 "one mesh covers the end" $prohull verify hull.stl end.off
+expect 0 "standard output" $sweep --angle 90 -o - --out-format stl
+is "standard output gets the same" cmp out quarter.stl
+
+# --- other motions ---
+expect 0 "a straight move" $sweep --move 0,0,1 -o move.stl
+says out "a straight move" "1 convex piece, volume 0.24,"
+expect 0 "a screw" $sweep --angle 720 --move 0,0,1 -o screw.stl
+printf 'x,y,z,qw,qx,qy,qz\n0,0,0,1,0,0,0\n0,0,0,1,0,0,1\n' >poses.csv
+expect 0 "poses" $sweep --poses poses.csv -o poses.stl
+expect 0 "poses cover the end" $prohull verify poses.stl end.off
+printf 'bar.off 1\n' >bad.csv
+expect 3 "no poses" $sweep --poses bad.csv -o no.stl
+says err "no poses" "bad.csv: line 1: expected x, y, z and a quaternion"
+
+# --- what is refused ---
+expect 2 "no motion" $sweep -o no.stl
+says err "no motion" "how does it move?"
+expect 2 "an axis without length" $sweep --axis 0,0,0 --angle 5 -o no.stl
+expect 2 "no number" $sweep --axis nan,0,0 --angle 5 -o no.stl
+expect 2 "poses and an angle" $sweep --poses poses.csv --angle 5 -o no.stl
+expect 2 "too many slices" $sweep --angle 90 --max-distance 1e-9 -o no.stl
+says err "too many slices" "more than 50000 convex pieces"
+expect 2 "a path of a mesh" $sweep poses.csv -o no.stl
+expect 3 "no mesh" $prohull sweep nowhere.stl --angle 5 -o no.stl
+absent no.stl "what is refused writes nothing"
+
+# --- a robot ---
+cat >arm.urdf <<'URDF'
+<robot name="arm">
+  <link name="base"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  <link name="bar"><collision><origin xyz="0.5 0 0.1"/><geometry><box size="1 0.2 0.2"/></geometry></collision></link>
+  <joint name="turn" type="revolute"><parent link="base"/><child link="bar"/><axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+</robot>
+URDF
+printf 'turn\n0\n1.5707963267948966\n' >turn.csv
+expect 0 "a robot" $prohull sweep arm.urdf turn.csv -o arm.stl --report arm.json
+says out "a robot" "certified: yes, the pieces as written enclose every triangle of the links, and the inside"
+says arm.json "each link" '"link": "bar"'
+expect 0 "a robot at the beginning" $prohull verify arm.stl bar.off
+expect 0 "one link" $prohull sweep arm.urdf turn.csv --links bar --faces 200 -o bar.glb
+expect 2 "no such link" $prohull sweep arm.urdf turn.csv --links elbow -o no.stl
+says err "no such link" "the robot has no link 'elbow'"
+expect 2 "a robot without a path" $prohull sweep arm.urdf -o no.stl
+expect 2 "a robot that turns" $prohull sweep arm.urdf turn.csv --angle 5 -o no.stl
+
+count_checks
