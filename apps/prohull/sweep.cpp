@@ -172,7 +172,7 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
   else if (is_robot)
     say("{}: {}", output_name(options.out), counted(zone.pieces().size(), "convex piece", "convex pieces"));
   else
-    say("{}: {}, volume {:.4g}", output_name(options.out), pieces(zone.sweeps[0]), zone.sweeps[0].sweep.volume);
+    say("{}: {}, volume about {:.3g}", output_name(options.out), pieces(zone.sweeps[0]), zone.sweeps[0].sweep.volume);
   say(", at most {:.4g} from what {} passes\n", zone.reach(), is_robot ? "the robot" : "the mesh");
   if (zone.certified)
     say("  certified: yes, {}\n", claim_of(zone, is_robot));
@@ -199,6 +199,7 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
           {"certified", zone.certified},
           {"reach", zone.reach()},
           {"volume", has_volume ? nlohmann::json(volume) : nlohmann::json()},
+          {"volume_is_estimated", !zone.hull},
           {"sweeps", sweeps},
           {"seconds", {{"read", zone.read_seconds}, {"sweep", zone.seconds}}}};
 }

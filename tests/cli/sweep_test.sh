@@ -46,7 +46,7 @@ is "standard output gets the same" cmp out quarter.stl
 
 # --- other motions ---
 expect 0 "a straight move" $sweep --move 0,0,1 -o move.stl
-says out "a straight move" "1 convex piece, volume 0.24,"
+says out "a straight move" "1 convex piece, volume about 0.24,"
 expect 0 "a screw" $sweep --angle 720 --move 0,0,1 -o screw.stl
 printf 'x,y,z,qw,qx,qy,qz\n0,0,0,1,0,0,0\n0,0,0,1,0,0,1\n' >poses.csv
 expect 0 "poses" $sweep --poses poses.csv -o poses.stl
