@@ -601,7 +601,8 @@ bad() {
 head -c 1000 rock.ply >truncated.ply
 bad "truncated file" truncated.ply "truncated.ply: byte"
 bad "missing file" nowhere.ply "nowhere.ply: cannot read: there is no such file; look at its name and its folder"
-bad "folder as file" . "cannot read: it is a folder; name a file in it"
+expect 3 "folder as file" $prohull info .
+says err "folder as file" "cannot read: it is a folder; name a file in it"
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 nan 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >nan.off
 bad "NaN" nan.off "not finite" "--repair none"
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 9\n3 1 2 3\n3 2 0 3\n' >index.off
