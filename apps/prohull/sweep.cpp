@@ -105,6 +105,7 @@ std::vector<std::size_t> links_of(const Robot& robot, const std::string& names) 
   for (const std::string& name : CLI::detail::split(names, ',')) {
     const auto found = std::ranges::find(robot.links, name, &Link::name);
     if (found == robot.links.end()) refuse(fmt::format("--links: the robot has no link '{}'", name));
+    if (found->visual.empty() && found->collision.empty()) refuse(fmt::format("--links: '{}' has no shape", name));
     links.push_back(static_cast<std::size_t>(found - robot.links.begin()));
   }
   return links;

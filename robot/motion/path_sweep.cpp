@@ -107,14 +107,25 @@ class PieceSweep {
   std::vector<std::optional<std::size_t>> numbers_;  // of the chain's freedoms on the path
 };
 
+TriangleMesh triangles_of(const Shape& shape, const std::string& link) {
+  if (const auto* const form = std::get_if<OtherForm>(&shape.form))
+    refuse(fmt::format("{}: its geometry of type {} is not read", link, form->what));
+  TriangleMesh mesh = link_triangles({&shape, 1}, {});
+  if (mesh.face_count() == 0)
+    throw InputError(Defect::EmptyMesh, fmt::format("{}: a mesh of it has no triangles", link));
+  if (with_finite_faces(mesh).face_count() != mesh.face_count())
+    throw InputError(Defect::NonFiniteCoordinate,
+                     fmt::format("{}: a mesh of it has corners that are not finite", link));
+  return mesh;
+}
+
 /// By one of its geometries; without faces if it has none.
 TriangleMesh triangles_of(const Link& link, Geometry which) {
   const Geometry other = which == Geometry::Visual ? Geometry::Collision : Geometry::Visual;
-  const std::vector<Shape>& used = shapes(link, which).empty() ? shapes(link, other) : shapes(link, which);
-  for (const Shape& shape : used)
-    if (const auto* const form = std::get_if<OtherForm>(&shape.form))
-      refuse(fmt::format("{}: its geometry of type {} is not read", link.name, form->what));
-  return with_finite_faces(link_triangles(used, {}));
+  TriangleMesh mesh;
+  for (const Shape& shape : shapes(link, which).empty() ? shapes(link, other) : shapes(link, which))
+    append(mesh, triangles_of(shape, link.name));
+  return mesh;
 }
 
 }  // namespace

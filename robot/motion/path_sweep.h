@@ -23,7 +23,8 @@ struct LinkSweep {
 /// Guaranteed: as of `sweep`, for the path that JointPath describes, in real numbers. Curved shapes count as meshes
 /// around them.
 ///
-/// Throws InputError: as mesh_triangles and convex_cover; InvalidOption for geometry that is not read, where positions
+/// Throws InputError: as mesh_triangles and convex_cover; EmptyMesh and NonFiniteCoordinate for a link with a mesh that
+/// has no triangles, or corners that are not finite; InvalidOption for geometry that is not read, where positions
 /// of joints do not say where a link is, and for more than kMostSweptPieces. Throws Cancelled.
 ///
 /// How it works: The path is divided. In each part of it a vertex of a convex piece stays near the straight way between

@@ -28,6 +28,18 @@ std::optional<std::vector<double>> numbers_in(std::string_view line) {
   return numbers;
 }
 
+bool names_columns(std::string_view row) {
+  return row.find_first_of("+-.0123456789") != 0 && row.find_first_of("xyzw") != row.npos;
+}
+
+/// Of the columns that the names tell.
+void check_order(std::string_view names, const std::string& file) {
+  const auto w = names.rfind('w'), z = names.rfind('z');
+  if (w != names.npos && z != names.npos && w > z)
+    throw InputError(Defect::Malformed,
+                     fmt::format("{}: line 1: the w of the quaternion comes last; expected x, y, z, w, x, y, z", file));
+}
+
 Pose normalized(const Pose& pose) {
   require_rigid(pose);
   const auto [w, x, y, z] = quaternion_of(pose);
@@ -47,7 +59,9 @@ RigidMotion motion_between(const Pose& from, const Pose& to) {
   RigidMotion motion{
       .start = from, .through = from.translation, .axis = {x, y, z}, .shift = to.translation - from.translation};
   if (w < 0) motion.axis = -motion.axis;
-  motion.angle = 2 * std::atan2(norm(motion.axis), std::abs(w));
+  const double length = norm(motion.axis);
+  motion.angle = 2 * std::atan2(length, std::abs(w));
+  if (length > 0) motion.axis = motion.axis / length;
   return motion;
 }
 
@@ -62,8 +76,10 @@ std::vector<Pose> read_poses(std::string_view text, const std::string& file) {
     const auto first = row.find_first_not_of(" \t\r");
     if (first == row.npos || row[first] == '#') continue;
     const auto numbers = numbers_in(row);
-    const bool has_names = line == 1 && row.find_first_of("xyzw") != row.npos;
-    if (!numbers && has_names) continue;
+    if (!numbers && line == 1 && names_columns(row.substr(first))) {
+      check_order(row, file);
+      continue;
+    }
     const std::optional<Pose> pose = numbers ? pose_of(*numbers) : std::nullopt;
     if (!pose)
       throw InputError(Defect::Malformed, fmt::format("{}: line {}: expected x, y, z and a quaternion w, x, y, z, or "

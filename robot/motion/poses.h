@@ -11,8 +11,9 @@ namespace prohull::robot {
 
 /// Reads poses, one a line: 7 numbers, x, y, z and the quaternion w, x, y, z; or the 12 or 16 of a matrix, row by row.
 /// Commas, semicolons, tabs or blanks stand between them. Blank lines, lines that begin with #, and a first line of
-/// names are skipped. Quaternions and matrices are made rotations, but for rounding. Throws InputError(Malformed) with
-/// the file and the line; InputError(InvalidOption) for a matrix that is far from a rotation.
+/// names are skipped, but for names that tell w as the last column: those are refused. Quaternions and matrices are
+/// made rotations, but for rounding. Throws InputError(Malformed) with the file and the line; InputError(InvalidOption)
+/// for a matrix that is far from a rotation.
 std::vector<Pose> read_poses(std::string_view text, const std::string& file);
 
 /// From each pose to the next: the origin of the body's frame goes straight, and the body turns about one axis the

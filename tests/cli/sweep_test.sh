@@ -84,6 +84,9 @@ expect 0 "a robot at the beginning" $prohull verify arm.stl bar.off
 expect 0 "one link" $prohull sweep arm.urdf turn.csv --links bar --faces 200 -o bar.glb
 expect 2 "no such link" $prohull sweep arm.urdf turn.csv --links elbow -o no.stl
 says err "no such link" "the robot has no link 'elbow'"
+sed 's|<link name="base">.*|<link name="base"/>|' arm.urdf >bare.urdf
+expect 2 "a link without a shape" $prohull sweep bare.urdf turn.csv --links base,bar -o no.stl
+says err "a link without a shape" "--links: 'base' has no shape"
 expect 2 "a robot without a path" $prohull sweep arm.urdf -o no.stl
 expect 2 "a robot that turns" $prohull sweep arm.urdf turn.csv --angle 5 -o no.stl
 

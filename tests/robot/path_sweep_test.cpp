@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "geometry/predicates.h"
@@ -101,6 +103,23 @@ TEST(PathSweep, TakesNoMorePiecesForMoreRows) {
   EXPECT_EQ(pieces(1), pieces(4096));
 }
 
+Robot robot_of_meshes(const std::string& file) {
+  Robot robot = robot_of(2, {joint(JointType::Revolute, 0, 1, {}, {0, 0, 1})});
+  robot.links[1].visual.push_back({MeshFile{.uri = file, .path = file}});
+  return robot;
+}
+
+TEST(PathSweep, RefusesMeshesThatItCannotEnclose) {
+  std::ofstream("none.obj") << "";
+  std::ofstream("nan.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\n";
+  const std::size_t link = 1;
+  for (const char* const file : {"none.obj", "nan.obj"}) {
+    const Robot robot = robot_of_meshes(file);
+    const JointPath path(robot, {.joints = {"joint0"}, .positions = {{0}, {1}}});
+    EXPECT_THROW(sweep_links(robot, path, {{link}}, Geometry::Visual), InputError) << file;
+  }
+}
+
 TEST(PathSweep, RefusesWhatTakesTooMuch) {
   const Robot robot = robot_of(2, {joint(JointType::Revolute, 0, 1, {}, {0, 0, 1})});
   const std::size_t link = 1;
@@ -117,9 +136,15 @@ TEST(Poses, AreReadAsQuaternionsOrMatrices) {
   EXPECT_EQ(poses[1].rotation[0], (Vec3{-1, 0, 0}));
   EXPECT_EQ(poses[2].translation, (Vec3{4, 5, 6}));
   EXPECT_EQ(poses[3].translation, (Vec3{7, 8, 9}));
-  for (const char* text : {"", "# none\n", "1,2,3\n", "1,2,3,nan,0,0,0\n", "x\n1,2,3,0,0,0,0\n", "1,2,3,1,0,0,z\n",
-                           "2,0,0,0, 0,1,0,0, 0,0,1,0\n"})
+  for (const char* text :
+       {"", "# none\n", "1,2,3\n", "1,2,3,nan,0,0,0\n", "x\n1,2,3,0,0,0,0\n", "1,2,3,1,0,0,z\n",
+        "2,0,0,0, 0,1,0,0, 0,0,1,0\n", "1,2,3,1,0,0,0x\n0,0,0,1,0,0,0\n", "x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,1\n"})
     EXPECT_THROW(read_poses(text, "p.csv"), InputError) << text;
+}
+
+TEST(Poses, TurnByLessThanDoublesCanSquare) {
+  const std::vector<Pose> poses = read_poses("0 0 0 1 0 0 0\n1 0 0 1 0 0 1e-150\n", "p.csv");
+  EXPECT_EQ(sweep(meshes::box({0, 0, 0}, {1, 1, 1}), motions_between(poses)).pieces.size(), 1U);
 }
 
 TEST(Poses, AreEnclosedWithTheWaysBetweenThem) {
