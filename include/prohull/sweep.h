@@ -49,8 +49,9 @@ struct Sweep {
 
 /// Encloses all positions of a mesh along motions, one after the other, by convex pieces.
 ///
-/// Guaranteed: each position of each triangle lies in the union of the pieces, at every moment of the motions, in real
-/// numbers; and so does the inside where `covers_inside` says so. Rounding is part of the bounds.
+/// Guaranteed: each position of each finite triangle lies in the union of the pieces, at every moment of the motions,
+/// in real numbers; and so does the inside where `covers_inside` says so. Rounding is part of the bounds. `notes` tell
+/// how many triangles are not finite.
 ///
 /// Throws InputError as convex_cover; NonFiniteCoordinate for a motion that is not finite or goes beyond 1e100;
 /// InvalidOption for an axis of length 0, no motion, and motions that take more than kMostSweptPieces; Cancelled.

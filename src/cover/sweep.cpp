@@ -303,6 +303,9 @@ Sweep sweep(TriangleMesh mesh, std::span<const RigidMotion> motions, const Sweep
   result.covers_inside = cover.covers_inside;
   result.cover_pieces = cover.pieces.size();
   result.notes = std::move(cover.notes);
+  if (cover.non_finite_faces > 0)
+    result.notes.push_back(
+        fmt::format("triangles with corners that are not finite were left out: {}", cover.non_finite_faces));
   result.pieces.resize(slices.size());
   std::vector<double> reach(slices.size());
   ProgressMeter meter(options.progress, "sweep");

@@ -230,5 +230,14 @@ TEST(Sweep, IsTheSameForAnyNumberOfThreads) {
             sweep(mesh, {{motion}}, {.max_pieces = 3}).pieces);
 }
 
+TEST(Sweep, TellsOfTrianglesThatAreNotFinite) {
+  TriangleMesh mesh = meshes::box({0, 0, 0}, {1, 1, 1});
+  mesh.positions.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
+  mesh.triangles.push_back({VertexId{0}, VertexId{1}, VertexId{8}});
+  const Sweep made = sweep(mesh, {{{.shift = {0, 0, 1}}}});
+  ASSERT_FALSE(made.notes.empty());
+  EXPECT_EQ(made.notes.back(), "triangles with corners that are not finite were left out: 1");
+}
+
 }  // namespace
 }  // namespace prohull
