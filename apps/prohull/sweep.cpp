@@ -54,6 +54,9 @@ struct SweptZone {
   bool covers_inside() const {
     return std::ranges::all_of(sweeps, [](const LinkSweep& link) { return link.sweep.covers_inside; });
   }
+  bool has_openings() const {
+    return std::ranges::any_of(sweeps, [](const LinkSweep& link) { return link.sweep.has_openings; });
+  }
 };
 
 TriangleMesh joined(const std::vector<TriangleMesh>& pieces) {
@@ -154,7 +157,9 @@ std::string claim_of(const SweptZone& zone, bool is_robot) {
   const std::string what = zone.hull ? "the hull as written encloses" : "the pieces as written enclose";
   const std::string whose = is_robot ? "the links" : "the mesh";
   return fmt::format("{} every triangle of {}{}, at every moment of the motion", what, whose,
-                     zone.covers_inside() ? ", and the inside" : "");
+                     !zone.covers_inside() ? ""
+                     : zone.has_openings() ? ", and the inside with openings closed"
+                                           : ", and the inside");
 }
 
 void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
@@ -189,6 +194,7 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
                       {"pieces", link.sweep.pieces.size()},
                       {"cover_pieces", link.sweep.cover_pieces},
                       {"covers_inside", link.sweep.covers_inside},
+                      {"has_openings", link.sweep.has_openings},
                       {"reach", link.sweep.reach},
                       {"notes", link.sweep.notes}});
   const bool has_volume = zone.hull || !is_robot_file(options.in);
@@ -251,7 +257,8 @@ void add_motion_options(CLI::App& command, SweepRunOptions& options) {
       ->group(kHow);
   command
       .add_option("--through", options.through,
-                  "A point of the axis at the beginning. The default is the origin, 0,0,0.")
+                  "A point of the axis at the beginning, in the unit of the mesh as it is read. The default is the "
+                  "origin, 0,0,0.")
       ->type_name("X,Y,Z")
       ->group(kHow);
   add_optional_number(command, "--angle", options.degrees, {-1e7, 1e7},
@@ -261,7 +268,8 @@ void add_motion_options(CLI::App& command, SweepRunOptions& options) {
   CLI::Option* const move =
       command
           .add_option("--move", options.move,
-                      "Move the mesh straight by this vector. With --angle it turns meanwhile, as a screw does.")
+                      "Move the mesh straight by this vector, in the unit of the mesh as it is read, after --scale and "
+                      "--unit. With --angle it turns meanwhile, as a screw does.")
           ->type_name("X,Y,Z")
           ->group(kHow);
   CLI::Option* const poses =

@@ -37,7 +37,8 @@ inline constexpr std::size_t kMostSweptPieces = 50'000;
 
 struct Sweep {
   std::vector<TriangleMesh> pieces;  ///< convex polytopes: closed, outwards, no vertex outside of a face's plane
-  bool covers_inside = false;        ///< what is enclosed: also the inside of the mesh, as ConvexCover says it
+  bool covers_inside = false;        ///< what is enclosed: also the inside of the mesh, as ConvexCover says it,
+  bool has_openings = false;         ///< with its openings closed, which it then has
   double volume = 0;                 ///< of the union of the pieces, measured along 10,000 lines
   /// Proven: no point of the pieces is farther from all positions of the mesh's solid, or of its triangles if there is
   /// none.

@@ -150,7 +150,7 @@ std::vector<LinkSweep> sweep_links(const Robot& robot, const JointPath& path, st
       owners.push_back(sweeps.size());
     }
     LinkSweep& made = sweeps.emplace_back(LinkSweep{robot.links[link].name, {}});
-    made.sweep.covers_inside = cover.covers_inside;
+    made.sweep.covers_inside = cover.covers_inside, made.sweep.has_openings = cover.has_openings;
     made.sweep.reach = cover.reach.upper;
     made.sweep.cover_pieces = cover.pieces.size();
     made.sweep.notes = std::move(cover.notes);

@@ -300,7 +300,7 @@ Sweep sweep(TriangleMesh mesh, std::span<const RigidMotion> motions, const Sweep
   const std::vector<Slice> slices =
       slices_of(moved, options.max_distance > 0 ? options.max_distance : kUsualDistance * diagonal);
   Sweep result;
-  result.covers_inside = cover.covers_inside;
+  result.covers_inside = cover.covers_inside, result.has_openings = cover.has_openings;
   result.cover_pieces = cover.pieces.size();
   result.notes = std::move(cover.notes);
   if (cover.non_finite_faces > 0)

@@ -90,4 +90,9 @@ says err "a link without a shape" "--links: 'base' has no shape"
 expect 2 "a robot without a path" $prohull sweep arm.urdf -o no.stl
 expect 2 "a robot that turns" $prohull sweep arm.urdf turn.csv --angle 5 -o no.stl
 
+printf '%s\n' OFF '8 10 0' '0 0 0' '1 0 0' '1 1 0' '0 1 0' '0 0 1' '1 0 1' '1 1 1' '0 1 1' '3 0 2 1' '3 0 3 2' '3 0 1 5' \
+  '3 0 5 4' '3 1 2 6' '3 1 6 5' '3 2 3 7' '3 2 7 6' '3 3 0 4' '3 3 4 7' >bucket.off
+expect 0 "an open mesh" $prohull sweep bucket.off --angle 30 -o bucket.obj
+says out "an open mesh" "and the inside with openings closed, at every moment"
+
 count_checks
