@@ -62,7 +62,9 @@ void stop_if_interrupted() {
 
 int tell_interrupted() {
   if (isatty(STDERR_FILENO)) std::fputs("\r\x1b[K", stderr);
-  tell("prohull: interrupted; nothing was written\n", stderr);
+  tell(has_any_output_appeared() ? "prohull: interrupted; only what was finished before is written\n"
+                                 : "prohull: interrupted; nothing was written\n",
+       stderr);
   return kInterrupted;
 }
 

@@ -12,7 +12,7 @@ bool interrupted();
 /// Throws Cancelled if the user has interrupted.
 void stop_if_interrupted();
 
-/// Says that nothing was written; returns kInterrupted.
+/// Says that nothing was written, or no more than what was finished before; returns kInterrupted.
 int tell_interrupted();
 
 }  // namespace prohull::cli

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <fstream>
@@ -29,6 +30,7 @@ using std::filesystem::path;
 /// Held while outputs appear, and for good by the thread that ends the program.
 std::mutex g_mutex;
 std::vector<path> g_temporaries, g_folders;
+std::atomic<bool> g_any_has_appeared = false;
 
 [[noreturn]] void fail_to_write(const path& target, const std::string& why) {
   throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write: {}", target.string(), why));
@@ -219,11 +221,14 @@ void Outputs::commit() {
           std::filesystem::permissions(temporary, std::filesystem::status(target).permissions(), error);
         std::filesystem::rename(temporary, resolved(target), error);
         if (error) fail_to_write(target, error.message());
+        g_any_has_appeared = true;
       }
   }
   for (const auto& [target, temporary] : pending_)  // who reads a pipe may take his time
-    if (is_stream(target)) pour(temporary, target);
+    if (is_stream(target)) pour(temporary, target), g_any_has_appeared = true;
 }
+
+bool has_any_output_appeared() { return g_any_has_appeared; }
 
 bool holds_triangles_of(const path& file, const TriangleMesh& mesh) {
   const TriangleMesh read = read_mesh(file);

@@ -47,6 +47,9 @@ class Outputs {
 /// Whether a mesh file has the triangles of `mesh`, bit for bit. STL does not keep how vertices are numbered.
 bool holds_triangles_of(const std::filesystem::path& file, const TriangleMesh& mesh);
 
+/// Whether any output has appeared: where a command writes several times, what it finishes stays.
+bool has_any_output_appeared();
+
 /// Removes what was not committed, for a program that ends without unwinding. No output can be committed after that.
 void remove_unfinished_outputs();
 

@@ -147,4 +147,15 @@ expect 3 "a folder without meshes" $prohull build none -o new/
 says err "a folder without meshes" "no mesh file is in this folder"
 absent new "a folder without meshes"
 
+# Ctrl-C among several meshes: the first stays whole, and nothing else is said
+$prohull sample knot --faces 300000 -o second.ply >/dev/null
+$prohull build mesh.ply second.ply -o among/ --faces 60 --tight >out 2>err &
+for wait in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do [ -e among/mesh.ply ] && break; sleep 1; done
+kill -INT $!
+wait $!
+code=$?
+is "Ctrl-C among meshes: exit code $code" test $code -eq 130
+says err "Ctrl-C among meshes" "interrupted; only what was finished before is written"
+is "Ctrl-C among meshes" test "$(ls -A among)" = mesh.ply
+
 count_checks
