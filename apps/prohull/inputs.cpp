@@ -60,6 +60,14 @@ std::vector<std::string> input_formats() {
   return formats;
 }
 
+/// One path, or several.
+template <class In>
+void add_input(CLI::App& command, In& in, InputOptions& options, const std::string& what) {
+  command.add_option("in", in, what)->required()->type_name("IN");
+  add_format_option(command, options);
+  add_unit_options(command, options, "the mesh");
+}
+
 }  // namespace
 
 void add_format_option(CLI::App& command, InputOptions& options) {
@@ -92,18 +100,12 @@ void add_robot_file_options(CLI::App& command, robot::FileOptions& options) {
 }
 
 void add_mesh_input(CLI::App& command, std::filesystem::path& in, InputOptions& options, const std::string& purpose) {
-  command.add_option("in", in, purpose + " " + kMeshFiles)->required()->type_name("IN");
-  add_format_option(command, options);
-  add_unit_options(command, options, "the mesh");
+  add_input(command, in, options, purpose + " " + kMeshFiles);
 }
 
 void add_mesh_inputs(CLI::App& command, std::vector<std::filesystem::path>& in, InputOptions& options,
                      const std::string& purpose) {
-  command.add_option("in", in, purpose + " " + kMeshFiles + " A folder stands for the mesh files in it.")
-      ->required()
-      ->type_name("IN");
-  add_format_option(command, options);
-  add_unit_options(command, options, "the mesh");
+  add_input(command, in, options, purpose + " " + kMeshFiles + " A folder stands for the mesh files in it.");
 }
 
 std::string mesh_suffix(const std::filesystem::path& path) {

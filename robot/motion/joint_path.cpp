@@ -182,6 +182,12 @@ void JointPath::add_curves(std::size_t segment) {
   }
 }
 
+std::optional<std::size_t> JointPath::number_of(std::size_t joint) const {
+  const auto found = std::ranges::find(joints_, joint);
+  if (found == joints_.end()) return {};
+  return static_cast<std::size_t>(found - joints_.begin());
+}
+
 double JointPath::time_at(double place) const {
   if (rows_.times.empty()) return place;
   const auto row = std::min(static_cast<std::size_t>(place), rows_.times.size() - 1);

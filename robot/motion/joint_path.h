@@ -37,6 +37,8 @@ class JointPath {
   JointPath(const Robot& robot, PathRows rows);
 
   const std::vector<std::size_t>& joints() const { return joints_; }  ///< in Robot::joints
+  /// In joints(); none of a joint that the path does not name.
+  std::optional<std::size_t> number_of(std::size_t joint) const;
   const PathRows& rows() const { return rows_; }
   double length() const { return static_cast<double>(rows_.positions.size() - 1); }  ///< the last place
   double time_at(double place) const;

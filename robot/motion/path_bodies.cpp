@@ -36,8 +36,6 @@ struct Shapes {
 
 bool has_finite_faces(const TriangleMesh& mesh) { return with_finite_faces(mesh).face_count() == mesh.face_count(); }
 
-const char* name_of(Geometry which) { return which == Geometry::Visual ? "visual" : "collision"; }
-
 void require_distinct_names(std::span<const PathBody> bodies) {
   std::set<std::string> names;
   for (const PathBody& body : bodies)
@@ -98,8 +96,9 @@ PathBodies path_bodies(const Robot& robot, Geometry which, std::span<const World
     made.bodies.push_back(std::move(body));
   }
   if (!replaced.empty())
-    made.notes.push_back(fmt::format("links without {} geometry, so that their {} geometry counts: {}", name_of(which),
-                                     name_of(other), fmt::join(replaced, ", ")));
+    made.notes.push_back(fmt::format("links without {} geometry, so that their {} geometry counts: {}",
+                                     prohull::name_of(geometry_names(), which),
+                                     prohull::name_of(geometry_names(), other), fmt::join(replaced, ", ")));
   for (const WorldMesh& mesh : world) {
     meter.go_on();
     if (mesh.mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, mesh.name + ": no triangles");

@@ -58,7 +58,7 @@ class PathSearch {
                b.link ? corners_of(b) : corners_in_root(b), ranges),
         options_(options),
         end_(path.length()) {
-    for (const std::size_t joint : chain_.freedoms()) numbers_.push_back(number_on_path(joint));
+    for (const std::size_t joint : chain_.freedoms()) numbers_.push_back(path_.number_of(joint));
   }
 
   PathPairProof run(ProgressMeter& meter) {
@@ -85,13 +85,6 @@ class PathSearch {
   }
 
  private:
-  /// In JointPath::joints; none of a joint that the path does not name.
-  std::optional<std::size_t> number_on_path(std::size_t joint) const {
-    const auto found = std::ranges::find(path_.joints(), joint);
-    if (found == path_.joints().end()) return {};
-    return static_cast<std::size_t>(found - path_.joints().begin());
-  }
-
   JointChain::Motion motion(double begin, double end) const {
     std::vector<JointReach> reaches;
     for (std::size_t f = 0; f < numbers_.size(); ++f)

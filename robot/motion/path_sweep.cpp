@@ -35,7 +35,7 @@ class PieceSweep {
     if (!chain_.obstacle().empty()) refuse(fmt::format("{}: {}", robot.links[link].name, chain_.obstacle()));
     const Vec3 center = bounding_box(piece_).center();
     for (const Vec3& p : piece_.positions) radius_ = std::max(radius_, norm(p - center) * (1 + 0x1p-40));
-    for (const std::size_t joint : chain_.freedoms()) numbers_.push_back(number_on_path(joint));
+    for (const std::size_t joint : chain_.freedoms()) numbers_.push_back(path_.number_of(joint));
   }
 
   void run(std::atomic<std::size_t>& count, ProgressMeter& meter) { add(0, path_.length(), count, meter); }
@@ -44,12 +44,6 @@ class PieceSweep {
   double reach = 0;
 
  private:
-  std::optional<std::size_t> number_on_path(std::size_t joint) const {
-    const auto found = std::ranges::find(path_.joints(), joint);
-    if (found == path_.joints().end()) return {};
-    return static_cast<std::size_t>(found - path_.joints().begin());
-  }
-
   /// Where freedom `f` is.
   double position(std::size_t f, double place) const {
     return numbers_[f] ? path_.reach(*numbers_[f], place, place).middle : chain_.ranges()[f].middle();
