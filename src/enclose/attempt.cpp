@@ -48,7 +48,8 @@ std::pair<std::optional<Float32Hull>, std::string> as_stored(const TriangleMesh&
 double excess_of(const TriangleMesh& hull, const Making& making) {
   const Solid& solid = making.solid();
   const bool from_mesh = solid.source == Source::Mesh, has_padding = making.request.is_padded() && !from_mesh;
-  const double volume = making.solids.volume() > 0 && !has_padding ? making.solids.volume() : solid.volume;
+  const double inside = making.solids.volume(making.candidate.target_faces);
+  const double volume = inside > 0 && !has_padding ? inside : solid.volume;
   HullBounds bounds = making.options().bounds;
   if (has_padding) bounds.max_distance += making.options().padding;
   // What lies around folds is not of the mesh.

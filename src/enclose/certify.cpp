@@ -102,7 +102,7 @@ void certify_with_padding(Attempt& attempt, const Solid& solid, const Request& r
   if (solid.source == Source::Mesh) {
     certify_as_it_is(hull, solid, request, solids);  // also lifts it over what sticks out
     if (!hull.certified) return;
-    attempt.void_before_padding = solids.void_of(hull.mesh);
+    attempt.void_before_padding = signed_volume(hull.mesh) / solids.volume(attempt.candidate.target_faces) - 1;
   }
   hull.certified = false;
   keep_away(hull, request, solids);

@@ -25,10 +25,10 @@ constexpr std::array<std::pair<std::string_view, Source>, 3> kSourceNames{
 
 EnclosingHull best_hull(const Request& request, std::size_t target_faces, Solids& solids) {
   Notes notes;
-  Ranking ranking(request, solids, notes);
+  Ranking ranking(request, target_faces, solids, notes);
   Candidates candidates(request, target_faces, notes);
   while (const auto candidate = candidates.next(ranking, solids)) ranking.take(attempt(*candidate, request, solids));
-  EnclosingHull hull = ranking.winner(target_faces);
+  EnclosingHull hull = ranking.winner();
   if (request.has_tolerances()) request.require_tolerances(hull.mesh);
   if (request.is_symmetric()) request.require_symmetry(hull.mesh);
   return hull;
@@ -40,7 +40,7 @@ EnclosingHulls best_hulls(Request request, std::span<const std::size_t> target_f
   for (const std::size_t faces : target_faces) made.hulls.push_back(best_hull(request, faces, solids));
   const double volume = made.hulls.front().verdict.original_volume;
   made.is_estimated = !(volume > 0);
-  made.volume = made.is_estimated ? solids.volume() : volume;
+  made.volume = made.is_estimated ? solids.volume(target_faces.front()) : volume;
   made.repair_seconds = solids.repair_seconds();
   made.solids = solids.taken();
   made.input = std::move(request.input);

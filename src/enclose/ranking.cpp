@@ -87,18 +87,20 @@ bool Ranking::is_near_flat() const {
 double Ranking::weighed_size(const EnclosingHull& hull) const {
   if (solids_[hull.solid].slab_width > 0) return distance_bounds(hull.mesh, request_.to_cover()).upper;
   constexpr double kOfSelfIntersections = 1.1;
-  const double volume = signed_volume(hull.mesh);
-  if (!request_.is_outer()) return -volume;
-  return is_clean(hull) ? volume : volume + (kOfSelfIntersections - 1) * std::max(0.0, volume - solids_.volume());
+  const double size = signed_volume(hull.mesh);
+  if (!request_.is_outer()) return -size;
+  return is_clean(hull) ? size : size + (kOfSelfIntersections - 1) * std::max(0.0, size - volume());
 }
 
 // With padding, the void that a hull of the mesh had before tells, and the smallest solid beside a wrap.
 double Ranking::slack() const {
   if (!request_.is_padded()) return best_void();
   if (best_->hull.source == Source::Mesh) return void_before_padding_;
-  if (!solids_.has_wrap()) return std::numeric_limits<double>::infinity();
+  if (!has_wrap()) return std::numeric_limits<double>::infinity();
   double least = best_volume();
-  for (SolidId id = solids_.has_mesh() ? 1 : 0; id < solids_.size(); ++id) least = std::min(least, solids_[id].volume);
+  for (SolidId id = 0; id < solids_.size(); ++id)
+    if (solids_[id].source == Source::ConvexHull) least = std::min(least, solids_[id].volume);
+  for (const SolidId id : solids_.wraps(target_faces_)) least = std::min(least, solids_[id].volume);
   return best_volume() / least - 1;
 }
 
@@ -121,7 +123,7 @@ void Ranking::note_why_not(const EnclosingHull& hull) {
                            counted(hull.self_intersections, "pair of faces", "pairs of faces")));
 }
 
-void Ranking::refuse(std::size_t target_faces) {
+void Ranking::refuse() {
   const RepairedMesh& input = request_.input;
   if (!best_)
     throw InputError(
@@ -130,16 +132,16 @@ void Ranking::refuse(std::size_t target_faces) {
   if (!request_.is_outer() && request_.is_padded())
     throw InputError(Defect::NoCertificate,
                      fmt::format("no inner hull of {} faces keeps the gap of {:g}{}; use a smaller gap, or more faces",
-                                 target_faces, request_.options.padding,
-                                 solids_.has_wrap() ? "" : ": the mesh must be thicker than twice the gap somewhere"));
+                                 target_faces_, request_.options.padding,
+                                 has_wrap() ? "" : ": the mesh must be thicker than twice the gap somewhere"));
   if (notes_.all().empty()) note_why_not(best_->hull);
   throw InputError(Defect::NoCertificate,
-                   fmt::format("no hull of {} faces could be certified: {}; try {}", target_faces, notes_.all().back(),
+                   fmt::format("no hull of {} faces could be certified: {}; try {}", target_faces_, notes_.all().back(),
                                what_to_try(request_.options)));
 }
 
-EnclosingHull Ranking::winner(std::size_t target_faces) {
-  if (!has_certified()) refuse(target_faces);
+EnclosingHull Ranking::winner() {
+  if (!has_certified()) refuse();
   EnclosingHull hull = std::move(best_->hull);
   const Solid& solid = solids_[hull.solid];
   if (solid.folds.faces > 0)
@@ -150,7 +152,7 @@ EnclosingHull Ranking::winner(std::size_t target_faces) {
   if (solid.largest_door > 0)
     notes_.add(
         fmt::format("the mesh is not closed: openings up to about {:.4g} across count as closed", solid.largest_door));
-  if (solid.source == Source::Wrap && !request_.input.closed && solids_.volume() == 0)
+  if (solid.source == Source::Wrap && !request_.input.closed && volume() == 0)
     notes_.add("the triangles enclose no space: the hull is a sheet around them");
   hull.build_seconds = build_seconds_, hull.verify_seconds = verify_seconds_;
   hull.notes = notes_.all();

@@ -22,8 +22,8 @@ class Notes {
 /// Which of the attempts is preferred, and why others are not as asked for.
 class Ranking {
  public:
-  Ranking(const Request& request, const Solids& solids, Notes& notes)
-      : request_(request), solids_(solids), notes_(notes) {}
+  Ranking(const Request& request, std::size_t target_faces, const Solids& solids, Notes& notes)
+      : request_(request), target_faces_(target_faces), solids_(solids), notes_(notes) {}
 
   void take(std::optional<Attempt> attempt);
 
@@ -38,12 +38,12 @@ class Ranking {
   bool is_of_flat() const { return best_ && solids_[best_->hull.solid].slab_width > 0; }
   bool is_near_flat() const;  ///< and as near as a tent
   double best_volume() const { return signed_volume(best_->hull.mesh); }
-  double best_void() const { return solids_.void_of(best_->hull.mesh); }
+  double best_void() const { return best_volume() / volume() - 1; }
   /// How much larger the best is than it has to be, about.
   double slack() const;
 
   /// The best one, with the times of all that was tried. Throws InputError if none is certified.
-  EnclosingHull winner(std::size_t target_faces);
+  EnclosingHull winner();
 
  private:
   bool is_clean(const EnclosingHull& hull) const;
@@ -51,9 +51,13 @@ class Ranking {
   bool is_better(const EnclosingHull& a, const EnclosingHull& b) const;
   double weighed_size(const EnclosingHull& hull) const;
   void note_why_not(const EnclosingHull& hull);
-  [[noreturn]] void refuse(std::size_t target_faces);
+  [[noreturn]] void refuse();
+
+  double volume() const { return solids_.volume(target_faces_); }
+  bool has_wrap() const { return !solids_.wraps(target_faces_).empty(); }
 
   const Request& request_;
+  const std::size_t target_faces_;
   const Solids& solids_;
   Notes& notes_;
   std::optional<Attempt> best_;

@@ -100,7 +100,18 @@ std::optional<SolidId> Solids::unfolded() {
   return *unfolded_;
 }
 
-std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::string& why_not) {
+std::span<const SolidId> Solids::wraps(std::size_t faces) const {
+  const auto found = wraps_.find(faces);
+  return found == wraps_.end() ? std::span<const SolidId>() : found->second;
+}
+
+double Solids::volume(std::size_t faces) const {
+  if (request_.input.closed || !request_.is_outer()) return volume_;
+  const std::span<const SolidId> made = wraps(faces);
+  return made.empty() ? 0 : entries_[made.front()].inside_volume;
+}
+
+std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::size_t faces, std::string& why_not) {
   const Stopwatch watch;
   const EnclosingOptions& options = request_.options;
   const bool is_closed = request_.input.closed.has_value();
@@ -127,8 +138,8 @@ std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::s
                 .doors = std::move(made.doors),
                 .largest_door = made.largest_door,
                 .components = wrapped.report.components});
-      if (request_.is_outer() && !is_closed && !has_wrap_) volume_ = made.inside_volume;
-      has_wrap_ = true;
+      entries_[*id].inside_volume = made.inside_volume;
+      wraps_[faces].push_back(*id);
     } catch (const InputError& error) {
       why_not = fmt::format("the wrap with a spacing of {:.4g} is no closed 2-manifold: {}", spacing, error.what());
     }

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,6 @@ class Solids {
   std::size_t size() const { return entries_.size(); }
 
   bool has_mesh() const { return !entries_.empty() && entries_[0].solid.source == Source::Mesh; }
-  bool has_wrap() const { return has_wrap_; }
   /// The mesh, with its folds covered (folds.h). None if that does not help.
   std::optional<SolidId> unfolded();
   /// A slab around what is flat, if it is convex. None around other flat input, or if its padded volume is known to be
@@ -39,8 +39,10 @@ class Solids {
   /// A convex polytope of at most so many faces, at least 4, around the convex hull, or a tent over what is flat. None
   /// if the convex hull has no more faces itself.
   std::optional<SolidId> polytope(std::size_t faces);
-  /// None if nothing is thick enough, or `why_not` says why.
-  std::optional<SolidId> wrap(const WrapKind& kind, double spacing, std::string& why_not);
+  /// For a hull of so many faces. None if nothing is thick enough, or `why_not` says why.
+  std::optional<SolidId> wrap(const WrapKind& kind, double spacing, std::size_t faces, std::string& why_not);
+  /// Those made for hulls of so many faces, which must not depend on what else is asked for.
+  std::span<const SolidId> wraps(std::size_t faces) const;
 
   /// What hulls are verified against.
   verify::Original& original() { return original_; }
@@ -51,8 +53,8 @@ class Solids {
   /// A lower bound of the distance of a hull from that.
   double distance_from(const TriangleMesh& hull, SolidId id);
 
-  double volume() const { return volume_; }  ///< of what lies inside of the input; 0 if nothing is known of it
-  double void_of(const TriangleMesh& hull) const { return signed_volume(hull) / volume_ - 1; }
+  /// Of what lies inside of the input; 0 if nothing is known of it. Of what is not closed, the first wrap tells it.
+  double volume(std::size_t faces) const;
   double repair_seconds() const { return repair_seconds_; }
   std::vector<Solid> taken();  ///< all, in the order in which they were made; nothing is left here
 
@@ -62,6 +64,7 @@ class Solids {
     TriangleMesh with_doors;                ///< if it has doors: what to cover, and these
     std::optional<CollisionIndex> surface;  ///< of what to cover
     std::optional<HullResult> levels;
+    double inside_volume = 0;  ///< of a wrap: of what it takes for the inside of the input
   };
 
   SolidId add(Solid solid);
@@ -74,10 +77,11 @@ class Solids {
   verify::Original original_;
   std::vector<Entry> entries_;
   double volume_ = 0, repair_seconds_ = 0;
-  bool has_wrap_ = false, has_no_convex_hull_ = false;
+  bool has_no_convex_hull_ = false;
   std::optional<std::optional<SolidId>> unfolded_;  ///< once it was asked for
   std::optional<SolidId> convex_hull_;
-  std::map<std::size_t, SolidId> polytopes_;  ///< by faces
+  std::map<std::size_t, SolidId> polytopes_;           ///< by faces
+  std::map<std::size_t, std::vector<SolidId>> wraps_;  ///< by faces
 };
 
 }  // namespace prohull

@@ -21,10 +21,10 @@ constexpr WrapKind kWrapInside{3.5, 0.3, 0};
 constexpr std::size_t kMostWraps = 3;
 
 // The first ones are the same: they tell whether the triangles enclose anything.
-std::span<const WrapKind> wraps(const Request& request, const Solids& solids) {
+std::span<const WrapKind> wraps(const Request& request, double volume) {
   if (request.is_padded()) return kPaddedWraps;
   if (request.input.closed) return kWrapsOfSolids;
-  return solids.volume() > 0 ? std::span<const WrapKind>(kWrapsOfSoups) : kWrapsOfSheets;
+  return volume > 0 ? std::span<const WrapKind>(kWrapsOfSoups) : kWrapsOfSheets;
 }
 
 }  // namespace
@@ -44,8 +44,8 @@ double Candidates::finest_worth_its_faces(const Solids& solids) const {
   constexpr double kMany = 400'000, kMostReduced = 200;
   double least = std::numeric_limits<double>::infinity(), finest = 0;
   const double most = std::max(kMany, kMostReduced * double(target_faces_));
-  for (SolidId id = 0; id < solids.size(); ++id)
-    if (const Solid& solid = solids[id]; solid.source == Source::Wrap && solid.wrap_spacing < least) {
+  for (const SolidId id : solids.wraps(target_faces_))
+    if (const Solid& solid = solids[id]; solid.wrap_spacing < least) {
       least = solid.wrap_spacing;
       finest = least * std::sqrt(double(solid.mesh.face_count()) / most);
     }
@@ -54,7 +54,7 @@ double Candidates::finest_worth_its_faces(const Solids& solids) const {
 
 std::optional<SolidId> Candidates::wrap(const WrapKind& kind, double spacing, Solids& solids) const {
   std::string why_not;
-  const std::optional<SolidId> id = solids.wrap(kind, spacing, why_not);
+  const std::optional<SolidId> id = solids.wrap(kind, spacing, target_faces_, why_not);
   if (!why_not.empty()) notes_.add(why_not);
   return id;
 }
@@ -71,7 +71,7 @@ bool Candidates::is_worth_a_wrap(const Ranking& ranking, const Solids& solids, b
   if (!best.certified || !best.target_reached || !best.within_bounds) return true;
   if (ranking.is_of_flat()) return false;  // and convex: no wrap comes nearer
   if (request_.options.levels || (request_.options.keep_cavities && best.source == Source::Mesh)) return false;
-  if (solids.volume() == 0) return true;
+  if (solids.volume(target_faces_) == 0) return true;
   constexpr double kLittleVoid = 0.03, kMuchVoid = 0.12, kVeryMuchVoid = 0.3;
   if (best.source == Source::Mesh && ranking.is_clean()) return ranking.slack() > kVeryMuchVoid;
   return ranking.slack() > (is_first ? kLittleVoid : kMuchVoid);
@@ -80,7 +80,7 @@ bool Candidates::is_worth_a_wrap(const Ranking& ranking, const Solids& solids, b
 void Candidates::plan_wraps() {
   for (std::size_t i = 0; i < kMostWraps; ++i)
     steps_.push_back([this, i](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-      const auto kinds = wraps(request_, solids);
+      const auto kinds = wraps(request_, solids.volume(target_faces_));
       if (i >= kinds.size() || !is_worth_a_wrap(ranking, solids, i == 0)) return std::nullopt;
       return of_wrap(kinds[i], ranking, solids);
     });

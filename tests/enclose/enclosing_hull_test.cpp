@@ -430,6 +430,14 @@ TEST(EnclosingHull, OfASoupKeepsACloseBound) {
   }
 }
 
+// What the wraps of one budget tell of the inside decides nothing for another.
+TEST(EnclosingHull, OfASoupIsTheSameBesideOtherBudgets) {
+  const TriangleMesh soup = without_a_face(make_sample("bracket", 500));
+  const EnclosingOptions options{.repair = Repair::Wrap, .open_shells = OpenShells::Keep};
+  const EnclosingHulls both = enclosing_hulls(soup, std::array<std::size_t, 2>{60, 400}, options);
+  EXPECT_EQ(both.hulls[1].mesh, enclosing_hull(soup, 400, options).mesh);
+}
+
 TEST(EnclosingHull, OfABladeTakesNoWrapOfManyMillionNodes) {
   const TriangleMesh blade = make({{0, 0, 0}, {1, 1, 1}, {0.6, 0.6, 0.55}, {1, 1, 0.8}}, {{0, 1, 2}, {0, 2, 3}});
   const std::size_t faces[]{20};

@@ -110,10 +110,11 @@ Robot robot_of_meshes(const std::string& file) {
 }
 
 TEST(PathSweep, RefusesMeshesThatItCannotEnclose) {
-  std::ofstream("none.obj") << "";
-  std::ofstream("nan.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\n";
+  const std::string none = testing::TempDir() + "none.obj", nan = testing::TempDir() + "nan.obj";
+  std::ofstream(none) << "";
+  std::ofstream(nan) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\n";
   const std::size_t link = 1;
-  for (const char* const file : {"none.obj", "nan.obj"}) {
+  for (const std::string& file : {none, nan}) {
     const Robot robot = robot_of_meshes(file);
     const JointPath path(robot, {.joints = {"joint0"}, .positions = {{0}, {1}}});
     EXPECT_THROW(sweep_links(robot, path, {{link}}, Geometry::Visual), InputError) << file;
