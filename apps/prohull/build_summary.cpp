@@ -80,7 +80,8 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
   say("  triangles: {}\n", described(written.quality));
   if (faces == outcome.solid(hull).mesh.face_count() && faces <= hull.target_faces)
     say("  {} has no more faces than were asked for: the hull is {}\n", source_of(outcome.solid(hull)),
-        hull.source == Source::Mesh ? "the mesh itself" : "simplified no further");
+        hull.source == Source::Mesh && hull.mesh == outcome.solid(hull).mesh ? "the mesh itself"
+                                                                             : "simplified no further");
   print_regions(outcome, written);
   if (const auto axis = options.enclosing.hull.mirror)
     say("  symmetric: exactly its own mirror image in the plane {} = {:g}\n", name_of(axis_names(), *axis),

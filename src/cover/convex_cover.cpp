@@ -120,6 +120,8 @@ class Covering {
   ConvexCover run() {
     std::optional<ConvexCover> cover;
     if (prepared_.closed) cover = best_cover(of_closed_mesh());
+    // One convex piece holds all that lies between the triangles, too. Bounds of the void ask for more: a volume.
+    if (!cover && options_.max_pieces == 1 && !options_.bounds.any()) cover = best_cover(of_convex_hull());
     if (!cover || !cover->certified) {
       const Material material = of_enclosing_hull();
       cover = best_cover(material);

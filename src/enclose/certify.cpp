@@ -1,5 +1,6 @@
 #include "enclose/certify.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,28 +20,19 @@ bool covers(const TriangleMesh& hull, const TriangleMesh& triangles, const Progr
   return verify_cover(triangles, hull, {.max_offenders = 0, .progress = progress}).encloses;
 }
 
+Verification verdict_of(const TriangleMesh& hull, const Request& request, Solids& solids, std::size_t max_offenders,
+                        double gap) {
+  return verify::verify_hull(hull, solids.original(), request.options.hull.side,
+                             {.gap = gap, .max_offenders = max_offenders, .progress = request.options.progress});
+}
+
 bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& request, Solids& solids) {
   constexpr std::size_t kMostProtrusions = 200;
   const EnclosingOptions& options = request.options;
-  const auto decide = [&](const auto& what, std::size_t max_offenders, double gap) {
-    const VerificationOptions how{.gap = gap, .max_offenders = max_offenders, .progress = options.progress};
-    if constexpr (std::is_same_v<std::decay_t<decltype(what)>, ProgressiveHull>)
-      hull.verdict = verify::verify_hull(what, solids.original(), how);
-    else
-      hull.verdict = verify::verify_hull(what, solids.original(), options.hull.side, how);
-    hull.proof = hull.verdict.proof;
-  };
-  if (solid.source == Source::Mesh && hull.levels) {
-    if (hull.mesh == hull.levels->base()) {
-      decide(*hull.levels, 0, 0);
-      if (hull.verdict.encloses) return true;
-    }
-    if (!verify_replay(*hull.levels, solid.mesh, options.progress).holds) return false;
-  }
   const double gap = hull.padding > 0 ? options.padding : 0;
   const bool may_lift = request.input.closed && request.is_outer() && solid.source == Source::Mesh && !options.levels &&
                         hull.padding == 0;
-  decide(hull.mesh, may_lift ? kMostProtrusions : 0, gap);
+  hull.verdict = verdict_of(hull.mesh, request, solids, may_lift ? kMostProtrusions : 0, gap);
   if (hull.verdict.holds() || !may_lift) return hull.verdict.holds();
   if (hull.verdict.worst.size() < hull.verdict.faces_outside) return false;
   TriangleMesh outside{request.to_cover().positions, {}};
@@ -49,24 +41,37 @@ bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& reque
   if (!lifted) return false;
   hull.mesh = std::move(*lifted);
   hull.levels.reset();
-  decide(hull.mesh, 0, gap);
+  hull.verdict = verdict_of(hull.mesh, request, solids, 0, gap);
   return hull.verdict.holds();
 }
 
-// The splits of a progressive hull, replayed, lead from its base mesh to the solid; where the hull is another mesh, for
-// it is tight or rounded to float32, it is compared with the mesh. The doors of a wrap have to be covered too.
+// The splits of a progressive hull, replayed, lead from its base mesh to the solid. Of a hull that was rounded to
+// float32, the base mesh is another one, which has to hold as well: levels may be saved. The doors of a wrap have to be
+// covered too.
 bool is_proven(EnclosingHull& hull, const Solid& solid, const Request& request, Solids& solids) {
   const Progress& progress = request.options.progress;
-  if (solid.source != Source::Mesh && hull.levels && !verify_replay(*hull.levels, solid.mesh, progress).holds)
+  const bool is_base = hull.levels && hull.mesh == hull.levels->base();
+  std::optional<Verification> of_levels;
+  if (hull.levels && solid.source == Source::Mesh)
+    of_levels = verify::verify_hull(*hull.levels, solids.original(), {.max_offenders = 0, .progress = progress});
+  const bool are_proven = of_levels && of_levels->encloses;
+  if (hull.levels && !are_proven) {
+    if (!verify_replay(*hull.levels, solid.mesh, progress).holds) return false;
+    const bool base_holds = is_base || verdict_of(hull.levels->base(), request, solids, 0, 0).encloses;
+    if (!base_holds && request.options.levels) return false;
+    if (!base_holds) hull.levels.reset();
+  }
+  if (are_proven && is_base)
+    hull.verdict = std::move(*of_levels);
+  else if (!encloses_mesh(hull, solid, request, solids))
     return false;
-  if (!encloses_mesh(hull, solid, request, solids)) return false;
   return !request.is_outer() || (covers(hull.mesh, solid.doors, progress) &&
                                  (request.input.closed || covers(hull.mesh, request.input.caps, progress)));
 }
 
 void certify_as_it_is(EnclosingHull& hull, const Solid& solid, const Request& request, Solids& solids) {
   hull.certified = is_proven(hull, solid, request, solids);
-  if (!hull.certified) hull.proof = {};
+  hull.proof = hull.certified ? hull.verdict.proof : std::string_view();
 }
 
 // What is missing is added, and measured again; twice of it after the first time, as faces turn when they move. The

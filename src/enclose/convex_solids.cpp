@@ -48,7 +48,8 @@ std::optional<SolidId> Solids::convex_hull(std::optional<double> too_large) {
   }
   std::optional<Solid> solid = Solid{.source = Source::ConvexHull, .mesh = std::move(convex)};
   constexpr double kThin = 1e-7;
-  if (!has_mesh() && signed_volume(solid->mesh) <= kThin * std::pow(request_.diagonal, 3)) solid = slab();
+  const bool is_thin = signed_volume(solid->mesh) <= kThin * std::pow(request_.diagonal, 3);
+  if (solid->mesh.face_count() == 0 || (is_thin && !has_mesh())) solid = slab();
   has_no_convex_hull_ = !solid;
   if (solid) convex_hull_ = add(std::move(*solid));
   return convex_hull_;

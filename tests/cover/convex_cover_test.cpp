@@ -156,6 +156,18 @@ TEST(ConvexCover, TakesAnyTriangles) {
   }
 }
 
+// No hull around them is cut for that.
+TEST(ConvexCover, OfOnePieceIsTheConvexHullOfLooseTriangles) {
+  TriangleMesh loose = small_torus();
+  for (std::size_t i = 0; i < loose.face_count(); i += 2)
+    std::swap(loose.triangles[FaceId(i)][0], loose.triangles[FaceId(i)][1]);
+  loose.triangles.resize(loose.face_count() / 2);
+  const ConvexCover cover = convex_cover(loose, {.max_pieces = 1});
+  ASSERT_EQ(cover.pieces.size(), 1u);
+  EXPECT_TRUE(cover.certified && cover.notes.empty());
+  EXPECT_NEAR(cover.volume / signed_volume(convex_hull(loose)), 1, 1e-6);
+}
+
 TEST(ConvexCover, OfFewLooseTrianglesIsCutOnAHullOfFewFaces) {
   std::mt19937 random(test_seed());
   std::uniform_real_distribution<double> x(-1, 1);
@@ -165,7 +177,7 @@ TEST(ConvexCover, OfFewLooseTrianglesIsCutOnAHullOfFewFaces) {
   const UnthrottledProgress every_call;
   int steps = 0;
   const ConvexCover cover = convex_cover(
-      loose, {.max_pieces = 1, .threads = 1, .progress = [&](std::string_view, double) { return ++steps > 0; }});
+      loose, {.max_pieces = 2, .threads = 1, .progress = [&](std::string_view, double) { return ++steps > 0; }});
   EXPECT_TRUE(cover.certified);
   EXPECT_LT(steps, 400'000) << "790,000 on a hull of 1,500 faces";
 }

@@ -174,6 +174,26 @@ TEST(EnclosingHull, HasNoVoidBelowZeroWherePartsOverlap) {
   EXPECT_GE(made.hulls[0].void_ratio, -1e-9);
 }
 
+// A double sheet encloses nothing, but what is rounded to float32 may enclose it. Levels are not rounded.
+TEST(EnclosingHull, HasNoLevelsThatDoNotHoldThemselves) {
+  const Vec3 twice{0.84097370726654, -1.0802544242162904, -0.12371646214027043};
+  const TriangleMesh sheet = make({{0.34097370726653997, -1.5802544242162904, 0.37628353785972957},
+                                   twice,
+                                   twice,
+                                   {0.31342195135484685, -1.286419880585749, -0.6521189903784919}},
+                                  {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  for (const bool levels : {false, true})
+    for (const bool cavities : {false, true}) {
+      EnclosingOptions options{.keep_cavities = cavities, .open_shells = OpenShells::Keep};
+      options.hull.float32_coordinates = true;
+      options.levels = levels;
+      const EnclosingHull hull = enclosing_hull(sheet, 53, options);
+      EXPECT_TRUE(hull.certified);
+      EXPECT_TRUE(!levels || hull.levels);
+      EXPECT_TRUE(!hull.levels || verify_hull(hull.levels->base(), sheet).encloses);
+    }
+}
+
 TEST(EnclosingHull, KeepsOpenShellsIfAskedTo) {
   const EnclosingHulls made = hull_of(room(), 400, {.hull = {.relax_guards = true}, .open_shells = OpenShells::Keep});
   const EnclosingHull hull = only(made);
