@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 
 #include "prohull/hull_builder.h"
 #include "prohull/triangle_mesh.h"
@@ -60,13 +61,14 @@ TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& 
 /// that is near enough to the mesh (HullBounds). The search is a bisection of the number of faces to 3 %. It ends at
 /// the coarsest level of build_hull that is accepted; if no tight hull is both coarser and accepted, that level is the
 /// answer. The bisection assumes that a hull with more faces is accepted if one with fewer is, so a coarser hull may
-/// exist. The stage of progress is "search". Throws as build_hull does, and what is_within throws.
+/// exist. No tight hull of more than most_faces is sought: if that many are not accepted, neither are fewer. The stage
+/// of progress is "search". Throws as build_hull does, and what is_within throws.
 ///
 ///   const HullBounds bounds{.max_distance = 0.5};  // mm, if the mesh has that unit
 ///   const auto is_near = [&](const TriangleMesh& hull) { return bounds.hold(hull, arm, signed_volume(arm)); };
 ///   const TightHull hull = build_tight_hull_within(arm, is_near, {.target_faces = 100});
 TightHull build_tight_hull_within(const TriangleMesh& mesh, const std::function<bool(const TriangleMesh&)>& is_within,
                                   const HullOptions& options = {}, const TriangleMesh* wrapped = nullptr,
-                                  double padding = 0);
+                                  double padding = 0, std::size_t most_faces = std::numeric_limits<std::size_t>::max());
 
 }  // namespace prohull

@@ -164,7 +164,7 @@ TightHull tight_of_solid(const Making& making) {
   if (!making.options().bounds.any()) return tight_of(mesh, wrapped, aim, making);
   return build_tight_hull_within(
       mesh, [&](const TriangleMesh& hull) { return is_within_as_stored(hull, making); }, making.hull_options(), wrapped,
-      aim);
+      aim, making.candidate.most_faces);
 }
 
 std::optional<EnclosingHull> built(const Making& making) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "enclose/solids.h"
@@ -31,6 +32,7 @@ struct Candidate {
   SolidId solid;
   std::size_t target_faces;
   Recipe recipe;
+  std::size_t most_faces = std::numeric_limits<std::size_t>::max();  ///< with more, it is not better than another hull
 };
 
 /// What came of a candidate.

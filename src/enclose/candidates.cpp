@@ -113,15 +113,17 @@ void Candidates::plan_polytope() {
 // better. Without padding, of 8 robots' parts of which a wrap had it, no tight hull of the wrap was; nor of soups,
 // where levels of the wrap keep bounds.
 void Candidates::plan_tight() {
-  const auto tight = [this](SolidId id, const Solids& solids) {
+  const auto tight = [this](SolidId id, const Ranking& ranking, const Solids& solids) {
     const bool may_have_body =
         request_.is_padded() && !request_.options.bounds.any() && solids[id].source != Source::ConvexHull;
-    return Candidate{id, target_faces_, {may_have_body ? Method::TightOfGapBody : Method::Tight}};
+    Candidate candidate{id, target_faces_, {may_have_body ? Method::TightOfGapBody : Method::Tight}};
+    if (ranking.is_as_asked()) candidate.most_faces = std::max(target_faces_, ranking.best().hull.mesh.face_count());
+    return candidate;
   };
   steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
     if (!is_worth_the_mesh(solids)) return std::nullopt;
     const bool is_of_mesh = ranking.best().hull.source == Source::Mesh;  // with its folds, or without
-    return tight(is_of_mesh ? ranking.best().hull.solid : 0, solids);
+    return tight(is_of_mesh ? ranking.best().hull.solid : 0, ranking, solids);
   });
   steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
     if (!ranking.has_certified()) return std::nullopt;
@@ -130,7 +132,7 @@ void Candidates::plan_tight() {
     if (solids[id].source == Source::Mesh ||
         (!request_.is_padded() && (has_levels_that_moved || is_worth_the_mesh(solids))))
       return std::nullopt;
-    return tight(id, solids);
+    return tight(id, ranking, solids);
   });
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "construct/tight/few_faces.h"
 #include "construct/turned.h"
 #include "effort.h"
@@ -163,6 +165,16 @@ TEST(TightHullWithin, StopsAtTheTargetOrAtTheMeshItself) {
   EXPECT_EQ(far.mesh, build_tight_hull(mesh, few({.target_faces = 100})).mesh);
   const auto is_itself = [&](const TriangleMesh& hull) { return hull == mesh; };
   EXPECT_EQ(build_tight_hull_within(mesh, is_itself, few({.target_faces = 100})).mesh, mesh);
+}
+
+TEST(TightHullWithin, EndsWhereTheMostFacesAreNotAccepted) {
+  const TriangleMesh mesh = make_sample("asteroid", 200);
+  int asked = 0;
+  const auto is_itself = [&](const TriangleMesh& hull) { return ++asked > 0 && hull == mesh; };
+  build_tight_hull_within(mesh, is_itself, few({.target_faces = 20}));
+  const int without_limit = std::exchange(asked, 0);
+  EXPECT_EQ(build_tight_hull_within(mesh, is_itself, few({.target_faces = 20}), nullptr, 0, 80).mesh, mesh);
+  EXPECT_LT(asked, without_limit - 4) << "tight hulls of 20 and 80 faces, and the levels";
 }
 
 TEST(TightHullWithin, GoesForwardAndCancels) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "construct/tight/unsearched.h"
@@ -12,12 +13,13 @@ constexpr int kMaxTightBuilds = 11;  // with the progressive hull that it begins
 class TightSearch {
  public:
   TightSearch(const TriangleMesh& mesh, const std::function<bool(const TriangleMesh&)>& is_within,
-              const HullOptions& options, const TriangleMesh* wrapped, double padding)
+              const HullOptions& options, const TriangleMesh* wrapped, double padding, std::size_t most_faces)
       : mesh_(mesh),
         is_within_(is_within),
         options_(options),
         wrapped_(wrapped),
         padding_(padding),
+        most_faces_(most_faces),
         meter_(options.progress, "search") {}
 
   TightHull run() {
@@ -27,7 +29,8 @@ class TightSearch {
       keep_if_within(build_tight_hull(mesh_, next_options(too_few), wrapped_, padding_));
       return best_;
     }
-    std::size_t fewest_within = enough;
+    if (enough > most_faces_ && (most_faces_ <= too_few || !build_tight_within(most_faces_))) return best_;
+    std::size_t fewest_within = std::min(enough, most_faces_);
     constexpr double kCloseEnough = 1.03;  // what is left to gain is less than the chance in each hull
     while (builds_ < kMaxTightBuilds - 1) {
       if (static_cast<double>(fewest_within) < kCloseEnough * static_cast<double>(too_few)) break;
@@ -76,6 +79,7 @@ class TightSearch {
   const HullOptions& options_;
   const TriangleMesh* wrapped_;
   const double padding_;
+  const std::size_t most_faces_;
   ProgressMeter meter_;
   int builds_ = 0;
   TightHull best_;
@@ -85,8 +89,9 @@ class TightSearch {
 }  // namespace
 
 TightHull build_tight_hull_within(const TriangleMesh& mesh, const std::function<bool(const TriangleMesh&)>& is_within,
-                                  const HullOptions& options, const TriangleMesh* wrapped, double padding) {
-  return TightSearch(mesh, is_within, options, wrapped, padding).run();
+                                  const HullOptions& options, const TriangleMesh* wrapped, double padding,
+                                  std::size_t most_faces) {
+  return TightSearch(mesh, is_within, options, wrapped, padding, most_faces).run();
 }
 
 }  // namespace prohull
