@@ -230,8 +230,8 @@ std::string described_pieces(const ConvexCover& cover) {
 
 std::string described_size(const ConvexCover& cover) {
   if (!cover.covers_inside || !(cover.original_volume > 0)) return fmt::format("volume {:.4g}", cover.volume);
-  return fmt::format("{:.2f} % {} volume than the mesh", 100 * std::abs(cover.void_ratio),
-                     cover.void_ratio < 0 ? "less" : "more");
+  return fmt::format("{:.2f} % more volume than the mesh{}", 100 * std::max(0.0, cover.void_ratio),
+                     cover.is_estimated ? " (estimated)" : "");
 }
 
 void print_summary(const ConvexOptions& options, const PieceFiles& files, const Outcome& outcome) {
@@ -303,6 +303,7 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
           {"volume", finite_or_null(cover.volume)},
           {"original_volume", finite_or_null(cover.original_volume)},
           {"void_ratio", cover.original_volume > 0 ? finite_or_null(cover.void_ratio) : nlohmann::json()},
+          {"void_is_estimated", cover.is_estimated},
           {"reach",
            {{"lower", cover.reach.lower},
             {"upper", finite_or_null(cover.reach.upper)},

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 #include <utility>
 
@@ -106,6 +107,7 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
           {"volume", cover.volume},
           {"original_volume", cover.original_volume},
           {"void_ratio", outcome.has_volume() ? nlohmann::json(outcome.void_ratio()) : nlohmann::json()},
+          {"void_is_estimated", cover.is_estimated},
           {"notes", cover.notes},
           {"seconds", {{"read", outcome.read_seconds}, {"cover", cover.seconds}, {"verify", cover.verify_seconds}}}};
 }
@@ -117,8 +119,9 @@ void print_summary(const SpheresOptions& options, const Outcome& outcome) {
       outcome.part_of_diagonal() * 100, text_of_openings(cover.has_openings, cover.reach_from_triangles));
   if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);
   if (outcome.has_volume())
-    say("  volume: {:.4g} with overlaps counted once, {:+.1f} % of the solid's\n", cover.volume,
-        outcome.void_ratio() * 100);
+    say("  volume: {:.4g} with overlaps counted once, {:.1f} % {} than the solid's{}\n", cover.volume,
+        std::abs(outcome.void_ratio()) * 100, outcome.void_ratio() < 0 ? "less" : "more",
+        cover.is_estimated ? " (estimated)" : "");
   for (const std::string& note : cover.notes) say("  {}\n", note);
   if (cover.certified)
     say("  certified: yes, the spheres cover every {}triangle{}\n", cover.non_finite_faces == 0 ? "" : "finite ",

@@ -36,4 +36,13 @@ struct ClosedSolid {
 ///     if (solid.verdict.holds()) write_mesh("scan.ply", solid.mesh);
 ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& options = {});
 
+/// Of all points that a closed mesh winds around at least once, in cubic units.
+struct InsideVolume {
+  double volume = 0;
+  bool is_estimated = false;  ///< faces intersect too often for solid_volume: by a wrap
+};
+
+/// The stage of progress is "wrap". Throws InputError if the mesh is empty, not closed or not finite; Cancelled.
+InsideVolume volume_inside(const TriangleMesh& closed, const Progress& progress = {});
+
 }  // namespace prohull

@@ -48,7 +48,8 @@ struct ConvexCover {
   bool original_closed = false;  ///< the input bounds a solid by itself: `covers_inside` is about that
   double volume = 0;  ///< of the union; overlaps count once. Of capsules and spheres that of polytopes around them, as
                       ///< is `reach`
-  double original_volume = 0;  ///< as EnclosingHulls::volume
+  double original_volume = 0;  ///< as EnclosingHulls::volume; 0 if it is not known
+  bool is_estimated = false;   ///< `original_volume` is an estimate, from a wrap
   double void_ratio = 0;       ///< volume / original_volume - 1; infinite if the triangles have no volume
   /// How far the union reaches out of the solid, or from the triangles if there is none. What closes openings of the
   /// input belongs to the solid.

@@ -35,6 +35,7 @@ struct SphereCover {
   std::size_t non_finite_faces = 0;     ///< faces of the input that were left out: a corner is not finite
   double volume = 0;                    ///< of the union; overlaps count once
   double original_volume = 0;           ///< as EnclosingHulls::volume; 0 if the triangles bound nothing
+  bool is_estimated = false;            ///< `original_volume` is an estimate, from a wrap
   bool within_bounds = true;            ///< max_distance is kept
   std::vector<std::string> notes;       ///< sentences for the user
   double seconds = 0, verify_seconds = 0;

@@ -55,7 +55,9 @@ py::dict common_facts_of(const Cover& cover) {
   facts["original_volume"] = cover.original_volume;
   facts["reach"] = py::make_tuple(cover.reach.lower, cover.reach.upper);
   facts["within_bounds"] = cover.within_bounds;
-  facts["notes"] = cover.notes;
+  std::vector<std::string> notes = cover.notes;
+  if (cover.is_estimated && cover.original_volume > 0) notes.emplace_back(kVolumeIsEstimated);
+  facts["notes"] = notes;
   facts["seconds"] = cover.seconds;
   facts["verify_seconds"] = cover.verify_seconds;
   return facts;

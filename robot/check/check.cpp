@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/enclosure.h"
@@ -30,18 +31,15 @@ constexpr std::array<std::pair<std::string_view, CheckVerdict>, 6> kVerdictNames
      {"no-visual", CheckVerdict::NoVisual},
      {"missing", CheckVerdict::Missing}}};
 
-/// What lies inside: of the closed triangles; where they cannot be closed, or intersect too often, estimated by a wrap
-/// of them and of caps on all openings.
-double enclosed_volume(const TriangleMesh& triangles, const Progress& progress) {
+/// Where triangles cannot be closed, estimated by a wrap of them and of caps on all openings.
+InsideVolume enclosed_volume(const TriangleMesh& triangles, const Progress& progress) {
   constexpr double kPerDiagonal = 100;
   const double diagonal = bounding_box(triangles).diagonal();
-  if (triangles.face_count() == 0 || diagonal == 0) return 0;
+  if (triangles.face_count() == 0 || diagonal == 0) return {};
   const RepairedMesh repaired = prepared_for_hulls(triangles);
-  if (repaired.closed)
-    if (const auto volume = solid_volume(repaired.closed->mesh, progress)) return *volume;
-  const TriangleMesh solid =
-      repaired.closed ? repaired.closed->mesh : with_caps(repaired.original, find_openings(repaired.original));
-  return inside_volume(solid, {.spacing = diagonal / kPerDiagonal, .seal_rooms = true, .progress = progress});
+  if (repaired.closed) return volume_inside(repaired.closed->mesh, progress);
+  const TriangleMesh solid = with_caps(repaired.original, find_openings(repaired.original));
+  return {inside_volume(solid, {.spacing = diagonal / kPerDiagonal, .seal_rooms = true, .progress = progress}), true};
 }
 
 double area(const Triangle& t) { return norm(cross(t.b - t.a, t.c - t.a)) / 2; }
@@ -263,19 +261,30 @@ class LinkChecker {
   }
 
   template <class Measure>
-  void measure_volume(double& volume, Measure measure_it) {
+  InsideVolume measured(Measure measure_it) {
     try {
-      volume = measure_it();
+      return measure_it();
     } catch (const InputError& error) {
       note(fmt::format("no volume: {}", error.what()));
+      return {};
     }
   }
 
-  void measure() {
+  void measure_volumes() {
     const auto balls = only_balls(pieces_);
-    measure_volume(check_.visual_volume, [&] { return enclosed_volume(check_.visual, progress_); });
-    measure_volume(check_.collision_volume,
-                   [&] { return balls.empty() ? enclosed_volume(check_.collision, progress_) : union_volume(balls); });
+    const InsideVolume visual = measured([&] { return enclosed_volume(check_.visual, progress_); });
+    const InsideVolume collision = measured([&] {
+      return balls.empty() ? enclosed_volume(check_.collision, progress_) : InsideVolume{union_volume(balls)};
+    });
+    check_.collision_volume = collision.volume;
+    // No estimate may say that what is covered is larger than what covers it.
+    const bool is_exact = !visual.is_estimated && !collision.is_estimated;
+    if (is_exact || check_.verdict != CheckVerdict::Covered || visual.volume <= collision.volume)
+      check_.visual_volume = visual.volume;
+  }
+
+  void measure() {
+    measure_volumes();
     if (check_.visual.face_count() == 0) return;
     check_.convex_volume = signed_volume(convex_hull(check_.visual));
     if (check_.collision.face_count() == 0) return;

@@ -33,11 +33,11 @@ struct LinkCheck {
   Vec3 worst_point;                ///< such a point, in the frame of the link, if sticks_out_at_least > 0
   std::size_t faces_outside = 0;   ///< faces of the visual geometry that are not covered
   std::size_t visual_faces = 0, collision_faces = 0, pieces = 0;
-  double visual_volume = 0;        ///< of what lies inside of the visual geometry: as EnclosingHulls::volume
-  double collision_volume = 0;     ///< of the union of the pieces; estimated, where they overlap
-  double convex_volume = 0;        ///< of the convex hull of the visual geometry
-  DistanceBounds fat;              ///< how far points of the collision geometry are from the visual one at most
-  double mean_fat = 0;             ///< the mean over the surface of the collision geometry, by samples
+  double visual_volume = 0;     ///< of what lies inside of the visual geometry: as EnclosingHulls::volume; 0: unknown
+  double collision_volume = 0;  ///< of the union of the pieces; estimated, where they overlap
+  double convex_volume = 0;     ///< of the convex hull of the visual geometry
+  DistanceBounds fat;           ///< how far points of the collision geometry are from the visual one at most
+  double mean_fat = 0;          ///< the mean over the surface of the collision geometry, by samples
   std::vector<std::string> notes;  ///< sentences for the user
   TriangleMesh visual, collision;  ///< both in the frame of the link, for pictures
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <system_error>
@@ -155,7 +156,9 @@ void build_hulls(const Plan& plan, const LinkHullOptions& options, LinkHulls& re
     result.hulls.push_back(link_hull(hull));
     judge(result.hulls.back(), result.triangles, made.input, plan.budget, go_on);
   }
-  result.sealed_volume = made.volume;
+  // No estimate may say that what is enclosed is larger than its hull.
+  const bool may_be = std::ranges::all_of(made.hulls, [](const EnclosingHull& h) { return !std::isnan(h.void_ratio); });
+  if (may_be) result.sealed_volume = made.volume;
   describe_input(made.input, result);
 }
 

@@ -17,12 +17,12 @@
 #include "cover/piece_hull.h"
 #include "cover/shape_choice.h"
 #include "parallel/arena.h"
+#include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/union_verification.h"
-#include "verify/solid_volume.h"
 
 namespace prohull {
 namespace cover {
@@ -56,7 +56,7 @@ struct Material {
   TriangleMesh beside;   ///< triangles to cover that bound nothing
   TriangleMesh coarse;   ///< like both, of few faces: the cuts are looked for in it
   TriangleMesh coarser;  ///< around `coarse`, for the wide search
-  double volume = 0;
+  InsideVolume inside;
 };
 
 /// Vertices within the cubes of a grid become one.
@@ -145,12 +145,7 @@ class Covering {
     return {closed, prepared_.dropped, std::move(coarse), std::move(coarser), volume_of_solid()};
   }
 
-  /// Parts that overlap count once, unless they meet too often to find out.
-  double volume_of_solid() const {
-    ProgressMeter meter(options_.progress, "measure");
-    const double volume = verify::solid_volume(prepared_.closed->mesh, meter);
-    return volume > 0 ? volume : signed_volume(prepared_.closed->mesh);
-  }
+  InsideVolume volume_of_solid() const { return volume_inside(prepared_.closed->mesh, options_.progress); }
 
   /// The mesh, or a hull around it of so many faces.
   TriangleMesh with_faces(const TriangleMesh& mesh, std::size_t faces) const {
@@ -165,7 +160,7 @@ class Covering {
   /// Of triangles that bound no solid by themselves.
   Material of_enclosing_hull() const {
     if (convex_hull(prepared_.original).face_count() == 0)
-      return {{}, prepared_.original, prepared_.original, prepared_.original, 0};
+      return {{}, prepared_.original, prepared_.original, prepared_.original, {}};
     const std::size_t faces[]{
         std::clamp(kHullFacesPerTriangle * prepared_.original.face_count(), kFewestHullFaces, kSearchFaces)};
     EnclosingHulls made =
@@ -174,15 +169,15 @@ class Covering {
     // Where no better solid than the convex hull is found, the triangles themselves are cut.
     if (made.hulls[0].source == Source::ConvexHull) {
       const TriangleMesh coarse = clustered(prepared_.original);
-      return {{}, prepared_.original, coarse, coarse, made.volume};
+      return {{}, prepared_.original, coarse, coarse, {made.volume, made.is_estimated}};
     }
-    return {hull, {}, hull, hull, made.volume};
+    return {hull, {}, hull, hull, {made.volume, made.is_estimated}};
   }
 
   /// One piece.
   Material of_convex_hull() const {
     const TriangleMesh hull = convex_hull(prepared_.original);
-    return {hull, {}, hull, hull, prepared_.closed ? volume_of_solid() : 0};
+    return {hull, {}, hull, hull, prepared_.closed ? volume_of_solid() : InsideVolume()};
   }
 
   /// The most pieces, or as few as keep the bounds.
@@ -340,8 +335,10 @@ class Covering {
     const std::vector<TriangleMesh> meshes = meshes_around(pieces);
     ConvexCover cover;
     cover.pieces = std::move(pieces);
-    cover.original_volume = material.volume;
     cover.volume = union_volume(meshes);
+    cover.is_estimated = material.inside.is_estimated;
+    // No estimate may say that the mesh is larger than what covers it.
+    if (!cover.is_estimated || material.inside.volume <= cover.volume) cover.original_volume = material.inside.volume;
     cover.void_ratio = cover.original_volume > 0 ? cover.volume / cover.original_volume - 1 : infinity;
     const DistanceOptions how{.progress = options_.progress};
     cover.reach_from_triangles = union_reach(meshes, prepared_.original, how);

@@ -16,12 +16,12 @@
 #include "geometry/largest_coordinate.h"
 #include "mesh/area.h"
 #include "parallel/arena.h"
+#include "prohull/closed_solid.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "prohull/wrap.h"
-#include "verify/solid_volume.h"
 
 namespace prohull {
 namespace {
@@ -77,9 +77,8 @@ class SphereCoverer {
     TriangleMesh sheets;
     if (input_.closed) {
       solid_ = input_.closed->mesh, sheets = input_.dropped;
-      ProgressMeter meter(options_.progress, "measure");
-      const double volume = verify::solid_volume(solid_, meter);  // parts that overlap count once
-      made_.original_volume = volume > 0 ? volume : input_.closed->report.volume;
+      const InsideVolume inside = volume_inside(solid_, options_.progress);
+      made_.original_volume = inside.volume, made_.is_estimated = inside.is_estimated;
     } else {
       wrap_solid();
       sheets = input_.original;
@@ -101,7 +100,7 @@ class SphereCoverer {
     solid_ = std::move(made.mesh);
     append(near, made.doors);
     slack_ = distance_bounds(solid_, near, {.progress = options_.progress}).upper;
-    made_.original_volume = made.inside_volume;
+    made_.original_volume = made.inside_volume, made_.is_estimated = true;
     made_.notes.push_back(fmt::format(
         "the triangles bound no solid ({}): what lies inside is taken from a wrap, up to {:.4g} around them",
         input_.obstacle, slack_));
@@ -202,6 +201,8 @@ class SphereCoverer {
     made_.reach_from_triangles =
         made_.has_openings ? union_reach(made_.balls, input_.original, {.progress = options_.progress}) : made_.reach;
     made_.volume = union_volume(made_.balls);
+    // No estimate may say that the mesh is larger than what covers it.
+    if (made_.is_estimated && made_.covers_inside && made_.original_volume > made_.volume) made_.original_volume = 0;
     made_.within_bounds = made_.reach.upper <= options_.max_distance;
   }
 

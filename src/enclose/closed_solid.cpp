@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "enclose/folds.h"
+#include "enclose/known_void.h"
 #include "geometry/float32.h"
+#include "prohull/enclosure.h"
 #include "prohull/wrap.h"
 
 namespace prohull {
@@ -53,6 +55,16 @@ ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& optio
   solid.mesh = wrap_of(solid.input, solid.wrap_spacing, options);
   judge(solid, options);
   return solid;
+}
+
+double estimated_volume(const TriangleMesh& closed, const Progress& progress) {
+  constexpr double kPerDiagonal = 100;
+  return inside_volume(closed, {.spacing = bounding_box(closed).diagonal() / kPerDiagonal, .progress = progress});
+}
+
+InsideVolume volume_inside(const TriangleMesh& closed, const Progress& progress) {
+  if (const auto volume = solid_volume(closed, progress)) return {*volume, false};
+  return {estimated_volume(closed, progress), true};
 }
 
 }  // namespace prohull

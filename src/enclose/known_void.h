@@ -7,4 +7,7 @@ namespace prohull {
 /// EnclosingHull::void_ratio of `hull`, which `made` has or will have.
 double known_void(const EnclosingHulls& made, const EnclosingHull& hull);
 
+/// Where solid_volume takes too long: by a wrap of 1/100 of the diagonal.
+double estimated_volume(const TriangleMesh& closed, const Progress& progress);
+
 }  // namespace prohull

@@ -9,6 +9,7 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "enclose/folds.h"
+#include "enclose/known_void.h"
 #include "geometry/float32.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
@@ -71,9 +72,7 @@ double Solids::volume_without_overlaps() {
   ProgressMeter meter(request_.options.progress, "repair");
   const double exact = has_triangles_of(mesh, original_.solid().mesh()) ? original_.solid().volume(meter)
                                                                         : verify::solid_volume(mesh, meter);
-  if (!std::isnan(exact)) return exact;
-  constexpr double kPerDiagonal = 100;
-  return inside_volume(mesh, {.spacing = request_.diagonal / kPerDiagonal, .progress = request_.options.progress});
+  return std::isnan(exact) ? estimated_volume(mesh, request_.options.progress) : exact;
 }
 
 SolidId Solids::add(Solid solid) {

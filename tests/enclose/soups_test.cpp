@@ -261,6 +261,7 @@ void expect_cover(Case& given, const Cover& cover, bool covers_inside, std::size
   for (const Point& x : given.judge.points_on_faces(given.random))
     ASSERT_TRUE(has(x)) << text(x) << " on a triangle is outside of all pieces";
   if (!covers_inside) return;
+  EXPECT_GE(cover.volume, (1 - 1e-9) * cover.original_volume) << "the union is smaller than what it covers";
   if (!given.judge.is_closed()) {  // the inside is that of the mesh with its openings closed
     EXPECT_FALSE(cover.original_closed);
     return;
