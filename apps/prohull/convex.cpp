@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -11,11 +12,13 @@
 
 #include "certificate_output.h"
 #include "command.h"
+#include "engine_rules.h"
 #include "prohull/convex_cover.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
 #include "robot/files/piece_files.h"
+#include "several.h"
 #include "verdict.h"
 
 namespace prohull::cli {
@@ -28,9 +31,14 @@ struct ConvexOptions {
   ConvexCoverOptions cover;
   InputOptions input;
   std::string out_format;
+  std::optional<const EngineRules*> engine;
   Length max_distance;
   double max_void_percent = 0;  ///< 0: any
 };
+
+std::string engine_name(const ConvexOptions& options) {
+  return std::string(name_of(engine_names(), options.engine.value()));
+}
 
 OutputKind piece_outputs() {
   OutputKind kind{"convex pieces", written_mesh_extensions()};
@@ -47,8 +55,40 @@ OutputKind whole_outputs() {
 }
 
 std::string suffix_of(const ConvexOptions& options) {
-  return output_suffix(options.out, is_standard_stream(options.out) ? whole_outputs() : piece_outputs(),
-                       options.out_format);
+  OutputKind kind = is_standard_stream(options.out) ? whole_outputs() : piece_outputs();
+  if (!options.engine || options.engine.value()->suffixes.empty())
+    return output_suffix(options.out, kind, options.out_format);
+  const std::vector<std::string>& read = options.engine.value()->suffixes;
+  std::erase_if(kind.suffixes,
+                [&](const std::string& suffix) { return std::ranges::find(read, suffix) == read.end(); });
+  const std::string what = "convex pieces for " + engine_name(options);
+  kind.what = what;
+  if (kind.suffixes.empty()) refuse(fmt::format("{} are not written to standard output; name a file", what));
+  const std::string suffix = output_suffix(options.out, kind, options.out_format);
+  if (std::ranges::find(kind.suffixes, suffix) == kind.suffixes.end())
+    refuse(fmt::format("{} are not written to {} files; they are written to {}", what, suffix,
+                       alternatives(kind.suffixes)));
+  return suffix;
+}
+
+/// As the mesh or the output is called, around which an engine has its prefix and suffix.
+std::vector<std::string> names_of(const ConvexOptions& options, const std::string& stem) {
+  const EngineRules rules = options.engine ? *options.engine.value() : EngineRules{};
+  const bool from_mesh = rules.named_as_mesh && !is_standard_stream(options.in);
+  const std::string name = std::string(rules.prefix) + (from_mesh ? named_after("{name}", options.in).string() : stem);
+  const std::size_t most = options.cover.max_pieces;
+  std::vector<std::string> names = most == 1 ? std::vector{name} : robot::piece_names(name, most);
+  for (std::string& each : names) each += rules.suffix;
+  return names;
+}
+
+/// The largest piece in a file; none if the file does not hold the very triangles of the pieces, in their order.
+std::optional<PieceSize> written_size(const path& file, std::span<const ConvexPiece> pieces) {
+  TriangleMesh all;
+  std::vector<std::size_t> faces;
+  for (const ConvexPiece& piece : pieces) append(all, piece.mesh), faces.push_back(piece.mesh.face_count());
+  if (!holds_triangles_of(file, all)) return std::nullopt;
+  return largest_piece(read_mesh(file), faces);
 }
 
 /// Which files the pieces go to: one for all, or a file for each, beside a robot file that names them or without it.
@@ -56,9 +96,8 @@ class PieceFiles {
  public:
   /// Throws InputError for names and options that contradict each other.
   explicit PieceFiles(const ConvexOptions& options) : out_(options.out), suffix_(suffix_of(options)) {
-    const std::size_t most = options.cover.max_pieces;
     stem_ = is_standard_stream(out_) ? "piece" : out_.stem().string();
-    names_ = most == 1 ? std::vector{stem_} : robot::piece_names(stem_, most);
+    names_ = names_of(options, stem_);
     check(options);
   }
 
@@ -78,13 +117,18 @@ class PieceFiles {
     return files;
   }
 
-  /// Returns whether the files hold the very bits of the pieces.
-  bool add_to(Outputs& outputs, const std::vector<ConvexPiece>& pieces) const {
+  /// Returns the largest piece in the files; none if they do not hold the very bits of the pieces.
+  std::optional<PieceSize> add_to(Outputs& outputs, const std::vector<ConvexPiece>& pieces) const {
     if (is_one()) return add_one(outputs, pieces);
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-      if (has_file(pieces[i]) && !add_piece(outputs, path_of(i), pieces[i])) return false;
+    PieceSize largest;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (!has_file(pieces[i])) continue;
+      const auto size = add_piece(outputs, path_of(i), pieces[i]);
+      if (!size) return std::nullopt;
+      largest = {std::max(largest.vertices, size->vertices), std::max(largest.polygons, size->polygons)};
+    }
     if (is_robot()) outputs.add(out_, robot_file(pieces));
-    return true;
+    return largest;
   }
 
   /// Those of these pieces that hold meshes, in the order of the pieces.
@@ -130,21 +174,26 @@ class PieceFiles {
 
   bool has_file(const ConvexPiece& piece) const { return !is_one() && (!is_robot() || is_mesh(piece)); }
 
-  bool add_one(Outputs& outputs, const std::vector<ConvexPiece>& pieces) const {
+  std::optional<PieceSize> add_one(Outputs& outputs, const std::vector<ConvexPiece>& pieces) const {
     std::vector<TriangleMesh> meshes;
-    TriangleMesh all;
-    for (const ConvexPiece& piece : pieces) meshes.push_back(piece.mesh), append(all, piece.mesh);
-    return outputs.add(out_, suffix_, [&](const path& file) {
+    for (const ConvexPiece& piece : pieces) meshes.push_back(piece.mesh);
+    std::optional<PieceSize> size;
+    outputs.add(out_, suffix_, [&](const path& file) {
       write_meshes(file, meshes, std::span(names_).first(pieces.size()));
-      return holds_triangles_of(file, all);
+      size = written_size(file, pieces);
+      return size.has_value();
     });
+    return size;
   }
 
-  bool add_piece(Outputs& outputs, const path& target, const ConvexPiece& piece) const {
-    return outputs.add(target, mesh_suffix(), [&](const path& file) {
+  std::optional<PieceSize> add_piece(Outputs& outputs, const path& target, const ConvexPiece& piece) const {
+    std::optional<PieceSize> size;
+    outputs.add(target, mesh_suffix(), [&](const path& file) {
       write_mesh(file, piece.mesh);
-      return holds_triangles_of(file, piece.mesh);
+      size = written_size(file, {&piece, 1});
+      return size.has_value();
     });
+    return size;
   }
 
   std::string robot_file(const std::vector<ConvexPiece>& pieces) const {
@@ -172,12 +221,14 @@ struct Outcome {
   MeshReport input;
   double diagonal = 0;
   ConvexCover cover;
-  bool certified = false;  ///< and the files hold the very bits of the pieces
+  bool certified = false;     ///< and the files hold the very bits of the pieces
+  PieceSize largest;          ///< in the files
+  bool within_limits = true;  ///< of the engine
   Certificate certificate;
   std::vector<std::string> others;
   double read_seconds = 0, write_seconds = 0;
 
-  int exit_code() const { return certified && cover.within_bounds ? kDone : kAnswerIsNo; }
+  int exit_code() const { return certified && cover.within_bounds && within_limits ? kDone : kAnswerIsNo; }
 };
 
 ConvexCover cover_of(TriangleMesh mesh, const ConvexOptions& options) {
@@ -234,6 +285,18 @@ std::string described_size(const ConvexCover& cover) {
                      cover.is_estimated ? " (estimated)" : "");
 }
 
+/// "24 vertices (limit 64)"
+std::string described_limit(std::size_t number, const char* what, std::size_t limit) {
+  return fmt::format("{} {}{}", number, what, limit == 0 ? "" : fmt::format(" (limit {})", limit));
+}
+
+void print_limits(const ConvexOptions& options, const Outcome& outcome) {
+  const EngineRules& rules = *options.engine.value();
+  say("  {}for {}: pieces as written have at most {} and {}\n", outcome.within_limits ? "" : "NOT ",
+      engine_name(options), described_limit(outcome.largest.vertices, "vertices", rules.vertices),
+      described_limit(outcome.largest.polygons, "polygons", rules.polygons));
+}
+
 void print_summary(const ConvexOptions& options, const PieceFiles& files, const Outcome& outcome) {
   const ConvexCover& cover = outcome.cover;
   say("{}: {}, {}\n", input_name(options.in), counted(outcome.input.faces, "face", "faces"),
@@ -250,6 +313,7 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
                                 : ", and its inside with its openings closed");
   else
     say("  certified: NO: nothing was written; please report this mesh\n");
+  if (outcome.certified && options.engine) print_limits(options, outcome);
   const auto in_shape = static_cast<std::size_t>(std::ranges::count(cover.pieces, options.cover.shape, shape_of));
   if (in_shape < cover.pieces.size())
     say("  {} of {} pieces have the shape asked for; the bounds allow no more\n", in_shape, cover.pieces.size());
@@ -277,6 +341,7 @@ nlohmann::json facts_of(const ConvexPiece& piece, const std::string& name) {
 nlohmann::json options_report(const ConvexOptions& options) {
   const ConvexCoverOptions& cover = options.cover;
   return {
+      {"for", options.engine ? nlohmann::json(engine_name(options)) : nlohmann::json()},
       {"pieces", cover.max_pieces},
       {"vertices", cover.max_vertices},
       {"scale", options.input.factor()},
@@ -311,6 +376,8 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
           {"reach_from_triangles", facts(cover.reach_from_triangles)},
           {"non_finite_faces", cover.non_finite_faces},
           {"within_bounds", cover.within_bounds},
+          {"largest_piece", {{"vertices", outcome.largest.vertices}, {"polygons", outcome.largest.polygons}}},
+          {"within_limits", outcome.within_limits},
           {"notes", cover.notes},
           {"other_files", outcome.others},
           {"seconds",
@@ -324,6 +391,8 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
 int run_convex(ConvexOptions options) {
   const PieceFiles files(options);
   options.cover.float32_coordinates = files.has_float32();
+  if (options.engine)
+    options.cover.max_vertices = std::min(options.cover.max_vertices, most_vertices(*options.engine.value()));
   if (options.max_void_percent > 0) options.cover.bounds.max_void_ratio = options.max_void_percent / 100;
   Outcome outcome;
   const Stopwatch reading;
@@ -339,7 +408,11 @@ int run_convex(ConvexOptions options) {
   outcome.cover = cover_of(std::move(mesh), options);
   Outputs pieces, report;
   const Stopwatch writing;
-  outcome.certified = outcome.cover.certified && files.add_to(pieces, outcome.cover.pieces);
+  if (const auto size = outcome.cover.certified ? files.add_to(pieces, outcome.cover.pieces) : std::nullopt) {
+    outcome.certified = true;
+    outcome.largest = *size;
+    outcome.within_limits = !options.engine || is_within(*size, *options.engine.value());
+  }
   outcome.write_seconds = writing.seconds();
   outcome.others = files.others(outcome.cover.pieces);
   if (outcome.certified && !options.certificate.empty()) {
@@ -373,6 +446,11 @@ void add_convex(CLI::App& app, Run& run) {
       ->required()
       ->type_name("PIECES");
   add_out_format_option(command, options->out_format, piece_outputs());
+  add_choice(
+      command, "--for", options->engine, engine_names(),
+      "Engine that takes the pieces: keeps its limits of vertices and polygons, which are counted in the files as "
+      "written, refuses formats that it does not read, and names pieces as it knows them. Coordinates stay "
+      "those of the mesh (docs/guides/covers.md).");
   add_certificate_option(command, options->certificate, "the pieces");
   add_number(command, "--pieces", cover.max_pieces, {1, 1000},
              "Largest number of pieces. With 1, the file of the piece has the name OUT, without a number.");
@@ -392,6 +470,7 @@ void add_convex(CLI::App& app, Run& run) {
   add_report_option(command, options->report);
   add_examples(command, {"prohull convex horse.ply -o horse_pieces.obj",
                          "prohull convex arm.stl --unit mm --pieces 8 --vertices 32 -o arm_collision.glb",
+                         "prohull convex arm.stl --for godot -o arm_collision.glb",
                          "prohull convex arm.stl --max-distance 2 --pieces 64 -o arm_piece.stl --report arm.json",
                          "prohull convex arm.stl --unit mm --pieces 8 -o arm_pieces.urdf",
                          "prohull convex arm.stl --unit mm --shape capsule --max-void 60 -o arm_pieces.xml",

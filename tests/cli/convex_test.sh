@@ -80,6 +80,36 @@ fi
 expect 0 "boxes as meshes" $convex --shape box -o boxes.obj
 expect 0 "boxes as meshes cover" $prohull verify boxes.obj part.stl
 
+# --- for an engine ---
+$prohull sample sphere --faces 3000 -o ball.stl >/dev/null
+# limits ENGINE VERTICES POLYGONS: counted in the files by prohull info
+limits() {
+  rm -f e_*.ply
+  expect 0 "for $1" $prohull convex ball.stl --pieces 3 --vertices 1000 --for "$1" -o e.ply
+  says out "for $1" "for $1: pieces as written have at most"
+  for piece in e_0*.ply; do
+    $prohull info "$piece" --report piece.json >/dev/null
+    is "for $1: vertices of $piece" test "$(sed -n 's/^ *"vertices": \([0-9]*\),*$/\1/p' piece.json | head -n 1)" -le "$2"
+    is "for $1: polygons of $piece" test "$(sed -n 's/^ *"faces": \([0-9]*\),*$/\1/p' piece.json | head -n 1)" -le "$3"
+  done
+}
+limits physx 64 255
+says out "for physx" "64 vertices (limit 64) and 124 polygons (limit 255)"
+limits physx-gpu 33 64
+expect 0 "for unity" $prohull convex ball.stl --pieces 1 --vertices 1000 --for unity -o e.obj --report e.json
+says out "for unity" "128 vertices and 252 polygons (limit 255)"
+says e.json "for unity, in the report" '"polygons": 252'
+says e.json "for unity, in the report" '"for": "unity"'
+expect 0 "for unreal" $convex --for unreal -o e.obj
+says e.obj "for unreal: named as the mesh" "o UCX_part_01"
+expect 0 "for unreal, from standard input" sh -c "$prohull convex - --pieces 1 --for unreal -o e.obj <part.stl"
+says e.obj "for unreal: named as the output" "o UCX_e"
+expect 0 "for godot" $convex --for godot -o e.glb
+is "for godot: names" grep -aq '"e_02-convcolonly"' e.glb
+expect 0 "for godot: covers" $prohull verify --union e.glb part.stl
+expect 0 "for bullet" $convex --for bullet -o e.urdf
+expect 0 "for mujoco" $convex --for mujoco -o e.xml
+
 # --- pictures ---
 expect 0 "exploded" $prohull render part.stl a.obj --explode none --explode 0.3 --size 80x30 -o exploded.png
 expect 0 "not exploded" $prohull render part.stl a.obj --size 80x30 -o together.png
@@ -127,6 +157,11 @@ refused() {
 refused 2 "another suffix" ".glb" part.stl -o wrong.step
 refused 2 "several files to standard output" "obj or glb" part.stl -o -
 refused 2 "several files to standard output, said" "one file" part.stl -o - --out-format stl
+refused 2 "a format that the engine does not read" "for unity are not written to .glb files; name the file .obj" part.stl --for unity -o wrong.glb
+refused 2 "a format that the engine does not read, said" "written to .glb" part.stl --for godot -o - --out-format obj
+refused 2 "an engine of several files, to standard output" "for mujoco are not written to standard output" part.stl --for mujoco -o -
+expect 2 "another engine" $prohull convex part.stl --for gazebo -o wrong.obj
+says err "another engine" "--for must be physx, physx-gpu, unity"
 refused 2 "spheres in a mesh file" ".urdf or .xml" part.stl --shape sphere -o wrong.obj
 refused 2 "a piece over the input" "named twice" r_01.stl -o r.stl
 refused 2 "a report over a piece" "named twice" part.stl -o wrong.stl --report wrong_02.stl
