@@ -2,8 +2,10 @@
 #include <fcl/narrowphase/collision.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "prohull/collide.h"
@@ -49,8 +51,7 @@ std::vector<FacePair> contacts(const Model& a, const Model& b, const Pose& pose_
   std::vector<FacePair> pairs;
   for (const auto& contact : found) pairs.push_back({static_cast<FaceId>(contact.b1), static_cast<FaceId>(contact.b2)});
   std::ranges::sort(pairs, {}, [](const FacePair& pair) { return std::pair(index(pair.a), index(pair.b)); });
-  const auto [first, last] = std::ranges::unique(pairs);
-  pairs.erase(first, last);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
 
