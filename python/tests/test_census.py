@@ -17,16 +17,23 @@ def census(*arguments):
     return subprocess.run([sys.executable, CENSUS, *arguments], capture_output=True, text=True, env=environment)
 
 
-def prohull_program(*arguments):
-    subprocess.run([sys.executable, "-m", "prohull", *arguments], check=True, stdout=subprocess.DEVNULL)
+LINK = """<link name="{name}"><visual><geometry><mesh filename="ball.obj"/></geometry></visual>
+  <collision><geometry><box size="1 1 1"/></geometry></collision></link>"""
+JOINT = """<joint name="{child}" type="revolute"><parent link="{parent}"/><child link="{child}"/><origin xyz="1.4 0 0"/>
+  <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>"""
 
 
 @pytest.fixture(scope="module")
 def robots(tmp_path_factory):
+    """A chain of balls that ship with boxes, of which the first and the third meet in some positions."""
     folder = tmp_path_factory.mktemp("robots")
-    prohull_program("sample", "gripper", "-o", folder / "gripper")
-    (folder / "gripper" / "gripper.srdf").write_text('<robot name="sample_gripper"><disable_collisions link1="palm" link2="nothing" '
-                                                     'reason="Never"/></robot>')
+    (folder / "chain").mkdir()
+    prohull.sample("sphere", 200).save(folder / "chain" / "ball.obj")
+    parts = [LINK.format(name=name) for name in "abc"]
+    parts += [JOINT.format(parent=parent, child=child) for parent, child in ("ab", "bc")]
+    (folder / "chain" / "chain.urdf").write_text(f'<robot name="chain">{"".join(parts)}</robot>')
+    (folder / "chain" / "chain.srdf").write_text('<robot name="chain"><disable_collisions link1="a" link2="c" reason="Never"/>'
+                                                 '<disable_collisions link1="a" link2="b" reason="Adjacent"/></robot>')
     (folder / "broken.urdf").write_text("<robot")
     (folder / "<b>.xml").write_text("<mujoco><worldbody><body><geom type='sphere' size='nan'/></body></worldbody></mujoco>")
     (folder / "broken.srdf").write_text("<robot")
@@ -39,10 +46,10 @@ def test_tells_of_every_robot_and_keeps_it(robots, tmp_path):
     assert run.returncode == 0, run.stderr
     assert "broken.srdf" in run.stderr and "Traceback" not in run.stderr
     rows = {row["robot"]: row for row in json.loads((tmp_path / "census.json").read_text())}
-    assert set(rows) == {"<b>.xml", "broken.urdf", "gripper/gripper.urdf"}
-    gripper, broken = rows["gripper/gripper.urdf"], rows["broken.urdf"]
-    assert gripper["leaks"] > 0 and gripper["sticks_out_mm"] > 0 and gripper["volume_ratio"] > 0 and gripper["srdf_rows"] == 1
-    assert 0 <= gripper["false_stops"] <= 100 and gripper["srdf_false"] == 0
+    assert set(rows) == {"<b>.xml", "broken.urdf", "chain/chain.urdf"}
+    chain, broken = rows["chain/chain.urdf"], rows["broken.urdf"]
+    assert chain["links"] == chain["leaks"] == 3 and 100 < chain["sticks_out_mm"] < 1000 and 0 < chain["volume_ratio"] < 1
+    assert chain["srdf_rows"] == 2 and chain["srdf_false"] == 1 and chain["false_rows"] == [["a", "c"]]
     assert broken["why"] and "links" not in broken and str(robots) not in broken["why"]
     table = list(csv.DictReader((tmp_path / "census.csv").open(newline="")))
     assert [row["robot"] for row in table] == sorted(rows)
@@ -50,14 +57,16 @@ def test_tells_of_every_robot_and_keeps_it(robots, tmp_path):
     page = (tmp_path / "census.html").read_text()
     assert "&lt;b&gt;.xml" in page and "http" not in page and page.count("<table>") == 2
 
-    kept = tmp_path / "robots" / "gripper__gripper.urdf.json"
+    kept = tmp_path / "robots" / "chain__chain.urdf.json"
     before = kept.stat().st_mtime_ns
     assert census(tmp_path, robots).returncode == 0 and kept.stat().st_mtime_ns == before
     kept.write_text(kept.read_text()[:100])
-    mesh = next((robots / "gripper" / "meshes").rglob("*.stl"))
-    assert census(tmp_path, robots).returncode == 0 and json.loads(kept.read_text()) == gripper, "a broken file is made again"
-    mesh.write_bytes(mesh.read_bytes()[:84] + bytes(50))
-    assert census(tmp_path, robots).returncode == 0 and json.loads(kept.read_text())["state"] != gripper["state"]
+    (robots / "chain" / "chain.srdf").unlink()
+    assert census(tmp_path, robots).returncode == 0
+    again = json.loads(kept.read_text())
+    assert "srdf_rows" not in again and 0 < again["missed"] < 100 and again["false_stops"] == 0, "boxes inside of balls"
+    (robots / "chain" / "ball.obj").write_text("v 0 0 0\nf 1 2 3\n")
+    assert census(tmp_path, robots).returncode == 0 and json.loads(kept.read_text())["unchecked"] == 3
 
 
 def test_what_is_wrong_is_one_error(tmp_path):
