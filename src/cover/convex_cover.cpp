@@ -126,9 +126,10 @@ class Covering {
       const Material material = of_enclosing_hull();
       cover = best_cover(material);
       if (prepared_.closed) cover->notes.emplace_back("no cover of the mesh itself was certified");
-      cover->notes.emplace_back(material.solid.face_count() > 0
-                                    ? "a hull around the mesh was cut into pieces"
-                                    : "the triangles are covered, but not what lies between them");
+      if (material.solid.face_count() > 0)
+        cover->notes.emplace_back("a hull around the mesh was cut into pieces");
+      else if (!cover->covers_inside)
+        cover->notes.emplace_back("the triangles are covered, but not what lies between them");
     }
     if (!cover->certified) {
       cover = best_cover(of_convex_hull());

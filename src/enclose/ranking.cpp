@@ -83,6 +83,14 @@ bool Ranking::is_near_flat() const {
   return is_as_asked() && weighed_size(best_->hull) <= kTentHeight * solids_[best_->hull.solid].slab_width;
 }
 
+bool Ranking::is_on_triangles() const {
+  constexpr double kOn = 1e-9;  // of the diagonal
+  constexpr std::size_t kMostCells = 1000;
+  if (!is_as_asked() || best_->hull.source != Source::ConvexHull || volume() > 0) return false;
+  return distance_bounds(best_->hull.mesh, request_.to_cover(), {.max_cells = kMostCells}).upper <=
+         kOn * request_.diagonal;
+}
+
 // Around what is flat, spikes that are far away have hardly any volume.
 double Ranking::weighed_size(const EnclosingHull& hull) const {
   if (solids_[hull.solid].slab_width > 0) return distance_bounds(hull.mesh, request_.to_cover()).upper;

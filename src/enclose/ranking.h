@@ -36,7 +36,8 @@ class Ranking {
   bool is_clean() const { return is_clean(best_->hull); }
   /// The best is one of what is flat and convex.
   bool is_of_flat() const { return best_ && solids_[best_->hull.solid].slab_width > 0; }
-  bool is_near_flat() const;  ///< and as near as a tent
+  bool is_near_flat() const;     ///< and as near as a tent
+  bool is_on_triangles() const;  ///< a convex hull all of which lies on triangles that do not bound a solid
   double best_volume() const { return signed_volume(best_->hull.mesh); }
   double best_void() const { return best_volume() / volume() - 1; }
   /// How much larger the best is than it has to be, about.

@@ -156,6 +156,12 @@ TEST(ConvexCover, TakesAnyTriangles) {
   }
 }
 
+TEST(ConvexCover, OfASolidThatRepeatsItselfInsideOutCoversTheInside) {
+  const TriangleMesh solid = meshes::octahedron();
+  const ConvexCover cover = convex_cover(meshes::together(meshes::inside_out(solid), solid), {.max_pieces = 2});
+  EXPECT_TRUE(cover.certified && cover.covers_inside && cover.notes.empty());
+}
+
 // No hull around them is cut for that.
 TEST(ConvexCover, OfOnePieceIsTheConvexHullOfLooseTriangles) {
   TriangleMesh loose = small_torus();

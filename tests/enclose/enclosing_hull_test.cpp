@@ -174,6 +174,15 @@ TEST(EnclosingHull, HasNoVoidBelowZeroWherePartsOverlap) {
   EXPECT_GE(made.hulls[0].void_ratio, -1e-9);
 }
 
+// Once outwards and once inside out, in the same place.
+TEST(EnclosingHull, OfWhatCoversItsConvexHullTakesNoWrap) {
+  const TriangleMesh solid = octahedron();
+  const EnclosingHulls made = hull_of(together(inside_out(solid), solid), 100);
+  EXPECT_EQ(made.solids.size(), 1u);
+  EXPECT_TRUE(made.hulls[0].certified);
+  EXPECT_EQ(made.hulls[0].mesh.face_count(), 8u);
+}
+
 // A double sheet encloses nothing, but what is rounded to float32 may enclose it. Levels are not rounded.
 TEST(EnclosingHull, HasNoLevelsThatDoNotHoldThemselves) {
   const Vec3 twice{0.84097370726654, -1.0802544242162904, -0.12371646214027043};
