@@ -1,4 +1,4 @@
-# Reads every include of include/, src/, render/, robot/, view/, kdop/, apps/, examples/ and python/, and fails if one points against the flow.
+# Reads every include of include/, src/, render/, robot/, view/, kdop/, apps/, examples/, python/ and js/, and fails if one points against the flow.
 # cmake -DROOT=<repository> -P layering.cmake
 cmake_policy(VERSION 3.25)
 
@@ -37,14 +37,14 @@ room(enclose   OWNS cage closed_solid enclosing_hull                            
                                                                                      geometry parallel base prohull/collide
                                                                                      cover/few_vertices cover/polytope)
 
-room(cover     OWNS convex_cover sphere_cover sweep                                    MAY enclose construct repair verify wrap hull mesh
+room(cover     OWNS convex_cover detail/given_options sphere_cover sweep               MAY enclose construct repair verify wrap hull mesh
                                                                                      geometry parallel base
                                                                                      prohull/mesh_query prohull/collide)
 room(certificate OWNS certificate                                                MAY verify hull mesh geometry parallel base)
 room(collide   OWNS collide                                                      MAY mesh geometry parallel base)
 
 # Outside of src/: public headers, all of them, and these folders.
-set(outside render robot view kdop apps examples python)
+set(outside render robot view kdop apps examples python js)
 set(may_render render)
 set(may_robot robot render)
 set(may_view view robot)
@@ -52,6 +52,7 @@ set(may_kdop kdop query geometry)  # an engine as those of src/query
 set(may_apps render robot view kdop)
 set(may_examples "")
 set(may_python render robot view)
+set(may_js "")
 
 set(failures "")
 macro(fail)
@@ -82,7 +83,8 @@ endforeach()
 
 # --- every include follows the flow ---
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/include/*.h ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/render/*.h
-     ${ROOT}/render/*.cpp ${ROOT}/robot/*.h ${ROOT}/robot/*.cpp ${ROOT}/view/*.h ${ROOT}/view/*.cpp ${ROOT}/kdop/*.h ${ROOT}/kdop/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp)
+     ${ROOT}/render/*.cpp ${ROOT}/robot/*.h ${ROOT}/robot/*.cpp ${ROOT}/view/*.h ${ROOT}/view/*.cpp ${ROOT}/kdop/*.h ${ROOT}/kdop/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp
+     ${ROOT}/js/bindings/*.h ${ROOT}/js/bindings/*.cpp)
 list(LENGTH sources count)
 if(count LESS 20)
   message(FATAL_ERROR "found only ${count} sources below ${ROOT}")

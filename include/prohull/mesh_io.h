@@ -80,6 +80,9 @@ TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& na
 /// InputError(NonFiniteCoordinate) if a coordinate is not a float32 (float32_hull.h).
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
+/// The bytes that write_mesh writes to a file of that name. Throws as it does.
+std::string mesh_content(const std::filesystem::path& name, const TriangleMesh& mesh);
+
 /// Whether write_meshes takes a format: OBJ and GLB.
 bool holds_several_meshes(MeshFormat format);
 

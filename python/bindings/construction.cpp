@@ -13,6 +13,7 @@
 #include "module.h"
 #include "prohull/cage.h"
 #include "prohull/closed_solid.h"
+#include "prohull/detail/given_options.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/mesh_part.h"
 #include "watch.h"
@@ -21,36 +22,6 @@ namespace py = pybind11;
 
 namespace prohull::python {
 namespace {
-
-EnclosingOptions options_of(const Keywords& given) {
-  EnclosingOptions options;
-  HullOptions& hull = options.hull;
-  hull.side = given.choice("side", hull_side_names());
-  hull.mirror = given.choice_or_none("mirror", axis_names());
-  hull.strategy = given.choice("strategy", strategy_names());
-  hull.self_intersections = given.choice("self_intersections", self_intersections_names());
-  hull.guards.max_valence = given.count("max_valence");
-  hull.guards.min_compactness_ratio = given.number("min_compactness_ratio");
-  hull.guards.sufficient_compactness = given.number("sufficient_compactness");
-  hull.guards.max_normal_deviation = given.number("max_normal_deviation_degrees") * std::numbers::pi / 180;
-  hull.guards.max_overhang = given.not_negative("max_overhang");
-  hull.relax_guards = given.flag("relax_guards");
-  hull.float32_coordinates = given.flag("float32_coordinates");
-  hull.seed = given.get<std::uint64_t>("seed", "a whole number, at least 0");
-  hull.best_of = given.count("best_of");
-  hull.threads = given.count("threads");
-  hull.tolerances = PerFace<double>(given.get<std::vector<double>>("tolerances", "a number for each face"));
-  options.bounds.max_distance = given.not_negative("max_distance");
-  options.bounds.max_void_ratio = given.not_negative("max_void_percent") / 100;
-  options.padding = given.not_negative("gap");
-  options.tight = given.flag("tight");
-  options.levels = given.flag("levels");
-  options.repair = given.choice("repair", repair_names());
-  options.keep_cavities = given.flag("keep_cavities");
-  options.seal_holes = given.not_negative("seal_holes");
-  options.open_shells = given.choice("open_shells", open_shells_names());
-  return options;
-}
 
 py::dict dict_of(const RefusalCounts& counts) {
   py::dict result;
@@ -154,7 +125,7 @@ py::list facts_of(EnclosingHulls made, const EnclosingOptions& options) {
 
 py::list build(const TriangleMesh& mesh, const std::vector<std::size_t>& targets, const py::object& progress,
                const py::dict& keywords) {
-  EnclosingOptions options = options_of(Keywords(keywords));
+  EnclosingOptions options = enclosing_options(Keywords(keywords));
   EnclosingHulls made = watched(progress, [&](Watch& watch) {
     options.progress = watch.progress();
     return enclosing_hulls(mesh, targets, options);
@@ -179,15 +150,7 @@ py::dict facts_of(CageHull side) {
 }
 
 py::dict cage(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
-  const Keywords given(keywords);
-  CageOptions options;
-  options.outer_faces = given.count("faces");
-  options.inner_faces = given.count("inner_faces");
-  options.gap = given.not_negative("gap");
-  options.even = given.flag("even");
-  options.tight = given.flag("tight");
-  options.float32_coordinates = given.flag("float32_coordinates");
-  options.threads = given.count("threads");
+  CageOptions options = cage_options(Keywords(keywords));
   Cage made = watched(progress, [&](Watch& watch) {
     options.progress = watch.progress();
     return build_cage(mesh, options);
@@ -201,12 +164,7 @@ py::dict cage(const TriangleMesh& mesh, const py::object& progress, const py::di
 }
 
 py::dict repair(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
-  const Keywords given(keywords);
-  ClosedSolidOptions options;
-  options.spacing = given.not_negative("spacing");
-  options.repair.open_shells = given.choice("open_shells", open_shells_names());
-  options.repair.keep_cavities = given.flag("keep_cavities");
-  options.float32_coordinates = given.flag("float32_coordinates");
+  ClosedSolidOptions options = closed_solid_options(Keywords(keywords));
   ClosedSolid made = watched(progress, [&](Watch& watch) {
     options.progress = watch.progress();
     return closed_solid(mesh, options);
@@ -234,10 +192,10 @@ py::tuple simplified_part(TriangleMesh mesh, std::size_t own_faces, const Array<
                           const py::object& progress, const py::dict& keywords) {
   const Keywords given(keywords);
   HullOptions options;
-  options.target_faces = given.count("target_faces");
-  options.side = given.choice("side", hull_side_names());
-  options.float32_coordinates = given.flag("float32_coordinates");
-  options.threads = given.count("threads");
+  given.count("target_faces", options.target_faces);
+  given.choice("side", hull_side_names(), options.side);
+  given.flag("float32_coordinates", options.float32_coordinates);
+  given.count("threads", options.threads);
   const MeshPart part{std::move(mesh), own_faces, box_of(box)};
   SimplifiedPart made = watched(progress, [&](Watch& watch) {
     options.progress = watch.progress();

@@ -12,6 +12,7 @@
 #include "keywords.h"
 #include "module.h"
 #include "prohull/convex_cover.h"
+#include "prohull/detail/given_options.h"
 #include "prohull/mesh_io.h"
 #include "prohull/sphere_cover.h"
 #include "prohull/union_verification.h"
@@ -64,15 +65,7 @@ py::dict common_facts_of(const Cover& cover) {
 }
 
 py::dict convex_pieces(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
-  const Keywords given(keywords);
-  ConvexCoverOptions options;
-  options.max_pieces = given.count("pieces", 1);
-  options.max_vertices = given.count("vertices", 4);
-  options.bounds.max_distance = given.not_negative("max_distance");
-  options.bounds.max_void_ratio = given.not_negative("max_void_percent") / 100;
-  options.shape = given.choice("shape", piece_shape_names());
-  options.float32_coordinates = given.flag("float32_coordinates");
-  options.threads = given.count("threads");
+  ConvexCoverOptions options = convex_cover_options(Keywords(keywords));
   ConvexCover cover = watched(progress, [&](Watch& watch) {
     options.progress = watch.progress();
     return convex_cover(mesh, options);
@@ -86,12 +79,7 @@ py::dict convex_pieces(const TriangleMesh& mesh, const py::object& progress, con
 }
 
 py::dict spheres(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
-  const Keywords given(keywords);
-  SphereCoverOptions options;
-  options.max_balls = given.count("count", 1);
-  options.max_distance = given.not_negative("max_distance");
-  options.fill = given.flag("fill");
-  options.threads = given.count("threads");
+  SphereCoverOptions options = sphere_cover_options(Keywords(keywords));
   const SphereCover cover = watched(progress, [&](Watch& watch) {
     options.progress = watch.progress();
     return sphere_cover(mesh, options);

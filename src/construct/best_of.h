@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <future>
 #include <numeric>
 #include <optional>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "parallel/arena.h"
+#include "parallel/beside.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_report.h"
@@ -32,8 +32,7 @@ auto best_of(const HullOptions& options, const char* stage, Build build, MeshOf 
   std::vector<std::optional<Candidate>> candidates(options.best_of);
   std::vector<std::atomic<double>> done(options.best_of);
   ProgressMeter meter(options.progress, stage);
-  // On a thread of its own, so that the caller's can tell the progress until the last build ends.
-  auto builds = std::async(std::launch::async, [&] {
+  const auto build_all = [&] {
     arena_of(options.threads).execute([&] {
       oneapi::tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
         HullOptions one = options;
@@ -51,10 +50,12 @@ auto best_of(const HullOptions& options, const char* stage, Build build, MeshOf 
         candidates[i] = {mesh.face_count(), options.side == HullSide::Outer ? volume : -volume, std::move(result)};
       });
     });
-  });
-  while (builds.wait_for(ProgressMeter::interval) != std::future_status::ready)
+  };
+  // The caller's thread tells the progress until the last build ends.
+  const auto tell = [&] {
     meter.at(std::accumulate(done.begin(), done.end(), 0.0) / static_cast<double>(done.size()));
-  builds.get();
+  };
+  run_beside(build_all, tell, ProgressMeter::interval);
   meter.at(1);
   const auto best = std::ranges::min_element(candidates, {}, [&](const std::optional<Candidate>& c) {
     return std::tuple(std::max(c->faces, options.target_faces), c->void_volume);

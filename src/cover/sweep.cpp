@@ -57,7 +57,7 @@ double farthest_from(const Vec3& center, std::span<const Vec3> points) {
   return farthest;
 }
 
-std::span<const Vec3> vertices_of(const TriangleMesh& mesh) { return {mesh.positions.begin(), mesh.positions.end()}; }
+std::span<const Vec3> vertices_of(const TriangleMesh& mesh) { return {mesh.positions.data(), mesh.positions.size()}; }
 
 /// A mesh that uses the points.
 TriangleMesh fan_of(std::vector<Vec3> points) {

@@ -185,11 +185,15 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& opt
   return read_mesh(read_file(path), path, options);
 }
 
+std::string mesh_content(const std::filesystem::path& name, const TriangleMesh& mesh) {
+  const MeshFormat format = format_to_write(name);
+  check_coordinates(mesh, format, name.string());
+  if (format == MeshFormat::Glb) check_glb_size({&mesh, 1}, {}, name);
+  return traits(format).content(mesh);
+}
+
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
-  const MeshFormat format = format_to_write(path);
-  check_coordinates(mesh, format, path.string());
-  if (format == MeshFormat::Glb) check_glb_size({&mesh, 1}, {}, path);
-  write_file(path, traits(format).content(mesh));
+  write_file(path, mesh_content(path, mesh));
 }
 
 bool holds_several_meshes(MeshFormat format) { return traits(format).content_of_several; }

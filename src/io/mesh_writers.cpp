@@ -47,7 +47,7 @@ Box box_of_all_vertices(const TriangleMesh& mesh) {
   return box;
 }
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// The colours that Okabe and Ito (2008) chose for people with any kind of colour vision, but black; linear light.
 constexpr auto kColors = std::to_array<std::array<double, 3>>({{0.791, 0.347, 0.000},
@@ -58,7 +58,7 @@ constexpr auto kColors = std::to_array<std::array<double, 3>>({{0.791, 0.347, 0.
                                                                {0.665, 0.112, 0.000},
                                                                {0.604, 0.191, 0.386}});
 
-Json material(std::size_t i) {
+OrderedJson material(std::size_t i) {
   const auto& [r, g, b] = kColors[i];
   return {{"pbrMetallicRoughness", {{"baseColorFactor", {r, g, b, 1}}, {"metallicFactor", 0}}}};
 }
@@ -70,7 +70,7 @@ class GltfJson {
     if (mesh.face_count() == 0) return;
     const std::size_t number = meshes_.size();
     const Box box = box_of_all_vertices(mesh);
-    Json primitive{{"attributes", {{"POSITION", accessors_.size()}}}, {"indices", accessors_.size() + 1}};
+    OrderedJson primitive{{"attributes", {{"POSITION", accessors_.size()}}}, {"indices", accessors_.size() + 1}};
     add_accessor(12 * mesh.vertex_count(), 34962,
                  {{"componentType", 5126},
                   {"count", mesh.vertex_count()},
@@ -83,36 +83,36 @@ class GltfJson {
       primitive["material"] = number % kColors.size();
       if (materials_.size() < kColors.size()) materials_.push_back(material(number));
     }
-    meshes_.push_back({{"primitives", Json::array({std::move(primitive)})}});
-    Json node{{"mesh", number}};
+    meshes_.push_back({{"primitives", OrderedJson::array({std::move(primitive)})}});
+    OrderedJson node{{"mesh", number}};
     if (name) node["name"] = *name, meshes_.back()["name"] = *name;
     nodes_.push_back(std::move(node));
     places_.push_back(number);
   }
 
   std::string text() const {
-    Json json{{"asset", {{"version", "2.0"}, {"generator", "prohull"}}}, {"scene", 0}};
-    json["scenes"] = Json::array({Json::object()});
+    OrderedJson json{{"asset", {{"version", "2.0"}, {"generator", "prohull"}}}, {"scene", 0}};
+    json["scenes"] = OrderedJson::array({OrderedJson::object()});
     if (!nodes_.empty()) {
       json["scenes"][0]["nodes"] = places_, json["nodes"] = nodes_, json["meshes"] = meshes_;
       if (!materials_.empty()) json["materials"] = materials_;
       json["accessors"] = accessors_, json["bufferViews"] = views_;
-      json["buffers"] = Json::array({Json{{"byteLength", bytes_}}});
+      json["buffers"] = OrderedJson::array({OrderedJson{{"byteLength", bytes_}}});
     }
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   }
 
  private:
-  void add_accessor(std::size_t bytes, int target, const Json& what) {
-    Json accessor{{"bufferView", views_.size()}};
+  void add_accessor(std::size_t bytes, int target, const OrderedJson& what) {
+    OrderedJson accessor{{"bufferView", views_.size()}};
     accessor.update(what);
     accessors_.push_back(std::move(accessor));
     views_.push_back({{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", bytes}, {"target", target}});
     bytes_ += bytes;
   }
 
-  Json nodes_ = Json::array(), places_ = nodes_, meshes_ = nodes_, materials_ = nodes_, accessors_ = nodes_,
-       views_ = nodes_;
+  OrderedJson nodes_ = OrderedJson::array(), places_ = nodes_, meshes_ = nodes_, materials_ = nodes_,
+              accessors_ = nodes_, views_ = nodes_;
   std::size_t bytes_ = 0;
 };
 

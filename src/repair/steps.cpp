@@ -109,7 +109,7 @@ std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh, bool with_wedges
   for (auto i = uses.begin(), j = i; i != uses.end(); i = j) {
     while (j != uses.end() && j->low == i->low && j->high == i->high) ++j;
     if (j - i == 2) result.push_back({i->corner, (i + 1)->corner, i->upwards != (i + 1)->upwards});
-    if (with_wedges && j - i > 2) add_wedges({i, j}, mesh, result);
+    if (with_wedges && j - i > 2) add_wedges({&*i, static_cast<std::size_t>(j - i)}, mesh, result);
   }
   return result;
 }

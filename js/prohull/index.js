@@ -1,0 +1,80 @@
+// The library in workers: each call is a promise, and calls that run at the same time have a worker each.
+import {startWorker, wasmModule} from '#platform';
+import {InputError, errorOf} from './engine.js';
+
+export {InputError};
+
+let compiled;  // one for all workers
+const idle = [];
+const kMostIdle = 1;
+
+function newWorker() {
+  const worker = {onMessage: null, onFailure: null};
+  worker.thread = startWorker((message) => worker.onMessage(message), (error) => worker.onFailure(error));
+  return worker;
+}
+
+function retire(worker) {
+  worker.thread.setBusy(false);
+  if (idle.length < kMostIdle) idle.push(worker);
+  else worker.thread.end();
+}
+
+async function call(name, args, {signal, progress} = {}) {
+  signal?.throwIfAborted();
+  const wasm = await (compiled ??= wasmModule());
+  signal?.throwIfAborted();
+  const worker = idle.pop() ?? newWorker();
+  worker.thread.setBusy(true);
+  return new Promise((resolve, reject) => {
+    const abort = () => {  // the work cannot be asked to stop while it runs: its worker ends
+      worker.thread.end();
+      reject(signal.reason);
+    };
+    signal?.addEventListener('abort', abort, {once: true});
+    const finish = (settle, value, isBroken) => {
+      signal?.removeEventListener('abort', abort);
+      if (isBroken) worker.thread.end();
+      else retire(worker);
+      settle(value);
+    };
+    worker.onFailure = (error) => finish(reject, error, true);
+    worker.onMessage = (message) => {
+      if (message.progress) progress?.(...message.progress);
+      else if (message.error) finish(reject, errorOf(message.error.name, message.error.message), message.isBroken);
+      else finish(resolve, message.result, false);
+    };
+    try {
+      worker.thread.post({wasm, name, args});
+    } catch (error) {  // what cannot be copied, such as functions among the options
+      finish(reject, new InputError(error.message), false);
+    }
+  });
+}
+
+/** `signal` and `progress` stand among the options of the library. */
+const separated = ({signal, progress, ...options} = {}) => [options, {signal, progress}];
+
+const withOptions = (name, meshes) => (...args) => {
+  const [options, running] = separated(args[meshes] ?? {});
+  return call(name, [...args.slice(0, meshes), options], running);
+};
+
+export const build = (mesh, targetFaces = 2000, given = {}) => {
+  const [options, running] = separated(given);
+  return call('build', [mesh, targetFaces, options], running);
+};
+export const verify = withOptions('verify', 2);
+export const distance = withOptions('distance', 2);
+export const convexPieces = withOptions('convexPieces', 1);
+export const spheres = withOptions('spheres', 1);
+export const repair = withOptions('repair', 1);
+export const level = (levels, faces) => call('level', [levels, faces]);
+export const inspect = (mesh) => call('inspect', [mesh]);
+export const read = (bytes, name) => call('read', [bytes, name]);
+export const write = (mesh, name) => call('write', [mesh, name]);
+
+/** Ends idle workers, which keep the memory of their last call. Later calls start new ones. */
+export function release() {
+  for (const worker of idle.splice(0)) worker.thread.end();
+}

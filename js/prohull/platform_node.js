@@ -1,0 +1,22 @@
+// What node has in place of a browser's workers and fetch.
+import {readFile} from 'node:fs/promises';
+import {Worker, isMainThread, parentPort} from 'node:worker_threads';
+
+export const wasmModule = async () => WebAssembly.compile(await readFile(new URL('./module.wasm', import.meta.url)));
+
+/** A worker that does not keep the program from ending while it is idle. */
+export function startWorker(onMessage, onFailure) {
+  const worker = new Worker(new URL('./worker.js', import.meta.url));
+  worker.on('message', onMessage);
+  worker.on('error', onFailure);
+  return {
+    post: (message) => worker.postMessage(message),
+    end: () => worker.terminate(),
+    setBusy: (busy) => (busy ? worker.ref() : worker.unref()),
+  };
+}
+
+export function serve(answer) {
+  if (isMainThread) throw new Error('worker.js is for workers');
+  parentPort.on('message', (message) => answer(message, (reply, transfer) => parentPort.postMessage(reply, transfer)));
+}

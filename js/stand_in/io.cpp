@@ -1,0 +1,49 @@
+// What is left out of src/io in the browser: files, compressed contents and the program that runs assimp. What of it
+// readers of meshes ask for stands here.
+#include <fmt/format.h>
+
+#include "io/file.h"
+#include "io/file_content.h"
+#include "io/imported_mesh.h"
+#include "prohull/error.h"
+#include "prohull/hull_file.h"
+
+namespace prohull {
+namespace {
+
+[[noreturn]] void refuse_file(const std::string& name) {
+  throw InputError(Defect::CannotRead, fmt::format("{}: no file can be opened here, only what is in memory", name));
+}
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path) { refuse_file(path.string()); }
+
+void write_file(const std::filesystem::path& path, std::string_view) { refuse_file(path.string()); }
+
+std::size_t decompression_limit(std::size_t compressed) { return (std::size_t{64} << 20) + 200 * compressed; }
+
+bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }
+
+bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04") || bytes.starts_with("PK\x05\x06"); }
+
+std::optional<FileContent> decompressed(std::string_view bytes, const std::filesystem::path& name) {
+  if (is_gzip(bytes) || is_zip(bytes))
+    throw InputError(Defect::UnknownFormat,
+                     fmt::format("{}: compressed files are not read here; decompress it first", name.string()));
+  return {};
+}
+
+bool is_hull_content(std::string_view content) { return content.starts_with("\x89PHULL\r\n"); }
+
+bool is_imported(const std::filesystem::path&) { return false; }
+
+std::span<const std::string_view> imported_extensions() { return {}; }
+
+ImportLimits import_limits(std::size_t) { return {}; }
+
+TriangleMesh imported_mesh(std::string_view, const std::string& file, const ImportLimits&, const Progress&) {
+  refuse_file(file);
+}
+
+}  // namespace prohull
