@@ -59,9 +59,9 @@ function comparePieces(file, mesh, name) {
 }
 
 function compareSpheres(file, mesh, name) {
-  const cover = engine.spheres(mesh, {count: 12});
+  const cover = engine.spheres(mesh, {count: 6});
   const written = join(scratch, `${name}.json`), report = join(scratch, `${name}_spheres.json`);
-  run('spheres', file, '-o', written, '--count', '12', '--report', report);
+  run('spheres', file, '-o', written, '--count', '6', '--report', report);
   const native = JSON.parse(readFileSync(report)).spheres.flatMap(({center, radius}) => [...center, radius]);
   assert.deepEqual([...cover.balls], native, `${name}: spheres`);
 }
@@ -77,7 +77,7 @@ async function compare(t, file, what) {
 
 test('bundled samples', {skip: !hasProgram && 'there is no program to compare with'}, async (t) => {
   for (const name of ['sphere', 'torus', 'knot', 'asteroid', 'box', 'bracket', 'gyroid', 'pony'])
-    await compare(t, sample(name, 3000), () => true);
+    await compare(t, sample(name, 2000), () => true);
 });
 
 const hasModels = models !== undefined && existsSync(models);

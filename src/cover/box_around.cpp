@@ -10,6 +10,7 @@
 #include "cover/extreme_points.h"
 #include "cover/primitives.h"
 #include "geometry/directions.h"
+#include "geometry/select.h"
 
 namespace prohull::cover {
 namespace {
@@ -147,7 +148,8 @@ class BoxSearch {
   void keep_longest_sides() {
     constexpr std::size_t kMostSides = 48;
     if (sides_.size() <= kMostSides) return;
-    std::ranges::nth_element(sides_, sides_.begin() + kMostSides, std::greater{}, squared_norm);
+    select_nth(sides_.begin(), sides_.begin() + kMostSides, sides_.end(),
+               [](const Vec3& a, const Vec3& b) { return squared_norm(a) > squared_norm(b); });
     sides_.resize(kMostSides);
   }
 

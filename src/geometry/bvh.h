@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/select.h"
 #include "prohull/geometry.h"
 
 namespace prohull {
@@ -101,7 +102,7 @@ class Bvh {
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = begin + (end - begin) / 2;
     for (std::uint32_t i = begin; i < end; ++i) keys[i] = {boxes[items_[i]].center()[axis], items_[i]};
-    std::nth_element(keys.begin() + begin, keys.begin() + middle, keys.begin() + end);
+    select_nth(keys.begin() + begin, keys.begin() + middle, keys.begin() + end, std::less<>());
     for (std::uint32_t i = begin; i < end; ++i) items_[i] = keys[i].item;
     const std::uint32_t left = build(boxes, keys, begin, middle), right = build(boxes, keys, middle, end);
     Node& node = nodes_[self];

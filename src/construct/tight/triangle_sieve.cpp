@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/select.h"
 #include "mesh/half_edge_mesh.h"
 
 namespace prohull {
@@ -52,7 +53,7 @@ class Order {
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t middle = begin + std::bit_ceil(end - begin) / 2;
     const auto at = [&](std::size_t i) { return faces_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [axis](const Placed& p, const Placed& q) {
+    select_nth(at(begin), at(middle), at(end), [axis](const Placed& p, const Placed& q) {
       return p.center[axis] != q.center[axis] ? p.center[axis] < q.center[axis] : p.face < q.face;
     });
     const auto halve_first = [&] { halve(begin, middle); };

@@ -1,0 +1,28 @@
+import type {BuildOptions, Hull, Levels, Mesh, MeshLike, Running} from './index.js';
+import type * as prohull from './index.js';
+
+type Progress = (stage: string, fraction: number) => boolean | void;
+type Now<Call> = Call extends (mesh: infer A, options?: infer B) => Promise<infer R>
+  ? (mesh: A, options?: Omit<NonNullable<B>, keyof Running>, progress?: Progress) => R : never;
+type NowOfTwo<Call> = Call extends (first: infer A, second: infer B, options?: infer C) => Promise<infer R>
+  ? (first: A, second: B, options?: Omit<NonNullable<C>, keyof Running>, progress?: Progress) => R : never;
+
+/** The library on the thread that calls it. A call stops where `progress` returns false. */
+export interface Engine {
+  build(mesh: MeshLike, targetFaces?: number, options?: Omit<BuildOptions, keyof Running>, progress?: Progress): Hull;
+  build(mesh: MeshLike, targetFaces: number[], options?: Omit<BuildOptions, keyof Running>, progress?: Progress): Hull[];
+  level(levels: Levels, faces: number): Mesh;
+  verify: NowOfTwo<typeof prohull.verify>;
+  distance: NowOfTwo<typeof prohull.distance>;
+  convexPieces: Now<typeof prohull.convexPieces>;
+  spheres: Now<typeof prohull.spheres>;
+  repair: Now<typeof prohull.repair>;
+  inspect(mesh: MeshLike): prohull.Inspection;
+  read(bytes: ArrayBuffer | Uint8Array, name: string): Promise<Mesh>;
+  write(mesh: MeshLike, name: string): Uint8Array;
+  memory(): number;
+}
+
+export {InputError} from './index.js';
+/** `wasm` is the compiled module.wasm of this package. */
+export function loadEngine(wasm: WebAssembly.Module): Promise<Engine>;

@@ -1,0 +1,184 @@
+/** A triangle mesh: three numbers for each vertex and for each face, one after the other. */
+export interface MeshLike {
+  vertices: Float64Array | Float32Array | number[];
+  faces: Uint32Array | Uint16Array | Int32Array | number[];
+}
+export interface Mesh {
+  vertices: Float64Array;
+  faces: Uint32Array;
+}
+
+/** What every long call takes. */
+export interface Running {
+  /** Ends the work at once; the promise is rejected with the reason of the signal. */
+  signal?: AbortSignal;
+  /** Is told now and then what is being done, and how much of that, from 0 to 1. */
+  progress?: (stage: string, fraction: number) => void;
+}
+
+export type Side = 'outer' | 'inner';
+export type OpenShells = 'close' | 'keep';
+
+/** As the options of `prohull build` and of Python's prohull.build; lengths are in the unit of the mesh. */
+export interface BuildOptions extends Running {
+  side?: Side;
+  /** Moves vertices towards the mesh: less void, in more time. */
+  tight?: boolean;
+  /** Keeps the levels, for `level`. */
+  levels?: boolean;
+  maxDistance?: number;
+  maxVoidPercent?: number;
+  gap?: number;
+  tolerances?: Float64Array | number[];
+  mirror?: 'x' | 'y' | 'z';
+  repair?: 'auto' | 'none' | 'wrap';
+  keepCavities?: boolean;
+  openShells?: OpenShells;
+  sealHoles?: number;
+  /** Coordinates that STL and GLB files can hold; `write` refuses others for these formats. */
+  float32Coordinates?: boolean;
+  strategy?: 'lazy' | 'paper1' | 'paper2';
+  bestOf?: number;
+  seed?: number;
+  selfIntersections?: 'by-strategy' | 'refused' | 'allowed';
+  relaxGuards?: boolean;
+  maxValence?: number;
+  minCompactnessRatio?: number;
+  sufficientCompactness?: number;
+  maxNormalDeviationDegrees?: number;
+  maxOverhang?: number;
+}
+
+/** All levels of a hull: numbers as in a .phull file. */
+export interface Levels {
+  side: Side;
+  originalVertices: number;
+  positions: Float64Array;
+  baseCorners: Uint32Array;
+  /** Six numbers for each: o, d, l, r, od, do. */
+  splits: Uint32Array;
+}
+
+export interface Hull extends Mesh {
+  /** Proven exactly, by code that shares nothing with the construction: the hull encloses the mesh. */
+  certified: boolean;
+  proof: '' | 'replay' | 'enclosure' | 'coverage' | 'padding';
+  /** Proven least distance from the mesh, if a gap was asked for. */
+  gap: number;
+  targetReached: boolean;
+  withinBounds: boolean;
+  /** Volume of the hull / that of the mesh - 1; NaN if that is not known. */
+  voidRatio: number;
+  source: 'mesh' | 'convex-hull' | 'wrap';
+  selfIntersections: number;
+  repairs: string[];
+  notes: string[];
+  buildSeconds: number;
+  verifySeconds: number;
+  levels?: Levels;
+}
+
+export interface Verification {
+  /** The verdict: `encloses` and `keepsGap`. */
+  holds: boolean;
+  encloses: boolean;
+  keepsGap: boolean;
+  proof: 'replay' | 'enclosure' | 'coverage';
+  originalClosed: boolean;
+  whyNot: string;
+  facesOutside: number;
+  facesTooNear: number;
+  facesUndecided: number;
+  selfIntersections: number;
+  leastDistance: number;
+  originalVolume: number;
+  voidRatio: number;
+  notes: string[];
+  worst: {face: number; point: Float64Array; distance: number}[];
+}
+
+interface Cover {
+  certified: boolean;
+  coversInside: boolean;
+  volume: number;
+  originalVolume: number;
+  withinBounds: boolean;
+  /** Proven: how far the cover reaches out, at most. */
+  reach: number;
+  notes: string[];
+}
+
+export type Primitive =
+  | {kind: 'box'; center: Float64Array; axes: Float64Array; halfSizes: Float64Array}
+  | {kind: 'capsule'; a: Float64Array; b: Float64Array; radius: number}
+  | {kind: 'sphere'; center: Float64Array; radius: number};
+
+export interface ConvexPieces extends Cover {
+  pieces: (Mesh & {primitive?: Primitive})[];
+}
+
+export interface Spheres extends Cover {
+  /** Four numbers for each: centre and radius. */
+  balls: Float64Array;
+}
+
+export interface Repaired extends Mesh {
+  /** Every triangle of the mesh is covered, proven exactly. */
+  certified: boolean;
+  whyNot: string;
+  source: 'mesh' | 'wrap';
+  repairs: string[];
+  obstacle: string;
+}
+
+export interface Inspection {
+  faces: number;
+  vertices: number;
+  components: number;
+  closedManifold: boolean;
+  volume: number;
+  diagonal: number;
+  firstDefect: string;
+  /** How often each kind of defect occurs, by what people call it. */
+  defects: Record<string, number>;
+}
+
+/** What is wrong with a mesh, a file or an option; the message says what, where, and what to do. */
+export class InputError extends Error {}
+
+/** Builds a certified hull of any triangles, of at most so many faces where that is possible. */
+export function build(mesh: MeshLike, targetFaces?: number, options?: BuildOptions): Promise<Hull>;
+export function build(mesh: MeshLike, targetFaces: number[], options?: BuildOptions): Promise<Hull[]>;
+/** The finest level of at most so many faces. */
+export function level(levels: Levels, faces: number): Promise<Mesh>;
+/** Decides exactly whether a hull encloses the original (side 'inner': whether the original encloses it). */
+export function verify(
+  hull: MeshLike, original: MeshLike,
+  options?: Running & {side?: Side; solidOnly?: boolean; gap?: number; finiteOnly?: boolean}): Promise<Verification>;
+/** Bounds of the greatest distance of a point of `from` from `to`. The upper one is proven. */
+export function distance(
+  from: MeshLike, to: MeshLike,
+  options?: Running & {relativeGap?: number}): Promise<{lower: number; upper: number; farthest: Float64Array}>;
+/** Covers triangles by a few convex pieces. */
+export function convexPieces(
+  mesh: MeshLike,
+  options?: Running & {
+    pieces?: number; vertices?: number; maxDistance?: number; maxVoidPercent?: number;
+    shape?: 'polytope' | 'box' | 'capsule' | 'sphere'; float32Coordinates?: boolean;
+  }): Promise<ConvexPieces>;
+/** Covers triangles by balls. */
+export function spheres(
+  mesh: MeshLike, options?: Running & {count?: number; maxDistance?: number; fill?: boolean}): Promise<Spheres>;
+/** Makes a closed solid of any triangles. */
+export function repair(
+  mesh: MeshLike,
+  options?: Running & {spacing?: number; openShells?: OpenShells; keepCavities?: boolean;
+    float32Coordinates?: boolean}): Promise<Repaired>;
+/** What a mesh is, and what is wrong with it. */
+export function inspect(mesh: MeshLike): Promise<Inspection>;
+/** Reads STL, OBJ, PLY, OFF or GLB, plain or gzipped; the name tells the format. */
+export function read(bytes: ArrayBuffer | Uint8Array, name: string): Promise<Mesh>;
+/** The bytes of a file of that name: .stl, .obj, .ply, .off or .glb. */
+export function write(mesh: MeshLike, name: string): Promise<Uint8Array>;
+/** Ends idle workers, and so gives back their memory. */
+export function release(): void;

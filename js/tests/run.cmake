@@ -1,0 +1,11 @@
+# cmake -DNODE=<node> -DPACKAGE=<folder of the package> -DTEST=<file> -P run.cmake
+if(NOT EXISTS ${PACKAGE}/module.wasm)
+  message("skipped: there is no ${PACKAGE}; the preset wasm makes it")
+elseif(NOT NODE)
+  message("skipped: node is not installed")
+else()
+  execute_process(COMMAND ${NODE} --test ${TEST} RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${TEST} failed")
+  endif()
+endif()
