@@ -1,14 +1,21 @@
 // The library in workers: each call is a promise, and calls that run at the same time have a worker each.
-import {startWorker, wasmModule} from '#platform';
 import {InputError, errorOf} from './engine.js';
 
 export {InputError};
 
-let compiled;  // one for all workers
+const isNode = typeof process === 'object' && typeof process.versions?.node === 'string';
+
+/** How workers are started here, and the compiled library, one for all of them. */
+async function prepared() {
+  const {startWorker, wasmModule} = isNode ? await import('./platform_node.js') : await import('./platform_browser.js');
+  return {startWorker, wasm: await wasmModule()};
+}
+
+let preparation;
 const idle = [];
 const kMostIdle = 1;
 
-function newWorker() {
+function newWorker(startWorker) {
   const worker = {onMessage: null, onFailure: null};
   worker.thread = startWorker((message) => worker.onMessage(message), (error) => worker.onFailure(error));
   return worker;
@@ -22,9 +29,9 @@ function retire(worker) {
 
 async function call(name, args, {signal, progress} = {}) {
   signal?.throwIfAborted();
-  const wasm = await (compiled ??= wasmModule());
+  const {startWorker, wasm} = await (preparation ??= prepared());
   signal?.throwIfAborted();
-  const worker = idle.pop() ?? newWorker();
+  const worker = idle.pop() ?? newWorker(startWorker);
   worker.thread.setBusy(true);
   return new Promise((resolve, reject) => {
     const abort = () => {  // the work cannot be asked to stop while it runs: its worker ends

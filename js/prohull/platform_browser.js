@@ -6,7 +6,7 @@ export const wasmModule = async () => {
 };
 
 export function startWorker(onMessage, onFailure) {
-  const worker = new Worker(new URL('./worker.js', import.meta.url), {type: 'module'});
+  const worker = new Worker(new URL('./worker_browser.js', import.meta.url), {type: 'module'});
   worker.onmessage = (event) => onMessage(event.data);
   worker.onerror = (event) => onFailure(new Error(event.message || 'prohull: its worker cannot be loaded'));
   return {
@@ -14,8 +14,4 @@ export function startWorker(onMessage, onFailure) {
     end: () => worker.terminate(),
     setBusy: () => {},
   };
-}
-
-export function serve(answer) {
-  self.onmessage = (event) => answer(event.data, (reply, transfer) => self.postMessage(reply, transfer));
 }

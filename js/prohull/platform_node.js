@@ -1,12 +1,12 @@
 // What node has in place of a browser's workers and fetch.
 import {readFile} from 'node:fs/promises';
-import {Worker, isMainThread, parentPort} from 'node:worker_threads';
+import {Worker} from 'node:worker_threads';
 
 export const wasmModule = async () => WebAssembly.compile(await readFile(new URL('./module.wasm', import.meta.url)));
 
 /** A worker that does not keep the program from ending while it is idle. */
 export function startWorker(onMessage, onFailure) {
-  const worker = new Worker(new URL('./worker.js', import.meta.url));
+  const worker = new Worker(new URL('./worker_node.js', import.meta.url));
   worker.on('message', onMessage);
   worker.on('error', onFailure);
   return {
@@ -14,9 +14,4 @@ export function startWorker(onMessage, onFailure) {
     end: () => worker.terminate(),
     setBusy: (busy) => (busy ? worker.ref() : worker.unref()),
   };
-}
-
-export function serve(answer) {
-  if (isMainThread) throw new Error('worker.js is for workers');
-  parentPort.on('message', (message) => answer(message, (reply, transfer) => parentPort.postMessage(reply, transfer)));
 }

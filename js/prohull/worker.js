@@ -1,5 +1,4 @@
-// One worker: does one call after the other.
-import {serve} from '#platform';
+// What a worker does with one call after the other; worker_node.js and worker_browser.js receive them.
 import {loadEngine} from './engine.js';
 
 let engine;
@@ -11,7 +10,7 @@ function buffersOf(value, found = new Set()) {
   return found;
 }
 
-serve(async ({wasm, name, args}, reply) => {
+export async function answer({wasm, name, args}, reply) {
   try {
     engine ??= await loadEngine(wasm);
     const progress = (stage, fraction) => reply({progress: [stage, fraction]}, []);
@@ -20,4 +19,4 @@ serve(async ({wasm, name, args}, reply) => {
   } catch (error) {
     reply({error: {name: error.name, message: error.message}, isBroken: error instanceof WebAssembly.RuntimeError}, []);
   }
-});
+}

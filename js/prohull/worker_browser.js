@@ -1,0 +1,3 @@
+import {answer} from './worker.js';
+
+self.onmessage = (event) => answer(event.data, (reply, transfer) => self.postMessage(reply, transfer));
