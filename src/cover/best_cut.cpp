@@ -11,6 +11,7 @@
 
 #include "cover/growing_hull.h"
 #include "geometry/directions.h"
+#include "geometry/select.h"
 
 namespace prohull::cover {
 namespace {
@@ -111,8 +112,8 @@ class Sweep {
         order_(part.points.size()) {
     for (std::size_t i = 0; i < heights_.size(); ++i) heights_[i] = dot(normal, part.points[i]);
     std::iota(order_.begin(), order_.end(), 0u);
-    std::sort(order_.begin(), order_.end(),
-              [&](std::uint32_t i, std::uint32_t j) { return heights_[i] < heights_[j]; });
+    sort_with_ties(order_.begin(), order_.end(),
+                   [&](std::uint32_t i, std::uint32_t j) { return heights_[i] < heights_[j]; });
     choose_offsets(offsets);
     slabs_.resize(offsets_.size());
     for (const auto& [a, b] : edges) heights_[a] < heights_[b] ? add_edge(a, b) : add_edge(b, a);

@@ -24,13 +24,36 @@ Iterator partition_by_median(Iterator first, Iterator last, Less& less) {
   }
 }
 
+/// Sorts but for runs of at most 16 elements.
+template <class Iterator, class Less>
+void sort_roughly(Iterator first, Iterator last, Less& less, int most_steps) {
+  for (; last - first > 16; --most_steps) {
+    if (most_steps == 0) return std::stable_sort(first, last, less);
+    const Iterator middle = partition_by_median(first, last, less);
+    sort_roughly(middle, last, less, most_steps - 1);
+    last = middle;
+  }
+}
+
+template <class Iterator>
+int most_steps(Iterator first, Iterator last) {
+  return 2 * std::bit_width(static_cast<std::size_t>(last - first)) - 2;
+}
+
+/// As std::sort, by the same steps as libstdc++ takes: equal elements come in the same order with every standard
+/// library.
+template <class Iterator, class Less>
+void sort_with_ties(Iterator first, Iterator last, Less less) {
+  sort_roughly(first, last, less, most_steps(first, last));
+  std::stable_sort(first, last, less);
+}
+
 /// As std::nth_element, by the same steps as libstdc++ takes: where the other elements come to lie is the same with
 /// every standard library.
 template <class Iterator, class Less>
 void select_nth(Iterator first, Iterator nth, Iterator last, Less less) {
   if (nth == last) return;
-  for (int left = 2 * std::bit_width(static_cast<std::size_t>(last - first)) - 2; last - first > 3; --left) {
-    if (left == 0) break;
+  for (int left = most_steps(first, last); last - first > 3 && left > 0; --left) {
     const Iterator middle = partition_by_median(first, last, less);
     (middle <= nth ? first : last) = middle;
   }
