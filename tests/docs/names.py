@@ -12,10 +12,10 @@ import sys
 
 FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"`([^`\n]+)`")
-SUFFIXES = "h cpp py cmake sh md json csv svg yml pyi txt"
+SUFFIXES = "h cpp py js mjs cmake sh md json csv svg yml pyi txt"
 PATH = re.compile(rf"[\w.*-]*(/[\w.*-]+)+/?|[\w*-]+/|[\w*-]+\.({SUFFIXES.replace(' ', '|')})")
 NAME = re.compile(r"(\w+::)*\w+(\(\))?")
-SOURCE = re.compile(r"\.(h|cpp|py|pyi|cmake|sh)$|CMakeLists\.txt$|CMakePresets\.json$|^scripts/")
+SOURCE = re.compile(r"\.(h|cpp|py|pyi|cmake|sh|mjs)$|^js/prohull/|CMakeLists\.txt$|CMakePresets\.json$|^scripts/")
 ELSEWHERE = ("build/", "out/", "/", "CGAL::", "std::")  # made by building, of the system, of others
 NOT_OURS = ("build", "out", ".git")
 TEST_PROGRAM = re.compile(r"prohull_add_test\((\w+)")
