@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -57,7 +58,7 @@ def test_tells_of_every_robot_and_keeps_it(robots, tmp_path):
     page = (tmp_path / "census.html").read_text()
     assert "&lt;b&gt;.xml" in page and "http" not in page and page.count("<table>") == 2
 
-    kept = tmp_path / "robots" / "chain__chain.urdf.json"
+    kept = tmp_path / "robots" / "chain" / "chain.urdf.json"
     before = kept.stat().st_mtime_ns
     assert census(tmp_path, robots).returncode == 0 and kept.stat().st_mtime_ns == before
     kept.write_text(kept.read_text()[:100])
@@ -75,3 +76,49 @@ def test_what_is_wrong_is_one_error(tmp_path):
     assert run.returncode == 1 and run.stderr.startswith("census: there is no folder") and run.stderr.count("\n") == 1
     assert census(tmp_path / "out", tmp_path).returncode == 0
     assert json.loads((tmp_path / "out" / "census.json").read_text()) == []
+
+
+def write_ball(path, name="ball"):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f'<robot name="{name}"><link name="a"><visual><geometry><sphere radius="1"/></geometry></visual></link></robot>')
+
+
+def test_robots_of_one_name_in_folders_of_one_name_are_kept_apart(tmp_path):
+    names = ["one/robots/a/b.urdf", "one/robots/a__b.urdf", "two/robots/a/b.urdf"]
+    for name in names:
+        write_ball(tmp_path / name)
+    assert census(tmp_path / "out", *(tmp_path / name for name in ("one/robots", "two/robots", "two"))).returncode == 0
+    assert [row["robot"] for row in json.loads((tmp_path / "out" / "census.json").read_text())] == names
+    assert len(list((tmp_path / "out" / "robots").rglob("*.json"))) == len(names)
+
+
+def test_names_are_neither_formulas_nor_tags_nor_fatal(tmp_path):
+    robots = tmp_path / "robots"
+    for name in ("=1+1|<script>.urdf", os.fsdecode(b"\xff.urdf")):
+        write_ball(robots / name)
+    (robots / "encoding.srdf").write_text('<?xml version="1.0" encoding="none"?><robot name="ball"/>')
+    run = census(tmp_path / "out", robots)
+    assert run.returncode == 0 and "unknown encoding" in run.stderr, run.stderr
+    table = list(csv.DictReader((tmp_path / "out" / "census.csv").open(newline="", encoding="utf-8")))
+    assert [row["robot"] for row in table] == ["'=1+1|<script>.urdf", "?.urdf"]
+    for name in ("census.md", "census.html"):
+        assert "=1+1" in (tmp_path / "out" / name).read_text() and "=1+1|<script>" not in (tmp_path / "out" / name).read_text()
+    assert r"=1+1\|&lt;script&gt;" in (tmp_path / "out" / "census.md").read_text()
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root reads everything")
+def test_what_may_not_be_read_is_told_and_passed_over(tmp_path):
+    robots = tmp_path / "robots"
+    write_ball(robots / "good.urdf")
+    write_ball(robots / "closed" / "bad.urdf")
+    for name in ("bad.urdf", "bad.xml", "bad.srdf"):
+        write_ball(robots / name)
+        (robots / name).chmod(0)
+    (robots / "closed").chmod(0)
+    run = census(tmp_path / "out", robots)
+    (robots / "closed").chmod(0o755)
+    assert run.returncode == 0 and "Traceback" not in run.stderr, run.stderr
+    for name in ("closed", "bad.urdf", "bad.xml", "bad.srdf"):
+        assert f"robots/{name}" in run.stderr
+    rows = {row["robot"]: row for row in json.loads((tmp_path / "out" / "census.json").read_text())}
+    assert set(rows) == {"good.urdf", "bad.urdf"} and "links" in rows["good.urdf"] and "read" in rows["bad.urdf"]["why"]
