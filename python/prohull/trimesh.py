@@ -10,11 +10,14 @@
 from __future__ import annotations
 
 import math
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Optional
 
 from . import _arrays
 from ._build import build
 from ._covers import convex_pieces
+from ._files import mesh_of
+from ._meshes import Mesh
 from ._prohull import InputError
 from ._types import Gap, MeshLike
 
@@ -28,13 +31,13 @@ def convex_decomposition(mesh: MeshLike, *, maxConvexHulls: int = 64, maxNumVert
                          minimumVolumePercentErrorAllowed: float = 1.0, max_distance: Gap = math.inf) -> list[trimesh.Trimesh]:
     """Covers a mesh by convex pieces, in place of `mesh.convex_decomposition()`, which calls V-HACD. Nothing sticks out.
 
-    The keywords and their defaults are those of V-HACD. Its others are about its voxels, which are not needed here.
+    The keywords and their defaults are those of V-HACD. Its others say how it searches, and are not taken here.
 
     mesh: a mesh of trimesh, or whatever convex_pieces() takes.
     maxConvexHulls: the largest number of pieces, at least 1.
     maxNumVerticesPerCH: the largest number of vertices of a piece, at least 4.
-    minimumVolumePercentErrorAllowed: how much more volume than the mesh the pieces may have together, in per cent, at
-        least 0. There are as few pieces as keep it; if maxConvexHulls do not, `within_bounds` is False.
+    minimumVolumePercentErrorAllowed: how much more volume than the mesh the pieces may have together, in per cent,
+        greater than 0. There are as few pieces as keep it; if maxConvexHulls do not, `within_bounds` is False.
     max_distance: how far the pieces may reach out of the mesh, as of convex_pieces().
 
     Each piece has in `metadata["prohull"]` what is proven of all of them together: `certified`, `covers_inside`,
@@ -42,6 +45,7 @@ def convex_decomposition(mesh: MeshLike, *, maxConvexHulls: int = 64, maxNumVert
 
     Raises InputError as convex_pieces() does, and ImportError if trimesh is not installed.
     """
+    import_module("trimesh")  # before the work
     cover = convex_pieces(mesh, maxConvexHulls, vertices=maxNumVerticesPerCH, max_distance=max_distance,
                           max_void_percent=minimumVolumePercentErrorAllowed)
     names = ("certified", "covers_inside", "within_bounds", "void_ratio", "reach", "notes")
@@ -62,12 +66,14 @@ def simplify(mesh: MeshLike, percent: Optional[float] = None, face_count: Option
 
     Raises InputError as build() does, and ImportError if trimesh is not installed.
     """
+    import_module("trimesh")  # before the work
+    mesh = mesh_of(mesh, keep_non_finite=True)
     hull = build(mesh, _face_count(mesh, percent, face_count), **options)
     names = ("certified", "proof", "side", "target_reached", "within_bounds", "void_ratio", "distance_bound", "notes")
     return _told(hull, {name: getattr(hull, name) for name in names})
 
 
-def _face_count(mesh: Any, percent: Any, face_count: Any) -> int:
+def _face_count(mesh: Mesh, percent: Any, face_count: Any) -> int:
     if (percent is None) == (face_count is None):
         raise InputError(f"percent={percent!r}, face_count={face_count!r}: expected one of them")
     if percent is None:
@@ -78,10 +84,7 @@ def _face_count(mesh: Any, percent: Any, face_count: Any) -> int:
     share = _arrays.not_negative("percent", percent)
     if share >= 1:
         raise InputError(f"percent={percent!r}: expected a share of the faces, at least 0 and less than 1")
-    arrays = _arrays.arrays_of_mesh(mesh)
-    if arrays is None:
-        raise InputError(f"{_arrays.described(mesh)} is no mesh of trimesh; percent needs one")
-    return max(4, round((1 - share) * len(arrays[1])))
+    return max(4, round((1 - share) * len(mesh.faces)))
 
 
 def _told(mesh: Any, facts: dict[str, Any]) -> trimesh.Trimesh:

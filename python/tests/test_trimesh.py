@@ -59,7 +59,7 @@ def test_what_is_wrong_is_one_error(cube, arguments, told):
 
 def test_hostile_meshes_are_one_error(cube):
     hostile = [None, 7, Trimesh(np.zeros((0, 3)), np.zeros((0, 3), int)), Trimesh(np.full((8, 3), np.nan), cube[1]),
-               Trimesh(cube[0], cube[1] + 1)]
+               Trimesh(cube[0], cube[1] + 1), Trimesh(cube[0], None)]
     for mesh in hostile:
         with pytest.raises(prohull.InputError):
             prohull.trimesh.convex_decomposition(mesh)
@@ -72,7 +72,13 @@ def test_hostile_meshes_are_one_error(cube):
         prohull.trimesh.convex_decomposition(Trimesh(*cube), resolution=400000)
 
 
-def test_without_trimesh_the_module_can_be_imported(cube, monkeypatch):
+def test_percent_is_that_of_a_file_too(pony, tmp_path):
+    pony.save(tmp_path / "pony.ply")
+    assert len(prohull.trimesh.simplify(tmp_path / "pony.ply", 0.9).faces) <= round(0.1 * len(pony.faces))
+
+
+def test_without_trimesh_only_the_functions_fail_and_before_the_work(monkeypatch):
     monkeypatch.setitem(sys.modules, "trimesh", None)
-    with pytest.raises(ImportError):
-        prohull.trimesh.simplify(cube, face_count=100)
+    for function in (prohull.trimesh.simplify, prohull.trimesh.convex_decomposition):
+        with pytest.raises(ImportError):
+            function("missing.stl")
