@@ -5,6 +5,7 @@ scripts/blender-addon makes a zip of it for Edit > Preferences > Add-ons > Insta
 
 import glob
 import json
+import math
 import os
 import shutil
 import struct
@@ -54,7 +55,7 @@ class OBJECT_OT_enclosing_decimate(bpy.types.Operator):
     budget: bpy.props.EnumProperty(name="Budget", default="FACES", items=(
         ("FACES", "Number", "At most as many faces, or pieces"),
         ("DISTANCE", "Distance", "As few faces, or pieces, as reach no farther from the object")))
-    faces: bpy.props.IntProperty(name="Faces", default=500, min=4, description="Largest number of faces of the hull")
+    faces: bpy.props.IntProperty(name="Faces", default=500, min=4, max=10**9, description="Largest number of faces of the hull")
     pieces: bpy.props.IntProperty(name="Pieces", default=16, min=1, max=1000, description="Largest number of convex pieces")
     distance: bpy.props.FloatProperty(name="Distance", default=0.01, min=1e-6, subtype="DISTANCE", precision=4,
                                       description="How far the result may be from the object, at most")
@@ -86,6 +87,8 @@ class OBJECT_OT_enclosing_decimate(bpy.types.Operator):
         context.view_layer.objects.active = made[0]
         if not made[0]["prohull_within_bounds"]:
             self.report({"WARNING"}, "The distance asked for could not be kept: allow more")
+        if self.kind != "PIECES" and self.budget == "FACES" and len(made[0].data.polygons) > self.faces:
+            self.report({"WARNING"}, f"The hull has more than {self.faces} faces: no face that is left can go")
         return {"FINISHED"}
 
     def made(self, context, source):
@@ -112,10 +115,12 @@ class OBJECT_OT_enclosing_decimate(bpy.types.Operator):
 
 def scale_of(source):
     """Of lengths, from the object to the world."""
-    scale = [abs(s) for s in source.matrix_world.to_scale()]
-    if max(scale) - min(scale) > SCALE_TOLERANCE * max(scale) or max(scale) == 0:
+    to_world = source.matrix_world.to_3x3()
+    squares = to_world.transposed() @ to_world  # the square of the scale times the identity
+    square = squares[0][0]
+    if square == 0 or max(abs(squares[i][j] - square * (i == j)) for i in range(3) for j in range(3)) > SCALE_TOLERANCE * square:
         raise Failed("A distance needs an object with the same scale along all axes: apply its scale (Ctrl A) first")
-    return max(scale)
+    return math.sqrt(square)
 
 
 def program_of(context):

@@ -1,6 +1,7 @@
 """Runs in Blender, for test_blender.py: installs the add-on from its zip and uses it as from the menu."""
 
 import json
+import math
 import pathlib
 import sys
 
@@ -71,6 +72,16 @@ torus.scale = (1, 2, 3)
 bpy.context.view_layer.update()
 use(torus)
 told["uneven scale"] = decimate(budget="DISTANCE")
+use(torus)
+decimate(kind="INNER", faces=4)
+torus.scale = (1, 1, 1)
+torus.rotation_euler = (0, 0, math.pi / 4)
+torus.parent = bpy.data.objects.new("uneven", None)
+torus.parent.scale = (2, 1, math.sqrt(2.5))  # all axes of the torus become as long
+bpy.context.collection.objects.link(torus.parent)
+bpy.context.view_layer.update()
+use(torus)
+told["shear"] = decimate(budget="DISTANCE")
 preferences.program = "/nowhere/prohull"
 told["no program"] = decimate()
 preferences.program = "/bin/false"

@@ -22,6 +22,7 @@ def test_the_add_on_in_blender(tmp_path):
                           HERE / "blender_check.py", "--", zip_file, program, tmp_path], capture_output=True, text=True,
                          env={**os.environ, "HOME": str(tmp_path), "BLENDER_USER_SCRIPTS": str(tmp_path / "scripts")})
     assert run.returncode == 0, run.stdout + run.stderr
+    assert "The hull has more than 4 faces" in run.stdout
     told = json.loads((tmp_path / "told.json").read_text())
     torus = tmp_path / "torus.obj"
     assert told["outer"]["count"] == 1 and told["outer"]["faces"] <= 200 and told["outer"]["prohull_original"] == "Torus"
@@ -35,7 +36,7 @@ def test_the_add_on_in_blender(tmp_path):
         facts = told[name]
         assert facts["prohull_certified"] and facts["prohull_within_bounds"] and facts["prohull_proof"]
         assert facts["prohull_version"] == prohull.__version__ and facts["prohull_distance_bound"] > 0
-    for name, what in {"uneven scale": "apply its scale", "no program": "is not there", "another program": "exit code 1",
+    for name, what in {"uneven scale": "apply its scale", "shear": "apply its scale", "no program": "is not there", "another program": "exit code 1",
                        "empty": "no faces", "open": "closed", "nan": "finite"}.items():
         assert what in told[name] and "Traceback" not in told[name], (name, told[name])
 
