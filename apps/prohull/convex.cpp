@@ -222,7 +222,7 @@ struct Outcome {
   double diagonal = 0;
   ConvexCover cover;
   bool certified = false;     ///< and the files hold the very bits of the pieces
-  PieceSize largest;          ///< in the files
+  PieceSize largest;          ///< in the files; zeros if none is a mesh
   bool within_limits = true;  ///< of the engine
   Certificate certificate;
   std::vector<std::string> others;
@@ -313,7 +313,7 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
                                 : ", and its inside with its openings closed");
   else
     say("  certified: NO: nothing was written; please report this mesh\n");
-  if (outcome.certified && options.engine) print_limits(options, outcome);
+  if (options.engine && outcome.largest.vertices > 0) print_limits(options, outcome);
   const auto in_shape = static_cast<std::size_t>(std::ranges::count(cover.pieces, options.cover.shape, shape_of));
   if (in_shape < cover.pieces.size())
     say("  {} of {} pieces have the shape asked for; the bounds allow no more\n", in_shape, cover.pieces.size());

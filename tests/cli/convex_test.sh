@@ -109,6 +109,8 @@ is "for godot: names" grep -aq '"e_02-convcolonly"' e.glb
 expect 0 "for godot: covers" $prohull verify --union e.glb part.stl
 expect 0 "for bullet" $convex --for bullet -o e.urdf
 expect 0 "for mujoco" $convex --for mujoco -o e.xml
+expect 0 "for mujoco: boxes have no vertices to count" $convex --for mujoco --shape box -o e.xml
+is "for mujoco: boxes have no vertices to count, said" test "$(grep -c "as written have" out)" = 0
 
 # --- pictures ---
 expect 0 "exploded" $prohull render part.stl a.obj --explode none --explode 0.3 --size 80x30 -o exploded.png
