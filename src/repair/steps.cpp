@@ -183,6 +183,13 @@ void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs) {
   repairs.dropped_non_finite_faces += keep_faces(mesh, [&](FaceId f) {
     return std::ranges::all_of(mesh.triangles[f], [&](VertexId v) { return is_finite(mesh.positions[v]); });
   });
+  PerVertex<VertexId> name(mesh.vertex_count());
+  PerVertex<Vec3> finite;
+  for (const VertexId v : mesh.positions.ids())
+    if (is_finite(mesh.positions[v])) name[v] = finite.push_back(mesh.positions[v]);
+  mesh.positions = std::move(finite);
+  for (auto& corners : mesh.triangles)
+    for (VertexId& v : corners) v = name[v];
 }
 
 void weld(TriangleMesh& mesh, Repairs& repairs) {
@@ -281,6 +288,7 @@ void split_vertices(TriangleMesh& mesh, FansAlong along, Repairs& repairs) {
     for (const std::uint32_t c : {n.a, next(n.a)}) fans.join(c, vertex(c) == vertex(n.b) ? n.b : next(n.b));
   PerVertex<std::uint32_t> first(mesh.vertex_count(), kNone);  // the fan that keeps the vertex
   std::vector<VertexId> name(corners);
+  std::set<VertexId> split;
   for (std::uint32_t c = 0; c < corners; ++c) {
     if (fans.find(c) != c) continue;  // the least corner of a fan comes first
     const VertexId v = vertex(c);
@@ -292,9 +300,10 @@ void split_vertices(TriangleMesh& mesh, FansAlong along, Repairs& repairs) {
     name[c] = VertexId(static_cast<std::uint32_t>(mesh.positions.size()));
     const Vec3 p = mesh.positions[v];
     mesh.positions.push_back(p);
-    ++repairs.split_vertices;
+    split.insert(v);
   }
   for (std::uint32_t c = 0; c < corners; ++c) mesh.triangles[FaceId(c / 3)][c % 3] = name[fans.find(c)];
+  repairs.split_vertices += split.size();
   separate_wedges(mesh, neighbours);
 }
 

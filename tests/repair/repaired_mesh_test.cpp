@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "meshes.h"
@@ -126,6 +127,24 @@ TEST(RepairedMesh, SplitsVerticesWherePartsMeet) {
   EXPECT_EQ(repaired.repairs.split_vertices, 1u);
   EXPECT_EQ(repaired.closed->report.components, 2u);
   EXPECT_DOUBLE_EQ(repaired.closed->report.volume, 2);
+}
+
+TEST(RepairedMesh, CountsAVertexOnceThatThreePartsShare) {
+  const TriangleMesh two = together(kSmallBox, box({2, 2, 2}, {3, 3, 3}));
+  const TriangleMesh third = tetrahedron({2, 2, 2}, {3, 1, 3}, {3, 1.5, 3}, {2.5, 1, 3});
+  const RepairedMesh repaired = repaired_mesh(soup(together(two, third)));
+  ASSERT_TRUE(repaired.closed) << repaired.obstacle;
+  EXPECT_EQ(repaired.repairs.split_vertices, 1u);
+  EXPECT_EQ(repaired.closed->report.components, 3u);
+}
+
+TEST(RepairedMesh, LeavesNoVertexThatIsNotFinite) {
+  TriangleMesh mesh = kSmallBox;
+  const VertexId nan = mesh.positions.push_back({std::nan(""), 0, 0});
+  mesh.triangles.push_back({mesh.triangles[FaceId(0)][0], mesh.triangles[FaceId(0)][1], nan});
+  const RepairedMesh repaired = repaired_mesh(mesh);
+  EXPECT_EQ(repaired.original, kSmallBox);
+  EXPECT_EQ(describe(repaired.repairs), std::vector<std::string>{"dropped 1 face with a corner that is not finite"});
 }
 
 TEST(RepairedMesh, DropsWhatLiesInsideOfOthers) {
