@@ -38,7 +38,7 @@ struct MeshReport {
 /// One kind of defect.
 struct DefectCount {
   std::string_view name;         ///< "open_edges"
-  std::string_view description;  ///< "open edges"
+  std::string_view description;  ///< "open edges", or "open edge" of one
   std::size_t count;
   bool allowed;  ///< a hull can be built in spite of it
 };

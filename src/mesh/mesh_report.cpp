@@ -148,14 +148,22 @@ class Inspector {
 }  // namespace
 
 std::vector<DefectCount> defect_counts(const MeshReport& report) {
-  return {{"open_edges", "open edges", report.open_edges, false},
-          {"non_manifold_edges", "edges with more than two faces", report.non_manifold_edges, false},
-          {"misoriented_edges", "edges whose faces disagree about the outside", report.misoriented_edges, false},
-          {"non_manifold_vertices", "non-manifold vertices", report.non_manifold_vertices, false},
-          {"repeated_corner_faces", "faces with the same vertex twice", report.repeated_corner_faces, false},
-          {"non_finite_vertices", "vertices that are not finite", report.non_finite_vertices, false},
-          {"zero_area_faces", "faces without area", report.zero_area_faces, true},
-          {"unused_vertices", "unused vertices", report.unused_vertices, true}};
+  const auto defect = [](std::string_view name, std::string_view one, std::string_view many, std::size_t count,
+                         bool allowed = false) {
+    return DefectCount{name, count == 1 ? one : many, count, allowed};
+  };
+  return {defect("open_edges", "open edge", "open edges", report.open_edges),
+          defect("non_manifold_edges", "edge with more than two faces", "edges with more than two faces",
+                 report.non_manifold_edges),
+          defect("misoriented_edges", "edge whose faces disagree about the outside",
+                 "edges whose faces disagree about the outside", report.misoriented_edges),
+          defect("non_manifold_vertices", "non-manifold vertex", "non-manifold vertices", report.non_manifold_vertices),
+          defect("repeated_corner_faces", "face with the same vertex twice", "faces with the same vertex twice",
+                 report.repeated_corner_faces),
+          defect("non_finite_vertices", "vertex that is not finite", "vertices that are not finite",
+                 report.non_finite_vertices),
+          defect("zero_area_faces", "face without area", "faces without area", report.zero_area_faces, true),
+          defect("unused_vertices", "unused vertex", "unused vertices", report.unused_vertices, true)};
 }
 
 MeshReport inspect(const TriangleMesh& mesh) { return Inspector(mesh).run(); }
