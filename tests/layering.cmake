@@ -13,7 +13,7 @@ macro(room name)
   set(may_${name} ${name} ${room_MAY})
 endmacro()
 
-room(base      OWNS error names progress)
+room(base      OWNS detail/rounded error names progress)
 room(geometry  OWNS geometry shapes                                                     MAY base)
 room(parallel  OWNS detail/progress_meter                                        MAY base)
 room(mesh      OWNS detail/disjoint_sets ids length triangle_mesh vertex_split mesh_report mesh_quality mesh_marks regions symmetry MAY geometry base)

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "command.h"
+#include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "robot/hulls/budgets.h"
 #include "robot/motion/motion.h"
@@ -69,13 +70,6 @@ Decision read_all(const PathOptions& options, const RobotFile& file) {
   for (const path& rows : options.paths)
     decision.paths.emplace_back(file.robot, read_path_rows(read_bytes(rows), input_name(rows)));
   return decision;
-}
-
-/// To so many digits, for what is proven is a lower bound.
-double rounded_down(double number, int digits) {
-  if (number == 0) return number;
-  const double shown = std::stod(fmt::format("{:.{}g}", number, digits));
-  return shown <= number ? shown : shown - std::pow(10, std::floor(std::log10(std::abs(number))) - (digits - 1));
 }
 
 std::string text_of_time(const JointPath& path, double time) {

@@ -1,4 +1,5 @@
 #include "prohull/sweep.h"
+#include "prohull/detail/rounded.h"
 
 #include <fmt/format.h>
 
@@ -170,7 +171,8 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
   for (const LinkSweep& link : zone.sweeps) {
     for (const std::string& note : link.sweep.notes) say("  {}{}\n", link.link.empty() ? "" : link.link + ": ", note);
     if (is_robot)
-      say("  {}: {}, at most {:.4g} mm from what it passes\n", link.link, pieces(link), 1e3 * link.sweep.reach);
+      say("  {}: {}, at most {:.4g} mm from what it passes\n", link.link, pieces(link),
+          rounded_up(1e3 * link.sweep.reach, 4));
   }
   if (zone.hull)
     say("{}: hull of {}, volume {:.4g}", output_name(options.out),
@@ -179,7 +181,7 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
     say("{}: {}", output_name(options.out), counted(zone.pieces().size(), "convex piece", "convex pieces"));
   else
     say("{}: {}, volume about {:.3g}", output_name(options.out), pieces(zone.sweeps[0]), zone.sweeps[0].sweep.volume);
-  say(", at most {:.4g} from what {} passes\n", zone.reach(), is_robot ? "the robot" : "the mesh");
+  say(", at most {:.4g} from what {} passes\n", rounded_up(zone.reach(), 4), is_robot ? "the robot" : "the mesh");
   if (zone.certified)
     say("  certified: yes, {}\n", claim_of(zone, is_robot));
   else

@@ -7,6 +7,7 @@
 #include "certificate/finite_original.h"
 #include "certificate/tetrahedra.h"
 #include "prohull/certificate.h"
+#include "prohull/detail/rounded.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 
@@ -37,14 +38,15 @@ Certificate hull_certificate(const TriangleMesh& hull, const CertifiedOriginal& 
   if (claims.gap > 0) {
     file.section(Section::Gap);
     file.real(claims.gap);
-    made.claims.push_back(fmt::format("keeps a gap of {:.6g}", claims.gap));
+    made.claims.push_back(fmt::format("keeps a gap of {:.6g}", rounded_down(claims.gap, 6)));
   }
   if (std::isfinite(claims.distance))
     if (const auto trees = certificate::distance_trees(hull, finite.triangles, claims.distance)) {
       file.section(Section::Distance);
       file.real(claims.distance);
       file.add(*trees);
-      made.claims.push_back(fmt::format("is nowhere farther than {:.6g} from the triangles", claims.distance));
+      made.claims.push_back(
+          fmt::format("is nowhere farther than {:.6g} from the triangles", rounded_up(claims.distance, 6)));
     }
   made.bytes = file.bytes();
   return made;
