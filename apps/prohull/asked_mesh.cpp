@@ -69,7 +69,8 @@ std::string RandomQueries::suffix(std::string_view noun) const {
 }
 
 void RandomQueries::say_what(std::string_view noun) const {
-  if (count > 0) say("{} random {}, seed {}\n", grouped(count), noun, seed);
+  if (count > 0)
+    say("{} random {}, seed {}\n", grouped(count), count == 1 ? noun.substr(0, noun.size() - 1) : noun, seed);
 }
 
 void add_random_queries(CLI::App& command, CLI::App& group, RandomQueries& random, std::string_view noun,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "console.h"
+#include "prohull/detail/rounded.h"
 #include "robot/report/report_facts.h"
 
 namespace prohull::cli {
@@ -258,15 +259,19 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
   say("{}", table.text());
   for (const LinkCheck& check : checks) say_notes(file, check);
   const auto failed = std::ranges::count_if(checks, [&](const LinkCheck& check) { return !passes(check, allow); });
+  const auto missing = std::ranges::count(checks, CheckVerdict::Missing, &LinkCheck::verdict);
   const bool rounds = std::ranges::count(checks, CheckVerdict::Undecided, &LinkCheck::verdict) > 0;
   if (failed == 0)
     say("yes: the collision geometry covers the visual geometry of every link{}\n",
-        allow > 0 ? ", or lets it stick out by at most " + millimetres(allow)
+        allow > 0 ? ", or lets it stick out by at most " + millimetres(rounded_up(allow, 3))
         : rounds  ? ", but for rounding"
                   : ", exactly");
+  else if (failed == missing)
+    say("NO: {} of {} not checked\n", missing, counted(checks.size(), "link is", "links are"));
   else
-    say("NO: {} of {} not covered; `prohull urdf {} -o DIR` makes collision meshes that cover them\n", failed,
-        counted(checks.size(), "link is", "links are"), file.path.string());
+    say("NO: {} of {} not covered{}; `prohull urdf {} -o DIR` makes collision meshes that cover them\n",
+        failed - missing, counted(checks.size(), "link is", "links are"),
+        missing > 0 ? fmt::format(", and {} not checked", missing) : "", file.path.string());
 }
 
 void say_disabled(const Robot& robot, const std::string& file, std::span<const DisabledCheck> checks) {

@@ -15,14 +15,16 @@ namespace {
 
 void print_offenders(const Verification& found, const std::string& mesh) {
   if (found.faces_outside > 0)
-    say("  {} faces of {} lie outside, at least in part; the farthest:\n", grouped(found.faces_outside), mesh);
+    say("  {} of {} {} outside, at least in part; the farthest:\n", counted(found.faces_outside, "face", "faces"), mesh,
+        found.faces_outside == 1 ? "lies" : "lie");
   for (const Offender& o : found.worst)
     say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
 }
 
 void print_near_faces(const Verification& found, const std::string& hull) {
   if (found.faces_too_near > 0)
-    say("  {} faces of {} are too near; the nearest:\n", grouped(found.faces_too_near), hull);
+    say("  {} of {} {} too near; the nearest:\n", counted(found.faces_too_near, "face", "faces"), hull,
+        found.faces_too_near == 1 ? "is" : "are");
   for (const NearFace& near : found.nearest)
     say("    face {} at {}, {:.6g} from face {} of the mesh\n", index(near.face), text_of_point(near.point),
         near.distance, index(near.original_face));
@@ -79,13 +81,15 @@ void print_summary(const VerifyOptions& options, const Verification& found, cons
   print_offenders(found, found.side == HullSide::Outer ? original : hull);
   print_near_faces(found, hull);
   if (found.cavities > 0 && found.faces_outside == 0)
-    say("  {} cavities inside it are not covered\n", grouped(found.cavities));
+    say("  {} of {} {}, and that is not covered\n", counted(found.cavities, "part", "parts"),
+        found.side == HullSide::Outer ? hull : original,
+        found.cavities == 1 ? "leaves a hole in its solid" : "leave holes in its solid");
   for (const std::string& note : found.notes) say("  {}\n", note);
   if (has_failed_replay(found)) return;
   if (!std::isnan(found.hull_volume))
     say("  hull: volume {:.9g}{}\n", found.hull_volume, text_of_void(found.void_ratio));
   if (gap > 0) say("  least distance: {:.9g}\n", found.least_distance);
-  say("  {} intersects itself in {} pairs of faces\n", hull, grouped(found.self_intersections));
+  say("  {} intersects itself in {}\n", hull, counted(found.self_intersections, "pair of faces", "pairs of faces"));
 }
 
 nlohmann::json near_facts(const std::vector<NearFace>& nearest) {

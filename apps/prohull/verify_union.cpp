@@ -84,8 +84,8 @@ std::string verdict(const Union& all, const VerifyOptions& options, const UnionV
 
 void print_offenders(const UnionVerification& found, const std::string& original) {
   if (found.faces_outside > 0)
-    say("  {} of {} lie outside, at least in part; the farthest:\n", counted(found.faces_outside, "face", "faces"),
-        original);
+    say("  {} of {} {} outside, at least in part; the farthest:\n", counted(found.faces_outside, "face", "faces"),
+        original, found.faces_outside == 1 ? "lies" : "lie");
   for (const Offender& o : found.worst)
     say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
   if (found.faces_undecided > 0)
@@ -97,7 +97,8 @@ void print_offenders(const UnionVerification& found, const std::string& original
 
 void print_summary(const Union& all, const UnionVerification& found, const DistanceBounds& reach) {
   if (found.turned_pieces > 0)
-    say("  {} inwards and count as turned\n", counted(found.turned_pieces, "piece looks", "pieces look"));
+    say("  {} inwards and count{} as turned\n", counted(found.turned_pieces, "piece looks", "pieces look"),
+        found.turned_pieces == 1 ? "s" : "");
   for (const auto* notes : {&all.notes, &found.notes})
     for (const std::string& note : *notes) say("  {}\n", note);
   if (!std::isnan(found.union_volume))

@@ -110,7 +110,7 @@ says solid.json "repair in float32" '"certified": true'
 expect 0 "repair in float32: verified" $prohull verify solid.stl open.obj
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 -1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n' >book.off
 expect 0 "repair: a wrap" $prohull repair book.off --spacing 0.05 -o solid.off
-says out "repair: a wrap" "not closed:"
+says out "repair: a wrap" "bounds no solid:"
 says out "repair: a wrap" "a wrap with a spacing of 0.05"
 expect 0 "repair: a wrap verified" $prohull verify solid.off book.off
 expect 2 "repair: no spacing" $prohull repair book.off --spacing 1mm -o solid.off
@@ -174,7 +174,7 @@ expect 0 "a proof, the solid" $prohull verify rock.phull rock.ply --solid-only
 (cat open.obj && printf 'v 9 0 0\nf 1 2 -1\n') >stray.obj
 for hull in hull.stl rock.phull; do
   expect 1 "a stray triangle" $prohull verify $hull stray.obj --report verify.json
-  says out "a stray triangle" "1 faces of stray.obj lie outside"
+  says out "a stray triangle" "1 face of stray.obj lies outside"
   says verify.json "report: a stray triangle" '"faces_outside": 1'
 done
 expect 3 "an inner hull of an open original" $prohull verify inner.obj open.obj --side inner
@@ -655,7 +655,7 @@ says shell.json "report: its openings" '"open_shells": "keep"'
 expect 0 "an open shell, verified" $prohull verify shell.stl open.off
 expect 0 "NaN" $prohull build nan.off --faces 100 -o wrapped.off --report wrapped.json
 says out "NaN" "dropped 3 faces with a corner that is not finite"
-says out "NaN" "the triangles are flat: the hull is a slab around them"
+says out "NaN" "the triangles are flat: the hull is one of a slab around them"
 says wrapped.json "report: its source" '"source": "convex-hull"'
 expect 0 "NaN, verified" $prohull verify wrapped.off nan.off --finite-only
 says out "NaN, verified" "3 faces of the original are not finite"
