@@ -204,12 +204,13 @@ BuildOutcome build_and_write(BuildOptions options) {
   return outcome;
 }
 
+bool is_as_asked(const BuildOutcome& outcome) { return std::ranges::all_of(outcome.written, &Written::is_as_asked); }
+
 int exit_code(const BuildOptions& options, const BuildOutcome& outcome) {
   const bool all_certified = std::ranges::all_of(outcome.written, &Written::certified);
-  const bool all_as_asked = std::ranges::all_of(outcome.written, &Written::is_as_asked);
   const bool all_within_bounds =
       std::ranges::all_of(outcome.written, [](const Written& written) { return written.hull.within_bounds; });
-  return !all_certified || !all_within_bounds || (options.strict && !all_as_asked) ? kAnswerIsNo : kDone;
+  return !all_certified || !all_within_bounds || (options.strict && !is_as_asked(outcome)) ? kAnswerIsNo : kDone;
 }
 
 /// With the names of what is written for this mesh. In a folder, hulls have the format of their meshes if it is
@@ -253,7 +254,7 @@ int run_build(const BuildOptions& options) {
     check_several(options, meshes);
     return run_each(meshes, table_head(), [&](const std::filesystem::path& mesh) {
       const BuildOutcome outcome = build_and_write(for_mesh(options, mesh));
-      return MeshOutcome{exit_code(options, outcome), table_rows(outcome)};
+      return MeshOutcome{exit_code(options, outcome), table_rows(outcome), is_as_asked(outcome)};
     });
   }
   const BuildOptions one = for_mesh(options, meshes.front());
@@ -351,8 +352,8 @@ void add_build(CLI::App& app, Run& run) {
   CLI::Option* const gap = add_length(
       command, "--gap", options->gap,
       "Least distance between hull and mesh. It is proven. All points within this distance of the mesh are inside of "
-      "an outer hull. An inner hull leaves out what is thinner than two gaps. Bounds such as --max-distance count from "
-      "the gap on. Use --tight for the least void.");
+      "an outer hull. An inner hull leaves out what is thinner than two gaps. Bounds such as --max-distance are those "
+      "of the hull before it is moved away. Use --tight for the least void.");
   CLI::Option* const tolerance =
       command
           .add_option(

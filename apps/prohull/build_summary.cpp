@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "certificate_output.h"
+#include "prohull/detail/rounded.h"
 #include "recenter.h"
 #include "verdict.h"
 
@@ -23,16 +24,26 @@ std::string source_of(const Solid& solid) {
   }
 }
 
+/// Not what it is made of: repairs change the mesh, and the convex hull may have become a slab, or a polytope of fewer
+/// faces around it.
+std::string solid_name(const BuildOutcome& outcome, const Solid& solid) {
+  if (solid.source == Source::ConvexHull) return "the convex solid that it is built from";
+  const bool is_changed = outcome.made.input.repairs.any() || solid.folds.faces > 0;
+  return solid.source == Source::Mesh && is_changed ? "the repaired mesh" : source_of(solid);
+}
+
 std::size_t added_self_intersections(const BuildOutcome& outcome, const EnclosingHull& hull) {
   return hull.self_intersections - std::min(hull.self_intersections, outcome.input_self_intersections);
 }
 
 std::string described_self_intersections(const BuildOutcome& outcome, const EnclosingHull& hull) {
   const std::size_t input = outcome.input_self_intersections;
+  const Solid& first = outcome.made.solids.front();  // what was looked at, if it is of the mesh
+  const std::string mesh = first.source == Source::Mesh ? solid_name(outcome, first) : "the mesh";
   if (hull.self_intersections == 0)
-    return input == 0 ? "none" : fmt::format("none (the mesh: {} pairs of faces)", grouped(input));
-  return fmt::format("{} pairs of faces (the mesh: {}; added: {})", grouped(hull.self_intersections), grouped(input),
-                     grouped(added_self_intersections(outcome, hull)));
+    return input == 0 ? "none" : fmt::format("none ({}: {})", mesh, counted(input, "pair of faces", "pairs of faces"));
+  return fmt::format("{} ({}: {}; added: {})", counted(hull.self_intersections, "pair of faces", "pairs of faces"),
+                     mesh, grouped(input), grouped(added_self_intersections(outcome, hull)));
 }
 
 void print_input(const BuildOptions& options, const BuildOutcome& outcome) {
@@ -44,7 +55,7 @@ void print_input(const BuildOptions& options, const BuildOutcome& outcome) {
     say("  recentered: {0} was subtracted from the coordinates; add it to place the hull (verify --offset {0})\n",
         text_of_offset(outcome.offset));
   for (const std::string& repair : describe(outcome.made.input.repairs)) say("  {}\n", repair);
-  if (!outcome.made.input.closed) say("  not closed: {}\n", outcome.made.input.obstacle);
+  if (!outcome.made.input.closed) say("  bounds no solid: {}\n", outcome.made.input.obstacle);
   for (const std::string& note : outcome.written.back().hull.notes) say("  {}\n", note);
 }
 
@@ -64,7 +75,7 @@ void print_regions(const BuildOutcome& outcome, const Written& written) {
       say("  region {}: {}, kept: the hull has them with the same coordinates\n", region.name, faces);
     else
       say("  region {}: {}, at most {:.4g} from the hull, proven; {:.4g} are allowed\n", region.name, faces,
-          written.regions[i].upper, region.max_distance);
+          rounded_up(written.regions[i].upper, 4), region.max_distance);
   }
 }
 
@@ -74,14 +85,15 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
   say("{}: {} hull of {}{}{}, at most {:.4g} from the mesh{}\n", output_name(written.path),
       options.is_outer() ? "outer" : "inner", counted(faces, "face", "faces"),
       hull.source == Source::Mesh ? "" : fmt::format(", of {}", source_of(outcome.solid(hull))),
-      described_void(outcome.made, hull), written.to_solid.upper,
+      described_void(outcome.made, hull), rounded_up(written.to_solid.upper, 4),
       text_of_openings(written.has_openings, written.to_triangles));
   say("  self-intersections: {}\n", described_self_intersections(outcome, hull));
   say("  triangles: {}\n", described(written.quality));
   if (faces == outcome.solid(hull).mesh.face_count() && faces <= hull.target_faces)
-    say("  {} has no more faces than were asked for: the hull is {}\n", source_of(outcome.solid(hull)),
-        hull.source == Source::Mesh && hull.mesh == outcome.solid(hull).mesh ? "the mesh itself"
-                                                                             : "simplified no further");
+    say("  {} has no more faces than were asked for: the hull is {}\n", solid_name(outcome, outcome.solid(hull)),
+        hull.source == Source::Mesh && hull.mesh == outcome.solid(hull).mesh
+            ? solid_name(outcome, outcome.solid(hull)) + " itself"
+            : "simplified no further");
   print_regions(outcome, written);
   if (const auto axis = options.enclosing.hull.mirror)
     say("  symmetric: exactly its own mirror image in the plane {} = {:g}\n", name_of(axis_names(), *axis),
@@ -101,7 +113,7 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
     say("  NOT within the bounds asked for: of all that was tried, this hull misses them least, by {:.3g} %; allow "
         "that "
         "much, or mend the mesh where it is open or intersects itself\n",
-        100 * (hull.excess - 1));
+        rounded_up(100 * (hull.excess - 1), 3));
   if (written.certified && !options.hierarchy.empty())
     say("{}: all levels from {} to {} faces\n", output_name(options.hierarchy), grouped(faces),
         grouped(outcome.solid(hull).mesh.face_count()));
@@ -110,7 +122,7 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
     say("  its finest level is {}, not the input itself\n", finest);
   say("  certified: {}\n", certificate_of(outcome.made, hull, written.certified));
   if (written.certified && hull.padding > 0)
-    say("  gap: the least distance from the mesh is at least {:.6g}, proven{}\n", hull.padding,
+    say("  gap: the least distance from the mesh is at least {:.6g}, proven{}\n", rounded_down(hull.padding, 6),
         options.is_outer() ? "; all points within it are inside" : "");
   if (written.certified && !options.certificate.empty())
     print_certificate(written.certificate_path, written.certificate, {written.path}, options.in);
@@ -233,7 +245,8 @@ double write_seconds(const BuildOutcome& outcome) {
 /// What the ladder looked at before it chose: docs/repair.md.
 void print_search(const BuildOutcome& outcome) {
   for (const Solid& solid : outcome.made.solids)
-    say_more("  tried {}: {}, {} of its faces intersecting\n", source_of(solid),
+    say_more("  tried {}: {}, {} of its faces intersecting\n",
+             solid.source == Source::ConvexHull ? "a convex solid" : source_of(solid),
              counted(solid.mesh.face_count(), "face", "faces"), counted(solid.self_intersections, "pair", "pairs"));
   for (const Written& written : outcome.written) {
     say_more("  {}: built in {:.2f} s, verified in {:.2f} s by {}\n", output_name(written.path),
@@ -266,7 +279,7 @@ std::vector<std::string> table_rows(const BuildOutcome& outcome) {
         fmt::format("{:>11}  {:>9}  {:>8}  {:>9.4g}  {}", grouped(outcome.made.input.found.faces),
                     grouped(written.hull.mesh.face_count()),
                     std::isnan(written.hull.void_ratio) ? "" : fmt::format("{:.2f} %", 100 * written.hull.void_ratio),
-                    written.to_solid.upper,
+                    rounded_up(written.to_solid.upper, 4),
                     !written.certified            ? "NO"
                     : !written.hull.within_bounds ? "yes, NOT within the bounds"
                                                   : "yes"));

@@ -7,6 +7,7 @@
 
 #include "certificate_output.h"
 #include "command.h"
+#include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
@@ -94,7 +95,7 @@ void print_input(const CageRunOptions& options, const Cage& cage) {
   say("{}: {}, {}\n", input_name(options.in), counted(input.found.faces, "face", "faces"),
       counted(input.found.components, "component", "components"));
   for (const std::string& repair : describe(input.repairs)) say("  {}\n", repair);
-  if (!input.closed) say("  not closed: {}\n", input.obstacle);
+  if (!input.closed) say("  bounds no solid: {}\n", input.obstacle);
   for (const std::string& note : cage.notes) say("  {}\n", note);
 }
 
@@ -105,10 +106,10 @@ void print_hull(const Cage& cage, const File& file) {
   for (const std::string& note : hull.notes) say("  {}\n", note);
   say("  triangles: smallest angle {:.3g} degrees, worst aspect ratio {:.3g}\n",
       file.hull->quality.smallest_angle / kDegree, file.hull->quality.worst_aspect_ratio);
-  if (!hull.target_reached) say("  NOT the {} faces asked for: no fewer were possible\n", grouped(hull.target_faces));
+  if (!hull.target_reached) say("  NOT the {} faces asked for: no such hull was found\n", grouped(hull.target_faces));
   if (hull.self_intersections > 0)
     say("  NOT free of self-intersections: {}\n", counted(hull.self_intersections, "pair of faces", "pairs of faces"));
-  say("  gap: at least {:.6g}, proven{}\n", hull.padding,
+  say("  gap: at least {:.6g}, proven{}\n", rounded_down(hull.padding, 6),
       file.hull->keeps_gap ? "" : fmt::format("; NOT the {:.6g} asked for: the mesh is too thin", cage.gap));
   say("  certified: {}\n", certificate_of(file.hull->made, hull, file.certified));
 }

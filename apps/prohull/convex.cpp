@@ -14,6 +14,7 @@
 #include "command.h"
 #include "engine_rules.h"
 #include "prohull/convex_cover.h"
+#include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
@@ -303,14 +304,15 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
       counted(outcome.input.components, "component", "components"));
   for (const std::string& note : cover.notes) say("  {}\n", note);
   say("{}: {}, {}, at most {:.4g} from the mesh ({:.2f} % of its diagonal){}\n", output_name(options.out),
-      described_pieces(cover), described_size(cover), cover.reach.upper, 100 * cover.reach.upper / outcome.diagonal,
-      text_of_openings(cover.has_openings, cover.reach_from_triangles));
+      described_pieces(cover), described_size(cover), rounded_up(cover.reach.upper, 4),
+      100 * cover.reach.upper / outcome.diagonal, text_of_openings(cover.has_openings, cover.reach_from_triangles));
   if (outcome.certified)
     say("  certified: yes, the pieces as written cover every {}triangle of the original{}\n",
         cover.non_finite_faces == 0 ? "" : "finite ",
         !cover.covers_inside    ? "; it is not closed, so nothing is proven of its inside: `prohull repair` closes it"
         : cover.original_closed ? ", and its inside"
-                                : ", and its inside with its openings closed");
+        : cover.has_openings    ? ", and its inside with its openings closed"
+                                : ", and its inside after repairs");
   else
     say("  certified: NO: nothing was written; please report this mesh\n");
   if (options.engine && outcome.largest.vertices > 0) print_limits(options, outcome);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "command.h"
 #include "prohull/closed_solid.h"
 #include "prohull/error.h"
@@ -37,17 +39,22 @@ ClosedSolid solid_of(TriangleMesh mesh, const RepairRunOptions& options) {
   }
 }
 
+/// Parts that overlap count once, where the verdict has measured them.
+double volume_of(const ClosedSolid& solid) {
+  return std::isnan(solid.verdict.hull_volume) ? signed_volume(solid.mesh) : solid.verdict.hull_volume;
+}
+
 void print_summary(const RepairRunOptions& options, const RepairOutcome& outcome) {
   const ClosedSolid& solid = outcome.solid;
   say("{}: {}, {}\n", input_name(options.in), counted(solid.input.found.faces, "face", "faces"),
       counted(solid.input.found.components, "component", "components"));
   for (const std::string& repair : describe(solid.input.repairs)) say("  {}\n", repair);
-  if (!solid.input.closed) say("  not closed: {}\n", solid.input.obstacle);
+  if (!solid.input.closed) say("  bounds no solid: {}\n", solid.input.obstacle);
   if (outcome.is_wrap() && solid.input.closed)
     say("  the repaired mesh{} does not cover all triangles\n",
         options.solid.float32_coordinates ? ", with float32 coordinates (.ply, .obj and .off keep doubles)," : "");
   say("{}: {} of {}, volume {:.9g}\n", output_name(options.out), outcome.is_wrap() ? "wrap" : "solid",
-      counted(solid.mesh.face_count(), "face", "faces"), signed_volume(solid.mesh));
+      counted(solid.mesh.face_count(), "face", "faces"), volume_of(solid));
   if (solid.folds.faces > 0)
     say("  {}: the faces around them were replaced by others, which cover them\n", describe(solid.folds));
   if (outcome.is_wrap())
@@ -73,7 +80,7 @@ nlohmann::json report_of(const RepairRunOptions& options, const RepairOutcome& o
           {"path", options.out.string()},
           {"faces", solid.mesh.face_count()},
           {"vertices", solid.mesh.vertex_count()},
-          {"volume", signed_volume(solid.mesh)},
+          {"volume", volume_of(solid)},
           {"source", name_of(source_names(), solid.source)},
           {"wrap_spacing", outcome.is_wrap() ? nlohmann::json(solid.wrap_spacing) : nlohmann::json()},
           {"folds", facts(solid.folds)},

@@ -67,7 +67,7 @@ int run_each(const std::vector<fs::path>& meshes, const std::string& head,
       for (const std::string& row : outcome.rows)
         say("{:<{}}  {}\n", &row == &outcome.rows.front() ? mesh.filename().string() : "", width, row);
       exit_code = std::max(exit_code, outcome.exit_code);
-      done += outcome.exit_code == kDone;
+      done += outcome.is_as_asked;
     } catch (const InputError& error) {
       tell(fmt::format("prohull: {}\n", error.what()), stderr);
       exit_code = kBadInput;

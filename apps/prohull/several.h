@@ -22,6 +22,7 @@ std::filesystem::path pattern_of(const std::filesystem::path& out, const std::st
 struct MeshOutcome {
   int exit_code = 0;
   std::vector<std::string> rows;  ///< of the table, without the name
+  bool is_as_asked = false;       ///< also where the exit code does not tell it
 };
 
 /// Does `one` with each, in their order, and prints a table under this head. A mesh that throws InputError is told to

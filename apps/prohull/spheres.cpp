@@ -6,6 +6,7 @@
 
 #include "certificate_output.h"
 #include "command.h"
+#include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "prohull/sphere_cover.h"
 #include "robot/files/piece_files.h"
@@ -115,8 +116,9 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
 void print_summary(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
   say("{}: {} around {}, which reach out by at most {:.4g}, {:.2f} % of the diagonal{}\n", output_name(options.out),
-      counted(cover.balls.size(), "sphere", "spheres"), counted(outcome.faces, "face", "faces"), cover.reach.upper,
-      outcome.part_of_diagonal() * 100, text_of_openings(cover.has_openings, cover.reach_from_triangles));
+      counted(cover.balls.size(), "sphere", "spheres"), counted(outcome.faces, "face", "faces"),
+      rounded_up(cover.reach.upper, 4), outcome.part_of_diagonal() * 100,
+      text_of_openings(cover.has_openings, cover.reach_from_triangles));
   if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);
   if (outcome.has_volume())
     say("  volume: {:.4g} with overlaps counted once, {:.1f} % {} than the solid's{}\n", cover.volume,

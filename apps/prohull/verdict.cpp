@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "command.h"
+#include "prohull/detail/rounded.h"
 
 namespace prohull::cli {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// What makes a solid of an original that is not closed; empty if it is closed.
 std::string caps_of(const Verification& found) {
   if (found.original_closed) return "";
-  if (found.cap_faces == 0) return " with its faces turned to agree about the outside";
+  if (found.cap_faces == 0) return " after repairs";
   return fmt::format(" with its openings closed by {}", counted(found.cap_faces, "face", "faces"));
 }
 
@@ -85,7 +86,7 @@ std::string certificate_of(const EnclosingHulls& made, const EnclosingHull& hull
 std::string text_of_openings(bool has_openings, const DistanceBounds& from_triangles) {
   if (!has_openings) return "";
   return fmt::format("; its openings count as closed, and from its triangles alone it is at most {:.4g}",
-                     from_triangles.upper);
+                     rounded_up(from_triangles.upper, 4));
 }
 
 nlohmann::json facts(const Verification& found) {

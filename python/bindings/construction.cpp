@@ -75,7 +75,7 @@ std::vector<std::string> notes_of(const EnclosingHull& hull, bool is_estimated) 
   if (!hull.target_reached)
     notes.push_back("the hull has " + std::to_string(hull.mesh.face_count()) + " faces, more than the " +
                     std::to_string(hull.target_faces) + " asked for: of its edges, " + describe_refusals(hull.blocked));
-  if (!hull.within_bounds) notes.push_back("the hull is not within the bounds asked for: no hull was");
+  if (!hull.within_bounds) notes.push_back("the hull is not within the bounds asked for: no hull that was tried is");
   if (is_estimated) notes.emplace_back(kVolumeIsEstimated);
   return notes;
 }

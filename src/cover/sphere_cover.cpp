@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "base/text.h"
 #include "cover/ball_search.h"
 #include "cover/depth.h"
 #include "cover/enclosing_options.h"
@@ -18,6 +19,7 @@
 #include "parallel/arena.h"
 #include "prohull/closed_solid.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/rounded.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
@@ -103,7 +105,7 @@ class SphereCoverer {
     made_.original_volume = made.inside_volume, made_.is_estimated = true;
     made_.notes.push_back(fmt::format(
         "the triangles bound no solid ({}): what lies inside is taken from a wrap, up to {:.4g} around them",
-        input_.obstacle, slack_));
+        input_.obstacle, rounded_up(slack_, 4)));
   }
 
   BallCover search() {
@@ -111,9 +113,6 @@ class SphereCoverer {
     if (std::isfinite(options_.max_distance)) {
       BallCover found = keep_distance(meter);
       if (!found.balls.empty()) return found;
-      made_.notes.push_back(
-          fmt::format("{} balls do not keep a distance of {:.4g}; these reach out as little as they can",
-                      options_.max_balls, options_.max_distance));
     }
     return reach_least(meter);
   }
@@ -204,6 +203,9 @@ class SphereCoverer {
     // No estimate may say that the mesh is larger than what covers it.
     if (made_.is_estimated && made_.covers_inside && made_.original_volume > made_.volume) made_.original_volume = 0;
     made_.within_bounds = made_.reach.upper <= options_.max_distance;
+    if (!made_.within_bounds)
+      made_.notes.push_back(fmt::format("no cover by {} was found that keeps a distance of {:.4g}",
+                                        counted(options_.max_balls, "sphere", "spheres"), options_.max_distance));
   }
 
   static constexpr double kCubesPerReach = 3;

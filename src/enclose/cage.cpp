@@ -176,9 +176,10 @@ void CageMaker::move_inwards(EnclosingHulls& made) const {
     }
     if (found) return;
   }
-  throw InputError(Defect::NoCertificate,
-                   fmt::format("no inner hull of {} faces lies strictly inside of the mesh; try more faces",
-                               made.hulls[0].target_faces));
+  throw InputError(
+      Defect::NoCertificate,
+      fmt::format("no inner hull of {} faces was found that lies strictly inside of the mesh; try more faces",
+                  made.hulls[0].target_faces));
 }
 
 void CageMaker::make_even(EnclosingHulls& made, HullSide side) const {

@@ -108,7 +108,7 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
   RepairedMesh result = repaired_mesh(
       std::move(triangles), {.keep_cavities = options.keep_cavities || !is_outer, .open_shells = options.open_shells});
   if (!is_outer && !result.closed)
-    throw InputError(Defect::OpenEdge, result.obstacle + "; there is no inner hull of what is not closed");
+    throw InputError(Defect::OpenEdge, result.obstacle + "; there is no inner hull of what bounds no solid");
   return result;
 }
 

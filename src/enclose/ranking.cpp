@@ -118,11 +118,12 @@ void Ranking::note_why_not(const EnclosingHull& hull) {
     notes_.add(fmt::format(
         "a hull of {} {}", source,
         request_.is_padded()
-            ? std::string("does not keep the padding everywhere, as in gaps narrower than twice the padding")
+            ? std::string(
+                  "does not keep the gap everywhere, as where parts are closer to each other than twice the gap")
         : request_.is_outer() ? "does not cover every triangle" + place_of(hull.verdict)
                               : "is not proven to lie inside of the mesh"));
   else if (!hull.within_bounds)
-    notes_.add(fmt::format("no hull of {} is within the bounds", source));
+    notes_.add(fmt::format("no hull of {} was found within the bounds", source));
   else if (!hull.target_reached)
     notes_.add(fmt::format("no legal collapse of {} is left at {} faces: of its edges, {}", source,
                            grouped(hull.mesh.face_count()), describe_refusals(hull.blocked)));
@@ -138,10 +139,12 @@ void Ranking::refuse() {
         input.closed ? Defect::NoVolume : Defect::OpenEdge,
         fmt::format("nothing could be wrapped: {}", notes_.all().empty() ? input.obstacle : notes_.all().back()));
   if (!request_.is_outer() && request_.is_padded())
-    throw InputError(Defect::NoCertificate,
-                     fmt::format("no inner hull of {} faces keeps the gap of {:g}{}; use a smaller gap, or more faces",
-                                 target_faces_, request_.options.padding,
-                                 has_wrap() ? "" : ": the mesh must be thicker than twice the gap somewhere"));
+    throw InputError(
+        Defect::NoCertificate,
+        fmt::format(
+            "no inner hull of {} faces was found that keeps the gap of {:g}{}; use a smaller gap, or more faces",
+            target_faces_, request_.options.padding,
+            has_wrap() ? "" : ": the mesh must be thicker than twice the gap somewhere"));
   if (notes_.all().empty()) note_why_not(best_->hull);
   throw InputError(Defect::NoCertificate,
                    fmt::format("no hull of {} faces could be certified: {}; try {}", target_faces_, notes_.all().back(),
@@ -156,7 +159,8 @@ EnclosingHull Ranking::winner() {
     notes_.add(describe(solid.folds) +
                ": the hull is built from the mesh with other faces around them, which cover them");
   if (solid.slab_width > 0)
-    notes_.add(fmt::format("the triangles are flat: the hull is a slab around them, {:.4g} wide", solid.slab_width));
+    notes_.add(
+        fmt::format("the triangles are flat: the hull is one of a slab around them, {:.4g} wide", solid.slab_width));
   if (solid.largest_door > 0)
     notes_.add(
         fmt::format("the mesh is not closed: openings up to about {:.4g} across count as closed", solid.largest_door));

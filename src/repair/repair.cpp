@@ -48,7 +48,7 @@ void require_faces(const TriangleMesh& mesh) {
 void face_outwards(ClosedMesh& closed) {
   turn_outwards(closed.mesh, closed.report.components, closed.repairs);
   closed.report.volume = signed_volume(closed.mesh);
-  if (!(closed.report.volume > 0)) throw InputError(Defect::NoVolume, "the mesh is closed but encloses no volume");
+  if (!(closed.report.volume > 0)) throw InputError(Defect::NoVolume, "the mesh encloses no volume");
 }
 
 // One step after another, until the mesh is closed.

@@ -1,0 +1,90 @@
+#!/bin/sh
+# Small meshes of which summaries said what was not true: words_test.sh PROHULL. Each check names the sentence.
+set -u
+prohull=$1
+. "$(dirname "$0")/checks.sh"
+
+says_not() {
+  checks=$((checks + 1))
+  if grep -qF -- "$3" "$1"; then fail "$2: '$3' in its $1"; fi
+}
+
+corners='v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n'
+bottom='f 1 3 2\nf 2 3 4\n'
+walls='f 1 2 5\nf 2 6 5\nf 3 7 4\nf 4 7 8\nf 1 5 3\nf 3 5 7\nf 2 4 6\nf 4 8 6\n'
+top='f 5 6 7\nf 6 8 7\n'
+printf "$corners$bottom$top$walls" >cube.obj
+printf "$corners${bottom}f 1 3 2\n$top$walls" >twice.obj
+printf "$corners$walls" >tube.obj
+printf "${corners}v nan 0 0\n$bottom$top${walls}f 1 2 9\n" >nan.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n' >sheet.obj
+{
+  grep '^v' cube.obj
+  awk '/^v / { print "v", 0.2 + 0.6 * $2, 0.2 + 0.6 * $3, 0.2 + 0.6 * $4 }' cube.obj
+  grep '^f' cube.obj
+  awk '/^f / { print "f", $2 + 8, $3 + 8, $4 + 8 }' cube.obj
+} >nested.obj
+$prohull sample asteroid -o rock.ply --faces 500 >out
+
+# --- what a hull is built from ---
+expect 0 "no collapse" $prohull build cube.obj --faces 12 -o hull.obj
+says out "the mesh itself" "the mesh has no more faces than were asked for: the hull is the mesh itself"
+expect 0 "a polytope" $prohull build cube.obj --faces 8 -o hull.obj
+says_not out "a polytope is not the convex hull, which has 12 faces" "the convex hull has no more faces"
+for changed in twice tube nested; do
+  expect 0 "repaired: $changed" $prohull build $changed.obj --faces 12 -o hull.obj
+  says out "repaired: $changed" "the repaired mesh has no more faces than were asked for: the hull is the repaired mesh itself"
+done
+expect 0 "nothing was turned" $prohull build twice.obj --faces 12 -o hull.obj
+says out "nothing was turned" "and its inside after repairs"
+expect 0 "no openings" $prohull convex twice.obj --pieces 1 -o piece.obj
+says out "no openings" "and its inside after repairs"
+expect 0 "a closed sheet" $prohull build sheet.obj --faces 8 -o hull.obj
+says out "a closed sheet" "bounds no solid: the mesh encloses no volume"
+says out "a hull of a slab is wider" "the hull is one of a slab around them"
+says out "one pair" "(the mesh: 1 pair of faces)"
+
+expect 3 "no inner hull of a closed sheet" $prohull build sheet.obj --side inner -o hull.obj
+says err "no inner hull of a closed sheet" "sheet.obj: the mesh encloses no volume; there is no inner hull of what bounds no solid"
+
+# --- repairs ---
+expect 0 "a corner that is not finite" $prohull build nan.obj --faces 12 -o hull.obj
+says out "a corner that is not finite" "the finite triangles of the original"
+expect 0 "parts that overlap count once" $prohull repair nested.obj -o solid.obj --report solid.json
+says solid.json "parts that overlap count once" '"volume": 1.0'
+expect 0 "one defect" $prohull info nan.obj
+says out "one defect" "1 vertex that is not finite"
+
+# --- several meshes ---
+mkdir hulls
+expect 0 "more faces than asked for" $prohull build cube.obj rock.ply --repair none --faces 6 -o hulls/{name}.obj
+says out "more faces than asked for" "1 of 2 meshes: as asked"
+
+# --- what is proven is not rounded away ---
+expect 0 "a least distance" $prohull cage cube.obj -o cage.obj --gap 0.00346410161 --report cage.json
+is "a least distance" awk '/gap: at least/ { said = $4 + 0 } /"gap":/ && !proven { proven = $2 + 0 } END { exit !(said <= proven) }' out cage.json
+for gap in 0.123 0.2 0.31 0.44; do
+  expect 0 "a greatest distance" $prohull build cube.obj -o away.obj --faces 12 --gap $gap --report away.json
+  is "a greatest distance" awk '/at most/ { sub(/.*at most /, ""); said = $1 + 0 } /"distance_bound":/ { proven = $2 + 0 } END { exit !(said >= proven) }' out away.json
+done
+# --- spheres ---
+expect 0 "a distance that is kept" $prohull spheres cube.obj -o s.json --max-distance 0.3 --count 8
+says_not out "a distance that is kept" "keep a distance"
+expect 1 "a distance that is not kept" $prohull spheres cube.obj -o s.json --max-distance 0.01 --count 1
+says out "a distance that is not kept" "no cover by 1 sphere was found that keeps a distance of 0.01"
+
+# --- robots ---
+cat >robot.urdf <<'EOF'
+<robot name="r"><link name="a">
+  <visual><geometry><mesh filename="nowhere.stl"/></geometry></visual>
+  <collision><geometry><box size="1 1 1"/></geometry></collision>
+</link></robot>
+EOF
+expect 1 "a mesh that is missing" $prohull urdf --check robot.urdf
+says out "a mesh that is missing" "NO: 1 of 1 link is not checked"
+says_not out "a mesh that is missing" "makes collision meshes"
+
+# --- numbers of things ---
+expect 0 "one point" $prohull contains cube.obj --random 1
+says out "one point" "1 random point, seed 1"
+count_checks
