@@ -3,10 +3,13 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <mutex>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "cover/growing_hull.h"
@@ -40,11 +43,11 @@ Cut no_cut() {
   return {{}, kInfinity, kInfinity};
 }
 
-/// Leaves the points of which the convex hull in their plane is made, by Andrew's monotone chains. The chains are
-/// exact, as coordinates are rounded to a grid that is finer than what GrowingHull tells apart.
-void keep_extreme(std::vector<Vec3>& points, const Vec3& normal) {
+/// Leaves the points of which the convex hull in their plane is made, by Andrew's monotone chains, and returns its area.
+/// The chains are exact, as coordinates are rounded to a grid that is finer than what GrowingHull tells apart.
+double keep_extreme(std::vector<Vec3>& points, const Vec3& normal) {
   constexpr double kPerUnit = 0x1p24;
-  if (points.size() < 4) return;
+  if (points.size() < 3) return 0;
   struct Flat {
     double x, y;
     std::uint32_t number;
@@ -61,17 +64,21 @@ void keep_extreme(std::vector<Vec3>& points, const Vec3& normal) {
   const auto turns_left = [](const Flat& a, const Flat& b, const Flat& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0;
   };
+  double twice_area = 0;
   for (int side = 0; side < 2; ++side) {
     chain.clear();
     for (const Flat& p : sorted) {
       while (chain.size() >= 2 && !turns_left(chain[chain.size() - 2], chain.back(), p)) chain.pop_back();
       chain.push_back(p);
     }
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      twice_area += chain[i].x * chain[i + 1].y - chain[i + 1].x * chain[i].y;
     chain.pop_back();  // where the other chain begins
     for (const Flat& p : chain) kept.push_back(points[p.number]);
     std::reverse(sorted.begin(), sorted.end());
   }
-  points.swap(kept);
+  if (points.size() > 3) points.swap(kept);
+  return twice_area / (2 * kPerUnit * kPerUnit);
 }
 
 using Edges = std::vector<std::array<std::uint32_t, 2>>;
@@ -100,8 +107,39 @@ std::vector<double> heights_of_steps(const Part& part, const Vec3& normal) {
   return heights;
 }
 
+/// Of a convex body between two parallel planes, at least, from its areas there: the roots of the areas between are
+/// concave (Brunn and Minkowski).
+double least_volume_between(double area, double other, double distance) {
+  return distance / 3 * (area + std::sqrt(area * other) + other);
+}
+
+/// The merits of cuts that were found so far, of which so many are asked for.
+class Leaders {
+ public:
+  explicit Leaders(std::size_t count) : merits_(count, std::numeric_limits<double>::infinity()) {}
+  /// A cut of greater merit is not asked for any more.
+  double limit() const { return limit_.load(std::memory_order_relaxed); }
+  void add(double merit) {
+    const std::scoped_lock lock(mutex_);
+    if (merit >= merits_.back()) return;
+    merits_.back() = merit;
+    std::sort(merits_.begin(), merits_.end());
+    limit_ = merits_.back();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<double> merits_;
+  std::atomic<double> limit_ = std::numeric_limits<double>::infinity();
+};
+
 /// The volumes of the hulls on both sides of planes of one direction. A hull grows from plane to plane, so that all of
 /// them cost little more than one.
+///
+/// It stops growing where no further plane can be better than the limit. The hull on one side of a plane holds that of
+/// another plane on this side, and beside it the part between the two planes, whose hull has at least the volume that
+/// follows from its areas in the planes. So from the hull below plane i, and the areas above, a lower bound follows of
+/// the volumes by plane i and by all above it.
 class Sweep {
  public:
   Sweep(const Part& part, const Edges& edges, const Vec3& normal, const Solid& solid, int offsets)
@@ -119,26 +157,40 @@ class Sweep {
     for (const auto& [a, b] : edges) heights_[a] < heights_[b] ? add_edge(a, b) : add_edge(b, a);
     for (std::size_t i = 0; i < offsets_.size(); ++i) {
       for (const Vec3& p : new_corners(part, {normal, offsets_[i]}, solid)) slabs_[i].both.push_back(p);
-      keep_extreme(slabs_[i].both, normal);
+      measure(slabs_[i]);
     }
+    bound_above();
   }
 
-  Cut best() {
-    if (offsets_.empty()) return no_cut();
-    std::vector<double> below(offsets_.size()), above(offsets_.size());
-    grow(true, below);
-    grow(false, above);
-    Cut best;
-    best.merit = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < offsets_.size(); ++i)
-      if (const Cut cut = cut_of({normal_, offsets_[i]}, below[i], above[i]); cut.merit < best.merit) best = cut;
+  /// The volume of any cut is at least this.
+  double bound() const { return offsets_.empty() ? std::numeric_limits<double>::infinity() : bound_; }
+
+  /// The best one, or none if its merit is greater than the limit.
+  Cut best(const Leaders& leaders) const {
+    Cut best = no_cut();
+    const auto is_out = [&](double volume) { return volume > std::min(leaders.limit(), best.merit) + slack_; };
+    if (is_out(bound_)) return best;
+    std::vector<double> below(offsets_.size()), least_before(offsets_.size() + 1, best.merit);
+    std::size_t count = 0;
+    grow(true, [&](std::size_t i, double volume) {
+      below[i] = volume;
+      count = i + 1;
+      least_before[count] = std::min(least_before[i], volume + above_[i]);
+      return !is_out(volume + above_[i]);
+    });
+    grow(false, [&](std::size_t i, double volume) {
+      if (i < count)
+        if (const Cut cut = cut_of({normal_, offsets_[i]}, below[i], volume); cut.merit <= best.merit) best = cut;
+      return !is_out(volume - above_[i] + least_before[std::min(i, count)]);
+    });
     return best;
   }
 
  private:
   /// What the surface has in a plane.
   struct Slab {
-    std::vector<Vec3> both, lower, upper;  // of both sides, or only of the faces below, or above
+    std::vector<Vec3> both, lower, upper;    // of both sides, or only of the faces below, or above
+    double lower_area = 0, upper_area = 0;  // of the hulls of what both sides have, and one of them
   };
 
   void choose_offsets(int count) {
@@ -165,7 +217,34 @@ class Sweep {
     }
   }
 
-  void grow(bool up, std::vector<double>& volumes) {
+  void measure(Slab& slab) const {
+    slab.lower_area = slab.upper_area = keep_extreme(slab.both, normal_);
+    const auto area_with = [&](std::vector<Vec3> points) {
+      points.insert(points.end(), slab.both.begin(), slab.both.end());
+      return keep_extreme(points, normal_);
+    };
+    if (!slab.lower.empty()) slab.lower_area = area_with(slab.lower);
+    if (!slab.upper.empty()) slab.upper_area = area_with(slab.upper);
+  }
+
+  void bound_above() {
+    above_.resize(offsets_.size());
+    if (offsets_.empty()) return;
+    bound_ = least_volume_between(slabs_.back().upper_area, 0, heights_[order_.back()] - offsets_.back());
+    above_.back() = bound_;
+    for (std::size_t i = offsets_.size() - 1; i-- > 0;)
+      above_[i] = bound_ +=
+          least_volume_between(slabs_[i].upper_area, slabs_[i + 1].lower_area, offsets_[i + 1] - offsets_[i]);
+    bound_ += least_volume_between(0, slabs_.front().lower_area, offsets_.front() - heights_[order_.front()]);
+    // GrowingHull leaves out points within a millionth of the hull, whose surface is no larger than that of the box.
+    constexpr double kLeftOut = 1e-5;
+    const Vec3 size = box_of(part_).max - box_of(part_).min;
+    slack_ = kLeftOut * 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  }
+
+  /// goes_on(i, volume) for the hulls below, or above, of plane i, until it returns false.
+  template <class GoesOn>
+  void grow(bool up, GoesOn goes_on) const {
     static thread_local GrowingHull hull;
     hull.clear();
     std::size_t next = 0;
@@ -185,7 +264,7 @@ class Sweep {
       for (const Vec3& p : part_.inside)
         if (up ? dot(normal_, p) <= t : dot(normal_, p) >= t) batch.push_back(p);
       hull.add(batch);
-      volumes[i] = hull.volume();
+      if (!goes_on(i, hull.volume())) return;
     }
   }
 
@@ -194,7 +273,9 @@ class Sweep {
   const double tolerance_;
   std::vector<double> heights_, offsets_;
   std::vector<std::uint32_t> order_;
-  std::vector<Slab> slabs_;  // by offset
+  std::vector<Slab> slabs_;    // by offset
+  std::vector<double> above_;  // by offset: of the hull above the plane, at least
+  double bound_ = 0, slack_ = 0;
 };
 
 /// So that hulls of parts of it have no volume by which cuts could be compared.
@@ -290,16 +371,27 @@ std::vector<Plane> neighbors(const Plane& plane, const Vec3& center, double angl
 
 }  // namespace
 
-std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets) {
+std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets, std::size_t count) {
   static const std::vector<Vec3> all = directions();
   const auto part_edges = edges(part);
   std::vector<Cut> result;
   if (part.points.size() < 4 || is_flat(part)) return result;
-  result.resize(all.size());
+  std::vector<std::optional<Sweep>> sweeps(all.size());
   oneapi::tbb::parallel_for(std::size_t{0}, all.size(),
-                            [&](std::size_t i) { result[i] = Sweep(part, part_edges, all[i], solid, offsets).best(); });
+                            [&](std::size_t i) { sweeps[i].emplace(part, part_edges, all[i], solid, offsets); });
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return sweeps[i]->bound() < sweeps[j]->bound(); });
+  Leaders leaders(count);
+  result.resize(all.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
+    result[order[k]] = sweeps[order[k]]->best(leaders);
+    leaders.add(result[order[k]].merit);
+  });
   std::erase_if(result, [](const Cut& c) { return !std::isfinite(c.volume); });
   std::stable_sort(result.begin(), result.end(), [](const Cut& a, const Cut& b) { return a.merit < b.merit; });
+  result.resize(std::min(result.size(), count));
   return result;
 }
 

@@ -16,9 +16,9 @@ struct Cut {
   double merit = 0;
 };
 
-/// The best cuts of a part among planes of many directions and of so many even offsets, and those of steps of the
-/// surface; the best first: at most one for each direction.
-std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets);
+/// The `count` best cuts of a part among planes of many directions and of so many even offsets, and those of steps of
+/// the surface; the best first: at most one for each direction.
+std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets, std::size_t count);
 
 /// Turns and moves the plane as long as that makes the volume less.
 Cut refined(const Part& part, const Cut& cut, const Solid& solid);

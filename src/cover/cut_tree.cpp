@@ -39,10 +39,10 @@ struct Candidate {
 
   Part part;
   double volume;
-  std::vector<Cut> first_cuts;  ///< the best first
+  std::vector<Cut> first_cut;  ///< the best one, if any
 
   /// What the best cut saves.
-  double gain() const { return first_cuts.empty() ? 0 : volume - first_cuts.front().volume; }
+  double gain() const { return first_cut.empty() ? 0 : volume - first_cut.front().volume; }
 };
 
 /// A cut of a part, made.
@@ -59,7 +59,6 @@ class Cutting {
 
   CutTree run() {
     Candidate root(whole(solid_));
-    root.first_cuts = cuts(root.part, solid_, effort_.offsets);
     least_gain_ = kLeastGain * root.volume;
     add(std::move(root));
     for (std::size_t leaves = 1; leaves < leaves_; ++leaves) {
@@ -89,11 +88,11 @@ class Cutting {
   void add(Candidate candidate) {
     const std::size_t node = tree_.nodes.size();
     tree_.nodes.push_back({candidate.volume});
-    if (candidate.first_cuts.empty()) return;
-    const std::size_t count = std::min(effort_.tried, candidate.first_cuts.size());
-    work_ += count * static_cast<std::size_t>(effort_.ahead + 1) * candidate.part.points.size();
+    const std::vector<Cut> first = cuts(candidate.part, solid_, effort_.offsets, effort_.tried);
+    if (first.empty()) return;
+    work_ += first.size() * static_cast<std::size_t>(effort_.ahead + 1) * candidate.part.points.size();
     if (work_ > kMostWork) return;
-    const std::vector<Cut> distinct = distinct_refined(candidate, count);
+    const std::vector<Cut> distinct = distinct_refined(candidate.part, first);
     std::vector<std::optional<Halves>> tried(distinct.size());
     oneapi::tbb::parallel_for(std::size_t{0}, tried.size(),
                               [&](std::size_t i) { tried[i] = halves(candidate.part, distinct[i]); });
@@ -104,11 +103,10 @@ class Cutting {
   }
 
   /// The first cuts, refined; of those that end in nearly the same plane only the best one.
-  std::vector<Cut> distinct_refined(const Candidate& candidate, std::size_t count) const {
-    std::vector<Cut> all(count), distinct;
-    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      all[i] = refined(candidate.part, candidate.first_cuts[i], solid_);
-    });
+  std::vector<Cut> distinct_refined(const Part& part, const std::vector<Cut>& first) const {
+    std::vector<Cut> all(first.size()), distinct;
+    oneapi::tbb::parallel_for(std::size_t{0}, first.size(),
+                              [&](std::size_t i) { all[i] = refined(part, first[i], solid_); });
     std::ranges::stable_sort(all, {}, &Cut::merit);
     for (const Cut& cut : all)
       if (std::ranges::none_of(distinct, [&](const Cut& d) { return nearly_same(d.plane, cut.plane); }))
@@ -136,7 +134,7 @@ class Cutting {
     result.emplace_back(std::move(below));
     result.emplace_back(std::move(above));
     oneapi::tbb::parallel_for(std::size_t{0}, std::size_t{2}, [&](std::size_t i) {
-      result[i].first_cuts = cuts(result[i].part, solid_, effort_.offsets);
+      result[i].first_cut = cuts(result[i].part, solid_, effort_.offsets, 1);
     });
     return result;
   }
@@ -148,7 +146,7 @@ class Cutting {
     if (further == 1 || best->gain() <= 0)
       return std::accumulate(parts.begin(), parts.end(), -best->gain(),
                              [](double sum, const Candidate& part) { return sum + part.volume; });
-    std::vector<Candidate> halves = sides(best->part, best->first_cuts.front().plane);
+    std::vector<Candidate> halves = sides(best->part, best->first_cut.front().plane);
     parts.erase(best);
     std::move(halves.begin(), halves.end(), std::back_inserter(parts));
     return volume_after(further - 1, std::move(parts));
