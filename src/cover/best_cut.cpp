@@ -20,6 +20,7 @@ namespace prohull::cover {
 namespace {
 
 constexpr double kLeastImprovement = 1e-6;  // relative
+constexpr double kUnevenness = 1e-3;
 
 std::vector<Vec3> directions() {
   std::vector<Vec3> all;
@@ -34,7 +35,6 @@ std::vector<Vec3> directions() {
 }
 
 Cut cut_of(const Plane& plane, double below, double above) {
-  constexpr double kUnevenness = 1e-3;
   return {plane, below + above, below + above + kUnevenness * std::max(below, above)};
 }
 
@@ -113,10 +113,11 @@ double least_volume_between(double area, double other, double distance) {
   return distance / 3 * (area + std::sqrt(area * other) + other);
 }
 
-/// The merits of cuts that were found so far, of which so many are asked for.
+/// The merits of the best cuts that were found so far.
 class Leaders {
  public:
-  explicit Leaders(std::size_t count) : merits_(count, std::numeric_limits<double>::infinity()) {}
+  /// So many cuts are asked for, and none of a merit greater than `most`.
+  Leaders(std::size_t count, double most) : merits_(count, most), limit_(most) {}
   /// A cut of greater merit is not asked for any more.
   double limit() const { return limit_.load(std::memory_order_relaxed); }
   void add(double merit) {
@@ -130,7 +131,7 @@ class Leaders {
  private:
   std::mutex mutex_;
   std::vector<double> merits_;
-  std::atomic<double> limit_ = std::numeric_limits<double>::infinity();
+  std::atomic<double> limit_;
 };
 
 /// The volumes of the hulls on both sides of planes of one direction. A hull grows from plane to plane, so that all of
@@ -371,7 +372,9 @@ std::vector<Plane> neighbors(const Plane& plane, const Vec3& center, double angl
 
 }  // namespace
 
-std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets, std::size_t count) {
+double greatest_merit(double volume) { return volume * (1 + kUnevenness); }
+
+std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets, std::size_t count, double most) {
   static const std::vector<Vec3> all = directions();
   const auto part_edges = edges(part);
   std::vector<Cut> result;
@@ -383,7 +386,7 @@ std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets, std::si
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t i, std::size_t j) { return sweeps[i]->bound() < sweeps[j]->bound(); });
-  Leaders leaders(count);
+  Leaders leaders(count, most);
   result.resize(all.size());
   oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
     result[order[k]] = sweeps[order[k]]->best(leaders);

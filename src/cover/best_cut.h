@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -17,8 +18,12 @@ struct Cut {
 };
 
 /// The `count` best cuts of a part among planes of many directions and of so many even offsets, and those of steps of
-/// the surface; the best first: at most one for each direction.
-std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets, std::size_t count);
+/// the surface; the best first: at most one for each direction. Cuts of a greater merit than `most` may be left out.
+std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets, std::size_t count,
+                      double most = std::numeric_limits<double>::infinity());
+
+/// Of a cut whose halves have this volume together.
+double greatest_merit(double volume);
 
 /// Turns and moves the plane as long as that makes the volume less.
 Cut refined(const Part& part, const Cut& cut, const Solid& solid);

@@ -3,6 +3,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -39,10 +40,11 @@ struct Candidate {
 
   Part part;
   double volume;
-  std::vector<Cut> first_cut;  ///< the best one, if any
+  bool is_searched = false;
+  std::optional<Cut> first_cut = {};  ///< the best one, if any
 
   /// What the best cut saves.
-  double gain() const { return first_cut.empty() ? 0 : volume - first_cut.front().volume; }
+  double gain() const { return first_cut ? volume - first_cut->volume : 0; }
 };
 
 /// A cut of a part, made.
@@ -50,6 +52,19 @@ struct Halves {
   Cut cut;
   std::vector<Candidate> sides;
   double volume_later = 0;  ///< after the further cuts that are looked ahead
+};
+
+/// The least of volumes that threads find.
+class LeastVolume {
+ public:
+  double value() const { return value_; }
+  void add(double volume) {
+    double known = value_;
+    while (volume < known && !value_.compare_exchange_weak(known, volume)) continue;
+  }
+
+ private:
+  std::atomic<double> value_ = std::numeric_limits<double>::infinity();
 };
 
 class Cutting {
@@ -94,8 +109,11 @@ class Cutting {
     if (work_ > kMostWork) return;
     const std::vector<Cut> distinct = distinct_refined(candidate.part, first);
     std::vector<std::optional<Halves>> tried(distinct.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, tried.size(),
-                              [&](std::size_t i) { tried[i] = halves(candidate.part, distinct[i]); });
+    LeastVolume least;
+    oneapi::tbb::parallel_for(std::size_t{0}, tried.size(), [&](std::size_t i) {
+      tried[i] = halves(candidate.part, distinct[i], least.value());
+      least.add(tried[i]->volume_later);
+    });
     const auto best = std::min_element(tried.begin(), tried.end(),
                                        [](const auto& a, const auto& b) { return a->volume_later < b->volume_later; });
     const double gain = (candidate.volume - (*best)->volume_later) / (1 + effort_.ahead);
@@ -122,9 +140,10 @@ class Cutting {
            std::abs(a.height(center) - sign * b.height(center)) < kShare * solid_.box().diagonal();
   }
 
-  Halves halves(const Part& part, const Cut& cut) const {
+  /// Exact if the volume later is no greater than `most`.
+  Halves halves(const Part& part, const Cut& cut, double most) const {
     Halves result{cut, sides(part, cut.plane)};
-    result.volume_later = volume_after(effort_.ahead, result.sides);
+    result.volume_later = volume_after(effort_.ahead, result.sides, most);
     return result;
   }
 
@@ -133,23 +152,39 @@ class Cutting {
     std::vector<Candidate> result;
     result.emplace_back(std::move(below));
     result.emplace_back(std::move(above));
-    oneapi::tbb::parallel_for(std::size_t{0}, std::size_t{2}, [&](std::size_t i) {
-      result[i].first_cut = cuts(result[i].part, solid_, effort_.offsets, 1);
-    });
     return result;
   }
 
-  /// The volume of the parts after so many further cuts, each of which is the one that saves most.
-  double volume_after(int further, std::vector<Candidate> parts) const {
+  /// Finds the best cut, if any saves at least so much.
+  void search(Candidate& candidate, double least_gain) const {
+    if (std::exchange(candidate.is_searched, true)) return;
+    const double most = greatest_merit(candidate.volume - least_gain);
+    for (const Cut& cut : cuts(candidate.part, solid_, effort_.offsets, 1, most)) candidate.first_cut = cut;
+  }
+
+  /// The volume of the parts after so many further cuts, each of which is the one that saves most. Exact if it is no
+  /// greater than `most`.
+  double volume_after(int further, std::vector<Candidate> parts, double most) const {
+    double least_gain = -std::numeric_limits<double>::infinity();
+    if (further == 1) {
+      least_gain = std::accumulate(parts.begin(), parts.end(), -most,
+                                   [](double sum, const Candidate& part) { return sum + part.volume; });
+      for (const Candidate& part : parts)
+        if (part.is_searched) least_gain = std::max(least_gain, part.gain());
+    }
+    for (Candidate& part : parts) {
+      search(part, least_gain);
+      if (further == 1) least_gain = std::max(least_gain, part.gain());
+    }
     const auto best = std::max_element(parts.begin(), parts.end(),
                                        [](const Candidate& a, const Candidate& b) { return a.gain() < b.gain(); });
     if (further == 1 || best->gain() <= 0)
       return std::accumulate(parts.begin(), parts.end(), -best->gain(),
                              [](double sum, const Candidate& part) { return sum + part.volume; });
-    std::vector<Candidate> halves = sides(best->part, best->first_cut.front().plane);
+    std::vector<Candidate> halves = sides(best->part, best->first_cut->plane);
     parts.erase(best);
     std::move(halves.begin(), halves.end(), std::back_inserter(parts));
-    return volume_after(further - 1, std::move(parts));
+    return volume_after(further - 1, std::move(parts), most);
   }
 
   const Solid& solid_;
