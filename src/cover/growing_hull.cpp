@@ -89,13 +89,13 @@ std::uint32_t GrowingHull::new_face(std::uint32_t a, std::uint32_t b, std::uint3
   const double size = norm(n);
   const Vec3 unit = size > 0 ? n * (1 / size) : Vec3{};
   normal_x_[f] = unit.x, normal_y_[f] = unit.y, normal_z_[f] = unit.z, offset_[f] = dot(unit, p);
-  sixfold_volume_ += sixfold(p - origin_, q - origin_, r - origin_);
+  faces_[f].sixfold_volume = sixfold(p - origin_, q - origin_, r - origin_);
+  sixfold_volume_ += faces_[f].sixfold_volume;
   return f;
 }
 
 void GrowingHull::remove_face(std::uint32_t f) {
-  const auto [a, b, c] = faces_[f].corners;
-  sixfold_volume_ -= sixfold(points_[a] - origin_, points_[b] - origin_, points_[c] - origin_);
+  sixfold_volume_ -= faces_[f].sixfold_volume;
   faces_[f].farthest = kNone;
   normal_x_[f] = normal_y_[f] = normal_z_[f] = 0;
   offset_[f] = 1;

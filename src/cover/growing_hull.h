@@ -26,6 +26,7 @@ class GrowingHull {
     std::array<std::uint32_t, 3> corners;
     std::array<std::uint32_t, 3> beyond;  ///< the face beyond the edge from corner i to corner i + 1
     std::uint32_t farthest;               ///< of the waiting points that are kept with it, or none
+    double sixfold_volume;                ///< of the tetrahedron with the origin
   };
 
   /// A point outside, kept with a face that sees it. Those of a face form a list that begins with the farthest.
