@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -13,6 +14,7 @@
 
 #include "cover/best_cut.h"
 #include "cover/growing_hull.h"
+#include "verify/solid_volume.h"
 
 namespace prohull::cover {
 namespace {
@@ -36,10 +38,9 @@ constexpr std::size_t kMostWork = 500'000;
 
 /// A part, and what may become of it.
 struct Candidate {
-  explicit Candidate(Part p) : part(std::move(p)), volume(hull_volume(part)) {}
-
   Part part;
   double volume;
+  double most_gain;  ///< no cuts save more
   bool is_searched = false;
   std::optional<Cut> first_cut = {};  ///< the best one, if any
 
@@ -70,54 +71,89 @@ class LeastVolume {
 class Cutting {
  public:
   Cutting(const Solid& solid, std::size_t leaves, const Effort& effort, ProgressMeter& meter)
-      : solid_(solid), leaves_(leaves), effort_(effort), meter_(meter) {}
+      : solid_(solid), leaves_(leaves), effort_(effort), meter_(meter) {
+    if (solid.has_inside()) boundary_ = verify::solid_boundary(solid.surface(), meter);
+  }
 
   CutTree run() {
-    Candidate root(whole(solid_));
+    Candidate root = candidate(whole(solid_));
     least_gain_ = kLeastGain * root.volume;
     add(std::move(root));
     for (std::size_t leaves = 1; leaves < leaves_; ++leaves) {
       meter_.at(leaves, leaves_);
       if (leaves == kWideLeaves) effort_ = {effort_.offsets, kNarrow.tried, kNarrow.ahead};
-      const auto best =
-          std::max_element(open_.begin(), open_.end(), [](const Open& a, const Open& b) { return a.gain < b.gain; });
-      if (best == open_.end()) break;
-      Open chosen = std::move(*best);
-      open_.erase(best);
-      tree_.nodes[chosen.node].plane = chosen.halves.cut.plane;
-      tree_.nodes[chosen.node].below = tree_.nodes.size();
-      tree_.nodes[chosen.node].above = tree_.nodes.size() + 1;
-      for (Candidate& side : chosen.halves.sides) add(std::move(side));
+      const std::optional<Open> chosen = take_best();
+      if (!chosen) break;
+      tree_.nodes[chosen->node].plane = chosen->halves->cut.plane;
+      tree_.nodes[chosen->node].below = tree_.nodes.size();
+      tree_.nodes[chosen->node].above = tree_.nodes.size() + 1;
+      for (const Candidate& side : chosen->halves->sides) add(side);
     }
     return std::move(tree_);
   }
 
  private:
-  /// A leaf that may be cut, and how.
+  /// A leaf that may be cut.
   struct Open {
     std::size_t node;
-    Halves halves;
-    double gain;  ///< for each cut, those ahead included
+    Candidate candidate;
+    Effort effort;
+    double gain;                   ///< for each cut, those ahead included: at most, until the cut is made
+    std::optional<Halves> halves;  ///< the cut, made
   };
+
+  Candidate candidate(Part part) const {
+    constexpr double kRounding = 1e-5;  // of volumes, by the surface
+    const double volume = hull_volume(part);
+    double most_gain = std::numeric_limits<double>::infinity();
+    if (boundary_) {
+      const Vec3 size = box_of(part).max - box_of(part).min;
+      most_gain = volume - volume_within(part.cell, *boundary_) +
+                  kRounding * 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+    }
+    return {std::move(part), volume, most_gain};
+  }
 
   void add(Candidate candidate) {
     const std::size_t node = tree_.nodes.size();
     tree_.nodes.push_back({candidate.volume});
-    const std::vector<Cut> first = cuts(candidate.part, solid_, effort_.offsets, effort_.tried);
-    if (first.empty()) return;
-    work_ += first.size() * static_cast<std::size_t>(effort_.ahead + 1) * candidate.part.points.size();
-    if (work_ > kMostWork) return;
-    const std::vector<Cut> distinct = distinct_refined(candidate.part, first);
+    const double gain = candidate.most_gain / (1 + effort_.ahead);
+    if (gain > least_gain_) open_.push_back({node, std::move(candidate), effort_, gain, {}});
+  }
+
+  /// Of the leaves, the one whose cut saves most. Cuts are looked for only where they may save that much.
+  std::optional<Open> take_best() {
+    while (!open_.empty()) {
+      const auto best =
+          std::max_element(open_.begin(), open_.end(), [](const Open& a, const Open& b) { return a.gain < b.gain; });
+      const bool is_known = best->halves.has_value();
+      if (!is_known && find_cut(*best)) continue;
+      std::optional<Open> taken = std::move(*best);
+      open_.erase(best);
+      if (is_known) return taken;
+    }
+    return std::nullopt;
+  }
+
+  /// False if there is none that is worth it.
+  bool find_cut(Open& open) {
+    const Part& part = open.candidate.part;
+    const std::vector<Cut> first = cuts(part, solid_, open.effort.offsets, open.effort.tried);
+    if (first.empty()) return false;
+    work_ += first.size() * static_cast<std::size_t>(open.effort.ahead + 1) * part.points.size();
+    if (work_ > kMostWork) return false;
+    const std::vector<Cut> distinct = distinct_refined(part, first);
     std::vector<std::optional<Halves>> tried(distinct.size());
     LeastVolume least;
     oneapi::tbb::parallel_for(std::size_t{0}, tried.size(), [&](std::size_t i) {
-      tried[i] = halves(candidate.part, distinct[i], least.value());
+      tried[i] = halves(part, distinct[i], open.effort, least.value());
       least.add(tried[i]->volume_later);
     });
     const auto best = std::min_element(tried.begin(), tried.end(),
                                        [](const auto& a, const auto& b) { return a->volume_later < b->volume_later; });
-    const double gain = (candidate.volume - (*best)->volume_later) / (1 + effort_.ahead);
-    if (gain > least_gain_) open_.push_back({node, std::move(**best), gain});
+    open.gain = (open.candidate.volume - (*best)->volume_later) / (1 + open.effort.ahead);
+    open.halves = std::move(*best);
+    return open.gain > least_gain_;
   }
 
   /// The first cuts, refined; of those that end in nearly the same plane only the best one.
@@ -140,42 +176,22 @@ class Cutting {
            std::abs(a.height(center) - sign * b.height(center)) < kShare * solid_.box().diagonal();
   }
 
-  /// Exact if the volume later is no greater than `most`.
-  Halves halves(const Part& part, const Cut& cut, double most) const {
+  /// The volume later is exact if it is no greater than `most`.
+  Halves halves(const Part& part, const Cut& cut, const Effort& effort, double most) const {
     Halves result{cut, sides(part, cut.plane)};
-    result.volume_later = volume_after(effort_.ahead, result.sides, most);
+    result.volume_later = volume_after(effort.ahead, result.sides, effort.offsets, most);
     return result;
   }
 
   std::vector<Candidate> sides(const Part& part, const Plane& plane) const {
     auto [below, above] = cut(part, plane, solid_);
-    std::vector<Candidate> result;
-    result.emplace_back(std::move(below));
-    result.emplace_back(std::move(above));
-    return result;
-  }
-
-  /// Finds the best cut, if any saves at least so much.
-  void search(Candidate& candidate, double least_gain) const {
-    if (std::exchange(candidate.is_searched, true)) return;
-    const double most = greatest_merit(candidate.volume - least_gain);
-    for (const Cut& cut : cuts(candidate.part, solid_, effort_.offsets, 1, most)) candidate.first_cut = cut;
+    return {candidate(std::move(below)), candidate(std::move(above))};
   }
 
   /// The volume of the parts after so many further cuts, each of which is the one that saves most. Exact if it is no
   /// greater than `most`.
-  double volume_after(int further, std::vector<Candidate> parts, double most) const {
-    double least_gain = -std::numeric_limits<double>::infinity();
-    if (further == 1) {
-      least_gain = std::accumulate(parts.begin(), parts.end(), -most,
-                                   [](double sum, const Candidate& part) { return sum + part.volume; });
-      for (const Candidate& part : parts)
-        if (part.is_searched) least_gain = std::max(least_gain, part.gain());
-    }
-    for (Candidate& part : parts) {
-      search(part, least_gain);
-      if (further == 1) least_gain = std::max(least_gain, part.gain());
-    }
+  double volume_after(int further, std::vector<Candidate> parts, int offsets, double most) const {
+    search(parts, offsets, further == 1, most);
     const auto best = std::max_element(parts.begin(), parts.end(),
                                        [](const Candidate& a, const Candidate& b) { return a.gain() < b.gain(); });
     if (further == 1 || best->gain() <= 0)
@@ -184,7 +200,30 @@ class Cutting {
     std::vector<Candidate> halves = sides(best->part, best->first_cut->plane);
     parts.erase(best);
     std::move(halves.begin(), halves.end(), std::back_inserter(parts));
-    return volume_after(further - 1, std::move(parts), most);
+    return volume_after(further - 1, std::move(parts), offsets, most);
+  }
+
+  /// Finds the best cuts of the parts, but for those that may not save most. If it `is_last`, the volume after the one
+  /// that saves most counts only if it is no greater than `most`.
+  void search(std::vector<Candidate>& parts, int offsets, bool is_last, double most) const {
+    double least_gain = -std::numeric_limits<double>::infinity();
+    if (is_last)
+      least_gain = std::accumulate(parts.begin(), parts.end(), -most,
+                                   [](double sum, const Candidate& part) { return sum + part.volume; });
+    std::vector<Candidate*> open;
+    for (Candidate& part : parts)
+      if (part.is_searched)
+        least_gain = std::max(least_gain, part.gain());
+      else
+        open.push_back(&part);
+    std::ranges::stable_sort(open, std::greater(), &Candidate::most_gain);
+    for (Candidate* const part : open) {
+      if (part->most_gain < least_gain) break;
+      const double merit = is_last ? greatest_merit(part->volume - least_gain) : std::numeric_limits<double>::infinity();
+      for (const Cut& cut : cuts(part->part, solid_, offsets, 1, merit)) part->first_cut = cut;
+      part->is_searched = true;
+      least_gain = std::max(least_gain, part->gain());
+    }
   }
 
   const Solid& solid_;
@@ -193,6 +232,7 @@ class Cutting {
   ProgressMeter& meter_;
   CutTree tree_;
   std::vector<Open> open_;
+  std::optional<std::vector<verify::BoundaryPiece>> boundary_;  // if the solid has an inside
   double least_gain_ = 0;
   std::size_t work_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cover/polytope.h"
 #include "geometry/directions.h"
@@ -113,6 +114,83 @@ Part whole(const Solid& solid) {
     part.ends.push_back(static_cast<std::uint32_t>(part.corners.size()));
   }
   return part;
+}
+
+namespace {
+
+/// The closed surface of what a solid has below planes: convex polygons, one after the other.
+class ClosedSurface {
+ public:
+  explicit ClosedSurface(std::span<const verify::BoundaryPiece> boundary) {
+    for (const auto& [triangle, times] : boundary) {
+      corners_.insert(corners_.end(), {triangle.a, triangle.b, triangle.c});
+      polygons_.push_back({corners_.size(), times});
+    }
+  }
+
+  /// Where a polygon leaves the plane's lower side and comes back, its new edge makes a triangle in the plane with one
+  /// point that is the same for all: these triangles close the surface.
+  void keep_below(const Plane& plane) {
+    kept_corners_.clear(), kept_.clear(), across_.clear();
+    std::size_t begin = 0;
+    for (const auto& [end, times] : polygons_) {
+      add_below(plane, std::span(corners_).subspan(begin, end - begin), times);
+      begin = end;
+    }
+    for (const Across& edge : across_) {
+      kept_corners_.insert(kept_corners_.end(), {across_[0].left, edge.back, edge.left});
+      kept_.push_back({kept_corners_.size(), edge.times});
+    }
+    corners_.swap(kept_corners_), polygons_.swap(kept_);
+  }
+
+  double volume() const {
+    double sixfold = 0;
+    std::size_t begin = 0;
+    for (const auto& [end, times] : polygons_) {
+      for (std::size_t i = begin + 2; i < end; ++i)
+        sixfold += times * dot(corners_[begin], cross(corners_[i - 1], corners_[i]));
+      begin = end;
+    }
+    return sixfold / 6;
+  }
+
+ private:
+  struct Polygon {
+    std::size_t end;  // of its corners
+    double times;
+  };
+  struct Across {
+    Vec3 left, back;
+    double times;
+  };
+
+  void add_below(const Plane& plane, std::span<const Vec3> polygon, double times) {
+    const std::size_t first = kept_corners_.size();
+    std::optional<Vec3> left, back;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec3 &a = polygon[i], &b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
+      const double height_a = plane.height(a), height_b = plane.height(b);
+      if (height_a <= 0) kept_corners_.push_back(a);
+      if ((height_a <= 0) == (height_b <= 0)) continue;
+      kept_corners_.push_back(crossing(a, b, height_a, height_b));
+      (height_a <= 0 ? left : back) = kept_corners_.back();
+    }
+    if (left && back) across_.push_back({*left, *back, times});
+    if (kept_corners_.size() > first) kept_.push_back({kept_corners_.size(), times});
+  }
+
+  std::vector<Vec3> corners_, kept_corners_;
+  std::vector<Polygon> polygons_, kept_;
+  std::vector<Across> across_;  // where polygons leave the lower side and come back
+};
+
+}  // namespace
+
+double volume_within(const Cell& cell, std::span<const verify::BoundaryPiece> boundary) {
+  ClosedSurface surface(boundary);
+  for (const Plane& plane : cell.planes) surface.keep_below(plane);
+  return surface.volume();
 }
 
 Vec3 area_vector(const Part& part, std::span<const std::uint32_t> polygon) {

@@ -9,6 +9,7 @@
 #include "prohull/geometry.h"
 #include "prohull/mesh_query.h"
 #include "prohull/triangle_mesh.h"
+#include "verify/solid_volume.h"
 
 namespace prohull::cover {
 
@@ -36,6 +37,7 @@ class Solid {
   const TriangleMesh& surface() const { return surface_; }
   const Box& box() const { return box_; }
   double tolerance() const { return tolerance_; }  ///< as a length
+  bool has_inside() const { return index_.face_count() > 0; }
   /// Points within the tolerance of the solid count as in it: an edge of a cell may run along the surface.
   bool contains(const Vec3& p) const;
 
@@ -69,6 +71,9 @@ struct Part {
 };
 
 Part whole(const Solid& solid);
+
+/// Of what the cell has of the solid within the boundary, rounded.
+double volume_within(const Cell& cell, std::span<const verify::BoundaryPiece> boundary);
 
 /// The part below the plane, and the part above it. A corner on the plane belongs to the polygons on either side that
 /// have it; a polygon in the plane to the side where the solid is.

@@ -21,6 +21,8 @@ class KnownSolid {
   const Surface& surface();  ///< good until the volume is asked for
   /// Pairs of faces of the mesh that meet (self_intersections).
   const FacePairs& self_intersections(ProgressMeter& meter);
+  /// The same as pairs of faces of the surface.
+  FacePairs pairs_of_surface(ProgressMeter& meter);
   /// Whether it is_outward_sheet without self-intersections: then all of its faces bound the solid.
   bool bounds_one(ProgressMeter& meter);
   /// As faces_beside_the_solid.
@@ -29,8 +31,6 @@ class KnownSolid {
   double volume(ProgressMeter& meter);
 
  private:
-  FacePairs pairs_of_surface(ProgressMeter& meter);
-
   const TriangleMesh& mesh_;
   const std::string name_;
   std::optional<Surface> surface_;

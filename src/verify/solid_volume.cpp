@@ -1,6 +1,7 @@
 #include "verify/solid_volume.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -30,23 +31,19 @@ Vec3 doubled_area(const FlatCell& cell) {
   return sum;
 }
 
-/// Sums up the boundary of the solid, in pieces beside which the winding numbers are constant.
+/// Visits the boundary of the solid, in pieces beside which the winding numbers are constant.
 class Boundary {
  public:
-  Boundary(const Surface& surface, const FacePairs& pairs, ProgressMeter& meter)
-      : surface_(surface), meter_(meter), meets_(surface.faces.size()) {
-    Box box;
-    for (const Triangle& t : surface.faces)
-      for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
-    origin_ = box.center();
-    for (const auto& [f, g] : pairs) meets_[f].push_back(g), meets_[g].push_back(f);
-  }
+  using Visit = std::function<void(const BoundaryPiece&)>;
 
-  double volume() {
+  /// Throws TooManyCells.
+  Boundary(const Surface& surface, const FacePairs& pairs, ProgressMeter& meter, Visit visit)
+      : surface_(surface), meter_(meter), visit_(std::move(visit)), meets_(surface.faces.size()) {
+    if (2 * pairs.size() > kMostCells) throw TooManyCells();  // nearly all of them cut cells
+    for (const auto& [f, g] : pairs) meets_[f].push_back(g), meets_[g].push_back(f);
     add_free_faces();
     for (FaceIndex f = 0; f < meets_.size(); ++f)
       if (!meets_[f].empty()) add_cells(f);
-    return sum_;
   }
 
  private:
@@ -145,14 +142,13 @@ class Boundary {
   }
 
   void add(const Vec3& a, const Vec3& b, const Vec3& c, double times) {
-    sum_ += times * dot(a - origin_, cross(b - origin_, c - origin_)) / 6;
+    visit_({{a, b, c}, times});
   }
 
   const Surface& surface_;
   ProgressMeter& meter_;
+  Visit visit_;
   std::vector<std::vector<FaceIndex>> meets_;
-  Vec3 origin_;
-  double sum_ = 0;
   std::size_t cells_ = 0;
   std::mt19937 random_;  // the volume depends on it by rounding only, and it always starts the same
 };
@@ -162,12 +158,32 @@ class Boundary {
 double solid_volume(const TriangleMesh& mesh, ProgressMeter& meter) { return KnownSolid(mesh, "given").volume(meter); }
 
 double solid_volume(const Surface& surface, const FacePairs& pairs, ProgressMeter& meter) {
-  if (2 * pairs.size() > kMostCells) return std::numeric_limits<double>::quiet_NaN();  // nearly all of them cut cells
+  Box box;
+  for (const Triangle& t : surface.faces)
+    for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
+  const Vec3 origin = box.center();
+  double sum = 0;
   try {
-    return Boundary(surface, pairs, meter).volume();
+    Boundary(surface, pairs, meter, [&](const BoundaryPiece& piece) {
+      const auto& [a, b, c] = piece.triangle;
+      sum += piece.times * dot(a - origin, cross(b - origin, c - origin)) / 6;
+    });
   } catch (const TooManyCells&) {
     return std::numeric_limits<double>::quiet_NaN();
   }
+  return sum;
+}
+
+std::optional<std::vector<BoundaryPiece>> solid_boundary(const TriangleMesh& mesh, ProgressMeter& meter) {
+  KnownSolid solid(mesh, "given");
+  std::vector<BoundaryPiece> pieces;
+  try {
+    Boundary(solid.surface(), solid.pairs_of_surface(meter), meter,
+             [&](const BoundaryPiece& piece) { pieces.push_back(piece); });
+  } catch (const TooManyCells&) {
+    return std::nullopt;
+  }
+  return pieces;
 }
 
 }  // namespace prohull::verify
