@@ -39,8 +39,9 @@ constexpr std::size_t kMostWork = 500'000;
 /// A part, and what may become of it.
 struct Candidate {
   Part part;
-  double volume;
-  double most_gain;  ///< no cuts save more
+  double volume;        ///< of its convex hull
+  double solid_volume;  ///< of the solid in it; negative infinity if that is unknown
+  double most_gain;     ///< no cuts save more
   bool is_searched = false;
   std::optional<Cut> first_cut = {};  ///< the best one, if any
 
@@ -76,7 +77,9 @@ class Cutting {
   }
 
   CutTree run() {
-    Candidate root = candidate(whole(solid_));
+    Part all = whole(solid_);
+    const double volume = solid_volume(all);
+    Candidate root = candidate(std::move(all), volume);
     least_gain_ = kLeastGain * root.volume;
     add(std::move(root));
     for (std::size_t leaves = 1; leaves < leaves_; ++leaves) {
@@ -102,16 +105,16 @@ class Cutting {
     std::optional<Halves> halves;  ///< the cut, made
   };
 
-  Candidate candidate(Part part) const {
+  static Candidate candidate(Part part, double solid_volume) {
     constexpr double kRounding = 1e-5;  // of volumes, by the surface
     const double volume = hull_volume(part);
-    double most_gain = std::numeric_limits<double>::infinity();
-    if (boundary_) {
-      const Vec3 size = box_of(part).max - box_of(part).min;
-      most_gain = volume - volume_within(part.cell, *boundary_) +
-                  kRounding * 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
-    }
-    return {std::move(part), volume, most_gain};
+    const Vec3 size = box_of(part).max - box_of(part).min;
+    const double rounding = kRounding * 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+    return {std::move(part), volume, solid_volume, volume - solid_volume + rounding};
+  }
+
+  double solid_volume(const Part& part) const {
+    return boundary_ ? volume_within(part.cell, *boundary_) : -std::numeric_limits<double>::infinity();
   }
 
   void add(Candidate candidate) {
@@ -146,7 +149,7 @@ class Cutting {
     std::vector<std::optional<Halves>> tried(distinct.size());
     LeastVolume least;
     oneapi::tbb::parallel_for(std::size_t{0}, tried.size(), [&](std::size_t i) {
-      tried[i] = halves(part, distinct[i], open.effort, least.value());
+      tried[i] = halves(open.candidate, distinct[i], open.effort, least.value());
       least.add(tried[i]->volume_later);
     });
     const auto best = std::min_element(tried.begin(), tried.end(),
@@ -177,15 +180,17 @@ class Cutting {
   }
 
   /// The volume later is exact if it is no greater than `most`.
-  Halves halves(const Part& part, const Cut& cut, const Effort& effort, double most) const {
-    Halves result{cut, sides(part, cut.plane)};
+  Halves halves(const Candidate& whole, const Cut& cut, const Effort& effort, double most) const {
+    Halves result{cut, sides(whole, cut.plane)};
     result.volume_later = volume_after(effort.ahead, result.sides, effort.offsets, most);
     return result;
   }
 
-  std::vector<Candidate> sides(const Part& part, const Plane& plane) const {
-    auto [below, above] = cut(part, plane, solid_);
-    return {candidate(std::move(below)), candidate(std::move(above))};
+  std::vector<Candidate> sides(const Candidate& whole, const Plane& plane) const {
+    auto [below, above] = cut(whole.part, plane, solid_);
+    const double volume = solid_volume(below);
+    const double rest = boundary_ ? whole.solid_volume - volume : volume;
+    return {candidate(std::move(below), volume), candidate(std::move(above), rest)};
   }
 
   /// The volume of the parts after so many further cuts, each of which is the one that saves most. Exact if it is no
@@ -197,7 +202,7 @@ class Cutting {
     if (further == 1 || best->gain() <= 0)
       return std::accumulate(parts.begin(), parts.end(), -best->gain(),
                              [](double sum, const Candidate& part) { return sum + part.volume; });
-    std::vector<Candidate> halves = sides(best->part, best->first_cut->plane);
+    std::vector<Candidate> halves = sides(*best, best->first_cut->plane);
     parts.erase(best);
     std::move(halves.begin(), halves.end(), std::back_inserter(parts));
     return volume_after(further - 1, std::move(parts), offsets, most);

@@ -168,9 +168,10 @@ class ClosedSurface {
   void add_below(const Plane& plane, std::span<const Vec3> polygon, double times) {
     const std::size_t first = kept_corners_.size();
     std::optional<Vec3> left, back;
+    double height_b = plane.height(polygon[0]);
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vec3 &a = polygon[i], &b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
-      const double height_a = plane.height(a), height_b = plane.height(b);
+      const double height_a = std::exchange(height_b, plane.height(b));
       if (height_a <= 0) kept_corners_.push_back(a);
       if ((height_a <= 0) == (height_b <= 0)) continue;
       kept_corners_.push_back(crossing(a, b, height_a, height_b));
