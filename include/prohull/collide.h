@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -107,7 +108,11 @@ struct Separation {
 
 /// The least distance. The bounds differ by rounding only. If the meshes collide, everything is 0, and only then is
 /// `upper` 0. Throws as collide.
-Separation separation(const CollisionIndex& a, const Pose& pose_a, const CollisionIndex& b, const Pose& pose_b);
+///
+/// Where the meshes are at least `limit` apart, which is greater than 0, the distance is not looked for: `lower` is the
+/// limit, but for rounding, and `upper` infinite. That takes less time.
+Separation separation(const CollisionIndex& a, const Pose& pose_a, const CollisionIndex& b, const Pose& pose_b,
+                      double limit = std::numeric_limits<double>::infinity());
 
 struct CollisionOptions {
   unsigned threads = 0;    ///< threads at most; 0: one for each core

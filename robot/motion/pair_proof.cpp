@@ -73,7 +73,7 @@ class PairSearch {
     const JointChain::Motion motion = chain_.motion(cell.box);
     cell.distance = distance_of_balls(a_, b_, motion.pose, chain_.rounding());
     if (cell.distance <= motion.change) {
-      const Closest closest = closest_parts(a_, b_, motion.pose);
+      const Closest closest = closest_parts(a_, b_, motion.pose, just_above(motion.change));
       if (closest.separation.collide()) return meets_at(cell, motion.pose, closest);
       cell.distance = closest.separation.lower;
     }

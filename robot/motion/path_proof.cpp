@@ -97,13 +97,13 @@ class PathSearch {
     return robot::distance_of_balls(*a_.shape, *b_.shape, pose, chain_.rounding());
   }
 
-  Closest closest(const Pose& pose) const { return closest_parts(*a_.shape, *b_.shape, pose); }
+  Closest closest(const Pose& pose, double limit) const { return closest_parts(*a_.shape, *b_.shape, pose, limit); }
 
   /// Looks at a single place.
   bool meets_at(double place) {
     const Pose pose = motion(place, place).pose;
     if (distance_of_balls(pose) > options_.gap) return false;
-    const Closest found = closest(pose);
+    const Closest found = closest(pose, just_above(options_.gap));
     if (found.separation.upper > options_.gap) return false;
     take_witness(place, pose, found);
     return true;
@@ -132,9 +132,10 @@ class PathSearch {
     piece.change = motion.change;
     piece.distance = distance_of_balls(motion.pose);
     if (options_.distances || !is_done(piece)) {
-      const Closest found = closest(motion.pose);
+      const double limit = options_.distances ? kInfinity : just_above(motion.change + options_.gap);
+      const Closest found = closest(motion.pose, limit);
       piece.distance = std::max(piece.distance, found.separation.lower);
-      rounding = std::max(rounding, found.separation.upper - found.separation.lower);
+      rounding = std::max(rounding, std::min(found.separation.upper, limit) - found.separation.lower);
       const double middle = middle_place(begin, end);
       if (found.separation.upper <= options_.gap && middle < end_) {
         take_witness(middle, motion.pose, found);

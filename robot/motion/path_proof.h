@@ -35,12 +35,13 @@ struct PathPairProof {
   /// Where they may meet first: before `begin` they do not, which is proven. If they meet, they do at `end`; if it is
   /// open, they are apart for a while behind `end`. Both are the path's end if they are free.
   double begin = 0, end = 0;
-  std::vector<double> positions = {};      ///< of Meets: of all joints of the robot, at `end`
-  std::size_t part_a = 0, part_b = 0;      ///< of Meets: which parts of the bodies meet
-  FacePair faces = {};                     ///< two faces of these; 0 and 0 where one part is inside of the other
-  bool nothing_moves = false;              ///< no joint moves them against each other
-  std::size_t cells = 0;                   ///< pieces of the path that were looked at
-  std::vector<DistanceBound> bounds = {};  ///< in their order; nothing is known between them
+  std::vector<double> positions = {};  ///< of Meets: of all joints of the robot, at `end`
+  std::size_t part_a = 0, part_b = 0;  ///< of Meets: which parts of the bodies meet
+  FacePair faces = {};                 ///< two faces of these; 0 and 0 where one part is inside of the other
+  bool nothing_moves = false;          ///< no joint moves them against each other
+  std::size_t cells = 0;               ///< pieces of the path that were looked at
+  /// In their order; nothing is known between them. They are sharp only if PathProofOptions::distances asks for it.
+  std::vector<DistanceBound> bounds = {};
 };
 
 struct PathProof {

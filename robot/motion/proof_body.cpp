@@ -25,15 +25,17 @@ ProofBody::ProofBody(std::span<const TriangleMesh> meshes) {
   for (const Vec3& corner : corners) ball.radius = std::max(ball.radius, norm(corner - ball.center));
 }
 
-Closest closest_parts(const ProofBody& a, const ProofBody& b, const Pose& pose) {
+Closest closest_parts(const ProofBody& a, const ProofBody& b, const Pose& pose, double limit) {
   Closest closest;
   closest.separation.lower = closest.separation.upper = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < a.parts.size(); ++i)
     for (std::size_t j = 0; j < b.parts.size(); ++j) {
-      const Separation separation = prohull::separation(a.parts[i], {}, b.parts[j], pose);
+      const Separation separation =
+          prohull::separation(a.parts[i], {}, b.parts[j], pose, std::min(limit, closest.separation.upper));
       const double lower = std::min(closest.separation.lower, separation.lower);
       if (separation.upper < closest.separation.upper) closest = {i, j, separation};
       closest.separation.lower = lower;
+      if (separation.collide()) return closest;
     }
   return closest;
 }

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,12 +24,21 @@ struct ProofBody {
   Ball ball;                          ///< around them, but for rounding
 };
 
-/// The closest parts of two bodies, and bounds of their distance, which is that of the bodies.
+/// The closest parts of two bodies, and bounds of their distance, which is that of the bodies, as `separation` has them
+/// with a limit.
 struct Closest {
   std::size_t part_a = 0, part_b = 0;
   Separation separation;
 };
-Closest closest_parts(const ProofBody& a, const ProofBody& b, const Pose& pose);
+Closest closest_parts(const ProofBody& a, const ProofBody& b, const Pose& pose,
+                      double limit = std::numeric_limits<double>::infinity());
+
+/// The limit that tells whether bodies are farther apart than this. It is no denormal number: where a library has the
+/// processor take these for 0, no pair of faces would be below the limit.
+inline double just_above(double distance) {
+  using Limits = std::numeric_limits<double>;
+  return std::max(std::nextafter(distance, Limits::infinity()), Limits::min());
+}
 
 /// Two faces that meet where these parts collide; 0 and 0 if one part is inside of the other.
 FacePair first_faces(const ProofBody& a, const ProofBody& b, const Pose& pose, const Closest& closest);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 #include "collide/collision_mesh.h"
 #include "collide/tree_pair.h"
@@ -75,25 +76,10 @@ class Scene {
     return pairs;
   }
 
-  Separation separation() const {
-    if (collides()) return {};
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Separation result;
-    result.lower = result.upper = kInfinity;
-    Vec3 way;
-    Float4 direction{};
-    visit_near_leaves(a_.tree, b_.tree, boxes_, result.upper, direction, [&](const ObbNode& in_a, const ObbNode& in_b) {
-      visit_pairs(in_a, in_b, [&](std::size_t i, const Triangle& s, std::size_t j, const Triangle& t) {
-        if (distance_along(way, s, t) >= result.upper) return false;
-        const TriangleDistance distance = triangle_distance(s, t);
-        result.lower = std::min(result.lower, distance.lower);
-        if (distance.upper >= result.upper) return false;
-        result = {result.lower, distance.upper, distance.s, distance.t, a_.face(i), b_.face(j)};
-        way = distance.t - distance.s, direction = boxes_.direction(pose_a_, way);
-        return false;
-      });
-    });
-    return result;
+  /// Faces that have no point in common tell that the surfaces do not meet; only otherwise is that decided first.
+  Separation separation(double limit) const {
+    if (const auto apart = separation_of_surfaces(limit, true)) return one_is_inside() ? Separation{} : *apart;
+    return collides() ? Separation{} : *separation_of_surfaces(limit, false);
   }
 
  private:
@@ -105,6 +91,32 @@ class Scene {
     if (8 * rounding > std::max(a_.tree.radius(), b_.tree.radius()) && pairs > kManyPairs)
       throw InputError(Defect::NonFiniteCoordinate,
                        "the meshes are so far from the origin that rounding leaves little of their shape; move both");
+  }
+
+  /// Nothing if two faces may touch and that is to end it.
+  std::optional<Separation> separation_of_surfaces(double limit, bool ends_at_touch) const {
+    Separation result;
+    result.lower = result.upper = limit;
+    double nearest = std::numeric_limits<double>::infinity();
+    Vec3 way;  // between the nearest faces so far, within the limit or not
+    Float4 direction{};
+    const auto measure = [&](std::size_t i, const Triangle& s, std::size_t j, const Triangle& t) {
+      if (distance_along(way, s, t) >= result.upper) return false;
+      const TriangleDistance distance = triangle_distance(s, t);
+      if (ends_at_touch && !(distance.lower > 0)) return true;
+      result.lower = std::min(result.lower, distance.lower);
+      if (distance.upper >= nearest) return false;
+      nearest = distance.upper;
+      way = distance.t - distance.s, direction = boxes_.direction(pose_a_, way);
+      if (distance.upper < result.upper)
+        result = {result.lower, distance.upper, distance.s, distance.t, a_.face(i), b_.face(j)};
+      return false;
+    };
+    if (visit_near_leaves(a_.tree, b_.tree, boxes_, result.upper, direction,
+                          [&](const ObbNode& in_a, const ObbNode& in_b) { return visit_pairs(in_a, in_b, measure); }))
+      return std::nullopt;
+    if (result.upper == limit) result.upper = std::numeric_limits<double>::infinity();
+    return result;
   }
 
   bool surfaces_meet() const {
@@ -256,9 +268,10 @@ std::vector<FacePair> intersecting_faces(const CollisionIndex& a, const Pose& po
   return Scene(CollisionAccess::of(a), pose_a, CollisionAccess::of(b), pose_b).intersecting_faces();
 }
 
-Separation separation(const CollisionIndex& a, const Pose& pose_a, const CollisionIndex& b, const Pose& pose_b) {
+Separation separation(const CollisionIndex& a, const Pose& pose_a, const CollisionIndex& b, const Pose& pose_b,
+                      double limit) {
   require_rigid(pose_a), require_rigid(pose_b);
-  return Scene(CollisionAccess::of(a), pose_a, CollisionAccess::of(b), pose_b).separation();
+  return Scene(CollisionAccess::of(a), pose_a, CollisionAccess::of(b), pose_b).separation(limit);
 }
 
 std::vector<bool> collide(const CollisionIndex& a, const CollisionIndex& b, std::span<const PosePair> poses,

@@ -47,28 +47,34 @@ bool visit_meeting_leaves(const ObbTree& a, const ObbTree& b, const BoxPair& pai
 }
 
 /// measure(leaf of a, leaf of b) for the pairs of leaves whose distance may be less than `best`, which it may lessen;
-/// near ones first.
+/// near ones first, until it returns true. Returns whether it did.
 template <class Measure>
-void visit_near_leaves(const ObbTree& a, const ObbTree& b, const BoxPair& pair, const double& best,
+bool visit_near_leaves(const ObbTree& a, const ObbTree& b, const BoxPair& pair, const double& best,
                        const Float4& direction, Measure measure) {
   struct Near {
     NodePair nodes;
     double bound;
+    Float4 direction;
   };
   const auto boxes_a = a.boxes(), boxes_b = b.boxes();
   const auto near = [&](NodePair nodes) {
-    return Near{nodes, pair.distance_bound(boxes_a[nodes.a], boxes_b[nodes.b], direction)};
+    return Near{nodes, pair.distance_bound(boxes_a[nodes.a], boxes_b[nodes.b], direction), direction};
+  };
+  const auto may_be_near = [&](const Near& at) {
+    if (at.bound >= best) return false;
+    const bool has_changed = mask(at.direction != direction) != 0;  // it may be better now
+    return !has_changed || near(at.nodes).bound < best;
   };
   Near stack[2 * ObbTree::kMaxDepth + 2];
   std::uint32_t size = 0;
   stack[size++] = near({0, 0});
   while (size > 0) {
-    const auto [at, bound] = stack[--size];
-    // The direction may be better now.
-    if (bound >= best || near(at).bound >= best) continue;
+    const Near top = stack[--size];
+    if (!may_be_near(top)) continue;
+    const NodePair at = top.nodes;
     const ObbNode &in_a = boxes_a[at.a], &in_b = boxes_b[at.b];
     if (in_a.is_leaf() && in_b.is_leaf()) {
-      measure(in_a, in_b);
+      if (measure(in_a, in_b)) return true;
       continue;
     }
     const auto [first, second] = split(a, b, pair, at);
@@ -79,6 +85,7 @@ void visit_near_leaves(const ObbTree& a, const ObbTree& b, const BoxPair& pair, 
     stack[size++] = one_is_nearer ? other : one;
     stack[size++] = one_is_nearer ? one : other;
   }
+  return false;
 }
 
 }  // namespace prohull

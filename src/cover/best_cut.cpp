@@ -43,8 +43,8 @@ Cut no_cut() {
   return {{}, kInfinity, kInfinity};
 }
 
-/// Leaves the points of which the convex hull in their plane is made, by Andrew's monotone chains, and returns its area.
-/// The chains are exact, as coordinates are rounded to a grid that is finer than what GrowingHull tells apart.
+/// Leaves the points of which the convex hull in their plane is made, by Andrew's monotone chains, and returns its
+/// area. The chains are exact, as coordinates are rounded to a grid that is finer than what GrowingHull tells apart.
 double keep_extreme(std::vector<Vec3>& points, const Vec3& normal) {
   constexpr double kPerUnit = 0x1p24;
   if (points.size() < 3) return 0;
@@ -190,7 +190,7 @@ class Sweep {
  private:
   /// What the surface has in a plane.
   struct Slab {
-    std::vector<Vec3> both, lower, upper;    // of both sides, or only of the faces below, or above
+    std::vector<Vec3> both, lower, upper;   // of both sides, or only of the faces below, or above
     double lower_area = 0, upper_area = 0;  // of the hulls of what both sides have, and one of them
   };
 

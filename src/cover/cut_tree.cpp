@@ -224,7 +224,8 @@ class Cutting {
     std::ranges::stable_sort(open, std::greater(), &Candidate::most_gain);
     for (Candidate* const part : open) {
       if (part->most_gain < least_gain) break;
-      const double merit = is_last ? greatest_merit(part->volume - least_gain) : std::numeric_limits<double>::infinity();
+      const double merit =
+          is_last ? greatest_merit(part->volume - least_gain) : std::numeric_limits<double>::infinity();
       for (const Cut& cut : cuts(part->part, solid_, offsets, 1, merit)) part->first_cut = cut;
       part->is_searched = true;
       least_gain = std::max(least_gain, part->gain());

@@ -141,9 +141,7 @@ class Boundary {
     return {steps_out(w), holders};
   }
 
-  void add(const Vec3& a, const Vec3& b, const Vec3& c, double times) {
-    visit_({{a, b, c}, times});
-  }
+  void add(const Vec3& a, const Vec3& b, const Vec3& c, double times) { visit_({{a, b, c}, times}); }
 
   const Surface& surface_;
   ProgressMeter& meter_;
