@@ -226,6 +226,19 @@ TEST(Separation, BoundsHoldAndAreClose) {
   }
 }
 
+TEST(Separation, IsLookedForUpToALimit) {
+  const CollisionIndex box(meshes::box({0, 0, 0}, {1, 1, 1}));
+  const Pose away = at({3, 0, 0});
+  const Separation exact = separation(box, {}, box, away);
+  const Separation near = separation(box, {}, box, away, exact.upper * 1.5);
+  EXPECT_EQ(near.lower, exact.lower);
+  EXPECT_EQ(near.upper, exact.upper);
+  const Separation far = separation(box, {}, box, away, exact.lower / 2);
+  EXPECT_EQ(far.lower, exact.lower / 2);
+  EXPECT_EQ(far.upper, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(separation(box, {}, box, {}, 1e-9).collide());
+}
+
 TEST(Separation, OfKnownDistance) {
   const CollisionIndex box(meshes::box({0, 0, 0}, {1, 1, 1}));
   const auto expect = [&](const Vec3& offset, double distance) {
