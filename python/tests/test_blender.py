@@ -37,7 +37,7 @@ def test_the_add_on_in_blender(tmp_path):
         assert facts["prohull_certified"] and facts["prohull_within_bounds"] and facts["prohull_proof"]
         assert facts["prohull_version"] == prohull.__version__ and facts["prohull_distance_bound"] > 0
     for name, what in {"uneven scale": "apply its scale", "shear": "apply its scale", "no program": "is not there", "another program": "exit code 1",
-                       "empty": "no faces", "open": "closed", "nan": "finite"}.items():
+                       "empty": "no faces", "open": "bounds no solid", "nan": "finite"}.items():
         assert what in told[name] and "Traceback" not in told[name], (name, told[name])
 
 
