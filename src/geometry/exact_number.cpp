@@ -264,14 +264,15 @@ double Rational::rounded() const {
   const auto is_odd = [](double d) { return (std::bit_cast<std::uint64_t>(d) & 1) != 0; };
   for (;;) {
     const double above = std::nextafter(x, kInfinity);
-    if (const auto o = against_middle(x, above); std::is_gt(o) || (o == 0 && is_odd(x))) {
+    if (const auto o = against_middle(x, above); std::is_gt(o) || (o == std::strong_ordering::equal && is_odd(x))) {
       x = above;
       if (x == kInfinity) return x;
       continue;
     }
     if (x == 0) return x;
     const double below = std::nextafter(x, 0);
-    if (const auto o = against_middle(below, x); !(std::is_lt(o) || (o == 0 && is_odd(x)))) return x;
+    if (const auto o = against_middle(below, x); !(std::is_lt(o) || (o == std::strong_ordering::equal && is_odd(x))))
+      return x;
     x = below;
   }
 }
