@@ -1,7 +1,7 @@
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
+#include "collide/fcl_model.h"
 #include "collide_peers.h"
 
 namespace prohull::bench {
@@ -11,36 +11,17 @@ template <class Box>
 class Fcl : public CollisionPeer {
  public:
   Fcl(std::string name, const TriangleMesh& a, const TriangleMesh& b)
-      : name_(std::move(name)), a_(model_of(a)), b_(model_of(b)) {}
+      : name_(std::move(name)), a_(fcl_peer::model_of<Box>(a)), b_(fcl_peer::model_of<Box>(b)) {}
 
   std::string name() const override { return name_; }
   bool collide(const PosePair& poses) override {
     fcl::CollisionResult<double> result;
-    return fcl::collide(a_.get(), transform(poses.a), b_.get(), transform(poses.b), fcl::CollisionRequest<double>(),
-                        result) > 0;
+    return fcl::collide(a_.get(), fcl_peer::transform_of(poses.a), b_.get(), fcl_peer::transform_of(poses.b),
+                        fcl::CollisionRequest<double>(), result) > 0;
   }
 
  protected:
   using Model = fcl::BVHModel<Box>;
-
-  static std::unique_ptr<Model> model_of(const TriangleMesh& mesh) {
-    std::vector<fcl::Vector3d> points;
-    std::vector<fcl::Triangle> triangles;
-    for (const Vec3& p : mesh.positions) points.emplace_back(p.x, p.y, p.z);
-    for (const auto& [i, j, k] : mesh.triangles) triangles.emplace_back(index(i), index(j), index(k));
-    auto model = std::make_unique<Model>();
-    model->beginModel();
-    model->addSubModel(points, triangles);
-    model->endModel();
-    return model;
-  }
-  static fcl::Transform3d transform(const Pose& pose) {
-    fcl::Transform3d transform = fcl::Transform3d::Identity();
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) transform.linear()(i, j) = pose.rotation[static_cast<unsigned>(i)][j];
-    transform.translation() = fcl::Vector3d(pose.translation.x, pose.translation.y, pose.translation.z);
-    return transform;
-  }
 
   std::string name_;
   std::unique_ptr<Model> a_, b_;
@@ -52,8 +33,8 @@ class FclDistance final : public Fcl<fcl::OBBRSSd> {
 
   bool collide(const PosePair& poses) override {
     fcl::DistanceResult<double> result;
-    return fcl::distance(a_.get(), transform(poses.a), b_.get(), transform(poses.b), fcl::DistanceRequest<double>(),
-                         result) <= 0;
+    return fcl::distance(a_.get(), fcl_peer::transform_of(poses.a), b_.get(), fcl_peer::transform_of(poses.b),
+                         fcl::DistanceRequest<double>(), result) <= 0;
   }
 };
 

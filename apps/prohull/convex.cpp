@@ -89,7 +89,7 @@ std::optional<PieceSize> written_size(const path& file, std::span<const ConvexPi
   std::vector<std::size_t> faces;
   for (const ConvexPiece& piece : pieces) append(all, piece.mesh), faces.push_back(piece.mesh.face_count());
   if (!holds_triangles_of(file, all)) return std::nullopt;
-  return largest_piece(read_mesh(file), faces);
+  return largest_piece(all, faces);
 }
 
 /// Which files the pieces go to: one for all, or a file for each, beside a robot file that names them or without it.

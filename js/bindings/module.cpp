@@ -10,6 +10,7 @@
 
 #include "prohull/convex_cover.h"
 #include "prohull/detail/given_options.h"
+#include "prohull/detail/told_notes.h"
 #include "prohull/distance.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/mesh_io.h"
@@ -26,6 +27,16 @@ Progress progress_of(const val& progress) {
   if (progress.isUndefined()) return {};
   return
       [progress](std::string_view stage, double fraction) { return !progress(std::string(stage), fraction).isFalse(); };
+}
+
+/// Those that `read` takes from what is given; no others may be.
+template <class Read>
+auto options_of(const val& given, const val& progress, Read read) {
+  const Given named(given);
+  auto options = read(named);
+  named.refuse_others();
+  options.progress = progress_of(progress);
+  return options;
 }
 
 val failure(const char* name, const std::string& message) {
@@ -109,15 +120,6 @@ ProgressiveHull levels_of(const val& levels) {
   return hull;
 }
 
-std::vector<std::string> notes_of(const EnclosingHull& hull) {
-  std::vector<std::string> notes = hull.notes;
-  if (!hull.target_reached)
-    notes.push_back("the hull has " + std::to_string(hull.mesh.face_count()) + " faces, more than the " +
-                    std::to_string(hull.target_faces) + " asked for: of its edges, " + describe_refusals(hull.blocked));
-  if (!hull.within_bounds) notes.emplace_back("the hull is not within the bounds asked for: no hull was");
-  return notes;
-}
-
 val object_of(const EnclosingHull& hull, const EnclosingHulls& made) {
   val object = object_of_mesh(hull.mesh);
   object.set("certified", hull.certified);
@@ -129,7 +131,7 @@ val object_of(const EnclosingHull& hull, const EnclosingHulls& made) {
   object.set("source", std::string(name_of(source_names(), hull.source)));
   object.set("selfIntersections", hull.self_intersections);
   object.set("repairs", strings_of(describe(made.input.repairs)));
-  object.set("notes", strings_of(notes_of(hull)));
+  object.set("notes", strings_of(told_notes(hull, made)));
   object.set("buildSeconds", hull.build_seconds);
   object.set("verifySeconds", hull.verify_seconds);
   if (hull.levels) object.set("levels", object_of(*hull.levels));
@@ -138,10 +140,7 @@ val object_of(const EnclosingHull& hull, const EnclosingHulls& made) {
 
 val build(const val& mesh, const val& targets, const val& given, const val& progress) {
   return guarded([&] {
-    const Given named(given);
-    EnclosingOptions options = enclosing_options(named);
-    named.refuse_others();
-    options.progress = progress_of(progress);
+    const EnclosingOptions options = options_of(given, progress, enclosing_options<Given>);
     std::vector<std::size_t> faces;
     for (const std::uint32_t target : indices_of(targets, "targetFaces")) faces.push_back(target);
     const EnclosingHulls made = enclosing_hulls(mesh_of(mesh, "mesh"), faces, options);
@@ -189,26 +188,26 @@ val object_of(const Verification& found) {
 
 val verify(const val& hull, const val& original, const val& given, const val& progress) {
   return guarded([&] {
-    const Given named(given);
     HullSide side = HullSide::Outer;
-    VerificationOptions options;
-    named.choice("side", hull_side_names(), side);
-    named.flag("solid_only", options.solid_only);
-    named.flag("finite_only", options.finite_only);
-    named.not_negative("gap", options.gap);
-    named.refuse_others();
-    options.progress = progress_of(progress);
+    const auto options = options_of(given, progress, [&](const Given& named) {
+      VerificationOptions read;
+      named.choice("side", hull_side_names(), side);
+      named.flag("solid_only", read.solid_only);
+      named.flag("finite_only", read.finite_only);
+      named.not_negative("gap", read.gap);
+      return read;
+    });
     return object_of(verify_hull(mesh_of(hull, "hull"), mesh_of(original, "original"), side, options));
   });
 }
 
 val distance(const val& from, const val& to, const val& given, const val& progress) {
   return guarded([&] {
-    const Given named(given);
-    DistanceOptions options;
-    named.not_negative("relative_gap", options.relative_gap);
-    named.refuse_others();
-    options.progress = progress_of(progress);
+    const auto options = options_of(given, progress, [](const Given& named) {
+      DistanceOptions read;
+      named.not_negative("relative_gap", read.relative_gap);
+      return read;
+    });
     const DistanceBounds bounds = distance_bounds(mesh_of(from, "from"), mesh_of(to, "to"), options);
     val object = val::object();
     object.set("lower", bounds.lower);
@@ -227,7 +226,7 @@ val object_of_cover(const Cover& cover) {
   object.set("originalVolume", cover.original_volume);
   object.set("withinBounds", cover.within_bounds);
   object.set("reach", cover.reach.upper);
-  object.set("notes", strings_of(cover.notes));
+  object.set("notes", strings_of(told_notes(cover)));
   return object;
 }
 
@@ -264,10 +263,7 @@ struct SetPrimitive {
 
 val convex_pieces(const val& mesh, const val& given, const val& progress) {
   return guarded([&] {
-    const Given named(given);
-    ConvexCoverOptions options = convex_cover_options(named);
-    named.refuse_others();
-    options.progress = progress_of(progress);
+    const ConvexCoverOptions options = options_of(given, progress, convex_cover_options<Given>);
     const ConvexCover cover = convex_cover(mesh_of(mesh, "mesh"), options);
     val object = object_of_cover(cover), pieces = val::array();
     for (const ConvexPiece& piece : cover.pieces) {
@@ -282,10 +278,7 @@ val convex_pieces(const val& mesh, const val& given, const val& progress) {
 
 val spheres(const val& mesh, const val& given, const val& progress) {
   return guarded([&] {
-    const Given named(given);
-    SphereCoverOptions options = sphere_cover_options(named);
-    named.refuse_others();
-    options.progress = progress_of(progress);
+    const SphereCoverOptions options = options_of(given, progress, sphere_cover_options<Given>);
     const SphereCover cover = sphere_cover(mesh_of(mesh, "mesh"), options);
     val object = object_of_cover(cover);
     object.set("balls", array_of(reinterpret_cast<const double*>(cover.balls.data()), 4 * cover.balls.size()));
@@ -295,10 +288,7 @@ val spheres(const val& mesh, const val& given, const val& progress) {
 
 val repair(const val& mesh, const val& given, const val& progress) {
   return guarded([&] {
-    const Given named(given);
-    ClosedSolidOptions options = closed_solid_options(named);
-    named.refuse_others();
-    options.progress = progress_of(progress);
+    const ClosedSolidOptions options = options_of(given, progress, closed_solid_options<Given>);
     const ClosedSolid made = closed_solid(mesh_of(mesh, "mesh"), options);
     val object = object_of_mesh(made.mesh);
     object.set("certified", made.verdict.holds());

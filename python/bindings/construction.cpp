@@ -14,6 +14,7 @@
 #include "prohull/cage.h"
 #include "prohull/closed_solid.h"
 #include "prohull/detail/given_options.h"
+#include "prohull/detail/told_notes.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/mesh_part.h"
 #include "watch.h"
@@ -70,16 +71,6 @@ class Judges {
   std::vector<SharedMesh> covered_, measured_;  ///< by solid
 };
 
-std::vector<std::string> notes_of(const EnclosingHull& hull, bool is_estimated) {
-  std::vector<std::string> notes = hull.notes;
-  if (!hull.target_reached)
-    notes.push_back("the hull has " + std::to_string(hull.mesh.face_count()) + " faces, more than the " +
-                    std::to_string(hull.target_faces) + " asked for: of its edges, " + describe_refusals(hull.blocked));
-  if (!hull.within_bounds) notes.push_back("the hull is not within the bounds asked for: no hull that was tried is");
-  if (is_estimated) notes.emplace_back(kVolumeIsEstimated);
-  return notes;
-}
-
 py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls& made,
                   const EnclosingOptions& options) {
   const Solid& solid = made.solids[hull.solid];
@@ -95,7 +86,7 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
       solid.source == Source::Mesh && solid.self_intersections == 0 && made.input.dropped.face_count() == 0;
   facts["source"] = name_of(source_names(), hull.source);
   facts["wrap_spacing"] = solid.wrap_spacing;
-  facts["notes"] = notes_of(hull, made.is_estimated);
+  facts["notes"] = told_notes(hull, made);
   if (hull.levels) hull.levels = hull.levels->with_finest_level(finest_level(made, hull));
   facts["levels"] = std::move(hull.levels);
   facts["mesh"] = std::move(hull.mesh);

@@ -13,6 +13,7 @@
 #include "module.h"
 #include "prohull/convex_cover.h"
 #include "prohull/detail/given_options.h"
+#include "prohull/detail/told_notes.h"
 #include "prohull/mesh_io.h"
 #include "prohull/sphere_cover.h"
 #include "prohull/union_verification.h"
@@ -56,9 +57,7 @@ py::dict common_facts_of(const Cover& cover) {
   facts["original_volume"] = cover.original_volume;
   facts["reach"] = py::make_tuple(cover.reach.lower, cover.reach.upper);
   facts["within_bounds"] = cover.within_bounds;
-  std::vector<std::string> notes = cover.notes;
-  if (cover.is_estimated && cover.original_volume > 0) notes.emplace_back(kVolumeIsEstimated);
-  facts["notes"] = notes;
+  facts["notes"] = told_notes(cover);
   facts["seconds"] = cover.seconds;
   facts["verify_seconds"] = cover.verify_seconds;
   return facts;

@@ -4,9 +4,6 @@
 
 namespace prohull::python {
 
-constexpr const char* kVolumeIsEstimated =
-    "the volume of the mesh is not known: void_ratio is measured against an estimate";
-
 void bind_meshes(pybind11::module_& module);
 void bind_construction(pybind11::module_& module);
 void bind_covers(pybind11::module_& module);

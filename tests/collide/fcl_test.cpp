@@ -1,13 +1,12 @@
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "collide/fcl_model.h"
 #include "prohull/collide.h"
 #include "prohull/sample.h"
 #include "random.h"
@@ -19,33 +18,11 @@ namespace {
 
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
 
-std::unique_ptr<Model> model_of(const TriangleMesh& mesh) {
-  std::vector<fcl::Vector3d> points;
-  std::vector<fcl::Triangle> triangles;
-  for (const Vec3& p : mesh.positions) points.emplace_back(p.x, p.y, p.z);
-  for (const auto& [i, j, k] : mesh.triangles) triangles.emplace_back(index(i), index(j), index(k));
-  auto model = std::make_unique<Model>();
-  model->beginModel();
-  model->addSubModel(points, triangles);
-  model->endModel();
-  return model;
-}
-
-fcl::Transform3d transform_of(const Pose& pose) {
-  fcl::Transform3d transform = fcl::Transform3d::Identity();
-  for (unsigned i = 0; i < 3; ++i) {
-    const Vec3& row = pose.rotation[i];
-    transform.linear().row(i) << row.x, row.y, row.z;
-  }
-  transform.translation() = fcl::Vector3d(pose.translation.x, pose.translation.y, pose.translation.z);
-  return transform;
-}
-
 std::vector<FacePair> contacts(const Model& a, const Model& b, const Pose& pose_b) {
   constexpr std::size_t kAll = 1000000;
   fcl::CollisionResult<double> result;
-  fcl::collide(&a, fcl::Transform3d::Identity(), &b, transform_of(pose_b), fcl::CollisionRequest<double>(kAll, true),
-               result);
+  fcl::collide(&a, fcl::Transform3d::Identity(), &b, fcl_peer::transform_of(pose_b),
+               fcl::CollisionRequest<double>(kAll, true), result);
   std::vector<fcl::Contact<double>> found;
   result.getContacts(found);
   std::vector<FacePair> pairs;
@@ -58,7 +35,7 @@ std::vector<FacePair> contacts(const Model& a, const Model& b, const Pose& pose_
 TEST(InFcl, ContactsAreThoseOfCollide) {
   const TriangleMesh a = make_sample("pony", 2000), b = make_sample("bracket", 1000);
   const CollisionIndex index_a(a, StandsFor::Surface), index_b(b, StandsFor::Surface);
-  const auto model_a = model_of(a), model_b = model_of(b);
+  const auto model_a = fcl_peer::model_of<fcl::OBBRSSd>(a), model_b = fcl_peer::model_of<fcl::OBBRSSd>(b);
   std::mt19937 random(test_seed());
   std::uniform_real_distribution<double> number(-1, 1);
   constexpr int kPoses = 300;

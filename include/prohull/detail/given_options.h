@@ -16,6 +16,12 @@ namespace prohull {
 // it is wrong.
 
 template <class Given>
+void take_bounds(const Given& given, HullBounds& bounds) {
+  given.not_negative("max_distance", bounds.max_distance);
+  if (given.not_negative("max_void_percent", bounds.max_void_ratio)) bounds.max_void_ratio /= 100;
+}
+
+template <class Given>
 EnclosingOptions enclosing_options(const Given& given) {
   EnclosingOptions options;
   HullOptions& hull = options.hull;
@@ -36,8 +42,7 @@ EnclosingOptions enclosing_options(const Given& given) {
   given.count("best_of", hull.best_of);
   given.count("threads", hull.threads);
   given.numbers("tolerances", hull.tolerances);
-  given.not_negative("max_distance", options.bounds.max_distance);
-  if (given.not_negative("max_void_percent", options.bounds.max_void_ratio)) options.bounds.max_void_ratio /= 100;
+  take_bounds(given, options.bounds);
   given.not_negative("gap", options.padding);
   given.flag("tight", options.tight);
   given.flag("levels", options.levels);
@@ -76,8 +81,7 @@ ConvexCoverOptions convex_cover_options(const Given& given) {
   ConvexCoverOptions options;
   given.count("pieces", options.max_pieces, 1);
   given.count("vertices", options.max_vertices, 4);
-  given.not_negative("max_distance", options.bounds.max_distance);
-  if (given.not_negative("max_void_percent", options.bounds.max_void_ratio)) options.bounds.max_void_ratio /= 100;
+  take_bounds(given, options.bounds);
   given.choice("shape", piece_shape_names(), options.shape);
   given.flag("float32_coordinates", options.float32_coordinates);
   given.count("threads", options.threads);

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "prohull/enclosing_hull.h"
+
+namespace prohull {
+
+// What Python and JavaScript tell of a result beside its numbers: its notes, and what its flags say.
+
+inline void add_note_of_estimate(bool is_estimated, std::vector<std::string>& notes) {
+  if (is_estimated)
+    notes.emplace_back("the volume of the mesh is not known: void_ratio is measured against an estimate");
+}
+
+inline std::vector<std::string> told_notes(const EnclosingHull& hull, const EnclosingHulls& made) {
+  std::vector<std::string> notes = hull.notes;
+  if (!hull.target_reached)
+    notes.push_back("the hull has " + std::to_string(hull.mesh.face_count()) + " faces, more than the " +
+                    std::to_string(hull.target_faces) + " asked for: of its edges, " + describe_refusals(hull.blocked));
+  if (!hull.within_bounds) notes.emplace_back("the hull is not within the bounds asked for: no hull that was tried is");
+  add_note_of_estimate(made.is_estimated, notes);
+  return notes;
+}
+
+/// Of a ConvexCover or a SphereCover.
+template <class Cover>
+std::vector<std::string> told_notes(const Cover& cover) {
+  std::vector<std::string> notes = cover.notes;
+  add_note_of_estimate(cover.is_estimated && cover.original_volume > 0, notes);
+  return notes;
+}
+
+}  // namespace prohull
