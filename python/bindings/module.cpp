@@ -37,4 +37,5 @@ PYBIND11_MODULE(_prohull, module) {
   prohull::python::bind_pages(module);
   prohull::python::bind_robots(module);
   prohull::python::bind_paths(module);
+  prohull::python::bind_sweeps(module);
 }

@@ -14,5 +14,6 @@ void bind_pictures(pybind11::module_& module);
 void bind_pages(pybind11::module_& module);
 void bind_robots(pybind11::module_& module);
 void bind_paths(pybind11::module_& module);
+void bind_sweeps(pybind11::module_& module);
 
 }  // namespace prohull::python

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "module.h"
 #include "prohull/error.h"
 #include "robot/check/check.h"
+#include "robot/check/disabled_pairs.h"
 #include "robot/files/robot_file.h"
 #include "robot/hulls/budgets.h"
 #include "robot/hulls/link_hulls.h"
@@ -230,14 +232,33 @@ py::tuple check_of(const SharedFile& file, double allow, unsigned threads, const
   return py::make_tuple(checks, facts);
 }
 
-py::object facts_of(const Robot& robot, const MotionPair& pair) {
-  if (!pair.proof) return py::none();
-  const PairProof& proof = *pair.proof;
+py::tuple facts_of(const Robot& robot, std::string_view verdict, const PairProof& proof) {
   py::dict positions;
   for (std::size_t j = 0; j < proof.positions.size(); ++j)
     if (robot.joints[j].type != JointType::Fixed) positions[py::str(robot.joints[j].name)] = proof.positions[j];
-  return py::make_tuple(std::string(name_of(proof.verdict)), proof.why, proof.proven_free, proof.cells, positions,
-                        pair.visual_meets_at_witness);
+  return py::make_tuple(std::string(verdict), proof.why, proof.proven_free, proof.cells, positions);
+}
+
+py::object facts_of(const Robot& robot, const MotionPair& pair) {
+  if (!pair.proof) return py::none();
+  return facts_of(robot, name_of(pair.proof->verdict), *pair.proof) + py::make_tuple(pair.visual_meets_at_witness);
+}
+
+/// (link1, link2, reason, line, whether it is refuted, what is proven of the collision geometry, of the visual one).
+py::list disabled_pairs_of(const RobotFile& file, const std::string& srdf, const std::string& name, std::size_t cells,
+                           unsigned threads, const py::object& progress) {
+  const std::vector<DisabledCheck> checks = watched(progress, [&](Watch& watch) {
+    return check_disabled_pairs(file.robot, disabled_rows(file.robot, srdf, name),
+                                {.cells = cells, .threads = threads, .progress = watch.progress()});
+  });
+  const auto finding = [&](const DisabledFinding& found) {
+    return facts_of(file.robot, name_of(found.verdict), found.proof);
+  };
+  py::list rows;
+  for (const DisabledCheck& check : checks)
+    rows.append(py::make_tuple(check.row.link1, check.row.link2, check.row.reason, check.row.line, check.is_refuted(),
+                               finding(check.collision), finding(check.visual)));
+  return rows;
 }
 
 py::tuple motion_of(const RobotHulls& hulls, std::size_t configurations, std::uint64_t seed, bool sampled_pairs,
@@ -328,6 +349,7 @@ void bind_robots(py::module_& module) {
       .def("poses", &poses_of)
       .def("hulls", &hulls_of)
       .def("check", &check_of)
+      .def("disabled_pairs", &disabled_pairs_of)
       .def("shown", &shown_as_shipped)
       .def("picture", [](const RobotFile& file, const std::vector<double>& positions, int width, int height) {
         return picture_of(file, nullptr, positions, width, height);

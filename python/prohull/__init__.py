@@ -8,7 +8,7 @@
 A mesh is given as the path of a file, as vertices and faces, or as a mesh of prohull, trimesh or Open3D. Lengths are in
 the unit of the mesh, angles in degrees. What is wrong with an argument or a file is raised as InputError, a ValueError;
 a file that is not there is a FileNotFoundError, too.
-Ctrl-C stops long work (build, cage, convex_pieces, repair, spheres, verify, distance_bounds, queries, read, view) with
+Ctrl-C stops long work (build, cage, convex_pieces, repair, spheres, sweep, verify, distance_bounds, queries, read, view) with
 KeyboardInterrupt.
 Files appear whole or not at all.
 """
@@ -27,14 +27,15 @@ from ._hull import Hull
 from ._meshes import AllHits, ClosestPoints, FacesMet, FirstHits, Mesh, Refinement, TwoHulls
 from ._prohull import InputError
 from ._repair import Solid, repair
+from ._sweep import Sweep, sweep
 from ._verify import NearFace, Offender, Verification, distance_bounds, verify
 from ._view import View, view
 
 __all__ = ["AllHits", "Ball", "Cage", "CageHull", "Capsule", "ClosestPoints", "Collider", "ConvexCover",
            "ConvexPiece", "Distances", "ENGINES", "FacePairs", "FacesMet", "FirstHits", "Hull", "InputError",
-           "Mesh", "NearFace", "Offender", "OrientedBox", "Refinement", "Solid", "SphereCover", "TwoHulls", "UnionVerification",
+           "Mesh", "NearFace", "Offender", "OrientedBox", "Refinement", "Solid", "SphereCover", "Sweep", "TwoHulls", "UnionVerification",
            "Verification", "View", "build", "cage", "convex_pieces", "distance_bounds", "load", "read", "repair", "sample",
-           "spheres", "verify", "verify_union", "view"]
+           "spheres", "sweep", "verify", "verify_union", "view"]
 
 #: Names of the engines of queries.
 ENGINES: tuple[str, ...] = _prohull.engines

@@ -55,6 +55,12 @@ def rows(name: str, values: ArrayLike, *shapes: tuple[int, ...]) -> NDArray[np.f
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+def finite(name: str, array: NDArray[np.float64]) -> NDArray[np.float64]:
+    if not np.isfinite(array).all():
+        raise InputError(f"{name}: a number is not finite")
+    return array
+
+
 def indices(name: str, values: ArrayLike) -> NDArray[np.int64]:
     """A C-contiguous int64 array of shape (m, 3); copied only if needed."""
     array = _numbers(name, values)

@@ -93,7 +93,7 @@ def _collider(given: Union[Collider, MeshLike]) -> Collider:
 def _pose_pairs(own_poses: Optional[ArrayLike],
                 poses: Optional[ArrayLike]) -> tuple[bool, NDArray[np.float64], NDArray[np.float64]]:
     """Whether there is one pair only that was not given as an array of poses; and the rows of both, (n, 16)."""
-    own, others = _matrices("own_poses", own_poses), _matrices("poses", poses)
+    own, others = matrices("own_poses", own_poses), matrices("poses", poses)
     counts = {array.shape[0] for array in (own, others) if array.ndim == 3}
     if len(counts) > 1:
         raise InputError(f"own_poses of shape {own.shape} and poses of shape {others.shape}: expected as many of the "
@@ -103,7 +103,7 @@ def _pose_pairs(own_poses: Optional[ArrayLike],
     return not counts, rows[0], rows[1]
 
 
-def _matrices(name: str, given: Optional[ArrayLike]) -> NDArray[np.float64]:
+def matrices(name: str, given: Optional[ArrayLike]) -> NDArray[np.float64]:
     if given is None:
         return np.eye(4)
     is_one = np.shape(given) == (4, 4)

@@ -59,7 +59,7 @@ class ConvexPiece(Mesh):
         return piece
 
 
-class _Cover(Shown):
+class CoverShown(Shown):
     def picture(self, width: int = 400, height: int = 300) -> bytes:
         """Draws what covers the mesh, each piece or ball in a colour of its own. Returns the content of a .png file.
 
@@ -72,7 +72,7 @@ class _Cover(Shown):
 
 
 @dataclass(frozen=True)
-class ConvexCover(_Cover):
+class ConvexCover(CoverShown):
     """Convex pieces whose union covers a mesh; convex_pieces() makes it."""
 
     pieces: list[ConvexPiece]
@@ -100,11 +100,7 @@ class ConvexCover(_Cover):
         Raises InputError for another suffix, if the file cannot be written, and for .glb unless the pieces were made
         with float32_coordinates=True.
         """
-        is_float32 = all(np.array_equal(piece.vertices, piece.vertices.astype(np.float32)) for piece in self.pieces)
-        if _prohull.stores_float32(path) and not is_float32:
-            raise InputError(f"{os.fspath(path)}: the file keeps float32 coordinates; make the pieces with "
-                             "float32_coordinates=True, or save them as .obj")
-        _prohull.write_pieces(path, [piece._core for piece in self.pieces])
+        save_pieces(path, self.pieces)
 
     def _view_parts(self) -> list[Part]:
         return [pieces_part([piece._core for piece in self.pieces])]
@@ -114,7 +110,7 @@ class ConvexCover(_Cover):
 
 
 @dataclass(frozen=True)
-class SphereCover(_Cover):
+class SphereCover(CoverShown):
     """Balls whose union covers a mesh; spheres() makes it."""
 
     balls: NDArray[np.float64] = field(repr=False)  #: (n, 4): center and radius of each, in the mesh's unit
@@ -281,6 +277,14 @@ def verify_union(pieces: Union[ConvexCover, SphereCover, Sequence[MeshLike], Row
         facts = _prohull.verify_pieces([mesh_of(piece)._core for piece in given], second, solid_only, finite_only, progress)
     facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
     return UnionVerification(**facts)
+
+
+def save_pieces(path: Path, pieces: Sequence[Mesh]) -> None:
+    is_float32 = all(np.array_equal(piece.vertices, piece.vertices.astype(np.float32)) for piece in pieces)
+    if _prohull.stores_float32(path) and not is_float32:
+        raise InputError(f"{os.fspath(path)}: the file keeps float32 coordinates; make the pieces with "
+                         "float32_coordinates=True, or save them as .obj")
+    _prohull.write_pieces(path, [piece._core for piece in pieces])
 
 
 def _covered(cover: Callable[..., dict[str, Any]], mesh: MeshLike, progress: Optional[Progress],

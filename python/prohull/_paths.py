@@ -87,7 +87,7 @@ class PathChecker:
         Raises InputError, with the row, for joints that the robot does not have, arrays of other shapes, numbers that
         are not finite, and times that do not increase; and if there is no pair of bodies that could meet.
         """
-        rows = self._rows(positions, joints, times, velocities, accelerations)
+        rows = path_rows(self._joint_names, joints, positions, times, velocities, accelerations)
         if _arrays.count("cells", cells) < 2:
             raise InputError(f"cells={cells!r}: expected a whole number, at least 2")
         facts = self._core.prove(rows, _arrays.not_negative("gap", gap), int(cells), bool(distances),
@@ -97,31 +97,37 @@ class PathChecker:
         beyond = facts.pop("beyond_limits")
         return PathCheck(pairs=pairs, beyond_limits=beyond and BeyondLimits(*beyond), **facts)
 
-    def _rows(self, positions: Any, joints: Optional[Sequence[str]], *others: Optional[ArrayLike]
-              ) -> _prohull.PathRows:
-        if isinstance(positions, (str, os.PathLike)):
-            if joints is not None or any(other is not None for other in others):
-                raise InputError("joints, times, velocities and accelerations are those of the file")
-            return _prohull.read_path_rows(pathlib.Path(positions).read_text(encoding="utf-8"), os.fspath(positions))
-        names = list(self._joint_names if joints is None else joints)
-        times, velocities, accelerations = others
-
-        def table(name: str, values: Optional[ArrayLike]) -> list[Any]:
-            return [] if values is None else list(_arrays.rows(name, values, (len(names),)).tolist())
-
-        moments = [] if times is None else _arrays.rows("times", times, ()).tolist()
-        return _prohull.PathRows(names, table("positions", positions), moments, table("velocities", velocities),
-                                 table("accelerations", accelerations))
-
     def __repr__(self) -> str:
         return f"<prohull.robot.PathChecker: {len(self.pairs)} pairs of bodies>"
 
 
-def path_checker(robot: _prohull.Robot, joint_names: Sequence[str], world: Optional[Mapping[str, MeshLike]],
-                 geometry: Geometry, srdf: Optional[Path], ignore: Sequence[tuple[str, str]]) -> PathChecker:
+def path_rows(names: Sequence[str], joints: Optional[Sequence[str]], positions: Any, *others: Optional[ArrayLike]
+              ) -> _prohull.PathRows:
+    """Of a file; or of arrays: positions, times, velocities and accelerations of `joints`, without these of `names`."""
+    if isinstance(positions, (str, os.PathLike)):
+        if joints is not None or any(other is not None for other in others):
+            raise InputError("joints, times, velocities and accelerations are those of the file")
+        return _prohull.read_path_rows(pathlib.Path(positions).read_bytes(), os.fspath(positions))
+    columns = list(names if joints is None else joints)
+    times, velocities, accelerations = others
+
+    def table(name: str, values: Optional[ArrayLike]) -> list[Any]:
+        return [] if values is None else list(_arrays.rows(name, values, (len(columns),)).tolist())
+
+    moments = [] if times is None else _arrays.rows("times", times, ()).tolist()
+    return _prohull.PathRows(columns, table("positions", positions), moments, table("velocities", velocities),
+                             table("accelerations", accelerations))
+
+
+def check_geometry(geometry: Geometry) -> None:
     if geometry not in get_args(Geometry):
         raise InputError(f"geometry={geometry!r}: expected one of {', '.join(get_args(Geometry))}")
-    text = "" if srdf is None else pathlib.Path(srdf).read_text(encoding="utf-8")
+
+
+def path_checker(robot: _prohull.Robot, joint_names: Sequence[str], world: Optional[Mapping[str, MeshLike]],
+                 geometry: Geometry, srdf: Optional[Path], ignore: Sequence[tuple[str, str]]) -> PathChecker:
+    check_geometry(geometry)
+    text = b"" if srdf is None else pathlib.Path(srdf).read_bytes()
     meshes = [(name, mesh_of(mesh)._core) for name, mesh in (world or {}).items()]
     core = _prohull.PathChecker(robot, meshes, geometry, text, "" if srdf is None else os.fspath(srdf),
                                 [(a, b) for a, b in ignore])

@@ -19,14 +19,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _prohull
 from ._meshes import Mesh
-from ._paths import BeyondLimits, Geometry, PathCheck, PathChecker, PathPair, path_checker
+from ._paths import BeyondLimits, Geometry, PathCheck, PathChecker, PathPair, check_geometry, path_checker, path_rows
 from ._prohull import InputError
 from ._shown import Shown
+from ._sweep import Sweep, sweep_keywords, sweep_of
 from ._types import MeshLike, Path, Progress, Proof, Source
 from ._view import Part
 
-__all__ = ["BeyondLimits", "Check", "Hulls", "Joint", "Link", "LinkCheck", "LinkHull", "LinkHulls", "Motion", "MotionPair",
-           "PairProof", "PathCheck", "PathChecker", "PathPair", "Robot"]
+__all__ = ["BeyondLimits", "Check", "DisabledFinding", "DisabledPair", "Hulls", "Joint", "Link", "LinkCheck", "LinkHull",
+           "LinkHulls", "Motion", "MotionPair", "PairProof", "PathCheck", "PathChecker", "PathPair", "Robot"]
 
 Collision = Literal["hull", "convex", "spheres"]
 Format = Literal["stl", "obj", "glb"]
@@ -35,6 +36,7 @@ Status = Literal["hulled", "primitives", "skipped", "unread", "empty"]
 Verdict = Literal["covered", "leaks", "undecided", "no-collision", "no-visual", "missing"]
 PairKind = Literal["adjacent", "sampled-always", "sampled-never", "always", "never", "sometimes"]
 PairVerdict = Literal["never", "always", "meets", "open"]
+DisabledVerdict = Literal["unknown", "adjacent", "no-geometry", "never", "always", "meets", "open"]
 
 #: Positions of joints: by name, the others at 0; or of all joints in their order.
 Positions = Union[Mapping[str, float], Sequence[float], NDArray[Any]]
@@ -165,6 +167,28 @@ class PairProof(NamedTuple):
     cells: int  #: of the joints' positions that were looked at
     positions: dict[str, float]  #: of all joints, where the hulls meet; empty if none is known
     visual_meets: bool  #: whether the visual geometry meets there, too
+
+
+class DisabledFinding(NamedTuple):
+    """What is proven about a pair of links that an SRDF file disables, at all positions of the joints within their limits."""
+
+    verdict: DisabledVerdict  #: "meets" means at `positions`
+    why: str  #: if it is "open"
+    proven_free: float  #: as of PairProof, and so is what follows
+    cells: int
+    positions: dict[str, float]
+
+
+class DisabledPair(NamedTuple):
+    """A row of an SRDF file, and what is proven about it."""
+
+    link1: str  #: as the file has it
+    link2: str
+    reason: str
+    line: int  #: of the file
+    refuted: bool  #: whether the two meet somewhere, and the reason does not allow for it
+    collision: DisabledFinding  #: by the collision geometry that the robot ships with
+    visual: DisabledFinding
 
 
 class MotionPair(NamedTuple):
@@ -372,7 +396,7 @@ class Robot(Shown):
                  "spheres": int(spheres), "gap": _arrays.not_negative("gap", gap),
                  "max_distance": distance, "tight": bool(tight), "cache": cache, "from": from_, "format": format,
                  "skip_missing": bool(skip_missing), "threads": _arrays.count("threads", threads),
-                 "budgets": None if budgets is None else pathlib.Path(budgets).read_text(encoding="utf-8"),
+                 "budgets": None if budgets is None else pathlib.Path(budgets).read_bytes(),
                  "budgets_name": "" if budgets is None else os.fspath(budgets)}
         return Hulls(self, self._core.hulls(given, progress), format)
 
@@ -384,6 +408,21 @@ class Robot(Shown):
         allow = _arrays.not_negative("allow", allow)
         core, links = self._core.check(allow, _arrays.count("threads", threads), progress)
         return Check(core, [LinkCheck(**facts) for facts in links], allow)
+
+    def check_disabled(self, srdf: Path, *, prove: int = 10_000, threads: int = 0,
+                       progress: Optional[Progress] = None) -> list[DisabledPair]:
+        """Decides each pair of links that an SRDF file disables, as `prohull urdf --check --srdf` does.
+
+        prove: the largest number of cells of the joints' positions for each pair that no joint connects.
+
+        Raises InputError for a file that is no SRDF; mesh files that are not found are told in `why`.
+
+            false = [pair for pair in robot.check_disabled("arm.srdf") if pair.refuted]
+        """
+        rows = self._core.disabled_pairs(pathlib.Path(srdf).read_bytes(), os.fspath(srdf), _arrays.count("prove", prove),
+                                         _arrays.count("threads", threads), progress)
+        return [DisabledPair._make([*row, DisabledFinding(*collision), DisabledFinding(*visual)])
+                for *row, collision, visual in rows]
 
     def path_checker(self, *, world: Optional[Mapping[str, MeshLike]] = None, geometry: Geometry = "collision",
                      srdf: Optional[Path] = None, ignore: Sequence[tuple[str, str]] = ()) -> PathChecker:
@@ -398,9 +437,7 @@ class Robot(Shown):
         Links that a joint connects are not compared. Raises InputError for names that are not there, and for mesh files
         that are not found or cannot be read.
         """
-        names = [joint.name for joint in self.joints
-                 if joint.type in ("revolute", "continuous", "prismatic") and joint.mimics is None]
-        return path_checker(self._core, names, world, geometry, srdf, ignore)
+        return path_checker(self._core, self._path_joints(), world, geometry, srdf, ignore)
 
     def check_path(self, positions: Union[ArrayLike, Path], joints: Optional[Sequence[str]] = None, *,
                    times: Optional[ArrayLike] = None, velocities: Optional[ArrayLike] = None,
@@ -416,6 +453,38 @@ class Robot(Shown):
         checker = self.path_checker(world=world, geometry=geometry, srdf=srdf, ignore=ignore)
         return checker.check(positions, joints, times=times, velocities=velocities, accelerations=accelerations, gap=gap,
                              cells=cells, distances=distances, threads=threads, progress=progress)
+
+    def sweep(self, positions: Union[ArrayLike, Path], joints: Optional[Sequence[str]] = None, *,
+              times: Optional[ArrayLike] = None, velocities: Optional[ArrayLike] = None,
+              accelerations: Optional[ArrayLike] = None, links: Optional[Sequence[str]] = None,
+              geometry: Geometry = "collision", pieces: int = 16, max_distance: Optional[float] = None,
+              float32_coordinates: bool = False, threads: int = 0, progress: Optional[Progress] = None
+              ) -> dict[str, Sweep]:
+        """Encloses all positions of links along a path, in the frame of the robot's root: by the name of each link.
+
+        positions, joints, times, velocities, accelerations: the path, as of PathChecker.check().
+        links: names; without it all links that have a shape.
+        geometry: of the links, "collision" or "visual". A link that has none of it counts by the other one.
+        pieces, float32_coordinates, threads, progress: as of prohull.sweep().
+        max_distance: how far the slices of the motion may add to the distance of the pieces, in metres. None: 2 % of
+            the diagonal of each link.
+
+        Raises InputError as check_path() and prohull.sweep() do.
+        """
+        check_geometry(geometry)
+        rows = path_rows(self._path_joints(), joints, positions, times, velocities, accelerations)
+        numbers = {link.name: number for number, link in enumerate(self.links)}
+        if unknown := [name for name in links or () if name not in numbers]:
+            raise InputError(f"links: the robot has no link {unknown[0]!r}; it has {', '.join(numbers)}")
+        distance = 0 if max_distance is None else _arrays.not_negative("max_distance", max_distance)
+        made = _prohull.sweep_robot(
+            self._core, rows, [numbers[name] for name in (numbers if links is None else links)], geometry == "visual",
+            progress, sweep_keywords(pieces, distance, float32_coordinates, threads))
+        return {name: sweep_of(facts) for name, facts in made}
+
+    def _path_joints(self) -> list[str]:
+        return [joint.name for joint in self.joints
+                if joint.type in ("revolute", "continuous", "prismatic") and joint.mimics is None]
 
     def _view_parts(self) -> list[Part]:
         return [Part(self.name, self._core.shown(), lambda *size: self.picture((), *size))]

@@ -272,6 +272,32 @@ def test_a_checker_serves_many_paths_in_a_world(slide):
     assert one[:5] == two[:5] and np.array_equal(one.distances, two.distances)
 
 
+def test_links_are_enclosed_all_along_a_path(slide):
+    sweeps = slide.sweep([[0, 1], [2, 4]], links=["cart", "rail"])
+    assert list(sweeps) == ["cart", "rail"] and all(sweep.covers_inside for sweep in sweeps.values())
+    low, high = (f(sweeps["cart"].mesh.vertices, axis=0) for f in (np.min, np.max))
+    assert np.allclose(low, [1.5, -0.5, -0.5], atol=0.01) and np.allclose(high, [5.5, 0.5, 2.5], atol=0.01)
+    assert math.isnan(sweeps["cart"].volume) and list(slide.sweep([[0, 1]])) == ["base", "rail", "cart"]
+    with pytest.raises(prohull.InputError, match="links: the robot has no link 'desk'; it has base, rail, cart"):
+        slide.sweep([[0, 1]], links=["desk"])
+    with pytest.raises(prohull.InputError, match="max_distance=-1"):
+        slide.sweep([[0, 1]], max_distance=-1)
+
+
+def test_rows_of_an_srdf_are_decided(slide, tmp_path):
+    rows = [("base", "cart", "Never"), ("base", "cart", "User"), ("base", "rail", "Adjacent"), ("base", "desk", "Never")]
+    (tmp_path / "slide.srdf").write_text("<robot name='slide'>\n" + "\n".join(
+        f"<disable_collisions link1='{a}' link2='{b}' reason='{reason}'/>" for a, b, reason in rows) + "</robot>")
+    found = slide.check_disabled(tmp_path / "slide.srdf")
+    assert [row[:3] for row in found] == rows and [row.line for row in found] == [2, 3, 4, 5]
+    assert [row.refuted for row in found] == [True, False, False, False]
+    assert [row.collision.verdict for row in found] == ["meets", "meets", "adjacent", "unknown"]
+    assert found[0].collision.positions["slide"] <= 0 and found[0].visual.verdict == "no-geometry"
+    (tmp_path / "slide.srdf").write_bytes(b"<robot name='\xff'/>")
+    with pytest.raises(prohull.InputError, match="slide.srdf: line 1: no XML"):
+        slide.check_disabled(tmp_path / "slide.srdf")
+
+
 def test_what_is_wrong_with_a_path_is_told(slide, tmp_path):
     for positions, options, message in [
             ([[1]], {}, r"positions: an array of shape \(1, 1\); expected \(n, 2\)"),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,11 +10,14 @@
 
 namespace prohull::robot {
 
-/// Reads poses, one a line: 7 numbers, x, y, z and the quaternion w, x, y, z; or the 12 or 16 of a matrix, row by row.
-/// Commas, semicolons, tabs or blanks stand between them. Blank lines, lines that begin with #, and a first line of
-/// names are skipped, but for names that tell w as the last column: those are refused. Quaternions and matrices are
-/// made rotations, but for rounding. Throws InputError(Malformed) with the file and the line; InputError(InvalidOption)
-/// for a matrix that is far from a rotation.
+/// The pose of 7 numbers, x, y, z and the quaternion w, x, y, z; or of the 12 or 16 of a matrix, row by row. None of
+/// other numbers. Quaternions and matrices are made rotations, but for rounding. Throws InputError(InvalidOption) for a
+/// matrix that is far from a rotation.
+std::optional<Pose> pose_of(std::span<const double> numbers);
+
+/// Reads poses, one a line, as numbers of pose_of. Commas, semicolons, tabs or blanks stand between them. Blank lines,
+/// lines that begin with #, and a first line of names are skipped, but for names that tell w as the last column: those
+/// are refused. Throws InputError(Malformed) with the file and the line, and as pose_of.
 std::vector<Pose> read_poses(std::string_view text, const std::string& file);
 
 /// From each pose to the next: the origin of the body's frame goes straight, and the body turns about one axis the

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "prohull/detail/rounded.h"
+
 namespace prohull::robot {
 namespace {
 
@@ -280,8 +282,8 @@ std::string finding_text(const DisabledFinding& finding, const Robot& robot) {
     case DisabledVerdict::Always:
       return "always meets, proven";
     case DisabledVerdict::Open:
-      return fmt::format("is open, {:.1f} % of the positions are proven free: {}", 100 * finding.proof.proven_free,
-                         clean_text(finding.proof.why));
+      return fmt::format("is open, {:.3g} % of the positions are proven free: {}",
+                         rounded_down(100 * finding.proof.proven_free, 3), clean_text(finding.proof.why));
     case DisabledVerdict::Meets:
       break;
   }

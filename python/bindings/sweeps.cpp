@@ -1,0 +1,105 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "keywords.h"
+#include "module.h"
+#include "prohull/error.h"
+#include "prohull/sweep.h"
+#include "robot/files/robot_file.h"
+#include "robot/motion/path_sweep.h"
+#include "robot/motion/poses.h"
+#include "watch.h"
+
+namespace py = pybind11;
+
+namespace prohull::python {
+namespace {
+
+using Motions = std::vector<RigidMotion>;
+
+SweepOptions sweep_options(const Keywords& given) {
+  SweepOptions options;
+  given.count("pieces", options.max_pieces, 1);
+  given.not_negative("max_distance", options.max_distance);
+  given.flag("float32_coordinates", options.float32_coordinates);
+  given.count("threads", options.threads);
+  return options;
+}
+
+py::dict facts_of(Sweep sweep) {
+  py::list pieces;
+  for (TriangleMesh& piece : sweep.pieces) pieces.append(std::make_shared<TriangleMesh>(std::move(piece)));
+  py::dict facts;
+  facts["pieces"] = pieces;
+  facts["covers_inside"] = sweep.covers_inside;
+  facts["has_openings"] = sweep.has_openings;
+  facts["reach"] = sweep.reach;
+  facts["cover_pieces"] = sweep.cover_pieces;
+  facts["notes"] = sweep.notes;
+  return facts;
+}
+
+using Numbers = std::array<double, 3>;
+Vec3 vector_of(const Numbers& n) { return {n[0], n[1], n[2]}; }
+
+Motions turn(const Numbers& axis, const Numbers& through, double angle, const Numbers& shift) {
+  return {{.through = vector_of(through), .axis = vector_of(axis), .angle = angle, .shift = vector_of(shift)}};
+}
+
+/// Of matrices, shape (n, 16).
+Motions motions_of(const Array<double>& rows) {
+  std::vector<Pose> poses;
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) poses.push_back(*robot::pose_of({rows.data(i, 0), 16}));
+  return robot::motions_between(poses);
+}
+
+Motions read_motions(const std::string& text, const std::string& file) {
+  return robot::motions_between(robot::read_poses(text, file));
+}
+
+py::dict sweep_mesh(const TriangleMesh& mesh, const Motions& motions, const py::object& progress,
+                    const py::dict& keywords) {
+  SweepOptions options = sweep_options(Keywords(keywords));
+  Sweep made = watched(progress, [&](Watch& watch) {
+    options.progress = watch.progress();
+    return sweep(mesh, motions, options);
+  });
+  const double volume = made.volume;
+  py::dict facts = facts_of(std::move(made));
+  facts["volume"] = volume;
+  return facts;
+}
+
+/// (name of the link, facts) of each.
+py::list sweep_robot(const robot::RobotFile& file, robot::PathRows rows, const std::vector<std::size_t>& links,
+                     bool visual, const py::object& progress, const py::dict& keywords) {
+  SweepOptions options = sweep_options(Keywords(keywords));
+  const robot::JointPath path(file.robot, std::move(rows));
+  std::vector<robot::LinkSweep> made = watched(progress, [&](Watch& watch) {
+    options.progress = watch.progress();
+    return sweep_links(file.robot, path, links, visual ? robot::Geometry::Visual : robot::Geometry::Collision, options);
+  });
+  py::list sweeps;
+  for (robot::LinkSweep& link : made) sweeps.append(py::make_tuple(link.link, facts_of(std::move(link.sweep))));
+  return sweeps;
+}
+
+}  // namespace
+
+void bind_sweeps(py::module_& module) {
+  py::class_<RigidMotion>(module, "RigidMotion");
+  module.def("turn", &turn);
+  module.def("motions_of", &motions_of);
+  module.def("read_motions", &read_motions);
+  module.def("sweep", &sweep_mesh);
+  module.def("sweep_robot", &sweep_robot);
+}
+
+}  // namespace prohull::python
