@@ -33,7 +33,7 @@ room(verify    OWNS enclosure verification union_verification replay distance to
                                                                                      prohull/mesh_query prohull/collide)
 room(sample    OWNS sample random_segments                                       MAY mesh geometry base)
 room(wrap      OWNS convex_hull wrap                                                         MAY mesh geometry parallel base)
-room(enclose   OWNS cage closed_solid enclosing_hull                                          MAY construct repair verify wrap hull mesh
+room(enclose   OWNS cage closed_solid detail/summary enclosing_hull                                          MAY construct repair verify wrap hull mesh
                                                                                      geometry parallel base prohull/collide
                                                                                      cover/few_vertices cover/polytope)
 
@@ -52,7 +52,7 @@ set(may_kdop kdop query geometry)  # an engine as those of src/query
 set(may_apps render robot view kdop)
 set(may_examples "")
 set(may_python render robot view)
-set(may_js "")
+set(may_js view)
 
 set(failures "")
 macro(fail)

@@ -1,9 +1,6 @@
 #include "view/blocks.h"
 
-#include <zlib.h>
-
 #include <algorithm>
-#include <new>
 #include <vector>
 
 namespace prohull::view {
@@ -41,16 +38,6 @@ nlohmann::json Blocks::running(std::span<const std::uint32_t> values, std::size_
   for (std::size_t i = 0; i < values.size(); ++i)
     coded.push_back(zigzag(values[i] - (i < stride ? 0 : values[i - stride])));
   return add("running", coded, stride);
-}
-
-std::string deflated(const std::string& bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string result(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                bytes.size(), Z_BEST_COMPRESSION) != Z_OK)
-    throw std::bad_alloc();  // the only other failure, too small a buffer, cannot occur
-  result.resize(size);
-  return result;
 }
 
 }  // namespace prohull::view

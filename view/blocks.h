@@ -26,7 +26,4 @@ class Blocks {
   std::string bytes_;
 };
 
-/// Compressed by zlib.
-std::string deflated(const std::string& bytes);
-
 }  // namespace prohull::view

@@ -1,294 +1,35 @@
 #include "view/page.h"
 
-#include <fmt/format.h>
+#include <zlib.h>
 
-#include <algorithm>
-#include <bit>
-#include <nlohmann/json.hpp>
+#include <new>
 
 #include "prohull/base64.h"
 #include "prohull/error.h"
-#include "prohull/mesh_query.h"
-#include "view/blocks.h"
-#include "view/facts.h"
-#include "view/grid.h"
-#include "view/heat.h"
-#include "view/levels.h"
-#include "view/robot.h"
-#include "view/shared_faces.h"
+#include "view/scene.h"
 #include "view/template.h"
 
 namespace prohull::view {
 namespace {
 
-using nlohmann::json;
-
-bool is_finite(const Triangle& t) {
-  return prohull::is_finite(t.a) && prohull::is_finite(t.b) && prohull::is_finite(t.c);
-}
-
-/// The mesh without faces that are not finite and without vertices that no face uses.
-TriangleMesh drawable(const TriangleMesh& mesh, const std::string& name) {
-  constexpr VertexId kUnused{0xffffffff};
-  PerVertex<VertexId> renumbered(mesh.vertex_count(), kUnused);
-  TriangleMesh result;
-  for (const FaceId f : mesh.triangles.ids()) {
-    if (!is_finite(mesh.triangle(f))) continue;
-    std::array<VertexId, 3> face = mesh.triangles[f];
-    for (VertexId& v : face) {
-      if (renumbered[v] == kUnused) renumbered[v] = result.positions.push_back(mesh.positions[v]);
-      v = renumbered[v];
-    }
-    result.triangles.push_back(face);
-  }
-  if (result.face_count() == 0) throw InputError(Defect::EmptyMesh, name + ": it has no finite face to show");
+std::string deflated(const std::string& bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string result(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                bytes.size(), Z_BEST_COMPRESSION) != Z_OK)
+    throw std::bad_alloc();  // the only other failure, too small a buffer, cannot occur
+  result.resize(size);
   return result;
 }
 
-TriangleMesh all_of(const Pieces& pieces) {
-  TriangleMesh all;
-  for (const TriangleMesh& piece : pieces) append(all, piece);
-  return all;
+/// What stands in the page in place of kScenePlace. No byte of it can end an element of the page or begin one.
+std::string elements_of(const Scene& scene) {
+  std::string escaped;
+  for (const char c : scene.facts_as_text()) c == '<' ? escaped += "\\u003c" : escaped += c;
+  return "<script type=\"application/json\" id=\"scene\">" + escaped +
+         "</script>\n<script type=\"text/plain\" id=\"blocks\">" + to_base64(deflated(scene.blocks.bytes())) +
+         "</script>";
 }
-
-/// What is drawn lies in it.
-struct BoxOf {
-  Box operator()(const TriangleMesh& mesh) const { return finite_bounding_box(mesh); }
-  Box operator()(const Pieces& pieces) const { return finite_bounding_box(all_of(pieces)); }
-  Box operator()(const ProgressiveHull& hull) const {
-    Box box;
-    for (const Vec3& p : hull.positions()) box.extend(p);
-    return box;
-  }
-  Box operator()(const ShownRobot& shown) const {
-    Box box = box_at_rest(shown);
-    for (const auto* const meshes : {&shown.visual, &shown.collision})
-      for (const TriangleMesh& mesh : *meshes) box.extend(finite_bounding_box(mesh));  // where its numbers are
-    return box;
-  }
-  Box operator()(const Balls& balls) const {
-    Box box;
-    for (const Ball& ball : balls) {
-      const Vec3 reach{ball.radius, ball.radius, ball.radius};
-      box.extend(ball.center - reach), box.extend(ball.center + reach);
-    }
-    return box;
-  }
-};
-
-/// The mesh that hulls are compared with.
-struct Reference {
-  explicit Reference(TriangleMesh given) : mesh(std::move(given)), index(mesh) {}
-  TriangleMesh mesh;
-  QueryIndex index;
-};
-
-class Writer {
- public:
-  Writer(const std::vector<Shown>& shown, const std::optional<Original>& original, const PageOptions& options)
-      : options_(options), grid_(scene_box(shown, original)) {
-    if (original) {
-      given_ = &original->mesh;
-      reference_.emplace(drawable(*given_, original->name));
-    }
-    json objects = json::array();
-    for (const Shown& s : shown) {
-      json facts = std::visit([&](const auto& shape) { return object(s, shape); }, s.shape);
-      facts["name"] = s.name;
-      objects.push_back(facts);
-    }
-    if (original) {
-      json facts = mesh_object(*given_, reference_->mesh);
-      facts["name"] = original->name;
-      facts["role"] = "original";
-      objects.push_back(facts);
-    }
-    scene_ = {{"version", options.version}, {"unit", options.unit}, {"grid", grid_.facts()}, {"objects", objects}};
-  }
-
-  /// What stands in the page in place of kScenePlace. No byte of it can end an element of the page or begin one.
-  std::string elements() const {
-    std::string text = scene_.dump(-1, ' ', false, json::error_handler_t::replace);
-    std::string escaped;
-    for (const char c : text) c == '<' ? escaped += "\\u003c" : escaped += c;
-    return "<script type=\"application/json\" id=\"scene\">" + escaped +
-           "</script>\n<script type=\"text/plain\" id=\"blocks\">" + to_base64(deflated(blocks_.bytes())) + "</script>";
-  }
-
- private:
-  static Box scene_box(const std::vector<Shown>& shown, const std::optional<Original>& original) {
-    Box box;
-    for (const Shown& s : shown) box.extend(std::visit(BoxOf{}, s.shape));
-    if (original) box.extend(BoxOf{}(original->mesh));
-    return box;
-  }
-
-  BatchOptions batch() const { return {.threads = options_.threads, .progress = options_.progress}; }
-
-  json object(const Shown& shown, const TriangleMesh& given) {
-    const TriangleMesh mesh = drawable(given, shown.name);
-    json facts = mesh_object(given, mesh);
-    if (!reference_) return facts;
-    facts["verification"] = verification_facts(shown, *given_, options_);
-    facts["distance"] = distance_facts(mesh, reference_->mesh, options_);
-    facts["heat"] = heat_facts(mesh, reference_->index, false, batch(), blocks_);
-    return facts;
-  }
-
-  json object(const Shown& shown, const ProgressiveHull& hull) {
-    if (reference_) return levels_object(shown, hull, *given_, *reference_);
-    const TriangleMesh finest = hull.original();
-    return levels_object(shown, hull, finest, Reference(finest));
-  }
-
-  json object(const Shown& shown, const Pieces& pieces) {
-    const TriangleMesh all = all_of(pieces), mesh = drawable(all, shown.name);
-    json facts = mesh_object(all, mesh);
-    facts["union"] = counted(pieces.size(), "piece", "pieces");
-    if (!reference_) return facts;
-    add_union_facts(facts, shown, pieces);
-    if (is_closed(reference_->mesh)) facts["heat"] = heat_facts(mesh, reference_->index, true, batch(), blocks_);
-    return facts;
-  }
-
-  json object(const Shown& shown, const Balls& balls) {
-    if (balls.empty()) throw InputError(Defect::EmptyMesh, shown.name + ": it has no sphere to show");
-    std::vector<std::uint32_t> centers, radii;
-    for (const Ball& ball : balls) {
-      for (const std::uint32_t q : grid_(ball.center)) centers.push_back(q);
-      radii.push_back(static_cast<std::uint32_t>(ball.radius / grid_.step()));
-    }
-    json facts = {{"kind", "balls"},
-                  {"union", counted(balls.size(), "sphere", "spheres")},
-                  {"centers", blocks_.plain(centers)},
-                  {"radii", blocks_.plain(radii)}};
-    facts["role"] = "hull";
-    if (reference_) add_union_facts(facts, shown, balls);
-    return facts;
-  }
-
-  json object(const Shown& shown, const ShownRobot& robot) {
-    const Box box = box_at_rest(robot);
-    if (box.is_empty()) throw InputError(Defect::EmptyMesh, shown.name + ": the robot has no geometry to draw");
-    std::vector<std::uint32_t> corners;
-    for (const Vec3& corner : {box.min, box.max})
-      for (const std::uint32_t q : grid_(corner)) corners.push_back(q);
-    json links = json::array();
-    for (std::size_t i = 0; i < robot.robot.links.size(); ++i)
-      links.push_back({{"name", robot.robot.links[i].name},
-                       {"visual", link_object(shown, robot.visual[i])},
-                       {"collision", link_object(shown, robot.collision[i])}});
-    json facts = {{"role", "hull"}, {"kind", "robot"}, {"links", links}, {"joints", joint_facts(robot.robot)}};
-    facts["corners"] = blocks_.plain(corners);
-    facts.update(disabled_facts(robot, options_.threads));
-    return facts;
-  }
-
-  json link_object(const Shown& shown, const TriangleMesh& mesh) {
-    if (mesh.face_count() == 0) return {};
-    return mesh_object(mesh, drawable(mesh, shown.name));
-  }
-
-  static std::string counted(std::size_t count, const char* one, const char* many) {
-    return fmt::format("{} {}", count, count == 1 ? one : many);
-  }
-
-  template <class Parts>
-  void add_union_facts(json& facts, const Shown& shown, const Parts& parts) const {
-    facts["verification"] = verification_facts(shown, *given_, options_);
-    if (!facts["verification"].contains("refused"))
-      facts["distance"] = distance_facts(parts, reference_->mesh, options_);
-  }
-
-  json mesh_object(const TriangleMesh& given, const TriangleMesh& mesh) {
-    std::vector<std::uint32_t> positions, triangles;
-    for (const Vec3& p : mesh.positions)
-      for (const std::uint32_t q : grid_(p)) positions.push_back(q);
-    for (const auto& t : mesh.triangles)
-      for (const VertexId v : t) triangles.push_back(index(v));
-    return {{"role", "hull"},
-            {"kind", "mesh"},
-            {"facts", mesh_facts(mesh)},
-            {"left_out", given.face_count() - mesh.face_count()},
-            {"positions", blocks_.running(positions, 3)},
-            {"triangles", blocks_.running(triangles, 1)}};
-  }
-
-  json levels_object(const Shown& shown, const ProgressiveHull& hull, const TriangleMesh& given,
-                     const Reference& reference) {
-    const bool is_own = !reference_;
-    json facts = levels_facts(hull, distances_of(hull, reference, is_own), grid_, blocks_);
-    facts["role"] = "hull";
-    facts["kind"] = "levels";
-    facts["side"] = name_of(hull_side_names(), hull.side());
-    facts["finest_level"] = name_of(finest_level_names(), hull.finest_level());
-    facts["base_faces"] = hull.base_face_count();
-    facts["original_faces"] = hull.original_face_count();
-    facts["original_shown"] = !is_own;
-    facts["verification"] = verification_facts(shown, given, options_);
-    if (is_closed(reference.mesh)) add_volumes(facts, hull, signed_volume(turned_outwards(reference.mesh)));
-    facts["stops"] = stops_of(hull, reference);
-    return facts;
-  }
-
-  PerVertex<double> distances_of(const ProgressiveHull& hull, const Reference& reference, bool is_own) const {
-    const std::vector<Vec3> points(hull.positions().begin(), hull.positions().end());
-    PerVertex<double> distances(points.size(), 0);
-    const std::size_t first = is_own ? hull.original_vertex_count() : 0;  // those before lie on the original
-    const auto closest = closest_points(reference.index, std::span(points).subspan(first),
-                                        std::numeric_limits<double>::infinity(), batch());
-    for (std::size_t i = 0; i < closest.size(); ++i)
-      distances[VertexId(static_cast<std::uint32_t>(first + i))] = closest[i]->distance;
-    return distances;
-  }
-
-  void add_volumes(json& facts, const ProgressiveHull& hull, double volume) {
-    std::vector<std::uint32_t> ratios;
-    for (const double v : volumes_of_levels(hull))
-      ratios.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(v / volume - 1)));
-    facts["void_ratios"] = blocks_.running(ratios, 1);
-  }
-
-  /// Levels whose farthest point is searched: from the base mesh on, each finer by half than the one before.
-  /// "until_next" bounds the distance of all levels between such a level and the next one. Nesting alone does not bound
-  /// it: a level may close a cavity, and finer levels lie deep in that.
-  json stops_of(const ProgressiveHull& hull, const Reference& reference) const {
-    json stops = json::array();
-    MadeFaces made(hull);
-    const SharedFaces shared(reference.mesh);
-    for (std::size_t faces = hull.base_face_count();; faces = std::min(faces + faces / 2, hull.original_face_count())) {
-      const TriangleMesh level = hull.level(faces);
-      const json new_faces = reach_of(shared.left_out_of(made.until(splits_before(hull, faces))), reference);
-      if (!stops.empty()) {
-        double& bound = stops.back()["until_next"].get_ref<double&>();
-        bound = std::max(bound, new_faces["upper"].get<double>());
-      }
-      json stop = reach_of(shared.left_out_of(level), reference);
-      stop["faces"] = level.face_count();
-      stop["until_next"] = stop["upper"];
-      stops.push_back(stop);
-      if (faces == hull.original_face_count()) return stops;
-    }
-  }
-
-  /// Of faces that the original does not have, if there are any.
-  json reach_of(const TriangleMesh& faces, const Reference& reference) const {
-    if (faces.face_count() > 0) return distance_facts(faces, reference.mesh, options_);
-    const Vec3 anywhere = reference.mesh.triangle(FaceId{0}).a;
-    return {{"lower", 0.0}, {"upper", 0.0}, {"farthest", {anywhere.x, anywhere.y, anywhere.z}}};
-  }
-
-  static std::size_t splits_before(const ProgressiveHull& hull, std::size_t faces) {
-    return (faces - hull.base_face_count()) / 2;
-  }
-
-  const PageOptions& options_;
-  const TriangleMesh* given_ = nullptr;  // the original, as it was given
-  std::optional<Reference> reference_;   // the same, as it is drawn
-  Grid grid_;
-  Blocks blocks_;
-  json scene_;
-};
 
 }  // namespace
 
@@ -296,9 +37,7 @@ bool has_page() { return !page_template().empty(); }
 
 std::string page(const std::vector<Shown>& shown, const std::optional<Original>& original, const PageOptions& options) {
   if (!has_page()) throw InputError(Defect::CannotRead, std::string(kNoPage));
-  if (shown.size() > kMostShown)
-    throw InputError(Defect::InvalidOption, fmt::format("a page shows {} hulls at most", kMostShown));
-  const std::string scene = Writer(shown, original, options).elements();
+  const std::string scene = elements_of(scene_of(shown, original, options));
   std::string text;
   for (const std::string_view part : page_template()) text += part;
   const std::size_t place = text.find(kScenePlace);

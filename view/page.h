@@ -44,6 +44,7 @@ struct PageOptions {
   std::string unit = {};            ///< of all coordinates, such as "m"; empty: it is not known
   std::string version = {};         ///< of the program
   unsigned threads = 0;             ///< threads at most; 0: one for each core
+  bool measures_levels = true;      ///< of progressive hulls bound the distances of all levels, not of the base alone
   Progress progress = {};           ///< stages "verify", "measure" and "query"
 };
 

@@ -8,6 +8,7 @@
 #include "console.h"
 #include "options.h"
 #include "outputs.h"
+#include "prohull/detail/summary.h"
 #include "prohull/error.h"
 
 namespace prohull::cli {

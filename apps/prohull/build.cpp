@@ -84,7 +84,7 @@ void write_certificate(Written& written, const CertifiedOriginal& original, cons
       {.side = options.enclosing.hull.side,
        .levels = hull.levels,
        .gap = claimed_gap(options.enclosing.padding, hull.padding),
-       .distance = claimed_distance(options.enclosing.bounds.max_distance, written.to_triangles.upper)});
+       .distance = claimed_distance(options.enclosing.bounds.max_distance, written.measures.to_triangles.upper)});
   outputs.add(written.certificate_path, written.certificate.bytes);
 }
 
@@ -108,19 +108,10 @@ Written write_certified(EnclosingHull hull, FinestLevel finest, const BuildOptio
 }
 
 void measure(BuildOutcome& outcome) {
-  const EnclosingHulls& made = outcome.made;
-  const Solid& first = made.solids.front();
-  outcome.input_self_intersections =
-      first.source == Source::Mesh ? first.self_intersections : count_self_intersections(made.input.original);
+  outcome.input_self_intersections = self_intersections_of_input(outcome.made);
   ProgressLine line;
   for (Written& written : outcome.written) {
-    const DistanceOptions how{.progress = std::ref(line)};
-    written.has_openings = made.input.caps.face_count() > 0 || outcome.solid(written.hull).doors.face_count() > 0;
-    written.to_triangles = distance_bounds(written.hull.mesh, made.input.original, how);
-    written.to_solid = written.has_openings
-                           ? distance_bounds(written.hull.mesh, triangles_to_cover(made, written.hull), how)
-                           : written.to_triangles;
-    written.quality = mesh_quality(written.hull.mesh);
+    written.measures = measures_of(outcome.made, written.hull, std::ref(line));
     for (const TriangleMesh& faces : outcome.regions.faces)
       written.regions.push_back(distance_bounds(
           faces, written.hull.mesh,

@@ -13,58 +13,22 @@
 namespace prohull::cli {
 namespace {
 
-std::string source_of(const Solid& solid) {
-  switch (solid.source) {
-    case Source::Mesh:
-      return "the mesh";
-    case Source::ConvexHull:
-      return "the convex hull";
-    default:
-      return fmt::format("a wrap with a spacing of {:.4g}", solid.wrap_spacing);
-  }
+ToldHull told(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
+  return {outcome.made, written.hull, options.enclosing, written.measures, outcome.input_self_intersections};
 }
 
-/// Not what it is made of: repairs change the mesh, and the convex hull may have become a slab, or a polytope of fewer
-/// faces around it.
-std::string solid_name(const BuildOutcome& outcome, const Solid& solid) {
-  if (solid.source == Source::ConvexHull) return "the convex solid that it is built from";
-  const bool is_changed = outcome.made.input.repairs.any() || solid.folds.faces > 0;
-  return solid.source == Source::Mesh && is_changed ? "the repaired mesh" : source_of(solid);
-}
-
-std::size_t added_self_intersections(const BuildOutcome& outcome, const EnclosingHull& hull) {
-  return hull.self_intersections - std::min(hull.self_intersections, outcome.input_self_intersections);
-}
-
-std::string described_self_intersections(const BuildOutcome& outcome, const EnclosingHull& hull) {
-  const std::size_t input = outcome.input_self_intersections;
-  const Solid& first = outcome.made.solids.front();  // what was looked at, if it is of the mesh
-  const std::string mesh = first.source == Source::Mesh ? solid_name(outcome, first) : "the mesh";
-  if (hull.self_intersections == 0)
-    return input == 0 ? "none" : fmt::format("none ({}: {})", mesh, counted(input, "pair of faces", "pairs of faces"));
-  return fmt::format("{} ({}: {}; added: {})", counted(hull.self_intersections, "pair of faces", "pairs of faces"),
-                     mesh, grouped(input), grouped(added_self_intersections(outcome, hull)));
+void say_all(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) say("  {}\n", line);
 }
 
 void print_input(const BuildOptions& options, const BuildOutcome& outcome) {
-  say("{}: {}, {}\n", input_name(options.in), counted(outcome.made.input.found.faces, "face", "faces"),
-      counted(outcome.made.input.found.components, "component", "components"));
+  say("{}\n", line_of_input(input_name(options.in), outcome.made));
   if (options.recenter && outcome.offset == Vec3{})
     say("  not recentered: the mesh is near the origin\n");
   else if (options.recenter)
     say("  recentered: {0} was subtracted from the coordinates; add it to place the hull (verify --offset {0})\n",
         text_of_offset(outcome.offset));
-  for (const std::string& repair : describe(outcome.made.input.repairs)) say("  {}\n", repair);
-  if (!outcome.made.input.closed) say("  bounds no solid: {}\n", outcome.made.input.obstacle);
-  for (const std::string& note : outcome.written.back().hull.notes) say("  {}\n", note);
-}
-
-// What no collapse changes. A closed surface with h handles has an Euler characteristic of 2 - 2 h.
-std::string described_topology(const TriangleMesh& hull) {
-  const MeshReport report = inspect(hull);
-  const auto handles = static_cast<std::size_t>(static_cast<long>(report.components) - report.euler_characteristic / 2);
-  return fmt::format("{} and {}", counted(report.components, "component", "components"),
-                     counted(handles, "handle", "handles"));
+  say_all(lines_of_repairs(outcome.made, outcome.written.back().hull));
 }
 
 void print_regions(const BuildOutcome& outcome, const Written& written) {
@@ -79,51 +43,21 @@ void print_regions(const BuildOutcome& outcome, const Written& written) {
   }
 }
 
-void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
-  const EnclosingHull& hull = written.hull;
-  const std::size_t faces = hull.mesh.face_count();
-  say("{}: {} hull of {}{}{}, at most {:.4g} from the mesh{}\n", output_name(written.path),
-      options.is_outer() ? "outer" : "inner", counted(faces, "face", "faces"),
-      hull.source == Source::Mesh ? "" : fmt::format(", of {}", source_of(outcome.solid(hull))),
-      described_void(outcome.made, hull), rounded_up(written.to_solid.upper, 4),
-      text_of_openings(written.has_openings, written.to_triangles));
-  say("  self-intersections: {}\n", described_self_intersections(outcome, hull));
-  say("  triangles: {}\n", described(written.quality));
-  if (faces == outcome.solid(hull).mesh.face_count() && faces <= hull.target_faces)
-    say("  {} has no more faces than were asked for: the hull is {}\n", solid_name(outcome, outcome.solid(hull)),
-        hull.source == Source::Mesh && hull.mesh == outcome.solid(hull).mesh
-            ? solid_name(outcome, outcome.solid(hull)) + " itself"
-            : "simplified no further");
-  print_regions(outcome, written);
-  if (const auto axis = options.enclosing.hull.mirror)
-    say("  symmetric: exactly its own mirror image in the plane {} = {:g}\n", name_of(axis_names(), *axis),
-        inspect_symmetry(hull.mesh, *axis).plane);
-  if (hull.rounded_vertices > 0)
-    say("  moved {} to coordinates that the file keeps\n", counted(hull.rounded_vertices, "vertex", "vertices"));
-  if (hull.relaxed_guards > 0)
-    say("  shape guards relaxed to reach it: normals may turn by {:.0f} degrees{}, step {} of {}\n",
-        kRelaxedGuards[hull.relaxed_guards - 1].max_normal_deviation / kDegree,
-        std::isfinite(kRelaxedGuards[hull.relaxed_guards - 1].max_overhang) ? "" : " and spikes are allowed",
-        hull.relaxed_guards, kRelaxedGuards.size());
-  if (!hull.target_reached)
-    say("  no legal collapse is left above the {} faces asked for: {}; of the {} edges left, {}\n",
-        grouped(hull.target_faces), described_topology(hull.mesh), grouped(3 * faces / 2),
-        describe_refusals(hull.blocked));
-  if (!hull.within_bounds)
-    say("  NOT within the bounds asked for: of all that was tried, this hull misses them least, by {:.3g} %; allow "
-        "that "
-        "much, or mend the mesh where it is open or intersects itself\n",
-        rounded_up(100 * (hull.excess - 1), 3));
-  if (written.certified && !options.hierarchy.empty())
-    say("{}: all levels from {} to {} faces\n", output_name(options.hierarchy), grouped(faces),
-        grouped(outcome.solid(hull).mesh.face_count()));
-  if (const std::string finest = described_finest_level(finest_level(outcome.made, hull));
-      written.certified && !options.hierarchy.empty() && !finest.empty())
+void print_levels(const BuildOptions& options, const BuildOutcome& outcome, const EnclosingHull& hull) {
+  say("{}: all levels from {} to {} faces\n", output_name(options.hierarchy), grouped(hull.mesh.face_count()),
+      grouped(outcome.solid(hull).mesh.face_count()));
+  if (const std::string finest = described_finest_level(finest_level(outcome.made, hull)); !finest.empty())
     say("  its finest level is {}, not the input itself\n", finest);
-  say("  certified: {}\n", certificate_of(outcome.made, hull, written.certified));
-  if (written.certified && hull.padding > 0)
-    say("  gap: the least distance from the mesh is at least {:.6g}, proven{}\n", rounded_down(hull.padding, 6),
-        options.is_outer() ? "; all points within it are inside" : "");
+}
+
+void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
+  const ToldHull hull = told(options, outcome, written);
+  say("{}\n", line_of_hull(output_name(written.path), hull));
+  say_all(lines_of_shape(hull));
+  print_regions(outcome, written);
+  say_all(lines_of_limits(hull));
+  if (written.certified && !options.hierarchy.empty()) print_levels(options, outcome, written.hull);
+  say_all(lines_of_proof(hull, written.certified));
   if (written.certified && !options.certificate.empty())
     print_certificate(written.certificate_path, written.certificate, {written.path}, options.in);
 }
@@ -180,7 +114,7 @@ nlohmann::json regions_report(const BuildOutcome& outcome, const Written& writte
   return regions;
 }
 
-nlohmann::json facts_of_hull(const BuildOutcome& outcome, const Written& written) {
+nlohmann::json facts_of_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
   const EnclosingHull& hull = written.hull;
   return {{"path", written.path.string()},
           {"target_faces", hull.target_faces},
@@ -193,12 +127,12 @@ nlohmann::json facts_of_hull(const BuildOutcome& outcome, const Written& written
           {"wrap_spacing",
            hull.source == Source::Wrap ? nlohmann::json(outcome.solid(hull).wrap_spacing) : nlohmann::json()},
           {"folds", facts(outcome.solid(hull).folds)},
-          {"distance_bound", written.to_solid.upper},
-          {"distance_to_solid", facts(written.to_solid)},
-          {"distance_to_triangles", facts(written.to_triangles)},
+          {"distance_bound", written.measures.to_solid.upper},
+          {"distance_to_solid", facts(written.measures.to_solid)},
+          {"distance_to_triangles", facts(written.measures.to_triangles)},
           {"self_intersections", hull.self_intersections},
-          {"added_self_intersections", added_self_intersections(outcome, hull)},
-          {"quality", facts(written.quality)},
+          {"added_self_intersections", told(options, outcome, written).added_self_intersections()},
+          {"quality", facts(written.measures.quality)},
           {"rounded_vertices", hull.rounded_vertices},
           {"certified", written.certified},
           {"proof", std::string(hull.proof)},
@@ -212,8 +146,8 @@ nlohmann::json facts_of_hull(const BuildOutcome& outcome, const Written& written
           {"blocked", facts_of(hull.blocked)}};
 }
 
-nlohmann::json hull_report(const BuildOutcome& outcome, const Written& written) {
-  nlohmann::json report = facts_of_hull(outcome, written);
+nlohmann::json hull_report(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
+  nlohmann::json report = facts_of_hull(options, outcome, written);
   if (!written.regions.empty()) report["regions"] = regions_report(outcome, written);
   return report;
 }
@@ -279,7 +213,7 @@ std::vector<std::string> table_rows(const BuildOutcome& outcome) {
         fmt::format("{:>11}  {:>9}  {:>8}  {:>9.4g}  {}", grouped(outcome.made.input.found.faces),
                     grouped(written.hull.mesh.face_count()),
                     std::isnan(written.hull.void_ratio) ? "" : fmt::format("{:.2f} %", 100 * written.hull.void_ratio),
-                    rounded_up(written.to_solid.upper, 4),
+                    rounded_up(written.measures.to_solid.upper, 4),
                     !written.certified            ? "NO"
                     : !written.hull.within_bounds ? "yes, NOT within the bounds"
                                                   : "yes"));
@@ -296,7 +230,7 @@ nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcom
   in["notes"] = outcome.written.back().hull.notes;
   in["self_intersections"] = outcome.input_self_intersections;
   nlohmann::json hulls = nlohmann::json::array();
-  for (const Written& written : outcome.written) hulls.push_back(hull_report(outcome, written));
+  for (const Written& written : outcome.written) hulls.push_back(hull_report(options, outcome, written));
   return {{"input", in},
           {"hull", hulls.back()},
           {"hulls", hulls},

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "prohull/certificate.h"
+#include "prohull/detail/summary.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/regions.h"
 
@@ -29,11 +30,8 @@ struct BuildOptions {
 struct Written {
   EnclosingHull hull;
   std::filesystem::path path;
-  bool certified = false;        ///< the hull, and the file holds its very bits
-  bool has_openings = false;     ///< that count as closed
-  DistanceBounds to_solid = {};  ///< of the hull, from the triangles of the original and from what closes its openings
-  DistanceBounds to_triangles = {};  ///< from the triangles alone
-  MeshQuality quality = {};
+  bool certified = false;  ///< the hull, and the file holds its very bits
+  HullMeasures measures = {};
   std::vector<DistanceBounds> regions = {};  ///< of each region, from the hull
   std::filesystem::path certificate_path = {};
   Certificate certificate = {};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "prohull/detail/summary.h"
 #include "prohull/error.h"
 #include "prohull/query_io.h"
 

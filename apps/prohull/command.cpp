@@ -27,11 +27,4 @@ nlohmann::json facts(const MeshQuality& quality) {
 
 nlohmann::json finite_or_null(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
 
-std::string described(const MeshQuality& quality) {
-  return fmt::format(
-      "median compactness {:.2f}, worst {:.2g}; {} of {} edges sharp, worst dihedral angle {:.3g} degrees",
-      quality.compactness.median, quality.compactness.worst, grouped(quality.sharp_edges), grouped(quality.edges),
-      quality.dihedral_angle.worst / kDegree);
-}
-
 }  // namespace prohull::cli

@@ -32,9 +32,6 @@ nlohmann::json facts(const MeshReport& report);
 nlohmann::json facts(const MeshQuality& quality);
 nlohmann::json finite_or_null(double value);
 
-/// In a line: "compactness median 0.72, worst 0.08; ..."
-std::string described(const MeshQuality& quality);
-
 // Each adds its subcommand to the program and leaves in `run` what to do when it is chosen; run returns the exit code.
 using Run = std::function<int()>;
 void add_build(CLI::App& app, Run& run);

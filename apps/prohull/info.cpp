@@ -4,6 +4,7 @@
 #include <span>
 
 #include "command.h"
+#include "prohull/detail/summary.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/error.h"
 #include "prohull/openings.h"

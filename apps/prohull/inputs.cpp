@@ -171,19 +171,6 @@ MeshOrHull read_mesh_or_hull(const std::filesystem::path& path, const InputOptio
   return load_hull(content, known_as(path, options));
 }
 
-std::string described_finest_level(FinestLevel finest_level) {
-  switch (finest_level) {
-    case FinestLevel::Repaired:
-      return "the input after repairs";
-    case FinestLevel::ConvexHull:
-      return "the convex hull of the input";
-    case FinestLevel::Wrap:
-      return "a wrap of the input";
-    default:
-      return "";
-  }
-}
-
 ProgressiveHull read_hull(const std::filesystem::path& path) { return load_hull(read_bytes(path), known_as(path, {})); }
 
 std::string input_name(const std::filesystem::path& path) {

@@ -70,9 +70,6 @@ using MeshOrHull = std::variant<TriangleMesh, ProgressiveHull>;
 MeshOrHull read_mesh_or_hull(const std::filesystem::path& path, const InputOptions& options = {},
                              NonFinite non_finite = NonFinite::Refuse);
 
-/// What the finest level of a .phull file is, where that is not the input: "the convex hull of the input"; else empty.
-std::string described_finest_level(FinestLevel finest_level);
-
 ProgressiveHull read_hull(const std::filesystem::path& path);
 
 /// As messages name it: "-" is "standard input".

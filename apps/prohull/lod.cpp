@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "prohull/detail/summary.h"
 #include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
 

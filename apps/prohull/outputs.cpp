@@ -19,6 +19,7 @@
 #include "console.h"
 #include "interrupt.h"
 #include "options.h"
+#include "prohull/detail/summary.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 
@@ -230,15 +231,7 @@ void Outputs::commit() {
 
 bool has_any_output_appeared() { return g_any_has_appeared; }
 
-bool holds_triangles_of(const path& file, const TriangleMesh& mesh) {
-  const TriangleMesh read = read_mesh(file);
-  if (read.face_count() != mesh.face_count()) return false;
-  for (const FaceId f : mesh.triangles.ids()) {
-    const Triangle s = read.triangle(f), t = mesh.triangle(f);
-    if (!(s.a == t.a && s.b == t.b && s.c == t.c)) return false;
-  }
-  return true;
-}
+bool holds_triangles_of(const path& file, const TriangleMesh& mesh) { return has_triangles_of(read_mesh(file), mesh); }
 
 void remove_unfinished_outputs() {
   g_mutex.lock();

@@ -1,7 +1,7 @@
 // The page: what it shows, and everything that acts on it. Folders are the data flow: data/ is read from the page, picture/ draws
 // it, act/ changes what is drawn, and panel/ tells and asks.
 
-import {readState, remembered, writeFragment} from './act/address.js';
+import {readFragment, readState, remembered, writeFragment} from './act/address.js';
 import {listen} from './act/keys.js';
 import {LevelControl} from './act/levels.js';
 import {Look} from './act/look.js';
@@ -15,13 +15,15 @@ import {makeBodies} from './picture/bodies.js';
 import {Viewport} from './picture/viewport.js';
 
 export class View {
-  /** Where its objects are drawn is `space`: data/objects.js has read them. */
-  constructor(scene, space, bytes) {
+  /** Where its objects are drawn is `space`: data/objects.js has read them. `address` keeps what is shown. */
+  constructor(scene, space, bytes, address = {read: readFragment, write: writeFragment}) {
+    this.address = address;
+    this.ended = new AbortController();
     this.scene = scene;
     this.hulls = scene.objects.filter((object) => object.role !== 'original');
     this.original = scene.objects.find((object) => object.role === 'original');
     this.space = space;
-    this.state = readState(this);
+    this.state = readState(this, address.read());
     this.active = this.hulls[Math.round(this.state.active)];
     this.viewport = new Viewport(byId('canvas'), this.space.radius);
     Object.assign(this, makeBodies(this, bytes));
@@ -70,10 +72,20 @@ export class View {
     if (this.panel) this.places.mark();
     this.look.caption();
     this.viewport.changed();
+    this.onRefresh?.();
+  }
+
+  /** Another one may then take its place, with a canvas of its own. */
+  end() {
+    clearTimeout(this.remembering);
+    this.levels.playing = this.levels.glide = null;
+    this.ended.abort();
+    this.viewport.end();
+    byId('content').replaceChildren();
   }
 
   remember() {
     clearTimeout(this.remembering);
-    this.remembering = setTimeout(() => writeFragment(remembered(this)), 150);
+    this.remembering = setTimeout(() => this.address.write(remembered(this)), 150);
   }
 }

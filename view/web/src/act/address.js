@@ -3,7 +3,7 @@
 const number = (text) => Number.isFinite(Number(text)) ? Number(text) : null;
 
 /** The fragment as names and texts. */
-function readFragment() {
+export function readFragment() {
   return Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
 }
 
@@ -34,9 +34,9 @@ const between = (text, least, most, otherwise) => {
   return value === null ? otherwise : Math.min(most, Math.max(least, value));
 };
 
-/** What the address says, and what is shown first where it says nothing. */
-export function readState({hulls, original}) {
-  const text = readFragment(), robots = hulls.some((hull) => hull.robot);
+/** What the texts of an address say, and what is shown first where it says nothing. */
+export function readState({hulls, original}, text) {
+  const robots = hulls.some((hull) => hull.robot);
   const alone = !original && !robots && !hulls.some((hull) => hull.levels);
   return {
     faces: between(text.l, 0, 1e12, null),

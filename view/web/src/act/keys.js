@@ -35,7 +35,7 @@ function clickAt(view, x, y) {
 }
 
 export function listen(view) {
-  const canvas = byId('canvas');
+  const canvas = byId('canvas'), {signal} = view.ended;
   let pressed = null;
   canvas.addEventListener('pointerdown', (e) => {
     view.viewport.flight = null;
@@ -44,6 +44,6 @@ export function listen(view) {
   canvas.addEventListener('pointerup', (e) => {
     if (pressed && Math.hypot(e.clientX - pressed[0], e.clientY - pressed[1]) <= 4) clickAt(view, e.clientX, e.clientY);
   });
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => view.look.setTheme(view.state.theme));
-  addEventListener('keydown', (e) => press(view, e));
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => view.look.setTheme(view.state.theme), {signal});
+  addEventListener('keydown', (e) => press(view, e), {signal});
 }

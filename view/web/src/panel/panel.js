@@ -19,17 +19,17 @@ export function swatch(color, striped) {
 }
 
 /** Of a mesh alone. */
-function verdictOfMesh({watertight, defects, first_defect: first}) {
-  if (watertight) return ['good', '✓', 'Watertight', 'It is compared with nothing: --original adds a mesh.'];
+function verdictOfMesh({watertight, defects, first_defect: first}, alone) {
+  if (watertight) return ['good', '✓', 'Watertight', alone];
   const counts = defects.map(({what, count}) => `${grouped(count)} ${what}`).join(', ');
   return ['bad', '✗', 'Not watertight', `${counts}.${first ? ` The first: ${first}.` : ''}`];
 }
 
 /** What `prohull verify` would say, as a mark, a word and why. */
-export function verdictOf(object, original) {
+export function verdictOf(object, original, alone = 'It is compared with nothing: --original adds a mesh.') {
   const v = object.verification;
   if (object.robot) return ['open', '–', 'Robot', 'prohull urdf --check decides whether the collision geometry covers the visual geometry.'];
-  if (!v && object.facts && !object.union) return verdictOfMesh(object.facts);
+  if (!v && object.facts && !object.union) return verdictOfMesh(object.facts, alone);
   if (!v) return ['open', '–', 'Not compared', 'No original mesh is in this page: --original adds it.'];
   if (v.refused) return ['open', '?', 'Not decided', v.refused];
   const [subject, other] = v.side === 'inner' ? [original, object.name] : [object.name, original];
@@ -50,7 +50,7 @@ export class Panel {
     this.view = view;
     this.content = byId('content');
     this.live = {};
-    byId('fold').addEventListener('click', () => this.fold(byId('fold').getAttribute('aria-expanded') === 'true'));
+    byId('fold').onclick = () => this.fold(byId('fold').getAttribute('aria-expanded') === 'true');
     this.content.append(...[
       this.heading(), this.levelPart(), this.jointsPart(), this.collisionsPart(), this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
       this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
@@ -66,7 +66,7 @@ export class Panel {
 
   heading() {
     const {view} = this;
-    const [kind, mark, word, why] = verdictOf(this.object, view.originalName);
+    const [kind, mark, word, why] = verdictOf(this.object, view.originalName, view.scene.alone);
     const choices = view.hulls.length > 1 && el('div', {class: 'row'},
         el('label', {}, 'Numbers of ', el('select', {id: 'active', onchange: (e) => view.activate(Number(e.target.value))},
             ...view.hulls.map((hull, i) => el('option', {value: i, selected: hull === this.object}, hull.name)))));
@@ -113,8 +113,8 @@ export class Panel {
     const {query} = this.view.rays;
     live.faces.textContent = grouped(query ? query.faces : levels.shownFaces);
     live.void.textContent = query ? '–' : levels.voids ? percent(levels.voids[levels.shown]) : '–';
-    const isStop = stop.faces === levels.shownFaces && !query;
-    live.distance.textContent = query ? '–' : withUnit(`≤ ${atMost(isStop ? stop.upper : stop.until_next)}`, this.unit);
+    const isStop = stop.faces === levels.shownFaces && !query, bound = isStop ? stop.upper : stop.until_next;
+    live.distance.textContent = query ? '–' : bound === undefined ? '…' : withUnit(`≤ ${atMost(bound)}`, this.unit);
     live.encloses.textContent = v.refused ? '?' : v.encloses ? '✓ yes' : '✗ no';
     live.wanted.value = levels.shownFaces;
     live.stops.value = isStop ? String(stop.faces) : '';
@@ -253,8 +253,8 @@ export class Panel {
     const found = this.farthest();
     if (!found || !this.live.far) return;
     const {levels} = this.object, of = levels ? ` of the level of ${grouped(found.faces)} faces` : '';
-    this.live.between.hidden = !levels || levels.shownFaces === found.faces;
-    if (levels) {
+    this.live.between.hidden = !levels || levels.shownFaces === found.faces || found.until_next === undefined;
+    if (!this.live.between.hidden) {
       const next = this.object.stops.find(({faces}) => faces > found.faces) ?? found;
       this.live.between.textContent = `All levels from ${grouped(found.faces)} to ${grouped(next.faces)} faces are within ` +
           `${withUnit(atMost(found.until_next), this.unit)} (proven).`;

@@ -55,10 +55,22 @@ export class Viewport {
     this.cut = null;
     this.onChange = () => {};
     this.home();
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(canvas.parentElement);
   }
 
   add(body) { this.scene.add(...body.groups); }
+
+  /** Gives back what it has of the graphics card; the canvas is of no more use. */
+  end() {
+    this.flight = this.onChange = null;
+    cancelAnimationFrame(this.waiting);
+    this.waiting = true;
+    this.observer.disconnect();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
 
   /** Draws once more, soon. */
   changed() {

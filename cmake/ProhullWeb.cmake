@@ -1,0 +1,26 @@
+# What the pages in view/web are bundled with: node, and what npm fetches.
+find_program(PROHULL_NODE NAMES node nodejs)
+find_program(PROHULL_NPM npm)
+mark_as_advanced(PROHULL_NODE PROHULL_NPM)
+
+# npm ci into a folder, once for each lock file. `left_out` says why it could not be done, and is empty otherwise.
+function(prohull_fetch_web folder left_out)
+  set(web ${PROJECT_SOURCE_DIR}/view/web)
+  file(SHA256 ${web}/package-lock.json lock)
+  set(why "")
+  if(NOT PROHULL_NODE OR NOT PROHULL_NPM)
+    set(why "node and npm are not installed")
+  elseif(NOT EXISTS ${folder}/${lock}.fetched)
+    file(MAKE_DIRECTORY ${folder})
+    file(COPY ${web}/package.json ${web}/package-lock.json DESTINATION ${folder})
+    execute_process(COMMAND ${PROHULL_NPM} ci --ignore-scripts --no-audit --no-fund --prefer-offline --fetch-retries=1
+      WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE npm_says ERROR_VARIABLE npm_says RESULT_VARIABLE npm_result TIMEOUT 300)
+    file(WRITE ${folder}/npm.log "${npm_says}")
+    if(npm_result EQUAL 0)
+      file(TOUCH ${folder}/${lock}.fetched)
+    else()
+      set(why "npm could not fetch what it needs: ${folder}/npm.log")
+    endif()
+  endif()
+  set(${left_out} "${why}" PARENT_SCOPE)
+endfunction()

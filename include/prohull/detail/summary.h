@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "prohull/enclosing_hull.h"
+#include "prohull/mesh_quality.h"
+
+namespace prohull {
+
+// The sentences of summaries, which the command line prints and the page in the browser shows.
+
+/// What is proven, or what is not: "hull.stl encloses part.stl", "hull.stl does not cover every triangle of part.stl";
+/// and what closes the openings of an original that is not closed. docs/proofs.md has these words.
+std::string claim(const Verification& found, const std::string& subject, const std::string& object);
+
+/// ", void 3.125 %"; empty if the void is not known.
+std::string text_of_void(double void_ratio);
+
+/// The same of a hull that was made; where its volume is only estimated, it says so.
+std::string described_void(const EnclosingHulls& made, const EnclosingHull& hull);
+
+/// Behind a distance that counts from the mesh: that its openings are closed, and how far the triangles alone are.
+std::string text_of_openings(bool has_openings, const DistanceBounds& from_triangles);
+
+/// What was written and read again has the very triangles of the mesh, in the same order.
+bool has_triangles_of(const TriangleMesh& read, const TriangleMesh& mesh);
+
+/// What a summary says behind "certified: "; `written` is whether the file holds the very bits of the hull.
+std::string certificate_of(const EnclosingHulls& made, const EnclosingHull& hull, bool written);
+
+/// What the finest level of a hull is, where that is not the input: "the convex hull of the input"; else empty.
+std::string described_finest_level(FinestLevel finest_level);
+
+/// "the mesh", "the convex hull", "a wrap with a spacing of 0.1"
+std::string source_of(const Solid& solid);
+
+struct HullMeasures {
+  bool has_openings = false;     ///< that count as closed
+  DistanceBounds to_solid = {};  ///< of the hull, from the triangles of the original and from what closes its openings
+  DistanceBounds to_triangles = {};  ///< from the triangles alone
+  MeshQuality quality = {};
+};
+
+HullMeasures measures_of(const EnclosingHulls& made, const EnclosingHull& hull, const Progress& progress = {});
+
+/// Pairs of faces of the repaired mesh, or of the input where that could not be repaired.
+std::size_t self_intersections_of_input(const EnclosingHulls& made);
+
+/// A hull that was made, which need not stand among `made.hulls` any more.
+struct ToldHull {
+  const EnclosingHulls& made;
+  const EnclosingHull& hull;
+  const EnclosingOptions& options;
+  const HullMeasures& measures;
+  std::size_t input_self_intersections;
+
+  const Solid& solid() const { return made.solids[hull.solid]; }
+  std::size_t added_self_intersections() const;
+};
+
+// Lines of a summary, in this order.
+std::string line_of_input(const std::string& name, const EnclosingHulls& made);
+std::vector<std::string> lines_of_repairs(const EnclosingHulls& made, const EnclosingHull& hull);
+std::string line_of_hull(const std::string& name, const ToldHull& told);
+std::vector<std::string> lines_of_shape(const ToldHull& told);
+std::vector<std::string> lines_of_limits(const ToldHull& told);
+std::vector<std::string> lines_of_proof(const ToldHull& told, bool written);
+
+}  // namespace prohull

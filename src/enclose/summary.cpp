@@ -1,0 +1,228 @@
+#include "prohull/detail/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/text.h"
+#include "prohull/detail/rounded.h"
+#include "prohull/enclosure.h"
+#include "prohull/mesh_report.h"
+#include "prohull/symmetry.h"
+
+namespace prohull {
+namespace {
+
+constexpr double kRadiansOfDegree = std::numbers::pi / 180;
+
+/// What makes a solid of an original that is not closed; empty if it is closed.
+std::string caps_of(const Verification& found) {
+  if (found.original_closed) return "";
+  if (found.cap_faces == 0) return " after repairs";
+  return fmt::format(" with its openings closed by {}", counted(found.cap_faces, "face", "faces"));
+}
+
+std::string described(const MeshQuality& quality) {
+  return fmt::format(
+      "median compactness {:.2f}, worst {:.2g}; {} of {} edges sharp, worst dihedral angle {:.3g} degrees",
+      quality.compactness.median, quality.compactness.worst, grouped(quality.sharp_edges), grouped(quality.edges),
+      quality.dihedral_angle.worst / kRadiansOfDegree);
+}
+
+/// Not what it is made of: repairs change the mesh, and the convex hull may have become a slab, or a polytope of fewer
+/// faces around it.
+std::string solid_name(const ToldHull& told, const Solid& solid) {
+  if (solid.source == Source::ConvexHull) return "the convex solid that it is built from";
+  const bool is_changed = told.made.input.repairs.any() || solid.folds.faces > 0;
+  return solid.source == Source::Mesh && is_changed ? "the repaired mesh" : source_of(solid);
+}
+
+std::string described_self_intersections(const ToldHull& told) {
+  const std::size_t input = told.input_self_intersections, own = told.hull.self_intersections;
+  const Solid& first = told.made.solids.front();  // what was looked at, if it is of the mesh
+  const std::string mesh = first.source == Source::Mesh ? solid_name(told, first) : "the mesh";
+  if (own == 0)
+    return input == 0 ? "none" : fmt::format("none ({}: {})", mesh, counted(input, "pair of faces", "pairs of faces"));
+  return fmt::format("{} ({}: {}; added: {})", counted(own, "pair of faces", "pairs of faces"), mesh, grouped(input),
+                     grouped(told.added_self_intersections()));
+}
+
+// What no collapse changes. A closed surface with h handles has an Euler characteristic of 2 - 2 h.
+std::string described_topology(const TriangleMesh& hull) {
+  const MeshReport report = inspect(hull);
+  const auto handles = static_cast<std::size_t>(static_cast<long>(report.components) - report.euler_characteristic / 2);
+  return fmt::format("{} and {}", counted(report.components, "component", "components"),
+                     counted(handles, "handle", "handles"));
+}
+
+std::string described_guards(const EnclosingHull& hull) {
+  const ShapeGuards& guards = kRelaxedGuards[hull.relaxed_guards - 1];
+  return fmt::format("shape guards relaxed to reach it: normals may turn by {:.0f} degrees{}, step {} of {}",
+                     guards.max_normal_deviation / kRadiansOfDegree,
+                     std::isfinite(guards.max_overhang) ? "" : " and spikes are allowed", hull.relaxed_guards,
+                     kRelaxedGuards.size());
+}
+
+}  // namespace
+
+std::string claim(const Verification& found, const std::string& subject, const std::string& object) {
+  const bool is_open = found.faces_undecided > 0 && found.faces_outside == 0 && found.cavities == 0;
+  const std::string covers = found.encloses ? "covers" : is_open ? "may cover" : "does not cover";
+  const std::string encloses = found.encloses ? "encloses" : is_open ? "may enclose" : "does not enclose";
+  const std::string finite = found.non_finite_faces == 0 ? "" : "finite ";
+  if (!found.has_solid) return fmt::format("{} {} every {}triangle of {}", subject, covers, finite, object);
+  if (found.original_closed)
+    return fmt::format("{} {} {}{}{}", subject, encloses, found.every_triangle ? "" : "the solid of ",
+                       finite.empty() ? "" : "the finite triangles of ", object);
+  return fmt::format("{} {} every {}triangle of {}, and its inside{}", subject, covers, finite, object, caps_of(found));
+}
+
+std::string text_of_void(double void_ratio) {
+  constexpr double kMost = 1e4;
+  if (std::isnan(void_ratio)) return "";
+  if (void_ratio > kMost) return fmt::format(", void more than {:.0f} %", 100 * kMost);
+  return fmt::format(", void {:.3f} %", 100 * void_ratio);
+}
+
+std::string described_void(const EnclosingHulls& made, const EnclosingHull& hull) {
+  if (std::isnan(hull.void_ratio)) return fmt::format(", volume {:.4g}", signed_volume(hull.mesh));
+  return text_of_void(hull.void_ratio) + (made.is_estimated ? " (estimated)" : "");
+}
+
+std::string text_of_openings(bool has_openings, const DistanceBounds& from_triangles) {
+  if (!has_openings) return "";
+  return fmt::format("; its openings count as closed, and from its triangles alone it is at most {:.4g}",
+                     rounded_up(from_triangles.upper, 4));
+}
+
+bool has_triangles_of(const TriangleMesh& read, const TriangleMesh& mesh) {
+  if (read.face_count() != mesh.face_count()) return false;
+  for (const FaceId f : mesh.triangles.ids()) {
+    const Triangle s = read.triangle(f), t = mesh.triangle(f);
+    if (!(s.a == t.a && s.b == t.b && s.c == t.c)) return false;
+  }
+  return true;
+}
+
+std::string certificate_of(const EnclosingHulls& made, const EnclosingHull& hull, bool written) {
+  if (!written) return "NO: nothing was written; please report this mesh";
+  Verification found = hull.verdict;
+  found.non_finite_faces = made.input.repairs.dropped_non_finite_faces;
+  if (found.side == HullSide::Outer) return "yes, " + claim(found, "the file as written", "the original");
+  return fmt::format("yes, the file as written is enclosed by the original{}", caps_of(found));
+}
+
+std::string described_finest_level(FinestLevel finest_level) {
+  switch (finest_level) {
+    case FinestLevel::Repaired:
+      return "the input after repairs";
+    case FinestLevel::ConvexHull:
+      return "the convex hull of the input";
+    case FinestLevel::Wrap:
+      return "a wrap of the input";
+    default:
+      return "";
+  }
+}
+
+std::string source_of(const Solid& solid) {
+  switch (solid.source) {
+    case Source::Mesh:
+      return "the mesh";
+    case Source::ConvexHull:
+      return "the convex hull";
+    default:
+      return fmt::format("a wrap with a spacing of {:.4g}", solid.wrap_spacing);
+  }
+}
+
+HullMeasures measures_of(const EnclosingHulls& made, const EnclosingHull& hull, const Progress& progress) {
+  HullMeasures found;
+  const DistanceOptions how{.progress = progress};
+  found.has_openings = made.input.caps.face_count() > 0 || made.solids[hull.solid].doors.face_count() > 0;
+  found.to_triangles = distance_bounds(hull.mesh, made.input.original, how);
+  found.to_solid =
+      found.has_openings ? distance_bounds(hull.mesh, triangles_to_cover(made, hull), how) : found.to_triangles;
+  found.quality = mesh_quality(hull.mesh);
+  return found;
+}
+
+std::size_t self_intersections_of_input(const EnclosingHulls& made) {
+  const Solid& first = made.solids.front();
+  return first.source == Source::Mesh ? first.self_intersections : count_self_intersections(made.input.original);
+}
+
+std::size_t ToldHull::added_self_intersections() const {
+  return hull.self_intersections - std::min(hull.self_intersections, input_self_intersections);
+}
+
+std::string line_of_input(const std::string& name, const EnclosingHulls& made) {
+  return fmt::format("{}: {}, {}", name, counted(made.input.found.faces, "face", "faces"),
+                     counted(made.input.found.components, "component", "components"));
+}
+
+std::vector<std::string> lines_of_repairs(const EnclosingHulls& made, const EnclosingHull& hull) {
+  std::vector<std::string> lines = describe(made.input.repairs);
+  if (!made.input.closed) lines.push_back("bounds no solid: " + made.input.obstacle);
+  lines.insert(lines.end(), hull.notes.begin(), hull.notes.end());
+  return lines;
+}
+
+std::string line_of_hull(const std::string& name, const ToldHull& told) {
+  const EnclosingHull& hull = told.hull;
+  return fmt::format("{}: {} hull of {}{}{}, at most {:.4g} from the mesh{}", name,
+                     name_of(hull_side_names(), told.options.hull.side),
+                     counted(hull.mesh.face_count(), "face", "faces"),
+                     hull.source == Source::Mesh ? "" : fmt::format(", of {}", source_of(told.solid())),
+                     described_void(told.made, hull), rounded_up(told.measures.to_solid.upper, 4),
+                     text_of_openings(told.measures.has_openings, told.measures.to_triangles));
+}
+
+std::vector<std::string> lines_of_shape(const ToldHull& told) {
+  const EnclosingHull& hull = told.hull;
+  std::vector<std::string> lines{"self-intersections: " + described_self_intersections(told),
+                                 "triangles: " + described(told.measures.quality)};
+  const TriangleMesh& solid = told.solid().mesh;
+  if (hull.mesh.face_count() == solid.face_count() && hull.mesh.face_count() <= hull.target_faces) {
+    const std::string name = solid_name(told, told.solid());
+    lines.push_back(
+        fmt::format("{} has no more faces than were asked for: the hull is {}", name,
+                    hull.source == Source::Mesh && hull.mesh == solid ? name + " itself" : "simplified no further"));
+  }
+  return lines;
+}
+
+std::vector<std::string> lines_of_limits(const ToldHull& told) {
+  const EnclosingHull& hull = told.hull;
+  std::vector<std::string> lines;
+  if (const auto axis = told.options.hull.mirror)
+    lines.push_back(fmt::format("symmetric: exactly its own mirror image in the plane {} = {:g}",
+                                name_of(axis_names(), *axis), inspect_symmetry(hull.mesh, *axis).plane));
+  if (hull.rounded_vertices > 0)
+    lines.push_back(fmt::format("moved {} to coordinates that the file keeps",
+                                counted(hull.rounded_vertices, "vertex", "vertices")));
+  if (hull.relaxed_guards > 0) lines.push_back(described_guards(hull));
+  if (!hull.target_reached)
+    lines.push_back(fmt::format("no legal collapse is left above the {} faces asked for: {}; of the {} edges left, {}",
+                                grouped(hull.target_faces), described_topology(hull.mesh),
+                                grouped(3 * hull.mesh.face_count() / 2), describe_refusals(hull.blocked)));
+  if (!hull.within_bounds)
+    lines.push_back(fmt::format(
+        "NOT within the bounds asked for: of all that was tried, this hull misses them least, by {:.3g} %; allow that "
+        "much, or mend the mesh where it is open or intersects itself",
+        rounded_up(100 * (hull.excess - 1), 3)));
+  return lines;
+}
+
+std::vector<std::string> lines_of_proof(const ToldHull& told, bool written) {
+  std::vector<std::string> lines{"certified: " + certificate_of(told.made, told.hull, written)};
+  if (written && told.hull.padding > 0)
+    lines.push_back(fmt::format("gap: the least distance from the mesh is at least {:.6g}, proven{}",
+                                rounded_down(told.hull.padding, 6),
+                                told.options.hull.side == HullSide::Outer ? "; all points within it are inside" : ""));
+  return lines;
+}
+
+}  // namespace prohull
