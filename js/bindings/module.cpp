@@ -4,121 +4,24 @@
 #include <emscripten/heap.h>
 
 #include <algorithm>
-#include <new>
-#include <utility>
 #include <variant>
 
+#include "calls.h"
+#include "levels.h"
 #include "prohull/convex_cover.h"
 #include "prohull/detail/given_options.h"
+#include "prohull/detail/summary.h"
 #include "prohull/detail/told_notes.h"
 #include "prohull/distance.h"
 #include "prohull/enclosing_hull.h"
+#include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_report.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/verification.h"
-#include "values.h"
 
 namespace prohull::js {
 namespace {
-
-/// progress(stage, fraction); the work is stopped where that returns false.
-Progress progress_of(const val& progress) {
-  if (progress.isUndefined()) return {};
-  return
-      [progress](std::string_view stage, double fraction) { return !progress(std::string(stage), fraction).isFalse(); };
-}
-
-/// Those that `read` takes from what is given; no others may be.
-template <class Read>
-auto options_of(const val& given, const val& progress, Read read) {
-  const Given named(given);
-  auto options = read(named);
-  named.refuse_others();
-  options.progress = progress_of(progress);
-  return options;
-}
-
-val failure(const char* name, const std::string& message) {
-  val object = val::object();
-  object.set("error", message);
-  object.set("name", std::string(name));
-  return object;
-}
-
-template <class Work>
-val guarded(Work work) {
-  try {
-    return work();
-  } catch (const InputError& error) {
-    return failure("InputError", error.what());
-  } catch (const Cancelled&) {
-    return failure("AbortError", "cancelled");
-  } catch (const std::bad_alloc&) {
-    return failure("RangeError", "the memory does not do: of WebAssembly's, 4 GB, or of this page's");
-  } catch (const std::exception& error) {
-    return failure("Error", error.what());
-  }
-}
-
-template <class Id>
-val array_of_ids(const std::vector<Id>& ids) {
-  return array_of(reinterpret_cast<const std::uint32_t*>(ids.data()), ids.size());
-}
-
-/// Six numbers for each split: o, d, l, r, od, do.
-val object_of(const ProgressiveHull& hull) {
-  std::vector<std::uint32_t> splits;
-  splits.reserve(6 * hull.splits().size());
-  for (const VertexSplit& s : hull.splits())
-    splits.insert(splits.end(), {index(s.o), index(s.d), index(s.l), index(s.r), s.od, s.do_});
-  val object = val::object();
-  object.set("side", std::string(name_of(hull_side_names(), hull.side())));
-  object.set("originalVertices", hull.original_vertex_count());
-  object.set("positions",
-             array_of(reinterpret_cast<const double*>(hull.positions().data()), 3 * hull.positions().size()));
-  object.set("baseCorners", array_of_ids(hull.base_corners()));
-  object.set("splits", array_of(splits.data(), splits.size()));
-  return object;
-}
-
-std::vector<std::uint32_t> indices_of(const val& array, const std::string& name) {
-  std::vector<std::uint32_t> result;
-  for (const double number : numbers_of(array, name)) {
-    if (!(number >= 0 && number <= 0xffffffff && number == static_cast<double>(static_cast<std::uint32_t>(number))))
-      throw InputError(Defect::Malformed, name + ": expected whole numbers of 32 bits");
-    result.push_back(static_cast<std::uint32_t>(number));
-  }
-  return result;
-}
-
-/// Throws InputError if that is no progressive hull.
-ProgressiveHull levels_of(const val& levels) {
-  if (levels.isUndefined() || levels.isNull())
-    throw InputError(Defect::InvalidOption, "levels: there are none; build with levels: true");
-  HullSide side = HullSide::Outer;
-  std::size_t vertices = 0;
-  const Given given(levels);
-  given.choice("side", hull_side_names(), side);
-  given.count("original_vertices", vertices);
-  const std::vector<double> numbers = numbers_of(levels["positions"], "levels.positions");
-  std::vector<Vec3> positions(numbers.size() / 3);
-  for (std::size_t i = 0; i < 3 * positions.size(); ++i) positions[i / 3][static_cast<int>(i % 3)] = numbers[i];
-  std::vector<VertexId> corners;
-  for (const std::uint32_t corner : indices_of(levels["baseCorners"], "levels.baseCorners"))
-    corners.push_back(VertexId(corner));
-  const std::vector<std::uint32_t> fields = indices_of(levels["splits"], "levels.splits");
-  std::vector<VertexSplit> splits(fields.size() / 6);
-  for (std::size_t i = 0; i < splits.size(); ++i) {
-    const std::uint32_t* const f = &fields[6 * i];
-    splits[i] = {VertexId(f[0]), VertexId(f[1]), VertexId(f[2]), VertexId(f[3]), f[4], f[5]};
-  }
-  if (positions.size() != vertices + splits.size() || corners.size() % 3 != 0 || 2 * splits.size() > corners.size() / 3)
-    throw InputError(Defect::Malformed, "levels: its arrays do not belong together");
-  ProgressiveHull hull(side, vertices, PerVertex<Vec3>(std::move(positions)), std::move(corners), std::move(splits));
-  if (const auto defect = first_defect(hull)) throw InputError(Defect::Malformed, "levels: " + *defect);
-  return hull;
-}
 
 val object_of(const EnclosingHull& hull, const EnclosingHulls& made) {
   val object = object_of_mesh(hull.mesh);
@@ -134,27 +37,58 @@ val object_of(const EnclosingHull& hull, const EnclosingHulls& made) {
   object.set("notes", strings_of(told_notes(hull, made)));
   object.set("buildSeconds", hull.build_seconds);
   object.set("verifySeconds", hull.verify_seconds);
-  if (hull.levels) object.set("levels", object_of(*hull.levels));
+  if (hull.levels) object.set("levels", object_of_levels(hull.levels->with_finest_level(finest_level(made, hull))));
   return object;
+}
+
+/// The lines that `prohull build` prints of a hull, written to a file of that name.
+void add_summary(val& object, const std::string& file, const EnclosingHull& hull, const EnclosingHulls& made,
+                 const EnclosingOptions& options) {
+  const HullMeasures measures = measures_of(made, hull, options.progress);
+  const ToldHull told{made, hull, options, measures, self_intersections_of_input(made)};
+  std::vector<std::string> lines = lines_of_repairs(made, hull);
+  lines.push_back(line_of_hull(file, told));
+  const std::string content = hull.certified ? mesh_content(file, hull.mesh) : "";
+  const bool written = hull.certified && has_triangles_of(read_mesh(std::string_view(content), file), hull.mesh);
+  for (const auto& more : {lines_of_shape(told), lines_of_limits(told), lines_of_proof(told, written)})
+    lines.insert(lines.end(), more.begin(), more.end());
+  object.set("summary", strings_of(lines));
+  object.set("distance", measures.to_triangles.upper);
 }
 
 val build(const val& mesh, const val& targets, const val& given, const val& progress) {
   return guarded([&] {
-    const EnclosingOptions options = options_of(given, progress, enclosing_options<Given>);
+    std::string file;
+    const EnclosingOptions options = options_of(given, progress, [&](const Given& named) {
+      named.text("summary_of", file);
+      return enclosing_options(named);
+    });
     std::vector<std::size_t> faces;
     for (const std::uint32_t target : indices_of(targets, "targetFaces")) faces.push_back(target);
     const EnclosingHulls made = enclosing_hulls(mesh_of(mesh, "mesh"), faces, options);
     val hulls = val::array();
-    for (const EnclosingHull& hull : made.hulls) hulls.call<void>("push", object_of(hull, made));
+    for (const EnclosingHull& hull : made.hulls) {
+      val object = object_of(hull, made);
+      if (!file.empty()) add_summary(object, file, hull, made, options);
+      hulls.call<void>("push", object);
+    }
     return hulls;
   });
 }
 
-val level(const val& levels, double faces) {
+/// As `prohull lod` extracts it for a file.
+val level(const val& levels, double faces, const val& given) {
   return guarded([&] {
+    bool float32 = false;
+    const Given named(given);
+    named.flag("float32_coordinates", float32);
+    named.refuse_others();
     if (!(faces >= 0)) throw InputError(Defect::InvalidOption, "faces: expected a number, at least 0");
     const ProgressiveHull hull = levels_of(levels);
-    return object_of_mesh(hull.level(static_cast<std::size_t>(std::min<double>(faces, 0xffffffff))));
+    TriangleMesh found = hull.level(static_cast<std::size_t>(std::min<double>(faces, 0xffffffff)));
+    if (float32 && found.face_count() < hull.original_face_count())
+      found = with_float32_coordinates(found, hull.side()).mesh;
+    return object_of_mesh(found);
   });
 }
 

@@ -89,6 +89,13 @@ bool Given::whole(const char* name, unsigned least, double& to) const {
   return to = given, true;
 }
 
+bool Given::text(const char* name, std::string& to) const {
+  const val given = value(name);
+  if (given.isUndefined()) return false;
+  if (!given.isString()) refuse(name, "a text");
+  return to = given.as<std::string>(), true;
+}
+
 bool Given::numbers(const char* name, PerFace<double>& to) const {
   const val given = value(name);
   if (given.isUndefined()) return false;

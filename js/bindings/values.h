@@ -37,6 +37,7 @@ class Given {
   bool seed(const char* name, std::uint64_t& to) const { return count(name, to); }
   bool number(const char* name, double& to) const;
   bool not_negative(const char* name, double& to) const;
+  bool text(const char* name, std::string& to) const;
   bool numbers(const char* name, PerFace<double>& to) const;
   template <class T>
   bool choice(const char* name, Names<T> choices, T& to) const {

@@ -11,13 +11,18 @@ type NowOfTwo<Call> = Call extends (first: infer A, second: infer B, options?: i
 export interface Engine {
   build(mesh: MeshLike, targetFaces?: number, options?: Omit<BuildOptions, keyof Running>, progress?: Progress): Hull;
   build(mesh: MeshLike, targetFaces: number[], options?: Omit<BuildOptions, keyof Running>, progress?: Progress): Hull[];
-  level(levels: Levels, faces: number): Mesh;
+  level(levels: Levels, faces: number, options?: {float32Coordinates?: boolean}): Mesh;
   verify: NowOfTwo<typeof prohull.verify>;
   distance: NowOfTwo<typeof prohull.distance>;
   convexPieces: Now<typeof prohull.convexPieces>;
   spheres: Now<typeof prohull.spheres>;
   repair: Now<typeof prohull.repair>;
   inspect(mesh: MeshLike): prohull.Inspection;
+  sample(name: string, faces?: number): Mesh;
+  length(text: string, mesh: MeshLike): number;
+  certificate(...args: Parameters<typeof prohull.certificate>): Uint8Array;
+  scene(hull: Parameters<typeof prohull.scene>[0], original: Parameters<typeof prohull.scene>[1], options?: {side?: prohull.Side},
+    progress?: Progress): {facts: string; blocks: Uint8Array};
   read(bytes: ArrayBuffer | Uint8Array, name: string): Promise<Mesh>;
   write(mesh: MeshLike, name: string): Uint8Array;
   memory(): number;

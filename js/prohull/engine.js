@@ -77,7 +77,7 @@ export async function loadEngine(wasm) {
       const hulls = call('build', meshOf(mesh, 'mesh'), targets, optionsOf(options), progress);
       return several ? hulls : hulls[0];
     },
-    level: (levels, faces) => call('level', levels, Number(faces)),
+    level: (levels, faces, options = {}) => call('level', levels, Number(faces), optionsOf(options)),
     verify: (hull, original, options = {}, progress) =>
       call('verify', meshOf(hull, 'hull'), meshOf(original, 'original'), optionsOf(options), progress),
     distance: (from, to, options = {}, progress) =>
@@ -91,6 +91,11 @@ export async function loadEngine(wasm) {
       const isGzip = content[0] === 0x1f && content[1] === 0x8b;
       return call('read', isGzip ? await gunzipped(content, name) : content, String(name));
     },
+    sample: (name, faces = 20000) => call('sample', String(name), Number(faces)),
+    length: (text, mesh) => call('length', String(text), meshOf(mesh, 'mesh')).length,
+    certificate: (hull, original, name, options = {}) =>
+      call('certificate', {...hull, ...meshOf(hull, 'hull')}, bytesOf(original), String(name), optionsOf(options)).bytes,
+    scene: (hull, original, options = {}, progress) => call('scene', hull, original, optionsOf(options), progress),
     write: (mesh, name) => call('write', meshOf(mesh, 'mesh'), String(name)).bytes,
     /** Bytes of memory that the library has taken; it keeps them for later calls. */
     memory: () => module.memory(),

@@ -26,6 +26,8 @@ export interface BuildOptions extends Running {
   tight?: boolean;
   /** Keeps the levels, for `level`. */
   levels?: boolean;
+  /** The name of the file that the hull is for: the result then has a `summary`. */
+  summaryOf?: string;
   maxDistance?: number;
   maxVoidPercent?: number;
   gap?: number;
@@ -52,6 +54,7 @@ export interface BuildOptions extends Running {
 /** All levels of a hull: numbers as in a .phull file. */
 export interface Levels {
   side: Side;
+  finestLevel?: 'input' | 'repaired' | 'convex-hull' | 'wrap';
   originalVertices: number;
   positions: Float64Array;
   baseCorners: Uint32Array;
@@ -76,6 +79,10 @@ export interface Hull extends Mesh {
   buildSeconds: number;
   verifySeconds: number;
   levels?: Levels;
+  /** What `prohull build` prints of the hull, line by line. */
+  summary?: string[];
+  /** Proven, of a hull with a summary: no point of it is farther from the triangles. */
+  distance?: number;
 }
 
 export interface Verification {
@@ -149,8 +156,8 @@ export class InputError extends Error {}
 /** Builds a certified hull of any triangles, of at most so many faces where that is possible. */
 export function build(mesh: MeshLike, targetFaces?: number, options?: BuildOptions): Promise<Hull>;
 export function build(mesh: MeshLike, targetFaces: number[], options?: BuildOptions): Promise<Hull[]>;
-/** The finest level of at most so many faces. */
-export function level(levels: Levels, faces: number): Promise<Mesh>;
+/** The finest level of at most so many faces; with coordinates for STL and GLB files if that is asked for. */
+export function level(levels: Levels, faces: number, options?: {float32Coordinates?: boolean}): Promise<Mesh>;
 /** Decides exactly whether a hull encloses the original (side 'inner': whether the original encloses it). */
 export function verify(
   hull: MeshLike, original: MeshLike,
@@ -175,10 +182,25 @@ export function repair(
   options?: Running & {spacing?: number; openShells?: OpenShells; keepCavities?: boolean;
     float32Coordinates?: boolean}): Promise<Repaired>;
 /** What a mesh is, and what is wrong with it. */
-export function inspect(mesh: MeshLike): Promise<Inspection>;
+export function inspect(mesh: MeshLike, running?: Running): Promise<Inspection>;
 /** Reads STL, OBJ, PLY, OFF or GLB, plain or gzipped; the name tells the format. */
-export function read(bytes: ArrayBuffer | Uint8Array, name: string): Promise<Mesh>;
+export function read(bytes: ArrayBuffer | Uint8Array, name: string, running?: Running): Promise<Mesh>;
 /** The bytes of a file of that name: .stl, .obj, .ply, .off or .glb. */
 export function write(mesh: MeshLike, name: string): Promise<Uint8Array>;
+/** A bundled sample, as `prohull sample` makes it. */
+export function sample(name: string, faces?: number): Promise<Mesh>;
+/** Of "0.5" or "1%" of the diagonal, in the unit of the mesh. */
+export function length(text: string, mesh: MeshLike): Promise<number>;
+/** A certificate, as `prohull build --certificate` writes it. `original` has the bytes of the original's file; gap and
+    maxDistance are what was asked for, provenGap and distance what the hull keeps. */
+export function certificate(
+  hull: MeshLike & {levels?: Levels}, original: ArrayBuffer | Uint8Array, name: string,
+  options?: {side?: Side; isStl?: boolean; gap?: number; provenGap?: number; maxDistance?: number;
+    distance?: number}): Promise<Uint8Array>;
+/** What the page of `prohull view` draws (view/scene.h); it may change with every version. */
+export function scene(
+  hull: (MeshLike | {levels: Levels} | {pieces: MeshLike[]} | {balls: Float64Array}) & {name: string} | null,
+  original: MeshLike & {name: string},
+  options?: Running & {side?: Side}): Promise<{facts: string; blocks: Uint8Array}>;
 /** Ends idle workers, and so gives back their memory. */
 export function release(): void;

@@ -76,9 +76,13 @@ export const distance = withOptions('distance', 2);
 export const convexPieces = withOptions('convexPieces', 1);
 export const spheres = withOptions('spheres', 1);
 export const repair = withOptions('repair', 1);
-export const level = (levels, faces) => call('level', [levels, faces]);
-export const inspect = (mesh) => call('inspect', [mesh]);
-export const read = (bytes, name) => call('read', [bytes, name]);
+export const level = (levels, faces, options = {}) => call('level', [levels, faces, options]);
+export const inspect = (mesh, running) => call('inspect', [mesh], running);
+export const read = (bytes, name, running) => call('read', [bytes, name], running);
+export const sample = (name, faces = 20000) => call('sample', [name, faces]);
+export const length = (text, mesh) => call('length', [text, mesh]);
+export const certificate = (hull, original, name, options = {}) => call('certificate', [hull, original, name, options]);
+export const scene = withOptions('scene', 2);
 export const write = (mesh, name) => call('write', [mesh, name]);
 
 /** Ends idle workers, which keep the memory of their last call. Later calls start new ones. */

@@ -96,6 +96,24 @@ test('numbers are read and written as by the program', async () => {
   assert.ok(numbers.every((x, i) => Object.is(x, read.vertices[i])));
 });
 
+test('a summary has the lines of the program, and lengths are as it reads them', async () => {
+  const part = await prohull.sample('torus', 2000);
+  const hull = await prohull.build(part, 200, {summaryOf: 'hull.stl', float32Coordinates: true});
+  assert.match(hull.summary[0], /^hull\.stl: outer hull of 200 faces, void [\d.]+ %, at most [\d.]+ from the mesh$/);
+  assert.equal(hull.summary.at(-1), 'certified: yes, the file as written encloses the original');
+  assert.ok(hull.distance > 0 && hull.distance < 0.2);
+  const unrounded = await prohull.build(part, 200, {summaryOf: 'hull.stl'}).catch((error) => error);
+  assert.match(unrounded.message, /float32|STL|stl/);
+  const {diagonal} = await prohull.inspect(part);
+  assert.equal(await prohull.length('1%', part), diagonal / 100);
+  assert.equal(await prohull.length('0.25', part), 0.25);
+  await refused(prohull.length('1mm', part), /1mm: expected a number/);
+  await refused(prohull.length('wide', part), /wide: expected a number/);
+  await refused(prohull.sample('cow', 2000), /cow/);
+  const bytes = await prohull.write(part, 'part.ply');
+  assert.ok((await prohull.certificate(hull, bytes, 'part.ply', {distance: hull.distance})).length > 0);
+});
+
 test('what is wrong is said in one line', async () => {
   const {vertices, faces} = cube;
   await refused(prohull.build(undefined), /mesh: expected an object/);

@@ -1,0 +1,134 @@
+// What the page app.html asks for beside what index.d.ts lists (view/web/app).
+#include <emscripten/bind.h>
+
+#include <limits>
+
+#include "calls.h"
+#include "levels.h"
+#include "prohull/certificate.h"
+#include "prohull/length.h"
+#include "prohull/mesh_io.h"
+#include "prohull/mesh_report.h"
+#include "prohull/sample.h"
+#include "view/robot.h"
+#include "view/scene.h"
+
+namespace prohull::view {
+
+// Robots are shown by the program only; here none is ever given.
+nlohmann::json joint_facts(const robot::Robot&) { return {}; }
+nlohmann::json disabled_facts(const ShownRobot&, unsigned) { return {}; }
+Box box_at_rest(const ShownRobot&) { return {}; }
+
+}  // namespace prohull::view
+
+namespace prohull::js {
+namespace {
+
+view::Pieces pieces_of(const val& meshes) {
+  view::Pieces pieces;
+  for (const val& mesh : emscripten::vecFromJSArray<val>(meshes)) pieces.push_back(mesh_of(mesh, "pieces"));
+  return pieces;
+}
+
+view::Balls balls_of(const val& array) {
+  const std::vector<double> numbers = numbers_of(array, "balls");
+  view::Balls balls;
+  for (std::size_t i = 0; i + 4 <= numbers.size(); i += 4)
+    balls.push_back({{numbers[i], numbers[i + 1], numbers[i + 2]}, numbers[i + 3]});
+  return balls;
+}
+
+/// Of {name} and one of `levels`, `pieces`, `balls`, `vertices` and `faces`.
+view::Shown shown_of(const val& hull) {
+  const std::string name = hull["name"].as<std::string>();
+  if (!hull["levels"].isUndefined()) return {name, levels_of(hull["levels"])};
+  if (!hull["pieces"].isUndefined()) return {name, pieces_of(hull["pieces"])};
+  if (!hull["balls"].isUndefined()) return {name, balls_of(hull["balls"])};
+  return {name, mesh_of(hull, name)};
+}
+
+/// What view.js of the page of `prohull view` shows: of a hull, if there is one, and of the mesh that it is a hull of.
+val scene(const val& hull, const val& original, const val& given, const val& progress) {
+  return guarded([&] {
+    const auto options = options_of(given, progress, [](const Given& named) {
+      view::PageOptions read{.version = PROHULL_VERSION, .measures_levels = false};
+      named.choice("side", hull_side_names(), read.side);
+      return read;
+    });
+    const std::string name = original["name"].as<std::string>();
+    TriangleMesh mesh = mesh_of(original, name);
+    const bool is_alone = hull.isUndefined() || hull.isNull();
+    const view::Scene made = is_alone
+                                 ? view::scene_of({{name, std::move(mesh)}}, {}, options)
+                                 : view::scene_of({shown_of(hull)}, view::Original{name, std::move(mesh)}, options);
+    val object = val::object();
+    const std::string& bytes = made.blocks.bytes();
+    object.set("facts", made.facts_as_text());
+    object.set("blocks", array_of(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+    return object;
+  });
+}
+
+CertifiedOriginal original_of(const val& bytes, const std::string& name, bool is_stl) {
+  const auto content = emscripten::convertJSArrayToNumberVector<unsigned char>(bytes);
+  const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
+  CertifiedOriginal original;
+  original.has_loose_corners = is_stl;
+  original.mesh =
+      read_mesh(text, name, {.non_finite = NonFinite::Keep, .divided = is_stl ? nullptr : &original.divided});
+  return original;
+}
+
+/// As `prohull build --certificate` writes it, of the bytes of the original's file.
+val certificate(const val& hull, const val& bytes, const std::string& name, const val& given) {
+  return guarded([&] {
+    double gap = 0, distance = std::numeric_limits<double>::infinity(), asked = distance, proven_gap = 0;
+    bool is_stl = false;
+    HullClaims claims;
+    const Given named(given);
+    named.choice("side", hull_side_names(), claims.side);
+    named.flag("is_stl", is_stl);
+    named.not_negative("gap", gap);
+    named.not_negative("proven_gap", proven_gap);
+    named.not_negative("max_distance", asked);
+    named.not_negative("distance", distance);
+    named.refuse_others();
+    if (!hull["levels"].isUndefined()) claims.levels = levels_of(hull["levels"]);
+    claims.gap = claimed_gap(gap, proven_gap);
+    claims.distance = claimed_distance(asked, distance);
+    const Certificate made = hull_certificate(mesh_of(hull, "hull"), original_of(bytes, name, is_stl), claims);
+    val object = val::object();
+    object.set("bytes", array_of(reinterpret_cast<const unsigned char*>(made.bytes.data()), made.bytes.size()));
+    return object;
+  });
+}
+
+val sample(const std::string& name, double faces) {
+  return guarded([&] { return object_of_mesh(make_sample(name, static_cast<std::size_t>(faces))); });
+}
+
+/// Of "0.5" or "1%", in the unit of the mesh, as the options of the command line read it.
+val length(const std::string& text, const val& mesh) {
+  return guarded([&] {
+    const std::optional<Length> found = length_of(text);
+    if (!found || found->needs_metres())
+      throw InputError(Defect::InvalidOption,
+                       text + ": expected a number in the unit of the mesh, or a share of its diagonal, as 0.5%");
+    val object = val::object();
+    object.set("length", found->of(finite_bounding_box(mesh_of(mesh, "mesh")).diagonal()));
+    return object;
+  });
+}
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(prohull_page) {
+  using emscripten::function;
+  function("scene", &scene);
+  function("certificate", &certificate);
+  function("sample", &sample);
+  function("length", &length);
+}
+
+}  // namespace prohull::js

@@ -1,0 +1,280 @@
+// app.html in headless Chromium, as a user has it: what is dropped, made, saved and refused.
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {createHash} from 'node:crypto';
+import {existsSync, readdirSync, readFileSync, statSync, writeFileSync} from 'node:fs';
+import {createServer} from 'node:http';
+import {createRequire} from 'node:module';
+import {basename, join} from 'node:path';
+import test from 'node:test';
+import {pathToFileURL} from 'node:url';
+import {hasProgram, run, scratch} from './package.mjs';
+
+const app = process.env.PROHULL_APP, cases = process.env.PROHULL_CASES, checker = process.env.PROHULL_CHECK;
+const pictureFile = process.env.PROHULL_PICTURE;  // where the picture of docs/browser.md goes, if it is to be made
+const kTypes = {'.js': 'text/javascript', '.html': 'text/html'};
+const kArguments = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+const kPatience = 300000;  // milliseconds: other work may fill the machine
+
+const hash = (bytes) => createHash('sha256').update(bytes).digest('hex');
+
+async function launched() {
+  if (!existsSync(join(app, 'app.html'))) return {missing: `there is no ${app}/app.html`};
+  if (!hasProgram) return {missing: 'there is no program to compare with'};
+  try {
+    const {chromium} = createRequire(import.meta.url)('playwright-core');
+    return await chromium.launch({executablePath: process.env.PROHULL_CHROMIUM, args: kArguments});
+  } catch (error) {
+    return {missing: error.message.split('\n')[0]};
+  }
+}
+
+const browser = await launched(), skip = browser.missing ?? false;
+const file = pathToFileURL(join(app, 'app.html')).href;
+
+/** The page; what must not happen is collected: errors, requests. */
+async function opened({url = file, fragment = '', width = 1000, height = 700, scheme = 'light', script} = {}) {
+  const page = await browser.newPage({viewport: {width, height}, colorScheme: scheme, reducedMotion: 'reduce'});
+  page.setDefaultTimeout(kPatience);
+  page.complaints = [];
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver Message/.test(message.text()))
+      page.complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => page.complaints.push(error.message));
+  page.on('request', (request) => {
+    if (!request.isNavigationRequest() && !request.url().startsWith('blob:')) page.complaints.push(`request: ${request.url()}`);
+  });
+  if (script) await page.addInitScript(script);
+  await page.goto(url + fragment);
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
+  return page;
+}
+
+async function closed(page) {
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+}
+
+const text = (page, id) => page.evaluate((name) => document.getElementById(name).textContent, id);
+const settled = (page) => page.waitForFunction(() => document.documentElement.dataset.busy === 'no');
+
+/** Drops a file as the mouse does; returns after how many milliseconds its hull is shown. */
+async function dropped(page, path) {
+  const began = Date.now();
+  const data = await page.evaluateHandle(([base64, name]) => {
+    const transfer = new DataTransfer(), bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    transfer.items.add(new File([bytes], name));
+    return transfer;
+  }, [readFileSync(path).toString('base64'), basename(path)]);
+  await page.dispatchEvent('#stage', 'drop', {dataTransfer: data});
+  await settled(page);
+  return Date.now() - began;
+}
+
+async function saved(page, id) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click(`#${id}`)]);
+  const path = join(scratch, download.suggestedFilename());
+  await download.saveAs(path);
+  return {path, bytes: readFileSync(path)};
+}
+
+/** Runs the command lines that the page shows; returns the bytes of the last output. */
+async function commanded(page, folder) {
+  const lines = (await text(page, 'command')).trim().split('\n').map((line) => line.split(' ').slice(1));
+  for (const words of lines) run(...words.map((word) => (/\.(stl|ply|obj|json|phull)$/.test(word) ? join(folder, word) : word)));
+  return readFileSync(join(folder, lines.at(-1)[lines.at(-1).indexOf('-o') + 1]));
+}
+
+function sampleFile(name, faces, as) {
+  const path = join(scratch, as);
+  if (!existsSync(path)) run('sample', name, '--faces', String(faces), '-o', path);
+  return path;
+}
+
+test('a dropped part of 100,000 faces is a certified hull of 500, with the bytes of the program', {skip}, async () => {
+  const page = await opened(), part = sampleFile('pony', 100000, 'part.stl');
+  const milliseconds = await dropped(page, part);
+  console.log(`a dropped STL of 100,000 faces is a hull of 500 after ${milliseconds} ms`);
+  assert.equal(await text(page, 'problem'), '');
+  assert.match(await text(page, 'found'), /^10\d,\d{3} faces, 1 component, diagonal .*; no defects\.$/);
+  assert.match(await text(page, 'summary'), /outer hull of 500 faces, void [\d.]+ %, at most [\d.]+ from the mesh/);
+  assert.match(await text(page, 'summary'), /certified: yes, the file as written encloses the original/);
+  assert.equal(await text(page, 'command'), 'prohull build part.stl -o part_hull.stl --faces 500');
+  const hull = await saved(page, 'save'), own = hash(hull.bytes);
+  assert.equal(own, hash(await commanded(page, scratch)));
+  const certificate = await saved(page, 'save-certificate');
+  run('build', part, '-o', join(scratch, 'same.stl'), '--faces', '500', '--certificate', join(scratch, 'same.phcert'));
+  assert.equal(hash(certificate.bytes), hash(readFileSync(join(scratch, 'same.phcert'))));
+  if (existsSync(checker ?? '')) execFileSync(checker, [certificate.path, hull.path, part]);
+  // The levels are there at once, and what is saved is the level that is shown.
+  await page.fill('#wanted', '2000');
+  await page.dispatchEvent('#wanted', 'change');
+  assert.equal(await text(page, 'faces'), '2,000');
+  assert.match(await text(page, 'save'), /2,000 faces/);
+  const level = await saved(page, 'save');
+  assert.equal(hash(level.bytes), hash(await commanded(page, scratch)));
+  await page.waitForFunction(() => document.getElementById('distance').textContent.startsWith('≤'));
+  assert.match(await page.evaluate(() => location.hash), /l=2000/);
+  await closed(page);
+});
+
+test('options make what the command line makes of them', {skip}, async () => {
+  const page = await opened({fragment: '#sample=bracket&faces=200&distance=1%25&to=ply'});
+  await settled(page);
+  for (const [id, value] of [['side', 'inner'], ['side', 'outer'], ['tight', true], ['tight', false], ['gap', '0.05'], ['make', 'pieces'], ['make', 'spheres']]) {
+    if (typeof value === 'boolean') await page.setChecked(`#want-${id}`, value);
+    else if (id === 'gap') await page.fill(`#want-${id}`, value);
+    else await page.selectOption(`#want-${id}`, value);
+    if (id === 'gap') await page.press('#want-gap', 'Enter');
+    await settled(page);
+    assert.equal(await text(page, 'problem'), '', `${id}=${value}`);
+    const made = await saved(page, 'save');
+    if (id === 'make') run('verify', '--union', made.path, join(scratch, 'bracket.ply'));
+    else assert.equal(hash(made.bytes), hash(await commanded(page, scratch)), `${id}=${value}`);
+  }
+  assert.match(await page.evaluate(() => location.hash), /make=spheres.*distance=1%25.*gap=0\.05.*sample=bracket/);
+  await closed(page);
+});
+
+test('cancel answers at once', {skip}, async () => {
+  const page = await opened();
+  await page.setChecked('#want-tight', true);
+  await page.setInputFiles('#file', sampleFile('pony', 100000, 'part.stl'));
+  await page.waitForFunction(() => document.getElementById('stage-name').textContent === 'build');
+  const milliseconds = await page.evaluate(async () => {
+    const began = performance.now();
+    document.getElementById('cancel').click();
+    while (document.documentElement.dataset.busy === 'yes') await new Promise((resolve) => setTimeout(resolve));
+    return performance.now() - began;
+  });
+  console.log(`cancel answers after ${milliseconds.toFixed(1)} ms`);
+  assert.equal(await text(page, 'problem'), 'Cancelled.');
+  await closed(page);
+});
+
+/** Files that are no meshes, or not what they say. */
+function hostileFiles() {
+  const stl = readFileSync(sampleFile('bracket', 3000, 'bracket.stl')), huge = Buffer.from(stl.subarray(0, 1000));
+  huge.writeUInt32LE(42949670, 80);  // of 50 bytes each
+  const files = {'truncated.stl': stl.subarray(0, stl.length - 1234), 'huge.stl': huge, 'empty.stl': Buffer.alloc(0), 'empty.glb': Buffer.alloc(0),
+    'text.ply': 'no mesh at all\n', 'text.obj': 'v 1 2\nf 1 2 3\n', 'nan.obj': 'v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n',
+    'noise.glb': Buffer.from(Array.from({length: 5000}, (_, i) => (i * 7919) & 255)), 'picture.png': 'x', 'noise.stl.gz': Buffer.from([31, 139, 8, 0, 1])};
+  return Object.entries(files).map(([name, bytes]) => {
+    const path = join(scratch, name);
+    writeFileSync(path, bytes);
+    return path;
+  });
+}
+
+test('hostile files end in one clear line', {skip}, async () => {
+  const page = await opened();
+  for (const path of hostileFiles()) {
+    await page.setInputFiles('#file', path);
+    await settled(page);
+    const says = await text(page, 'problem');
+    assert.match(says, /^[^\n]{10,}$/, basename(path));
+    assert.doesNotMatch(says, /RuntimeError|unreachable|undefined|\bat /, `${basename(path)}: ${says}`);
+  }
+  await dropped(page, sampleFile('bracket', 3000, 'bracket.stl'));
+  assert.match(await text(page, 'summary'), /certified: yes/, 'and the next file is read');
+  await closed(page);
+});
+
+const kMostOfCases = 3e6;  // bytes: larger ones take minutes
+test('known hard cases', {skip: skip || (!existsSync(cases ?? '') && 'PROHULL_CASES names no folder')}, async () => {
+  const page = await opened();
+  for (const name of readdirSync(cases)) {
+    const path = join(cases, name), {size} = statSync(path);
+    if (!/\.(off|ply|obj|stl|gltf|phull)(\.gz)?$/.test(name) || size > kMostOfCases) {
+      console.log(`left out: ${name}`);
+      continue;
+    }
+    await page.setInputFiles('#file', path);
+    await settled(page);
+    const says = await text(page, 'problem');
+    assert.doesNotMatch(says, /\n|RuntimeError|unreachable/, `${name}: ${says}`);
+    assert.ok(says || /certified: /.test(await text(page, 'summary')), name);
+  }
+  await closed(page);
+});
+
+test('memory returns after ten parts', {skip}, async () => {
+  const page = await opened(), client = await page.context().newCDPSession(page);
+  const heap = async () => {
+    await client.send('HeapProfiler.collectGarbage');
+    return (await client.send('Runtime.getHeapUsage')).usedSize;
+  };
+  const used = [];
+  for (let i = 0; i < 10; ++i) {
+    await page.setInputFiles('#file', sampleFile('bracket', 20000, 'large.stl'));
+    await settled(page);
+    while (page.workers().length > 0) await page.waitForTimeout(50);  // with the workers goes the memory of the library
+    used.push(await heap());
+  }
+  console.log(`heap of the page after each of ten parts, MB: ${used.map((bytes) => (bytes / 1e6).toFixed(1)).join(' ')}`);
+  assert.ok(used[9] < 1.2 * used[1]);
+  await closed(page);
+});
+
+test('on a phone, by keys, in the dark', {skip}, async () => {
+  const page = await opened({width: 390, height: 800, scheme: 'dark', fragment: '#sample=torus'});
+  await settled(page);
+  const inside = () => page.evaluate(() => document.documentElement.scrollWidth <= innerWidth);
+  assert.ok(await inside());
+  const reached = new Set();
+  for (let i = 0; i < 60; ++i) {
+    await page.keyboard.press('Tab');
+    const {id, outline, label} = await page.evaluate(() => {
+      const element = document.activeElement;
+      return {id: element.id, outline: getComputedStyle(element).outlineStyle,
+        label: element.ariaLabel || element.labels?.[0]?.textContent || element.textContent};
+    });
+    if (id) assert.ok(outline !== 'none' && label, id);
+    reached.add(id);
+  }
+  for (const id of ['open', 'sample', 'want-make', 'want-faces', 'want-distance', 'want-side', 'want-gap', 'want-tight', 'want-to', 'save', 'level'])
+    assert.ok(reached.has(id), id);
+  assert.ok(await inside());
+  await closed(page);
+});
+
+test('without WebAssembly, the page says so', {skip}, async () => {
+  const page = await opened({script: 'delete globalThis.WebAssembly'});
+  assert.match(await text(page, 'problem'), /^This browser has no WebAssembly/);
+  await closed(page);
+});
+
+test('after the first visit it opens without a network, and asks nobody else', {skip}, async () => {
+  const asked = [];
+  const server = createServer((request, response) => {
+    const path = join(app, new URL(request.url, 'http://a').pathname);
+    asked.push(basename(path));
+    if (!existsSync(path)) return response.writeHead(404).end();
+    response.writeHead(200, {'content-type': kTypes[/\.[a-z]+$/.exec(path)[0]]});
+    response.end(readFileSync(path));
+  });
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  const url = `http://127.0.0.1:${server.address().port}/app.html`;
+  const page = await opened({url});
+  await page.evaluate(async () => (await navigator.serviceWorker.ready).active);
+  server.closeAllConnections();
+  await new Promise((resolve) => server.close(resolve));
+  await page.reload();
+  await page.selectOption('#sample', 'torus');
+  await settled(page);
+  assert.match(await text(page, 'summary'), /certified: yes/);
+  assert.deepEqual([...new Set(asked)].filter((name) => name !== 'favicon.ico').sort(), ['app.html', 'app_offline.js']);
+  await page.close();
+});
+
+test('the picture of docs/browser.md', {skip: skip || (!pictureFile && 'PROHULL_PICTURE names no file')}, async () => {
+  const page = await opened({width: 1100, height: 760, fragment: '#sample=pony'});
+  await settled(page);
+  await page.evaluate(() => document.getElementById('name').scrollIntoView());
+  await page.waitForTimeout(1000);
+  await page.screenshot({path: pictureFile});
+  await closed(page);
+});
+
+test.after(() => browser.close?.());

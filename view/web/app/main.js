@@ -1,0 +1,285 @@
+// The page: a part is dropped, and a hull of it is made, shown, told of and saved. What draws is that of `prohull view`.
+
+import * as prohull from 'prohull';
+import {readFragment, writeFragment} from '../src/act/address.js';
+import {readObjects} from '../src/data/objects.js';
+import {byId, counted, el, grouped, short} from '../src/panel/dom.js';
+import {View} from '../src/view.js';
+import {commandOf, fillForm, formValues, optionsFor, showOptions, wanted} from './wanted.js';
+
+const MOST_MEGABYTES = 500;
+const SAMPLES = {bracket: 20000, pony: 100000, knot: 20000, asteroid: 20000, gyroid: 40000, torus: 5000};
+const REST = 300;              // milliseconds after which a level is measured
+const CAMERA = 'vtcads';       // of the address: what of a picture holds for any other part, too
+const CERTIFIED = /\.(stl|obj|ply|off)(\.gz)?$/i;  // files that prohull_check reads
+
+let part = null;               // {name, bytes, mesh, inspection}, and of a sample what it is called
+let made = null;               // {want, hull, isLevel}
+let view = null, job = null;
+let shown = {};                // of the address: what the picture shows
+
+const cameraOf = (values) => Object.fromEntries(Object.entries(values).filter(([key]) => CAMERA.includes(key)));
+
+function remember() {
+  writeFragment({...formValues(), ...(part?.sample ? {sample: part.sample} : {}), ...shown});
+}
+
+function complain(text) {
+  byId('problem').hidden = !text;
+  byId('problem').textContent = text;
+}
+
+function setRunning(is) {
+  byId('running').hidden = !is;
+  document.documentElement.dataset.busy = is ? 'yes' : 'no';
+}
+
+function tellProgress(stage, fraction) {
+  byId('progress').value = fraction;
+  byId('stage-name').textContent = stage;
+}
+
+/** Does this and nothing else; what ran before ends. */
+async function run(work) {
+  job?.abort();
+  const own = job = new AbortController();
+  complain('');
+  tellProgress('read', 0);
+  setRunning(true);
+  try {
+    await work({signal: own.signal, progress: tellProgress});
+  } catch (error) {
+    if (own === job) complain(error.name === 'AbortError' ? 'Cancelled.' : error.message.replaceAll('\n', ' '));
+  }
+  if (own !== job) return;
+  job = null;
+  prohull.release();
+  setRunning(false);
+}
+
+/** A picture of the scene in place of the one before. */
+async function draw({facts, blocks}, fragment) {
+  const scene = JSON.parse(facts);
+  scene.alone = 'No hull of it is shown.';
+  const space = await readObjects(scene, blocks);
+  view?.end();
+  const canvas = byId('canvas');
+  canvas.replaceWith(canvas.cloneNode());
+  byId('message').hidden = true;
+  view = globalThis.prohullView = new View(scene, space, blocks, {read: () => fragment, write: (values) => {
+    shown = values;
+    remember();
+  }});
+}
+
+function showPart() {
+  const {name, inspection: {faces, components, defects, diagonal}} = part, found = Object.entries(defects);
+  byId('name').hidden = false;
+  byId('name').textContent = name;
+  const wrong = found.length === 0 ? 'no defects' : found.map(([what, count]) => `${grouped(count)} ${what}`).join(', ');
+  byId('found').textContent = `${counted(faces, 'face', 'faces')}, ${counted(components, 'component', 'components')}, ` +
+      `diagonal ${short(diagonal)}; ${wrong}.`;
+}
+
+/** Shows a file, and makes what is wanted of it. `read` gives its name and its bytes, and what else a part has. */
+const take = (read, fragment = cameraOf(shown)) => run(async (running) => {
+  byId('result').hidden = byId('name').hidden = true;
+  byId('found').textContent = '';
+  part = made = null;
+  const next = await read(running);
+  next.mesh = await prohull.read(next.bytes, next.name, running);
+  next.inspection = await prohull.inspect(next.mesh, running);
+  running.signal.throwIfAborted();
+  part = next;
+  showPart();
+  const alone = prohull.scene(null, {...part.mesh, name: part.name}, {signal: running.signal})
+      .then((scene) => made || running.signal.aborted ? null : draw(scene, cameraOf(fragment)));
+  for (const {reason} of await Promise.allSettled([make(running, fragment), alone])) if (reason) throw reason;
+});
+
+async function fileOf(file) {
+  const megabytes = file.size / 1e6;
+  if (megabytes > MOST_MEGABYTES)
+    throw new prohull.InputError(`${file.name} has ${grouped(Math.ceil(megabytes))} MB, and this page takes files of at most ${MOST_MEGABYTES} MB. ` +
+        'The program prohull takes larger ones.');
+  try {
+    return {name: file.name, bytes: new Uint8Array(await file.arrayBuffer())};
+  } catch {
+    throw new prohull.InputError(`${file.name}: it cannot be read. Drop a file, not a folder.`);
+  }
+}
+
+async function sampleOf(name) {
+  const faces = SAMPLES[name], file = `${name}.ply`;
+  return {name: file, bytes: await prohull.write(await prohull.sample(name, faces), file), sample: name, sampleFaces: faces};
+}
+
+const makers = {
+  hull: (want, options) => prohull.build(part.mesh, Number(want.faces), options),
+  pieces: (want, options) => prohull.convexPieces(part.mesh, options),
+  spheres: (want, options) => prohull.spheres(part.mesh, options),
+};
+
+/** What the library's drawing of scenes takes of a result. */
+function sceneOf(want, hull) {
+  const name = want.out;
+  if (want.make === 'pieces') return {name, pieces: hull.pieces};
+  if (want.make === 'spheres') return {name, balls: hull.balls};
+  return hull.levels ? {name, levels: hull.levels} : {name, vertices: hull.vertices, faces: hull.faces};
+}
+
+async function make({signal, progress}, fragment) {
+  const want = wanted(part);
+  const hull = await makers[want.make](want, {...await optionsFor(want, part), signal, progress});
+  made = {want, hull};
+  const scene = await prohull.scene(sceneOf(want, hull), {...part.mesh, name: part.name}, {side: want.side, signal, progress});
+  signal.throwIfAborted();
+  await draw(scene, fragment);
+  view.onRefresh = refreshed;
+  showResult();
+  remember();
+}
+
+function showResult() {
+  const {want, hull} = made;
+  byId('result').hidden = false;
+  byId('slider').replaceChildren(...[byId('level')?.closest('section')].filter(Boolean));  // the levels stand above the rest
+  byId('summary').replaceChildren(...(hull.summary ?? hull.notes ?? []).map((line) => el('li', {}, line)));
+  byId('save-certificate').hidden = !(want.make === 'hull' && hull.certified && CERTIFIED.test(part.name) && want.to !== 'glb');
+  byId('save').disabled = !hull.certified;
+  refreshed();
+}
+
+/** The level that the slider shows, if that is finer than the hull. */
+function finerFaces() {
+  const {levels} = made.hull, faces = levels && view?.active.levels?.shownFaces;
+  return faces && faces !== made.hull.faces.length / 3 ? faces : null;
+}
+
+let resting;
+
+/** After the slider was moved: the command, what is saved, and, once it rests, how far that level is. */
+function refreshed() {
+  if (!made) return;
+  const faces = finerFaces();
+  byId('command').textContent = commandOf(made.want, part, faces);
+  byId('save').textContent = `Save ${made.want.out}${faces ? `, ${grouped(faces)} faces` : ''}`;
+  byId('save-certificate').disabled = faces !== null;
+  clearTimeout(resting);
+  if (faces !== null && !job) resting = setTimeout(() => measure(faces).catch((error) => complain(error.message)), REST);
+}
+
+/** Bounds the distance of a level, which then counts among those of the panel. */
+async function measure(faces) {
+  const {active} = view, {levels} = made.hull;
+  if (active.stops.some((stop) => stop.faces === faces)) return;
+  const level = await prohull.level(levels, faces);
+  const {lower, upper, farthest} = await prohull.distance(level, part.mesh, {relativeGap: 0.02});
+  prohull.release();
+  if (active !== view.active) return;
+  active.stops.push({faces, lower, upper, farthest: [...farthest]});
+  active.stops.sort((a, b) => a.faces - b.faces);
+  view.refresh();
+}
+
+function save(bytes, name) {
+  const link = el('a', {href: URL.createObjectURL(new Blob([bytes])), download: name});
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+function merged(pieces) {
+  const vertices = pieces.flatMap((piece) => [...piece.vertices]), faces = [];
+  let before = 0;
+  for (const piece of pieces) {
+    for (const v of piece.faces) faces.push(v + before);
+    before += piece.vertices.length / 3;
+  }
+  return {vertices, faces};
+}
+
+function spheresFile(balls, link) {
+  const spheres = [];
+  for (let i = 0; i < balls.length; i += 4) spheres.push({center: [...balls.subarray(i, i + 3)], radius: balls[i + 3]});
+  return new TextEncoder().encode(JSON.stringify({link, spheres}, null, 2));
+}
+
+const saveHull = () => run(async () => {
+  const {want, hull} = made, faces = finerFaces(), options = {float32Coordinates: ['stl', 'glb'].includes(want.to)};
+  if (want.make === 'spheres') return save(spheresFile(hull.balls, want.stem), want.out);
+  const mesh = want.make === 'pieces' ? merged(hull.pieces) : faces ? await prohull.level(hull.levels, faces, options) : hull;
+  save(await prohull.write(mesh, want.out), want.out);
+});
+
+const saveCertificate = () => run(async () => {
+  const {want, hull} = made, {gap = 0, maxDistance} = await optionsFor(want, part);
+  const {vertices, faces, levels, distance} = hull;
+  save(await prohull.certificate({vertices, faces, levels}, part.bytes, part.name, {
+    side: want.side, isStl: /\.stl(\.gz)?$/i.test(part.name), gap, provenGap: hull.gap, distance,
+    ...(maxDistance === undefined ? {} : {maxDistance})}), `${want.stem}_hull.phcert`);
+});
+
+async function copyCommand() {
+  const text = byId('command').textContent;
+  try {
+    await navigator.clipboard.writeText(text);
+    byId('copy').textContent = 'Copied';
+  } catch {
+    getSelection().selectAllChildren(byId('command'));
+  }
+}
+
+function listen() {
+  const takeFile = (file) => file && take(() => fileOf(file));
+  byId('open').onclick = () => byId('file').click();
+  byId('file').onchange = (event) => {
+    takeFile(event.target.files[0]);
+    event.target.value = '';
+  };
+  byId('sample').onchange = (event) => {
+    if (event.target.value) take(() => sampleOf(event.target.value));
+  };
+  byId('part').onsubmit = (event) => event.preventDefault();
+  byId('part').addEventListener('change', (event) => {
+    if (['file', 'sample'].includes(event.target.id)) return;
+    showOptions();
+    remember();
+    if (part) run((running) => make(running, cameraOf(shown)));
+  });
+  byId('cancel').onclick = () => job?.abort();
+  byId('save').onclick = saveHull;
+  byId('save-certificate').onclick = saveCertificate;
+  byId('copy').onclick = copyCommand;
+  const over = (is) => (event) => {
+    event.preventDefault();
+    byId('stage').classList.toggle('over', is);
+  };
+  addEventListener('dragover', over(true));
+  addEventListener('dragleave', over(false));
+  addEventListener('drop', (event) => {
+    over(false)(event);
+    takeFile(event.dataTransfer.files[0]);
+  });
+}
+
+/** After the first visit, the page opens without a network. A page that is a file needs no network anyway. */
+function keepOffline() {
+  if (location.protocol.startsWith('http')) navigator.serviceWorker?.register('app_offline.js').catch(() => {});
+}
+
+function open() {
+  const dark = matchMedia('(prefers-color-scheme: dark)'), fragment = readFragment();
+  document.documentElement.dataset.theme = fragment.t ?? (dark.matches ? 'dark' : 'light');
+  byId('most').textContent = MOST_MEGABYTES;
+  byId('sample').append(...Object.keys(SAMPLES).map((name) => el('option', {value: name}, name)));
+  fillForm(fragment);
+  document.documentElement.dataset.ready = 'yes';
+  if (typeof WebAssembly !== 'object') return complain('This browser has no WebAssembly, which this page needs to build hulls. Use another browser, or the program prohull.');
+  listen();
+  keepOffline();
+  if (!SAMPLES[fragment.sample]) return;
+  byId('sample').value = fragment.sample;
+  take(() => sampleOf(fragment.sample), fragment);
+}
+
+open();
