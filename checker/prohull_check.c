@@ -1328,8 +1328,8 @@ int main(int count, char** names) {
     if (c.claims & k & GAP) printf("the hull keeps a gap of at least %.17g", c.gap);
     if (c.claims & k & DISTANCE) printf("no point of the hull is farther than %.17g from the triangles", c.distance);
   }
-  if (c.original.infinite) printf("; %lu triangles of the original are not finite", COUNT(c.original.infinite));
-  if (turned) printf("; %lu components of the original are turned", COUNT(turned));
+  if (c.original.infinite) printf("; triangles of the original that are not finite: %lu", COUNT(c.original.infinite));
+  if (turned) printf("; components of the original that are turned: %lu", COUNT(turned));
   if (c.original.scale != 1) printf("; the original is scaled by %.17g", c.original.scale);
   putchar('\n');
   return 0;

@@ -104,8 +104,9 @@ Certificate balls_certificate(std::span<const Ball> balls, const CertifiedOrigin
   const Bvh bvh(std::move(boxes));
   certificate::File file = certificate::header(HullSide::Outer, original, balls.size(), finite);
   file.section(certificate::Section::Balls);
-  for (const FaceId f : finite.triangles.triangles.ids()) {
-    const Triangle t = finite.triangles.triangle(f);
+  const TriangleMesh& read = finite.is_closed ? finite.turned : finite.triangles;  // as by the checker
+  for (const FaceId f : read.triangles.ids()) {
+    const Triangle t = read.triangle(f);
     std::vector<std::uint32_t> near;
     bvh.visit([box = box_of(t)](const Box& other) { return other.overlaps(box); },
               [&](std::uint32_t i) { near.push_back(i); });

@@ -86,6 +86,9 @@ expect 0 "pieces of triangles that are open: the checker" ./prohull_check c piec
 expect 1 "pieces of another mesh" ./prohull_check c pieces.obj knot.off
 expect 0 "spheres" $prohull spheres bracket.stl --count 30 -o spheres.yaml --certificate c
 expect 0 "spheres: the checker" ./prohull_check c spheres.yaml bracket.stl
+awk '$1 == "f" { print "f", $2, $4, $3; next } 1' torus.obj >inside_out.obj
+expect 0 "spheres around what is inside out" $prohull spheres inside_out.obj --count 30 -o around.yaml --certificate around
+expect 0 "spheres around what is inside out: the checker" ./prohull_check around around.yaml inside_out.obj
 awk '/center/ && !n++ { sub(/radius: [0-9.e-]*/, "radius: 0.0001") } 1' spheres.yaml >smaller.yaml
 expect 1 "a smaller sphere" ./prohull_check c smaller.yaml bracket.stl
 

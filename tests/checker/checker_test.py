@@ -94,7 +94,7 @@ class Tetrahedra(Folder):
     def test_know_turned_components(self):
         turned = (CUBE[0], [(a, c, b) for a, b, c in CUBE[1]])
         hull, added, fans = moved_outwards(CUBE, random.Random(2), 5)
-        self.expect(PROVEN, "1 components of the original are turned", [tetrahedra(added, fans)], hull, turned, turned=[7])
+        self.expect(PROVEN, "components of the original that are turned: 1", [tetrahedra(added, fans)], hull, turned, turned=[7])
         self.expect(NOT_PROVEN, "", [tetrahedra(added, fans)], hull, turned)
         self.expect(NOT_PROVEN, "not negative", [tetrahedra(added, fans)], hull, CUBE, turned=[7])
 
@@ -159,7 +159,7 @@ class Surfaces(Folder):
         cert = certificate(len(WIDE[1]), len(CUBE[1]), surfaces())
         code, line = self.check(cert, WIDE, mesh)
         self.assertEqual(code, PROVEN, line)
-        self.assertIn("1 triangles of the original are not finite", line)
+        self.assertIn("triangles of the original that are not finite: 1", line)
 
     def test_scale_the_original(self):
         self.expect(PROVEN, "scaled by 1000", [surfaces()], box((0, 0, 0), (8000, 8000, 8000)), CUBE, scale=1000.0)
