@@ -281,8 +281,8 @@ void add_guards(CLI::App& command, BuildOptions& options) {
 void add_bounds(CLI::App& command, BuildOptions& options) {
   add_length(command, "--max-distance", options.max_distance,
              "Largest allowed distance of any point of the hull from the mesh. What closes openings of the mesh counts "
-             "as mesh. The hull is the coarsest of its levels, of at least --faces faces, that provably keeps it; the "
-             "exit code is 1 if none does. With --tight, some ten hulls are built to find it.");
+             "as mesh. The hull is the coarsest that was found, of at least --faces faces, that provably keeps it; the "
+             "exit code is 1 if none was found. With --tight, some ten hulls are built to find it.");
   add_optional_number(
       command, "--max-void", options.max_void_percent, kPositive,
       "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, caps on "
@@ -343,8 +343,8 @@ void add_build(CLI::App& app, Run& run) {
   CLI::Option* const gap = add_length(
       command, "--gap", options->gap,
       "Least distance between hull and mesh. It is proven. All points within this distance of the mesh are inside of "
-      "an outer hull. An inner hull leaves out what is thinner than two gaps. Bounds such as --max-distance are those "
-      "of the hull before it is moved away. Use --tight for the least void.");
+      "an outer hull. An inner hull leaves out what is thinner than two gaps. --max-distance must be greater. Use "
+      "--tight for the least void.");
   CLI::Option* const tolerance =
       command
           .add_option(

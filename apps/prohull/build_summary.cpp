@@ -28,7 +28,7 @@ void print_input(const BuildOptions& options, const BuildOutcome& outcome) {
   else if (options.recenter)
     say("  recentered: {0} was subtracted from the coordinates; add it to place the hull (verify --offset {0})\n",
         text_of_offset(outcome.offset));
-  say_all(lines_of_repairs(outcome.made, outcome.written.back().hull));
+  say_all(lines_of_repairs(outcome.made));
 }
 
 void print_regions(const BuildOutcome& outcome, const Written& written) {
@@ -53,6 +53,7 @@ void print_levels(const BuildOptions& options, const BuildOutcome& outcome, cons
 void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
   const ToldHull hull = told(options, outcome, written);
   say("{}\n", line_of_hull(output_name(written.path), hull));
+  if (outcome.written.size() > 1) say_all(written.hull.notes);
   say_all(lines_of_shape(hull));
   print_regions(outcome, written);
   say_all(lines_of_limits(hull));
@@ -143,7 +144,8 @@ nlohmann::json facts_of_hull(const BuildOptions& options, const BuildOutcome& ou
           {"within_bounds", hull.within_bounds},
           {"excess", finite_or_null(hull.excess)},
           {"refusals", facts_of(hull.refusals)},
-          {"blocked", facts_of(hull.blocked)}};
+          {"blocked", facts_of(hull.blocked)},
+          {"notes", hull.notes}};
 }
 
 nlohmann::json hull_report(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
@@ -157,6 +159,15 @@ std::string repair_of(const BuildOutcome& outcome) {
   return std::ranges::any_of(outcome.written, is_of_wrap) ? "wrap"
          : outcome.made.input.repairs.any()               ? "repaired"
                                                           : "none";
+}
+
+/// Of all hulls, each once.
+std::vector<std::string> notes_of(const BuildOutcome& outcome) {
+  std::vector<std::string> notes;
+  for (const Written& written : outcome.written)
+    for (const std::string& note : written.hull.notes)
+      if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+  return notes;
 }
 
 template <class Value>
@@ -195,6 +206,7 @@ void print_search(const BuildOutcome& outcome) {
 
 void print_summary(const BuildOptions& options, const BuildOutcome& outcome) {
   print_input(options, outcome);
+  if (outcome.written.size() == 1) say_all(outcome.written.front().hull.notes);
   for (const Written& written : outcome.written) print_hull(options, outcome, written);
   say("  read {:.2f} s, {}build {:.2f} s, write {:.2f} s, verify {:.2f} s\n", outcome.read_seconds,
       outcome.made.repair_seconds >= 0.005 ? fmt::format("repair {:.2f} s, ", outcome.made.repair_seconds) : "",
@@ -227,8 +239,9 @@ nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcom
   in["repairs"] = describe(outcome.made.input.repairs);
   in["obstacle"] = outcome.made.input.obstacle;
   in["offset"] = {outcome.offset.x, outcome.offset.y, outcome.offset.z};
-  in["notes"] = outcome.written.back().hull.notes;
-  in["self_intersections"] = outcome.input_self_intersections;
+  in["notes"] = notes_of(outcome);
+  in["self_intersections"] = count_self_intersections(outcome.made.input.original);
+  in["repaired_self_intersections"] = outcome.input_self_intersections;
   nlohmann::json hulls = nlohmann::json::array();
   for (const Written& written : outcome.written) hulls.push_back(hull_report(options, outcome, written));
   return {{"input", in},

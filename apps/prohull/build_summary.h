@@ -48,7 +48,7 @@ struct Regions {
 
 struct BuildOutcome {
   EnclosingHulls made;
-  std::size_t input_self_intersections = 0;
+  std::size_t input_self_intersections = 0;  ///< of the repaired mesh, if there is one, else of the mesh
   std::vector<Written> written;
   double read_seconds = 0;
   Regions regions;

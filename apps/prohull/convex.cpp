@@ -303,9 +303,10 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
   say("{}: {}, {}\n", input_name(options.in), counted(outcome.input.faces, "face", "faces"),
       counted(outcome.input.components, "component", "components"));
   for (const std::string& note : cover.notes) say("  {}\n", note);
-  say("{}: {}, {}, at most {:.4g} from the mesh ({:.2f} % of its diagonal){}\n", output_name(options.out),
+  say("{}: {}, {}, at most {:.4g} from the mesh ({} % of its diagonal){}\n", output_name(options.out),
       described_pieces(cover), described_size(cover), rounded_up(cover.reach.upper, 4),
-      100 * cover.reach.upper / outcome.diagonal, text_of_openings(cover.has_openings, cover.reach_from_triangles));
+      with_decimals_up(100 * cover.reach.upper / outcome.diagonal, 2),
+      text_of_openings(cover.has_openings, cover.reach_from_triangles));
   if (outcome.certified)
     say("  certified: yes, the pieces as written cover every {}triangle of the original{}\n",
         cover.non_finite_faces == 0 ? "" : "finite ",
@@ -318,7 +319,8 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
   if (options.engine && outcome.largest.vertices > 0) print_limits(options, outcome);
   const auto in_shape = static_cast<std::size_t>(std::ranges::count(cover.pieces, options.cover.shape, shape_of));
   if (in_shape < cover.pieces.size())
-    say("  {} of {} pieces have the shape asked for; the bounds allow no more\n", in_shape, cover.pieces.size());
+    say("  {} of {} pieces have the shape asked for; no more were found to keep the bounds\n", in_shape,
+        cover.pieces.size());
   if (!cover.within_bounds) say("  NOT within the bounds asked for; allow more --pieces, or larger bounds\n");
   if (outcome.certified && !options.certificate.empty())
     print_certificate(options.certificate, outcome.certificate, files.meshes(cover.pieces), options.in);
@@ -459,11 +461,11 @@ void add_convex(CLI::App& app, Run& run) {
   add_number(command, "--vertices", cover.max_vertices, {4, 1e6}, "Largest number of vertices of a piece, at least 4.");
   add_length(command, "--max-distance", options->max_distance,
              "Largest allowed distance of any point of the pieces from the mesh. What closes openings of the mesh "
-             "counts as mesh. With such a bound there are as few pieces as keep it.");
+             "counts as mesh. With such a bound there are as few pieces as are found to keep it.");
   add_optional_number(
       command, "--max-void", options->max_void_percent, kPositive,
       "Largest allowed void, in per cent. The void is how much more volume the pieces have together than the "
-      "mesh. With such a bound there are as few pieces as keep it.")
+      "mesh. With such a bound there are as few pieces as are found to keep it.")
       ->type_name("PERCENT");
   add_choice(command, "--shape", cover.shape, piece_shape_names(),
              "Shape of the pieces. With a bound, a piece has this shape only where the bound allows it, and is a "

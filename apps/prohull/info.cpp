@@ -34,8 +34,8 @@ void print_defects(const MeshReport& report) {
 
 void print_quality(const MeshQuality& quality) {
   const auto print = [](const char* name, const Percentiles& p, double unit, const char* unit_name) {
-    say_fact(name, "median {:.3g}, 10 % below {:.3g}, 1 % below {:.3g}, worst {:.3g}{}", p.median / unit, p.p10 / unit,
-             p.p1 / unit, p.worst / unit, unit_name);
+    say_fact(name, "median {:.3g}, 10th percentile {:.3g}, 1st percentile {:.3g}, worst {:.3g}{}", p.median / unit,
+             p.p10 / unit, p.p1 / unit, p.worst / unit, unit_name);
   };
   print("compactness", quality.compactness, 1, "");
   print("dihedral angle", quality.dihedral_angle, kDegree, " degrees");
@@ -70,9 +70,10 @@ nlohmann::json describe_openings(const TriangleMesh& mesh) {
     diameters += fmt::format("{}{:.3g}", diameters.empty() ? "" : ", ", opening.diameter);
   }
   if (!openings.empty())
-    say_fact(
-        "openings", "{}: {} across{}", grouped(openings.size()), diameters,
-        openings.size() > kMostNamed ? fmt::format(", and {} smaller", grouped(openings.size() - kMostNamed)) : "");
+    say_fact("openings", "{}: {} across{}", grouped(openings.size()), diameters,
+             openings.size() > kMostNamed
+                 ? fmt::format(", and {} more, none larger", grouped(openings.size() - kMostNamed))
+                 : "");
   return {{"count", openings.size()}, {"largest", largest}};
 }
 

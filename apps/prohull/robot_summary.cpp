@@ -15,7 +15,9 @@ namespace {
 
 using namespace prohull::robot;
 
-std::string millimetres(double length) { return fmt::format("{:.3g} mm", 1000 * length); }
+std::string millimetres(double length) { return fmt::format("{:.6g} mm", 1000 * length); }
+std::string at_most(double length) { return fmt::format("{:.3g} mm", rounded_up(1000 * length, 3)); }
+std::string at_least(double length) { return fmt::format("{:.3g} mm", rounded_down(1000 * length, 3)); }
 
 /// Columns as wide as their widest cell; the first is aligned to the left.
 class Table {
@@ -55,8 +57,7 @@ std::string size_of(const LinkHull& hull) {
 void add_hulls(Table& table, const Link& link, const LinkHulls& made) {
   for (const LinkHull& hull : made.hulls)
     table.add({link.name, grouped(made.triangles.face_count()), size_of(hull), ratio(hull.volume, made.sealed_volume),
-               ratio(hull.volume, made.convex_volume), millimetres(hull.distance.upper),
-               hull.certified ? "yes" : "NO"});
+               ratio(hull.volume, made.convex_volume), at_most(hull.distance.upper), hull.certified ? "yes" : "NO"});
   if (made.status == LinkStatus::Primitives) table.add({link.name, "primitives, kept"});
   if (!made.why.empty()) table.add({link.name, "left as it is"});
 }
@@ -65,7 +66,7 @@ std::string notes_text(const std::string& link, const LinkHull& hull, bool has_o
   const std::string which = has_others ? fmt::format("{}, {} faces", link, hull.target_faces) : link;
   std::string text;
   if (!hull.within_bounds)
-    text += fmt::format("  {}: NOT within the distance asked for: {}\n", which, millimetres(hull.distance.upper));
+    text += fmt::format("  {}: NOT within the distance asked for: {}\n", which, at_most(hull.distance.upper));
   for (const std::string& note : hull.notes) text += fmt::format("  {}: {}\n", which, note);
   return text;
 }
@@ -98,7 +99,7 @@ std::string shipped_text(const ReportInput& facts) {
   if (bare > 0) text += fmt::format(", {} without any", bare);
   if (worst)
     text += fmt::format(", {} leaking; the worst is {}, by {}", leaks, facts.file.robot.links[worst->link].name,
-                        millimetres(worst->sticks_out_at_least));
+                        at_least(worst->sticks_out_at_least));
   return text + "\n";
 }
 
@@ -250,9 +251,9 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
   for (const LinkCheck& check : checks) {
     const std::string& name = file.robot.links[check.link].name;
     if (has_measures(check))
-      table.add({name, check.verdict == CheckVerdict::Covered ? "0" : millimetres(check.sticks_out_at_least),
+      table.add({name, check.verdict == CheckVerdict::Covered ? "0" : at_least(check.sticks_out_at_least),
                  ratio(check.collision_volume, check.visual_volume), ratio(check.collision_volume, check.convex_volume),
-                 millimetres(check.fat.upper), verdict_text(check, allow)});
+                 at_most(check.fat.upper), verdict_text(check, allow)});
     else
       table.add({name, "", "", "", "", verdict_text(check, allow)});
   }
@@ -263,7 +264,7 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
   const bool rounds = std::ranges::count(checks, CheckVerdict::Undecided, &LinkCheck::verdict) > 0;
   if (failed == 0)
     say("yes: the collision geometry covers the visual geometry of every link{}\n",
-        allow > 0 ? ", or lets it stick out by at most " + millimetres(rounded_up(allow, 3))
+        allow > 0 ? ", or lets it stick out by at most " + millimetres(allow)
         : rounds  ? ", but for rounding"
                   : ", exactly");
   else if (failed == missing)

@@ -115,10 +115,12 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
 
 void print_summary(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
-  say("{}: {} around {}, which reach out by at most {:.4g}, {:.2f} % of the diagonal{}\n", output_name(options.out),
+  say("{}: {} around {}, which reach out by at most {:.4g}, {} % of the diagonal{}\n", output_name(options.out),
       counted(cover.balls.size(), "sphere", "spheres"), counted(outcome.faces, "face", "faces"),
-      rounded_up(cover.reach.upper, 4), outcome.part_of_diagonal() * 100,
-      text_of_openings(cover.has_openings, cover.reach_from_triangles));
+      rounded_up(cover.reach.upper, 4), with_decimals_up(100 * outcome.part_of_diagonal(), 2),
+      cover.is_of_wrap ? fmt::format("; that is from a wrap, and from the triangles alone it is at most {:.4g}",
+                                     rounded_up(cover.reach_from_triangles.upper, 4))
+                       : text_of_openings(cover.has_openings, cover.reach_from_triangles));
   if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);
   if (outcome.has_volume())
     say("  volume: {:.4g} with overlaps counted once, {:.1f} % {} than the solid's{}\n", cover.volume,
@@ -185,8 +187,8 @@ void add_spheres(CLI::App& app, Run& run) {
   add_number(command, "--count", options->cover.max_balls, {1, kMostSpheres}, "Number of spheres, at most.");
   add_length(command, "--max-distance", options->max_distance,
              "Largest allowed distance of any point of the spheres from the mesh. What closes openings of the mesh "
-             "counts as mesh. As few spheres as keep it are taken, at most --count. The exit code is 1 if they do not "
-             "keep it.");
+             "counts as mesh. As few spheres as are found to keep it are taken, at most --count. The exit code is 1 if "
+             "they do not keep it.");
   command.add_flag("--fill", options->cover.fill, "Cover the inside of the mesh too, not only its surface.");
   command.add_option("--link", options->link, "Name of the link in the output. The default is the mesh's file name.")
       ->type_name("NAME");

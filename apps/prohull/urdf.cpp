@@ -285,11 +285,12 @@ CLI::Option* add_budgets(CLI::App& command, UrdfOptions& options) {
   constexpr const char* kBudgets = "Budgets";
   add_sizes(command, options, kBudgets);
   command
-      .add_option("--max-distance", options.max_distance,
-                  "Largest allowed distance of any point of a hull from the geometry, in metres or with a unit: 2mm. "
-                  "Hulls then have the fewest faces that keep it, but at least --faces. Convex pieces and spheres are "
-                  "then as few as keep it, but at most --pieces and --spheres. The gap does not count. The exit code "
-                  "is 1 if a hull cannot keep it.")
+      .add_option(
+          "--max-distance", options.max_distance,
+          "Largest allowed distance of any point of a hull from the geometry, in metres or with a unit: 2mm. "
+          "Hulls then have the fewest faces found to keep it, but at least --faces. Convex pieces and spheres are "
+          "then as few as are found to keep it, but at most --pieces and --spheres. It must be greater than --gap. The "
+          "exit code is 1 if a hull cannot keep it.")
       ->type_name("LENGTH")
       ->group(kBudgets);
   command

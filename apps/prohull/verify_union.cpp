@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "command.h"
+#include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "prohull/union_verification.h"
@@ -103,7 +104,8 @@ void print_summary(const Union& all, const UnionVerification& found, const Dista
     for (const std::string& note : *notes) say("  {}\n", note);
   if (!std::isnan(found.union_volume))
     say("  union: volume {:.9g}{}\n", found.union_volume, text_of_void(found.void_ratio));
-  say("  it reaches out by {:.6g} to {:.6g}, at {}\n", reach.lower, reach.upper, text_of_point(reach.farthest));
+  say("  it reaches out by {:.6g} to {:.6g}, at {}\n", reach.lower, rounded_up(reach.upper, 6),
+      text_of_point(reach.farthest));
 }
 
 nlohmann::json point_or_null(const std::optional<PointOfFace>& point) {

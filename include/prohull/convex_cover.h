@@ -66,7 +66,8 @@ struct ConvexCover {
 /// code that shares nothing with the search. Every finite triangle is covered, and the inside too where the triangles
 /// bound a solid, or bound one with their openings closed (repaired_mesh).
 ///
-/// Throws InputError if no triangle is finite, and for options outside of their range; Cancelled.
+/// Throws InputError if no triangle is finite, for options outside of their range, and if the void is bounded and the
+/// input encloses no volume; Cancelled.
 ///
 ///     const ConvexCover cover = convex_cover(read_mesh("horse.ply"), {.max_pieces = 32});
 ConvexCover convex_cover(TriangleMesh triangles, const ConvexCoverOptions& options = {});

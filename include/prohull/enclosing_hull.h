@@ -48,7 +48,7 @@ struct EnclosingOptions {
   /// has the best hull. The hull is never worse than without.
   bool tight = false;
   /// The hull keeps at least this distance from the triangles, in the input's unit; without levels only. An inner hull
-  /// leaves out what is thinner than twice of it. `bounds` count from the hull before it is moved away.
+  /// leaves out what is thinner than twice of it. Must be less than bounds.max_distance.
   double padding = 0;
   bool levels = false;  ///< keep the levels of a hull of a wrap too: it then does not move towards the triangles
   Repair repair = Repair::Auto;
@@ -69,7 +69,8 @@ struct EnclosingHull {
   std::string_view proof;        ///< how: "replay", "enclosure" or "coverage" (verification.h); with padding
                                  ///< "padding", which includes "enclosure" or "coverage"; empty if not certified
   std::size_t target_faces = 0;  ///< how many faces were asked for
-  bool target_reached = false;   ///< the mesh has at most target_faces faces, or `bounds` allow no fewer
+  bool target_reached = false;   ///< the mesh has at most target_faces faces, or none with fewer was found to keep
+                                 ///< `bounds`
   bool within_bounds = true;     ///< the hull keeps `bounds`
   double excess = 0;             ///< HullBounds::excess, if bounds were given; above 1 where it does not keep them
   double padding = 0;     ///< proven least distance from the triangles, if EnclosingOptions::padding asks for one
@@ -136,8 +137,9 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
 /// Guaranteed: `certified` is decided exactly, on the coordinates returned, by verify_hull and verify_cover. With
 /// options.hull.float32_coordinates these are float32 numbers.
 ///
-/// Throws InputError if no triangle is finite, if options are outside their range or contradict each other, and if the
-/// hull is an inner one and the input cannot be closed; Cancelled.
+/// Throws InputError if no triangle is finite, if options are outside their range or contradict each other, if the
+/// hull is an inner one and the input cannot be closed, and if its void is bounded and the input encloses no volume;
+/// Cancelled.
 ///
 ///   const std::size_t budgets[]{1000, 100};
 ///   const EnclosingHulls made = enclosing_hulls(read_mesh("part.stl"), budgets);

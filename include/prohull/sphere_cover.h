@@ -29,9 +29,10 @@ struct SphereCover {
   /// How far the balls reach out of the solid, or of a wrap if there is none. What closes openings of the input belongs
   /// to the solid, and the inside of a wrap does.
   DistanceBounds reach;
-  DistanceBounds reach_from_triangles;  ///< the same without what closes openings
+  DistanceBounds reach_from_triangles;  ///< the same from the triangles alone
   bool original_closed = false;         ///< the input bounds a solid by itself: `covers_inside` is about that
-  bool has_openings = false;            ///< openings count as closed, as by any wrap: the two may differ
+  bool has_openings = false;            ///< the input has openings that count as closed: the two may differ
+  bool is_of_wrap = false;              ///< the input bounds no solid, and a wrap counts as one: the two may differ
   std::size_t non_finite_faces = 0;     ///< faces of the input that were left out: a corner is not finite
   double volume = 0;                    ///< of the union; overlaps count once
   double original_volume = 0;           ///< as EnclosingHulls::volume; 0 if the triangles bound nothing

@@ -79,7 +79,7 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
   facts["original"] = judges.original();
   facts["covered"] = judges.covered(hull);
   facts["volume_inside"] = std::isnan(hull.void_ratio) ? 0 : made.volume;
-  if (options.bounds.any() && options.padding == 0)
+  if (options.bounds.any())
     facts["bounds"] = py::make_tuple(judges.measured(hull), made.volume > 0 ? made.volume : solid.volume,
                                      options.bounds.max_distance, options.bounds.max_void_ratio);
   facts["replay_suffices"] =

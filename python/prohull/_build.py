@@ -87,11 +87,11 @@ def build(mesh: Any, faces: Any = None, target_faces: Any = None, *,  # type: ig
     levels: whether to keep levels whatever the source is. Vertices then do not move after the last collapse, neither
         back towards the mesh nor over its folds.
     max_distance: largest distance of a point of the hull from the mesh, at least 0, said as gap is. It is proven.
-        The hull is the coarsest one, of at least target_faces faces, that keeps this bound and the next.
+        The hull is the coarsest one found, of at least target_faces faces, that keeps this bound and the next.
     max_void_percent: largest void, in per cent of the mesh's volume, at least 0.
     gap: least distance between hull and mesh, in the mesh's unit, at least 0; or as in "0.5%" of the diagonal of the
         mesh's bounding box. It is proven. All points that near are inside of an outer hull. An inner hull leaves out
-        what is thinner than two gaps. The bounds above then count from there. For hulls without levels only.
+        what is thinner than two gaps. max_distance must be greater. For hulls without levels only.
     tolerances: a number for each face of the mesh, at least 0: no point of the face is farther from the hull, in the
         mesh's unit. It is proven. 0 keeps the face, so that the hull has it with the same coordinates; math.inf allows
         any distance. Numbers for each vertex become such ones by `per_vertex[faces].min(axis=1)`. For hulls of meshes

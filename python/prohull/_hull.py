@@ -24,7 +24,7 @@ class Hull(Mesh):
     gap: float  #: least distance from the triangles of the mesh, proven, if build() was asked for a gap; else 0
     side: Side  #: "outer" if the hull encloses its original, "inner" if it is enclosed by it
     target_faces: int  #: number of faces that was asked for; of a loaded hull its own
-    target_reached: bool  #: whether the hull has at most target_faces faces, or the bounds allow no fewer
+    target_reached: bool  #: whether the hull has at most target_faces faces, or none with fewer was found to keep the bounds
     within_bounds: bool  #: whether max_distance and max_void_percent hold
     refusals: dict[str, int]  #: how often collapses were refused during the construction, by reason
     blocked: dict[str, int]  #: how many of the edges that are left cannot be collapsed, by reason

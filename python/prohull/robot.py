@@ -94,7 +94,7 @@ class LinkHull(NamedTuple):
     origin: NDArray[np.float64]  #: (4, 4), the frame of the mesh in that of the link
     certified: bool  #: whether it is proven, exactly, that the hull encloses the geometry, or that the pieces cover it
     proof: Union[Proof, Literal["union"]]  #: how it is proven; of pieces and spheres "union"
-    target_reached: bool  #: whether the hull has at most target_faces faces, or max_distance allows no fewer
+    target_reached: bool  #: whether the hull has at most target_faces faces, or none with fewer was found to keep max_distance
     within_bounds: bool  #: whether max_distance holds
     source: Source  #: what it was built from
     volume_ratio: float  #: its volume / the volume inside of the geometry; nan if that encloses no space

@@ -42,7 +42,12 @@ void require_links(const Robot& robot, const LinkHullOptions& options) {
 
 [[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
 
-void require_hull(const Link& link, const Budget& budget) {
+void require_possible(const Link& link, const Budget& budget) {
+  if (budget.max_distance > 0 && budget.max_distance <= budget.padding)
+    refuse(
+        fmt::format("link {}: a hull that keeps a gap of {:g} is farther than {:g} from the link: the largest "
+                    "distance must be greater than the gap",
+                    link.name, budget.padding, budget.max_distance));
   if (budget.collision == Collision::Hull) return;
   const std::string where =
       fmt::format("link {}: collision '{}'", link.name, prohull::name_of(collision_names(), budget.collision));
@@ -301,7 +306,7 @@ void check_budgets(const Robot& robot, const LinkHullOptions& options) {
   for (const Link& link : robot.links) {
     const Budget& budget = options.budget_of(link.name);
     has_hull |= budget.collision == Collision::Hull;
-    if (!budget.skip) require_hull(link, budget);
+    if (!budget.skip) require_possible(link, budget);
   }
   if (options.tight && !has_hull) refuse("--tight is about hulls; no link has one");
 }

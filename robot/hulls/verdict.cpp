@@ -69,9 +69,8 @@ bool is_as_asked(const LinkHull& hull, const Budget& budget, bool float32) {
   return false;
 }
 
-/// The construction measures a padded hull before its faces are moved outwards.
 bool is_within_bounds(const LinkHull& hull, const Budget& budget) {
-  return budget.max_distance == 0 || budget.padding > 0 || hull.distance.upper <= budget.max_distance;
+  return budget.max_distance == 0 || hull.distance.upper <= budget.max_distance;
 }
 
 std::vector<std::size_t> targets_of(const Budget& budget) {

@@ -16,6 +16,7 @@
 #include "cover/enclosing_options.h"
 #include "cover/piece_hull.h"
 #include "cover/shape_choice.h"
+#include "enclose/known_void.h"
 #include "parallel/arena.h"
 #include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
@@ -119,11 +120,11 @@ class Covering {
 
   ConvexCover run() {
     std::optional<ConvexCover> cover;
-    if (prepared_.closed) cover = best_cover(of_closed_mesh());
+    if (prepared_.closed) cover = best_cover(measurable(of_closed_mesh()));
     // One convex piece holds all that lies between the triangles, too. Bounds of the void ask for more: a volume.
     if (!cover && options_.max_pieces == 1 && !options_.bounds.any()) cover = best_cover(of_convex_hull());
     if (!cover || !cover->certified) {
-      const Material material = of_enclosing_hull();
+      const Material material = measurable(of_enclosing_hull());
       cover = best_cover(material);
       if (prepared_.closed) cover->notes.emplace_back("no cover of the mesh itself was certified");
       if (material.solid.face_count() > 0)
@@ -140,6 +141,12 @@ class Covering {
   }
 
  private:
+  /// Bounds of the void ask for a volume.
+  Material measurable(Material material) const {
+    require_volume(material.inside.volume, options_.bounds);
+    return material;
+  }
+
   Material of_closed_mesh() const {
     const TriangleMesh& closed = prepared_.closed->mesh;
     TriangleMesh coarse = with_faces(closed, kSearchFaces), coarser = with_faces(coarse, kWideSearchFaces);

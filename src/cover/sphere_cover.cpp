@@ -195,10 +195,11 @@ class SphereCoverer {
     made_.reach.upper += slack_;
     if (slack_ > 0 || input_.dropped.face_count() > 0) made_.reach.lower = 0;
     made_.original_closed = is_closed(input_.original);
-    made_.has_openings = !input_.closed || input_.caps.face_count() > 0;  // a wrap closes them, too
+    made_.is_of_wrap = !input_.closed, made_.has_openings = input_.closed && input_.caps.face_count() > 0;
     made_.non_finite_faces = input_.repairs.dropped_non_finite_faces;
+    const bool has_more = made_.is_of_wrap || made_.has_openings;
     made_.reach_from_triangles =
-        made_.has_openings ? union_reach(made_.balls, input_.original, {.progress = options_.progress}) : made_.reach;
+        has_more ? union_reach(made_.balls, input_.original, {.progress = options_.progress}) : made_.reach;
     made_.volume = union_volume(made_.balls);
     // No estimate may say that the mesh is larger than what covers it.
     if (made_.is_estimated && made_.covers_inside && made_.original_volume > made_.volume) made_.original_volume = 0;

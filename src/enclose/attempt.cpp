@@ -10,6 +10,7 @@
 #include "enclose/candidate.h"
 #include "enclose/certify.h"
 #include "enclose/level_search.h"
+#include "mesh/area.h"
 #include "prohull/error.h"
 #include "prohull/float32_hull.h"
 #include "prohull/mesh_report.h"
@@ -19,6 +20,7 @@ namespace prohull {
 namespace {
 
 constexpr unsigned kRoundsAtTheEnd = 6;
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 /// One candidate on its way: what it is, and what it is built with.
 struct Making {
@@ -45,21 +47,35 @@ std::pair<std::optional<Float32Hull>, std::string> as_stored(const TriangleMesh&
   }
 }
 
-double excess_of(const TriangleMesh& hull, const Making& making) {
+/// What the volumes of hulls are compared with; 0 where nothing is inside, or nothing is known of it yet.
+double original_volume(const Making& making) { return making.solids.volume(making.candidate.target_faces); }
+
+double excess_of(const HullBounds& bounds, const TriangleMesh& hull, double volume, const Making& making) {
   const Solid& solid = making.solid();
-  const bool from_mesh = solid.source == Source::Mesh, has_padding = making.request.is_padded() && !from_mesh;
-  const double inside = making.solids.volume(making.candidate.target_faces);
-  const double volume = inside > 0 && !has_padding ? inside : solid.volume;
-  HullBounds bounds = making.options().bounds;
-  if (has_padding) bounds.max_distance += making.options().padding;
   // What lies around folds is not of the mesh.
-  const TriangleMesh& near = from_mesh && solid.folds.faces == 0 ? solid.mesh : making.to_cover();
-  return bounds.excess(hull, near, volume, making.options().progress);
+  const bool is_near_solid = solid.source == Source::Mesh && solid.folds.faces == 0;
+  return bounds.excess(hull, is_near_solid ? solid.mesh : making.to_cover(), volume, making.options().progress);
+}
+
+double excess_of(const TriangleMesh& hull, const Making& making) {
+  return excess_of(making.options().bounds, hull, original_volume(making), making);
+}
+
+// A hull of the mesh is moved away by the padding when it is done, and gains about its area times the padding. Wraps
+// keep the padding themselves.
+double excess_when_padded(const TriangleMesh& hull, const Making& making) {
+  const double padding = making.options().padding;
+  if (padding == 0 || making.solid().source != Source::Mesh) return excess_of(hull, making);
+  const double volume = original_volume(making), gain = padding * area_of(hull);
+  HullBounds left = making.options().bounds;
+  left.max_distance -= padding;
+  left.max_added_volume = std::min(left.max_added_volume, std::exchange(left.max_void_ratio, kNoBound) * volume);
+  return excess_of(left, hull, making.request.is_outer() ? volume - gain : volume + gain, making);
 }
 
 bool is_within_as_stored(const TriangleMesh& hull, const Making& making) {
   const auto [stored, why_not] = as_stored(hull, making);
-  return stored && excess_of(stored->mesh, making) <= 1;
+  return stored && excess_when_padded(stored->mesh, making) <= 1;
 }
 
 // Moved towards the triangles.
@@ -74,7 +90,7 @@ TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned ma
 std::size_t faces_of_level(const ProgressiveHull& hull, const Making& making) {
   const std::size_t target = making.candidate.target_faces;
   std::size_t faces = target;
-  if (making.options().bounds.any() && excess_of(making.solid().mesh, making) <= 1)
+  if (making.options().bounds.any() && excess_when_padded(making.solid().mesh, making) <= 1)
     faces = std::max(target,
                      faces_within(hull, [&](const TriangleMesh& level) { return is_within_as_stored(level, making); }));
   if (!making.request.is_symmetric()) return faces;
@@ -85,7 +101,7 @@ std::size_t faces_of_level(const ProgressiveHull& hull, const Making& making) {
 LevelTrial try_level(const ProgressiveHull& hull, std::size_t faces, const Making& making) {
   LevelTrial trial{faces, placed(hull.level(faces), making), std::numeric_limits<double>::infinity()};
   if (const auto [stored, why_not] = as_stored(trial.mesh, making); stored)
-    trial.excess = excess_of(stored->mesh, making);
+    trial.excess = excess_when_padded(stored->mesh, making);
   return trial;
 }
 
@@ -95,7 +111,7 @@ LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
   const std::size_t target = making.candidate.target_faces, finest = hull.original_face_count();
   const std::size_t fewest = std::min(std::max(target, hull.base_face_count()), finest);
   const auto trial = [&](std::size_t faces) { return try_level(hull, faces, making); };
-  const bool is_possible = excess_of(making.solid().mesh, making) <= 1;
+  const bool is_possible = excess_when_padded(making.solid().mesh, making) <= 1;
   if (!is_possible && making.solid().source != Source::Wrap) return trial(target);
   if (!is_possible)
     if (LevelTrial first = trial(std::min(finest, faces_of_first_trial(fewest))); !first.keeps_bounds()) return first;
@@ -210,12 +226,10 @@ std::optional<Attempt> attempt(const Candidate& candidate, const Request& reques
   made.hull.build_seconds = building.seconds();
 
   const Stopwatch verifying;
-  const bool is_bounded = stored && request.options.bounds.any();
-  if (is_bounded && request.is_padded()) made.hull.excess = excess_of(made.hull.mesh, making);
   if (stored) certify(made, request, solids);
   made.hull.self_intersections =
       made.hull.verdict.holds() ? made.hull.verdict.self_intersections : count_self_intersections(made.hull.mesh);
-  if (is_bounded && !request.is_padded()) made.hull.excess = excess_of(made.hull.mesh, making);
+  if (stored && request.options.bounds.any()) made.hull.excess = excess_of(made.hull.mesh, making);
   made.hull.within_bounds = made.hull.excess <= 1;
   made.hull.verify_seconds = verifying.seconds();
   return made;

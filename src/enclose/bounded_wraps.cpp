@@ -37,7 +37,8 @@ void Candidates::plan_bounded_wraps() {
   // keeps them with fewer still, the wrap is left out: of 10 robots' parts at 1 % of the diagonal, it had a better hull
   // for 2, and took 2 to 10 times as long.
   constexpr std::size_t kMostReduced = 300;
-  const double finest = finest_spacing(request_), max_distance = request_.options.bounds.max_distance;
+  const double finest = finest_spacing(request_),
+               max_distance = request_.options.bounds.max_distance - request_.options.padding;
   const bool is_hopeless = kBoundedWrap.offset * finest > kNearerByMoving * max_distance;
   const double wanted = std::max(
       {kBoundedSpacing * max_distance, request_.aim() / 2, request_.diagonal / (is_hopeless ? kPlain : kFine)});

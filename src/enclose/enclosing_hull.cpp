@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -35,12 +36,15 @@ EnclosingHull best_hull(const Request& request, std::size_t target_faces, Solids
 }
 
 EnclosingHulls best_hulls(Request request, std::span<const std::size_t> target_faces) {
+  const HullBounds bounds = request.options.bounds;
   Solids solids(request);
+  if (request.input.closed) require_volume(solids.volume(target_faces.front()), bounds);
   EnclosingHulls made;
   for (const std::size_t faces : target_faces) made.hulls.push_back(best_hull(request, faces, solids));
   const double volume = made.hulls.front().verdict.original_volume;
   made.is_estimated = !(volume > 0);
   made.volume = made.is_estimated ? solids.volume(target_faces.front()) : volume;
+  require_volume(made.volume, bounds);
   made.repair_seconds = solids.repair_seconds();
   made.solids = solids.taken();
   made.input = std::move(request.input);
@@ -54,6 +58,11 @@ void require_usable_padding(const EnclosingOptions& options) {
   const double most = options.hull.float32_coordinates ? double(std::numeric_limits<float>::max()) : kLargestCoordinate;
   if (!(options.padding >= 0 && options.padding <= most / kRoom))
     refuse(fmt::format("the padding is {:g}; it must be a number from 0 to {:.3g}", options.padding, most / kRoom));
+  if (options.padding > 0 && options.bounds.max_distance <= options.padding)
+    refuse(
+        fmt::format("a hull that keeps a gap of {:g} is farther than {:g} from the mesh: the largest distance must be "
+                    "greater than the gap",
+                    options.padding, options.bounds.max_distance));
   if (options.padding > 0 && options.levels) refuse("a hull with padding has no levels: ask for one of the two");
 }
 
@@ -82,6 +91,13 @@ void require_usable_mirror(const EnclosingOptions& options) {
 }
 
 }  // namespace
+
+void require_volume(double volume, const HullBounds& bounds) {
+  if (std::isfinite(bounds.max_void_ratio) && !(volume > 0))
+    throw InputError(Defect::NoVolume,
+                     "the mesh encloses no volume of which the void could be a share; bound the "
+                     "distance instead");
+}
 
 // No estimate may say that what encloses is smaller than what it encloses.
 double known_void(const EnclosingHulls& made, const EnclosingHull& hull) {

@@ -31,10 +31,10 @@ std::string what_to_try(const EnclosingOptions& options) {
   return ways;
 }
 
-std::string described(const Solid& solid) {
+std::string described(const Solid& solid, const Repairs& repairs) {
   switch (solid.source) {
     case Source::Mesh:
-      return "the mesh itself";
+      return repairs.any() || solid.folds.faces > 0 ? "the repaired mesh" : "the mesh itself";
     case Source::ConvexHull:
       return "the convex hull";
     default:
@@ -55,8 +55,8 @@ void Ranking::take(std::optional<Attempt> attempt) {
   build_seconds_ += hull.build_seconds, verify_seconds_ += hull.verify_seconds;
   if (attempt->void_before_padding) void_before_padding_ = *attempt->void_before_padding;
   if (!attempt->why_not_storable.empty())
-    notes_.add(fmt::format("a hull of {} has no float32 coordinates: {}", described(solids_[hull.solid]),
-                           attempt->why_not_storable));
+    notes_.add(fmt::format("a hull of {} has no float32 coordinates: {}",
+                           described(solids_[hull.solid], request_.input.repairs), attempt->why_not_storable));
   else if (!is_as_asked(hull) && request_.is_free() &&
            (hull.certified || !other_way(attempt->candidate.recipe, request_)))
     note_why_not(hull);
@@ -113,7 +113,7 @@ double Ranking::slack() const {
 }
 
 void Ranking::note_why_not(const EnclosingHull& hull) {
-  const std::string source = described(solids_[hull.solid]);
+  const std::string source = described(solids_[hull.solid], request_.input.repairs);
   if (!hull.certified)
     notes_.add(fmt::format(
         "a hull of {} {}", source,

@@ -163,10 +163,9 @@ std::string line_of_input(const std::string& name, const EnclosingHulls& made) {
                      counted(made.input.found.components, "component", "components"));
 }
 
-std::vector<std::string> lines_of_repairs(const EnclosingHulls& made, const EnclosingHull& hull) {
+std::vector<std::string> lines_of_repairs(const EnclosingHulls& made) {
   std::vector<std::string> lines = describe(made.input.repairs);
   if (!made.input.closed) lines.push_back("bounds no solid: " + made.input.obstacle);
-  lines.insert(lines.end(), hull.notes.begin(), hull.notes.end());
   return lines;
 }
 

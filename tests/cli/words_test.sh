@@ -67,7 +67,42 @@ for gap in 0.123 0.2 0.31 0.44; do
   expect 0 "a greatest distance" $prohull build cube.obj -o away.obj --faces 12 --gap $gap --report away.json
   is "a greatest distance" awk '/at most/ { sub(/.*at most /, ""); said = $1 + 0 } /"distance_bound":/ { proven = $2 + 0 } END { exit !(said >= proven) }' out away.json
 done
+
+# --- bounds ---
+expect 2 "a gap beyond the largest distance" $prohull build cube.obj -o away.obj --gap 0.2 --max-distance 0.1
+says err "a gap beyond the largest distance" "the largest distance must be greater than the gap"
+expect 1 "a distance with a gap" $prohull build cube.obj -o away.obj --faces 12 --gap 0.1 --max-distance 0.12 --repair none
+says out "a distance with a gap" "NOT within the bounds asked for"
+expect 0 "a distance with a gap" $prohull build cube.obj -o away.obj --faces 12 --gap 0.1 --max-distance 0.15 --report away.json
+is "a distance with a gap" awk '/"distance_bound":/ { proven = $2 + 0 } END { exit !(0.1 <= proven && proven <= 0.15) }' away.json
+expect 0 "a void with a gap" $prohull build rock.ply -o away.obj --faces 12 --gap 0.02 --max-void 20 --report away.json
+is "a void with a gap" awk '/"void_ratio":/ { void = $2 + 0 } END { exit !(0 < void && void <= 0.2) }' away.json
+for command in build convex; do
+  expect 3 "the void of nothing: $command" $prohull $command sheet.obj -o hull.obj --max-void 20
+  says err "the void of nothing: $command" "the mesh encloses no volume of which the void could be a share; bound the distance instead"
+done
+expect 0 "pieces of a shape" $prohull convex rock.ply -o piece.urdf --pieces 4 --shape box --max-void 40
+says out "pieces of a shape" "have the shape asked for; no more were found to keep the bounds"
+
+# --- what is told of each ---
+expect 0 "equal values" $prohull info cube.obj
+says out "equal values" "median 0.866, 10th percentile 0.866, 1st percentile 0.866, worst 0.866"
+expect 0 "notes of each hull" $prohull build tube.obj --faces 4,40 -o 'hull_{faces}.obj'
+says out "notes of each hull" "no legal collapse of the repaired mesh is left at 12 faces"
+expect 0 "self-intersections of the file" $prohull build twice.obj --faces 12 -o hull.obj --report twice.json
+is "self-intersections of the file" awk '/"repaired_self_intersections": 0/ { repaired = 1 } /"self_intersections": [1-9]/ { given = 1 } END { exit !(repaired && given) }' twice.json
+
 # --- spheres ---
+for part in cube nested rock; do
+  mesh=$(ls $part.*)
+  for count in 1 2 3 5; do
+    expect 0 "a share of the diagonal" $prohull spheres "$mesh" -o s.json --count $count --report spheres.json
+    is "a share of the diagonal" awk '/reach out/ { said = $(NF - 4) / 100 } /"diagonal":/ { diagonal = $2 + 0 } /"reach":/ { inside = 1 } inside && /"upper":/ { proven = $2 + 0; inside = 0 } END { exit !(said * (1 + 1e-12) >= proven / diagonal) }' out spheres.json
+  done
+done
+expect 0 "nothing to close" $prohull spheres sheet.obj -o s.json --count 4
+says_not out "nothing to close" "its openings"
+says out "nothing to close" "that is from a wrap, and from the triangles alone it is at most"
 expect 0 "a distance that is kept" $prohull spheres cube.obj -o s.json --max-distance 0.3 --count 8
 says_not out "a distance that is kept" "keep a distance"
 expect 1 "a distance that is not kept" $prohull spheres cube.obj -o s.json --max-distance 0.01 --count 1

@@ -146,12 +146,27 @@ TEST(Padding, IsKeptByTightHullsAndWithBounds) {
     const EnclosingHull tight = padded(mesh, 60, padding, {.tight = true, .repair = repair});
     expect_padding(mesh, tight, padding, random);
     EXPECT_LT(signed_volume(tight.mesh), 1.03 * signed_volume(padded(mesh, 60, padding, {.repair = repair}).mesh));
-    const EnclosingHull near =
-        padded(mesh, 20, padding, {.bounds = {.max_distance = 0.02 * diagonal}, .repair = repair});
+    const EnclosingHull near = padded(mesh, 20, padding, {.bounds = {.max_distance = 2 * padding}, .repair = repair});
     expect_padding(mesh, near, padding, random);
     EXPECT_TRUE(near.within_bounds);
-    EXPECT_LE(distance_bounds(near.mesh, mesh).upper, 2 * (padding + 0.02 * diagonal));
+    EXPECT_LE(distance_bounds(near.mesh, mesh).upper, 2 * padding);
   }
+}
+
+TEST(Padding, IsLessThanTheLargestDistance) {
+  const TriangleMesh cube = box({0, 0, 0}, {1, 1, 1});
+  EXPECT_THROW(padded(cube, 12, 0.2, {.bounds = {.max_distance = 0.2}}), InputError);
+  // The convex hull moved away has corners that are sqrt(3) times as far.
+  const EnclosingHull hull = padded(cube, 12, 0.1, {.bounds = {.max_distance = 0.17}, .repair = Repair::None});
+  EXPECT_FALSE(hull.within_bounds);
+}
+
+TEST(Padding, CountsForBoundsOfTheVoid) {
+  const TriangleMesh mesh = make_sample("asteroid", effort<std::size_t>(500, 80));
+  const EnclosingHull hull =
+      padded(mesh, 20, 0.005 * bounding_box(mesh).diagonal(), {.bounds = {.max_void_ratio = 0.3}});
+  EXPECT_TRUE(hull.within_bounds);
+  EXPECT_LE(hull.void_ratio, 0.3);
 }
 
 // Two blocks: the gap between them is narrower than two paddings, and faces of either would pass through the other's.

@@ -22,6 +22,18 @@ inline double rounded_up(double number, int digits) {
   return nearest_of_digits(nearest + std::strtod(("1e" + std::to_string(exponent)).c_str(), nullptr), digits);
 }
 
+/// With so many decimals, and not below `number`.
+inline std::string with_decimals_up(double number, int decimals) {
+  const auto text = [&](double x) {
+    char buffer[512];
+    std::snprintf(buffer, sizeof buffer, "%.*f", decimals, x);
+    return std::string(buffer);
+  };
+  const std::string nearest = text(number);
+  const double shown = std::strtod(nearest.c_str(), nullptr);
+  return shown >= number || !std::isfinite(number) ? nearest : text(shown + std::pow(10.0, -decimals));
+}
+
 /// Not above `number`, as a lower bound needs it.
 inline double rounded_down(double number, int digits) { return -rounded_up(-number, digits); }
 
