@@ -8,6 +8,7 @@ import {View} from '../src/view.js';
 import {commandOf, fillForm, formValues, optionsFor, showOptions, wanted} from './wanted.js';
 
 const MOST_MEGABYTES = 500;
+const MOST_FACES = 7e6;         // of the 4 GB that WebAssembly has, the scene of a hull takes 540 bytes for each face
 const SAMPLES = {bracket: 20000, pony: 100000, knot: 20000, asteroid: 20000, gyroid: 40000, torus: 5000};
 const REST = 300;              // milliseconds after which a level is measured
 const CAMERA = 'vtcads';       // of the address: what of a picture holds for any other part, too
@@ -90,6 +91,9 @@ const take = (read, fragment = cameraOf(shown)) => run(async (running) => {
   next.mesh = await prohull.read(next.bytes, next.name, running);
   next.inspection = await prohull.inspect(next.mesh, running);
   running.signal.throwIfAborted();
+  if (next.inspection.faces > MOST_FACES)
+    throw new prohull.InputError(`${next.name} has ${grouped(next.inspection.faces)} faces, and this page takes parts of at most ` +
+        `${grouped(MOST_FACES)}. The program prohull takes larger ones.`);
   part = next;
   showPart();
   const alone = prohull.scene(null, {...part.mesh, name: part.name}, {signal: running.signal})
@@ -270,7 +274,7 @@ function keepOffline() {
 function open() {
   const dark = matchMedia('(prefers-color-scheme: dark)'), fragment = readFragment();
   document.documentElement.dataset.theme = fragment.t ?? (dark.matches ? 'dark' : 'light');
-  byId('most').textContent = MOST_MEGABYTES;
+  byId('most').textContent = `${MOST_MEGABYTES} MB and ${grouped(MOST_FACES)} faces`;
   byId('sample').append(...Object.keys(SAMPLES).map((name) => el('option', {value: name}, name)));
   fillForm(fragment);
   document.documentElement.dataset.ready = 'yes';
