@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "construct/star.h"
 #include "effort.h"
@@ -294,18 +295,16 @@ TEST(BuildHullProgress, GoesForwardAndCancels) {
 constexpr std::size_t kFacesForRounds = 24000;  // so many that space is split into cells
 
 TEST(BuildHullInRounds, KeepsItsPromisesAndIsTheSameForAnyNumberOfThreads) {
-  for (const char* sample : {"pony", "bracket"}) {
+  for (const auto& [sample, side] : {std::pair("pony", HullSide::Outer), std::pair("bracket", HullSide::Inner)}) {
     const TriangleMesh mesh = make_sample(sample, kFacesForRounds);
-    for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
-      HullOptions options{.target_faces = 800, .side = side, .threads = 1};
-      const HullResult one = build_hull(mesh, options);
-      check(mesh, options, one);
-      options.threads = 0;
-      const HullResult many = build_hull(mesh, options);
-      EXPECT_EQ(many.hull, one.hull);
-      EXPECT_EQ(many.linear_programs, one.linear_programs);
-      EXPECT_EQ(total(many.refusals), total(one.refusals));
-    }
+    HullOptions options{.target_faces = 800, .side = side, .threads = 1};
+    const HullResult one = build_hull(mesh, options);
+    check(mesh, options, one);
+    options.threads = 0;
+    const HullResult many = build_hull(mesh, options);
+    EXPECT_EQ(many.hull, one.hull);
+    EXPECT_EQ(many.linear_programs, one.linear_programs);
+    EXPECT_EQ(total(many.refusals), total(one.refusals));
   }
 }
 

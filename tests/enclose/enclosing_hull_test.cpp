@@ -461,10 +461,10 @@ TEST(EnclosingHull, OfASoupKeepsACloseBound) {
 
 // What the wraps of one budget tell of the inside decides nothing for another.
 TEST(EnclosingHull, OfASoupIsTheSameBesideOtherBudgets) {
-  const TriangleMesh soup = without_a_face(make_sample("bracket", 500));
+  const TriangleMesh soup = without_a_face(make_sample("bracket", 200));
   const EnclosingOptions options{.repair = Repair::Wrap, .open_shells = OpenShells::Keep};
-  const EnclosingHulls both = enclosing_hulls(soup, std::array<std::size_t, 2>{60, 400}, options);
-  EXPECT_EQ(both.hulls[1].mesh, enclosing_hull(soup, 400, options).mesh);
+  const EnclosingHulls both = enclosing_hulls(soup, std::array<std::size_t, 2>{40, 160}, options);
+  EXPECT_EQ(both.hulls[1].mesh, enclosing_hull(soup, 160, options).mesh);
 }
 
 TEST(EnclosingHull, OfABladeTakesNoWrapOfManyMillionNodes) {

@@ -118,7 +118,7 @@ std::vector<TriangleMesh> originals(unsigned seed) {
           subdivided(subdivided(octahedron())),
           snapped(sphere(2)),
           snapped(with_noise(sphere(2), 0.2, seed)),
-          snapped(torus(12, 8)),
+          snapped(torus(10, 6)),
           snapped(with_noise(torus(9, 6), 0.1, seed)),
           moved(snapped(torus(8, 5)), {1000, 1000, 1000})};
 }
