@@ -27,9 +27,11 @@ async function write() {
   const worker = await bundled(inPackage('worker_browser.js'), {define: DEFINED});
   const policy = {scripts: " 'wasm-unsafe-eval'", others: "worker-src 'self' blob:; "};
   const module = zlib.deflateSync(fs.readFileSync(inPackage('module.wasm')), {level: 9}).toString('base64');
+  const licence = fs.readFileSync(inPackage('LICENSE'), 'utf8');  // of all that is compiled in
   fs.mkdirSync(out, {recursive: true});
   fs.writeFileSync(path.join(out, 'app.html'),
-      pageOf(path.join(app, 'page.html'), {script, style, policy}, {'<!--module-->': module, '<!--worker-->': worker}));
+      pageOf(path.join(app, 'page.html'), {script, style, policy},
+      {'<!--module-->': module, '<!--worker-->': worker, '<!--licence-->': licence}));
   fs.copyFileSync(path.join(app, 'offline.js'), path.join(out, 'app_offline.js'));
 }
 

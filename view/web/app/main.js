@@ -28,6 +28,7 @@ function remember() {
 function complain(text) {
   byId('problem').hidden = !text;
   byId('problem').textContent = text;
+  if (text) byId('problem').scrollIntoView({block: 'nearest'});
 }
 
 function setRunning(is) {
@@ -58,15 +59,23 @@ async function run(work) {
   setRunning(false);
 }
 
+/** No picture; the canvas is a new one. */
+function clear(message) {
+  view?.end();
+  view = null;
+  const canvas = byId('canvas'), isFocused = document.activeElement === canvas;
+  canvas.replaceWith(canvas.cloneNode());
+  if (isFocused) byId('canvas').focus();
+  byId('message').hidden = !message;
+  byId('message').textContent = message;
+}
+
 /** A picture of the scene in place of the one before. */
 async function draw({facts, blocks}, fragment) {
   const scene = JSON.parse(facts);
   scene.alone = 'No hull of it is shown.';
   const space = await readObjects(scene, blocks);
-  view?.end();
-  const canvas = byId('canvas');
-  canvas.replaceWith(canvas.cloneNode());
-  byId('message').hidden = true;
+  clear('');
   view = globalThis.prohullView = new View(scene, space, blocks, {read: () => fragment, write: (values) => {
     shown = values;
     remember();
@@ -87,6 +96,7 @@ const take = (read, fragment = cameraOf(shown)) => run(async (running) => {
   byId('result').hidden = byId('name').hidden = true;
   byId('found').textContent = '';
   part = made = null;
+  clear('Drop a part on this page, open a file, or take a sample.');
   const next = await read(running);
   next.mesh = await prohull.read(next.bytes, next.name, running);
   next.inspection = await prohull.inspect(next.mesh, running);
@@ -262,7 +272,9 @@ function listen() {
   addEventListener('dragleave', over(false));
   addEventListener('drop', (event) => {
     over(false)(event);
-    takeFile(event.dataTransfer.files[0]);
+    const {files} = event.dataTransfer;
+    if (files.length > 1) complain(`These are ${files.length} files. Drop one at a time.`);
+    else takeFile(files[0]);
   });
 }
 
