@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "enclose/candidates.h"
+#include "enclose/known_void.h"
 
 namespace prohull {
 namespace {
@@ -52,6 +53,7 @@ void Candidates::plan_bounded_wraps() {
         if (i > 0 || is_of_clean_mesh || best.mesh.face_count() <= target_faces_ || is_fine) return std::nullopt;
       }
       const auto id = wrap(kBoundedWrap, spacing, solids);
+      if (!request_.input.closed) require_volume(solids.volume(target_faces_), request_.options.bounds);
       if (!id || (ranking.has_certified() && ranking.best().hull.within_bounds &&
                   ranking.best().hull.mesh.face_count() * kMostReduced < solids[*id].mesh.face_count()))
         return std::nullopt;

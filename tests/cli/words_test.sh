@@ -81,6 +81,8 @@ for command in build convex; do
   expect 3 "the void of nothing: $command" $prohull $command sheet.obj -o hull.obj --max-void 20
   says err "the void of nothing: $command" "the mesh encloses no volume of which the void could be a share; bound the distance instead"
 done
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0.5\nf 1 2 3\n' >leaf.obj
+expect 3 "the void of a leaf" $prohull build leaf.obj -o hull.obj --max-void 20
 expect 0 "pieces of a shape" $prohull convex rock.ply -o piece.urdf --pieces 4 --shape box --max-void 40
 says out "pieces of a shape" "have the shape asked for; no more were found to keep the bounds"
 
