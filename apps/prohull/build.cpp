@@ -279,10 +279,11 @@ void add_guards(CLI::App& command, BuildOptions& options) {
 }
 
 void add_bounds(CLI::App& command, BuildOptions& options) {
-  add_length(command, "--max-distance", options.max_distance,
-             "Largest allowed distance of any point of the hull from the mesh. What closes openings of the mesh counts "
-             "as mesh. The hull is the coarsest that was found, of at least --faces faces, that provably keeps it; the "
-             "exit code is 1 if none was found. With --tight, some ten hulls are built to find it.");
+  add_length(
+      command, "--max-distance", options.max_distance,
+      "Largest allowed distance of any point of the hull from the mesh. What closes openings of the mesh counts "
+      "as mesh. The hull has the fewest faces, at least --faces, with which one was found that provably keeps it; "
+      "the exit code is 1 if none was found. With --tight, some ten hulls are built to find it.");
   add_optional_number(
       command, "--max-void", options.max_void_percent, kPositive,
       "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, caps on "

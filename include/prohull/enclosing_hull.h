@@ -155,8 +155,9 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
 ///  back
 ///     towards the triangles in the end.
 /// A source is left out if it cannot win: the second if the convex hull is larger than the best hull, the third if the
-/// best hull is nearly as small as the solid. With `bounds` the first is always tried, and wraps have a spacing of half
-/// of HullBounds::max_distance, or less; finer ones than 1/256 of the diagonal come later, as they take long. What
+/// best hull is nearly as small as the solid. With `bounds` the first is always tried, as levels, and by collapses each
+/// of which keeps HullBounds::max_distance (HullOptions::tolerances). Wraps have a spacing of half of that, or less; of
+/// two thirds, where it is below 1/200 of the diagonal: then only collapses are tried that keep it. What
 /// counts is the certificate first, then the number of faces, the bounds, the overhang (ShapeGuards::max_overhang), and
 /// the volume; a hull that intersects itself has to have less than ten elevenths of the void of one that does not.
 EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size_t> target_faces,

@@ -114,6 +114,9 @@ struct HullOptions {
   /// the face is kept, so that the hull has it with the same coordinates. Infinity: any distance. Empty: any distance,
   /// of all faces.
   PerFace<double> tolerances = {};
+  /// Of each vertex of the mesh, how much of the tolerances is used up already, as if the mesh were that far from what
+  /// they are meant for. Empty: nothing.
+  PerVertex<double> deviations = {};
   /// Build a hull that is its own mirror image, exactly, in the plane through the middle of the mesh's bounding box
   /// that is perpendicular to this axis. The mesh must be so too; inspect_symmetry tells. Most edges are collapsed in
   /// pairs: the level between the two collapses is not symmetric (symmetric_faces). Not together with `tolerances`.

@@ -47,6 +47,10 @@ void check_tolerances(const TriangleMesh& mesh, const HullOptions& options) {
                                                         tolerances.size(), mesh.face_count()));
   if (!std::ranges::all_of(tolerances, [](double tolerance) { return tolerance >= 0; }))
     throw InputError(Defect::InvalidOption, "tolerances must be at least 0; 0 keeps a face, infinity allows anything");
+  if (!options.deviations.empty() && options.deviations.size() != mesh.positions.size())
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("{} deviations for {} vertices: there must be one for each vertex",
+                                 options.deviations.size(), mesh.positions.size()));
   const auto kept = static_cast<std::size_t>(std::ranges::count(tolerances, 0.0));
   if (kept > options.target_faces)
     throw InputError(Defect::InvalidOption,

@@ -3,6 +3,7 @@
 
 #include "enclose/candidates.h"
 #include "enclose/known_void.h"
+#include "mesh/area.h"
 
 namespace prohull {
 namespace {
@@ -12,11 +13,11 @@ namespace {
 constexpr WrapKind kBoundedWrap{3.5, 0.3, 0};
 constexpr double kBoundedSpacing = 0.5;  // of the largest distance
 
-// With as many nodes as memory and patience allow: 128 MB of distances, and less for a mesh of few faces. A wrap of a
-// million nodes has up to 340,000 faces, and a hull of it takes seconds.
-double finest_spacing(const Request& request) {
+// With as many nodes as memory and patience allow, and less for a mesh of few faces. A wrap of a million nodes has up
+// to 340,000 faces, and a hull of it takes seconds.
+double finest_spacing(const Request& request, double nodes_per_face, double most) {
   constexpr double kMargin = 12;  // nodes on both sides
-  const double most_nodes = std::clamp(0x1p12 * double(request.to_cover().face_count()), 0x1p20, 0x1p25);
+  const double most_nodes = std::clamp(nodes_per_face * double(request.to_cover().face_count()), 0x1p20, most);
   const Box box = bounding_box(request.to_cover());
   const Vec3 size = box.max - box.min;
   double spacing = request.diagonal / std::cbrt(most_nodes);
@@ -25,12 +26,55 @@ double finest_spacing(const Request& request) {
   return spacing;
 }
 
+double finest_loose_spacing(const Request& request) {
+  constexpr double kNodesPerFace = 0x1p12, kMostNodes = 0x1p25;  // 128 MB of distances
+  return finest_spacing(request, kNodesPerFace, kMostNodes);
+}
+
+// With as many faces as patience allows, and less for a mesh of few faces: a hull of a wrap of 2.5 million takes 45 s.
+double spacing_of_many_faces(const TriangleMesh& mesh) {
+  constexpr double kPerFace = 0x1p11, kLeast = 0x1p18, kMost = 2.5e6;
+  constexpr double kFacesPerArea = 8.4;  // in spacings; wraps of two robots' parts had 8.0 and 8.4
+  const double most = std::clamp(kPerFace * double(mesh.face_count()), kLeast, kMost);
+  return std::sqrt(kFacesPerArea * area_of(mesh) / most);
+}
+
 }  // namespace
+
+void Candidates::plan_bounded_wraps() {
+  constexpr double kClose = 1.0 / 200;  // to the diagonal
+  const double max_distance = request_.options.bounds.max_distance;
+  const bool is_close =
+      max_distance < kClose * request_.diagonal || kBoundedSpacing * max_distance < finest_loose_spacing(request_);
+  may_stay_within() && is_close ? plan_close_wraps() : plan_loose_wraps();
+}
+
+// A wrap reaches out by 0.7 to 1.1 spacings; the rest of the bound is for collapses. If memory and patience are not
+// enough for a wrap that could keep it, the hull is as near as they allow.
+void Candidates::plan_close_wraps() {
+  constexpr double kSpacing = 2.0 / 3, kFiner = 2.0 / 3;  // of the bound, and of the spacing before
+  constexpr double kReach = 1.2;                          // of a wrap, in spacings
+  constexpr int kMost = 2;
+  const double max_distance = request_.options.bounds.max_distance;
+  constexpr double kNodesPerFace = 0x1p16, kMostNodes = 0x1p26;  // 256 MB of distances
+  const double finest =
+      std::max(finest_spacing(request_, kNodesPerFace, kMostNodes), spacing_of_many_faces(request_.to_cover()));
+  double spacing = std::max(kSpacing * max_distance, finest);
+  for (int i = 0; i < kMost; ++i) {
+    steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+      if (ranking.has_certified() && ranking.best().hull.within_bounds) return std::nullopt;
+      const auto id = wrap(kBoundedWrap, spacing, solids);
+      return id ? std::optional(within(*id, std::max(max_distance, kReach * spacing), solids)) : std::nullopt;
+    });
+    if (spacing == finest) break;
+    spacing = std::max(kFiner * spacing, finest);
+  }
+}
 
 // Ever finer ones, until one keeps the bounds; a single one, as near as patience allows, if none can. A hull of a wrap
 // moves towards the triangles, so that it may keep a bound that the wrap misses. Of a mesh that does not intersect
 // itself no wrap does better: its own hull touches it.
-void Candidates::plan_bounded_wraps() {
+void Candidates::plan_loose_wraps() {
   constexpr int kMostBounded = 4;
   constexpr double kFine = 256, kPlain = 100;  // to the diagonal; finer ones take ten seconds and more, and one second
   constexpr double kNearerByMoving = 4;        // by moving, a hull comes so much nearer than its wrap
@@ -38,7 +82,7 @@ void Candidates::plan_bounded_wraps() {
   // keeps them with fewer still, the wrap is left out: of 10 robots' parts at 1 % of the diagonal, it had a better hull
   // for 2, and took 2 to 10 times as long.
   constexpr std::size_t kMostReduced = 300;
-  const double finest = finest_spacing(request_),
+  const double finest = finest_loose_spacing(request_),
                max_distance = request_.options.bounds.max_distance - request_.options.padding;
   const bool is_hopeless = kBoundedWrap.offset * finest > kNearerByMoving * max_distance;
   const double wanted = std::max(

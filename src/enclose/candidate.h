@@ -9,6 +9,7 @@ namespace prohull {
 
 enum class Method {
   Levels,          ///< a level of the progressive hull
+  Within,          ///< a progressive hull without collapses that could break the bound of the distance
   InSteps,         ///< a progressive hull whose vertices move towards the triangles before it has come down, too
   Tight,           ///< a tight hull (tight_hull.h)
   TightOfGapBody,  ///< a tight hull of a body that keeps the gap (gap_body.h)
@@ -32,6 +33,7 @@ struct Candidate {
   SolidId solid;
   std::size_t target_faces;
   Recipe recipe;
+  double within = 0;  ///< Method::Within: the distance that collapses keep
   std::size_t most_faces = std::numeric_limits<std::size_t>::max();  ///< with more, it is not better than another hull
 };
 

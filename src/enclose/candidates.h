@@ -22,10 +22,13 @@ class Candidates {
 
   void plan_mesh();
   void plan_unfolded_mesh();
+  void plan_within_of_mesh();
   void plan_convex_hull();
   void plan_polytope();
   void plan_wraps();
   void plan_bounded_wraps();
+  void plan_close_wraps();
+  void plan_loose_wraps();
   void plan_inner();
   void plan_inner_with_padding();
   void plan_tight();
@@ -39,6 +42,8 @@ class Candidates {
   double finest_worth_its_faces(const Solids& solids) const;
   Candidate of(SolidId id, const Solids& solids) const;
   Candidate moved(SolidId id) const;
+  Candidate within(SolidId id, double max_distance, const Solids& solids) const;
+  bool may_stay_within() const;
 
   const Request& request_;
   const std::size_t target_faces_;

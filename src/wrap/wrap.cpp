@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/bvh.h"
 #include "prohull/error.h"
 #include "wrap/inside.h"
 #include "wrap/level_surface.h"

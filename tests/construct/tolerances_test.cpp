@@ -74,6 +74,20 @@ TEST(Tolerances, BoundTheDistanceWhereTheyAreAndNowhereElse) {
   EXPECT_LT(hull.face_count(), ball.face_count() / 5);
 }
 
+TEST(Tolerances, AreUsedUpByDeviations) {
+  const TriangleMesh ball = sphere(kLevels);
+  constexpr double kTolerance = 0.04, kUsed = 0.75 * kTolerance;
+  HullOptions how{.target_faces = 4, .tolerances = PerFace<double>(ball.face_count(), kTolerance)};
+  const TriangleMesh far = build_hull(ball, how).hull.base();
+  how.deviations.assign(ball.positions.size(), kUsed);
+  const TriangleMesh near = build_hull(ball, how).hull.base();
+  EXPECT_LE(distance_bounds(near, ball).lower, kTolerance - kUsed);
+  EXPECT_GT(distance_bounds(far, ball).lower, kTolerance - kUsed);
+  EXPECT_GT(near.face_count(), far.face_count());
+  how.deviations.pop_back();
+  EXPECT_THROW(build_hull(ball, how), InputError);
+}
+
 TEST(Tolerances, HoldOnAllLevels) {
   const TriangleMesh ball = sphere(kLevels);
   const PerFace<double> tolerances = above(ball, 0.3, 0.05);

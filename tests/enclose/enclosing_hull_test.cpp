@@ -417,7 +417,7 @@ TEST(EnclosingHull, OnTheInnerSideLiesWithinTheUnionOfParts) {
 }
 
 TEST(EnclosingHull, MissesBoundsByAsLittleAsItCan) {
-  const TriangleMesh soup = without_a_face(make_sample("asteroid", 500));
+  const TriangleMesh soup = without_a_face(make_sample("asteroid", 60));
   const EnclosingHull hull = enclosing_hull(
       soup, 100, {.bounds = {.max_distance = 1e-9}, .repair = Repair::Wrap, .open_shells = OpenShells::Keep});
   EXPECT_TRUE(hull.certified);
@@ -430,7 +430,7 @@ TEST(EnclosingHull, MissesBoundsByAsLittleAsItCan) {
 
 // And what it misses by is kept when it is allowed.
 TEST(EnclosingHull, OfABoundThatNoHullKeepsIsNear) {
-  const TriangleMesh soup = without_a_face(make_sample("bracket", 500));
+  const TriangleMesh soup = without_a_face(make_sample("bracket", 100));
   const double diagonal = bounding_box(soup).diagonal();
   const auto within = [&](double max_distance) {
     return enclosing_hull(
@@ -457,6 +457,25 @@ TEST(EnclosingHull, OfASoupKeepsACloseBound) {
     EXPECT_GT(hull.mesh.face_count(), faces) << share;
     faces = hull.mesh.face_count();
   }
+}
+
+// So close that no collapse may be left to chance.
+TEST(EnclosingHull, OfASoupKeepsAVeryCloseBound) {
+  const TriangleMesh soup = without_a_face(make_sample("asteroid", 300));
+  const double bound = 0.0049 * bounding_box(soup).diagonal();
+  const EnclosingHull hull = enclosing_hull(soup, 20, {.bounds = {.max_distance = bound}, .repair = Repair::Wrap});
+  EXPECT_TRUE(hull.certified && hull.within_bounds);
+  EXPECT_LT(hull.mesh.face_count(), 10'000U);
+}
+
+// A level has the same priority everywhere: where one place needs many faces, all of it has them.
+TEST(EnclosingHull, HasFewerFacesWithinABoundThanALevel) {
+  const TriangleMesh asteroid = make_sample("asteroid", 2000);
+  const HullBounds bounds{.max_distance = 0.01 * bounding_box(asteroid).diagonal()};
+  const EnclosingHull hull = enclosing_hull(asteroid, 20, {.bounds = bounds}),
+                      level = enclosing_hull(asteroid, 20, {.bounds = bounds, .levels = true});
+  EXPECT_TRUE(hull.certified && hull.within_bounds && level.within_bounds);
+  EXPECT_LT(hull.mesh.face_count(), level.mesh.face_count());
 }
 
 // What the wraps of one budget tell of the inside decides nothing for another.

@@ -51,7 +51,7 @@ WholeMesh::WholeMesh(const TriangleMesh& mesh, const HullOptions& options, const
   else
     find_twins(mesh);
   if (options.mirror) find_images(mesh);
-  set_tolerances(options.tolerances);
+  set_tolerances(options);
   changed_.assign(positions_.size(), 1);
   edges_.resize(corners_.size());
   const std::size_t most_collapses = (mesh.face_count() - std::min(mesh.face_count(), options.target_faces)) / 2;
@@ -155,10 +155,12 @@ void WholeMesh::find_twins(const TriangleMesh& mesh) {
   }
 }
 
-void WholeMesh::set_tolerances(const PerFace<double>& tolerances) {
-  if (tolerances.empty()) return;
-  for (const FaceId f : given_) tolerances_.faces.push_back(tolerances[f]);
+void WholeMesh::set_tolerances(const HullOptions& options) {
+  if (options.tolerances.empty()) return;
+  for (const FaceId f : given_) tolerances_.faces.push_back(options.tolerances[f]);
   tolerances_.deviations.resize(positions_.size());
+  if (options.deviations.empty()) return;
+  for (const VertexId v : positions_.ids()) tolerances_.deviations[v] = options.deviations[names_[v]];
 }
 
 std::vector<BoxedFace> WholeMesh::boxed_faces() const {

@@ -99,7 +99,7 @@ class WholeMesh {
   void find_twins_of_part();
   void require_whole_stars(const HalfEdgeMesh& part) const;
   void find_images(const TriangleMesh& mesh);
-  void set_tolerances(const PerFace<double>& tolerances);
+  void set_tolerances(const HullOptions& options);
   void cut_tolerances(Cut& cut) const;
   void put_back_tolerances(const Cut& cut);
   std::uint32_t given_corner(std::uint32_t corner) const { return 3 * index(given_[FaceId{corner / 3}]) + corner % 3; }

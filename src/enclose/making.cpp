@@ -1,0 +1,64 @@
+#include "enclose/making.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "mesh/area.h"
+#include "prohull/error.h"
+#include "prohull/tight_hull.h"
+
+namespace prohull {
+namespace {
+
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
+/// What the volumes of hulls are compared with; 0 where nothing is inside, or nothing is known of it yet.
+double original_volume(const Making& making) { return making.solids.volume(making.candidate.target_faces); }
+
+double excess_of(const HullBounds& bounds, const TriangleMesh& hull, double volume, const Making& making) {
+  const Solid& solid = making.solid();
+  // What lies around folds is not of the mesh.
+  const bool is_near_solid = solid.source == Source::Mesh && solid.folds.faces == 0;
+  return bounds.excess(hull, is_near_solid ? solid.mesh : making.to_cover(), volume, making.options().progress);
+}
+
+}  // namespace
+
+std::pair<std::optional<Float32Hull>, std::string> as_stored(const TriangleMesh& hull, const Making& making) {
+  if (!making.options().hull.float32_coordinates) return {Float32Hull{hull, 0}, {}};
+  try {
+    const bool may_lift = making.solid().self_intersections > 0;
+    return {with_float32_coordinates(hull, making.options().hull.side, may_lift ? NoRoom::Round : NoRoom::Refuse), {}};
+  } catch (const InputError& error) {
+    return {std::nullopt, error.what()};
+  }
+}
+
+double excess_of(const TriangleMesh& hull, const Making& making) {
+  return excess_of(making.options().bounds, hull, original_volume(making), making);
+}
+
+double excess_when_padded(const TriangleMesh& hull, const Making& making) {
+  const double padding = making.options().padding;
+  if (padding == 0 || making.solid().source != Source::Mesh) return excess_of(hull, making);
+  const double volume = original_volume(making), gain = padding * area_of(hull);
+  HullBounds left = making.options().bounds;
+  left.max_distance -= padding;
+  left.max_added_volume = std::min(left.max_added_volume, std::exchange(left.max_void_ratio, kNoBound) * volume);
+  return excess_of(left, hull, making.request.is_outer() ? volume - gain : volume + gain, making);
+}
+
+bool is_within_as_stored(const TriangleMesh& hull, const Making& making) {
+  const auto [stored, why_not] = as_stored(hull, making);
+  return stored && excess_when_padded(stored->mesh, making) <= 1;
+}
+
+TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds) {
+  const MoveOptions how = making.request.move_options(max_rounds);
+  return making.recipe().approach == Approach::Touching
+             ? moved_towards_closed(level, making.request.input.closed->mesh, how.side, how)
+             : moved_towards(level, making.to_cover(), how);
+}
+
+}  // namespace prohull

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "enclose/candidate.h"
+#include "prohull/float32_hull.h"
+
+namespace prohull {
+
+constexpr unsigned kRoundsAtTheEnd = 6;  ///< of moving
+
+/// One candidate on its way: what it is, and what it is built with.
+struct Making {
+  const Candidate& candidate;
+  const Request& request;
+  Solids& solids;
+
+  const Recipe& recipe() const { return candidate.recipe; }
+  const EnclosingOptions& options() const { return request.options; }
+  const Solid& solid() const { return solids[candidate.solid]; }
+  const TriangleMesh& to_cover() const { return solids.to_cover(candidate.solid); }
+  HullOptions hull_options() const { return request.hull_options(candidate.target_faces); }
+};
+
+/// With the coordinates that a file keeps, or why it has none. A hull of a mesh that intersects itself may have no room
+/// for its vertices: the certificate decides, and lifting may help.
+std::pair<std::optional<Float32Hull>, std::string> as_stored(const TriangleMesh& hull, const Making& making);
+
+/// HullBounds::excess of what is asked for.
+double excess_of(const TriangleMesh& hull, const Making& making);
+/// The same of a hull that is moved away by the padding when it is done, if it is one of the mesh: it gains about its
+/// area times the padding. Wraps keep the padding themselves.
+double excess_when_padded(const TriangleMesh& hull, const Making& making);
+bool is_within_as_stored(const TriangleMesh& hull, const Making& making);
+
+/// Moved towards the triangles.
+TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds = kRoundsAtTheEnd);
+
+// One for each method.
+EnclosingHull built_of_levels(const Making& making);
+EnclosingHull built_in_steps(const Making& making);
+EnclosingHull built_within(const Making& making);
+EnclosingHull built_tight(const Making& making);
+/// None if the gap's body of the solid intersects itself.
+std::optional<EnclosingHull> built_tight_of_gap_body(const Making& making);
+
+}  // namespace prohull

@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "construct/shape_guards.h"
+#include "enclose/level_search.h"
+#include "enclose/making.h"
+
+namespace prohull {
+namespace {
+
+// Of the levels, the coarsest that keeps the bounds, if any does.
+std::size_t faces_of_level(const ProgressiveHull& hull, const Making& making) {
+  const std::size_t target = making.candidate.target_faces;
+  std::size_t faces = target;
+  if (making.options().bounds.any() && excess_when_padded(making.solid().mesh, making) <= 1)
+    faces = std::max(target,
+                     faces_within(hull, [&](const TriangleMesh& level) { return is_within_as_stored(level, making); }));
+  if (!making.request.is_symmetric()) return faces;
+  const std::size_t coarser = symmetric_faces(hull, *making.options().hull.mirror, faces);
+  return faces > target && coarser < faces ? faces + 2 : coarser;  // bounds need the finer one
+}
+
+LevelTrial try_level(const ProgressiveHull& hull, std::size_t faces, const Making& making) {
+  LevelTrial trial{faces, placed(hull.level(faces), making), std::numeric_limits<double>::infinity()};
+  if (const auto [stored, why_not] = as_stored(trial.mesh, making); stored)
+    trial.excess = excess_when_padded(stored->mesh, making);
+  return trial;
+}
+
+// Of a hull that moves, coarse levels are tried first: what moves far may keep a bound that finer levels miss. Where
+// the solid misses the bounds itself, one that moves may keep them; if it does not either, it is near at least.
+LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
+  const std::size_t target = making.candidate.target_faces, finest = hull.original_face_count();
+  const std::size_t fewest = std::min(std::max(target, hull.base_face_count()), finest);
+  const auto trial = [&](std::size_t faces) { return try_level(hull, faces, making); };
+  const bool is_possible = excess_when_padded(making.solid().mesh, making) <= 1;
+  if (!is_possible && making.solid().source != Source::Wrap) return trial(target);
+  if (!is_possible)
+    if (LevelTrial first = trial(std::min(finest, faces_of_first_trial(fewest))); !first.keeps_bounds()) return first;
+  LevelTrial found = search_levels(fewest, finest, trial);
+  if (found.keeps_bounds() || !is_possible) return found;
+  const std::size_t faces = faces_of_level(hull, making);
+  return {faces, hull.level(faces), 1};
+}
+
+}  // namespace
+
+EnclosingHull built_of_levels(const Making& making) {
+  const HullResult& result = making.solids.levels(making.candidate.solid);
+  std::optional<LevelTrial> moved;
+  if (making.recipe().moves) moved = moved_level(result.hull, making);
+  const std::size_t faces = moved ? moved->faces : faces_of_level(result.hull, making);
+  const TriangleMesh level = result.hull.level(faces);
+  EnclosingHull hull;
+  hull.mesh = moved ? std::move(moved->mesh) : TriangleMesh(level);
+  hull.target_reached = faces > making.candidate.target_faces;  // which bounds ask for
+  if (hull.mesh == level)
+    hull.levels = faces > result.hull.base_face_count() ? result.hull.with_base(faces) : result.hull;
+  hull.refusals = result.refusals, hull.blocked = result.blocked;
+  if (level.face_count() == result.hull.base_face_count()) hull.relaxed_guards = result.relaxed_guards;
+  return hull;
+}
+
+// Moved before it has come down to its faces, too, a hull is up to 1 % smaller.
+EnclosingHull built_in_steps(const Making& making) {
+  constexpr std::pair<double, unsigned> kSteps[]{{1.5, 2}, {1, kRoundsAtTheEnd}};
+  const double target = double(making.candidate.target_faces);
+  EnclosingHull hull;
+  hull.mesh = making.solid().mesh;
+  for (const auto& [faces, rounds] : kSteps) {
+    if (!(signed_volume(hull.mesh) > 0)) break;  // an inner hull may vanish
+    HullOptions options = making.request.hull_options(std::size_t(std::llround(faces * target)));
+    options.guards.max_overhang = overhang_left(bounding_box(hull.mesh), bounding_box(making.request.input.original),
+                                                making.options().hull.guards.max_overhang);
+    HullResult result = build_hull(hull.mesh, options);
+    hull.mesh = placed(result.hull.base(), making, rounds);
+    hull.target_reached = result.stopped == Stopped::TargetReached;
+    hull.refusals += result.refusals, hull.blocked = result.blocked;
+    hull.relaxed_guards = std::max(hull.relaxed_guards, result.relaxed_guards);
+  }
+  return hull;
+}
+
+}  // namespace prohull
