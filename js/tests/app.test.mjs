@@ -130,7 +130,7 @@ test('options make what the command line makes of them', {skip}, async () => {
     await settled(page);
     assert.equal(await text(page, 'problem'), '', `${id}=${value}`);
     const made = await saved(page, 'save');
-    if (id === 'make') run('verify', '--union', made.path, join(scratch, 'bracket.ply'));
+    if (id === 'make') assert(run('verify', '--union', made.path, join(scratch, 'bracket.ply')), value);
     else assert.equal(hash(made.bytes), hash(await commanded(page, scratch)), `${id}=${value}`);
   }
   assert.match(await page.evaluate(() => location.hash), /make=spheres.*distance=1%25.*gap=0\.05.*sample=bracket/);

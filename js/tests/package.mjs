@@ -18,12 +18,14 @@ export {loadEngine, wasmModule};
 
 export const hasProgram = program !== undefined && existsSync(program);
 
-/** Runs the program; the exit code 1, an answer of no, is one of its answers. */
+/** Runs the program; true unless its exit code is 1, an answer of no. */
 export function run(...args) {
   try {
     execFileSync(program, [...args, '--quiet'], {stdio: ['ignore', 'ignore', 'pipe']});
+    return true;
   } catch (error) {
     if (error.status !== 1) throw new Error(`prohull ${args.join(' ')}: ${error.stderr}`);
+    return false;
   }
 }
 
