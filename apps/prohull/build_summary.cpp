@@ -137,7 +137,7 @@ nlohmann::json facts_of_hull(const BuildOptions& options, const BuildOutcome& ou
           {"rounded_vertices", hull.rounded_vertices},
           {"certified", written.certified},
           {"proof", std::string(hull.proof)},
-          {"verdict", facts(hull.verdict)},
+          {"verdict", facts(of_file(hull.verdict, outcome.made.input))},
           {"padding", hull.padding},
           {"relaxed_guards", hull.relaxed_guards},
           {"stopped", hull.target_reached ? "target_reached" : "no_legal_collapse"},

@@ -124,7 +124,7 @@ nlohmann::json facts_of(const File& file) {
           {"void_ratio", finite_or_null(hull.void_ratio)},
           {"source", name_of(source_names(), hull.source)},
           {"certified", file.certified},
-          {"verdict", facts(hull.verdict)},
+          {"verdict", facts(of_file(hull.verdict, file.hull->made.input))},
           {"disjoint", file.hull->is_disjoint},
           {"gap", hull.padding},
           {"keeps_gap", file.hull->keeps_gap},

@@ -63,7 +63,7 @@ void print_summary(const RepairRunOptions& options, const RepairOutcome& outcome
         "closes openings narrower than about twice that (--spacing)\n",
         solid.wrap_spacing);
   if (outcome.certified)
-    say("  certified: yes, {}\n", claim(solid.verdict, "the file as written", "the original"));
+    say("  certified: yes, {}\n", claim(of_file(solid.verdict, solid.input), "the file as written", "the original"));
   else
     say("  certified: NO, so nothing was written: {}\n", outcome.why_not);
   say("  read {:.2f} s, repair and verify {:.2f} s\n", outcome.read_seconds, outcome.seconds);
@@ -87,7 +87,7 @@ nlohmann::json report_of(const RepairRunOptions& options, const RepairOutcome& o
           {"openings", {{"closed", repairs.closed_openings}, {"largest", repairs.largest_opening}}},
           {"certified", outcome.certified},
           {"why_not", outcome.why_not},
-          {"verdict", facts(solid.verdict)},
+          {"verdict", facts(of_file(solid.verdict, solid.input))},
           {"seconds", {{"read", outcome.read_seconds}, {"repair", outcome.seconds}}}};
 }
 

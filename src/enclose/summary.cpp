@@ -106,10 +106,14 @@ bool has_triangles_of(const TriangleMesh& read, const TriangleMesh& mesh) {
   return true;
 }
 
+Verification of_file(Verification found, const RepairedMesh& input) {
+  found.non_finite_faces = input.repairs.dropped_non_finite_faces;
+  return found;
+}
+
 std::string certificate_of(const EnclosingHulls& made, const EnclosingHull& hull, bool written) {
   if (!written) return "NO: nothing was written; please report this mesh";
-  Verification found = hull.verdict;
-  found.non_finite_faces = made.input.repairs.dropped_non_finite_faces;
+  const Verification found = of_file(hull.verdict, made.input);
   if (found.side == HullSide::Outer) return "yes, " + claim(found, "the file as written", "the original");
   return fmt::format("yes, the file as written is enclosed by the original{}", caps_of(found));
 }

@@ -50,6 +50,11 @@ says err "no inner hull of a closed sheet" "sheet.obj: the mesh encloses no volu
 # --- repairs ---
 expect 0 "a corner that is not finite" $prohull build nan.obj --faces 12 -o hull.obj
 says out "a corner that is not finite" "the finite triangles of the original"
+for command in build cage repair; do
+  expect 0 "triangles that are left out: $command" $prohull $command nan.obj -o hull.obj --report nan.json
+  says out "triangles that are left out: $command" "the finite triangles of the original"
+  says nan.json "triangles that are left out: $command" '"non_finite_faces": 1'
+done
 expect 0 "parts that overlap count once" $prohull repair nested.obj -o solid.obj --report solid.json
 says solid.json "parts that overlap count once" '"volume": 1.0'
 expect 0 "one defect" $prohull info nan.obj

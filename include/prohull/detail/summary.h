@@ -26,6 +26,9 @@ std::string text_of_openings(bool has_openings, const DistanceBounds& from_trian
 /// What was written and read again has the very triangles of the mesh, in the same order.
 bool has_triangles_of(const TriangleMesh& read, const TriangleMesh& mesh);
 
+/// A verdict about the finite triangles of a file, as it is of the file: with those that were left out.
+Verification of_file(Verification found, const RepairedMesh& input);
+
 /// What a summary says behind "certified: "; `written` is whether the file holds the very bits of the hull.
 std::string certificate_of(const EnclosingHulls& made, const EnclosingHull& hull, bool written);
 
