@@ -8,6 +8,7 @@
 #include "command.h"
 
 namespace prohull::cli {
+
 // Of 190 hulls of 4 faces around small meshes, the largest were 11.2 times as large, around squares, and 10.1 around a
 // solid; of 95 hulls of 12 faces, none was 4.3 times as large. An inner hull may be that of a thick part alone.
 SizeComparison::SizeComparison(const Box& hull, std::size_t hull_faces, const Box& original, HullSide side)
