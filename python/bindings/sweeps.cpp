@@ -10,6 +10,7 @@
 #include "arrays.h"
 #include "keywords.h"
 #include "module.h"
+#include "prohull/detail/given_options.h"
 #include "prohull/error.h"
 #include "prohull/sweep.h"
 #include "robot/files/robot_file.h"
@@ -23,15 +24,6 @@ namespace prohull::python {
 namespace {
 
 using Motions = std::vector<RigidMotion>;
-
-SweepOptions sweep_options(const Keywords& given) {
-  SweepOptions options;
-  given.count("pieces", options.max_pieces, 1);
-  given.not_negative("max_distance", options.max_distance);
-  given.flag("float32_coordinates", options.float32_coordinates);
-  given.count("threads", options.threads);
-  return options;
-}
 
 py::dict facts_of(Sweep sweep) {
   py::list pieces;

@@ -59,13 +59,18 @@ void Candidates::plan_close_wraps() {
   constexpr double kNodesPerFace = 0x1p16, kMostNodes = 0x1p26;  // 256 MB of distances
   const double finest =
       std::max(finest_spacing(request_, kNodesPerFace, kMostNodes), spacing_of_many_faces(request_.to_cover()));
-  double spacing = std::max(kSpacing * max_distance, finest);
-  for (int i = 0; i < kMost; ++i) {
+  const auto plan = [this](double spacing, double distance) {
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       if (ranking.has_certified() && ranking.best().hull.within_bounds) return std::nullopt;
       const auto id = wrap(kBoundedWrap, spacing, solids);
-      return id ? std::optional(within(*id, std::max(max_distance, kReach * spacing), solids)) : std::nullopt;
+      return id ? std::optional(within(*id, distance, solids)) : std::nullopt;
     });
+  };
+  double spacing = std::max(kSpacing * max_distance, finest);
+  for (int i = 0; i < kMost; ++i) {
+    const double nearest = kReach * spacing;
+    plan(spacing, std::max(max_distance, nearest));
+    if (nearest < max_distance) plan(spacing, nearest);  // what is between vertices may break the bound by a little
     if (spacing == finest) break;
     spacing = std::max(kFiner * spacing, finest);
   }
@@ -82,11 +87,10 @@ void Candidates::plan_loose_wraps() {
   // keeps them with fewer still, the wrap is left out: of 10 robots' parts at 1 % of the diagonal, it had a better hull
   // for 2, and took 2 to 10 times as long.
   constexpr std::size_t kMostReduced = 300;
-  const double finest = finest_loose_spacing(request_),
+  const double finest = std::max(finest_loose_spacing(request_), request_.aim() / 2),
                max_distance = request_.options.bounds.max_distance - request_.options.padding;
   const bool is_hopeless = kBoundedWrap.offset * finest > kNearerByMoving * max_distance;
-  const double wanted = std::max(
-      {kBoundedSpacing * max_distance, request_.aim() / 2, request_.diagonal / (is_hopeless ? kPlain : kFine)});
+  const double wanted = std::max(kBoundedSpacing * max_distance, request_.diagonal / (is_hopeless ? kPlain : kFine));
   double spacing = std::max(std::min(spacing_for(kBoundedWrap), wanted), finest);
   for (int i = 0; i < (is_hopeless ? 1 : kMostBounded); ++i) {
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {

@@ -153,6 +153,14 @@ TEST(Padding, IsKeptByTightHullsAndWithBounds) {
   }
 }
 
+// No wrap with that padding is as fine as half of what is left of the distance.
+TEST(Padding, MayBeNearlyTheLargestDistance) {
+  const TriangleMesh mesh = make_sample("bracket", effort<std::size_t>(200, 80));
+  const double padding = 0.01 * bounding_box(mesh).diagonal();
+  for (const Repair repair : {Repair::Auto, Repair::Wrap})
+    EXPECT_TRUE(padded(mesh, 20, padding, {.bounds = {.max_distance = 1.1 * padding}, .repair = repair}).certified);
+}
+
 TEST(Padding, IsLessThanTheLargestDistance) {
   const TriangleMesh cube = box({0, 0, 0}, {1, 1, 1});
   EXPECT_THROW(padded(cube, 12, 0.2, {.bounds = {.max_distance = 0.2}}), InputError);

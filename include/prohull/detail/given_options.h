@@ -8,6 +8,7 @@
 #include "prohull/enclosing_hull.h"
 #include "prohull/names.h"
 #include "prohull/sphere_cover.h"
+#include "prohull/sweep.h"
 
 namespace prohull {
 
@@ -94,6 +95,16 @@ SphereCoverOptions sphere_cover_options(const Given& given) {
   given.count("count", options.max_balls, 1);
   given.not_negative("max_distance", options.max_distance);
   given.flag("fill", options.fill);
+  given.count("threads", options.threads);
+  return options;
+}
+
+template <class Given>
+SweepOptions sweep_options(const Given& given) {
+  SweepOptions options;
+  given.count("pieces", options.max_pieces, 1);
+  given.not_negative("max_distance", options.max_distance);
+  given.flag("float32_coordinates", options.float32_coordinates);
   given.count("threads", options.threads);
   return options;
 }
