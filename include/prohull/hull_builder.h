@@ -115,7 +115,7 @@ struct HullOptions {
   /// of all faces.
   PerFace<double> tolerances = {};
   /// Of each vertex of the mesh, how much of the tolerances is used up already, as if the mesh were that far from what
-  /// they are meant for. Empty: nothing.
+  /// they are meant for: at least 0. Empty: nothing.
   PerVertex<double> deviations = {};
   /// Build a hull that is its own mirror image, exactly, in the plane through the middle of the mesh's bounding box
   /// that is perpendicular to this axis. The mesh must be so too; inspect_symmetry tells. Most edges are collapsed in

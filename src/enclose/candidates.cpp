@@ -93,7 +93,8 @@ void Candidates::plan_unfolded_mesh() {
 
 /// Collapses can keep what is asked for.
 bool Candidates::may_stay_within() const {
-  return std::isfinite(request_.options.bounds.max_distance) && !request_.is_bound_to_mesh() && !request_.is_padded() &&
+  const double max_distance = request_.options.bounds.max_distance;
+  return max_distance > 0 && std::isfinite(max_distance) && !request_.is_bound_to_mesh() && !request_.is_padded() &&
          !request_.options.levels;
 }
 

@@ -84,6 +84,11 @@ TEST(Tolerances, AreUsedUpByDeviations) {
   EXPECT_LE(distance_bounds(near, ball).lower, kTolerance - kUsed);
   EXPECT_GT(distance_bounds(far, ball).lower, kTolerance - kUsed);
   EXPECT_GT(near.face_count(), far.face_count());
+  for (const double wrong : {-kUsed, std::numeric_limits<double>::quiet_NaN()}) {
+    how.deviations[VertexId{0}] = wrong;
+    EXPECT_THROW(build_hull(ball, how), InputError);
+  }
+  how.deviations[VertexId{0}] = kUsed;
   how.deviations.pop_back();
   EXPECT_THROW(build_hull(ball, how), InputError);
 }

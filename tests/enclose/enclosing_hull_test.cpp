@@ -416,6 +416,12 @@ TEST(EnclosingHull, OnTheInnerSideLiesWithinTheUnionOfParts) {
   EXPECT_GT(signed_volume(hull.mesh), 0.5) << "the solid has 1.32";
 }
 
+TEST(EnclosingHull, OfADistanceOfZeroIsBuilt) {
+  const EnclosingHull hull = enclosing_hull(make_sample("asteroid", 60), 20, {.bounds = {.max_distance = 0}});
+  EXPECT_TRUE(hull.certified);
+  EXPECT_FALSE(hull.within_bounds);
+}
+
 // What it misses by is kept when it is allowed.
 TEST(EnclosingHull, OfABoundThatNoHullKeepsIsNear) {
   const TriangleMesh soup = without_a_face(make_sample("asteroid", 60));
