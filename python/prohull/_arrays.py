@@ -15,11 +15,18 @@ from ._prohull import InputError
 MESHES = "expected the path of a file, vertices and faces, or an object that has both"
 
 
+def array(name: str, values: Any) -> NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except ValueError:
+        raise InputError(f"{name}: rows of different lengths are no array") from None
+
+
 def _numbers(name: str, values: ArrayLike) -> NDArray[Any]:
-    array = np.asarray(values)
-    if array.dtype.kind not in "fiu" and array.size > 0:
-        raise InputError(f"{name}: an array of {array.dtype}; expected floating point numbers or integers")
-    return array
+    made = array(name, values)
+    if made.dtype.kind not in "fiu" and made.size > 0:
+        raise InputError(f"{name}: an array of {made.dtype}; expected floating point numbers or integers")
+    return made
 
 
 def face_counts(name: str, counts: Any) -> NDArray[Any]:

@@ -96,6 +96,17 @@ def sample(name: str, faces: int) -> Mesh:
     return Mesh._of(_prohull.sample(name, faces))
 
 
+def bytes_of(path: Path) -> bytes:
+    """Of a whole file; errors are those of meshes that cannot be read."""
+    try:
+        return pathlib.Path(path).read_bytes()
+    except FileNotFoundError:
+        raise _prohull.MissingFile(f"{os.fspath(path)}: cannot read: there is no such file; look at its name and its "
+                                   "folder") from None
+    except OSError as error:
+        raise InputError(f"{os.fspath(path)}: cannot read: {error.strerror}") from None
+
+
 def write_whole(path: pathlib.Path, text: str) -> None:
     """The file is written beside `path`, then it is renamed."""
     try:

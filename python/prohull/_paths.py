@@ -1,7 +1,6 @@
 """Paths of robots: free all along, proven, or where bodies meet first."""
 
 import os
-import pathlib
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NamedTuple, Optional, Union, get_args
 
@@ -9,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _prohull
-from ._files import mesh_of
+from ._files import bytes_of, mesh_of
 from ._prohull import InputError
 from ._types import MeshLike, Path, Progress
 
@@ -107,7 +106,7 @@ def path_rows(names: Sequence[str], joints: Optional[Sequence[str]], positions: 
     if isinstance(positions, (str, os.PathLike)):
         if joints is not None or any(other is not None for other in others):
             raise InputError("joints, times, velocities and accelerations are those of the file")
-        return _prohull.read_path_rows(pathlib.Path(positions).read_bytes(), os.fspath(positions))
+        return _prohull.read_path_rows(bytes_of(positions), os.fspath(positions))
     columns = list(names if joints is None else joints)
     times, velocities, accelerations = others
 
@@ -127,7 +126,7 @@ def check_geometry(geometry: Geometry) -> None:
 def path_checker(robot: _prohull.Robot, joint_names: Sequence[str], world: Optional[Mapping[str, MeshLike]],
                  geometry: Geometry, srdf: Optional[Path], ignore: Sequence[tuple[str, str]]) -> PathChecker:
     check_geometry(geometry)
-    text = b"" if srdf is None else pathlib.Path(srdf).read_bytes()
+    text = b"" if srdf is None else bytes_of(srdf)
     meshes = [(name, mesh_of(mesh)._core) for name, mesh in (world or {}).items()]
     core = _prohull.PathChecker(robot, meshes, geometry, text, "" if srdf is None else os.fspath(srdf),
                                 [(a, b) for a, b in ignore])

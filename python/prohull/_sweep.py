@@ -1,9 +1,9 @@
 """What encloses all positions of a mesh along a motion, or of a robot along a path."""
 
 import math
+import numbers
 import os
-import pathlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Optional, Union
 
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _prohull
 from ._collide import matrices
 from ._covers import CoverShown, save_pieces
-from ._files import distance_of, mesh_of
+from ._files import bytes_of, distance_of, mesh_of
 from ._meshes import Mesh
 from ._prohull import InputError
 from ._types import Axis, Gap, MeshLike, Path, Progress
@@ -72,10 +72,10 @@ def sweep(mesh: MeshLike, *, axis: Union[Axis, Sequence[float]] = "z", through: 
     move: the mesh moves straight by this vector; together with `angle` as a screw does.
     poses: or from pose to pose: matrices of shape (n, 4, 4), a rotation and a translation each; or the name of a file,
         as --poses of `prohull sweep` reads it. The origin of the mesh goes straight from one to the next, and the mesh
-        turns about one axis the shorter way round.
+        turns about one axis the shorter way round. Not together with axis, through, angle and move.
     pieces: the largest number of convex pieces that cover the mesh before it moves, at least 1.
     max_distance: how far the slices of the motion may add to the distance of these pieces from the mesh, in the mesh's
-        unit; or as in "0.5%" of the diagonal of the mesh's bounding box. None: 2 % of it.
+        unit, greater than 0; or as in "0.5%" of the diagonal of the mesh's bounding box. None: 2 % of it.
     float32_coordinates: whether all coordinates shall be numbers that float32 keeps, as STL and GLB files do.
     threads: the largest number of threads; 0 means one for each core.
     progress: called as build() calls it. If it returns False, the work stops with KeyboardInterrupt, as for Ctrl-C.
@@ -86,9 +86,12 @@ def sweep(mesh: MeshLike, *, axis: Union[Axis, Sequence[float]] = "z", through: 
         zone = prohull.sweep("door.stl", axis="z", through=(0, 1, 0), angle=90)
         hull = prohull.build(zone.mesh, 300)
     """
+    has_turn = angle != 0 or not (isinstance(axis, str) and axis == "z" and _is_zero(through) and _is_zero(move))
+    if poses is not None and has_turn:
+        raise InputError("a mesh moves by poses, or by axis, through, angle and move: leave one of the two out")
     motions = _turn(axis, through, angle, move) if poses is None else _motions(poses)
     given = mesh_of(mesh, keep_non_finite=True)
-    keywords = sweep_keywords(pieces, 0 if max_distance is None else distance_of("max_distance", max_distance, given),
+    keywords = sweep_keywords(pieces, max_distance, lambda name, distance: distance_of(name, distance, given),
                               float32_coordinates, threads)
     try:
         return sweep_of(_prohull.sweep(given._core, motions, progress, keywords))
@@ -98,8 +101,13 @@ def sweep(mesh: MeshLike, *, axis: Union[Axis, Sequence[float]] = "z", through: 
         raise
 
 
-def sweep_keywords(pieces: int, max_distance: float, float32_coordinates: bool, threads: int) -> dict[str, Any]:
-    return dict(pieces=pieces, max_distance=max_distance, float32_coordinates=float32_coordinates, threads=threads)
+def sweep_keywords(pieces: int, max_distance: Optional[Gap], read: Callable[[str, Any], float], float32_coordinates: bool,
+                   threads: int) -> dict[str, Any]:
+    """`read` makes a number of the distance; the extension module takes 0 for 2 % of the diagonal."""
+    distance = 0 if max_distance is None else read("max_distance", max_distance)
+    if max_distance is not None and distance == 0:
+        raise InputError(f"max_distance={max_distance!r}: expected a distance greater than 0, or None for 2 % of the diagonal")
+    return dict(pieces=pieces, max_distance=distance, float32_coordinates=float32_coordinates, threads=threads)
 
 
 def sweep_of(facts: dict[str, Any]) -> Sweep:
@@ -112,14 +120,20 @@ def _turn(axis: Any, through: Any, angle: float, move: Any) -> list[_prohull.Rig
         raise InputError(f"axis={axis!r}: expected 'x', 'y', 'z' or three numbers")
     direction, point, shift = (_vector(name, value) for name, value in (
         ("axis", _AXES[axis] if isinstance(axis, str) else axis), ("through", through), ("move", move)))
+    if not isinstance(angle, numbers.Real):
+        raise InputError(f"angle={angle!r}: expected a number")
     turned = math.radians(angle)
     if turned == 0 and not any(shift):
         raise InputError("how does the mesh move? Give angle, move or poses")
     return _prohull.turn(direction, point, turned, shift)
 
 
+def _is_zero(vector: Any) -> bool:
+    return np.array_equal(vector, (0, 0, 0))
+
+
 def _vector(name: str, value: Any) -> list[float]:
-    vector = np.asarray(value)
+    vector = _arrays.array(name, value)
     if vector.shape != (3,) or vector.dtype.kind not in "fiu":
         raise InputError(f"{name}={value!r}: expected three numbers")
     return [float(x) for x in vector]
@@ -127,7 +141,7 @@ def _vector(name: str, value: Any) -> list[float]:
 
 def _motions(poses: Any) -> list[_prohull.RigidMotion]:
     if isinstance(poses, (str, os.PathLike)):
-        return _prohull.read_motions(pathlib.Path(poses).read_bytes(), os.fspath(poses))
+        return _prohull.read_motions(bytes_of(poses), os.fspath(poses))
     rows = matrices("poses", poses).reshape(-1, 16)
     if len(rows) == 0:
         raise InputError("poses: there are none")

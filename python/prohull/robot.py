@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _prohull
+from ._files import bytes_of
 from ._meshes import Mesh
 from ._paths import BeyondLimits, Geometry, PathCheck, PathChecker, PathPair, check_geometry, path_checker, path_rows
 from ._prohull import InputError
@@ -396,7 +397,7 @@ class Robot(Shown):
                  "spheres": int(spheres), "gap": _arrays.not_negative("gap", gap),
                  "max_distance": distance, "tight": bool(tight), "cache": cache, "from": from_, "format": format,
                  "skip_missing": bool(skip_missing), "threads": _arrays.count("threads", threads),
-                 "budgets": None if budgets is None else pathlib.Path(budgets).read_bytes(),
+                 "budgets": None if budgets is None else bytes_of(budgets),
                  "budgets_name": "" if budgets is None else os.fspath(budgets)}
         return Hulls(self, self._core.hulls(given, progress), format)
 
@@ -419,7 +420,7 @@ class Robot(Shown):
 
             false = [pair for pair in robot.check_disabled("arm.srdf") if pair.refuted]
         """
-        rows = self._core.disabled_pairs(pathlib.Path(srdf).read_bytes(), os.fspath(srdf), _arrays.count("prove", prove),
+        rows = self._core.disabled_pairs(bytes_of(srdf), os.fspath(srdf), _arrays.count("prove", prove),
                                          _arrays.count("threads", threads), progress)
         return [DisabledPair._make([*row, DisabledFinding(*collision), DisabledFinding(*visual)])
                 for *row, collision, visual in rows]
@@ -466,8 +467,8 @@ class Robot(Shown):
         links: names; without it all links that have a shape.
         geometry: of the links, "collision" or "visual". A link that has none of it counts by the other one.
         pieces, float32_coordinates, threads, progress: as of prohull.sweep().
-        max_distance: how far the slices of the motion may add to the distance of the pieces, in metres. None: 2 % of
-            the diagonal of each link.
+        max_distance: how far the slices of the motion may add to the distance of the pieces, in metres, greater than
+            0. None: 2 % of the diagonal of each link.
 
         Raises InputError as check_path() and prohull.sweep() do.
         """
@@ -476,10 +477,9 @@ class Robot(Shown):
         numbers = {link.name: number for number, link in enumerate(self.links)}
         if unknown := [name for name in links or () if name not in numbers]:
             raise InputError(f"links: the robot has no link {unknown[0]!r}; it has {', '.join(numbers)}")
-        distance = 0 if max_distance is None else _arrays.not_negative("max_distance", max_distance)
         made = _prohull.sweep_robot(
             self._core, rows, [numbers[name] for name in (numbers if links is None else links)], geometry == "visual",
-            progress, sweep_keywords(pieces, distance, float32_coordinates, threads))
+            progress, sweep_keywords(pieces, max_distance, _arrays.not_negative, float32_coordinates, threads))
         return {name: sweep_of(facts) for name, facts in made}
 
     def _path_joints(self) -> list[str]:

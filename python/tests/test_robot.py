@@ -282,6 +282,8 @@ def test_links_are_enclosed_all_along_a_path(slide):
         slide.sweep([[0, 1]], links=["desk"])
     with pytest.raises(prohull.InputError, match="max_distance=-1"):
         slide.sweep([[0, 1]], max_distance=-1)
+    with pytest.raises(prohull.InputError, match="max_distance=0: expected a distance greater than 0"):
+        slide.sweep([[0, 1]], max_distance=0)
 
 
 def test_rows_of_an_srdf_are_decided(slide, tmp_path):

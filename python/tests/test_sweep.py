@@ -61,6 +61,12 @@ def test_pieces_are_saved_and_enclosed(cube, tmp_path):
     ({"move": "up"}, "move='up': expected three numbers"),
     ({"angle": 5, "pieces": 0}, "pieces=0: expected a whole number, at least 1"),
     ({"angle": 5, "max_distance": -1}, "max_distance=-1: expected"),
+    ({"angle": 5, "max_distance": 0}, "max_distance=0: expected a distance greater than 0"),
+    ({"angle": 5, "max_distance": "0%"}, "max_distance='0%': expected a distance greater than 0"),
+    ({"angle": "90"}, "angle='90': expected a number"),
+    ({"angle": 5, "axis": [1, [2], 3]}, "axis: rows of different lengths"),
+    ({"poses": [np.eye(4)], "angle": 5}, "by poses, or by axis"),
+    ({"poses": [np.eye(4)], "move": (0, 0, 1)}, "by poses, or by axis"),
     ({"poses": np.zeros((0, 4, 4))}, "poses: there are none"),
     ({"poses": np.full((2, 4, 4), math.nan)}, "poses"),
     ({"poses": np.diag([2.0, 1, 1, 1])}, "rotation|rigid"),
@@ -77,3 +83,11 @@ def test_the_name_of_a_file_stands_in_errors(tmp_path):
     (tmp_path / "flat.off").write_text("OFF\n1 0 0\n0 0 0\n")
     with pytest.raises(prohull.InputError, match="flat.off: "):
         prohull.sweep(tmp_path / "flat.off", angle=5)
+
+
+def test_files_that_are_not_there_are_input_errors_too(cube, tmp_path):
+    for error in (prohull.InputError, FileNotFoundError):
+        with pytest.raises(error, match="poses.csv: cannot read: there is no such file"):
+            prohull.sweep(cube, poses=tmp_path / "poses.csv")
+    with pytest.raises(prohull.InputError, match="cannot read: Is a directory"):
+        prohull.sweep(cube, poses=tmp_path)
