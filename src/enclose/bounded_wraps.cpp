@@ -39,6 +39,11 @@ double spacing_of_many_faces(const TriangleMesh& mesh) {
   return std::sqrt(kFacesPerArea * area_of(mesh) / most);
 }
 
+/// No wrap is nearer than the hull of a mesh that does not intersect itself.
+bool is_of_clean_mesh(const Ranking& ranking, const Solids& solids) {
+  return ranking.best().hull.source == Source::Mesh && solids[0].self_intersections == 0;
+}
+
 }  // namespace
 
 void Candidates::plan_bounded_wraps() {
@@ -61,7 +66,8 @@ void Candidates::plan_close_wraps() {
       std::max(finest_spacing(request_, kNodesPerFace, kMostNodes), spacing_of_many_faces(request_.to_cover()));
   const auto plan = [this](double spacing, double distance) {
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-      if (ranking.has_certified() && ranking.best().hull.within_bounds) return std::nullopt;
+      if (ranking.has_certified() && (ranking.best().hull.within_bounds || is_of_clean_mesh(ranking, solids)))
+        return std::nullopt;
       const auto id = wrap(kBoundedWrap, spacing, solids);
       return id ? std::optional(within(*id, distance, solids)) : std::nullopt;
     });
@@ -96,9 +102,9 @@ void Candidates::plan_loose_wraps() {
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       if (ranking.has_certified() && ranking.best().hull.within_bounds) {
         const EnclosingHull& best = ranking.best().hull;
-        const bool is_of_clean_mesh = best.source == Source::Mesh && solids[0].self_intersections == 0;
         const bool is_fine = spacing < request_.diagonal / kFine;
-        if (i > 0 || is_of_clean_mesh || best.mesh.face_count() <= target_faces_ || is_fine) return std::nullopt;
+        if (i > 0 || is_of_clean_mesh(ranking, solids) || best.mesh.face_count() <= target_faces_ || is_fine)
+          return std::nullopt;
       }
       const auto id = wrap(kBoundedWrap, spacing, solids);
       if (!request_.input.closed) require_volume(solids.volume(target_faces_), request_.options.bounds);
