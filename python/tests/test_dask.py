@@ -203,7 +203,7 @@ def test_meshes_may_be_objects(client, cube, tmp_path):
     assert prohull.verify(tmp_path / "000001.ply", cube)
     named = {"sub/cube": cube, "gone": tmp_path / "gone.stl", "0": (2 * cube[0], cube[1]), "none": None,
              "empty": (np.zeros((0, 3)), np.zeros((0, 3), int)), "ragged": ([[0, 1], [0]], cube[1])}
-    others = {"gone": "failed", "none": "refused", "empty": "refused", "ragged": "failed"}
+    others = {"gone": "failed", "none": "refused", "empty": "refused", "ragged": "refused"}
     rows = prohull.dask.build_folder(client, named, tmp_path, suffix=".ply", target_faces=12, progress=None)
     assert statuses(rows) == {"sub/cube": "built", "0": "built", **others} and "gone.stl" in rows[1].message
     named["0"] = (3 * cube[0], cube[1])
