@@ -16,7 +16,7 @@ const CERTIFIED = /\.(stl|obj|ply|off)(\.gz)?$/i;  // files that prohull_check r
 
 let part = null;               // {name, bytes, mesh, inspection}, and of a sample what it is called
 let made = null;               // {want, hull, isLevel}
-let view = null, job = null;
+let view = null, job = null, measuring = 0;
 let shown = {};                // of the address: what the picture shows
 
 const cameraOf = (values) => Object.fromEntries(Object.entries(values).filter(([key]) => CAMERA.includes(key)));
@@ -41,6 +41,11 @@ function tellProgress(stage, fraction) {
   byId('stage-name').textContent = stage;
 }
 
+/** A worker that still measures a level is left alone. */
+function releaseIfIdle() {
+  if (!job && measuring === 0) prohull.release();
+}
+
 /** Does this and nothing else; what ran before ends. */
 async function run(work) {
   job?.abort();
@@ -55,8 +60,9 @@ async function run(work) {
   }
   if (own !== job) return;
   job = null;
-  prohull.release();
+  releaseIfIdle();
   setRunning(false);
+  refreshed();  // a level that was chosen meanwhile is measured now
 }
 
 /** No picture; the canvas is a new one. */
@@ -187,9 +193,13 @@ function refreshed() {
 async function measure(faces) {
   const {active} = view, {levels} = made.hull;
   if (active.stops.some((stop) => stop.faces === faces)) return;
-  const level = await prohull.level(levels, faces);
-  const {lower, upper, farthest} = await prohull.distance(level, part.mesh, {relativeGap: 0.02});
-  prohull.release();
+  ++measuring;
+  const bounds = await prohull.level(levels, faces).then((level) => prohull.distance(level, part.mesh, {relativeGap: 0.02}))
+      .finally(() => {
+        --measuring;
+        releaseIfIdle();
+      });
+  const {lower, upper, farthest} = bounds;
   if (active !== view.active) return;
   active.stops.push({faces, lower, upper, farthest: [...farthest]});
   active.stops.sort((a, b) => a.faces - b.faces);
