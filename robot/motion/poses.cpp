@@ -46,17 +46,6 @@ Pose normalized(const Pose& pose) {
   return pose_of_quaternion(w, x, y, z, pose.translation);
 }
 
-}  // namespace
-
-std::optional<Pose> pose_of(std::span<const double> n) {
-  if (n.size() == 7) return pose_of_quaternion(n[3], n[4], n[5], n[6], {n[0], n[1], n[2]});
-  const bool is_matrix = n.size() == 12 || (n.size() == 16 && n[12] == 0 && n[13] == 0 && n[14] == 0 && n[15] == 1);
-  if (!is_matrix) return {};
-  return normalized({{Vec3{n[0], n[1], n[2]}, Vec3{n[4], n[5], n[6]}, Vec3{n[8], n[9], n[10]}}, {n[3], n[7], n[11]}});
-}
-
-namespace {
-
 RigidMotion motion_between(const Pose& from, const Pose& to) {
   const Pose turn = composed({to.rotation, {}}, inverse({from.rotation, {}}));
   auto [w, x, y, z] = quaternion_of(turn);
@@ -70,6 +59,13 @@ RigidMotion motion_between(const Pose& from, const Pose& to) {
 }
 
 }  // namespace
+
+std::optional<Pose> pose_of(std::span<const double> n) {
+  if (n.size() == 7) return pose_of_quaternion(n[3], n[4], n[5], n[6], {n[0], n[1], n[2]});
+  const bool is_matrix = n.size() == 12 || (n.size() == 16 && n[12] == 0 && n[13] == 0 && n[14] == 0 && n[15] == 1);
+  if (!is_matrix) return {};
+  return normalized({{Vec3{n[0], n[1], n[2]}, Vec3{n[4], n[5], n[6]}, Vec3{n[8], n[9], n[10]}}, {n[3], n[7], n[11]}});
+}
 
 std::vector<Pose> read_poses(std::string_view text, const std::string& file) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);

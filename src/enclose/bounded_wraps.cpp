@@ -84,7 +84,7 @@ void Candidates::plan_close_wraps() {
 
 // Ever finer ones, until one keeps the bounds; a single one, as near as patience allows, if none can. A hull of a wrap
 // moves towards the triangles, so that it may keep a bound that the wrap misses. Of a mesh that does not intersect
-// itself no wrap does better: its own hull touches it.
+// itself no wrap does better: its own hull touches it. A padding of more than 2.4 spacings is too much for a wrap.
 void Candidates::plan_loose_wraps() {
   constexpr int kMostBounded = 4;
   constexpr double kFine = 256, kPlain = 100;  // to the diagonal; finer ones take ten seconds and more, and one second

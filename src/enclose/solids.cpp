@@ -12,6 +12,7 @@
 #include "enclose/known_void.h"
 #include "geometry/float32.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/summary.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
@@ -22,16 +23,6 @@ namespace prohull {
 namespace {
 
 const TriangleMesh* closed_mesh_of(const RepairedMesh& input) { return input.closed ? &input.closed->mesh : nullptr; }
-
-/// Repairs may have numbered its vertices anew.
-bool has_triangles_of(const TriangleMesh& a, const TriangleMesh& b) {
-  if (a.face_count() != b.face_count()) return false;
-  for (const FaceId f : a.triangles.ids()) {
-    const Triangle s = a.triangle(f), t = b.triangle(f);
-    if (s.a != t.a || s.b != t.b || s.c != t.c) return false;
-  }
-  return true;
-}
 
 }  // namespace
 

@@ -97,11 +97,11 @@ std::string text_of_openings(bool has_openings, const DistanceBounds& from_trian
                      rounded_up(from_triangles.upper, 4));
 }
 
-bool has_triangles_of(const TriangleMesh& read, const TriangleMesh& mesh) {
-  if (read.face_count() != mesh.face_count()) return false;
-  for (const FaceId f : mesh.triangles.ids()) {
-    const Triangle s = read.triangle(f), t = mesh.triangle(f);
-    if (!(s.a == t.a && s.b == t.b && s.c == t.c)) return false;
+bool has_triangles_of(const TriangleMesh& a, const TriangleMesh& b) {
+  if (a.face_count() != b.face_count()) return false;
+  for (const FaceId f : a.triangles.ids()) {
+    const Triangle s = a.triangle(f), t = b.triangle(f);
+    if (s.a != t.a || s.b != t.b || s.c != t.c) return false;
   }
   return true;
 }

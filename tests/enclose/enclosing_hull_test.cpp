@@ -416,6 +416,13 @@ TEST(EnclosingHull, OnTheInnerSideLiesWithinTheUnionOfParts) {
   EXPECT_GT(signed_volume(hull.mesh), 0.5) << "the solid has 1.32";
 }
 
+TEST(EnclosingHull, KeepsAnEasyBoundOfAnOpenMesh) {
+  const EnclosingHull easy =
+      enclosing_hull(without_a_face(make_sample("asteroid", 60)), 100, {.bounds = {.max_distance = 1}});
+  EXPECT_TRUE(easy.within_bounds);
+  EXPECT_LE(easy.excess, 1);
+}
+
 TEST(EnclosingHull, OfADistanceOfZeroIsBuilt) {
   const EnclosingHull hull = enclosing_hull(make_sample("asteroid", 60), 20, {.bounds = {.max_distance = 0}});
   EXPECT_TRUE(hull.certified);

@@ -23,8 +23,9 @@ std::string described_void(const EnclosingHulls& made, const EnclosingHull& hull
 /// Behind a distance that counts from the mesh: that its openings are closed, and how far the triangles alone are.
 std::string text_of_openings(bool has_openings, const DistanceBounds& from_triangles);
 
-/// What was written and read again has the very triangles of the mesh, in the same order.
-bool has_triangles_of(const TriangleMesh& read, const TriangleMesh& mesh);
+/// Whether both have the very same triangles in the same order: a file that was read again, or a repaired mesh, may
+/// have its vertices numbered anew.
+bool has_triangles_of(const TriangleMesh& a, const TriangleMesh& b);
 
 /// A verdict about the finite triangles of a file, as it is of the file: with those that were left out.
 Verification of_file(Verification found, const RepairedMesh& input);
