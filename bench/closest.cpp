@@ -9,8 +9,8 @@
 #include "command.h"
 #include "machine.h"
 #include "models.h"
+#include "prohull/detail/random_segments.h"
 #include "prohull/mesh_query.h"
-#include "prohull/random_segments.h"
 #include "query_peers.h"
 #include "table.h"
 

@@ -11,9 +11,9 @@
 #include "models.h"
 #include "paper_tables.h"
 #include "peers.h"
+#include "prohull/detail/replay.h"
 #include "prohull/enclosure.h"
 #include "prohull/hull_builder.h"
-#include "prohull/replay.h"
 #include "strategies.h"
 #include "table.h"
 

@@ -12,9 +12,9 @@
 #include "loose_hull.h"
 #include "machine.h"
 #include "models.h"
+#include "prohull/detail/random_segments.h"
+#include "prohull/detail/replay.h"
 #include "prohull/mesh_query.h"
-#include "prohull/random_segments.h"
-#include "prohull/replay.h"
 #include "strategies.h"
 #include "table.h"
 

@@ -8,7 +8,7 @@
 #include "command.h"
 #include "kdop/kdop_index.h"
 #include "machine.h"
-#include "prohull/random_segments.h"
+#include "prohull/detail/random_segments.h"
 #include "query_section.h"
 #include "strategies.h"
 

@@ -7,7 +7,7 @@
 
 #include "exhaustive_scan.h"
 #include "io/file.h"
-#include "prohull/random_segments.h"
+#include "prohull/detail/random_segments.h"
 #include "query_peers.h"
 #include "query_section.h"
 #include "table.h"

@@ -14,10 +14,10 @@
 #include "alpha_wrap.h"
 #include "io/file.h"
 #include "peers.h"
+#include "prohull/detail/openings.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
-#include "prohull/openings.h"
 #include "prohull/repair.h"
 #include "repair/steps.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "prohull/random_segments.h"
+#include "prohull/detail/random_segments.h"
 
 namespace prohull::bench {
 namespace {

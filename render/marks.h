@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "prohull/shapes.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull::render {

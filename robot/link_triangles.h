@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "prohull/solid_pieces.h"
+#include "prohull/detail/solid_pieces.h"
 #include "prohull/triangle_mesh.h"
 #include "robot/model.h"
 

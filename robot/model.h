@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "prohull/collide.h"
-#include "prohull/names.h"
+#include "prohull/detail/names.h"
 
 namespace prohull::robot {
 

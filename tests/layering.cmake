@@ -13,25 +13,25 @@ macro(room name)
   set(may_${name} ${name} ${room_MAY})
 endmacro()
 
-room(base      OWNS detail/rounded error names progress)
-room(geometry  OWNS geometry shapes                                                     MAY base)
+room(base      OWNS detail/rounded error detail/names progress)
+room(geometry  OWNS geometry detail/shapes                                                     MAY base)
 room(parallel  OWNS detail/progress_meter                                        MAY base)
-room(mesh      OWNS detail/disjoint_sets ids length triangle_mesh vertex_split mesh_report mesh_quality mesh_marks regions symmetry MAY geometry base)
+room(mesh      OWNS detail/disjoint_sets detail/ids length triangle_mesh detail/vertex_split mesh_report detail/mesh_quality detail/mesh_marks regions detail/symmetry MAY geometry base)
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
-room(query     OWNS mesh_query refine_along                                      MAY hull mesh geometry parallel base)
-room(io        OWNS base64 memory mesh_io missing_file hull_file query_io                            MAY hull mesh geometry parallel base
+room(query     OWNS mesh_query detail/refine_along                                      MAY hull mesh geometry parallel base)
+room(io        OWNS detail/base64 detail/memory mesh_io detail/missing_file hull_file detail/query_io                            MAY hull mesh geometry parallel base
                                                                                      prohull/collide prohull/mesh_query)
-room(repair    OWNS openings repair                                              MAY mesh geometry base)
-room(construct OWNS hull_builder tight_hull float32_hull padded_hull mesh_part   MAY hull mesh geometry parallel base)
+room(repair    OWNS detail/openings repair                                              MAY mesh geometry base)
+room(construct OWNS hull_builder tight_hull detail/float32_hull padded_hull detail/mesh_part   MAY hull mesh geometry parallel base)
 # Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges, and
 # whether that is closed.
-room(verify    OWNS enclosure verification union_verification replay distance tolerances solid_pieces MAY geometry parallel base prohull/ids
+room(verify    OWNS enclosure verification union_verification detail/replay distance tolerances detail/solid_pieces MAY geometry parallel base prohull/detail/ids
                                                                                      prohull/triangle_mesh
                                                                                      mesh/closed
-                                                                                     prohull/vertex_split
+                                                                                     prohull/detail/vertex_split
                                                                                      prohull/progressive_hull
                                                                                      prohull/mesh_query prohull/collide)
-room(sample    OWNS sample random_segments                                       MAY mesh geometry base)
+room(sample    OWNS sample detail/random_segments                                       MAY mesh geometry base)
 room(wrap      OWNS convex_hull wrap                                                         MAY mesh geometry parallel base)
 room(enclose   OWNS cage closed_solid detail/summary enclosing_hull                                          MAY construct repair verify wrap hull mesh
                                                                                      geometry parallel base prohull/collide

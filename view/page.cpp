@@ -4,7 +4,7 @@
 
 #include <new>
 
-#include "prohull/base64.h"
+#include "prohull/detail/base64.h"
 #include "prohull/error.h"
 #include "view/scene.h"
 #include "view/template.h"

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "prohull/shapes.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/verification.h"
 #include "robot/motion/motion.h"
 

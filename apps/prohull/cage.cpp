@@ -7,9 +7,9 @@
 
 #include "certificate_output.h"
 #include "command.h"
+#include "prohull/detail/float32_hull.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/error.h"
-#include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
 #include "verdict.h"
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "prohull/detail/query_io.h"
 #include "prohull/detail/summary.h"
 #include "prohull/error.h"
-#include "prohull/query_io.h"
 
 namespace prohull::cli {
 namespace {

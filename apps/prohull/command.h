@@ -11,7 +11,7 @@
 #include "interrupt.h"
 #include "options.h"
 #include "outputs.h"
-#include "prohull/mesh_quality.h"
+#include "prohull/detail/mesh_quality.h"
 #include "prohull/mesh_report.h"
 
 namespace prohull::cli {

@@ -4,7 +4,7 @@
 
 #include "command.h"
 #include "point_command.h"
-#include "prohull/query_io.h"
+#include "prohull/detail/query_io.h"
 
 namespace prohull::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "prohull/names.h"
+#include "prohull/detail/names.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull::cli {

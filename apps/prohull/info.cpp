@@ -4,10 +4,10 @@
 #include <span>
 
 #include "command.h"
+#include "prohull/detail/openings.h"
 #include "prohull/detail/summary.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/error.h"
-#include "prohull/openings.h"
 
 namespace prohull::cli {
 namespace {

@@ -11,10 +11,10 @@
 #include <system_error>
 
 #include "command.h"
+#include "prohull/detail/memory.h"
+#include "prohull/detail/missing_file.h"
 #include "prohull/error.h"
 #include "prohull/hull_file.h"
-#include "prohull/memory.h"
-#include "prohull/missing_file.h"
 
 namespace prohull::cli {
 namespace {

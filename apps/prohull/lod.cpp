@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "prohull/detail/float32_hull.h"
 #include "prohull/detail/summary.h"
-#include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
 
 namespace prohull::cli {

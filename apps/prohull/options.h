@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "prohull/detail/names.h"
 #include "prohull/length.h"
-#include "prohull/names.h"
 
 namespace prohull::cli {
 

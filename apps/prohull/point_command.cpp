@@ -4,9 +4,9 @@
 
 #include "asked_mesh.h"
 #include "command.h"
+#include "prohull/detail/query_io.h"
+#include "prohull/detail/random_segments.h"
 #include "prohull/error.h"
-#include "prohull/query_io.h"
-#include "prohull/random_segments.h"
 
 namespace prohull::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "command.h"
+#include "prohull/detail/refine_along.h"
 #include "prohull/error.h"
-#include "prohull/refine_along.h"
 #include "render/compose.h"
 #include "render/draw.h"
 #include "render/marks.h"

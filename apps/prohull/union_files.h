@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "inputs.h"
-#include "prohull/shapes.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull::cli {

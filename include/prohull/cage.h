@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "prohull/detail/mesh_quality.h"
 #include "prohull/enclosing_hull.h"
-#include "prohull/mesh_quality.h"
 #include "prohull/progress.h"
 #include "prohull/triangle_mesh.h"
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "prohull/mesh_marks.h"
+#include "prohull/detail/mesh_marks.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/progressive_hull.h"
-#include "prohull/shapes.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {

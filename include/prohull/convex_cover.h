@@ -6,10 +6,10 @@
 #include <variant>
 #include <vector>
 
+#include "prohull/detail/names.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/distance.h"
-#include "prohull/names.h"
 #include "prohull/progress.h"
-#include "prohull/shapes.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {

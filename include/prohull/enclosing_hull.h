@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "prohull/detail/names.h"
 #include "prohull/distance.h"
 #include "prohull/hull_builder.h"
-#include "prohull/names.h"
 #include "prohull/progress.h"
 #include "prohull/repair.h"
 #include "prohull/triangle_mesh.h"

@@ -9,10 +9,10 @@
 #include <string>
 #include <string_view>
 
-#include "prohull/names.h"
+#include "prohull/detail/names.h"
+#include "prohull/detail/symmetry.h"
 #include "prohull/progress.h"
 #include "prohull/progressive_hull.h"
-#include "prohull/symmetry.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {

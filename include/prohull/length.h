@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "prohull/names.h"
+#include "prohull/detail/names.h"
 
 namespace prohull {
 

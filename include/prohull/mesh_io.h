@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "prohull/mesh_marks.h"
+#include "prohull/detail/mesh_marks.h"
 #include "prohull/progress.h"
 #include "prohull/triangle_mesh.h"
 

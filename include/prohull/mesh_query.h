@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "prohull/names.h"
+#include "prohull/detail/names.h"
 #include "prohull/progress.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"

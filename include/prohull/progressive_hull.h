@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "prohull/names.h"
-#include "prohull/symmetry.h"
+#include "prohull/detail/names.h"
+#include "prohull/detail/symmetry.h"
+#include "prohull/detail/vertex_split.h"
 #include "prohull/triangle_mesh.h"
-#include "prohull/vertex_split.h"
 
 namespace prohull {
 

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "prohull/detail/mesh_marks.h"
 #include "prohull/geometry.h"
-#include "prohull/mesh_marks.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {

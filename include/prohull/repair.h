@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "prohull/detail/names.h"
 #include "prohull/mesh_report.h"
-#include "prohull/names.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {

@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "prohull/detail/ids.h"
 #include "prohull/geometry.h"
-#include "prohull/ids.h"
 
 namespace prohull {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "prohull/detail/shapes.h"
 #include "prohull/distance.h"
-#include "prohull/shapes.h"
 #include "prohull/triangle_mesh.h"
 #include "prohull/verification.h"
 

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "prohull/detail/ids.h"
+#include "prohull/detail/names.h"
 #include "prohull/error.h"
 #include "prohull/geometry.h"
-#include "prohull/ids.h"
-#include "prohull/names.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull::js {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "prohull/detail/names.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/enclosure.h"
-#include "prohull/names.h"
 #include "prohull/progressive_hull.h"
-#include "prohull/shapes.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull::python {

@@ -14,9 +14,9 @@
 #include "prohull/cage.h"
 #include "prohull/closed_solid.h"
 #include "prohull/detail/given_options.h"
+#include "prohull/detail/mesh_part.h"
 #include "prohull/detail/told_notes.h"
 #include "prohull/enclosing_hull.h"
-#include "prohull/mesh_part.h"
 #include "watch.h"
 
 namespace py = pybind11;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "prohull/detail/ids.h"
+#include "prohull/detail/names.h"
 #include "prohull/error.h"
-#include "prohull/ids.h"
-#include "prohull/names.h"
 
 namespace prohull::python {
 

@@ -9,11 +9,11 @@
 
 #include "arrays.h"
 #include "module.h"
+#include "prohull/detail/openings.h"
 #include "prohull/error.h"
 #include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_report.h"
-#include "prohull/openings.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/sample.h"
 #include "watch.h"

@@ -6,7 +6,7 @@
 
 #include <new>
 
-#include "prohull/missing_file.h"
+#include "prohull/detail/missing_file.h"
 
 namespace {
 

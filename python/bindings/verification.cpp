@@ -5,10 +5,10 @@
 
 #include "arrays.h"
 #include "module.h"
+#include "prohull/detail/float32_hull.h"
 #include "prohull/distance.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
-#include "prohull/float32_hull.h"
 #include "prohull/verification.h"
 #include "watch.h"
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "prohull/detail/names.h"
 #include "prohull/error.h"
-#include "prohull/names.h"
 #include "robot/motion/joint_paths.h"
 #include "robot/motion/path_bodies.h"
 

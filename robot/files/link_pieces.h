@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "prohull/shapes.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/triangle_mesh.h"
 #include "robot/files/robot_file.h"
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <utility>
 
+#include "prohull/detail/missing_file.h"
 #include "prohull/error.h"
-#include "prohull/missing_file.h"
 #include "robot/files/mjcf.h"
 #include "robot/files/mjcf_include.h"
 #include "robot/files/packages.h"

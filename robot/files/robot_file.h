@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "prohull/names.h"
-#include "prohull/shapes.h"
+#include "prohull/detail/names.h"
+#include "prohull/detail/shapes.h"
 #include "robot/model.h"
 
 namespace prohull::robot {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "prohull/shapes.h"
+#include "prohull/detail/shapes.h"
 
 namespace prohull::robot {
 

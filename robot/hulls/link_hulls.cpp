@@ -12,8 +12,8 @@
 
 #include "prohull/convex_cover.h"
 #include "prohull/convex_hull.h"
+#include "prohull/detail/float32_hull.h"
 #include "prohull/error.h"
-#include "prohull/float32_hull.h"
 #include "prohull/mesh_io.h"
 #include "prohull/sphere_cover.h"
 #include "robot/hulls/cache.h"

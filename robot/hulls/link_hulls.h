@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "prohull/detail/names.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/distance.h"
 #include "prohull/enclosing_hull.h"
-#include "prohull/names.h"
 #include "prohull/progress.h"
-#include "prohull/shapes.h"
 #include "robot/files/robot_file.h"
 #include "robot/link_triangles.h"
 

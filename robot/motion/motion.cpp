@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/error.h"
-#include "prohull/shapes.h"
 #include "robot/motion/joint_paths.h"
 #include "robot/motion/proof_body.h"
 #include "robot/transform.h"

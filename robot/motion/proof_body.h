@@ -10,7 +10,7 @@
 
 #include "prohull/collide.h"
 #include "prohull/detail/progress_meter.h"
-#include "prohull/shapes.h"
+#include "prohull/detail/shapes.h"
 
 namespace prohull::robot {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "prohull/base64.h"
+#include "prohull/detail/base64.h"
 #include "prohull/error.h"
 #include "robot/files/xml.h"
 #include "robot/motion/bodies.h"

@@ -6,7 +6,7 @@
 #include "cover/depth.h"
 #include "cover/patches.h"
 #include "prohull/detail/progress_meter.h"
-#include "prohull/shapes.h"
+#include "prohull/detail/shapes.h"
 
 namespace prohull::cover {
 

@@ -20,9 +20,9 @@
 #include "parallel/arena.h"
 #include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
+#include "prohull/detail/float32_hull.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
-#include "prohull/float32_hull.h"
 #include "prohull/union_verification.h"
 
 namespace prohull {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prohull/shapes.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull::cover {

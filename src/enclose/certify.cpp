@@ -6,9 +6,9 @@
 
 #include "construct/turned.h"
 #include "enclose/folds.h"
+#include "prohull/detail/replay.h"
 #include "prohull/enclosure.h"
 #include "prohull/padded_hull.h"
-#include "prohull/replay.h"
 #include "prohull/tight_hull.h"
 #include "verify/gap.h"
 

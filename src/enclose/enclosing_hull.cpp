@@ -12,8 +12,8 @@
 #include "enclose/known_void.h"
 #include "geometry/usable_size.h"
 #include "parallel/arena.h"
+#include "prohull/detail/float32_hull.h"
 #include "prohull/error.h"
-#include "prohull/float32_hull.h"
 
 namespace prohull {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "enclose/candidate.h"
-#include "prohull/float32_hull.h"
+#include "prohull/detail/float32_hull.h"
 
 namespace prohull {
 

@@ -8,9 +8,9 @@
 
 #include "base/text.h"
 #include "prohull/detail/rounded.h"
+#include "prohull/detail/symmetry.h"
 #include "prohull/enclosure.h"
 #include "prohull/mesh_report.h"
-#include "prohull/symmetry.h"
 
 namespace prohull {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "prohull/shapes.h"
+#include "prohull/detail/shapes.h"
 
 namespace prohull {
 

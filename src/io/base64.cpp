@@ -1,4 +1,4 @@
-#include "prohull/base64.h"
+#include "prohull/detail/base64.h"
 
 #include <array>
 #include <cstdint>

@@ -14,8 +14,8 @@
 
 #include "io/file.h"
 #include "io/mesh_readers.h"
+#include "prohull/detail/missing_file.h"
 #include "prohull/error.h"
-#include "prohull/missing_file.h"
 
 namespace prohull {
 namespace {

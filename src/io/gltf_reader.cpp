@@ -16,7 +16,7 @@
 #include "io/file_content.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
-#include "prohull/base64.h"
+#include "prohull/detail/base64.h"
 
 // Sections are those of the glTF 2.0 specification (Khronos, 2021).
 

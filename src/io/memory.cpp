@@ -1,4 +1,4 @@
-#include "prohull/memory.h"
+#include "prohull/detail/memory.h"
 
 #include <fmt/format.h>
 

@@ -17,9 +17,9 @@
 #include "io/mesh_writers.h"
 #include "io/place.h"
 #include "io/text_scanner.h"
+#include "prohull/detail/memory.h"
 #include "prohull/error.h"
 #include "prohull/hull_file.h"
-#include "prohull/memory.h"
 
 namespace prohull {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "prohull/query_io.h"
+#include "prohull/detail/query_io.h"
 
 namespace prohull {
 

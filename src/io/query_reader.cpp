@@ -9,7 +9,7 @@
 #include "io/npy_header.h"
 #include "io/number_table.h"
 #include "io/query_format.h"
-#include "prohull/query_io.h"
+#include "prohull/detail/query_io.h"
 
 namespace prohull {
 namespace {

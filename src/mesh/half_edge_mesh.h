@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "prohull/detail/vertex_split.h"
 #include "prohull/triangle_mesh.h"
-#include "prohull/vertex_split.h"
 
 namespace prohull {
 

@@ -1,4 +1,4 @@
-#include "prohull/mesh_quality.h"
+#include "prohull/detail/mesh_quality.h"
 
 #include <algorithm>
 #include <array>

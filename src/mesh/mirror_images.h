@@ -4,7 +4,7 @@
 
 #include "geometry/mirror_plane.h"
 #include "mesh/half_edge_mesh.h"
-#include "prohull/symmetry.h"
+#include "prohull/detail/symmetry.h"
 
 namespace prohull {
 

@@ -1,4 +1,4 @@
-#include "prohull/symmetry.h"
+#include "prohull/detail/symmetry.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "prohull/refine_along.h"
+#include "prohull/detail/refine_along.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "prohull/openings.h"
+#include "prohull/detail/openings.h"
 
 #include <algorithm>
 #include <array>

@@ -9,8 +9,8 @@
 #include "base/text.h"
 #include "geometry/usable_size.h"
 #include "prohull/detail/disjoint_sets.h"
+#include "prohull/detail/openings.h"
 #include "prohull/error.h"
-#include "prohull/openings.h"
 #include "prohull/repair.h"
 #include "repair/steps.h"
 

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <vector>
 
+#include "prohull/detail/solid_pieces.h"
 #include "prohull/error.h"
-#include "prohull/solid_pieces.h"
 #include "verify/exact.h"
 
 namespace prohull {

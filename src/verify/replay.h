@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prohull/replay.h"
+#include "prohull/detail/replay.h"
 
 namespace prohull::verify {
 

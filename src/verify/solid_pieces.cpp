@@ -1,4 +1,4 @@
-#include "prohull/solid_pieces.h"
+#include "prohull/detail/solid_pieces.h"
 
 #include <algorithm>
 #include <array>

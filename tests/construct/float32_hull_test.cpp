@@ -1,4 +1,4 @@
-#include "prohull/float32_hull.h"
+#include "prohull/detail/float32_hull.h"
 
 #include <gtest/gtest.h>
 

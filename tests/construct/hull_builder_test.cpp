@@ -13,10 +13,10 @@
 #include "geometry/float32.h"
 #include "meshes.h"
 #include "progress.h"
+#include "prohull/detail/replay.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
-#include "prohull/replay.h"
 #include "prohull/sample.h"
 #include "random.h"
 

@@ -4,8 +4,8 @@
 
 #include "effort.h"
 #include "meshes.h"
+#include "prohull/detail/mesh_quality.h"
 #include "prohull/enclosure.h"
-#include "prohull/mesh_quality.h"
 #include "prohull/sample.h"
 #include "prohull/tight_hull.h"
 

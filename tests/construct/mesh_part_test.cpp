@@ -1,4 +1,4 @@
-#include "prohull/mesh_part.h"
+#include "prohull/detail/mesh_part.h"
 
 #include <gtest/gtest.h>
 

@@ -9,13 +9,13 @@
 
 #include "effort.h"
 #include "geometry/float32.h"
+#include "prohull/detail/replay.h"
+#include "prohull/detail/symmetry.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_report.h"
-#include "prohull/replay.h"
 #include "prohull/sample.h"
-#include "prohull/symmetry.h"
 #include "random.h"
 #include "symmetric_meshes.h"
 

@@ -10,10 +10,10 @@
 #include "geometry/float32.h"
 #include "meshes.h"
 #include "progress.h"
+#include "prohull/detail/float32_hull.h"
 #include "prohull/distance.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
-#include "prohull/float32_hull.h"
 #include "prohull/mesh_report.h"
 #include "prohull/sample.h"
 

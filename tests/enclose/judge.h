@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "prohull/shapes.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/triangle_mesh.h"
 #include "verify/exact_kernel.h"
 

@@ -13,11 +13,11 @@
 #include <string_view>
 
 #include "meshes.h"
+#include "prohull/detail/replay.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
 #include "prohull/hull_file.h"
 #include "prohull/mesh_report.h"
-#include "prohull/replay.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "prohull/replay.h"
+#include "prohull/detail/replay.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "prohull/detail/query_io.h"
 #include "prohull/error.h"
-#include "prohull/query_io.h"
 
 namespace {
 

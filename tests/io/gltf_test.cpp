@@ -3,7 +3,7 @@
 
 #include "compressing.h"
 #include "io_testing.h"
-#include "prohull/base64.h"
+#include "prohull/detail/base64.h"
 
 namespace prohull {
 namespace {

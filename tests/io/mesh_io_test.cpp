@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "io_testing.h"
+#include "prohull/detail/missing_file.h"
 #include "prohull/length.h"
-#include "prohull/missing_file.h"
 #include "random.h"
 
 namespace prohull {

@@ -1,4 +1,4 @@
-#include "prohull/query_io.h"
+#include "prohull/detail/query_io.h"
 
 #include <bit>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "prohull/refine_along.h"
+#include "prohull/detail/refine_along.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "prohull/detail/random_segments.h"
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_query.h"
-#include "prohull/random_segments.h"
 #include "prohull/sample.h"
 
 namespace prohull {

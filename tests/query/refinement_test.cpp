@@ -6,10 +6,10 @@
 
 #include "effort.h"
 #include "meshes.h"
+#include "prohull/detail/random_segments.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_query.h"
-#include "prohull/random_segments.h"
 #include "prohull/sample.h"
 #include "query/awkward_segments.h"
 #include "random.h"

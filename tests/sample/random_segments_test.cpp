@@ -1,4 +1,4 @@
-#include "prohull/random_segments.h"
+#include "prohull/detail/random_segments.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "prohull/shapes.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull::oracle {

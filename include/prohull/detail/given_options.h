@@ -5,8 +5,8 @@
 #include "prohull/cage.h"
 #include "prohull/closed_solid.h"
 #include "prohull/convex_cover.h"
+#include "prohull/detail/names.h"
 #include "prohull/enclosing_hull.h"
-#include "prohull/names.h"
 #include "prohull/sphere_cover.h"
 #include "prohull/sweep.h"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "prohull/detail/mesh_quality.h"
 #include "prohull/enclosing_hull.h"
-#include "prohull/mesh_quality.h"
 
 namespace prohull {
 

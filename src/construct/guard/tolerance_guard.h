@@ -6,7 +6,7 @@
 
 #include "construct/star.h"
 #include "mesh/half_edge_mesh.h"
-#include "prohull/ids.h"
+#include "prohull/detail/ids.h"
 
 namespace prohull {
 

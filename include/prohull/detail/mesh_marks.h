@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "prohull/ids.h"
+#include "prohull/detail/ids.h"
 
 namespace prohull {
 

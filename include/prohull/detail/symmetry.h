@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "prohull/names.h"
+#include "prohull/detail/names.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {

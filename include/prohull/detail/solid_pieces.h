@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "prohull/collide.h"
+#include "prohull/detail/shapes.h"
 #include "prohull/distance.h"
 #include "prohull/progress.h"
-#include "prohull/shapes.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {

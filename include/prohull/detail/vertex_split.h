@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "prohull/ids.h"
+#include "prohull/detail/ids.h"
 
 namespace prohull {
 
