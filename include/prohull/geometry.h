@@ -68,7 +68,12 @@ struct Box {
     return min.x <= p.x && p.x <= max.x && min.y <= p.y && p.y <= max.y && min.z <= p.z && p.z <= max.z;
   }
   Vec3 center() const { return min * 0.5 + max * 0.5; }
-  double diagonal() const { return is_empty() ? 0 : norm(max - min); }
+  double diagonal() const {
+    if (is_empty()) return 0;
+    constexpr double kSquaresVanish = 1e-150;
+    const Vec3 d = max - min;
+    return norm(d) > kSquaresVanish ? norm(d) : std::hypot(d.x, d.y, d.z);
+  }
 };
 
 }  // namespace prohull

@@ -24,6 +24,7 @@
 #include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
+#include "prohull/wrap.h"
 
 namespace prohull {
 namespace cover {
@@ -33,6 +34,8 @@ namespace {
 constexpr std::size_t kSearchFaces = 1500;
 /// Of the hull around triangles that bound no solid: so many for each triangle, up to kSearchFaces.
 constexpr std::size_t kHullFacesPerTriangle = 4, kFewestHullFaces = 400;
+/// Of a grid along the diagonal, to find space that triangles enclose: from 1.6 % of the diagonal on.
+constexpr double kNodesForSpace = 128;
 /// Those of the wide search, which is costlier.
 constexpr std::size_t kWideSearchFaces = 800;
 constexpr double kSearchTolerance = 1e-6;
@@ -124,7 +127,7 @@ class Covering {
     // One convex piece holds all that lies between the triangles, too. Bounds of the void ask for more: a volume.
     if (!cover && options_.max_pieces == 1 && !options_.bounds.any()) cover = best_cover(of_convex_hull());
     if (!cover || !cover->certified) {
-      const Material material = measurable(of_enclosing_hull());
+      const Material material = measurable(of_open_triangles());
       cover = best_cover(material);
       if (prepared_.closed) cover->notes.emplace_back("no cover of the mesh itself was certified");
       if (material.solid.face_count() > 0)
@@ -165,21 +168,29 @@ class Covering {
         .hull.base();
   }
 
-  /// Of triangles that bound no solid by themselves.
-  Material of_enclosing_hull() const {
-    if (convex_hull(prepared_.original).face_count() == 0)
-      return {{}, prepared_.original, prepared_.original, prepared_.original, {}};
+  /// Of triangles that bound no solid by themselves. Without any space inside, or if no better solid than the convex
+  /// hull is found, they are cut themselves.
+  Material of_open_triangles() const {
+    const TriangleMesh& triangles = prepared_.original;
+    if (convex_hull(triangles).face_count() == 0) return {{}, triangles, triangles, triangles, {}};
+    if (!enclose_space(triangles)) return of_surface({});
     const std::size_t faces[]{
-        std::clamp(kHullFacesPerTriangle * prepared_.original.face_count(), kFewestHullFaces, kSearchFaces)};
-    EnclosingHulls made =
-        enclosing_hulls(prepared_.original, faces, enclosing_options(options_.threads, options_.progress));
+        std::clamp(kHullFacesPerTriangle * triangles.face_count(), kFewestHullFaces, kSearchFaces)};
+    EnclosingHulls made = enclosing_hulls(triangles, faces, enclosing_options(options_.threads, options_.progress));
     TriangleMesh& hull = made.hulls[0].mesh;
-    // Where no better solid than the convex hull is found, the triangles themselves are cut.
-    if (made.hulls[0].source == Source::ConvexHull) {
-      const TriangleMesh coarse = clustered(prepared_.original);
-      return {{}, prepared_.original, coarse, coarse, {made.volume, made.is_estimated}};
-    }
-    return {hull, {}, hull, hull, {made.volume, made.is_estimated}};
+    const InsideVolume volume{made.volume, made.is_estimated};
+    if (made.hulls[0].source == Source::ConvexHull) return of_surface(volume);
+    return {hull, {}, hull, hull, volume};
+  }
+
+  bool enclose_space(const TriangleMesh& triangles) const {
+    const double spacing = bounding_box(triangles).diagonal() / kNodesForSpace;
+    return inside_volume(triangles, {.spacing = spacing, .seal_rooms = true, .progress = options_.progress}) > 0;
+  }
+
+  Material of_surface(InsideVolume volume) const {
+    const TriangleMesh coarse = clustered(prepared_.original);
+    return {{}, prepared_.original, coarse, coarse, volume};
   }
 
   /// One piece.

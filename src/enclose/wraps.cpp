@@ -70,7 +70,7 @@ bool Candidates::is_worth_a_wrap(const Ranking& ranking, const Solids& solids, b
   const EnclosingHull& best = ranking.best().hull;
   if (!best.certified || !best.target_reached || !best.within_bounds) return true;
   if (ranking.is_of_flat() || ranking.is_on_triangles()) return false;  // and convex: no wrap comes nearer
-  if (request_.options.levels || (request_.options.keep_cavities && best.source == Source::Mesh)) return false;
+  if ((request_.options.levels || request_.options.keep_cavities) && best.source == Source::Mesh) return false;
   if (solids.volume(target_faces_) == 0) return true;
   constexpr double kLittleVoid = 0.03, kMuchVoid = 0.12, kVeryMuchVoid = 0.3;
   if (best.source == Source::Mesh && ranking.is_clean()) return ranking.slack() > kVeryMuchVoid;
