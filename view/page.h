@@ -15,6 +15,21 @@ namespace prohull::view {
 using Pieces = std::vector<TriangleMesh>;
 using Balls = std::vector<Ball>;
 
+/// A robot along a path: where its joints are at moments, between which a page draws them on straight lines.
+struct ShownMotion {
+  /// Of a time at least this distance apart, proven: all pairs of bodies, of which `pair` names the nearest.
+  struct Bound {
+    double begin = 0, end = 0, distance = 0;
+    std::string pair;
+  };
+  std::vector<double> times = {};                   ///< of moments, increasing
+  std::vector<std::vector<double>> positions = {};  ///< of each moment, of all joints of the robot
+  bool in_seconds = true;                           ///< otherwise, times count rows
+  std::string verdict = {};                         ///< a sentence
+  bool is_good = true;                              ///< of the verdict
+  std::vector<Bound> bounds = {};
+};
+
 /// A robot, and for each of its links what there is to draw, in the frame of the link; meshes may be empty.
 struct ShownRobot {
   robot::Robot robot;
@@ -22,6 +37,7 @@ struct ShownRobot {
   /// Pairs of links that may touch, such as an SRDF file disables. Without: those that are adjacent, and those whose
   /// collision geometry meets in every position.
   std::optional<std::vector<robot::LinkPair>> disabled = {};
+  std::optional<ShownMotion> motion = {};  ///< none: only sliders move the joints
 };
 
 /// Something that a page shows, and how the page calls it: a mesh, all levels of a hull, pieces or balls that cover

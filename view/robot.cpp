@@ -46,6 +46,15 @@ json facts_of(const Joint& joint, double rest) {
   return facts;
 }
 
+Box box_at(const ShownRobot& shown, const std::vector<double>& positions) {
+  const std::vector<Pose> poses = robot::link_poses(shown.robot, positions);
+  Box box;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    for (const auto* const meshes : {&shown.visual, &shown.collision})
+      box.extend(finite_bounding_box(placed(poses[i], (*meshes)[i])));
+  return box;
+}
+
 }  // namespace
 
 json joint_facts(const robot::Robot& robot) {
@@ -65,12 +74,12 @@ json disabled_facts(const ShownRobot& shown, unsigned threads) {
   return {{"disabled", pairs}, {"disabled_by_file", shown.disabled.has_value()}};
 }
 
-Box box_at_rest(const ShownRobot& shown) {
-  const std::vector<Pose> poses = robot::link_poses(shown.robot, robot::rest_positions(shown.robot));
+Box drawn_box(const ShownRobot& shown) {
+  constexpr std::size_t kMoments = 50;
+  if (!shown.motion) return box_at(shown, robot::rest_positions(shown.robot));
+  const std::vector<std::vector<double>>& moments = shown.motion->positions;
   Box box;
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    for (const TriangleMesh& mesh : {shown.visual[i], shown.collision[i]})
-      box.extend(finite_bounding_box(placed(poses[i], mesh)));
+  for (std::size_t m = 0; m < moments.size(); m += 1 + moments.size() / kMoments) box.extend(box_at(shown, moments[m]));
   return box;
 }
 

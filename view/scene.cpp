@@ -13,6 +13,7 @@
 #include "view/grid.h"
 #include "view/heat.h"
 #include "view/levels.h"
+#include "view/motion.h"
 #include "view/robot.h"
 #include "view/shared_faces.h"
 
@@ -59,7 +60,7 @@ struct BoxOf {
     return box;
   }
   Box operator()(const ShownRobot& shown) const {
-    Box box = box_at_rest(shown);
+    Box box = drawn_box(shown);
     for (const auto* const meshes : {&shown.visual, &shown.collision})
       for (const TriangleMesh& mesh : *meshes) box.extend(finite_bounding_box(mesh));  // where its numbers are
     return box;
@@ -159,7 +160,7 @@ class Writer {
   }
 
   json object(const Shown& shown, const ShownRobot& robot) {
-    const Box box = box_at_rest(robot);
+    const Box box = drawn_box(robot);
     if (box.is_empty()) throw InputError(Defect::EmptyMesh, shown.name + ": the robot has no geometry to draw");
     std::vector<std::uint32_t> corners;
     for (const Vec3& corner : {box.min, box.max})
@@ -172,6 +173,7 @@ class Writer {
     json facts = {{"role", "hull"}, {"kind", "robot"}, {"links", links}, {"joints", joint_facts(robot.robot)}};
     facts["corners"] = blocks_.plain(corners);
     facts.update(disabled_facts(robot, options_.threads));
+    if (robot.motion) facts["motion"] = motion_facts(*robot.motion);
     return facts;
   }
 

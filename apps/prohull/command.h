@@ -28,6 +28,9 @@ constexpr const char* kWhatItIs = "progressive hulls of triangle meshes";
 
 constexpr double kDegree = std::numbers::pi / 180;
 
+/// That there are pages, and that this is a name of one. Throws InputError.
+void require_page(const std::filesystem::path& out);
+
 nlohmann::json facts(const MeshReport& report);
 nlohmann::json facts(const MeshQuality& quality);
 nlohmann::json finite_or_null(double value);

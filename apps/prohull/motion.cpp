@@ -12,6 +12,8 @@
 #include "robot/motion/motion.h"
 #include "robot/motion/path_proof.h"
 #include "robot_summary.h"
+#include "view/motion.h"
+#include "view/shown_robot.h"
 
 namespace prohull::cli {
 namespace {
@@ -20,7 +22,7 @@ using namespace prohull::robot;
 using std::filesystem::path;
 
 struct PathOptions {
-  path in, srdf, curve, report;
+  path in, srdf, curve, page, report;
   std::vector<path> paths, world;
   std::vector<std::string> ignored;
   std::string gap = "0";
@@ -33,6 +35,8 @@ struct PathOptions {
 /// What is asked, and what was found.
 struct Decision {
   const RobotFile& file;
+  std::vector<WorldMesh> world;
+  std::vector<LinkPair> disabled;
   PathBodies made;
   std::vector<BodyPair> pairs;
   std::vector<JointPath> paths;
@@ -59,13 +63,11 @@ std::vector<std::pair<std::string, std::string>> ignored_names(const PathOptions
 
 Decision read_all(const PathOptions& options, const RobotFile& file) {
   ProgressLine line;
-  Decision decision{.file = file,
-                    .made = path_bodies(file.robot, options.geometry, read_world(options), std::ref(line)),
-                    .pairs = {},
-                    .paths = {}};
-  std::vector<LinkPair> disabled;
-  if (!options.srdf.empty()) disabled = disabled_pairs(file.robot, read_bytes(options.srdf), input_name(options.srdf));
-  decision.pairs = pairs_on_path(file.robot, decision.made.bodies, disabled, ignored_names(options));
+  Decision decision{.file = file, .world = read_world(options), .disabled = {}, .made = {}, .pairs = {}, .paths = {}};
+  decision.made = path_bodies(file.robot, options.geometry, decision.world, std::ref(line));
+  if (!options.srdf.empty())
+    decision.disabled = disabled_pairs(file.robot, read_bytes(options.srdf), input_name(options.srdf));
+  decision.pairs = pairs_on_path(file.robot, decision.made.bodies, decision.disabled, ignored_names(options));
   if (decision.pairs.empty()) refuse("there is no pair of bodies that could meet: all are adjacent, or ignored");
   for (const path& rows : options.paths)
     decision.paths.emplace_back(file.robot, read_path_rows(read_bytes(rows), input_name(rows)));
@@ -137,6 +139,17 @@ void say_others(const PathProof& proof) {
     say("  of {}, {} meet and {} are open\n", counted(proof.pairs.size(), "pair", "pairs"), meet, open);
 }
 
+/// Of a path that leaves the limits of a joint.
+std::string beyond_text(const Robot& robot, const JointPath& path) {
+  const auto beyond = first_beyond_limits(robot, path);
+  if (!beyond) return "";
+  const Joint& joint = robot.joints[beyond->joint];
+  return fmt::format("BEYOND LIMITS: {}{} {}: {} is at {:.6g}, and its limits are {:.6g} and {:.6g}",
+                     beyond->is_in_row() ? "" : "after ", path.rows().row,
+                     path.rows().numbers.empty() ? beyond->row() : path.rows().numbers[beyond->row()], joint.name,
+                     beyond->position, joint.lower, joint.upper);
+}
+
 void say_path(const PathOptions& options, const Decision& decision, std::size_t p) {
   const Robot& robot = decision.file.robot;
   const JointPath& path = decision.paths[p];
@@ -150,13 +163,7 @@ void say_path(const PathOptions& options, const Decision& decision, std::size_t 
           decision.name(first->b));
     say_others(proof);
   }
-  if (const auto beyond = first_beyond_limits(robot, path)) {
-    const Joint& joint = robot.joints[beyond->joint];
-    say("  BEYOND LIMITS: {}{} {}: {} is at {:.6g}, and its limits are {:.6g} and {:.6g}\n",
-        beyond->is_in_row() ? "" : "after ", path.rows().row,
-        path.rows().numbers.empty() ? beyond->row() : path.rows().numbers[beyond->row()], joint.name, beyond->position,
-        joint.lower, joint.upper);
-  }
+  if (const std::string text = beyond_text(robot, path); !text.empty()) say("  {}\n", text);
   if (const std::string rest = rest_text(robot, path); !rest.empty())
     say("  the path does not name these joints, which stay: {}\n", rest);
 }
@@ -246,14 +253,33 @@ bool is_as_asked(const Decision& decision, std::size_t p) {
          !first_beyond_limits(decision.file.robot, decision.paths[p]);
 }
 
+/// The robot along the path, and what stands around it.
+std::string page_of(const PathOptions& options, const Decision& decision) {
+  ProgressLine line;
+  const JointPath& path = decision.paths.front();
+  view::ShownRobot robot = view::as_shipped(moved_by(decision.file.robot, path), std::ref(line));
+  if (!options.srdf.empty()) robot.disabled = decision.disabled;
+  robot.motion = view::shown_motion(path, decision.proofs.front(), decision.made.bodies);
+  robot.motion->verdict = verdict_text(options, decision, 0);
+  if (const std::string beyond = beyond_text(decision.file.robot, path); !beyond.empty())
+    robot.motion->verdict += "; " + beyond;
+  robot.motion->is_good = is_as_asked(decision, 0);
+  std::vector<view::Shown> shown{{options.in.filename().string(), std::move(robot)}};
+  for (const WorldMesh& mesh : decision.world) shown.push_back({mesh.name, mesh.mesh});
+  return view::page(
+      shown, std::nullopt,
+      {.unit = "m", .version = PROHULL_VERSION, .threads = options.proof.threads, .progress = std::ref(line)});
+}
+
 int run_motion(PathOptions options) {
   options.proof.gap = length_of(options.gap, "--gap");
-  options.proof.distances = !options.curve.empty();
-  if (options.proof.distances && options.paths.size() > 1) refuse("--curve is for one path");
+  options.proof.distances = !options.curve.empty() || !options.page.empty();
+  if (options.proof.distances && options.paths.size() > 1) refuse("--curve and --page are for one path");
+  if (!options.page.empty()) require_page(options.page);
   std::vector<path> inputs{options.in, options.srdf};
   inputs.insert(inputs.end(), options.paths.begin(), options.paths.end());
   inputs.insert(inputs.end(), options.world.begin(), options.world.end());
-  check_files(inputs, {options.curve, options.report});
+  check_files(inputs, {options.curve, options.page, options.report});
   const Stopwatch reading;
   const RobotFile file = read_robot(options.in, options.file);
   Decision decision = read_all(options, file);
@@ -267,6 +293,7 @@ int run_motion(PathOptions options) {
   const double seconds = proving.seconds();
   Outputs outputs;
   if (!options.curve.empty()) outputs.add(options.curve, curve_csv(decision));
+  if (!options.page.empty()) outputs.add(options.page, page_of(options, decision));
   outputs.add_report(options.report, report_of(options, decision, seconds));
   outputs.commit();
   say_robot(file);
@@ -340,12 +367,18 @@ void add_motion(CLI::App& app, Run& run) {
                   "CSV file for the least distance over time: between begin and end, all pairs are at least that far "
                   "apart, which is proven. The bounds are no less than 0.6 of the distance, as far as --cells allows.")
       ->type_name("FILE.csv");
+  command
+      .add_option("--page", options->page,
+                  "Page of HTML that shows the robot on its path, with a slider of time and the curve of --curve, as "
+                  "`prohull view` shows robots.")
+      ->type_name("FILE.html");
   add_threads_option(command, options->proof.threads, "The result is the same for any number.");
   add_report_option(command, options->report);
   add_world(command, *options);
   add_examples(command, {"prohull motion arm.urdf pick.csv", "prohull motion arm.urdf pick.csv place.json --gap 5mm",
                          "prohull motion arm.urdf pick.csv --world table.stl --unit mm --ignore base_link,table",
-                         "prohull motion arm.urdf pick.csv --srdf arm.srdf --curve clearance.csv --report pick.json"});
+                         "prohull motion arm.urdf pick.csv --srdf arm.srdf --curve clearance.csv --report pick.json",
+                         "prohull motion arm.urdf pick.csv --page pick.html"});
   command.callback([options, &run] { run = [options] { return run_motion(*options); }; });
 }
 

@@ -98,12 +98,20 @@ std::string written_page(const ViewOptions& options) {
                      .progress = std::ref(line)});
 }
 
-int run_view(const ViewOptions& options) {
+}  // namespace
+
+void require_page(const std::filesystem::path& out) {
   if (!view::has_page()) throw InputError(Defect::CannotRead, std::string(view::kNoPage));
+  static const OutputKind kind{"pages", {".html", ".htm"}};
+  output_suffix(out, kind, is_standard_stream(out) ? "html" : "");
+}
+
+namespace {
+
+int run_view(const ViewOptions& options) {
   if (options.in.size() > view::kMostShown)
     throw InputError(Defect::InvalidOption, fmt::format("a page shows {} files at most", view::kMostShown));
-  static const OutputKind kind{"pages", {".html", ".htm"}};
-  output_suffix(options.out, kind, is_standard_stream(options.out) ? "html" : "");
+  require_page(options.out);
   std::vector<std::filesystem::path> inputs = options.in;
   inputs.push_back(options.original);
   check_files(inputs, {options.out});

@@ -18,7 +18,8 @@ namespace prohull::view {
 // Robots are shown by the program only; here none is ever given.
 nlohmann::json joint_facts(const robot::Robot&) { return {}; }
 nlohmann::json disabled_facts(const ShownRobot&, unsigned) { return {}; }
-Box box_at_rest(const ShownRobot&) { return {}; }
+Box drawn_box(const ShownRobot&) { return {}; }
+nlohmann::json motion_facts(const ShownMotion&) { return {}; }
 
 }  // namespace prohull::view
 

@@ -92,6 +92,16 @@ says out "a bound of a distance is rounded down" "; at least 123.4 mm apart"
 expect 2 "a curve of two paths" $motion free.csv meets.csv --curve curve2.csv
 absent curve2.csv "what is refused writes nothing"
 
+# --- the page ---
+expect 2 "a page is HTML" $motion free.csv --page page.stl
+if "$prohull" view slide.urdf -o view.html >/dev/null 2>&1; then
+  expect 0 "a page" $motion free.csv --page page.html
+  says page.html "what is proven stands on the page" "free all along, proven for 2 rows, 2 s; at least"
+  printf 'time,slide\n0,1\n2,6\n' >out.csv
+  expect 1 "a page of a path that leaves the limits" $motion out.csv --page out.html
+  says out.html "the limits stand on the page" "BEYOND LIMITS: line 3: slide is at 6"
+fi
+
 # --- open ---
 printf 'slide,slide.velocity\n1.000001,-4\n1.000001,4\n' >close.csv
 expect 1 "open" $motion close.csv --cells 10

@@ -414,6 +414,34 @@ const tests = {
     }
   },
 
+  async 'a slider of time moves a robot along a path, with what is proven'() {
+    const link = (name) => `<link name="${name}"><collision><geometry><box size="1 1 1"/></geometry></collision></link>`;
+    fs.writeFileSync(at('slide.urdf'), `<robot name="slide">${link('base')}${link('rail')}${link('cart')}
+      <joint name="up" type="fixed"><parent link="base"/><child link="rail"/><origin xyz="0 0 3"/></joint>
+      <joint name="out" type="prismatic"><parent link="rail"/><child link="cart"/><origin xyz="1 0 -3"/><axis xyz="1 0 0"/>
+        <limit lower="-3" upper="5" effort="1" velocity="1"/></joint></robot>`);
+    fs.writeFileSync(at('meets.csv'), 'time,out\n0,3\n3,0.5\n4,-0.5\n');
+    ask('motion', at('slide.urdf'), at('meets.csv'), '--page', at('motion.html'));
+    const page = await opened('motion.html');
+    const out = () => page.evaluate(() => prohullView.active.robot.positions[1]);
+    assert.match(await text(page, 'path-verdict'), /^MEETS at 3\.5.* s: base and cart; proven free before/);
+    assert.equal(await out(), 3);
+    assert.match(await text(page, 'apart'), /^0\.000 s: at least \d+(\.\d+)? mm apart, proven; the nearest found: base and cart$/);
+    assert.ok(await page.evaluate(() => prohullView.motion.bound[2] <= 3), 'no more than the distance');
+    await page.locator('#time').fill('1.5');
+    assert.ok(Math.abs(await out() - 1.75) < 1e-9);
+    await page.locator('#time').press('End');
+    assert.equal(await out(), -0.5);
+    assert.match(await text(page, 'apart'), /^4\.000 s: nothing is proven of it$/);
+    await page.waitForFunction(() => !prohullView.robots.waiting);
+    assert.match(await text(page, 'colliding'), /✗ 1 pair collides/);
+    assert.match(await fragment(page), /m=4/);
+    await page.locator('#move').click();
+    await page.waitForFunction(() => prohullView.motion.time > 0 && prohullView.motion.time < 3);
+    await page.locator('#move').click();
+    await closed(page);
+  },
+
   async 'keys do what the mouse does'() {
     const page = await opened('levels.html');
     await page.focus('#canvas');

@@ -5,6 +5,7 @@ import {readFragment, readState, remembered, writeFragment} from './act/address.
 import {listen} from './act/keys.js';
 import {LevelControl} from './act/levels.js';
 import {Look} from './act/look.js';
+import {MotionControl} from './act/motion.js';
 import {Places} from './act/places.js';
 import {RayControl} from './act/rays.js';
 import {RobotControl} from './act/robots.js';
@@ -30,6 +31,7 @@ export class View {
     this.levels = new LevelControl(this);
     this.rays = new RayControl(this);
     this.robots = new RobotControl(this);
+    this.motion = new MotionControl(this);
     this.look = new Look(this);
     this.section = new Section(this);
     this.places = new Places(this);
@@ -46,6 +48,7 @@ export class View {
     this.robots.open();
     this.panel = new Panel(this);
     this.robots.move();
+    this.motion.open();
     this.look.open();
     this.section.cut();
     this.rays.open();

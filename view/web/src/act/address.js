@@ -55,13 +55,14 @@ export function readState({hulls, original}, text) {
     active: between(text.n, 0, hulls.length - 1, 0),
     theme: ['dark', 'light'].includes(text.t) ? text.t : null,
     look: numbersOf(text.v, 6),
+    time: text.m ? number(text.m) : null,
     joints: text.j ? text.j.split(',').map(Number) : null,
     ray: numbersOf(text.r, 6),
   };
 }
 
 /** What leads to the same view. */
-export function remembered({state, space, viewport, active, hasParts}) {
+export function remembered({state, space, viewport, active, hasParts, motion}) {
   const [azimuth, elevation, distance, target] = viewport.looking();
   const round = (x) => Number(x.toPrecision(5));
   return {
@@ -74,6 +75,7 @@ export function remembered({state, space, viewport, active, hasParts}) {
     d: state.cut === 'v' ? state.cutFacing.map(round).join(',') : null,
     r: state.ray?.join(','),
     j: active.robot?.free.map(({i}) => round(active.robot.positions[i])).join(','),
+    m: motion.time,
     x: state.hidden.join(','), n: state.active || null, t: state.theme,
   };
 }

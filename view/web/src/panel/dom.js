@@ -11,6 +11,14 @@ export function el(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** An element of a picture within the page. */
+export function svg(tag, attributes = {}, ...children) {
+  const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+}
+
 export const byId = (id) => document.getElementById(id);
 
 /** 96966 as "96,966" */
@@ -29,6 +37,13 @@ export function atMost(number) {
   if (number === 0 || !Number.isFinite(number)) return String(number);
   const unit = 10 ** (Math.floor(Math.log10(number)) - 3);
   return short(Math.ceil(number / unit * (1 - 1e-12)) * unit);
+}
+
+/** Never more than it is: for bounds. */
+export function atLeast(number) {
+  if (!(number > 0) || !Number.isFinite(number)) return '0';
+  const unit = 10 ** (Math.floor(Math.log10(number)) - 3);
+  return short(Math.floor(number / unit * (1 - 1e-12)) * unit);
 }
 
 /** Less than a billionth of a per cent is the rounding of volumes. */

@@ -1,6 +1,6 @@
 // The panel beside the picture. It knows elements, and calls `view` for all else.
 
-import {byId, counted, el, grouped, percent, place, short, atMost} from './dom.js';
+import {atLeast, atMost, byId, counted, el, grouped, percent, place, short, svg} from './dom.js';
 
 const FINEST_LEVEL = {
   repaired: 'the repaired input', 'convex-hull': 'the convex hull of the input', wrap: 'a wrap of the input'};
@@ -52,8 +52,8 @@ export class Panel {
     this.live = {};
     byId('fold').onclick = () => this.fold(byId('fold').getAttribute('aria-expanded') === 'true');
     this.content.append(...[
-      this.heading(), this.levelPart(), this.jointsPart(), this.collisionsPart(), this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(),
-      this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
+      this.heading(), this.levelPart(), this.motionPart(), this.jointsPart(), this.collisionsPart(), this.queryPart(),
+      this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(), this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
   }
 
   get object() { return this.view.active; }
@@ -122,6 +122,38 @@ export class Panel {
   }
 
   setPlaying(is) { this.live.play.textContent = is ? 'Pause' : 'Play'; }
+
+  /** A path, its time, and what is proven of the distance of all bodies. */
+  motionPart() {
+    const {motion} = this.view, {object, live} = this;
+    if (object !== motion.object) return null;
+    const {begin, end} = motion, {bounds, verdict, is_good: good} = object.motion;
+    live.time = el('input', {type: 'range', id: 'time', min: begin, max: end, step: 'any', 'aria-label': 'Time',
+      oninput: (e) => { motion.stop(); motion.set(Number(e.target.value)); }});
+    live.move = el('button', {type: 'button', id: 'move', onclick: () => motion.play()}, 'Play');
+    live.apart = el('p', {id: 'apart', 'aria-live': 'polite'});
+    live.now = svg('line', {y1: 0, y2: 60, class: 'now'});
+    const x = this.timeToX = (time) => 300 * (time - begin) / (end - begin || 1);
+    const most = Math.max(...bounds.map(([, , distance]) => distance), 1e-9);
+    const steps = bounds.map(([from, to, distance]) => `${x(from)},${58 - 54 * distance / most} ${x(to)},${58 - 54 * distance / most}`);
+    const curve = bounds.length > 0 && svg('svg', {viewBox: '0 0 300 60', preserveAspectRatio: 'none', class: 'curve', role: 'img',
+      'aria-label': `Proven distance over time, at most ${atLeast(1000 * most)} mm`},
+        svg('polyline', {points: `0,58 ${steps.join(' ')} ${x(bounds.at(-1)[1])},58`}), live.now);
+    return el('section', {id: 'motion'}, el('h2', {}, 'Path'),
+        el('p', {class: `verdict ${good ? 'good' : 'bad'}`, id: 'path-verdict'}, verdict), curve, live.time, live.apart, live.move);
+  }
+
+  showMotion() {
+    const {live} = this, {motion} = this.view;
+    if (!live.time) return;
+    const {time, bound} = motion, {in_seconds: seconds} = motion.motion;
+    live.time.value = time;
+    for (const end of ['x1', 'x2']) live.now.setAttribute(end, this.timeToX(time));
+    live.apart.textContent = (seconds ? `${time.toFixed(3)} s: ` : `row ${time.toFixed(2)}: `) +
+        (bound?.[2] > 0 ? `at least ${atLeast(1000 * bound[2])} mm apart, proven; the nearest found: ${bound[3]}` : 'nothing is proven of it');
+  }
+
+  setMoving(is) { if (this.live.move) this.live.move.textContent = is ? 'Pause' : 'Play'; }
 
   jointsPart() {
     const {robot} = this.object;
