@@ -138,12 +138,20 @@ class Covering {
     if (!cover->certified) {
       cover = best_cover(of_convex_hull());
       cover->notes.emplace_back("no cover of several pieces was certified; this is the convex hull");
+    } else if (is_no_better_than_one_piece(*cover)) {
+      ConvexCover one = best_cover(of_convex_hull());
+      if (one.certified && one.volume <= cover->volume) return one;
     }
     if (!cover->certified) throw InputError(Defect::NoCertificate, "no cover of these triangles was certified");
     return std::move(*cover);
   }
 
  private:
+  bool is_no_better_than_one_piece(const ConvexCover& cover) const {
+    return cover.pieces.size() > 1 && !options_.bounds.any() &&
+           signed_volume(convex_hull(prepared_.original)) <= cover.volume;
+  }
+
   /// Bounds of the void ask for a volume.
   Material measurable(Material material) const {
     require_volume(material.inside.volume, options_.bounds);
@@ -210,10 +218,6 @@ class Covering {
     for (std::size_t count = most; !best.certified && count > 2;) {
       count -= std::max<std::size_t>(1, count / 6);
       best = fitted(tree_of(search, count, material), count, solid, material);
-    }
-    if (best.pieces.size() > 1) {
-      std::vector<ConvexPiece> one = pieces(tree, 1, solid);
-      if (signed_volume(one[0].mesh) <= best.volume) return shaped(certified(std::move(one), material), material);
     }
     if (!options_.bounds.any()) return shaped(std::move(best), material);
     std::size_t low = 0, high = most;  // the cover of `low` pieces does not keep the bounds
