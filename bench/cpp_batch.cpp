@@ -8,6 +8,7 @@
 #include <string>
 
 #include "machine.h"
+#include "paper/engines.h"
 #include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_query.h"
@@ -30,14 +31,8 @@ HitMode mode_called(const std::string& name) {
   return modes.at(name);
 }
 
-Engine engine_called(const std::string& name) {
-  if (const auto engine = value_of(engine_names(), name)) return *engine;
-  throw py::key_error(name);
-}
-
 QueryIndex index_of(const std::filesystem::path& path, const std::string& engine) {
-  return is_hull_file(path) ? QueryIndex(load_hull(path), engine_called(engine))
-                            : QueryIndex(read_mesh(path), engine_called(engine));
+  return is_hull_file(path) ? index_called(engine, load_hull(path)) : index_called(engine, read_mesh(path));
 }
 
 /// Seconds of the call alone, and how many hits it found. `rows` of shape (n, 6), both ends of segments.

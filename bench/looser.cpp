@@ -12,6 +12,7 @@
 #include "loose_hull.h"
 #include "machine.h"
 #include "models.h"
+#include "paper/engines.h"
 #include "prohull/detail/random_segments.h"
 #include "prohull/detail/replay.h"
 #include "prohull/mesh_query.h"
@@ -119,7 +120,7 @@ std::vector<HullFacts> measure(const ModelSource& source, const LooserOptions& o
     for (HullFacts& facts : all) {
       std::optional<ProgressiveHull> hull;
       facts.seconds = std::min(facts.seconds, seconds_of([&] { hull = facts.variant.build(kTimedFaces); }));
-      MeshQuery query{QueryIndex(*hull, Engine::PaperRefinement)};
+      MeshQuery query{prohull::index_called("paper-refinement", *hull)};
       const double seconds = seconds_of([&] {
         for (const Segment& s : segments) query.all_hits(s);
       });

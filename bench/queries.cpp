@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "command.h"
-#include "kdop/kdop_index.h"
 #include "machine.h"
 #include "prohull/detail/random_segments.h"
 #include "query_section.h"
@@ -20,10 +19,8 @@ const ProgressiveHull& QueryModel::hull(Strategy strategy) const {
 }
 
 QueryIndex index_called(std::string_view engine, const QueryModel& model) {
-  if (std::ranges::find(kdop_names(), engine) != kdop_names().end()) return kdop_index(model.mesh, engine);
-  const Engine ours = value_of(engine_names(), engine).value();
-  const bool refines = ours == Engine::Refinement || ours == Engine::PaperRefinement;
-  return refines ? QueryIndex(model.hull_of_table4(), ours) : QueryIndex(model.mesh, ours);
+  return engine.ends_with("refinement") ? prohull::index_called(engine, model.hull_of_table4())
+                                        : prohull::index_called(engine, model.mesh);
 }
 
 std::vector<double> best_seconds(std::size_t rounds, std::span<const std::function<void()>> contestants) {

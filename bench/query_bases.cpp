@@ -55,7 +55,7 @@ struct ModelFacts {
 void measure_base(const QueryModel& model, BaseFacts& facts) {
   const ProgressiveHull hull = model.hull(facts.strategy).with_base(facts.base);
   facts.faces = hull.base_face_count();
-  MeshQuery query{QueryIndex(hull, Engine::PaperRefinement)};
+  MeshQuery query{prohull::index_called("paper-refinement", hull)};
   Measured& m = facts.measured;
   m.seconds = std::min(m.seconds, seconds_of([&] { ask_all(query, model.segments); }));
   m.tests = static_cast<double>(query.counts().tests) / static_cast<double>(model.segments.size());

@@ -7,6 +7,7 @@
 #include "command.h"
 #include "machine.h"
 #include "models.h"
+#include "paper/engines.h"
 #include "prohull/detail/random_segments.h"
 #include "prohull/mesh_query.h"
 #include "query_peers.h"
@@ -86,7 +87,7 @@ std::vector<FilterContestant> contestants(const TriangleMesh& mesh, const QueryF
   std::vector<FilterContestant> all;
   add_ours(all, QueryIndex(mesh));
   add_ours(all, QueryIndex(outer, inner, Engine::Filter));
-  add_ours(all, QueryIndex(outer, inner, Engine::Walk));
+  add_ours(all, prohull::index_called("walk", outer, inner));
   if (const std::shared_ptr<QueryPeer> embree = make_embree(mesh, true))
     all.push_back(
         {"Embree robust", "crosses", 0, [embree](const Segment& s) { return std::size_t{embree->any_hit(s)}; }});

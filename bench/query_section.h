@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "models.h"
+#include "paper/engines.h"
 #include "paper_tables.h"
-#include "prohull/mesh_query.h"
 
 namespace prohull::bench {
 

@@ -110,7 +110,8 @@ class UpdatesSection final : public QuerySection {
   void measure_batch(const std::string& model, const ProgressiveHull& hull, const UpdateBatch& batch,
                      std::size_t rounds) {
     std::vector<QueryIndex> indices;
-    for (const NamedUpdate& update : kUpdates) indices.emplace_back(hull, Engine::PaperRefinement, update.options);
+    for (const NamedUpdate& update : kUpdates)
+      indices.push_back(prohull::index_called("paper-refinement", hull, update.options));
     std::vector<QueryCounts> counts(kUpdates.size());
     std::vector<std::function<void()>> runs;
     for (std::size_t i = 0; i < kUpdates.size(); ++i)

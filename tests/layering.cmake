@@ -1,4 +1,4 @@
-# Reads every include of include/, src/, render/, robot/, view/, kdop/, apps/, examples/, python/ and js/, and fails if one points against the flow.
+# Reads every include of include/, src/, render/, robot/, view/, paper/, apps/, examples/, python/ and js/, and fails if one points against the flow.
 # cmake -DROOT=<repository> -P layering.cmake
 cmake_policy(VERSION 3.25)
 
@@ -18,7 +18,7 @@ room(geometry  OWNS geometry detail/shapes                                      
 room(parallel  OWNS detail/progress_meter                                        MAY base)
 room(mesh      OWNS detail/disjoint_sets detail/ids length triangle_mesh detail/vertex_split mesh_report detail/mesh_quality detail/mesh_marks regions detail/symmetry MAY geometry base)
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
-room(query     OWNS mesh_query detail/refine_along                                      MAY hull mesh geometry parallel base)
+room(query     OWNS mesh_query                                                       MAY hull mesh geometry parallel base)
 room(io        OWNS detail/base64 detail/memory mesh_io detail/missing_file hull_file detail/query_io                            MAY hull mesh geometry parallel base
                                                                                      prohull/collide prohull/mesh_query)
 room(repair    OWNS detail/openings repair                                              MAY mesh geometry base)
@@ -44,14 +44,14 @@ room(certificate OWNS certificate                                               
 room(collide   OWNS collide                                                      MAY mesh geometry parallel base)
 
 # Outside of src/: public headers, all of them, and these folders.
-set(outside render robot view kdop apps examples python js)
+set(outside render robot view paper apps examples python js)
 set(may_render render)
 set(may_robot robot render)
 set(may_view view robot)
-set(may_kdop kdop query geometry)  # an engine as those of src/query
-set(may_apps render robot view kdop)
+set(may_paper paper query hull mesh geometry)  # its engines are as those of src/query
+set(may_apps render robot view paper)
 set(may_examples "")
-set(may_python render robot view)
+set(may_python render robot view paper)
 set(may_js view)
 
 set(failures "")
@@ -83,7 +83,7 @@ endforeach()
 
 # --- every include follows the flow ---
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/include/*.h ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/render/*.h
-     ${ROOT}/render/*.cpp ${ROOT}/robot/*.h ${ROOT}/robot/*.cpp ${ROOT}/view/*.h ${ROOT}/view/*.cpp ${ROOT}/kdop/*.h ${ROOT}/kdop/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp
+     ${ROOT}/render/*.cpp ${ROOT}/robot/*.h ${ROOT}/robot/*.cpp ${ROOT}/view/*.h ${ROOT}/view/*.cpp ${ROOT}/paper/*.h ${ROOT}/paper/*.cpp ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/examples/*.cpp ${ROOT}/python/*.h ${ROOT}/python/*.cpp
      ${ROOT}/js/bindings/*.h ${ROOT}/js/bindings/*.cpp)
 list(LENGTH sources count)
 if(count LESS 20)

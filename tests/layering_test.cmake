@@ -2,7 +2,7 @@
 # cmake -DROOT=<repository> -DWORK=<scratch folder> -P layering_test.cmake
 cmake_policy(VERSION 3.25)
 file(REMOVE_RECURSE ${WORK})
-file(COPY ${ROOT}/include ${ROOT}/src ${ROOT}/render ${ROOT}/kdop ${ROOT}/apps ${ROOT}/examples ${ROOT}/python DESTINATION ${WORK}
+file(COPY ${ROOT}/include ${ROOT}/src ${ROOT}/render ${ROOT}/paper ${ROOT}/apps ${ROOT}/examples ${ROOT}/python DESTINATION ${WORK}
      FILES_MATCHING PATTERN *.h PATTERN *.cpp)
 
 function(check)
@@ -49,7 +49,7 @@ refused(src/verify/replay.cpp "#include \"prohull/mesh_report.h\"" "verify may n
 # Beside the library there are only public headers.
 refused(apps/prohull/info.cpp "#include \"mesh/half_edge_mesh.h\"" "apps may not include mesh/half_edge_mesh.h")
 refused(render/camera.cpp "#include \"apps/command.h\"" "render may not include apps/command.h")
-refused(src/query/mesh_query.cpp "#include \"kdop/kdop_index.h\"" "query may not include kdop/kdop_index.h")
+refused(src/query/mesh_query.cpp "#include \"paper/engines.h\"" "query may not include paper/engines.h")
 refused(src/io/mesh_io.cpp "#include \"tests/meshes.h\"" "io may not include tests/meshes.h")
 # Exact numbers of others.
 refused(apps/prohull/info.cpp "#include <CGAL/Lazy_exact_nt.h>" "exact numbers are those of")

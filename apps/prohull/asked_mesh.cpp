@@ -8,6 +8,7 @@
 #include "console.h"
 #include "options.h"
 #include "outputs.h"
+#include "paper/engines.h"
 #include "prohull/detail/summary.h"
 #include "prohull/error.h"
 
@@ -24,7 +25,7 @@ AskedMesh::AskedMesh(const std::filesystem::path& path, const InputOptions& opti
 
 Box AskedMesh::box() const {
   const auto* const mesh = std::get_if<TriangleMesh>(&mesh_or_hull_);
-  return bounding_box(mesh ? *mesh : mesh_of(mesh_or_hull_));
+  return bounding_box(mesh ? *mesh : std::get<ProgressiveHull>(mesh_or_hull_).original());
 }
 
 QueryIndex AskedMesh::index(const std::function<QueryIndex(MeshOrHull)>& make) {
@@ -35,9 +36,9 @@ QueryIndex AskedMesh::index(const std::function<QueryIndex(MeshOrHull)>& make) {
   }
 }
 
-QueryIndex AskedMesh::index(Engine engine) {
+QueryIndex AskedMesh::index(std::string_view engine) {
   return index([engine](MeshOrHull asked) {
-    return std::visit([&](auto& mesh_or_hull) { return QueryIndex(std::move(mesh_or_hull), engine); }, asked);
+    return std::visit([&](auto& mesh_or_hull) { return index_called(engine, std::move(mesh_or_hull)); }, asked);
   });
 }
 
@@ -51,9 +52,14 @@ void AskedMesh::say_what() const {
     say("  these are faces of {}: the finest level of the file is not the input itself\n", finest);
 }
 
-TriangleMesh mesh_of(MeshOrHull mesh_or_hull) {
-  const auto* const hull = std::get_if<ProgressiveHull>(&mesh_or_hull);
-  return hull ? hull->original() : std::get<TriangleMesh>(std::move(mesh_or_hull));
+void add_engine_option(CLI::App& command, std::string& engine, std::span<const std::string_view> engines) {
+  const std::vector<std::string> words(engines.begin(), engines.end());
+  command
+      .add_option("--engine", engine,
+                  "How the answers are found; docs/queries.md explains each. auto is the fastest that is exact.")
+      ->transform(one_of("--engine", words))
+      ->type_name(CLI::detail::join(words, "|"))
+      ->capture_default_str();
 }
 
 unsigned threads_used(unsigned threads) {

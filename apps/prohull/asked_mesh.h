@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -24,7 +25,8 @@ class AskedMesh {
 
   /// The mesh or hull goes into the index. What `make` throws then names the file.
   QueryIndex index(const std::function<QueryIndex(MeshOrHull)>& make);
-  QueryIndex index(Engine engine);
+  /// As index_called (paper/engines.h).
+  QueryIndex index(std::string_view engine);
 
   nlohmann::json facts() const;
   /// The first lines of the summary.
@@ -36,8 +38,6 @@ class AskedMesh {
   std::size_t faces_;
   FinestLevel finest_level_;
 };
-
-TriangleMesh mesh_of(MeshOrHull mesh_or_hull);
 
 /// Queries that are made at random.
 struct RandomQueries {
@@ -54,6 +54,9 @@ struct RandomQueries {
 /// The options --random, which goes to `group`, --seed and --write-NOUN. `spread` is a sentence: where the queries lie.
 void add_random_queries(CLI::App& command, CLI::App& group, RandomQueries& random, std::string_view noun,
                         std::string_view spread);
+
+/// --engine, one of `engines`.
+void add_engine_option(CLI::App& command, std::string& engine, std::span<const std::string_view> engines);
 
 /// How many threads --threads is.
 unsigned threads_used(unsigned threads);

@@ -4,6 +4,7 @@
 
 #include "asked_mesh.h"
 #include "command.h"
+#include "paper/engines.h"
 #include "prohull/detail/query_io.h"
 #include "prohull/detail/random_segments.h"
 #include "prohull/error.h"
@@ -43,8 +44,7 @@ void add_point_options(CLI::App& command, PointOptions& options, const OutputKin
   add_random_queries(command, points, options.random, "points",
                      "They are spread evenly over the bounding box of the mesh.");
   points.require_option(1);
-  add_choice(command, "--engine", options.engine, engine_names(),
-             "How the answers are found; docs/queries.md explains each. auto is the fastest that is exact.");
+  add_engine_option(command, options.engine, hull_engine_names());
   add_threads_option(command, options.threads, "The answers are the same for any number.");
   add_report_option(command, options.report);
 }

@@ -21,7 +21,7 @@ struct PointOptions {
   std::string out_format;
   InputOptions input;
   RandomQueries random;
-  Engine engine = Engine::Auto;
+  std::string engine = "auto";
   unsigned threads = 0;
 };
 

@@ -4,7 +4,7 @@
 
 #include "asked_mesh.h"
 #include "command.h"
-#include "kdop/kdop_index.h"
+#include "paper/engines.h"
 #include "prohull/detail/query_io.h"
 #include "prohull/detail/random_segments.h"
 #include "prohull/error.h"
@@ -13,30 +13,16 @@
 namespace prohull::cli {
 namespace {
 
-/// An engine of the library, or trees of k-DOPs, the paper's peer, by their name.
-using EngineChoice = std::variant<Engine, std::string_view>;
-
 struct QueryOptions {
   std::filesystem::path in, inner, segments, rays, triangles, out, report;
   std::string out_format;
   InputOptions input;
   RandomQueries random;
   HitMode mode = HitMode::First;
-  EngineChoice engine = Engine::Auto;
+  std::string engine = "auto";
   unsigned threads = 0;
   bool conservative = false;
 };
-
-using NamedEngine = std::pair<std::string_view, EngineChoice>;
-
-Names<EngineChoice> engine_choices() {
-  static const std::vector<NamedEngine> choices = [] {
-    std::vector<NamedEngine> all(engine_names().begin(), engine_names().end());
-    for (const std::string_view name : kdop_names()) all.emplace_back(name, name);
-    return all;
-  }();
-  return choices;
-}
 
 const OutputKind& hit_outputs() {
   static const OutputKind kind{"hits", {".npz", ".csv"}};
@@ -92,14 +78,11 @@ Queries make_queries(const QueryOptions& options, const AskedMesh& asked) {
   return random_segments(asked.box(), options.random.count, options.random.seed);
 }
 
-/// The hull of a .phull file that an option needs, and the engine, of the library, that it goes with.
-std::pair<const ProgressiveHull&, Engine> hull_for(std::string_view option, const MeshOrHull& asked,
-                                                   const EngineChoice& choice) {
+/// The hull of a .phull file that an option needs.
+const ProgressiveHull& hull_for(std::string_view option, const MeshOrHull& asked) {
   const auto* const hull = std::get_if<ProgressiveHull>(&asked);
-  const auto* const engine = std::get_if<Engine>(&choice);
   if (!hull) throw InputError(Defect::InvalidOption, fmt::format("{} needs a .phull file to ask", option));
-  if (!engine) throw InputError(Defect::InvalidOption, fmt::format("{} does not go with trees of k-DOPs", option));
-  return {*hull, *engine};
+  return *hull;
 }
 
 /// Sets `conservative` to the side of the hull that is asked in place of the mesh.
@@ -107,19 +90,16 @@ QueryIndex make_index(AskedMesh& asked, const QueryOptions& options, std::option
   if (!options.inner.empty()) {
     const ProgressiveHull inner = read_hull(options.inner);
     return asked.index([&](const MeshOrHull& mesh_or_hull) {
-      const auto [outer, engine] = hull_for("--inner", mesh_or_hull, options.engine);
-      return QueryIndex(outer, inner, engine);
+      return index_called(options.engine, hull_for("--inner", mesh_or_hull), inner);
     });
   }
   if (options.conservative)
     return asked.index([&](const MeshOrHull& mesh_or_hull) {
-      const auto [hull, engine] = hull_for("--conservative", mesh_or_hull, options.engine);
+      const ProgressiveHull& hull = hull_for("--conservative", mesh_or_hull);
       conservative = hull.side();
-      return QueryIndex(hull.base(), engine);
+      return index_called(options.engine, hull.base());
     });
-  if (const auto* const engine = std::get_if<Engine>(&options.engine)) return asked.index(*engine);
-  return asked.index(
-      [&](MeshOrHull mesh) { return kdop_index(mesh_of(std::move(mesh)), std::get<1>(options.engine)); });
+  return asked.index(options.engine);
 }
 
 void say_conservative(HullSide side, const QueryIndex& index) {
@@ -129,9 +109,7 @@ void say_conservative(HullSide side, const QueryIndex& index) {
                               : "all that are hits hit the mesh too, but others may be missed");
 }
 
-bool counts_tests(const EngineChoice& engine) {
-  return engine == EngineChoice(Engine::Refinement) || engine == EngineChoice(Engine::PaperRefinement);
-}
+bool counts_tests(std::string_view engine) { return engine.ends_with("refinement"); }
 
 /// What has come of the queries, whatever their kind.
 struct Outcome {
@@ -269,8 +247,7 @@ void add_query(CLI::App& app, Run& run) {
       ->type_name("HITS");
   add_out_format_option(command, options->out_format, hit_outputs());
   add_queries(command, *options);
-  add_choice(command, "--engine", options->engine, engine_choices(),
-             "How the answers are found; docs/queries.md explains each. auto is the fastest that is exact.");
+  add_engine_option(command, options->engine, all_engine_names());
   CLI::Option* const inner =
       command
           .add_option("--inner", options->inner,

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "command.h"
-#include "prohull/detail/refine_along.h"
+#include "paper/refine_along.h"
 #include "prohull/error.h"
 #include "render/compose.h"
 #include "render/draw.h"

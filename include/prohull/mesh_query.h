@@ -41,44 +41,20 @@ struct ClosestPoint {
   bool operator==(const ClosestPoint&) const = default;
 };
 
-/// How queries are answered. All engines give the same answers, except PaperRefinement, and Walk with one hull.
+/// How queries are answered. All engines give the same answers.
 enum class Engine {
-  Auto,  ///< the fastest engine that is exact: Bvh, or Filter for two hulls of a mesh of a million faces or more
+  Auto,  ///< the fastest engine: Bvh, or Filter for two hulls of a mesh of a million faces or more
   Bvh,   ///< a tree of boxes over the faces of the original mesh
-  /// P&T 3.2.1 with bounds, for a ProgressiveHull: splits every vertex with something below it that the query may meet.
-  Refinement,
-  /// P&T 3.2.1 as published, for a ProgressiveHull: splits the corners of the hull faces that the query meets. Of a
-  /// segment or ray that starts outside of an outer base hull it finds the first crossing into the solid always. It may
-  /// miss crossings further in, where the query passes below the hull (P&T Figure 5), and sheets without thickness.
-  /// Hulls that are kept from query to query are finer, and may miss less.
-  PaperRefinement,
-  /// Follows the line through the void between base hull and mesh, tetrahedron by tetrahedron (docs/queries.md), of an
-  /// outer hull, or of an outer and an inner one. With both it finds every crossing. With the outer hull alone it finds
-  /// those from which the line comes to the base mesh without crossing the mesh again. These include the first hit of
-  /// every segment or ray that starts outside of the bounding box of the base mesh, if the mesh winds around no point a
-  /// negative number of times.
-  Walk,
   /// For an outer and an inner hull: levels of few faces decide what they can of `crosses`, and Bvh the rest. All other
   /// queries are those of Bvh.
   Filter,
   Brute,  ///< tests every face, exactly
 };
 
-/// "auto", "bvh", "refinement", "paper-refinement", "walk", "filter", "brute"
+/// "auto", "bvh", "filter", "brute"
 Names<Engine> engine_names();
 
-/// What becomes of the refined hull between one query and the next (P&T 3.2.2).
-enum class BetweenQueries {
-  RollBack,  ///< after every `queries_per_roll_back` queries it goes back to the base hull
-  Coarsen,   ///< it is kept, and coarsened where the query no longer meets it
-};
-
-struct RefinementOptions {
-  BetweenQueries between = BetweenQueries::RollBack;
-  unsigned queries_per_roll_back = 1;  ///< at least 1
-};
-
-/// What queries have cost. Only the refinement engines count this.
+/// What queries have cost. The engines of the library count nothing; those that refine hulls do (docs/queries.md).
 struct QueryCounts {
   std::size_t tests = 0;        ///< faces tested against queries, at all levels (P&T Table 3, "#tests")
   std::size_t splits = 0;       ///< vertex splits that were made ("#splits")
@@ -95,15 +71,14 @@ struct QueryCounts {
 class QueryIndex {
  public:
   /// Takes any triangles, closed or not. Throws InputError(NonFiniteCoordinate) if a vertex of a face is not finite,
-  /// and InputError(InvalidOption) for the engines that need a hull: Refinement, PaperRefinement, Walk and Filter.
+  /// and InputError(InvalidOption) for Filter, which needs two hulls.
   explicit QueryIndex(TriangleMesh mesh, Engine engine = Engine::Auto);
 
-  /// Throws InputError(InvalidOption) for options outside their range, for Walk if the hull is an inner one, and for
-  /// Filter, which needs two. Walk throws InputError(NoCertificate) if the record is not one of a hull (verify_replay).
-  explicit QueryIndex(const ProgressiveHull& hull, Engine engine = Engine::Auto, const RefinementOptions& options = {});
+  /// Of the original mesh of the hull.
+  explicit QueryIndex(const ProgressiveHull& hull, Engine engine = Engine::Auto);
 
-  /// Takes an outer and an inner hull of one mesh. Throws InputError(InvalidOption) if they are not that, and
-  /// InputError(NoCertificate) as above. Refinement and PaperRefinement use the outer hull.
+  /// Takes an outer and an inner hull of one mesh. Throws InputError(InvalidOption) if they are not that. Filter throws
+  /// InputError(NoCertificate) if the record of the outer hull is not one of a hull (verify_replay).
   QueryIndex(const ProgressiveHull& outer, const ProgressiveHull& inner, Engine engine = Engine::Auto);
 
   std::string_view engine_name() const;  ///< of the engine that answers, such as "bvh"; never "auto"
@@ -163,10 +138,9 @@ class MeshQuery {
 
   /// Whether the point is inside: whether the mesh winds around it at least once. So a point in several overlapping
   /// parts is inside, and a point in a cavity is not; nothing is inside of a mesh that is inside out. Exact. A point on
-  /// the surface may count as inside or as outside, but every engine says the same, except Engine::PaperRefinement,
-  /// which may miss crossings and so be wrong. Throws InputError(OpenEdge) if the mesh is not closed as is_closed
-  /// (triangle_mesh.h) has it, and InputError(EmptyMesh) if it has no faces: it has no inside. The first call for an
-  /// index finds that out, and takes longer.
+  /// the surface may count as inside or as outside, but every engine says the same. Throws InputError(OpenEdge) if the
+  /// mesh is not closed as is_closed (triangle_mesh.h) has it, and InputError(EmptyMesh) if it has no faces: it has no
+  /// inside. The first call for an index finds that out, and takes longer.
   bool contains(const Vec3& point);
 
   /// The point of the mesh that is closest to `point`; nothing if the mesh is not certainly within `max_distance`,

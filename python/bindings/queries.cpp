@@ -13,7 +13,7 @@
 
 #include "arrays.h"
 #include "module.h"
-#include "prohull/error.h"
+#include "paper/engines.h"
 #include "prohull/mesh_query.h"
 #include "watch.h"
 
@@ -21,11 +21,6 @@ namespace py = pybind11;
 
 namespace prohull::python {
 namespace {
-
-Engine engine_called(const std::string& name) {
-  if (const auto engine = value_of(engine_names(), name)) return *engine;
-  throw InputError(Defect::InvalidOption, "engine='" + name + "': expected one of " + joined(engine_names()));
-}
 
 RefinementOptions refinement_of(bool coarsen, unsigned queries_per_roll_back) {
   return {coarsen ? BetweenQueries::Coarsen : BetweenQueries::RollBack, queries_per_roll_back};
@@ -238,19 +233,16 @@ py::tuple points_signed(const QueryIndex& index, const Array<double>& points, un
 void bind_queries(py::module_& module) {
   py::class_<QueryIndex>(module, "Index")
       .def(py::init([](const TriangleMesh& mesh, const std::string& engine) {
-        const Engine chosen = engine_called(engine);
         const py::gil_scoped_release released;
-        return QueryIndex(mesh, chosen);
+        return index_called(engine, mesh);
       }))
       .def(py::init([](const ProgressiveHull& levels, const std::string& engine, bool coarsen, unsigned per_roll_back) {
-        const Engine chosen = engine_called(engine);
         const py::gil_scoped_release released;
-        return QueryIndex(levels, chosen, refinement_of(coarsen, per_roll_back));
+        return index_called(engine, levels, refinement_of(coarsen, per_roll_back));
       }))
       .def(py::init([](const ProgressiveHull& outer, const ProgressiveHull& inner, const std::string& engine) {
-        const Engine chosen = engine_called(engine);
         const py::gil_scoped_release released;
-        return QueryIndex(outer, inner, chosen);
+        return index_called(engine, outer, inner);
       }))
       .def("first_hits", &first_hits)
       .def("any_hits", &any_hits)
@@ -259,7 +251,8 @@ void bind_queries(py::module_& module) {
       .def("contains", &points_inside)
       .def("closest", &points_closest)
       .def("signed_distances", &points_signed);
-  module.attr("engines") = tuple_of(engine_names());
+  module.attr("engines") =
+      py::tuple(py::cast(std::vector<std::string_view>(hull_engine_names().begin(), hull_engine_names().end())));
 }
 
 }  // namespace prohull::python

@@ -23,7 +23,7 @@ Source = Literal["mesh", "convex-hull", "wrap"]
 PieceShape = Literal["polytope", "box", "capsule", "sphere"]
 SelfIntersections = Literal["by-strategy", "refused", "allowed"]
 Proof = Literal["", "replay", "enclosure", "coverage", "padding"]
-EngineName = Literal["auto", "bvh", "refinement", "paper-refinement", "walk", "filter", "brute"]
+EngineName = Literal["auto", "bvh", "filter", "brute", "refinement", "paper-refinement", "walk"]
 
 
 class _BecomesArray(Protocol):

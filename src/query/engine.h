@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -133,9 +134,12 @@ class QueryEngine {
 std::unique_ptr<QueryEngine> make_brute_engine(const TriangleMesh& mesh);
 std::unique_ptr<QueryEngine> make_bvh_engine(const TriangleMesh& mesh);
 
-/// An index that asks an engine of another library, made to be measured. `name`, which must outlive it, is the index's
-/// engine_name().
-QueryIndex peer_index(TriangleMesh mesh, std::string_view name,
-                      std::unique_ptr<QueryEngine> (*make_engine)(const TriangleMesh&));
+using MakeEngine = std::function<std::unique_ptr<QueryEngine>(const TriangleMesh&)>;
+
+/// An index that asks an engine of another library. `name`, which must outlive it, is the index's engine_name().
+QueryIndex peer_index(TriangleMesh mesh, std::string_view name, const MakeEngine& make_engine);
+
+/// The mesh that both are hulls of; throws InputError(InvalidOption) if they are not an outer and an inner hull of one.
+TriangleMesh original_of(const ProgressiveHull& outer, const ProgressiveHull& inner);
 
 }  // namespace prohull

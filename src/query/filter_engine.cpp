@@ -16,9 +16,9 @@
 //
 // Sure miss: the line crosses neither level. Then v = W = 0 on all of it, and w = 0. Suppose that it crosses a face of
 // the mesh none the less. On one side of the face, the outer one, lies void: a tetrahedron, or a face of the outer
-// level, which the line would cross. The walk through the void from there (walk_engine.cpp) covers no part of the line,
-// for W would be above w there. So it leads through flat tetrahedra, at one point, to a face of the mesh: both are
-// among sheets_without_thickness, and those are tested.
+// level, which the line would cross. The walk through the void from there (paper/walk_engine.cpp) covers no part of the
+// line, for W would be above w there. So it leads through flat tetrahedra, at one point, to a face of the mesh: both
+// are among sheets_without_thickness, and those are tested.
 
 namespace prohull {
 namespace {

@@ -54,9 +54,6 @@ inline int rounded_order(const Parameter& first, const Parameter& second) {
   return difference > 0 ? -1 : 1;
 }
 
-/// False only if the line, unmoved, certainly has no point in common with the face, its corners and edges included.
-bool may_meet(const DirectedLine& line, const Triangle& face);
-
 namespace line_filter {
 
 // For rows that are rounded differences of coordinates Shewchuk ("Adaptive Precision Floating-Point Arithmetic and
@@ -120,17 +117,5 @@ struct FaceFromLine : FaceFromPoint {
   double ab, bc, ca;  ///< dot(direction, a cross b) and so on: positive where a line that leaves has the edge
   double error;       ///< of each of them
 };
-
-inline bool may_meet(const DirectedLine& line, const Triangle& face) {
-  using namespace line_filter;
-  const FaceFromLine seen(line, face);
-  if (seen.certainly_passed()) return false;
-  // The origin certainly on one side of the plane, and the rest of the line too.
-  const double start = seen.side();
-  if (std::abs(start) <= seen.side_error()) return true;
-  if (line.is_ray()) return !((start > 0 ? -seen.leaving() : seen.leaving()) > seen.leaving_error());
-  const FaceFromPoint from_end(line.end, face);
-  return !((start > 0 ? from_end.side() : -from_end.side()) > from_end.side_error());
-}
 
 }  // namespace prohull

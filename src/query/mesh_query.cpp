@@ -15,20 +15,12 @@
 #include "query/coherent_order.h"
 #include "query/engine.h"
 #include "query/filter_engine.h"
-#include "query/refinement_engine.h"
-#include "query/walk_engine.h"
 
 namespace prohull {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Engine>, 7> kEngineNames{
-    {{"auto", Engine::Auto},
-     {"bvh", Engine::Bvh},
-     {"refinement", Engine::Refinement},
-     {"paper-refinement", Engine::PaperRefinement},
-     {"walk", Engine::Walk},
-     {"filter", Engine::Filter},
-     {"brute", Engine::Brute}}};
+constexpr std::array<std::pair<std::string_view, Engine>, 4> kEngineNames{
+    {{"auto", Engine::Auto}, {"bvh", Engine::Bvh}, {"filter", Engine::Filter}, {"brute", Engine::Brute}}};
 
 constexpr std::array<std::pair<std::string_view, HitMode>, 3> kHitModeNames{
     {{"first", HitMode::First}, {"any", HitMode::Any}, {"all", HitMode::All}}};
@@ -79,8 +71,7 @@ void require_finite(const TriangleMesh& mesh) {
 
 /// What of these classes is not for users.
 struct QueryAccess {
-  template <class MakeEngine>
-  static QueryIndex index(TriangleMesh mesh, std::string_view engine_name, MakeEngine make_engine) {
+  static QueryIndex index(TriangleMesh mesh, std::string_view engine_name, const MakeEngine& make_engine) {
     require_finite(mesh);
     auto shared = std::make_shared<QueryIndex::Shared>();
     shared->mesh = std::move(mesh);
@@ -107,61 +98,41 @@ struct QueryAccess {
 
 namespace {
 
-bool refines(Engine engine) { return engine == Engine::Refinement || engine == Engine::PaperRefinement; }
-
-bool needs_hull(Engine engine) { return refines(engine) || engine == Engine::Walk || engine == Engine::Filter; }
-
 QueryIndex index_of(TriangleMesh mesh, Engine engine) {
-  if (needs_hull(engine))
-    throw InputError(Defect::InvalidOption, "this engine needs a progressive hull, which a mesh is not");
+  if (engine == Engine::Filter)
+    throw InputError(Defect::InvalidOption, "the engine filter needs an outer and an inner hull of the mesh");
   if (engine == Engine::Brute)
     return QueryAccess::index(std::move(mesh), name_of(engine_names(), engine), make_brute_engine);
   return QueryAccess::index(std::move(mesh), name_of(engine_names(), Engine::Bvh), make_bvh_engine);
 }
 
-QueryIndex index_of(const ProgressiveHull& hull, Engine engine, const RefinementOptions& options) {
-  if (options.queries_per_roll_back < 1) throw InputError(Defect::InvalidOption, "queries per roll back: at least 1");
-  if (engine == Engine::Filter)
-    throw InputError(Defect::InvalidOption, "the engine filter needs an outer and an inner hull of the mesh");
-  if (engine == Engine::Walk && hull.side() != HullSide::Outer)
-    throw InputError(Defect::InvalidOption, "the engine walk needs an outer hull");
-  if (!needs_hull(engine)) return index_of(hull.original(), engine);
-  return QueryAccess::index(
-      hull.original(), name_of(engine_names(), engine), [&](const TriangleMesh& mesh) -> std::unique_ptr<QueryEngine> {
-        if (engine == Engine::Walk) return make_walk_engine(mesh, hull, nullptr);
-        const Refine refine = engine == Engine::Refinement ? Refine::WhereBoundsMeet : Refine::WhereFacesMeet;
-        return make_refinement_engine(hull, refine, options);
-      });
-}
+}  // namespace
 
-QueryIndex index_of(const ProgressiveHull& outer, const ProgressiveHull& inner, Engine engine) {
+TriangleMesh original_of(const ProgressiveHull& outer, const ProgressiveHull& inner) {
   if (outer.side() != HullSide::Outer || inner.side() != HullSide::Inner)
     throw InputError(Defect::InvalidOption, "of two hulls, the first must be an outer one and the second an inner one");
   TriangleMesh original = outer.original();
   if (original != inner.original())
     throw InputError(Defect::InvalidOption, "the outer and the inner hull are not of the same mesh");
-  if (engine == Engine::Auto && filter_pays(original.face_count())) engine = Engine::Filter;
-  if (refines(engine)) return index_of(outer, engine, {});
-  if (!needs_hull(engine)) return index_of(std::move(original), engine);
-  return QueryAccess::index(std::move(original), name_of(engine_names(), engine), [&](const TriangleMesh& mesh) {
-    return engine == Engine::Walk ? make_walk_engine(mesh, outer, &inner) : make_filter_engine(mesh, outer, inner);
-  });
+  return original;
 }
 
-}  // namespace
-
-QueryIndex peer_index(TriangleMesh mesh, std::string_view name,
-                      std::unique_ptr<QueryEngine> (*make_engine)(const TriangleMesh&)) {
+QueryIndex peer_index(TriangleMesh mesh, std::string_view name, const MakeEngine& make_engine) {
   return QueryAccess::index(std::move(mesh), name, make_engine);
 }
 
 QueryIndex::QueryIndex(TriangleMesh mesh, Engine engine) : QueryIndex(index_of(std::move(mesh), engine)) {}
 
-QueryIndex::QueryIndex(const ProgressiveHull& hull, Engine engine, const RefinementOptions& options)
-    : QueryIndex(index_of(hull, engine, options)) {}
+QueryIndex::QueryIndex(const ProgressiveHull& hull, Engine engine) : QueryIndex(hull.original(), engine) {}
 
 QueryIndex::QueryIndex(const ProgressiveHull& outer, const ProgressiveHull& inner, Engine engine)
-    : QueryIndex(index_of(outer, inner, engine)) {}
+    : QueryIndex([&] {
+        TriangleMesh original = original_of(outer, inner);
+        if (engine == Engine::Auto && filter_pays(original.face_count())) engine = Engine::Filter;
+        if (engine != Engine::Filter) return index_of(std::move(original), engine);
+        return peer_index(std::move(original), name_of(engine_names(), engine),
+                          [&](const TriangleMesh& mesh) { return make_filter_engine(mesh, outer, inner); });
+      }()) {}
 
 std::string_view QueryIndex::engine_name() const { return shared_->engine_name; }
 

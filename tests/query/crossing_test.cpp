@@ -6,7 +6,6 @@
 
 #include "dyadic_points.h"
 #include "effort.h"
-#include "query/box_line.h"
 #include "query/exact_line.h"
 #include "query/exact_points.h"
 #include "query/line.h"
@@ -70,7 +69,6 @@ TEST_P(CrossingOnGrid, IsThatOfALineActuallyMoved) {
     ASSERT_EQ(crossing(line, {first.b, first.c, first.a}), expected);
     if (!truth) continue;
     ++crossings;
-    EXPECT_TRUE(may_meet(line, first));
     const Parameter at = parameter(line, first);
     EXPECT_NEAR(at.t, CGAL::to_double(truth->t), 1e-9);
 
@@ -98,10 +96,6 @@ TEST(Crossing, HasAnAnswerForTheGreatestAndTheLeastCoordinates) {
     EXPECT_EQ(crossing(through, face), Crossing::Entering) << size;
     EXPECT_EQ(crossing(beside, face), Crossing::None) << size;
     EXPECT_DOUBLE_EQ(parameter(through, face).t, 0.5) << size;
-    EXPECT_TRUE(may_meet(through, face));
-    Box box;
-    box.extend(face.a), box.extend(face.b), box.extend(face.c);
-    EXPECT_TRUE(may_meet(BoxLine(through), box, 1)) << size;
   }
 }
 
@@ -124,46 +118,6 @@ TEST(Crossing, IsAtAFiniteTWhereTheLineAllButRunsInTheFace) {
   const DirectedLine line(Ray{start, {0.17573593128807152, 0.42426406871192845, 0}});
   ASSERT_NE(crossing(line, face), Crossing::None);
   EXPECT_EQ(parameter(line, face).t, 0);
-}
-
-TEST(MayMeet, IsNeverFalseWhereALineTouches) {
-  // Lines from, to and through a corner of the face, a point of an edge and a point within: only the filters round.
-  DyadicPoints points(test_seed());
-  for (int i = 0; i < rounds(20000); ++i) {
-    const Triangle face{points.any(), points.any(), points.any()};
-    const Vec3 on = points.on(face, i);
-    const Vec3 away = points.any();
-    EXPECT_TRUE(may_meet(DirectedLine(Segment{away, 2 * on - away}), face));
-    EXPECT_TRUE(may_meet(DirectedLine(Segment{away, on}), face));
-    EXPECT_TRUE(may_meet(DirectedLine(Segment{on, away}), face));
-    EXPECT_TRUE(may_meet(DirectedLine(Ray{on, away}), face));
-    Box box;
-    box.extend(face.a), box.extend(face.b), box.extend(face.c);
-    EXPECT_TRUE(may_meet(BoxLine(DirectedLine(Segment{away, on})), box, 1));
-    EXPECT_TRUE(may_meet(BoxLine(DirectedLine(Segment{away, 2 * on - away})), box, 1));
-    EXPECT_TRUE(may_meet(BoxLine(DirectedLine(Ray{on, away})), box, std::numeric_limits<double>::infinity()));
-  }
-}
-
-TEST(MayMeet, IsFalseForMostLinesThatPassBy) {
-  std::mt19937 random(test_seed());
-  std::uniform_real_distribution<double> coordinate(-1, 1);
-  const auto point = [&] { return Vec3{coordinate(random), coordinate(random), coordinate(random)}; };
-  for (int i = 0; i < 5000; ++i) {
-    const Triangle face{point(), point(), point()};
-    for (const DirectedLine& line : {DirectedLine(Segment{point(), point()}), DirectedLine(Ray{point(), point()})})
-      EXPECT_EQ(may_meet(line, face), crossing(line, face) != Crossing::None);
-  }
-}
-
-TEST(MayMeet, OfABoxKnowsAxisParallelLines) {
-  const Box box{{0, 0, 0}, {1, 1, 1}};
-  const double far = std::numeric_limits<double>::infinity();
-  EXPECT_TRUE(may_meet(BoxLine(DirectedLine(Ray{{0, 0.5, -1}, {0, 0, 1}})), box, far)) << "within a face";
-  EXPECT_TRUE(may_meet(BoxLine(DirectedLine(Ray{{0, 0, -1}, {0, -0.0, 1}})), box, far)) << "along an edge";
-  EXPECT_FALSE(may_meet(BoxLine(DirectedLine(Ray{{-0.1, 0.5, -1}, {0, 0, 1}})), box, far));
-  EXPECT_FALSE(may_meet(BoxLine(DirectedLine(Ray{{0.5, 0.5, -1}, {0, 0, -1}})), box, far)) << "behind";
-  EXPECT_FALSE(may_meet(BoxLine(DirectedLine(Segment{{0.5, 0.5, -2}, {0.5, 0.5, -1}})), box, 1)) << "beyond the end";
 }
 
 }  // namespace

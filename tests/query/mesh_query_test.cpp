@@ -81,7 +81,7 @@ TEST(QueryIndex, RefusesWhatItCannotAnswer) {
   TriangleMesh mesh = octahedron();
   mesh.positions[VertexId{2}].y = std::nan("");
   EXPECT_THROW(QueryIndex{mesh}, InputError);
-  EXPECT_THROW(QueryIndex(octahedron(), Engine::Refinement), InputError);
+  EXPECT_THROW(QueryIndex(octahedron(), Engine::Filter), InputError);
 }
 
 TEST(Hits, AreTheSameForAnyNumberOfThreads) {

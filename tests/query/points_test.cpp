@@ -11,7 +11,6 @@
 #include "geometry/winding_number.h"
 #include "meshes.h"
 #include "prohull/error.h"
-#include "prohull/hull_builder.h"
 #include "prohull/mesh_query.h"
 #include "query/brute_force.h"
 #include "query/exact_points.h"
@@ -82,16 +81,6 @@ TEST(Contains, IsSaidByEveryEngineAlsoOnTheSurface) {
     MeshQuery query{QueryIndex(mesh)}, brute{QueryIndex(mesh, Engine::Brute)};
     for (const Vec3& p : awkward_points(mesh, static_cast<std::size_t>(rounds(100))))
       ASSERT_EQ(query.contains(p), brute.contains(p)) << name;
-  }
-}
-
-TEST(Points, AreAnsweredThroughAHullAsWell) {
-  const TriangleMesh mesh = sphere(2);
-  const ProgressiveHull hull = build_hull(mesh, {.target_faces = 40}).hull;
-  MeshQuery refined{QueryIndex(hull, Engine::Refinement)}, query{QueryIndex(hull)};
-  for (const Vec3& p : awkward_points(hull.original(), static_cast<std::size_t>(rounds(100)))) {
-    ASSERT_EQ(refined.contains(p), query.contains(p));
-    ASSERT_EQ(refined.closest_point(p)->face, query.closest_point(p)->face);
   }
 }
 

@@ -1,5 +1,5 @@
 // A ray meets a progressive hull, which is split only where it does: Platis and Theoharis (2003), 3.2.1. What is tested, and in
-// which order, is what `prohull query --engine paper-refinement --mode all` tests (src/query/refinement_engine.cpp), so that
+// which order, is what `prohull query --engine paper-refinement --mode all` tests (paper/refinement_engine.cpp), so that
 // the counts are the same.
 
 import {NONE} from './levels.js';

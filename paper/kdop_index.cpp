@@ -1,4 +1,4 @@
-#include "kdop/kdop_index.h"
+#include "paper/kdop_index.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <array>
 #include <numeric>
 
-#include "kdop/kdop.h"
+#include "paper/kdop.h"
 #include "prohull/error.h"
 #include "query/engine.h"
 

@@ -1,4 +1,4 @@
-#include "hull/refined_hull.h"
+#include "paper/refined_hull.h"
 
 #include <algorithm>
 #include <utility>

@@ -9,6 +9,7 @@
 #include "hull/void_complex.h"
 #include "mesh/half_edge_mesh.h"
 #include "meshes.h"
+#include "paper/engines.h"
 #include "prohull/detail/random_segments.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
@@ -70,15 +71,15 @@ void expect_answers_of_brute_force(const QueryIndex& index, const TriangleMesh& 
   }
 }
 
-class PairEngines : public testing::TestWithParam<Engine> {};
+class PairEngines : public testing::TestWithParam<const char*> {};
 
 TEST_P(PairEngines, AnswerAsBruteForceDoes) {
   for (const auto& [name, outer, inner] : pairs()) {
     SCOPED_TRACE(name);
     const TriangleMesh mesh = outer.original();
-    expect_answers_of_brute_force(QueryIndex(outer, inner, GetParam()), mesh,
+    expect_answers_of_brute_force(index_called(GetParam(), outer, inner), mesh,
                                   segments_for(mesh, rounds(50), test_seed()));
-    MeshQuery truth{QueryIndex(mesh)}, query{QueryIndex(outer, inner, GetParam())};
+    MeshQuery truth{QueryIndex(mesh)}, query{index_called(GetParam(), outer, inner)};
     const Triangle t{mesh.positions[VertexId{0}], {0, 0, 0}, {1, 1, 0.5}};
     EXPECT_EQ(query.faces_met(t), truth.faces_met(t));
     for (const Segment& s : segments_for(mesh, rounds(10), test_seed()))
@@ -91,12 +92,12 @@ TEST_P(PairEngines, AnswerBatchesOfPointsAsTheTreeDoes) {
   const TriangleMesh mesh = torus(48, 24);
   const Pair pair = pair_of("torus", mesh, 400);
   const std::vector<Vec3> points = random_points(bounding_box(mesh), 5000, test_seed());
-  const QueryIndex hulls(pair.outer, pair.inner, GetParam()), tree(mesh);
+  const QueryIndex hulls = index_called(GetParam(), pair.outer, pair.inner), tree(mesh);
   EXPECT_EQ(contains(hulls, points), contains(tree, points));
   EXPECT_EQ(closest_points(hulls, points), closest_points(tree, points));
 }
 
-INSTANTIATE_TEST_SUITE_P(Query, PairEngines, testing::Values(Engine::Walk, Engine::Filter));
+INSTANTIATE_TEST_SUITE_P(Query, PairEngines, testing::Values("walk", "filter"));
 
 /// Small integer coordinates: closed surfaces that touch, cross and cover themselves, with faces of no area, sheets of
 /// no thickness, and parts that are inside out; or boxes with dents.
@@ -168,7 +169,7 @@ TEST(Walk, FindsAllCrossingsOfMeshesWithFlatVoidAndSheetsWithoutThickness) {
     for (std::uint32_t t = 0; t < complex.size(); ++t) ++(complex.is_flat(t) ? flat : solid);
     with_sheets += !sheets_without_thickness(complex).empty();
     const auto segments = segments_for(mesh, 40, static_cast<unsigned>(random()));
-    expect_answers_of_brute_force(QueryIndex(outer, inner, Engine::Walk), mesh, segments);
+    expect_answers_of_brute_force(index_called("walk", outer, inner), mesh, segments);
     expect_answers_of_brute_force(QueryIndex(outer, inner, Engine::Filter), mesh, segments);
     if (HasFatalFailure()) return;
   }
@@ -184,7 +185,7 @@ TEST(Walk, WithAnOuterHullAloneFindsFirstCrossingsFromOutside) {
     const TriangleMesh mesh = outer.original();
     Box around;
     for (const Vec3& p : outer.positions()) around.extend(p);
-    MeshQuery truth{QueryIndex(mesh, Engine::Brute)}, query{QueryIndex(outer, Engine::Walk)};
+    MeshQuery truth{QueryIndex(mesh, Engine::Brute)}, query{index_called("walk", outer)};
     for (const Segment& s : segments_for(mesh, rounds(60), test_seed())) {
       const auto all = truth.all_hits(s), found = query.all_hits(s);
       ASSERT_TRUE(std::ranges::all_of(found, [&](const Hit& hit) { return std::ranges::count(all, hit) == 1; }));
@@ -203,12 +204,12 @@ TEST(PairIndex, TakesAnOuterAndAnInnerHullOfOneMesh) {
   const auto& [name, outer, inner] = pairs()[1];
   EXPECT_THROW(QueryIndex(inner, outer), InputError);
   EXPECT_THROW(QueryIndex(outer, pairs()[0].inner), InputError);
-  EXPECT_THROW(QueryIndex(inner, Engine::Walk), InputError);
+  EXPECT_THROW(index_called("walk", inner), InputError);
   EXPECT_THROW(QueryIndex(outer, Engine::Filter), InputError);
-  EXPECT_THROW(QueryIndex(outer.original(), Engine::Walk), InputError);
+  EXPECT_THROW(index_called("walk", outer.original()), InputError);
   EXPECT_EQ(QueryIndex(outer, inner).engine_name(), "bvh");
-  EXPECT_EQ(QueryIndex(outer, inner, Engine::Walk).engine_name(), "walk");
-  EXPECT_EQ(QueryIndex(outer, inner, Engine::Refinement).engine_name(), "refinement");
+  EXPECT_EQ(index_called("walk", outer, inner).engine_name(), "walk");
+  EXPECT_EQ(index_called("refinement", outer, inner).engine_name(), "refinement");
 }
 
 }  // namespace

@@ -54,4 +54,17 @@ inline bool may_meet(const BoxLine& line, const Box& box, double t_end) {
   return !passage(line, box, t_end).is_empty();
 }
 
+/// False only if the line, unmoved, certainly has no point in common with the face, its corners and edges included.
+inline bool may_meet(const DirectedLine& line, const Triangle& face) {
+  using namespace line_filter;
+  const FaceFromLine seen(line, face);
+  if (seen.certainly_passed()) return false;
+  // The origin certainly on one side of the plane, and the rest of the line too.
+  const double start = seen.side();
+  if (std::abs(start) <= seen.side_error()) return true;
+  if (line.is_ray()) return !((start > 0 ? -seen.leaving() : seen.leaving()) > seen.leaving_error());
+  const FaceFromPoint from_end(line.end, face);
+  return !((start > 0 ? from_end.side() : -from_end.side()) > from_end.side_error());
+}
+
 }  // namespace prohull

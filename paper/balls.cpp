@@ -1,4 +1,4 @@
-#include "query/balls.h"
+#include "paper/balls.h"
 
 #include <algorithm>
 #include <cmath>

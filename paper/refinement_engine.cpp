@@ -1,4 +1,4 @@
-#include "query/refinement_engine.h"
+#include "paper/refinement_engine.h"
 
 #include <algorithm>
 #include <cstring>
@@ -7,10 +7,10 @@
 
 #include "geometry/bvh.h"
 #include "geometry/triangle_contact.h"
-#include "hull/refined_hull.h"
-#include "query/balls.h"
-#include "query/box_line.h"
-#include "query/line_sieve.h"
+#include "paper/balls.h"
+#include "paper/box_line.h"
+#include "paper/line_sieve.h"
+#include "paper/refined_hull.h"
 
 namespace prohull {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "geometry/bvh.h"
-#include "query/box_line.h"
+#include "paper/box_line.h"
 #include "query/line.h"
 
 namespace prohull {

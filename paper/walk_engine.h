@@ -7,7 +7,7 @@
 
 namespace prohull {
 
-/// Follows lines through the tetrahedra of void; see Engine::Walk. `mesh` is the original mesh of `outer`, and of
+/// Follows lines through the tetrahedra of void; see engines.h. `mesh` is the original mesh of `outer`, and of
 /// `inner` if that is not null. Throws as VoidComplex does.
 std::unique_ptr<QueryEngine> make_walk_engine(const TriangleMesh& mesh, const ProgressiveHull& outer,
                                               const ProgressiveHull* inner);

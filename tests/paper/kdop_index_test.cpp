@@ -1,4 +1,4 @@
-#include "kdop/kdop_index.h"
+#include "paper/kdop_index.h"
 
 #include "prohull/error.h"
 #include "query/brute_force.h"

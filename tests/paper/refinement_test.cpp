@@ -6,6 +6,7 @@
 
 #include "effort.h"
 #include "meshes.h"
+#include "paper/engines.h"
 #include "prohull/detail/random_segments.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
@@ -67,8 +68,7 @@ TEST_P(Refinement, WhereBoundsMeetAnswersAsBruteForceDoes) {
   for (const auto& [name, hull] : cases()) {
     SCOPED_TRACE(name);
     const TriangleMesh original = hull.original();
-    MeshQuery truth{QueryIndex(original, Engine::Brute)},
-        query{QueryIndex(hull, Engine::Refinement, GetParam().options)};
+    MeshQuery truth{QueryIndex(original, Engine::Brute)}, query{index_called("refinement", hull, GetParam().options)};
     const auto segments = segments_for(original, static_cast<std::size_t>(rounds(60)), test_seed());
     for (const Segment& s : segments) {
       const auto all = truth.all_hits(s);
@@ -103,7 +103,7 @@ TEST_P(Refinement, WhereFacesMeetFindsFirstCrossingsFromOutside) {
     const TriangleMesh original = hull.original();
     const Box around = bounding_box(hull.base());
     MeshQuery truth{QueryIndex(original, Engine::Brute)},
-        query{QueryIndex(hull, Engine::PaperRefinement, GetParam().options)};
+        query{index_called("paper-refinement", hull, GetParam().options)};
     for (const Segment& s : segments_for(original, static_cast<std::size_t>(rounds(100)), test_seed())) {
       const auto all = truth.all_hits(s), found = query.all_hits(s);
       ASSERT_TRUE(std::ranges::all_of(found, [&](const Hit& hit) { return std::ranges::count(all, hit) == 1; }));
@@ -121,8 +121,8 @@ TEST_P(Refinement, WhereFacesMeetFindsFirstCrossingsFromOutside) {
 TEST_P(Refinement, GivesTheSameAnswersAndCountsForAnyNumberOfThreads) {
   const ProgressiveHull& hull = cases()[0].hull;
   const auto segments = random_segments(bounding_box(hull.original()), 3000, test_seed());
-  for (const Engine engine : {Engine::Refinement, Engine::PaperRefinement}) {
-    const QueryIndex index(hull, engine, GetParam().options);
+  for (const std::string_view engine : {"refinement", "paper-refinement"}) {
+    const QueryIndex index = index_called(engine, hull, GetParam().options);
     const HitBatch one = find_hits(index, segments, HitMode::All, {.threads = 1});
     for (int i = 0; i < 3; ++i) {
       const HitBatch many = find_hits(index, segments, HitMode::All, {.threads = 0});
@@ -136,7 +136,7 @@ TEST_P(Refinement, GivesTheSameAnswersAndCountsForAnyNumberOfThreads) {
 
 TEST_P(Refinement, TakesNoMoreMemoryHoweverManyQueriesThereAre) {
   const ProgressiveHull& hull = cases()[0].hull;
-  MeshQuery query{QueryIndex(hull, Engine::Refinement, GetParam().options)};
+  MeshQuery query{index_called("refinement", hull, GetParam().options)};
   const auto segments = random_segments(bounding_box(hull.original()), 200, test_seed());
   const auto ask_all = [&] {
     for (const Segment& s : segments) query.all_hits(s), query.any_hit(s);
@@ -153,8 +153,8 @@ INSTANTIATE_TEST_SUITE_P(BetweenQueries, Refinement, testing::ValuesIn(kVariants
 TEST(RefinementCounts, EveryBaseFaceIsTestedAndNothingWhereTheBoxIsMissed) {
   const ProgressiveHull& hull = cases()[0].hull;
   const Box base = bounding_box(hull.base()), box = bounding_box(hull.original());
-  for (const Engine engine : {Engine::Refinement, Engine::PaperRefinement}) {
-    MeshQuery query{QueryIndex(hull, engine)};
+  for (const std::string_view engine : {"refinement", "paper-refinement"}) {
+    MeshQuery query{index_called(engine, hull)};
     EXPECT_FALSE(query.first_hit(Segment{{base.min.x, base.min.y, base.max.z + 1}, base.max + Vec3{0, 0, 1}}));
     EXPECT_EQ(query.counts().tests, 0u);
     EXPECT_EQ(query.counts().splits, 0u);
@@ -175,7 +175,7 @@ TEST(RefinementCounts, TradeTestsForSplitsAsTheBaseHullGetsCoarser) {
   QueryCounts last;
   for (const std::size_t faces : {5000u, 1000u, 200u}) {
     const QueryCounts counts =
-        find_hits(QueryIndex(hull.with_base(faces), Engine::PaperRefinement), segments, HitMode::All).counts;
+        find_hits(index_called("paper-refinement", hull.with_base(faces)), segments, HitMode::All).counts;
     EXPECT_GT(counts.splits, last.splits);
     EXPECT_TRUE(last.tests == 0 || counts.tests < last.tests);
     last = counts;
@@ -187,19 +187,19 @@ TEST(RefinementCounts, AreUndoneByRollingBackAndByCoarsening) {
   const Box box = bounding_box(hull.original());
   const Segment through{box.min, box.max},
       elsewhere{{box.min.x, box.max.y, box.min.z}, {box.max.x, box.min.y, box.max.z}};
-  for (const Engine engine : {Engine::Refinement, Engine::PaperRefinement}) {
+  for (const std::string_view engine : {"refinement", "paper-refinement"}) {
     // The same query again: all splits again, every second time, or never.
     for (const auto& [options, expected] : {std::pair{RefinementOptions{}, 4u},
                                             {RefinementOptions{.queries_per_roll_back = 2}, 2u},
                                             {RefinementOptions{.between = BetweenQueries::Coarsen}, 1u}}) {
-      MeshQuery query{QueryIndex(hull, engine, options)};
+      MeshQuery query{index_called(engine, hull, options)};
       query.all_hits(through);
       const std::size_t once = query.counts().splits;
       for (int i = 0; i < 3; ++i) query.all_hits(through);
       EXPECT_EQ(query.counts().splits, expected * once);
     }
     // Another query: what the first left is coarsened but for what the other needs.
-    MeshQuery query{QueryIndex(hull, engine, {.between = BetweenQueries::Coarsen})};
+    MeshQuery query{index_called(engine, hull, {.between = BetweenQueries::Coarsen})};
     query.all_hits(through);
     EXPECT_EQ(query.counts().coarsenings, 0u);
     query.all_hits(elsewhere);
@@ -208,8 +208,8 @@ TEST(RefinementCounts, AreUndoneByRollingBackAndByCoarsening) {
 }
 
 TEST(QueryIndex, RefusesRefinementOptionsOutOfRange) {
-  EXPECT_THROW(QueryIndex(cases()[0].hull, Engine::Refinement, {.queries_per_roll_back = 0}), InputError);
-  EXPECT_EQ(QueryIndex(cases()[0].hull, Engine::PaperRefinement).engine_name(), "paper-refinement");
+  EXPECT_THROW(index_called("refinement", cases()[0].hull, {.queries_per_roll_back = 0}), InputError);
+  EXPECT_EQ(index_called("paper-refinement", cases()[0].hull).engine_name(), "paper-refinement");
   EXPECT_EQ(QueryIndex(cases()[0].hull).engine_name(), "bvh");
 }
 

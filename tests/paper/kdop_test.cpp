@@ -1,4 +1,4 @@
-#include "kdop/kdop.h"
+#include "paper/kdop.h"
 
 #include <gtest/gtest.h>
 

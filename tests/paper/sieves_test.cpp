@@ -8,8 +8,8 @@
 #include "effort.h"
 #include "geometry/bvh.h"
 #include "geometry/triangle_contact.h"
-#include "query/balls.h"
-#include "query/line_sieve.h"
+#include "paper/balls.h"
+#include "paper/line_sieve.h"
 #include "random.h"
 
 namespace prohull {

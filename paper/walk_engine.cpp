@@ -1,4 +1,4 @@
-#include "query/walk_engine.h"
+#include "paper/walk_engine.h"
 
 #include <oneapi/tbb/task_arena.h>
 
@@ -10,7 +10,7 @@
 
 #include "geometry/bvh.h"
 #include "hull/void_complex.h"
-#include "query/line_sieve.h"
+#include "paper/line_sieve.h"
 #include "query/some_faces.h"
 
 // Why no walk ends too early, and none goes on for ever

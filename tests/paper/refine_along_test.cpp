@@ -1,9 +1,10 @@
-#include "prohull/detail/refine_along.h"
+#include "paper/refine_along.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "paper/engines.h"
 #include "prohull/detail/random_segments.h"
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_query.h"
@@ -32,7 +33,7 @@ TEST(RefineAlong, FindsTheFacesOfTheOriginalAndSplitsOnlyNearby) {
 
 TEST(RefineAlong, MissesWhatThePaperMisses) {
   const ProgressiveHull hull = build_hull(make_sample("gyroid", 24000), {.target_faces = 1000}).hull;
-  const QueryIndex published(hull, Engine::PaperRefinement), exact(hull);
+  const QueryIndex published = index_called("paper-refinement", hull), exact(hull);
   MeshQuery paper(published), all(exact);
   std::size_t missed = 0;
   for (const Segment& segment : random_segments(bounding_box(hull.original()), 2000, 1)) {

@@ -1,9 +1,9 @@
-#include "prohull/detail/refine_along.h"
+#include "paper/refine_along.h"
 
 #include <algorithm>
 #include <memory>
 
-#include "hull/refined_hull.h"
+#include "paper/refined_hull.h"
 #include "prohull/mesh_query.h"
 
 namespace prohull {
