@@ -1,28 +1,18 @@
 #include "geometry/predicates.h"
 
-#include <array>
 #include <cmath>
 #include <optional>
 
 #include "geometry/exact_number.h"
 #include "geometry/interval.h"
+#include "geometry/vector_of.h"
 
 namespace prohull {
 namespace {
 
 template <class Field>
-std::array<Field, 3> row(const Vec3& from, const Vec3& to) {
-  return {Field(to.x) - Field(from.x), Field(to.y) - Field(from.y), Field(to.z) - Field(from.z)};
-}
-
-template <class Field>
-Field determinant(const std::array<Field, 3>& u, const std::array<Field, 3>& v, const std::array<Field, 3>& w) {
-  return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
-}
-
-template <class Field>
 Field side_determinant(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
-  return determinant(row<Field>(a, b), row<Field>(a, c), row<Field>(a, p));
+  return dot(between<Field>(a, b), cross(between<Field>(a, c), between<Field>(a, p)));
 }
 
 /// Each difference, product and sum is rounded by at most 2^-53 of itself, so that 4 times as much of the sizes of both
@@ -60,7 +50,7 @@ int exact_determinant_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
     return p == q || (p == r && q == s) || (p == s && q == r);
   };
   if (are_parallel(a, b, c, d) || are_parallel(c, d, e, f) || are_parallel(e, f, a, b)) return 0;  // often
-  return sign(determinant(row<ExactNumber>(a, b), row<ExactNumber>(c, d), row<ExactNumber>(e, f)));
+  return sign(dot(between<ExactNumber>(a, b), cross(between<ExactNumber>(c, d), between<ExactNumber>(e, f))));
 }
 
 }  // namespace prohull

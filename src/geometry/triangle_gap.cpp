@@ -6,20 +6,13 @@
 #include "geometry/exact_number.h"
 #include "geometry/predicates.h"
 #include "geometry/triangle_distance.h"
+#include "geometry/vector_of.h"
 
 namespace prohull {
 namespace {
 
 using Number = ExactNumber;
-using Vector = std::array<Number, 3>;
-
-Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Number dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using Vector = VectorOf<Number>;
 
 /// A corner of a triangle: as it is, and as exact numbers.
 struct ExactCorner {

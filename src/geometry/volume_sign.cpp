@@ -1,8 +1,7 @@
-#include <array>
-
 #include "geometry/exact_number.h"
 #include "geometry/interval.h"
 #include "geometry/orientation.h"
+#include "geometry/vector_of.h"
 
 namespace prohull {
 namespace {
@@ -13,13 +12,9 @@ Field sixfold_volume(std::size_t count, TriangleOf triangle) {
   Field sum(0);
   if (count == 0) return sum;
   const Vec3 o = triangle(0).a;
-  const auto relative = [&](const Vec3& p) {
-    return std::array{Field(p.x) - Field(o.x), Field(p.y) - Field(o.y), Field(p.z) - Field(o.z)};
-  };
   for (std::size_t f = 0; f < count; ++f) {
     const Triangle t = triangle(f);
-    const auto a = relative(t.a), b = relative(t.b), c = relative(t.c);
-    sum += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    sum += dot(between<Field>(o, t.a), cross(between<Field>(o, t.b), between<Field>(o, t.c)));
   }
   return sum;
 }

@@ -3,32 +3,21 @@
 #include <array>
 
 #include "geometry/exact_number.h"
+#include "geometry/vector_of.h"
 
 namespace prohull {
 namespace {
 
 using Number = ExactNumber;
-using Vector = std::array<Number, 3>;
-
-Vector between(const Vec3& from, const Vec3& to) {
-  return {Number(to.x) - Number(from.x), Number(to.y) - Number(from.y), Number(to.z) - Number(from.z)};
-}
-
-Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Number dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+using Vector = VectorOf<Number>;
 
 Vector scaled(const Vector& a, const Number& s) { return {a[0] * s, a[1] * s, a[2] * s}; }
 
 Vector direction(const DirectedLine& line) {
-  return line.is_ray() ? between(Vec3{}, line.direction) : between(line.origin, line.end);
+  return line.is_ray() ? between<Number>({}, line.direction) : between<Number>(line.origin, line.end);
 }
 
-Vector normal(const Triangle& face) { return cross(between(face.a, face.b), between(face.a, face.c)); }
+Vector normal(const Triangle& face) { return cross(between<Number>(face.a, face.b), between<Number>(face.a, face.c)); }
 
 /// Of the change that the move (e, e^2, e^3) makes to something linear with that gradient.
 int sign_of_move(const Vector& gradient) {
@@ -42,7 +31,7 @@ struct Plane {
   Plane(const DirectedLine& line, const Triangle& face)
       : normal(prohull::normal(face)),
         speed(dot(normal, direction(line))),
-        above(dot(normal, between(line.origin, face.a))) {}
+        above(dot(normal, between<Number>(line.origin, face.a))) {}
   Vector normal;
   Number speed, above;  ///< t = above / speed
 };
@@ -50,11 +39,11 @@ struct Plane {
 }  // namespace
 
 int exact_edge_sign(const DirectedLine& line, const Vec3& p, const Vec3& q) {
-  return sign(dot(direction(line), cross(between(line.origin, p), between(line.origin, q))));
+  return sign(dot(direction(line), cross(between<Number>(line.origin, p), between<Number>(line.origin, q))));
 }
 
 int exact_point_sign(const Vec3& point, const Triangle& face) {
-  return sign(dot(normal(face), between(point, face.a)));
+  return sign(dot(normal(face), between<Number>(point, face.a)));
 }
 
 int exact_minor_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, int axis) {

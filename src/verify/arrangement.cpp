@@ -13,6 +13,7 @@
 
 #include "geometry/bvh.h"
 #include "geometry/triangle_predicates.h"
+#include "geometry/vector_of.h"
 #include "verify/cell.h"
 #include "verify/exact.h"
 
@@ -250,23 +251,14 @@ class Segments {
   }
 
   template <class Field>
-  std::array<Field, 3> from_corner(const Vec3& p) const {
-    return {Field(p.x) - Field(t_.a.x), Field(p.y) - Field(t_.a.y), Field(p.z) - Field(t_.a.z)};
-  }
-
-  template <class Field>
   Planar<Field> made(const Corner& corner) {
     return relative<Field>(corner.at);
   }
 
   template <class Field>
   Planar<Field> made(const Piercing& edge) {
-    const std::array<Field, 3> b = from_corner<Field>(t_.b), c = from_corner<Field>(t_.c);
-    const std::array<Field, 3> n{b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]};
-    const auto height = [&](const Vec3& p) -> Field {
-      const std::array<Field, 3> d = from_corner<Field>(p);
-      return n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
-    };
+    const VectorOf<Field> n = cross(between<Field>(t_.a, t_.b), between<Field>(t_.a, t_.c));
+    const auto height = [&](const Vec3& p) { return dot(n, between<Field>(t_.a, p)); };
     return way_point<Field>(relative<Field>(edge.from), relative<Field>(edge.to),
                             zero_between(height(edge.from), height(edge.to)));
   }

@@ -8,6 +8,7 @@
 
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
+#include "geometry/vector_of.h"
 #include "verify/cell.h"
 #include "verify/holes.h"
 #include "verify/winding.h"
@@ -20,30 +21,14 @@ namespace prohull::verify {
 namespace {
 
 template <class Field>
-using Triple = std::array<Field, 3>;
-
-template <class Field>
-Triple<Field> cross_product(const Triple<Field>& a, const Triple<Field>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-template <class Field>
-Field dot_product(const Triple<Field>& a, const Triple<Field>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-template <class Field>
-Field sum(const Triple<Field>& a) {
+Field sum(const VectorOf<Field>& a) {
   return a[0] + a[1] + a[2];
 }
 
 /// Positive outside of the plane of h.
 template <class Field>
 Field height(const Triangle& h, const Vec3& p) {
-  const auto difference = [](const Vec3& a, const Vec3& b) {
-    return Triple<Field>{Field(a.x) - Field(b.x), Field(a.y) - Field(b.y), Field(a.z) - Field(b.z)};
-  };
-  return dot_product(cross_product(difference(h.b, h.a), difference(h.c, h.a)), difference(p, h.a));
+  return dot(cross(between<Field>(h.a, h.b), between<Field>(h.a, h.c)), between<Field>(h.a, p));
 }
 
 /// Which side of a triangle the kernels should hold.
@@ -61,13 +46,13 @@ class Line {
   /// The side of t on which barycentric coordinate i is 0.
   explicit Line(int i) : is_edge_(true), edge_(i), rough(coefficients<Interval>()) {}
 
-  const Triple<ExactNumber>& exact() const {
+  const VectorOf<ExactNumber>& exact() const {
     if (!exact_) exact_ = coefficients<ExactNumber>();
     return *exact_;
   }
 
   template <class Field>
-  Triple<Field> coefficients() const {
+  VectorOf<Field> coefficients() const {
     if (is_edge_) return {Field(edge_ == 0 ? -1 : 0), Field(edge_ == 1 ? -1 : 0), Field(edge_ == 2 ? -1 : 0)};
     return {height<Field>(plane_, t_->a), height<Field>(plane_, t_->b), height<Field>(plane_, t_->c)};
   }
@@ -77,10 +62,10 @@ class Line {
   Triangle plane_;
   bool is_edge_;
   int edge_ = 0;
-  mutable std::optional<Triple<ExactNumber>> exact_;
+  mutable std::optional<VectorOf<ExactNumber>> exact_;
 
  public:
-  Triple<Interval> rough;
+  VectorOf<Interval> rough;
 };
 
 constexpr double kWide = 1e-9;
@@ -90,7 +75,7 @@ using LineIndex = std::uint32_t;
 /// Where two lines meet.
 struct Corner {
   LineIndex first, second;
-  Triple<Interval> rough;
+  VectorOf<Interval> rough;
   std::optional<int> weight_sign;  ///< of the sum of the coordinates, if it is certain
 };
 
@@ -186,7 +171,7 @@ class Clipper {
     Part part;
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const LineIndex first = sides[i], second = sides[(i + 1) % sides.size()];
-      const auto rough = cross_product(lines_[first].rough, lines_[second].rough);
+      const auto rough = cross(lines_[first].rough, lines_[second].rough);
       part.push_back({first, second, rough, certain_sign(sum(rough))});
     }
     return part;
@@ -195,10 +180,10 @@ class Clipper {
   /// 1 outside of the line, -1 inside, 0 on it. Exact.
   int side_of(const Corner& corner, LineIndex line) const {
     if (corner.first == line || corner.second == line) return 0;
-    const auto height = certain_sign(dot_product(lines_[line].rough, corner.rough));
+    const auto height = certain_sign(dot(lines_[line].rough, corner.rough));
     if (height && corner.weight_sign) return *height * *corner.weight_sign;
-    const Triple<ExactNumber> point = cross_product(lines_[corner.first].exact(), lines_[corner.second].exact());
-    return sign(dot_product(lines_[line].exact(), point)) * sign(sum(point));
+    const VectorOf<ExactNumber> point = cross(lines_[corner.first].exact(), lines_[corner.second].exact());
+    return sign(dot(lines_[line].exact(), point)) * sign(sum(point));
   }
 
   std::vector<int> sides_of(const Part& part, LineIndex line) const {
@@ -286,8 +271,8 @@ class Clipper {
     for (std::size_t i = 0; i < part.size(); ++i) {
       const LineIndex line = part[i].first;
       const int inner = side_of(part[(i + 1) % part.size()], line);
-      const Triple<Interval> point{Interval(weights.x), Interval(weights.y), Interval(weights.z)};
-      if (certain_sign(dot_product(lines_[line].rough, point)) != inner) return false;
+      const VectorOf<Interval> point{Interval(weights.x), Interval(weights.y), Interval(weights.z)};
+      if (certain_sign(dot(lines_[line].rough, point)) != inner) return false;
     }
     return true;
   }
@@ -300,8 +285,8 @@ class Clipper {
   }
 
   PlanePoint plane_point(const Corner& corner) const {
-    const Triple<Number> weights =
-        cross_product(lines_[corner.first].coefficients<Number>(), lines_[corner.second].coefficients<Number>());
+    const VectorOf<Number> weights =
+        cross(lines_[corner.first].coefficients<Number>(), lines_[corner.second].coefficients<Number>());
     const Number total = sum(weights);
     const auto coordinate = [&](int i) {
       const Number x = (weights[0] * t_.a[i] + weights[1] * t_.b[i] + weights[2] * t_.c[i]) / total;

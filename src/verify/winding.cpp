@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "geometry/triangle_predicates.h"
+#include "geometry/vector_of.h"
 
 namespace prohull::verify {
 namespace {
@@ -18,10 +19,8 @@ Field turn_determinant(const Field& au, const Field& av, const Field& bu, const 
 /// Positive if p lies outside of the plane of h.
 template <class Field>
 Field side_determinant(const Triangle& h, const std::array<Field, 3>& p) {
-  const Field x(h.a.x), y(h.a.y), z(h.a.z);
-  const Field bx = Field(h.b.x) - x, by = Field(h.b.y) - y, bz = Field(h.b.z) - z;
-  const Field cx = Field(h.c.x) - x, cy = Field(h.c.y) - y, cz = Field(h.c.z) - z;
-  return (by * cz - bz * cy) * (p[0] - x) + (bz * cx - bx * cz) * (p[1] - y) + (bx * cy - by * cx) * (p[2] - z);
+  const VectorOf<Field> a{Field(h.a.x), Field(h.a.y), Field(h.a.z)};
+  return dot(cross(between<Field>(h.a, h.b), between<Field>(h.a, h.c)), p - a);
 }
 
 std::array<Number, 3> random_point(const Triangle& t, int axis, const Cell& cell, std::mt19937& random) {
