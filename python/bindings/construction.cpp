@@ -116,12 +116,9 @@ py::list facts_of(EnclosingHulls made, const EnclosingOptions& options) {
 
 py::list build(const TriangleMesh& mesh, const std::vector<std::size_t>& targets, const py::object& progress,
                const py::dict& keywords) {
-  EnclosingOptions options = enclosing_options(Keywords(keywords));
-  EnclosingHulls made = watched(progress, [&](Watch& watch) {
-    options.progress = watch.progress();
-    return enclosing_hulls(mesh, targets, options);
-  });
-  return facts_of(std::move(made), options);
+  const EnclosingOptions options = enclosing_options(Keywords(keywords));
+  return facts_of(watched(progress, options, [&](const auto& how) { return enclosing_hulls(mesh, targets, how); }),
+                  options);
 }
 
 py::dict facts_of(CageHull side) {
@@ -141,11 +138,8 @@ py::dict facts_of(CageHull side) {
 }
 
 py::dict cage(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
-  CageOptions options = cage_options(Keywords(keywords));
-  Cage made = watched(progress, [&](Watch& watch) {
-    options.progress = watch.progress();
-    return build_cage(mesh, options);
-  });
+  Cage made =
+      watched(progress, cage_options(Keywords(keywords)), [&](const auto& how) { return build_cage(mesh, how); });
   py::dict facts;
   facts["outer"] = facts_of(std::move(made.outer));
   facts["inner"] = made.inner ? py::object(facts_of(std::move(*made.inner))) : py::none();
@@ -155,11 +149,8 @@ py::dict cage(const TriangleMesh& mesh, const py::object& progress, const py::di
 }
 
 py::dict repair(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
-  ClosedSolidOptions options = closed_solid_options(Keywords(keywords));
-  ClosedSolid made = watched(progress, [&](Watch& watch) {
-    options.progress = watch.progress();
-    return closed_solid(mesh, options);
-  });
+  ClosedSolid made = watched(progress, closed_solid_options(Keywords(keywords)),
+                             [&](const auto& how) { return closed_solid(mesh, how); });
   py::dict facts;
   facts["certified"] = made.verdict.holds();
   facts["why_not"] = made.verdict.why_not;
@@ -188,10 +179,7 @@ py::tuple simplified_part(TriangleMesh mesh, std::size_t own_faces, const Array<
   given.flag("float32_coordinates", options.float32_coordinates);
   given.count("threads", options.threads);
   const MeshPart part{std::move(mesh), own_faces, box_of(box)};
-  SimplifiedPart made = watched(progress, [&](Watch& watch) {
-    options.progress = watch.progress();
-    return simplify_part(part, options);
-  });
+  SimplifiedPart made = watched(progress, options, [&](const auto& how) { return simplify_part(part, how); });
   std::vector<std::uint32_t> kept;
   kept.reserve(made.kept.size());
   for (const VertexId v : made.kept) kept.push_back(index(v));

@@ -64,11 +64,8 @@ py::dict common_facts_of(const Cover& cover) {
 }
 
 py::dict convex_pieces(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
-  ConvexCoverOptions options = convex_cover_options(Keywords(keywords));
-  ConvexCover cover = watched(progress, [&](Watch& watch) {
-    options.progress = watch.progress();
-    return convex_cover(mesh, options);
-  });
+  ConvexCover cover = watched(progress, convex_cover_options(Keywords(keywords)),
+                              [&](const auto& how) { return convex_cover(mesh, how); });
   py::dict facts = common_facts_of(cover);
   py::list pieces;
   for (ConvexPiece& piece : cover.pieces)
@@ -78,11 +75,8 @@ py::dict convex_pieces(const TriangleMesh& mesh, const py::object& progress, con
 }
 
 py::dict spheres(const TriangleMesh& mesh, const py::object& progress, const py::dict& keywords) {
-  SphereCoverOptions options = sphere_cover_options(Keywords(keywords));
-  const SphereCover cover = watched(progress, [&](Watch& watch) {
-    options.progress = watch.progress();
-    return sphere_cover(mesh, options);
-  });
+  const SphereCover cover = watched(progress, sphere_cover_options(Keywords(keywords)),
+                                    [&](const auto& how) { return sphere_cover(mesh, how); });
   py::dict facts = common_facts_of(cover);
   facts["balls"] = rows_of_balls(cover.balls);
   return facts;

@@ -88,13 +88,13 @@ py::dict facts_of(const PathChecker& checker, const JointPath& path, const PathP
   return facts;
 }
 
-py::dict proof_of(const PathChecker& checker, PathRows rows, PathProofOptions options, const py::object& progress) {
+py::dict proof_of(const PathChecker& checker, PathRows rows, const PathProofOptions& options,
+                  const py::object& progress) {
   if (checker.pairs.empty())
     throw InputError(Defect::InvalidOption, "there is no pair of bodies that could meet: all are adjacent, or ignored");
   const JointPath path(checker.file->robot, std::move(rows));
-  const std::vector<PathProof> proofs = watched(progress, [&](Watch& watch) {
-    options.progress = watch.progress();
-    return prove_paths(checker.file->robot, {&path, 1}, checker.made.bodies, checker.pairs, options);
+  const std::vector<PathProof> proofs = watched(progress, options, [&](const auto& how) {
+    return prove_paths(checker.file->robot, {&path, 1}, checker.made.bodies, checker.pairs, how);
   });
   return facts_of(checker, path, proofs.front());
 }

@@ -59,10 +59,7 @@ Motions read_motions(const std::string& text, const std::string& file) {
 py::dict sweep_mesh(const TriangleMesh& mesh, const Motions& motions, const py::object& progress,
                     const py::dict& keywords) {
   SweepOptions options = sweep_options(Keywords(keywords));
-  Sweep made = watched(progress, [&](Watch& watch) {
-    options.progress = watch.progress();
-    return sweep(mesh, motions, options);
-  });
+  Sweep made = watched(progress, options, [&](const auto& how) { return sweep(mesh, motions, how); });
   const double volume = made.volume;
   py::dict facts = facts_of(std::move(made));
   facts["volume"] = volume;
@@ -74,9 +71,8 @@ py::list sweep_robot(const robot::RobotFile& file, robot::PathRows rows, const s
                      bool visual, const py::object& progress, const py::dict& keywords) {
   SweepOptions options = sweep_options(Keywords(keywords));
   const robot::JointPath path(file.robot, std::move(rows));
-  std::vector<robot::LinkSweep> made = watched(progress, [&](Watch& watch) {
-    options.progress = watch.progress();
-    return sweep_links(file.robot, path, links, visual ? robot::Geometry::Visual : robot::Geometry::Collision, options);
+  std::vector<robot::LinkSweep> made = watched(progress, options, [&](const auto& how) {
+    return sweep_links(file.robot, path, links, visual ? robot::Geometry::Visual : robot::Geometry::Collision, how);
   });
   py::list sweeps;
   for (robot::LinkSweep& link : made) sweeps.append(py::make_tuple(link.link, facts_of(std::move(link.sweep))));

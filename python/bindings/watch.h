@@ -2,14 +2,14 @@
 
 #include <pybind11/pybind11.h>
 
-#include <chrono>
-#include <future>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
-#include "prohull/error.h"
 #include "prohull/progress.h"
 
 namespace prohull::python {
@@ -41,44 +41,27 @@ class Watch {
   bool stopped_ = false;
 };
 
-/// Calls progress(stage, fraction); throws what it throws, and KeyboardInterrupt where it returns False.
-inline void tell(const pybind11::object& progress, const std::string& stage, double fraction) {
-  if (progress.is_none() || !progress(stage, fraction).is(pybind11::bool_(false))) return;
-  PyErr_SetString(PyExc_KeyboardInterrupt, "progress returned False");
-  throw pybind11::error_already_set();
-}
-
 /// work(watch), on a thread of its own and without the GIL. The calling thread looks for Ctrl-C some 20 times a second
 /// and tells `progress` how it goes, so that Python runs on no other thread. If either throws, the work is stopped and
-/// waited for, and the exception goes on.
+/// waited for, and the exception goes on: what progress(stage, fraction) throws, and KeyboardInterrupt where it returns
+/// False.
+void watch_over(const pybind11::object& progress, const std::function<void(Watch&)>& work);
+
+/// The same, for what the work returns.
 template <class Work>
 auto watched(const pybind11::object& progress, Work work) {
-  constexpr std::chrono::milliseconds kLook{50};
-  Watch watch;
-  tell(progress, "start", 0);
-  auto result = std::async(std::launch::async, [&] { return work(watch); });
-  const auto is_ready_after = [&](auto time) {
-    const pybind11::gil_scoped_release released;
-    return result.wait_for(time) == std::future_status::ready;
-  };
-  while (!is_ready_after(kLook)) try {
-      if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
-      const auto [stage, fraction] = watch.state();
-      tell(progress, stage, fraction);
-    } catch (...) {
-      watch.stop();
-      const pybind11::gil_scoped_release released;
-      result.wait();
-      throw;
-    }
-  try {
-    auto made = result.get();
-    tell(progress, "done", 1);
-    return made;
-  } catch (const Cancelled&) {  // Ctrl-C has also reached a program that was reading the file
-    if (PyErr_CheckSignals() == 0) PyErr_SetString(PyExc_KeyboardInterrupt, "interrupted");
-    throw pybind11::error_already_set();
-  }
+  std::optional<std::invoke_result_t<Work&, Watch&>> made;
+  watch_over(progress, [&](Watch& watch) { made.emplace(work(watch)); });
+  return std::move(*made);
+}
+
+/// The same of work(options), which tell how far it is.
+template <class Options, class Work>
+auto watched(const pybind11::object& progress, Options options, Work work) {
+  return watched(progress, [&](Watch& watch) {
+    options.progress = watch.progress();
+    return work(std::as_const(options));
+  });
 }
 
 }  // namespace prohull::python
