@@ -84,6 +84,13 @@ struct Joint {
   std::size_t line = 0;
 };
 
+inline bool turns(const Joint& joint) {
+  return joint.type == JointType::Revolute || joint.type == JointType::Continuous;
+}
+inline bool slides(const Joint& joint) { return joint.type == JointType::Prismatic; }
+/// Whether a path can say where the joint is.
+inline bool moves(const Joint& joint) { return turns(joint) || slides(joint); }
+
 /// Guaranteed by read_robot: the names of links are distinct and not empty, the joints form a forest, and every number
 /// is finite but for the limits of joints.
 struct Robot {

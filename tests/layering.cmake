@@ -13,7 +13,7 @@ macro(room name)
   set(may_${name} ${name} ${room_MAY})
 endmacro()
 
-room(base      OWNS detail/rounded error detail/names progress)
+room(base      OWNS detail/rounded error detail/names detail/stopwatch detail/text progress)
 room(geometry  OWNS geometry detail/shapes                                                     MAY base)
 room(parallel  OWNS detail/progress_meter                                        MAY base)
 room(mesh      OWNS detail/disjoint_sets detail/ids length triangle_mesh detail/vertex_split mesh_report detail/mesh_quality detail/mesh_marks regions detail/symmetry MAY geometry base)

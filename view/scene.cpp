@@ -6,6 +6,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
 #include "view/blocks.h"
@@ -136,7 +137,7 @@ class Writer {
   json object(const Shown& shown, const Pieces& pieces) {
     const TriangleMesh all = all_of(pieces), mesh = drawable(all, shown.name);
     json facts = mesh_object(all, mesh);
-    facts["union"] = counted(pieces.size(), "piece", "pieces");
+    facts["union"] = counted(pieces.size(), "piece");
     if (!reference_) return facts;
     add_union_facts(facts, shown, pieces);
     if (is_closed(reference_->mesh)) facts["heat"] = heat_facts(mesh, reference_->index, true, batch(), blocks_);
@@ -151,7 +152,7 @@ class Writer {
       radii.push_back(static_cast<std::uint32_t>(ball.radius / grid_.step()));
     }
     json facts = {{"kind", "balls"},
-                  {"union", counted(balls.size(), "sphere", "spheres")},
+                  {"union", counted(balls.size(), "sphere")},
                   {"centers", blocks_.plain(centers)},
                   {"radii", blocks_.plain(radii)}};
     facts["role"] = "hull";
@@ -180,10 +181,6 @@ class Writer {
   json link_object(const Shown& shown, const TriangleMesh& mesh) {
     if (mesh.face_count() == 0) return {};
     return mesh_object(mesh, drawable(mesh, shown.name));
-  }
-
-  static std::string counted(std::size_t count, const char* one, const char* many) {
-    return fmt::format("{} {}", count, count == 1 ? one : many);
   }
 
   template <class Parts>

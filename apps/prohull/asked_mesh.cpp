@@ -29,11 +29,7 @@ Box AskedMesh::box() const {
 }
 
 QueryIndex AskedMesh::index(const std::function<QueryIndex(MeshOrHull)>& make) {
-  try {
-    return make(std::move(mesh_or_hull_));
-  } catch (const InputError& error) {
-    throw InputError(error.defect(), input_name(path_) + ": " + error.what());
-  }
+  return naming(path_, [&] { return make(std::move(mesh_or_hull_)); });
 }
 
 QueryIndex AskedMesh::index(std::string_view engine) {
@@ -47,7 +43,7 @@ nlohmann::json AskedMesh::facts() const {
 }
 
 void AskedMesh::say_what() const {
-  say("{}: {}\n", input_name(path_), counted(faces_, "face", "faces"));
+  say("{}: {}\n", input_name(path_), counted(faces_, "face"));
   if (const std::string finest = described_finest_level(finest_level_); !finest.empty())
     say("  these are faces of {}: the finest level of the file is not the input itself\n", finest);
 }

@@ -64,15 +64,10 @@ std::string check_options(const BuildOptions& options) {
 }
 
 EnclosingHulls build(TriangleMesh mesh, const BuildOptions& options) {
-  ProgressLine line;
-  EnclosingOptions enclosing = options.enclosing;
-  enclosing.progress = std::ref(line);
-  try {
+  return naming(options.in, options.enclosing, [&](const EnclosingOptions& enclosing) {
     if (enclosing.hull.float32_coordinates) check_float32_spacing(mesh);
     return enclosing_hulls(std::move(mesh), options.faces, enclosing);
-  } catch (const InputError& error) {
-    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
-  }
+  });
 }
 
 void write_certificate(Written& written, const CertifiedOriginal& original, const BuildOptions& options,
@@ -124,20 +119,12 @@ bool can_be_kept(const Triangle& t) {
   return is_finite(t.a) && is_finite(t.b) && is_finite(t.c) && t.a != t.b && t.b != t.c && t.c != t.a;
 }
 
-PerFace<std::uint32_t> faces_of_regions(const BuildOptions& options, const std::vector<Region>& regions,
-                                        const TriangleMesh& mesh, const MeshMarks& marks) {
-  try {
-    return regions_of_faces(mesh, marks, regions);
-  } catch (const InputError& error) {
-    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.tolerance), error.what()));
-  }
-}
-
 void set_regions(BuildOptions& options, BuildOutcome& outcome, const TriangleMesh& mesh, const MeshMarks& marks,
                  const MeshUnit& unit) {
   Regions& regions = outcome.regions;
   regions.all = read_regions(options.tolerance, unit);
-  const PerFace<std::uint32_t> region_of = faces_of_regions(options, regions.all, mesh, marks);
+  const PerFace<std::uint32_t> region_of =
+      naming(options.tolerance, [&] { return regions_of_faces(mesh, marks, regions.all); });
   options.enclosing.hull.tolerances = tolerances_of(region_of, regions.all);
   const TriangleMesh placed = minus(mesh, outcome.offset);
   regions.faces.assign(regions.all.size(), {placed.positions, {}});

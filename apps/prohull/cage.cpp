@@ -40,15 +40,10 @@ struct File {
 };
 
 Cage cage_of(TriangleMesh mesh, const CageRunOptions& options) {
-  ProgressLine line;
-  CageOptions cage = options.cage;
-  cage.progress = std::ref(line);
-  try {
+  return naming(options.in, options.cage, [&](const CageOptions& cage) {
     if (cage.float32_coordinates) check_float32_spacing(mesh);
     return build_cage(std::move(mesh), cage);
-  } catch (const InputError& error) {
-    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
-  }
+  });
 }
 
 void write(File& file, Outputs& outputs) {
@@ -92,8 +87,8 @@ void write_certificate(File& file, const CertifiedOriginal& original, const Cage
 
 void print_input(const CageRunOptions& options, const Cage& cage) {
   const RepairedMesh& input = cage.outer.made.input;
-  say("{}: {}, {}\n", input_name(options.in), counted(input.found.faces, "face", "faces"),
-      counted(input.found.components, "component", "components"));
+  say("{}: {}, {}\n", input_name(options.in), counted(input.found.faces, "face"),
+      counted(input.found.components, "component"));
   for (const std::string& repair : describe(input.repairs)) say("  {}\n", repair);
   if (!input.closed) say("  bounds no solid: {}\n", input.obstacle);
   for (const std::string& note : cage.notes) say("  {}\n", note);
@@ -101,7 +96,7 @@ void print_input(const CageRunOptions& options, const Cage& cage) {
 
 void print_hull(const Cage& cage, const File& file) {
   const EnclosingHull& hull = file.hull->hull();
-  say("{}: {} hull of {}{}\n", output_name(file.path), file.side, counted(hull.mesh.face_count(), "face", "faces"),
+  say("{}: {} hull of {}{}\n", output_name(file.path), file.side, counted(hull.mesh.face_count(), "face"),
       described_void(file.hull->made, hull));
   for (const std::string& note : hull.notes) say("  {}\n", note);
   say("  triangles: smallest angle {:.3g} degrees, worst aspect ratio {:.3g}\n",

@@ -55,13 +55,11 @@ CollisionIndex index_of(const ProgressiveHull& levels, const CollideOptions& opt
 Body read_body(const CollideOptions& options, const std::filesystem::path& path) {
   const MeshOrHull read = read_mesh_or_hull(path, options.input);
   stop_if_interrupted();
-  try {
+  return naming(path, [&]() -> Body {
     if (const auto* const levels = std::get_if<ProgressiveHull>(&read))
       return {index_of(*levels, options, path), levels->finest_level()};
     return {CollisionIndex(std::get<TriangleMesh>(read)), FinestLevel::Input};
-  } catch (const InputError& error) {
-    throw InputError(error.defect(), input_name(path) + ": " + error.what());
-  }
+  });
 }
 
 struct Answers {
@@ -106,8 +104,7 @@ void print_summary(const CollideOptions& options, const Answers& answers) {
     say("{}\n", verdict_of_one(options, answers));
     if (options.distance && !answers.separations[0].collide()) say("  {}\n", bounds(answers.separations[0]));
   } else {
-    say("{} of {} {}\n", grouped(colliding), counted(poses, "pose", "poses"),
-        options.conservative ? "may collide" : "collide");
+    say("{} of {} {}\n", grouped(colliding), counted(poses, "pose"), options.conservative ? "may collide" : "collide");
     if (options.distance) {
       const auto distance = [](const Separation& s) {
         return s.collide() ? std::numeric_limits<double>::infinity() : s.upper;
@@ -174,8 +171,8 @@ int run_collide(const CollideOptions& options) {
   outputs.commit();
   print_summary(options, answers);
   print_notes(a, options.a), print_notes(b, options.b);
-  say_more("  {} and {}; read and index {:.2f} s, answer {:.3f} s\n", counted(a.index.face_count(), "face", "faces"),
-           counted(b.index.face_count(), "face", "faces"), read_seconds, seconds);
+  say_more("  {} and {}; read and index {:.2f} s, answer {:.3f} s\n", counted(a.index.face_count(), "face"),
+           counted(b.index.face_count(), "face"), read_seconds, seconds);
   return std::ranges::find(answers.collide, true) == answers.collide.end() ? kDone : kAnswerIsNo;
 }
 

@@ -9,6 +9,9 @@
 #include <string_view>
 #include <utility>
 
+#include "prohull/detail/stopwatch.h"
+#include "prohull/detail/text.h"
+
 namespace prohull::cli {
 
 // What a command tells its user: a summary, and how far it is. Errors are main's, and go to standard error in any case.
@@ -38,12 +41,6 @@ void say_more(fmt::format_string<Values...> text, Values&&... values) {
   if (console().verbose) say(text, std::forward<Values>(values)...);
 }
 
-/// A count as messages have it: 96966 -> "96,966".
-std::string grouped(std::size_t number);
-
-/// "1 face", "2,100 faces"
-std::string counted(std::size_t number, const char* one, const char* many);
-
 /// A prohull::Progress that draws how far each stage is on one line of standard error, if that is a terminal. The line
 /// vanishes with the object. Returns false once the user has interrupted.
 class ProgressLine {
@@ -61,14 +58,6 @@ class ProgressLine {
   double fraction_ = 0;
   bool shown_ = false;
   Clock::time_point started_ = Clock::now(), drawn_;
-};
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace prohull::cli

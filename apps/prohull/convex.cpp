@@ -232,17 +232,6 @@ struct Outcome {
   int exit_code() const { return certified && cover.within_bounds && within_limits ? kDone : kAnswerIsNo; }
 };
 
-ConvexCover cover_of(TriangleMesh mesh, const ConvexOptions& options) {
-  ProgressLine line;
-  ConvexCoverOptions cover = options.cover;
-  cover.progress = std::ref(line);
-  try {
-    return convex_cover(std::move(mesh), cover);
-  } catch (const InputError& error) {
-    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
-  }
-}
-
 Certificate certificate_of(const ConvexCover& cover, const CertifiedOriginal& original) {
   std::vector<TriangleMesh> meshes;
   for (const ConvexPiece& piece : cover.pieces) meshes.push_back(piece.mesh);
@@ -269,8 +258,8 @@ std::string described_pieces(const ConvexCover& cover) {
   };
   std::vector<std::string> parts;
   if (const std::size_t n = count(PieceShape::Polytope); n > 0)
-    parts.push_back(fmt::format("{} of {}{} vertices", counted(n, "convex piece", "convex pieces"),
-                                n > 1 ? "at most " : "", most_vertices(cover)));
+    parts.push_back(
+        fmt::format("{} of {}{} vertices", counted(n, "convex piece"), n > 1 ? "at most " : "", most_vertices(cover)));
   const auto add = [&](PieceShape shape, const char* one, const char* many) {
     if (const std::size_t n = count(shape); n > 0) parts.push_back(counted(n, one, many));
   };
@@ -300,8 +289,8 @@ void print_limits(const ConvexOptions& options, const Outcome& outcome) {
 
 void print_summary(const ConvexOptions& options, const PieceFiles& files, const Outcome& outcome) {
   const ConvexCover& cover = outcome.cover;
-  say("{}: {}, {}\n", input_name(options.in), counted(outcome.input.faces, "face", "faces"),
-      counted(outcome.input.components, "component", "components"));
+  say("{}: {}, {}\n", input_name(options.in), counted(outcome.input.faces, "face"),
+      counted(outcome.input.components, "component"));
   for (const std::string& note : cover.notes) say("  {}\n", note);
   say("{}: {}, {}, at most {:.4g} from the mesh ({} % of its diagonal){}\n", output_name(options.out),
       described_pieces(cover), described_size(cover), rounded_up(cover.reach.upper, 4),
@@ -409,7 +398,8 @@ int run_convex(ConvexOptions options) {
         MeshUnit(mesh, options.in, options.input).number_of(options.max_distance, "--max-distance");
   CertifiedOriginal original;
   if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
-  outcome.cover = cover_of(std::move(mesh), options);
+  outcome.cover = naming(options.in, options.cover,
+                         [&](const ConvexCoverOptions& how) { return convex_cover(std::move(mesh), how); });
   Outputs pieces, report;
   const Stopwatch writing;
   if (const auto size = outcome.cover.certified ? files.add_to(pieces, outcome.cover.pieces) : std::nullopt) {

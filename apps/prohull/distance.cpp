@@ -33,7 +33,7 @@ PointAnswers answers(std::vector<ClosestPoint> distances) {
                        [distances](const auto& file) { write_distances(file, distances); }};
   if (distances.empty()) return answers;
   const auto [least, greatest] = std::ranges::minmax(distances, {}, &ClosestPoint::distance);
-  answers.summary = fmt::format("{} at distances from {:.6g} to {:.6g}", counted(distances.size(), "point", "points"),
+  answers.summary = fmt::format("{} at distances from {:.6g} to {:.6g}", counted(distances.size(), "point"),
                                 least.distance, greatest.distance);
   answers.facts = {{"least_distance", least.distance}, {"greatest_distance", greatest.distance}};
   return answers;

@@ -96,8 +96,8 @@ void tell_hull(const TriangleMesh& mesh, nlohmann::json& json) {
     for (const std::string& repair : repairs) say_fact("", "{}", repair);
     const MeshReport& closed = prepared.closed->report;
     if (!repairs.empty())
-      say_fact("then", "{}, {}, genus {}, volume {:.9g}", counted(closed.faces, "face", "faces"),
-               counted(closed.components, "component", "components"), genus(closed), closed.volume);
+      say_fact("then", "{}, {}, genus {}, volume {:.9g}", counted(closed.faces, "face"),
+               counted(closed.components, "component"), genus(closed), closed.volume);
   } catch (const InputError& error) {
     json["usable"] = false;
     json["hull_from"] = nullptr;

@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "console.h"
+#include "prohull/error.h"
 #include "prohull/length.h"
 #include "prohull/mesh_io.h"
 #include "prohull/progressive_hull.h"
@@ -74,5 +76,23 @@ ProgressiveHull read_hull(const std::filesystem::path& path);
 
 /// As messages name it: "-" is "standard input".
 std::string input_name(const std::filesystem::path& path);
+
+/// work(); what InputError it throws then names the file.
+template <class Work>
+auto naming(const std::filesystem::path& path, Work work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(error.defect(), input_name(path) + ": " + error.what());
+  }
+}
+
+/// work(options) as above, which draws how far it is.
+template <class Options, class Work>
+auto naming(const std::filesystem::path& path, Options options, Work work) {
+  ProgressLine line;
+  options.progress = std::ref(line);
+  return naming(path, [&] { return work(options); });
+}
 
 }  // namespace prohull::cli

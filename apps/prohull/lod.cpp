@@ -36,7 +36,7 @@ int extract(const LodOptions& options) {
                                       {"volume", signed_volume(level)},
                                       {"finest_level", name_of(finest_level_names(), hull.finest_level())}});
   outputs.commit();
-  say("{}: {} of {}{}\n", output_name(options.out), counted(level.face_count(), "face", "faces"),
+  say("{}: {} of {}{}\n", output_name(options.out), counted(level.face_count(), "face"),
       grouped(hull.original_face_count()),
       options.faces != 0 && level.face_count() > options.faces ? ", which is the coarsest level of the file" : "");
   if (const std::string finest = described_finest_level(hull.finest_level()); !finest.empty())

@@ -90,8 +90,7 @@ std::string verdict_text(const PathOptions& options, const Decision& decision, s
   const PathProof& proof = decision.proofs[p];
   const PathPairProof* const first = proof.first();
   if (!first) {
-    std::string text =
-        fmt::format("free all along, proven for {}", counted(path.rows().positions.size(), "row", "rows"));
+    std::string text = fmt::format("free all along, proven for {}", counted(path.rows().positions.size(), "row"));
     if (!path.rows().times.empty())
       text += fmt::format(", {:.6g} s", path.rows().times.back() - path.rows().times.front());
     if (!proof.curve.empty())
@@ -135,8 +134,7 @@ void say_others(const PathProof& proof) {
     return std::ranges::count(proof.pairs, verdict, &PathPairProof::verdict);
   };
   const auto meet = count(PathVerdict::Meets), open = count(PathVerdict::Open);
-  if (meet + open > 1)
-    say("  of {}, {} meet and {} are open\n", counted(proof.pairs.size(), "pair", "pairs"), meet, open);
+  if (meet + open > 1) say("  of {}, {} meet and {} are open\n", counted(proof.pairs.size(), "pair"), meet, open);
 }
 
 /// Of a path that leaves the limits of a joint.
@@ -301,8 +299,8 @@ int run_motion(PathOptions options) {
   bool all = true;
   for (std::size_t p = 0; p < decision.paths.size(); ++p)
     say_path(options, decision, p), all &= is_as_asked(decision, p);
-  say("  {} of bodies; read and index {:.2f} s, prove {:.3f} s\n", counted(decision.pairs.size(), "pair", "pairs"),
-      read_seconds, seconds);
+  say("  {} of bodies; read and index {:.2f} s, prove {:.3f} s\n", counted(decision.pairs.size(), "pair"), read_seconds,
+      seconds);
   return all ? kDone : kAnswerIsNo;
 }
 

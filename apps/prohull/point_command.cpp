@@ -17,16 +17,6 @@ std::vector<Vec3> make_points(const PointOptions& options, const AskedMesh& aske
   return read_points(read_bytes(options.points), input_name(options.points));
 }
 
-PointAnswers answers_of(const PointOptions& options, const QueryIndex& index, const std::vector<Vec3>& points,
-                        const AskPoints& ask) {
-  try {
-    ProgressLine line;
-    return ask(index, points, {.threads = options.threads, .progress = std::ref(line)});
-  } catch (const InputError& error) {
-    throw InputError(error.defect(), input_name(options.in) + ": " + error.what());
-  }
-}
-
 }  // namespace
 
 void add_point_options(CLI::App& command, PointOptions& options, const OutputKind& answers) {
@@ -65,7 +55,8 @@ int run_points(const PointOptions& options, const OutputKind& answers, const Ask
   seconds.index = indexing.seconds();
   stop_if_interrupted();
   const Stopwatch asking;
-  const PointAnswers found = answers_of(options, index, points, ask);
+  const PointAnswers found = naming(options.in, BatchOptions{.threads = options.threads},
+                                    [&](const auto& how) { return ask(index, points, how); });
   seconds.query = asking.seconds();
   const Stopwatch writing;
   Outputs outputs;
@@ -85,7 +76,7 @@ int run_points(const PointOptions& options, const OutputKind& answers, const Ask
   asked.say_what();
   options.random.say_what("points");
   say("{}{}\n", options.out.empty() ? "" : output_name(options.out) + ": ", found.summary);
-  say("  engine {}, {}: {} points per second\n", index.engine_name(), counted(threads, "thread", "threads"),
+  say("  engine {}, {}: {} points per second\n", index.engine_name(), counted(threads, "thread"),
       grouped(static_cast<std::size_t>(per_second)));
   seconds.say_them();
   return kDone;

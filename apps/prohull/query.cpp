@@ -104,7 +104,7 @@ QueryIndex make_index(AskedMesh& asked, const QueryOptions& options, std::option
 
 void say_conservative(HullSide side, const QueryIndex& index) {
   say("  asked of the {} hull alone, {}: of rays, and of segments with an end outside, {}\n",
-      name_of(hull_side_names(), side), counted(index.face_count(), "face", "faces"),
+      name_of(hull_side_names(), side), counted(index.face_count(), "face"),
       side == HullSide::Outer ? "none that hits the mesh is missed, but some may only come near it"
                               : "all that are hits hit the mesh too, but others may be missed");
 }

@@ -28,17 +28,6 @@ struct RepairOutcome {
   bool is_wrap() const { return solid.source == Source::Wrap; }
 };
 
-ClosedSolid solid_of(TriangleMesh mesh, const RepairRunOptions& options) {
-  ProgressLine line;
-  ClosedSolidOptions how = options.solid;
-  how.progress = std::ref(line);
-  try {
-    return closed_solid(std::move(mesh), how);
-  } catch (const InputError& error) {
-    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
-  }
-}
-
 /// Parts that overlap count once, where the verdict has measured them.
 double volume_of(const ClosedSolid& solid) {
   return std::isnan(solid.verdict.hull_volume) ? signed_volume(solid.mesh) : solid.verdict.hull_volume;
@@ -46,15 +35,15 @@ double volume_of(const ClosedSolid& solid) {
 
 void print_summary(const RepairRunOptions& options, const RepairOutcome& outcome) {
   const ClosedSolid& solid = outcome.solid;
-  say("{}: {}, {}\n", input_name(options.in), counted(solid.input.found.faces, "face", "faces"),
-      counted(solid.input.found.components, "component", "components"));
+  say("{}: {}, {}\n", input_name(options.in), counted(solid.input.found.faces, "face"),
+      counted(solid.input.found.components, "component"));
   for (const std::string& repair : describe(solid.input.repairs)) say("  {}\n", repair);
   if (!solid.input.closed) say("  bounds no solid: {}\n", solid.input.obstacle);
   if (outcome.is_wrap() && solid.input.closed)
     say("  the repaired mesh{} does not cover all triangles\n",
         options.solid.float32_coordinates ? ", with float32 coordinates (.ply, .obj and .off keep doubles)," : "");
   say("{}: {} of {}, volume {:.9g}\n", output_name(options.out), outcome.is_wrap() ? "wrap" : "solid",
-      counted(solid.mesh.face_count(), "face", "faces"), volume_of(solid));
+      counted(solid.mesh.face_count(), "face"), volume_of(solid));
   if (solid.folds.faces > 0)
     say("  {}: the faces around them were replaced by others, which cover them\n", describe(solid.folds));
   if (outcome.is_wrap())
@@ -101,7 +90,8 @@ int run_repair(RepairRunOptions options) {
   outcome.read_seconds = reading.seconds();
   options.solid.spacing = MeshUnit(mesh, options.in, options.input).number_of(options.spacing, "--spacing");
   const Stopwatch repairing;
-  outcome.solid = solid_of(std::move(mesh), options);
+  outcome.solid = naming(options.in, options.solid,
+                         [&](const ClosedSolidOptions& how) { return closed_solid(std::move(mesh), how); });
   outcome.seconds = repairing.seconds();
   const ClosedSolid& solid = outcome.solid;
   Outputs outputs;

@@ -49,8 +49,8 @@ std::string ratio(double a, double b) { return b > 0 ? fmt::format("{:.2f}", a /
 
 /// "500" faces of a hull, "8 pieces" or "64 spheres"
 std::string size_of(const LinkHull& hull) {
-  if (!hull.pieces.empty()) return counted(hull.pieces.size(), "piece", "pieces");
-  if (!hull.balls.empty()) return counted(hull.balls.size(), "sphere", "spheres");
+  if (!hull.pieces.empty()) return counted(hull.pieces.size(), "piece");
+  if (!hull.balls.empty()) return counted(hull.balls.size(), "sphere");
   return grouped(hull.mesh.face_count());
 }
 
@@ -95,7 +95,7 @@ std::string shipped_text(const ReportInput& facts) {
     if (!worst || check.sticks_out_at_least > worst->sticks_out_at_least) worst = &check;
   }
   if (covered + leaks + bare == 0) return "";
-  std::string text = fmt::format("  shipped collision geometry: {} covered", counted(covered, "link", "links"));
+  std::string text = fmt::format("  shipped collision geometry: {} covered", counted(covered, "link"));
   if (bare > 0) text += fmt::format(", {} without any", bare);
   if (worst)
     text += fmt::format(", {} leaking; the worst is {}, by {}", leaks, facts.file.robot.links[worst->link].name,
@@ -111,14 +111,14 @@ std::string motion_text(const MotionResult& motion, std::string_view covers, boo
   const PairVerdicts verdicts = verdicts_of(motion);
   std::string srdf;
   if (verdicts.all() > 0)
-    srdf += fmt::format("  {} that no joint connects: {} proven never to meet, {} always, {} meet somewhere, {} open\n",
-                        counted(verdicts.all(), "pair", "pairs"), verdicts.never, verdicts.always, verdicts.meets,
-                        verdicts.open);
-  srdf += fmt::format("  SRDF: {}", counted(adjacent, "adjacent pair", "adjacent pairs"));
+    srdf +=
+        fmt::format("  {} that no joint connects: {} proven never to meet, {} always, {} meet somewhere, {} open\n",
+                    counted(verdicts.all(), "pair"), verdicts.never, verdicts.always, verdicts.meets, verdicts.open);
+  srdf += fmt::format("  SRDF: {}", counted(adjacent, "adjacent pair"));
   if (const std::size_t proven = verdicts.never + verdicts.always; proven > 0)
-    srdf += fmt::format(", {}", counted(proven, "proven pair", "proven pairs"));
+    srdf += fmt::format(", {}", counted(proven, "proven pair"));
   if (sampled > 0 && sampled_pairs)
-    srdf += fmt::format(", and {}, which is no proof", counted(sampled, "sampled pair", "sampled pairs"));
+    srdf += fmt::format(", and {}, which is no proof", counted(sampled, "sampled pair"));
   else if (sampled > 0)
     srdf += fmt::format("; {} left out, which --sampled-pairs adds",
                         counted(sampled, "sampled pair is", "sampled pairs are"));
@@ -159,10 +159,10 @@ std::string cover_of(const Budget& budget) {
     case Collision::Hull:
       break;
     case Collision::Convex:
-      return fmt::format("up to {} of up to {} vertices", counted(budget.pieces, "convex piece", "convex pieces"),
+      return fmt::format("up to {} of up to {} vertices", counted(budget.pieces, "convex piece"),
                          grouped(budget.vertices));
     case Collision::Spheres:
-      return fmt::format("up to {}", counted(budget.spheres, "sphere", "spheres"));
+      return fmt::format("up to {}", counted(budget.spheres, "sphere"));
   }
   return fmt::format("a hull of {} faces", fmt::join(budget.faces, " and "));
 }
@@ -210,11 +210,6 @@ std::string verdict_text(const LinkCheck& check, double allow) {
   return "";
 }
 
-bool has_measures(const LinkCheck& check) {
-  return check.verdict == CheckVerdict::Covered || check.verdict == CheckVerdict::Leaks ||
-         check.verdict == CheckVerdict::Undecided;
-}
-
 void say_notes(const RobotFile& file, const LinkCheck& check) {
   const std::string& name = file.robot.links[check.link].name;
   if (check.sticks_out_at_least > 0)
@@ -229,8 +224,8 @@ bool is_certified(const LinkHulls& link) { return std::ranges::all_of(link.hulls
 
 void say_robot(const RobotFile& file) {
   const Robot& robot = file.robot;
-  say("{}: {}, {}, {}\n", file.path.string(), robot.name, counted(robot.links.size(), "link", "links"),
-      counted(robot.joints.size(), "joint", "joints"));
+  say("{}: {}, {}, {}\n", file.path.string(), robot.name, counted(robot.links.size(), "link"),
+      counted(robot.joints.size(), "joint"));
   for (const std::string& note : file.notes) say("  {}\n", note);
 }
 
@@ -250,7 +245,7 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
   table.add({"link", "leaks by", "/ part", "/ convex", "reach", "verdict"});
   for (const LinkCheck& check : checks) {
     const std::string& name = file.robot.links[check.link].name;
-    if (has_measures(check))
+    if (robot::was_measured(check))
       table.add({name, check.verdict == CheckVerdict::Covered ? "0" : at_least(check.sticks_out_at_least),
                  ratio(check.collision_volume, check.visual_volume), ratio(check.collision_volume, check.convex_volume),
                  at_most(check.fat.upper), verdict_text(check, allow)});
@@ -276,24 +271,23 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
 }
 
 void say_disabled(const Robot& robot, const std::string& file, std::span<const DisabledCheck> checks) {
-  const auto count = [&](DisabledVerdict verdict) {
+  const auto count = [&](PairVerdict verdict) {
     return std::ranges::count_if(checks, [&](const DisabledCheck& c) { return c.collision.verdict == verdict; });
   };
   for (const DisabledCheck& check : checks) {
-    const auto is = [&](DisabledVerdict verdict) {
+    const auto is = [&](PairVerdict verdict) {
       return check.collision.verdict == verdict || check.visual.verdict == verdict;
     };
-    if (!is(DisabledVerdict::Meets) && !is(DisabledVerdict::Open) && !is(DisabledVerdict::Unknown)) continue;
+    if (!is(PairVerdict::Meets) && !is(PairVerdict::Open) && !is(PairVerdict::Unknown)) continue;
     say("  line {}, {} and {}{}: {}{}\n", check.row.line, check.row.link1, check.row.link2,
         check.row.reason.empty() ? "" : fmt::format(", \"{}\"", check.row.reason),
         check.is_refuted() ? "REFUTED: " : "", verdict_text(check, robot));
   }
   const auto refuted = std::ranges::count_if(checks, &DisabledCheck::is_refuted);
   say("{}: {}: {} adjacent, {} never meet, {} always, {} meet, {} open; {}\n", file,
-      counted(checks.size(), "disabled pair", "disabled pairs"), count(DisabledVerdict::Adjacent),
-      count(DisabledVerdict::Never) + count(DisabledVerdict::NoGeometry), count(DisabledVerdict::Always),
-      count(DisabledVerdict::Meets), count(DisabledVerdict::Open),
-      refuted > 0 ? fmt::format("{} REFUTED", refuted) : "none refuted");
+      counted(checks.size(), "disabled pair"), count(PairVerdict::Adjacent),
+      count(PairVerdict::Never) + count(PairVerdict::NoGeometry), count(PairVerdict::Always), count(PairVerdict::Meets),
+      count(PairVerdict::Open), refuted > 0 ? fmt::format("{} REFUTED", refuted) : "none refuted");
 }
 
 std::string robot_summary(const std::filesystem::path& folder, const ReportInput& facts, bool sampled_pairs) {

@@ -40,7 +40,7 @@ int make_mesh(const SampleOptions& options) {
   Outputs outputs;
   outputs.add(options.out, suffix, [&](const auto& file) { return write_mesh(file, mesh), true; });
   outputs.commit();
-  say("{}: {} of {}\n", output_name(options.out), options.name, counted(mesh.face_count(), "face", "faces"));
+  say("{}: {} of {}\n", output_name(options.out), options.name, counted(mesh.face_count(), "face"));
   say_more("  {}, made and written in {:.2f} s\n", counted(mesh.vertex_count(), "vertex", "vertices"), watch.seconds());
   return kDone;
 }
@@ -100,7 +100,7 @@ int make_robot(const SampleOptions& options) {
   std::size_t faces = 0;
   for (const auto& [path, mesh] : robot.meshes) faces += mesh.face_count();
   say("{}: {} with {} of {}\n", (folder / (options.name + ".urdf")).string(), options.name,
-      counted(robot.meshes.size(), "mesh", "meshes"), counted(faces, "face", "faces"));
+      counted(robot.meshes.size(), "mesh", "meshes"), counted(faces, "face"));
   say_more("  made and written in {:.2f} s\n", watch.seconds());
   return kDone;
 }

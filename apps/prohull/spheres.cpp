@@ -81,17 +81,6 @@ std::string check_options(const SpheresOptions& options) {
   return suffix;
 }
 
-SphereCover cover_of(TriangleMesh mesh, const SpheresOptions& options) {
-  ProgressLine line;
-  SphereCoverOptions how = options.cover;
-  how.progress = std::ref(line);
-  try {
-    return sphere_cover(std::move(mesh), how);
-  } catch (const InputError& error) {
-    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
-  }
-}
-
 nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
   const Vec3& far = cover.reach.farthest;
@@ -116,8 +105,8 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
 void print_summary(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
   say("{}: {} around {}, which reach out by at most {:.4g}, {} % of the diagonal{}\n", output_name(options.out),
-      counted(cover.balls.size(), "sphere", "spheres"), counted(outcome.faces, "face", "faces"),
-      rounded_up(cover.reach.upper, 4), with_decimals_up(100 * outcome.part_of_diagonal(), 2),
+      counted(cover.balls.size(), "sphere"), counted(outcome.faces, "face"), rounded_up(cover.reach.upper, 4),
+      with_decimals_up(100 * outcome.part_of_diagonal(), 2),
       cover.is_of_wrap ? fmt::format("; that is from a wrap, and from the triangles alone it is at most {:.4g}",
                                      rounded_up(cover.reach_from_triangles.upper, 4))
                        : text_of_openings(cover.has_openings, cover.reach_from_triangles));
@@ -152,7 +141,8 @@ int run_spheres(SpheresOptions options) {
         MeshUnit(mesh, options.in, options.input).number_of(options.max_distance, "--max-distance");
   CertifiedOriginal original;
   if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
-  outcome.cover = cover_of(std::move(mesh), options);
+  outcome.cover = naming(options.in, options.cover,
+                         [&](const SphereCoverOptions& how) { return sphere_cover(std::move(mesh), how); });
   Outputs outputs;
   if (outcome.cover.certified) outputs.add(options.out, text_of(options, suffix, outcome.cover.balls));
   if (outcome.cover.certified && !options.certificate.empty()) {

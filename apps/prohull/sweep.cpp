@@ -94,11 +94,7 @@ LinkSweep sweep_of_mesh(const SweepRunOptions& options, SweepOptions how, double
   read_seconds = reading.seconds();
   if (options.max_distance.number > 0)
     how.max_distance = MeshUnit(mesh, options.in, options.input).number_of(options.max_distance, "--max-distance");
-  try {
-    return {"", sweep(std::move(mesh), motions, how)};
-  } catch (const InputError& error) {
-    throw InputError(error.defect(), fmt::format("{}: {}", input_name(options.in), error.what()));
-  }
+  return naming(options.in, [&] { return LinkSweep{"", sweep(std::move(mesh), motions, how)}; });
 }
 
 std::vector<std::size_t> links_of(const Robot& robot, const std::string& names) {
@@ -165,9 +161,7 @@ std::string claim_of(const SweptZone& zone, bool is_robot) {
 
 void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
   const bool is_robot = is_robot_file(options.in);
-  const auto pieces = [](const LinkSweep& link) {
-    return counted(link.sweep.pieces.size(), "convex piece", "convex pieces");
-  };
+  const auto pieces = [](const LinkSweep& link) { return counted(link.sweep.pieces.size(), "convex piece"); };
   for (const LinkSweep& link : zone.sweeps) {
     for (const std::string& note : link.sweep.notes) say("  {}{}\n", link.link.empty() ? "" : link.link + ": ", note);
     if (is_robot)
@@ -175,10 +169,10 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
           rounded_up(1e3 * link.sweep.reach, 4));
   }
   if (zone.hull)
-    say("{}: hull of {}, volume {:.4g}", output_name(options.out),
-        counted(zone.hull->mesh.face_count(), "face", "faces"), signed_volume(zone.hull->mesh));
+    say("{}: hull of {}, volume {:.4g}", output_name(options.out), counted(zone.hull->mesh.face_count(), "face"),
+        signed_volume(zone.hull->mesh));
   else if (is_robot)
-    say("{}: {}", output_name(options.out), counted(zone.pieces().size(), "convex piece", "convex pieces"));
+    say("{}: {}", output_name(options.out), counted(zone.pieces().size(), "convex piece"));
   else
     say("{}: {}, volume about {:.3g}", output_name(options.out), pieces(zone.sweeps[0]), zone.sweeps[0].sweep.volume);
   say(", at most {:.4g} from what {} passes\n", rounded_up(zone.reach(), 4), is_robot ? "the robot" : "the mesh");

@@ -103,7 +103,7 @@ class UnionReader {
     all_.balls.insert(all_.balls.end(), link.balls.begin(), link.balls.end());
     if (link.switched_off > 0)
       all_.notes.push_back(fmt::format("{}: {} of a radius of 0 or less left out: cuRobo switches such spheres off",
-                                       input_name(path), counted(link.switched_off, "sphere", "spheres")));
+                                       input_name(path), counted(link.switched_off, "sphere")));
   }
 
   const InputOptions& input_;
@@ -115,7 +115,7 @@ class UnionReader {
 }  // namespace
 
 std::string Union::description() const {
-  return balls.empty() ? counted(pieces.size(), "piece", "pieces") : counted(balls.size(), "sphere", "spheres");
+  return balls.empty() ? counted(pieces.size(), "piece") : counted(balls.size(), "sphere");
 }
 
 Union read_union(const std::vector<path>& files, const InputOptions& input, const std::string& link) {

@@ -88,7 +88,7 @@ int run_write_budgets(const UrdfOptions& options, const RobotFile& file) {
   outputs.add(options.write_budgets, budgets_text(file.robot, options.hulls));
   outputs.commit();
   say("{}: budgets of {}; change them, and give the file to --budgets\n", output_name(options.write_budgets),
-      counted(file.robot.links.size(), "link", "links"));
+      counted(file.robot.links.size(), "link"));
   return kDone;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 void print_offenders(const Verification& found, const std::string& mesh) {
   if (found.faces_outside > 0)
-    say("  {} of {} {} outside, at least in part; the farthest:\n", counted(found.faces_outside, "face", "faces"), mesh,
+    say("  {} of {} {} outside, at least in part; the farthest:\n", counted(found.faces_outside, "face"), mesh,
         found.faces_outside == 1 ? "lies" : "lie");
   for (const Offender& o : found.worst)
     say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
@@ -23,7 +23,7 @@ void print_offenders(const Verification& found, const std::string& mesh) {
 
 void print_near_faces(const Verification& found, const std::string& hull) {
   if (found.faces_too_near > 0)
-    say("  {} of {} {} too near; the nearest:\n", counted(found.faces_too_near, "face", "faces"), hull,
+    say("  {} of {} {} too near; the nearest:\n", counted(found.faces_too_near, "face"), hull,
         found.faces_too_near == 1 ? "is" : "are");
   for (const NearFace& near : found.nearest)
     say("    face {} at {}, {:.6g} from face {} of the mesh\n", index(near.face), text_of_point(near.point),
@@ -81,7 +81,7 @@ void print_summary(const VerifyOptions& options, const Verification& found, cons
   print_offenders(found, found.side == HullSide::Outer ? original : hull);
   print_near_faces(found, hull);
   if (found.cavities > 0 && found.faces_outside == 0)
-    say("  {} of {} {}, and that is not covered\n", counted(found.cavities, "part", "parts"),
+    say("  {} of {} {}, and that is not covered\n", counted(found.cavities, "part"),
         found.side == HullSide::Outer ? hull : original,
         found.cavities == 1 ? "leaves a hole in its solid" : "leave holes in its solid");
   for (const std::string& note : found.notes) say("  {}\n", note);
@@ -169,8 +169,8 @@ int run_verify(const VerifyOptions& options) {
   outputs.add_report(options.report, report);
   outputs.commit();
   print_summary(options, found, sizes, gap, seconds);
-  say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(face_count(hull), "face", "faces"),
-           counted(original.face_count(), "face", "faces"), found.proof, read_seconds);
+  say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(face_count(hull), "face"),
+           counted(original.face_count(), "face"), found.proof, read_seconds);
   return found.holds() && (options.any_scale || !sizes.is_doubtful()) ? kDone : kAnswerIsNo;
 }
 

@@ -85,12 +85,12 @@ std::string verdict(const Union& all, const VerifyOptions& options, const UnionV
 
 void print_offenders(const UnionVerification& found, const std::string& original) {
   if (found.faces_outside > 0)
-    say("  {} of {} {} outside, at least in part; the farthest:\n", counted(found.faces_outside, "face", "faces"),
-        original, found.faces_outside == 1 ? "lies" : "lie");
+    say("  {} of {} {} outside, at least in part; the farthest:\n", counted(found.faces_outside, "face"), original,
+        found.faces_outside == 1 ? "lies" : "lie");
   for (const Offender& o : found.worst)
     say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
   if (found.faces_undecided > 0)
-    say("  {} of {} {} undecided:\n", counted(found.faces_undecided, "face", "faces"), original,
+    say("  {} of {} {} undecided:\n", counted(found.faces_undecided, "face"), original,
         found.faces_undecided == 1 ? "is" : "are");
   for (const Offender& o : found.undecided) say("    face {} at {}, in doubt\n", index(o.face), text_of_point(o.point));
   if (found.inside_undecided) say("  the inside is undecided\n");

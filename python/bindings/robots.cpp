@@ -232,16 +232,16 @@ py::tuple check_of(const SharedFile& file, double allow, unsigned threads, const
   return py::make_tuple(checks, facts);
 }
 
-py::tuple facts_of(const Robot& robot, std::string_view verdict, const PairProof& proof) {
+py::tuple facts_of(const Robot& robot, const PairProof& proof) {
   py::dict positions;
   for (std::size_t j = 0; j < proof.positions.size(); ++j)
     if (robot.joints[j].type != JointType::Fixed) positions[py::str(robot.joints[j].name)] = proof.positions[j];
-  return py::make_tuple(std::string(verdict), proof.why, proof.proven_free, proof.cells, positions);
+  return py::make_tuple(std::string(name_of(proof.verdict)), proof.why, proof.proven_free, proof.cells, positions);
 }
 
 py::object facts_of(const Robot& robot, const MotionPair& pair) {
   if (!pair.proof) return py::none();
-  return facts_of(robot, name_of(pair.proof->verdict), *pair.proof) + py::make_tuple(pair.visual_meets_at_witness);
+  return facts_of(robot, *pair.proof) + py::make_tuple(pair.visual_meets_at_witness);
 }
 
 /// (link1, link2, reason, line, whether it is refuted, what is proven of the collision geometry, of the visual one).
@@ -251,13 +251,10 @@ py::list disabled_pairs_of(const RobotFile& file, const std::string& srdf, const
     return check_disabled_pairs(file.robot, disabled_rows(file.robot, srdf, name),
                                 {.cells = cells, .threads = threads, .progress = watch.progress()});
   });
-  const auto finding = [&](const DisabledFinding& found) {
-    return facts_of(file.robot, name_of(found.verdict), found.proof);
-  };
   py::list rows;
   for (const DisabledCheck& check : checks)
     rows.append(py::make_tuple(check.row.link1, check.row.link2, check.row.reason, check.row.line, check.is_refuted(),
-                               finding(check.collision), finding(check.visual)));
+                               facts_of(file.robot, check.collision), facts_of(file.robot, check.visual)));
   return rows;
 }
 

@@ -9,7 +9,6 @@
 
 #include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
-#include "prohull/detail/names.h"
 #include "prohull/detail/openings.h"
 #include "prohull/detail/solid_pieces.h"
 #include "prohull/enclosing_hull.h"
@@ -22,14 +21,6 @@
 
 namespace prohull::robot {
 namespace {
-
-constexpr std::array<std::pair<std::string_view, CheckVerdict>, 6> kVerdictNames{
-    {{"covered", CheckVerdict::Covered},
-     {"leaks", CheckVerdict::Leaks},
-     {"undecided", CheckVerdict::Undecided},
-     {"no-collision", CheckVerdict::NoCollision},
-     {"no-visual", CheckVerdict::NoVisual},
-     {"missing", CheckVerdict::Missing}}};
 
 /// Where triangles cannot be closed, estimated by a wrap of them and of caps on all openings.
 InsideVolume enclosed_volume(const TriangleMesh& triangles, const Progress& progress) {
@@ -310,7 +301,10 @@ class LinkChecker {
 
 }  // namespace
 
-std::string_view name_of(CheckVerdict verdict) { return prohull::name_of(Names<CheckVerdict>(kVerdictNames), verdict); }
+std::string_view name_of(CheckVerdict verdict) {
+  constexpr std::string_view kNames[]{"covered", "leaks", "undecided", "no-collision", "no-visual", "missing"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
 
 std::vector<LinkCheck> check_links(const Robot& robot, const CheckOptions& options) {
   std::vector<LinkCheck> checks(robot.links.size());

@@ -12,27 +12,10 @@
 
 namespace prohull::robot {
 
-/// What is known of a disabled pair, by one of the geometries of the two links.
-enum class DisabledVerdict {
-  Unknown,     ///< the robot has no link of one of the names
-  Adjacent,    ///< a joint connects them, or fixed joints do
-  NoGeometry,  ///< one of them has none, so that they never meet
-  Never,       ///< as PairVerdict
-  Always,
-  Meets,
-  Open,
-};
-std::string_view name_of(DisabledVerdict verdict);  ///< "unknown", "adjacent", "no-geometry", "never", ...
-
-struct DisabledFinding {
-  DisabledVerdict verdict = DisabledVerdict::Unknown;
-  PairProof proof = {};  ///< of Never, Always, Meets and Open
-};
-
 /// A row of an SRDF file, decided by the collision geometry that the robot ships with, and by its visual geometry.
 struct DisabledCheck {
   DisabledRow row;
-  DisabledFinding collision, visual;
+  PairProof collision = {}, visual = {};
 
   /// Whether the row disables a pair that meets somewhere, by one of the geometries, and its reason does not say so.
   /// The reasons "Adjacent", "Always", "Default" and "User" allow for it, as MoveIt's assistant writes them.

@@ -220,10 +220,10 @@ class MjcfReader {
     }
     Joint& follower = listed_[joint_named(element, "joint1")].joint;
     const bool is_straight = a[2] == 0 && a[3] == 0 && a[4] == 0;
-    if (!has_position(follower) || follower.mimic) return skip(element);
+    if (!moves(follower) || follower.mimic) return skip(element);
     if (!element.attribute("joint2")) return lock(follower, a[0]);
     const std::size_t followed = joint_named(element, "joint2");
-    if (!is_straight || !has_position(listed_[followed].joint)) return skip(element);
+    if (!is_straight || !moves(listed_[followed].joint)) return skip(element);
     follower.mimic = Mimic{followed, a[1], a[0]};
   }
 
@@ -235,11 +235,6 @@ class MjcfReader {
   void skip(const XmlElement& element) {
     note(fmt::format("{}: how joint '{}' follows others is not read", document_.short_place_of(element),
                      *element.attribute("joint1")));
-  }
-
-  static bool has_position(const Joint& joint) {
-    return joint.type == JointType::Revolute || joint.type == JointType::Continuous ||
-           joint.type == JointType::Prismatic;
   }
 
   std::size_t joint_named(const XmlElement& element, std::string_view attribute) const {

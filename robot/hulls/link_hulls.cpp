@@ -268,19 +268,8 @@ const Budget& LinkHullOptions::budget_of(const std::string& link) const {
 }
 
 std::string_view name_of(LinkStatus status) {
-  switch (status) {
-    case LinkStatus::Hulled:
-      return "hulled";
-    case LinkStatus::Primitives:
-      return "primitives";
-    case LinkStatus::Skipped:
-      return "skipped";
-    case LinkStatus::Unread:
-      return "unread";
-    case LinkStatus::Empty:
-      return "empty";
-  }
-  return "";
+  constexpr std::string_view kNames[]{"hulled", "primitives", "skipped", "unread", "empty"};
+  return kNames[static_cast<std::size_t>(status)];
 }
 
 bool is_covered(const Shape& shape, const Budget& budget) {

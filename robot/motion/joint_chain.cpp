@@ -28,9 +28,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSmall = 0x1p-44;  // above what a few operations on doubles lose, relative to the largest number
 
-bool turns(const Joint& joint) { return joint.type == JointType::Revolute || joint.type == JointType::Continuous; }
-bool slides(const Joint& joint) { return joint.type == JointType::Prismatic; }
-
 Vec3 turned(const Pose& pose, const Vec3& v) { return placed({pose.rotation, {}}, v); }
 
 /// The joints above a link, the closest first.

@@ -93,10 +93,6 @@ std::string names_of(const Robot& robot) {
 
 }  // namespace
 
-bool moves(const Joint& joint) {
-  return joint.type == JointType::Revolute || joint.type == JointType::Continuous || joint.type == JointType::Prismatic;
-}
-
 double middle_place(double begin, double end) {
   const double row = std::floor(std::midpoint(begin, end));
   return begin < row && row < end ? row : std::midpoint(begin, end);

@@ -102,9 +102,6 @@ struct BeyondLimits {
 /// Joints that mimic others are not looked at, unless the path names them.
 std::optional<BeyondLimits> first_beyond_limits(const Robot& robot, const JointPath& path);
 
-/// Whether a path can say where the joint is: it turns or slides.
-bool moves(const Joint& joint);
-
 /// The robot in which no joint has a motion that the path does not say: joints that the path names do not mimic others,
 /// and ball, planar and floating joints are fixed, at rest.
 Robot moved_by(const Robot& robot, const JointPath& path);

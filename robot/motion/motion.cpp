@@ -219,10 +219,9 @@ PairKind kind_of(PairVerdict verdict, PairKind sampled) {
       return PairKind::ProvenAlways;
     case PairVerdict::Meets:
       return sampled == PairKind::Never ? PairKind::Sometimes : sampled;
-    case PairVerdict::Open:
-      break;
+    default:
+      return sampled;
   }
-  return sampled;
 }
 
 bool visual_meets(const Robot& robot, const Bodies& bodies, const PairProof& proof) {
@@ -241,21 +240,8 @@ std::size_t sum(const std::vector<MotionPair>& pairs, std::size_t MotionPair::*c
 }  // namespace
 
 std::string_view name_of(PairKind kind) {
-  switch (kind) {
-    case PairKind::Adjacent:
-      return "adjacent";
-    case PairKind::Always:
-      return "sampled-always";
-    case PairKind::Never:
-      return "sampled-never";
-    case PairKind::ProvenAlways:
-      return "always";
-    case PairKind::ProvenNever:
-      return "never";
-    case PairKind::Sometimes:
-      break;
-  }
-  return "sometimes";
+  constexpr std::string_view kNames[]{"adjacent", "sampled-always", "sampled-never", "always", "never", "sometimes"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 bool is_sampled(PairKind kind) { return kind == PairKind::Always || kind == PairKind::Never; }

@@ -106,17 +106,8 @@ class PairSearch {
 }  // namespace
 
 std::string_view name_of(PairVerdict verdict) {
-  switch (verdict) {
-    case PairVerdict::Never:
-      return "never";
-    case PairVerdict::Always:
-      return "always";
-    case PairVerdict::Meets:
-      return "meets";
-    case PairVerdict::Open:
-      break;
-  }
-  return "open";
+  constexpr std::string_view kNames[]{"never", "always", "meets", "open", "unknown", "adjacent", "no-geometry"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const TriangleMesh> links,

@@ -23,8 +23,13 @@ enum class PairVerdict {
   Always,  ///< no joint moves them against each other, and they meet
   Meets,   ///< they meet at PairProof::positions, exactly for the rounded vertices there
   Open,    ///< neither was found; PairProof::why says why
+  // Of rows of SRDF files only, without a proof:
+  Unknown,     ///< the robot has no link of one of the names
+  Adjacent,    ///< a joint connects them, or fixed joints do
+  NoGeometry,  ///< one of them has none, so that they never meet
 };
-std::string_view name_of(PairVerdict verdict);  ///< "never", "always", "meets", "open"
+/// "never", "always", "meets", "open", "unknown", "adjacent", "no-geometry"
+std::string_view name_of(PairVerdict verdict);
 
 struct PairProof {
   std::size_t a = 0, b = 0;  ///< links, as asked for

@@ -224,15 +224,8 @@ std::vector<DistanceBound> least_of(const std::vector<PathPairProof>& pairs, dou
 }  // namespace
 
 std::string_view name_of(PathVerdict verdict) {
-  switch (verdict) {
-    case PathVerdict::Free:
-      return "free";
-    case PathVerdict::Meets:
-      return "meets";
-    case PathVerdict::Open:
-      break;
-  }
-  return "open";
+  constexpr std::string_view kNames[]{"free", "meets", "open"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 PathVerdict PathProof::verdict() const {

@@ -11,22 +11,15 @@ namespace prohull::robot {
 namespace {
 
 /// The reason is free text to MoveIt, which knows "Adjacent", "Always" and "Never" among others.
-std::string reason_of(PairKind kind) {
-  switch (kind) {
-    case PairKind::Adjacent:
-      return R"(reason="Adjacent"/>)";
-    case PairKind::Always:
-      return R"(reason="sampled"/>  <!-- in collision in 95 % or more of them -->)";
-    case PairKind::Never:
-      return R"(reason="sampled"/>  <!-- in collision in none of them -->)";
-    case PairKind::ProvenAlways:
-      return R"(reason="Always"/>  <!-- proven: their hulls meet wherever the joints are -->)";
-    case PairKind::ProvenNever:
-      return R"(reason="Never"/>  <!-- proven: their hulls meet nowhere within the limits of the joints -->)";
-    case PairKind::Sometimes:
-      break;
-  }
-  return "";
+std::string_view reason_of(PairKind kind) {
+  constexpr std::string_view kReasons[]{
+      R"(reason="Adjacent"/>)",
+      R"(reason="sampled"/>  <!-- in collision in 95 % or more of them -->)",
+      R"(reason="sampled"/>  <!-- in collision in none of them -->)",
+      R"(reason="Always"/>  <!-- proven: their hulls meet wherever the joints are -->)",
+      R"(reason="Never"/>  <!-- proven: their hulls meet nowhere within the limits of the joints -->)",
+      ""};
+  return kReasons[static_cast<std::size_t>(kind)];
 }
 
 std::optional<std::size_t> link_called(const Robot& robot, const std::string& name) {

@@ -132,12 +132,6 @@ Json proof_of(const MotionPair& pair, const Robot& robot) {
   return facts;
 }
 
-Json facts_of(const DisabledFinding& finding, const Robot& robot) {
-  Json facts = facts_of(finding.proof, robot);
-  facts["verdict"] = name_of(finding.verdict);
-  return facts;
-}
-
 Json facts_of(const DisabledCheck& check, const Robot& robot) {
   return {{"links", {clean_text(check.row.link1), clean_text(check.row.link2)}},
           {"reason", clean_text(check.row.reason)},
@@ -260,11 +254,11 @@ std::string outcome_of(const LinkHulls& hulls) {
 }
 
 std::string outcome_of(const DisabledCheck& check, const Robot& robot) {
-  const auto is = [&](DisabledVerdict verdict) {
+  const auto is = [&](PairVerdict verdict) {
     return check.collision.verdict == verdict || check.visual.verdict == verdict;
   };
   if (check.is_refuted()) return element("failure", "meets", verdict_text(check, robot));
-  const bool is_skipped = is(DisabledVerdict::Open) || is(DisabledVerdict::Unknown);
+  const bool is_skipped = is(PairVerdict::Open) || is(PairVerdict::Unknown);
   return is_skipped ? element("skipped", "", verdict_text(check, robot)) : "";
 }
 

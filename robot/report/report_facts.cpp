@@ -14,24 +14,6 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// How many bytes the character at the front has; 0 if there is none that may be shown.
-std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const unsigned first = byte(0);
-  if (first < 0x80) return (first >= 0x20 && first != 0x7f) || std::string_view("\t\n\r").find(text[0]) != text.npos;
-  if (first < 0xc0 || first >= 0xf8) return 0;
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  std::uint32_t code = first & (0x7fu >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0u) != 0x80) return 0;
-    code = code << 6 | (byte(i) & 0x3fu);
-  }
-  constexpr std::array<std::uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xd800 && code < 0xe000, control = code < 0xa0;
-  const bool no_character = (code & 0xfffe) == 0xfffe || code > 0x10ffff;
-  return code < kLeast[length] || surrogate || control || no_character ? 0 : length;
-}
-
 double rounded_to(double value, int decimals, Rounded rounded) {
   const double scale = std::pow(10., decimals), scaled = value * scale, nearest = std::round(scaled);
   constexpr double kRounding = 1e-9;  // of the product, which is not shown
@@ -70,7 +52,7 @@ void mark_hull(std::size_t link, const LinkHulls& link_hulls, const LinkHull& hu
   };
   if (!hull.certified) add(Severity::Failure, "is not certified: it may not enclose the link.");
   if (!hull.target_reached)
-    add(Severity::Look, fmt::format("has more faces than the {} asked for.", count_text(hull.target_faces)));
+    add(Severity::Look, fmt::format("has more faces than the {} asked for.", grouped(hull.target_faces)));
   if (!hull.within_bounds) add(Severity::Look, "does not keep the bound of the distance.");
   if (const auto fat = ratio(hull.volume, link_hulls.sealed_volume); is_hull(hull) && fat && *fat > kFat)
     add(Severity::Look, fmt::format("has {} the volume of the original.", ratio_text(fat)));
@@ -125,10 +107,10 @@ Finding finding_of_motion(const MotionResult& motion, std::string_view covers) {
   if (motion.missed() > 0)
     return {false, fmt::format("In {}, {} of the visual geometry {} missed: failed certificates.", moved,
                                counted(motion.missed(), "collision"), motion.missed() == 1 ? "is" : "are")};
-  return {true, fmt::format(
-                    "In {}, no collision of the visual geometry is missed. With the {} there are {}, with convex "
-                    "hulls {}.",
-                    moved, covers, counted(motion.false_hull(), "false collision"), count_text(motion.false_convex()))};
+  return {true,
+          fmt::format("In {}, no collision of the visual geometry is missed. With the {} there are {}, with convex "
+                      "hulls {}.",
+                      moved, covers, counted(motion.false_hull(), "false collision"), grouped(motion.false_convex()))};
 }
 
 void count_hulls(const LinkHulls& hulls, Totals& totals) {
@@ -203,16 +185,6 @@ std::string range_text(double at_least, double at_most) {
   return least == most ? fmt::format("{} {}", most, unit.name) : fmt::format("{} to {} {}", least, most, unit.name);
 }
 
-std::string count_text(std::size_t count) {
-  if (count < 1000) return fmt::format("{}", count);
-  return fmt::format("{},{:03}", count_text(count / 1000), count % 1000);
-}
-
-std::string counted(std::size_t count, std::string_view one, std::string_view many) {
-  if (count == 1) return fmt::format("1 {}", one);
-  return many.empty() ? fmt::format("{} {}s", count_text(count), one) : fmt::format("{} {}", count_text(count), many);
-}
-
 std::string size_text(const LinkHull& hull) {
   if (!hull.pieces.empty()) return counted(hull.pieces.size(), "convex piece");
   if (!hull.balls.empty()) return counted(hull.balls.size(), "sphere");
@@ -269,35 +241,35 @@ std::string verdict_text(const LinkCheck& check) {
   return {};
 }
 
-std::string finding_text(const DisabledFinding& finding, const Robot& robot) {
+std::string finding_text(const PairProof& finding, const Robot& robot) {
   switch (finding.verdict) {
-    case DisabledVerdict::Unknown:
+    case PairVerdict::Unknown:
       return "names no two links of the robot";
-    case DisabledVerdict::Adjacent:
+    case PairVerdict::Adjacent:
       return "is adjacent";
-    case DisabledVerdict::NoGeometry:
+    case PairVerdict::NoGeometry:
       return "has no geometry";
-    case DisabledVerdict::Never:
+    case PairVerdict::Never:
       return "never meets, proven";
-    case DisabledVerdict::Always:
+    case PairVerdict::Always:
       return "always meets, proven";
-    case DisabledVerdict::Open:
+    case PairVerdict::Open:
       return fmt::format("is open, {:.3g} % of the positions are proven free: {}",
-                         rounded_down(100 * finding.proof.proven_free, 3), clean_text(finding.proof.why));
-    case DisabledVerdict::Meets:
+                         rounded_down(100 * finding.proven_free, 3), clean_text(finding.why));
+    case PairVerdict::Meets:
       break;
   }
   std::string positions;
   for (std::size_t j = 0; j < robot.joints.size(); ++j)
     if (robot.joints[j].type != JointType::Fixed)
       positions += fmt::format("{}{} {:.6g}", positions.empty() ? "" : ", ", clean_text(robot.joints[j].name),
-                               finding.proof.positions[j]);
+                               finding.positions[j]);
   return "meets at " + positions;
 }
 
 std::string verdict_text(const DisabledCheck& check, const Robot& robot) {
   const std::string collision = finding_text(check.collision, robot);
-  if (check.collision.verdict == DisabledVerdict::Unknown || check.collision.verdict == DisabledVerdict::Adjacent)
+  if (check.collision.verdict == PairVerdict::Unknown || check.collision.verdict == PairVerdict::Adjacent)
     return collision;
   return fmt::format("the collision geometry {}; the visual geometry {}", collision, finding_text(check.visual, robot));
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "prohull/detail/text.h"
 #include "robot/report/report.h"
 
 namespace prohull::robot {
@@ -24,9 +25,6 @@ std::string length_text(double metres, Rounded rounded = Rounded::Nearest);
 /// "0.81 mm", or "0.81 to 0.83 mm" where the bounds differ.
 std::string range_text(double at_least, double at_most);
 
-std::string count_text(std::size_t count);  ///< "12,345"
-/// "1 link", "12,345 links"; `many` if the plural is not made by an s.
-std::string counted(std::size_t count, std::string_view one, std::string_view many = {});
 std::string size_text(const LinkHull& hull);               ///< "500 faces", "8 convex pieces", "64 spheres"
 std::string ratio_text(std::optional<double> ratio);       ///< "1.06 ×", or "–"
 std::optional<double> ratio(double value, double of);      ///< none unless both are positive and finite
@@ -47,7 +45,7 @@ bool was_measured(const LinkCheck& check);
 std::string verdict_text(const LinkCheck& check);
 
 /// What is known of a disabled pair by one geometry: "never meets, proven", "meets at joint2 2.54, joint3 0.83".
-std::string finding_text(const DisabledFinding& finding, const Robot& robot);
+std::string finding_text(const PairProof& finding, const Robot& robot);
 /// By both geometries.
 std::string verdict_text(const DisabledCheck& check, const Robot& robot);
 

@@ -222,22 +222,20 @@ std::string tile(const std::string& number, const std::string& words) {
 
 std::string false_collisions_tile(const MotionResult& motion) {
   const std::size_t ours = motion.false_hull(), convex = motion.false_convex();
-  if (convex == 0) return tile(count_text(ours), "false collisions; the convex hulls have none");
+  if (convex == 0) return tile(grouped(ours), "false collisions; the convex hulls have none");
   const double change = 100 * (static_cast<double>(ours) / static_cast<double>(convex) - 1);
-  return tile(
-      fmt::format("{}{:.0f} %", change < 0 ? "−" : "+", std::abs(change)),
-      fmt::format("false collisions: {}, where the convex hulls have {}", count_text(ours), count_text(convex)));
+  return tile(fmt::format("{}{:.0f} %", change < 0 ? "−" : "+", std::abs(change)),
+              fmt::format("false collisions: {}, where the convex hulls have {}", grouped(ours), grouped(convex)));
 }
 
 std::string size_tile(const Totals& totals) {
-  const std::string before = count_text(totals.faces_before);
+  const std::string before = grouped(totals.faces_before);
   if (totals.pieces + totals.balls == 0)
-    return tile(fmt::format("{} → {}", before, count_text(totals.faces_after)),
-                "faces of the geometry, and of its hulls");
+    return tile(fmt::format("{} → {}", before, grouped(totals.faces_after)), "faces of the geometry, and of its hulls");
   if (totals.pieces * totals.balls > 0)
-    return tile(fmt::format("{} → {} + {}", before, count_text(totals.pieces), count_text(totals.balls)),
+    return tile(fmt::format("{} → {} + {}", before, grouped(totals.pieces), grouped(totals.balls)),
                 "faces of the geometry; convex pieces and spheres");
-  return tile(fmt::format("{} → {}", before, count_text(totals.pieces + totals.balls)),
+  return tile(fmt::format("{} → {}", before, grouped(totals.pieces + totals.balls)),
               fmt::format("faces of the geometry, and {} around it", totals.pieces > 0 ? "convex pieces" : "spheres"));
 }
 
@@ -345,8 +343,8 @@ std::vector<Cell> hull_cells(const LinkHulls* hulls) {
   const LinkHull* const hull = hulls ? first_hull(*hulls) : nullptr;
   if (!hull) return {hulls ? words_for(hulls->status) : kDash, "", "", "", "", ""};
   return {is_certified(*hulls) ? Cell("✓ certified", "good") : Cell("✕ not certified", "bad"),
-          count_text(hulls->triangles.face_count()),
-          hulls->collision == Collision::Hull ? count_text(hull->mesh.face_count()) : size_text(*hull),
+          grouped(hulls->triangles.face_count()),
+          hulls->collision == Collision::Hull ? grouped(hull->mesh.face_count()) : size_text(*hull),
           ratio_text(ratio(hull->volume, hulls->sealed_volume)),
           ratio_text(ratio(hull->volume, hulls->convex_volume)),
           length_text(hull->distance.upper, Rounded::Up)};
@@ -398,7 +396,7 @@ class FactsTable {
       for (const LinkHull& hull : hulls_->hulls)
         heads.push_back(hulls_->collision != Collision::Hull ? "Cover"
                         : hulls_->hulls.size() == 1          ? "Hull"
-                                                    : fmt::format("Hull of {}", count_text(hull.target_faces)));
+                                                             : fmt::format("Hull of {}", grouped(hull.target_faces)));
     if (check_) heads.emplace_back("Shipped");
     return heads.size() == 1 ? "" : fmt::format("<div class=\"facts\">{}</div>\n", table("", heads, rows()));
   }
@@ -422,7 +420,7 @@ class FactsTable {
       text += line(
           "Geometry sticks out by", [](Hull h) { return h.certified ? "0 mm" : "?"; }, sticks_out);
     const auto faces = [](std::size_t count, const std::string& parts) {
-      return parts.empty() ? count_text(count) : fmt::format("{} in {}", count_text(count), parts);
+      return parts.empty() ? grouped(count) : fmt::format("{} in {}", grouped(count), parts);
     };
     const auto size = [&](Hull h) {
       if (hulls_->collision != Collision::Hull && h.pieces.empty()) return size_text(h);
@@ -551,7 +549,7 @@ std::string cards(const ReportInput& input, const PagePictures& drawn) {
 // Motion
 
 Cell missed_cell(std::size_t missed) {
-  return missed == 0 ? Cell("✓ 0", "good") : Cell(fmt::format("✕ {}", count_text(missed)), "bad");
+  return missed == 0 ? Cell("✓ 0", "good") : Cell(fmt::format("✕ {}", grouped(missed)), "bad");
 }
 
 std::size_t sum(const MotionResult& motion, std::size_t MotionPair::*count) {
@@ -566,11 +564,11 @@ std::string time_text(double microseconds) {
 
 std::string motion_summary(const MotionResult& m, const std::string& head) {
   const std::string rows =
-      row("Visual geometry", {count_text(m.visual_configurations), count_text(sum(m, &MotionPair::visual)), kDash,
-                              kDash, time_text(m.visual_us)}) +
-      row("Convex hulls", {count_text(m.convex_configurations), count_text(sum(m, &MotionPair::convex)),
-                           count_text(m.false_convex()), kDash, kDash}) +
-      row(head, {count_text(m.hull_configurations), count_text(sum(m, &MotionPair::hull)), count_text(m.false_hull()),
+      row("Visual geometry", {grouped(m.visual_configurations), grouped(sum(m, &MotionPair::visual)), kDash, kDash,
+                              time_text(m.visual_us)}) +
+      row("Convex hulls", {grouped(m.convex_configurations), grouped(sum(m, &MotionPair::convex)),
+                           grouped(m.false_convex()), kDash, kDash}) +
+      row(head, {grouped(m.hull_configurations), grouped(sum(m, &MotionPair::hull)), grouped(m.false_hull()),
                  missed_cell(m.missed()), time_text(m.hull_us)});
   return table("",
                {"Checked with", "Configurations in collision", "Pairs in collision", "False collisions",
@@ -593,8 +591,7 @@ std::string motion_pairs(const ReportInput& input) {
   std::string rows;
   for (const MotionPair& pair : pairs_worth_showing(*input.motion))
     rows += row(fmt::format("{} – {}", link_to(input, pair.a), link_to(input, pair.b)),
-                {count_text(pair.visual), count_text(pair.false_convex), count_text(pair.false_hull),
-                 missed_cell(pair.missed)});
+                {grouped(pair.visual), grouped(pair.false_convex), grouped(pair.false_hull), missed_cell(pair.missed)});
   if (rows.empty()) return "<p>No pair collides in any configuration.</p>\n";
   return table("Pairs of links that collide in some configuration",
                {"Pair", "Visual geometry collides", "False, convex hulls",
@@ -604,7 +601,7 @@ std::string motion_pairs(const ReportInput& input) {
 
 std::string motion_kinds(const MotionResult& motion) {
   const auto count = [&](PairKind kind) {
-    return count_text(static_cast<std::size_t>(std::ranges::count(motion.pairs, kind, &MotionPair::kind)));
+    return grouped(static_cast<std::size_t>(std::ranges::count(motion.pairs, kind, &MotionPair::kind)));
   };
   std::string proven;
   if (const PairVerdicts verdicts = verdicts_of(motion); verdicts.all() > 0)

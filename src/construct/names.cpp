@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "base/text.h"
+#include "prohull/detail/text.h"
 #include "prohull/hull_builder.h"
 
 namespace prohull {

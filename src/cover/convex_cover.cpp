@@ -11,7 +11,6 @@
 #include <optional>
 #include <set>
 
-#include "base/stopwatch.h"
 #include "cover/cut_tree.h"
 #include "cover/enclosing_options.h"
 #include "cover/piece_hull.h"
@@ -22,6 +21,7 @@
 #include "prohull/convex_hull.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/stopwatch.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "prohull/wrap.h"

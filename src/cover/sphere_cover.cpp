@@ -7,8 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/stopwatch.h"
-#include "base/text.h"
 #include "cover/ball_search.h"
 #include "cover/depth.h"
 #include "cover/enclosing_options.h"
@@ -20,6 +18,8 @@
 #include "prohull/closed_solid.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/detail/rounded.h"
+#include "prohull/detail/stopwatch.h"
+#include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
@@ -206,7 +206,7 @@ class SphereCoverer {
     made_.within_bounds = made_.reach.upper <= options_.max_distance;
     if (!made_.within_bounds)
       made_.notes.push_back(fmt::format("no cover by {} was found that keeps a distance of {:.4g}",
-                                        counted(options_.max_balls, "sphere", "spheres"), options_.max_distance));
+                                        counted(options_.max_balls, "sphere"), options_.max_distance));
   }
 
   static constexpr double kCubesPerReach = 3;

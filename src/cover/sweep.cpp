@@ -12,7 +12,6 @@
 #include <numbers>
 #include <utility>
 
-#include "base/stopwatch.h"
 #include "cover/polytope.h"
 #include "geometry/float32.h"
 #include "geometry/largest_coordinate.h"
@@ -20,6 +19,7 @@
 #include "parallel/arena.h"
 #include "prohull/convex_hull.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/stopwatch.h"
 #include "prohull/error.h"
 
 namespace prohull {

@@ -1,9 +1,9 @@
 #include <optional>
 #include <utility>
 
-#include "base/stopwatch.h"
 #include "enclose/certify.h"
 #include "enclose/making.h"
+#include "prohull/detail/stopwatch.h"
 #include "prohull/mesh_report.h"
 
 namespace prohull {

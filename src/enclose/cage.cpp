@@ -6,12 +6,12 @@
 #include <cmath>
 #include <utility>
 
-#include "base/text.h"
 #include "construct/even/even_hull.h"
 #include "construct/tight/original.h"
 #include "construct/turned.h"
 #include "enclose/known_void.h"
 #include "prohull/collide.h"
+#include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/padded_hull.h"

@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "base/text.h"
 #include "construct/lifting.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/text.h"
 #include "verify/known_solid.h"
 
 namespace prohull {

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "base/text.h"
+#include "prohull/detail/text.h"
 #include "prohull/distance.h"
 #include "prohull/error.h"
 

@@ -4,10 +4,10 @@
 
 #include <utility>
 
-#include "base/stopwatch.h"
-#include "base/text.h"
 #include "enclose/tolerances.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/stopwatch.h"
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
 #include "prohull/tolerances.h"
@@ -75,7 +75,7 @@ void Request::require_tolerances(const TriangleMesh& hull) const {
   if (found.holds) return;
   const std::string what =
       found.missing_faces > 0
-          ? fmt::format("{} that should be kept {} not in the hull", counted(found.missing_faces, "face", "faces"),
+          ? fmt::format("{} that should be kept {} not in the hull", counted(found.missing_faces, "face"),
                         found.missing_faces == 1 ? "is" : "are")
           : fmt::format("{} farther from the hull than allowed", counted(found.far_faces, "face is", "faces are"));
   throw InputError(Defect::NoCertificate, what + ": " + why_changed(options, ", or allow a small distance there"));

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <utility>
 
-#include "base/stopwatch.h"
-#include "base/text.h"
 #include "enclose/folds.h"
 #include "enclose/known_void.h"
 #include "geometry/float32.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/stopwatch.h"
 #include "prohull/detail/summary.h"
+#include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"

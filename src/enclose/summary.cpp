@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/text.h"
+#include "prohull/detail/text.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/detail/symmetry.h"
 #include "prohull/enclosure.h"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/text.h"
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -57,7 +57,7 @@ PerFace<double> carried_tolerances(const TriangleMesh& given, const PerFace<doub
     throw InputError(Defect::InvalidOption,
                      fmt::format("{} with a tolerance {} not left after the repair, which drops parts inside of other "
                                  "parts; --keep-cavities keeps these",
-                                 counted(lost, "face", "faces"), lost == 1 ? "is" : "are"));
+                                 counted(lost, "face"), lost == 1 ? "is" : "are"));
   return carried;
 }
 

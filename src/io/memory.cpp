@@ -8,11 +8,11 @@
 #include <limits>
 #include <string>
 
-#include "base/text.h"
 #include "io/available_memory.h"
 #include "io/extension.h"
 #include "io/mesh_readers.h"
 #include "io/ply_header.h"
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/triangle_mesh.h"
 

@@ -6,10 +6,10 @@
 #include <tuple>
 #include <utility>
 
-#include "base/text.h"
 #include "geometry/usable_size.h"
 #include "prohull/detail/disjoint_sets.h"
 #include "prohull/detail/openings.h"
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/repair.h"
 #include "repair/steps.h"
@@ -165,7 +165,7 @@ std::vector<std::string> describe(const Repairs& repairs) {
       "faces that disagreed with their neighbours");
   say(repairs.split_vertices, "split", "vertex in which two parts met", "vertices in which parts met");
   if (repairs.closed_openings > 0)
-    phrases.push_back(fmt::format("closed {}, {}{:.4g} across", counted(repairs.closed_openings, "opening", "openings"),
+    phrases.push_back(fmt::format("closed {}, {}{:.4g} across", counted(repairs.closed_openings, "opening"),
                                   repairs.closed_openings > 1 ? "the largest " : "", repairs.largest_opening));
   if (repairs.turned_components > 0)
     phrases.push_back(fmt::format("turned {} inside out ({} faces)",
@@ -173,7 +173,7 @@ std::vector<std::string> describe(const Repairs& repairs) {
                                   grouped(repairs.turned_faces)));
   if (repairs.dropped_components > 0)
     phrases.push_back(fmt::format("dropped {} inside of others ({} faces)",
-                                  counted(repairs.dropped_components, "component", "components"),
+                                  counted(repairs.dropped_components, "component"),
                                   grouped(repairs.dropped_component_faces)));
   return phrases;
 }

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/text.h"
 #include "geometry/interior_contact.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "verify/arrangement.h"
 #include "verify/cell.h"
@@ -267,8 +267,8 @@ bool winds_negatively(TriangleMesh mesh, const Progress& progress) {
 }
 
 std::string undecided(std::size_t faces) {
-  return fmt::format("undecided: {} would take too long, because {} meet{} so many others",
-                     counted(faces, "face", "faces"), faces == 1 ? "it" : "they", faces == 1 ? "s" : "");
+  return fmt::format("undecided: {} would take too long, because {} meet{} so many others", counted(faces, "face"),
+                     faces == 1 ? "it" : "they", faces == 1 ? "s" : "");
 }
 
 Holes find_holes(const Surface& inner, const Surface& outer, const OpenCells& open_cells, const Progress& progress) {

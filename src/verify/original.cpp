@@ -6,9 +6,9 @@
 #include <array>
 #include <utility>
 
-#include "base/text.h"
 #include "geometry/usable_size.h"
 #include "mesh/closed.h"
+#include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 #include "verify/surface.h"
 
@@ -41,7 +41,7 @@ PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& 
   PreparedOriginal result;
   result.non_finite_faces = drop_non_finite_faces(mesh);
   if (const std::size_t dropped = result.non_finite_faces)
-    notes.push_back(fmt::format("{} of the original {} not finite and {} left out", counted(dropped, "face", "faces"),
+    notes.push_back(fmt::format("{} of the original {} not finite and {} left out", counted(dropped, "face"),
                                 dropped == 1 ? "is" : "are", dropped == 1 ? "is" : "are"));
   result.box = usable_box(mesh, "original");
   result.closed = is_closed(mesh);
@@ -51,7 +51,7 @@ PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& 
   }
   result.turned_faces = turn_outwards(mesh, "original");
   if (const std::size_t count = result.turned_faces)
-    notes.push_back(fmt::format("{} of the original {} inwards and {} as turned", counted(count, "face", "faces"),
+    notes.push_back(fmt::format("{} of the original {} inwards and {} as turned", counted(count, "face"),
                                 count == 1 ? "looks" : "look", count == 1 ? "counts" : "count"));
   return result;
 }
@@ -71,9 +71,9 @@ Original::Original(const TriangleMesh& given, const TriangleMesh* closed)
 void refuse_non_finite_faces(std::size_t count, const VerificationOptions& options, bool& yes, std::string& why_not) {
   if (count == 0 || options.finite_only || !yes) return;
   yes = false;
-  why_not = fmt::format("{} of the original {} not finite; mend {}, or leave {} out (--finite-only)",
-                        counted(count, "face", "faces"), count == 1 ? "is" : "are", count == 1 ? "it" : "them",
-                        count == 1 ? "it" : "them");
+  why_not =
+      fmt::format("{} of the original {} not finite; mend {}, or leave {} out (--finite-only)", counted(count, "face"),
+                  count == 1 ? "is" : "are", count == 1 ? "it" : "them", count == 1 ? "it" : "them");
 }
 
 }  // namespace prohull::verify

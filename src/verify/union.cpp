@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/text.h"
 #include "geometry/triangle_predicates.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "verify/exposed_surface.h"

@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "base/text.h"
 #include "geometry/box_around_ball.h"
 #include "geometry/bvh.h"
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
 #include "geometry/usable_size.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "verify/exact.h"
@@ -427,7 +427,7 @@ class BallUnionJudge {
   /// What is in doubt is no reason to say that something lies outside.
   void finish() {
     if (found_.faces_undecided > 0 || found_.inside_undecided) {
-      std::string what = counted(found_.faces_undecided, "triangle", "triangles");
+      std::string what = counted(found_.faces_undecided, "triangle");
       if (found_.inside_undecided) what = found_.faces_undecided > 0 ? what + " and the inside" : "the inside";
       refuse("it is undecided whether the balls cover all of " + what +
              ": they have less than 1e-9 of the diagonal to spare there, or the decision takes too long; make them a "

@@ -9,10 +9,10 @@
 #include <optional>
 #include <utility>
 
-#include "base/text.h"
 #include "geometry/usable_size.h"
 #include "mesh/closed.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "verify/gap.h"
 #include "verify/original.h"
@@ -93,13 +93,13 @@ class Judge {
     found.inverted_hull_faces = verify::turn_outwards(turned, "hull");
     if (found.inverted_hull_faces == 0) return false;
     found.encloses = false;
-    found.why_not = found.inverted_hull_faces == hull.face_count()
-                        ? "all faces of the hull look inwards; turn it (trimesh: mesh.invert()) if that is meant"
-                        : fmt::format(
-                              "{} of the hull {} inwards, in whole components; turn these (trimesh: "
-                              "mesh.fix_normals(multibody=True)) if that is meant",
-                              counted(found.inverted_hull_faces, "face", "faces"),
-                              found.inverted_hull_faces == 1 ? "looks" : "look");
+    found.why_not =
+        found.inverted_hull_faces == hull.face_count()
+            ? "all faces of the hull look inwards; turn it (trimesh: mesh.invert()) if that is meant"
+            : fmt::format(
+                  "{} of the hull {} inwards, in whole components; turn these (trimesh: "
+                  "mesh.fix_normals(multibody=True)) if that is meant",
+                  counted(found.inverted_hull_faces, "face"), found.inverted_hull_faces == 1 ? "looks" : "look");
     return true;
   }
 
@@ -156,9 +156,8 @@ class Judge {
     found.nearest = std::move(report.nearest);
     found.least_distance = report.least_distance;
     if (found.encloses && !found.keeps_gap)
-      found.why_not =
-          fmt::format("{} of it {} nearer to the original than that", counted(found.faces_too_near, "face", "faces"),
-                      found.faces_too_near == 1 ? "is" : "are");
+      found.why_not = fmt::format("{} of it {} nearer to the original than that", counted(found.faces_too_near, "face"),
+                                  found.faces_too_near == 1 ? "is" : "are");
   }
 
   void measure(verify::KnownSolid& hull) {
@@ -270,7 +269,7 @@ Verification verify::verify_hull(const ProgressiveHull& hull, Original& original
       found.notes.push_back(
           fmt::format("{} of the original bound{} no part of its solid, as in folds: the base mesh "
                       "covers {}, finer levels may not",
-                      counted(beside, "face", "faces"), beside == 1 ? "s" : "", beside == 1 ? "it" : "them"));
+                      counted(beside, "face"), beside == 1 ? "s" : "", beside == 1 ? "it" : "them"));
   }
   judge.cover_what_is_not_in_the_solid(base);
   judge.refuse_non_finite_faces();

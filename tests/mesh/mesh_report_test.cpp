@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "base/text.h"
 #include "meshes.h"
+#include "prohull/detail/text.h"
 #include "prohull/sample.h"
 
 namespace prohull {

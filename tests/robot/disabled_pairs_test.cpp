@@ -50,29 +50,29 @@ TEST(DisabledPairs, AreDecidedRowByRow) {
   ASSERT_EQ(checks.size(), 8U);
   EXPECT_EQ(checks[0].row.link1, "d");
   EXPECT_EQ(checks[0].row.line, 2U);
-  EXPECT_EQ(checks[0].collision.verdict, DisabledVerdict::Never);
-  EXPECT_EQ(checks[0].visual.verdict, DisabledVerdict::NoGeometry);
-  EXPECT_EQ(checks[1].collision.verdict, DisabledVerdict::Adjacent);
-  EXPECT_EQ(checks[2].collision.verdict, DisabledVerdict::Never);
-  EXPECT_EQ(checks[2].visual.verdict, DisabledVerdict::Never);
-  EXPECT_EQ(checks[3].collision.verdict, DisabledVerdict::Unknown);
-  EXPECT_EQ(checks[4].collision.verdict, DisabledVerdict::Unknown);
-  EXPECT_EQ(checks[5].collision.verdict, DisabledVerdict::Open);
-  EXPECT_TRUE(has(checks[5].collision.proof.why, "lost.stl"));
+  EXPECT_EQ(checks[0].collision.verdict, PairVerdict::Never);
+  EXPECT_EQ(checks[0].visual.verdict, PairVerdict::NoGeometry);
+  EXPECT_EQ(checks[1].collision.verdict, PairVerdict::Adjacent);
+  EXPECT_EQ(checks[2].collision.verdict, PairVerdict::Never);
+  EXPECT_EQ(checks[2].visual.verdict, PairVerdict::Never);
+  EXPECT_EQ(checks[3].collision.verdict, PairVerdict::Unknown);
+  EXPECT_EQ(checks[4].collision.verdict, PairVerdict::Unknown);
+  EXPECT_EQ(checks[5].collision.verdict, PairVerdict::Open);
+  EXPECT_TRUE(has(checks[5].collision.why, "lost.stl"));
   for (std::size_t i = 0; i < 7; ++i) EXPECT_FALSE(checks[i].is_refuted()) << i;
 }
 
 TEST(DisabledPairs, AreRefutedWhereTheyMeetUnlessTheirReasonAllowsForIt) {
   const RobotFile file = robot_with_reach("2.75");
   const std::vector<DisabledCheck> checks = checks_with(file);
-  EXPECT_EQ(checks[0].collision.verdict, DisabledVerdict::Meets);
+  EXPECT_EQ(checks[0].collision.verdict, PairVerdict::Meets);
   EXPECT_TRUE(checks[0].is_refuted());
-  const std::vector<double>& positions = checks[0].collision.proof.positions;
+  const std::vector<double>& positions = checks[0].collision.positions;
   EXPECT_LE(3 + positions[0] - positions[1], 1) << "the cubes overlap";
   EXPECT_FALSE(checks[2].is_refuted());
-  EXPECT_EQ(checks[6].collision.verdict, DisabledVerdict::Meets);
+  EXPECT_EQ(checks[6].collision.verdict, PairVerdict::Meets);
   EXPECT_FALSE(checks[6].is_refuted()) << "the user disabled it";
-  EXPECT_EQ(checks[7].collision.verdict, DisabledVerdict::Meets) << "b and d are at the same height";
+  EXPECT_EQ(checks[7].collision.verdict, PairVerdict::Meets) << "b and d are at the same height";
   EXPECT_TRUE(checks[7].is_refuted());
 }
 

@@ -89,9 +89,9 @@ TEST(ReportFacts, ABoundStaysOneWhenItIsRounded) {
 }
 
 TEST(ReportFacts, CountsHaveSeparatorsAndPlurals) {
-  EXPECT_EQ(count_text(999), "999");
-  EXPECT_EQ(count_text(1000), "1,000");
-  EXPECT_EQ(count_text(12003004), "12,003,004");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1,000");
+  EXPECT_EQ(grouped(12003004), "12,003,004");
   EXPECT_EQ(counted(1, "link"), "1 link");
   EXPECT_EQ(counted(0, "link"), "0 links");
 }

@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/text.h"
 #include "construct/closed_manifold.h"
 #include "mesh/half_edges_by_tail.h"
 #include "mesh/mirror_images.h"
+#include "prohull/detail/text.h"
 
 namespace prohull {
 namespace {
