@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "prohull/detail/text.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/detail/symmetry.h"
+#include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 #include "prohull/mesh_report.h"
 
