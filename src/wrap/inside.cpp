@@ -47,24 +47,53 @@ std::vector<std::uint8_t> crossed_edges(const Grid& grid, const TriangleMesh& tr
   return crossed;
 }
 
+constexpr char kClosed = 0, kReached = 1, kOpen = 2;
+
+/// Open nodes that are connected to the border through open ones become reached: a whole run along the first axis at
+/// once.
+void reach_from_border(const Grid& grid, std::vector<char>& nodes) {
+  struct Run {
+    std::uint32_t first, last;
+  };
+  std::vector<Run> front;
+  const std::size_t row = grid.nodes(0), layer = row * grid.nodes(1);
+  const auto reach_all = [&](std::size_t from, std::size_t to) {  // of one row
+    const std::size_t start = from - from % row;
+    for (std::size_t n = from; n <= to; ++n) {
+      if (nodes[n] != kOpen) continue;
+      std::size_t first = n;
+      while (first > start && nodes[first - 1] == kOpen) --first;
+      while (n + 1 < start + row && nodes[n + 1] == kOpen) ++n;
+      std::fill(&nodes[first], &nodes[n] + 1, kReached);
+      front.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n)});
+    }
+  };
+  grid.along_border([&](std::size_t n) { reach_all(n, n); });
+  while (!front.empty()) {
+    const auto [first, last] = front.back();
+    front.pop_back();
+    const std::size_t y = first / row % grid.nodes(1), z = first / layer;
+    const bool is_first = first % row == 0, is_last = last % row + 1 == row;
+    for (std::size_t step = 1; step < 4; ++step) {  // the rows that a tetrahedron may have in common with this one
+      const std::size_t up = step & 1, far = step >> 1, length = up * row + far * layer;
+      if (y + up < grid.nodes(1) && z + far < grid.nodes(2)) reach_all(first + length, last + length + !is_last);
+      if (y >= up && z >= far) reach_all(first - length - !is_first, last - length);
+    }
+  }
+}
+
 /// Nodes that are connected to the border through such nodes: is_open(node). Beyond the border all is open: whoever
 /// goes straight away from it only gets farther from the triangles.
 template <class IsOpen>
 std::vector<char> reached_from_border(const Grid& grid, IsOpen is_open) {
-  std::vector<char> reached(grid.node_count());
-  Nodes front;
-  grid.along_border([&](std::size_t n) {
-    if (!is_open(n)) return;
-    reached[n] = 1;
-    front.push_back(static_cast<std::uint32_t>(n));
+  std::vector<char> nodes(grid.node_count());
+  const std::size_t layer = grid.nodes(0) * grid.nodes(1);
+  oneapi::tbb::parallel_for(std::size_t{0}, grid.nodes(2), [&](std::size_t z) {
+    for (std::size_t n = z * layer; n < (z + 1) * layer; ++n) nodes[n] = is_open(n) ? kOpen : kClosed;
   });
-  for (std::size_t i = 0; i < front.size(); ++i)
-    grid.around(front[i], [&](std::size_t n) {
-      if (reached[n] || !is_open(n)) return;
-      reached[n] = 1;
-      front.push_back(static_cast<std::uint32_t>(n));
-    });
-  return reached;
+  reach_from_border(grid, nodes);
+  std::ranges::replace(nodes, kOpen, kClosed);
+  return nodes;
 }
 
 /// Of each node the distance from the nearest of some nodes, in spacings (Felzenszwalb and Huttenlocher 2012).
