@@ -14,7 +14,9 @@ struct WrapOptions {
   double seal_holes = 0;    ///< openings up to this diameter are closed, in the input's unit
   bool seal_rooms = false;  ///< close the doors of rooms, see wrap()
   double closing = 0;       ///< fill hollows and gaps that a ball of this radius cannot enter; in the input's unit
-  Progress progress = {};   ///< stage "wrap"
+  /// In spacings. Where the surface is flat but for this, it has fewer faces: on cells of up to 8 spacings.
+  double flatness = 0;
+  Progress progress = {};  ///< stage "wrap"
 };
 
 struct Wrap {

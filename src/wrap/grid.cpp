@@ -31,8 +31,12 @@ class Layers {
 
 void Layers::add(const Triangle& t) {
   const Box box = box_of(t);
-  const auto first = [&](int axis) { return static_cast<std::size_t>(std::ceil(box.min[axis] - band_)); };
-  const auto last = [&](int axis) { return static_cast<std::size_t>(box.max[axis] + band_); };
+  const auto first = [&](int axis) {
+    return static_cast<std::size_t>(std::ceil(std::max(box.min[axis] - band_, 0.0)));
+  };
+  const auto last = [&](int axis) {
+    return std::min(static_cast<std::size_t>(box.max[axis] + band_), grid_.nodes(axis) - 1);
+  };
   Vec3 normal = cross(t.b - t.a, t.c - t.a);
   const double length = norm(normal);
   normal = length > 0 ? normal / length : Vec3{};
@@ -43,7 +47,7 @@ void Layers::add(const Triangle& t) {
     for (std::size_t y = first(1); y <= last(1); ++y) {
       const double dy = beyond(double(y), box.min.y, box.max.y), squared = dz * dz + dy * dy;
       if (squared >= band_ * band_) continue;
-      double from_x = box.min.x - band_, to_x = box.max.x + band_;
+      double from_x = std::max(box.min.x - band_, 0.0), to_x = std::min(box.max.x + band_, double(grid_.nodes(0) - 1));
       // Where the plane is near.
       const double height = normal.y * double(y) + normal.z * double(z) - offset;
       if (std::abs(normal.x) > kSteep) {
@@ -77,6 +81,14 @@ Grid::Grid(const Box& box, double spacing, double margin)
   }
 }
 
+Grid Grid::coarser(std::size_t times) const {
+  Grid other = *this;
+  other.spacing_ *= double(times);
+  for (std::size_t& nodes : other.nodes_) nodes = (nodes - 1) / times + 1;
+  other.beyond_ /= times;
+  return other;
+}
+
 std::vector<float> distances(const Grid& grid, const TriangleMesh& triangles, float band, ProgressMeter& meter) {
   std::vector<float> result(grid.node_count(), band);
   constexpr std::size_t kLayers = 4;  // of nodes, for one task
@@ -88,8 +100,9 @@ std::vector<float> distances(const Grid& grid, const TriangleMesh& triangles, fl
   for (const FaceId f : triangles.triangles.ids()) {
     const Triangle t = triangle(f);
     const auto [least, most] = std::minmax({t.a.z, t.b.z, t.c.z});
-    const auto last = static_cast<std::size_t>(most + band) / kLayers;
-    for (auto i = static_cast<std::size_t>(least - band) / kLayers; i <= last; ++i) faces_of[i].push_back(f);
+    const auto last = std::min(static_cast<std::size_t>(most + band) / kLayers, faces_of.size() - 1);
+    for (auto i = static_cast<std::size_t>(std::max(least - band, 0.0)) / kLayers; i <= last; ++i)
+      faces_of[i].push_back(f);
   }
   std::atomic<std::size_t> done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, faces_of.size(), [&](std::size_t i) {

@@ -16,6 +16,9 @@ class Grid {
   /// With so many spacings beyond the box on each side.
   Grid(const Box& box, double spacing, double margin);
 
+  /// Its nodes are every so many of this one's.
+  Grid coarser(std::size_t times) const;
+
   double spacing() const { return spacing_; }
   std::size_t nodes(int axis) const { return nodes_[static_cast<std::size_t>(axis)]; }
   std::size_t node_count() const { return nodes_[0] * nodes_[1] * nodes_[2]; }
@@ -65,8 +68,7 @@ class Grid {
   std::size_t beyond_;  ///< this many nodes are beyond the box on each side, at least
 };
 
-/// The distance of each node from the triangles, in spacings, where it is less than `band`, and `band` elsewhere. The
-/// triangles must be farther than `band` from the border of the grid.
+/// The distance of each node from the triangles, in spacings, where it is less than `band`, and `band` elsewhere.
 std::vector<float> distances(const Grid& grid, const TriangleMesh& triangles, float band, ProgressMeter& meter);
 
 }  // namespace prohull

@@ -22,7 +22,8 @@ constexpr float kRounding = 1e-5F;  ///< of values between nodes, at most
 Grid grid_for(const TriangleMesh& triangles, const WrapOptions& options) {
   const double spacing = options.spacing;
   const double ball = std::max(options.closing, options.seal_holes / 2) / spacing;  // that goes around the triangles
-  const double margin = kInsideMargin + (ball > kLeastSeal ? ball + 4 : 0);
+  const double flat_margin = options.flatness > 0 ? double(Cells::kLargest) : 0;
+  const double margin = std::max<double>(kInsideMargin, flat_margin) + (ball > kLeastSeal ? ball + 4 : 0);
   constexpr double kMostNodes = 0x1p28;
   if (!(spacing > 0))
     throw InputError(Defect::InvalidOption,
@@ -158,6 +159,24 @@ class Samples {
   double total_ = 0;
 };
 
+/// At corners of large cells, distances that are greater than what find_inside knows.
+void add_greater_distances(const Grid& grid, const TriangleMesh& triangles, std::vector<float>& values,
+                           ProgressMeter& meter) {
+  constexpr float kBand = 1.75;  // a surface in a cell is not farther from its corners, in its size
+  constexpr float kKnown = kInsideMargin - 1;
+  for (std::size_t size = 2; size <= Cells::kLargest; size *= 2) {
+    const Grid corners = grid.coarser(size);
+    const std::vector<float> found = distances(corners, triangles, kBand, meter);
+    for (std::size_t z = 0; z < corners.nodes(2); ++z)
+      for (std::size_t y = 0; y < corners.nodes(1); ++y)
+        for (std::size_t x = 0; x < corners.nodes(0); ++x) {
+          float& value = values[grid.node(x * size, y * size, z * size)];
+          const float distance = found[corners.node(x, y, z)] * float(size);
+          if (std::abs(value) >= kKnown) value = std::copysign(std::max(distance, kKnown), value);
+        }
+  }
+}
+
 /// The triangles that have nodes outside near them. The others are not on the boundary of the inside: their distances
 /// would cut into it.
 TriangleMesh without_hidden(const Grid& grid, const TriangleMesh& triangles, const Inside& inside,
@@ -204,8 +223,10 @@ Wrap wrap(const TriangleMesh& triangles, const WrapOptions& options) {
       if (excess > 0)
         for (const std::size_t n : at.nodes) values[n] -= excess;
     });
+  if (options.flatness > 0) add_greater_distances(grid, triangles, values, meter);
+  const Cells cells = options.flatness > 0 ? Cells(grid, values, level, float(options.flatness)) : Cells(grid);
   const double spacing = options.spacing;
-  return {level_surface(grid, values, level), std::move(inside.doors), inside.largest_door * spacing,
+  return {level_surface(grid, cells, values, level), std::move(inside.doors), inside.largest_door * spacing,
           inside.volume * spacing * spacing * spacing};
 }
 
@@ -233,7 +254,7 @@ TriangleMesh inner_wrap(const TriangleMesh& triangles, const WrapOptions& option
     if (missing > 0)
       for (const std::size_t n : at.nodes) values[n] += missing;
   });
-  return level_surface(grid, values, -level);
+  return level_surface(grid, Cells(grid), values, -level);
 }
 
 }  // namespace prohull

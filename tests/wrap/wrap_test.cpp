@@ -72,6 +72,27 @@ TEST(Wrap, IsSoundForRandomSoups) {
   }
 }
 
+TEST(Wrap, OnLargerCellsIsSoundForRandomSoups) {
+  std::mt19937 random(test_seed());
+  for (int round = 0; round < rounds(20); ++round) {
+    const TriangleMesh soup = random_soup(random, std::uniform_int_distribution(1, 20)(random));
+    const double spacing = std::uniform_real_distribution(0.02, 0.1)(random);
+    expect_sound(soup, wrap(soup, {.spacing = spacing, .flatness = 0.08}).mesh, "round " + std::to_string(round));
+  }
+}
+
+TEST(Wrap, OnLargerCellsHasFewFacesWhereItIsFlat) {
+  TriangleMesh slanted = box({0, 0, 0}, {3, 2, 1});
+  for (Vec3& p : slanted.positions) p = {p.x - 0.3 * p.y, p.y + 0.3 * p.x, p.z + 0.2 * p.x};
+  const auto faces = [&](double spacing, double flatness) {
+    const TriangleMesh wrapped = wrap(slanted, {.spacing = spacing, .flatness = flatness}).mesh;
+    expect_sound(slanted, wrapped, "box");
+    return wrapped.face_count();
+  };
+  EXPECT_LT(3 * faces(0.04, 0.08), faces(0.04, 0));
+  EXPECT_LT(faces(0.02, 0.08), 3 * faces(0.04, 0.08));  // there are more along edges only
+}
+
 TEST(Wrap, OfTwoBoxesThatCrossIsOneWithoutInnerFaces) {
   const TriangleMesh crossing = together(box({0, 0, 0}, {2, 1, 1}), box({1, 0.25, 0.25}, {3, 0.75, 0.75}));
   const TriangleMesh wrapped = wrap(crossing, {.spacing = 0.05}).mesh;
