@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "enclose/candidates.h"
 #include "enclose/known_void.h"
@@ -13,10 +14,14 @@ namespace {
 constexpr WrapKind kBoundedWrap{3.5, 0.3, 0};
 constexpr double kBoundedSpacing = 0.5;  // of the largest distance
 
+// Wraps of three robots' parts have 17, 21 and 40 % of the faces that cells of one size would give, and hulls of them
+// as few. By 0.12, wraps of two parts leave triangles uncovered.
+constexpr WrapKind kCloseWrap{3.5, 0.3, 0, 0.08};
+
 // With as many nodes as memory and patience allow, and less for a mesh of few faces. A wrap of a million nodes has up
 // to 340,000 faces, and a hull of it takes seconds.
 double finest_spacing(const Request& request, double nodes_per_face, double most) {
-  constexpr double kMargin = 12;  // nodes on both sides
+  constexpr double kMargin = 20;  // nodes on both sides
   const double most_nodes = std::clamp(nodes_per_face * double(request.to_cover().face_count()), 0x1p20, most);
   const Box box = bounding_box(request.to_cover());
   const Vec3 size = box.max - box.min;
@@ -31,9 +36,9 @@ double finest_loose_spacing(const Request& request) {
   return finest_spacing(request, kNodesPerFace, kMostNodes);
 }
 
-// With as many faces as patience allows, and less for a mesh of few faces: a hull of a wrap of 2.5 million takes 45 s.
+// With as many faces as patience allows, and less for a mesh of few faces: a hull of a wrap of 2.9 million takes 26 s.
 double spacing_of_many_faces(const TriangleMesh& mesh) {
-  constexpr double kPerFace = 0x1p11, kLeast = 0x1p18, kMost = 2.5e6;
+  constexpr double kPerFace = 0x1p13, kLeast = 0x1p18, kMost = 25e6;  // of cells of one size
   constexpr double kFacesPerArea = 8.4;  // in spacings; wraps of two robots' parts had 8.0 and 8.4
   const double most = std::clamp(kPerFace * double(mesh.face_count()), kLeast, kMost);
   return std::sqrt(kFacesPerArea * area_of(mesh) / most);
@@ -54,29 +59,32 @@ void Candidates::plan_bounded_wraps() {
   may_stay_within() && is_close ? plan_close_wraps() : plan_loose_wraps();
 }
 
-// A wrap reaches out by 0.7 to 1.1 spacings; the rest of the bound is for collapses. If memory and patience are not
-// enough for a wrap that could keep it, the hull is as near as they allow.
+// A few vertices of a wrap are up to 1.3 spacings away, most of them less than 0.6; the rest of the bound is for
+// collapses. What is between vertices may break it by a little. If memory and patience are not enough for a wrap that
+// could keep it, the hull is as near as they allow.
 void Candidates::plan_close_wraps() {
   constexpr double kSpacing = 2.0 / 3, kFiner = 2.0 / 3;  // of the bound, and of the spacing before
-  constexpr double kReach = 1.2;                          // of a wrap, in spacings
+  constexpr double kNearer = 0.85;                        // of the bound
+  constexpr double kReach = 0.6;                          // of most vertices, in spacings
   constexpr int kMost = 2;
   const double max_distance = request_.options.bounds.max_distance;
-  constexpr double kNodesPerFace = 0x1p16, kMostNodes = 0x1p26;  // 256 MB of distances
+  constexpr double kNodesPerFace = 0x1p18, kMostNodes = 0x1p28;  // 1 GB of distances
   const double finest =
       std::max(finest_spacing(request_, kNodesPerFace, kMostNodes), spacing_of_many_faces(request_.to_cover()));
   const auto plan = [this](double spacing, double distance) {
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       if (ranking.has_certified() && (ranking.best().hull.within_bounds || is_of_clean_mesh(ranking, solids)))
         return std::nullopt;
-      const auto id = wrap(kBoundedWrap, spacing, solids);
+      const std::span<const SolidId> made = solids.wraps(target_faces_);
+      const bool is_made = !made.empty() && solids[made.back()].wrap_spacing == spacing;
+      const auto id = is_made ? std::optional(made.back()) : wrap(kCloseWrap, spacing, solids);
       return id ? std::optional(within(*id, distance, solids)) : std::nullopt;
     });
   };
   double spacing = std::max(kSpacing * max_distance, finest);
   for (int i = 0; i < kMost; ++i) {
-    const double nearest = kReach * spacing;
-    plan(spacing, std::max(max_distance, nearest));
-    if (nearest < max_distance) plan(spacing, nearest);  // what is between vertices may break the bound by a little
+    plan(spacing, kReach * spacing < max_distance ? max_distance : spacing);
+    if (spacing < max_distance) plan(spacing, kNearer * max_distance);
     if (spacing == finest) break;
     spacing = std::max(kFiner * spacing, finest);
   }

@@ -111,6 +111,7 @@ std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::s
                         .seal_holes = options.seal_holes,
                         .seal_rooms = !is_closed && options.open_shells == OpenShells::Close,
                         .closing = kind.closing * spacing,
+                        .flatness = kind.flatness,
                         .progress = options.progress};
   Wrap made;
   if (request_.is_outer())

@@ -20,6 +20,7 @@ using SolidId = std::size_t;  ///< its place in EnclosingHulls::solids
 struct WrapKind {
   double nodes_per_edge;   ///< of a face of the hull: the grid is as fine as these faces can carry, about
   double offset, closing;  ///< as in WrapOptions, in spacings
+  double flatness = 0;     ///< as in WrapOptions
 };
 
 /// The closed meshes that hulls are built from, and what is made once of each. All is made when it is asked for first.
