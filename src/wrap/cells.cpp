@@ -7,8 +7,8 @@
 namespace prohull {
 namespace {
 
-constexpr float kClear = 0.5F;  ///< values that are farther from the level stay on their side of it
-constexpr float kFar = 1.5F;    ///< values that are farther from it are not near the surface
+constexpr float kClear = 0.5F;         ///< values that are farther from the level stay on their side of it
+constexpr float kFarFromLevel = 1.5F;  ///< values that are farther from it are not near the surface
 
 /// One cell that may become a large one.
 class LargeCell {
@@ -36,7 +36,7 @@ class LargeCell {
   bool is_linear(float tolerance) const {
     return each([&](float& value, const auto& at) {
       const float linear = interpolated(at);
-      const auto is_far = [&](float v) { return std::abs(v - level_) > kFar; };
+      const auto is_far = [&](float v) { return std::abs(v - level_) > kFarFromLevel; };
       return std::abs(linear - value) <= tolerance ||
              (is_far(linear) && is_far(value) && (linear > level_) == (value > level_));
     });
