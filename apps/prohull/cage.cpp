@@ -105,7 +105,9 @@ void print_hull(const Cage& cage, const File& file) {
   if (hull.self_intersections > 0)
     say("  NOT free of self-intersections: {}\n", counted(hull.self_intersections, "pair of faces", "pairs of faces"));
   say("  gap: at least {:.6g}, proven{}\n", rounded_down(hull.padding, 6),
-      file.hull->keeps_gap ? "" : fmt::format("; NOT the {:.6g} asked for: the mesh is too thin", cage.gap));
+      file.hull->keeps_gap
+          ? ""
+          : fmt::format("; NOT the {:.6g} asked for: no {} hull that keeps it was found", cage.gap, file.side));
   say("  certified: {}\n", certificate_of(file.hull->made, hull, file.certified));
 }
 
@@ -226,8 +228,8 @@ void add_cage(CLI::App& app, Run& run) {
                       "Number of faces that the inner hull should have, if it is not that of --faces.")
       ->needs(inner);
   add_length(command, "--gap", options->gap,
-             "Distance that both hulls keep from the mesh, at least. Without this option it is 0.1%. Where the mesh is "
-             "too thin, the inner hull keeps less.");
+             "Distance that both hulls keep from the mesh, at least. Without this option it is 0.1%. The inner hull "
+             "keeps less where none that keeps it is found, as in a thin mesh.");
   command.add_flag("--even", cage.even,
                    "Make all triangles of the hulls well shaped, as simulation needs them: split, flip and collapse "
                    "edges, and move vertices. The hulls then have more void.");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -39,7 +41,8 @@ struct Decision {
   std::vector<LinkPair> disabled;
   PathBodies made;
   std::vector<BodyPair> pairs;
-  std::vector<JointPath> paths;
+  std::vector<BodyPair> left_out;  ///< would be pairs without the SRDF and --ignore
+  std::vector<JointPath> paths = {};
   std::vector<PathProof> proofs = {};
 
   const std::string& name(std::size_t body) const { return made.bodies[body].name; }
@@ -61,13 +64,21 @@ std::vector<std::pair<std::string, std::string>> ignored_names(const PathOptions
   return names;
 }
 
+std::vector<BodyPair> without(const std::vector<BodyPair>& all, const std::vector<BodyPair>& pairs) {
+  std::vector<BodyPair> others;
+  std::ranges::set_difference(all, pairs, std::back_inserter(others));
+  return others;
+}
+
 Decision read_all(const PathOptions& options, const RobotFile& file) {
   ProgressLine line;
-  Decision decision{.file = file, .world = read_world(options), .disabled = {}, .made = {}, .pairs = {}, .paths = {}};
+  Decision decision{
+      .file = file, .world = read_world(options), .disabled = {}, .made = {}, .pairs = {}, .left_out = {}};
   decision.made = path_bodies(file.robot, options.geometry, decision.world, std::ref(line));
   if (!options.srdf.empty())
     decision.disabled = disabled_pairs(file.robot, read_bytes(options.srdf), input_name(options.srdf));
   decision.pairs = pairs_on_path(file.robot, decision.made.bodies, decision.disabled, ignored_names(options));
+  decision.left_out = without(pairs_on_path(file.robot, decision.made.bodies), decision.pairs);
   if (decision.pairs.empty()) refuse("there is no pair of bodies that could meet: all are adjacent, or ignored");
   for (const path& rows : options.paths)
     decision.paths.emplace_back(file.robot, read_path_rows(read_bytes(rows), input_name(rows)));
@@ -83,6 +94,18 @@ std::string pair_name(const Decision& decision, const PathPairProof& pair) {
   return fmt::format("{} and {}", decision.name(pair.a), decision.name(pair.b));
 }
 
+/// ", but for 1 pair that may touch (base and table)"
+std::string exceptions_text(const Decision& decision) {
+  constexpr std::size_t kMostNames = 3;
+  const std::vector<BodyPair>& all = decision.left_out;
+  if (all.empty()) return "";
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(all.size(), kMostNames); ++i)
+    names.push_back(fmt::format("{} and {}", decision.name(all[i].first), decision.name(all[i].second)));
+  if (all.size() > kMostNames) names.push_back(fmt::format("{} more", grouped(all.size() - kMostNames)));
+  return fmt::format(", but for {} that may touch ({})", counted(all.size(), "pair"), fmt::join(names, ", "));
+}
+
 double least_of(const PathProof& proof) { return std::ranges::min(proof.curve, {}, &DistanceBound::distance).distance; }
 
 std::string verdict_text(const PathOptions& options, const Decision& decision, std::size_t p) {
@@ -90,7 +113,8 @@ std::string verdict_text(const PathOptions& options, const Decision& decision, s
   const PathProof& proof = decision.proofs[p];
   const PathPairProof* const first = proof.first();
   if (!first) {
-    std::string text = fmt::format("free all along, proven for {}", counted(path.rows().positions.size(), "row"));
+    std::string text = fmt::format("free all along{}, proven for {}", exceptions_text(decision),
+                                   counted(path.rows().positions.size(), "row"));
     if (!path.rows().times.empty())
       text += fmt::format(", {:.6g} s", path.rows().times.back() - path.rows().times.front());
     if (!proof.curve.empty())
@@ -129,12 +153,23 @@ std::string rest_text(const Robot& robot, const JointPath& path) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-void say_others(const PathProof& proof) {
+void say_others(const PathOptions& options, const PathProof& proof) {
   const auto count = [&](PathVerdict verdict) {
     return std::ranges::count(proof.pairs, verdict, &PathPairProof::verdict);
   };
   const auto meet = count(PathVerdict::Meets), open = count(PathVerdict::Open);
-  if (meet + open > 1) say("  of {}, {} meet and {} are open\n", counted(proof.pairs.size(), "pair"), meet, open);
+  if (meet + open > 1)
+    say("  of {}, {} {} and {} are open\n", counted(proof.pairs.size(), "pair"), meet,
+        options.proof.gap > 0 ? "are closer" : "meet", open);
+}
+
+/// Of numbers, so that the position is told from both limits.
+int digits_apart(double position, const Joint& joint) {
+  constexpr int kFewest = 6, kMost = std::numeric_limits<double>::max_digits10;
+  int digits = kFewest;
+  const auto text = [&](double number) { return fmt::format("{:.{}g}", number, digits); };
+  while (digits < kMost && (text(position) == text(joint.lower) || text(position) == text(joint.upper))) ++digits;
+  return digits;
 }
 
 /// Of a path that leaves the limits of a joint.
@@ -142,10 +177,11 @@ std::string beyond_text(const Robot& robot, const JointPath& path) {
   const auto beyond = first_beyond_limits(robot, path);
   if (!beyond) return "";
   const Joint& joint = robot.joints[beyond->joint];
-  return fmt::format("BEYOND LIMITS: {}{} {}: {} is at {:.6g}, and its limits are {:.6g} and {:.6g}",
+  const int digits = digits_apart(beyond->position, joint);
+  return fmt::format("BEYOND LIMITS: {0}{1} {2}: {3} is at {4:.{7}g}, and its limits are {5:.{7}g} and {6:.{7}g}",
                      beyond->is_in_row() ? "" : "after ", path.rows().row,
                      path.rows().numbers.empty() ? beyond->row() : path.rows().numbers[beyond->row()], joint.name,
-                     beyond->position, joint.lower, joint.upper);
+                     beyond->position, joint.lower, joint.upper, digits);
 }
 
 void say_path(const PathOptions& options, const Decision& decision, std::size_t p) {
@@ -159,7 +195,7 @@ void say_path(const PathOptions& options, const Decision& decision, std::size_t 
     if (first->nothing_moves)
       say("  no joint moves them against each other; if they may touch, add --ignore {},{}\n", decision.name(first->a),
           decision.name(first->b));
-    say_others(proof);
+    say_others(options, proof);
   }
   if (const std::string text = beyond_text(robot, path); !text.empty()) say("  {}\n", text);
   if (const std::string rest = rest_text(robot, path); !rest.empty())
@@ -212,8 +248,9 @@ nlohmann::json facts(const Decision& decision, std::size_t p) {
 }
 
 nlohmann::json report_of(const PathOptions& options, const Decision& decision, double seconds) {
-  nlohmann::json bodies = nlohmann::json::array(), paths = nlohmann::json::array();
+  nlohmann::json bodies = nlohmann::json::array(), paths = nlohmann::json::array(), left_out = nlohmann::json::array();
   for (const PathBody& body : decision.made.bodies) bodies.push_back(body.name);
+  for (const auto& [a, b] : decision.left_out) left_out.push_back({decision.name(a), decision.name(b)});
   for (std::size_t p = 0; p < decision.paths.size(); ++p) paths.push_back(facts(decision, p));
   return {{"robot", decision.file.robot.name},
           {"file", decision.file.path.string()},
@@ -221,6 +258,7 @@ nlohmann::json report_of(const PathOptions& options, const Decision& decision, d
           {"gap", options.proof.gap},
           {"bodies", bodies},
           {"pairs", decision.pairs.size()},
+          {"left_out", left_out},
           {"notes", decision.made.notes},
           {"paths", paths},
           {"seconds", seconds}};
@@ -299,8 +337,10 @@ int run_motion(PathOptions options) {
   bool all = true;
   for (std::size_t p = 0; p < decision.paths.size(); ++p)
     say_path(options, decision, p), all &= is_as_asked(decision, p);
-  say("  {} of bodies; read and index {:.2f} s, prove {:.3f} s\n", counted(decision.pairs.size(), "pair"), read_seconds,
-      seconds);
+  const std::string rest =
+      decision.left_out.empty() ? "" : fmt::format(", {} left out", grouped(decision.left_out.size()));
+  say("  {} of bodies{}; read and index {:.2f} s, prove {:.3f} s\n", counted(decision.pairs.size(), "pair"), rest,
+      read_seconds, seconds);
   return all ? kDone : kAnswerIsNo;
 }
 

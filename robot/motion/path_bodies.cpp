@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "prohull/enclosure.h"
@@ -16,14 +17,15 @@ namespace {
 /// The closed shapes of a body, and its others.
 struct Shapes {
   TriangleMesh closed, open;
+  bool were_inside_out = false;
 
   void add(TriangleMesh mesh) {
     mesh = with_finite_faces(std::move(mesh));
     if (mesh.face_count() == 0) return;
-    if (is_closed(mesh))
-      append(closed, turned_outwards(std::move(mesh)));
-    else
-      append(open, mesh);
+    if (!is_closed(mesh)) return append(open, mesh);
+    const TriangleMesh outwards = turned_outwards(mesh);
+    were_inside_out |= outwards.triangles != mesh.triangles;
+    append(closed, outwards);
   }
 
   std::optional<ProofBody> shape() const {
@@ -54,6 +56,12 @@ std::size_t body_called(std::span<const PathBody> bodies, const std::string& nam
                                fmt::join(names, ", ")));
 }
 
+std::string turned_note(const PathBody& body) {
+  return body.was_inside_out
+             ? fmt::format("{} is inside out: it was turned, so that its inside counts as solid", body.name)
+             : "";
+}
+
 std::string open_note(const PathBody& body) {
   const bool is_closed = !body.shape || std::ranges::all_of(body.shape->parts, &CollisionIndex::is_solid);
   return !is_closed ? fmt::format("{}: not closed: only its faces count, not what lies inside", body.name) : "";
@@ -73,13 +81,14 @@ PathBody link_body(const Robot& robot, std::size_t link, Geometry which) {
     all.add(std::move(mesh));
   }
   body.shape = all.shape();
+  body.was_inside_out = all.were_inside_out;
   return body;
 }
 
 PathBody path_body(std::string name, std::optional<std::size_t> link, const TriangleMesh& mesh) {
   Shapes all;
   all.add(mesh);
-  return {std::move(name), link, all.shape()};
+  return {std::move(name), link, all.shape(), "", all.were_inside_out};
 }
 
 PathBodies path_bodies(const Robot& robot, Geometry which, std::span<const WorldMesh> world, const Progress& progress) {
@@ -109,7 +118,8 @@ PathBodies path_bodies(const Robot& robot, Geometry which, std::span<const World
   require_distinct_names(made.bodies);
   for (const PathBody& body : made.bodies) {
     if (!body.unread.empty()) made.notes.push_back(fmt::format("{}: {}", body.name, body.unread));
-    if (std::string note = open_note(body); !note.empty()) made.notes.push_back(std::move(note));
+    for (std::string& note : std::array{turned_note(body), open_note(body)})
+      if (!note.empty()) made.notes.push_back(std::move(note));
   }
   return made;
 }

@@ -20,13 +20,14 @@ struct PathBody {
   std::optional<std::size_t> link;  ///< none: of the world
   /// Its parts are its closed shapes, which are one solid, and its others, which are faces alone.
   std::optional<ProofBody> shape = {};
-  std::string unread = {};  ///< why nothing can be proven about it; empty if all of it was read
+  std::string unread = {};      ///< why nothing can be proven about it; empty if all of it was read
+  bool was_inside_out = false;  ///< a closed mesh of it, or a component of one, was turned
 };
 
 /// The bodies of a robot and its world. A link without the geometry that is asked for has the other one.
 struct PathBodies {
   std::vector<PathBody> bodies;    ///< of links with geometry, in their order; then of the world
-  std::vector<std::string> notes;  ///< sentences: what stands for what
+  std::vector<std::string> notes;  ///< sentences: what stands for what, and what was turned
 };
 
 /// A mesh of the world.

@@ -159,8 +159,8 @@ bool CageMaker::accept(EnclosingHulls& made, HullSide side, TriangleMesh mesh) c
   return true;
 }
 
-// What is missing of the gap is added, and measured again. Where the mesh is too thin for that, as much of the gap is
-// kept as can be.
+// What is missing of the gap is added, and measured again. Where that finds no hull, as in a thin mesh, less of the gap
+// is kept.
 void CageMaker::move_inwards(EnclosingHulls& made) const {
   constexpr int kMostAttempts = 4;
   constexpr double kLeast = 1e-3;  // of the gap

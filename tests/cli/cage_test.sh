@@ -29,6 +29,9 @@ says out "fewer faces inside" "few.obj: inner hull of 100 faces"
 expect 0 "standard output" $cage -o - --out-format obj
 is "standard output has the same bytes" cmp out alone.obj
 
+expect 1 "a gap that the inner hull does not keep" $cage --gap 0.5 -o far.obj --inner near.obj --strict
+says out "a gap that the inner hull does not keep" "NOT the 0.5 asked for: no inner hull that keeps it was found"
+
 # --- what cannot be ---
 expect 2 "no inner hull, but its faces" $cage -o a.obj --inner-faces 100
 says err "no inner hull, but its faces" "--inner"

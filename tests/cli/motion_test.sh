@@ -43,11 +43,19 @@ says out "a cubic" "cubic.json: MEETS at 0.42265 s"
 expect 1 "several paths" $motion free.csv meets.csv cubic.json --threads 1
 says out "several paths" "free.csv: free all along"
 says out "several paths" "cubic.json: MEETS"
-expect 0 "a pair to ignore" $motion meets.csv --ignore cart,base
+expect 0 "a pair to ignore" $motion meets.csv --ignore cart,base --report ignored.json
+says out "a pair that is left out is named" "free all along, but for 1 pair that may touch (base and cart), proven for"
+says out "pairs that are left out are counted" "2 pairs of bodies, 1 left out; read"
+is "report: what is left out" python3 -c "import json; assert json.load(open('ignored.json'))['left_out'] == [['base', 'cart']]"
+expect 0 "neighbours are no exception" $motion free.csv --ignore base,rail
+says out "neighbours are no exception" "free all along, proven"
 expect 0 "a path from standard input" sh -c "$motion - <free.csv"
 says out "a path from standard input" "standard input: free"
 expect 1 "a gap" $motion free.csv --gap 60cm
 says out "a gap" "CLOSER THAN 60cm at 1.6 s: base and cart"
+printf 'slide\n-1\n' >through.csv
+expect 1 "several pairs within a gap" $motion through.csv --gap 4m
+says out "several pairs within a gap" "are closer and 0 are open"
 expect 0 "a smaller gap" $motion free.csv --gap 499mm
 expect 1 "visual geometry, of which the base has none" $motion meets.csv --geometry visual
 says out "visual geometry" "so that their collision geometry counts: base, rail, cart"
@@ -58,6 +66,9 @@ expect 1 "beyond limits" $motion beyond.csv
 says out "beyond limits is free" "beyond.csv: free all along"
 says out "beyond limits" "BEYOND LIMITS: line 3: slide is at 5.5, and its limits are -2 and 5"
 
+printf 'slide\n5.0000001\n' >hair.csv
+expect 1 "a hair beyond limits" $motion hair.csv
+says out "a hair beyond limits" "slide is at 5.0000001, and its limits are -2 and 5"
 printf 'slide,slide.velocity\n4.5,4\n4.5,-4\n' >overshoot.csv
 expect 1 "beyond limits between rows" $motion overshoot.csv --report overshoot.json
 says out "beyond limits between rows" "BEYOND LIMITS: after line 2: slide is at 5.5, and its limits are -2 and 5"
@@ -143,9 +154,16 @@ expect 2 "a mesh with the name of a link" $motion free.csv --world cart.off
 says err "a mesh with the name of a link" "two bodies are called 'cart'"
 expect 3 "a world that is not there" $motion free.csv --world nowhere.stl
 
+sed -n 's/^4 \(.*\) \(.*\) \(.*\) \(.*\)$/4 \4 \3 \2 \1/p; /^4 /!p' table.off >room.off
+expect 1 "a mesh of the world that is inside out is turned" $motion free.csv --world room.off --unit mm
+says out "what was turned is said" "room is inside out: it was turned, so that its inside counts as solid"
+expect 1 "a table whose faces look outwards" $motion free.csv $world
+is "what was not turned is not said to be" sh -c '! grep -q "inside out" out'
+
 # --- SRDF ---
 echo '<robot name="slide"><disable_collisions link1="cart" link2="base" reason="User"/></robot>' >slide.srdf
 expect 0 "disabled pairs" $motion meets.csv --srdf slide.srdf
+says out "disabled pairs are named" "but for 1 pair that may touch (base and cart)"
 expect 3 "no SRDF" $motion meets.csv --srdf free.csv
 cat >all.srdf <<'SRDF'
 <robot name="slide">
