@@ -26,7 +26,7 @@ using std::filesystem::path;
 struct SweepRunOptions {
   path in, joint_path, out, report, poses;
   std::string out_format, axis, through, move, links;
-  double degrees = 0;
+  std::optional<double> degrees;
   std::size_t faces = 0;  ///< 0: pieces
   Length max_distance;
   InputOptions input;
@@ -79,8 +79,10 @@ Vec3 axis_of(const std::string& text) {
 
 std::vector<RigidMotion> motions_of(const SweepRunOptions& options) {
   if (!options.poses.empty()) return motions_between(read_poses(read_bytes(options.poses), input_name(options.poses)));
-  if (options.degrees == 0 && options.move.empty()) refuse("how does it move? Say --angle, --move or --poses");
-  RigidMotion motion{.angle = options.degrees * kDegree};
+  const double degrees = options.degrees.value_or(0);
+  if (degrees == 0 && options.move.empty())
+    refuse(options.degrees ? "with --angle 0 it does not move" : "how does it move? Say --angle, --move or --poses");
+  RigidMotion motion{.angle = degrees * kDegree};
   if (!options.axis.empty()) motion.axis = axis_of(options.axis);
   if (!options.through.empty()) motion.through = vector_of(options.through, "point");
   if (!options.move.empty()) motion.shift = vector_of(options.move, "vector");
@@ -208,9 +210,11 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
 }
 
 void check_options(const SweepRunOptions& options) {
-  const bool has_turn = !options.axis.empty() || !options.through.empty() || options.degrees != 0;
+  const bool has_turn = !options.axis.empty() || !options.through.empty() || options.degrees;
   const bool moves = has_turn || !options.move.empty() || !options.poses.empty();
   if (is_robot_file(options.in) && moves) refuse("a robot moves by its PATH: leave --angle, --move and --poses out");
+  const bool has_unit = options.input.unit > 0 || options.input.scale != 1;
+  if (is_robot_file(options.in) && has_unit) refuse("a robot is in metres: leave --unit and --scale out");
   if (is_robot_file(options.in)) return;
   if (!options.joint_path.empty()) refuse("PATH is of the joints of a robot: URDF, SDF or MJCF");
   if (!options.links.empty()) refuse("--links is for robots");

@@ -46,6 +46,21 @@ Pose normalized(const Pose& pose) {
   return pose_of_quaternion(w, x, y, z, pose.translation);
 }
 
+/// pose_of, with where it stands in what it throws.
+Pose pose_in_line(std::span<const double> numbers, const std::string& file, std::size_t line) {
+  const auto fail = [&](const std::string& why) {
+    throw InputError(Defect::Malformed, fmt::format("{}: line {}: {}", file, line, why));
+  };
+  std::optional<Pose> pose;
+  try {
+    pose = pose_of(numbers);
+  } catch (const InputError& error) {
+    fail(error.what());
+  }
+  if (!pose) fail("expected x, y, z and a quaternion w, x, y, z, or the 12 or 16 numbers of a matrix");
+  return *pose;
+}
+
 RigidMotion motion_between(const Pose& from, const Pose& to) {
   const Pose turn = composed({to.rotation, {}}, inverse({from.rotation, {}}));
   auto [w, x, y, z] = quaternion_of(turn);
@@ -81,12 +96,7 @@ std::vector<Pose> read_poses(std::string_view text, const std::string& file) {
       check_order(row, file);
       continue;
     }
-    const std::optional<Pose> pose = numbers ? pose_of(*numbers) : std::nullopt;
-    if (!pose)
-      throw InputError(Defect::Malformed, fmt::format("{}: line {}: expected x, y, z and a quaternion w, x, y, z, or "
-                                                      "the 12 or 16 numbers of a matrix",
-                                                      file, line));
-    poses.push_back(*pose);
+    poses.push_back(pose_in_line(numbers ? *numbers : std::vector<double>{}, file, line));
   }
   if (poses.empty()) throw InputError(Defect::Malformed, fmt::format("{}: there are no poses", file));
   return poses;

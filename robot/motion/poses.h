@@ -17,7 +17,7 @@ std::optional<Pose> pose_of(std::span<const double> numbers);
 
 /// Reads poses, one a line, as numbers of pose_of. Commas, semicolons, tabs or blanks stand between them. Blank lines,
 /// lines that begin with #, and a first line of names are skipped, but for names that tell w as the last column: those
-/// are refused. Throws InputError(Malformed) with the file and the line, and as pose_of.
+/// are refused. Throws InputError(Malformed) with the file and the line.
 std::vector<Pose> read_poses(std::string_view text, const std::string& file);
 
 /// From each pose to the next: the origin of the body's frame goes straight, and the body turns about one axis the

@@ -54,10 +54,15 @@ expect 0 "poses cover the end" $prohull verify poses.stl end.off
 printf 'bar.off 1\n' >bad.csv
 expect 3 "no poses" $sweep --poses bad.csv -o no.stl
 says err "no poses" "bad.csv: line 1: expected x, y, z and a quaternion"
+printf '0,0,0,1,0,0,0\n\n0,0,0,0,0,0,0\n' >zero.csv
+expect 3 "a quaternion of nothing" $sweep --poses zero.csv -o no.stl
+says err "a quaternion of nothing" "zero.csv: line 3: a quaternion of a pose must be finite, and not 0"
 
 # --- what is refused ---
 expect 2 "no motion" $sweep -o no.stl
 says err "no motion" "how does it move?"
+expect 2 "no turn" $sweep --angle 0 -o no.stl
+says err "no turn" "with --angle 0 it does not move"
 expect 2 "an axis without length" $sweep --axis 0,0,0 --angle 5 -o no.stl
 expect 2 "no number" $sweep --axis nan,0,0 --angle 5 -o no.stl
 expect 2 "poses and an angle" $sweep --poses poses.csv --angle 5 -o no.stl
@@ -89,6 +94,8 @@ expect 2 "a link without a shape" $prohull sweep bare.urdf turn.csv --links base
 says err "a link without a shape" "--links: 'base' has no shape"
 expect 2 "a robot without a path" $prohull sweep arm.urdf -o no.stl
 expect 2 "a robot that turns" $prohull sweep arm.urdf turn.csv --angle 5 -o no.stl
+expect 2 "a robot in millimetres" $prohull sweep arm.urdf turn.csv --unit mm -o no.stl
+says err "a robot in millimetres" "a robot is in metres: leave --unit and --scale out"
 
 printf '%s\n' OFF '8 10 0' '0 0 0' '1 0 0' '1 1 0' '0 1 0' '0 0 1' '1 0 1' '1 1 1' '0 1 1' '3 0 2 1' '3 0 3 2' '3 0 1 5' \
   '3 0 5 4' '3 1 2 6' '3 1 6 5' '3 2 3 7' '3 2 7 6' '3 3 0 4' '3 3 4 7' >bucket.off

@@ -410,8 +410,15 @@ const tests = {
       if (disabled) assert.match(await moved('Home'), /✓ No links collide.*pairs that the SRDF/);
       else assert.match(await moved('Home'), /✗ 1 pair collides:crate – coin/);
       if (!disabled) assert.match(await moved('End'), /✓ No links collide/);
+      assert.doesNotMatch(await text(page, 'collisions'), /not compared/);
       await closed(page);
     }
+    run('sample', 'box', '--faces', '12', '-o', at('beside.off'));
+    run('view', at('boxes.urdf'), at('beside.off'), '-o', at('beside.html'));
+    const page = await opened('beside.html');
+    await page.waitForFunction(() => document.getElementById('colliding'));
+    assert.match(await text(page, 'collisions'), /Meshes beside the robot are not compared/);
+    await closed(page);
   },
 
   async 'a slider of time moves a robot along a path, with what is proven'() {
