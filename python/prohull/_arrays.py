@@ -3,6 +3,7 @@
 import numbers
 import os
 import sys
+from collections.abc import Iterable
 from typing import Any, Optional
 
 import numpy as np
@@ -94,6 +95,28 @@ def rays(origins: ArrayLike, directions: ArrayLike) -> NDArray[np.float64]:
     both = np.empty((counts.pop(), 6))
     both[:, :3], both[:, 3:] = origins, directions
     return both
+
+
+def with_length(lines: NDArray[np.float64], are_rays: bool) -> NDArray[np.float64]:
+    """The same rows, of an origin and a direction, or of two ends."""
+    have_none = (lines[:, 3:] == (0 if are_rays else lines[:, :3])).all(axis=1)
+    if have_none.any():
+        why = "the ray's direction is zero" if are_rays else "the segment's ends are equal"
+        raise InputError(f"query {have_none.argmax()}: {why}; leave it out")
+    return lines
+
+
+def points(values: Any) -> NDArray[np.float64]:
+    """Rows of shape (n, 3); a single point is the only row."""
+    return rows("points", [values] if np.shape(array("points", values)) == (3,) else values, (3,))
+
+
+def names(name: str, values: Any) -> list[str]:
+    """One string alone is no sequence of names."""
+    made = list(values) if isinstance(values, Iterable) and not isinstance(values, str) else [None]
+    if not all(isinstance(value, str) for value in made):
+        raise InputError(f"{name}={values!r}: expected a sequence of names")
+    return made
 
 
 def arrays_of_mesh(mesh: Any) -> Optional[tuple[Any, Any]]:

@@ -69,7 +69,7 @@ def cage(mesh: MeshLike, faces: int = 400, *, inner_faces: int = 0, gap: Gap = 0
     progress: called as build() calls it. If it returns False, the work stops with KeyboardInterrupt, as for Ctrl-C.
 
     Raises InputError, a ValueError, for a file that cannot be read, a mesh without a finite triangle, an inner hull of a
-    mesh that is not closed or too thin for one, and arguments that are not as above.
+    mesh that is not closed or where none is found, and arguments that are not as above.
 
         made = prohull.cage("organ.stl", 600, inner_faces=300, even=True)
         made.outer.save("outer.obj")

@@ -107,8 +107,8 @@ class Mesh(Shown):
     threads: the largest number of threads; 0 means one for each core. The answers do not depend on it.
     progress: called as build() calls it, with the stage "query".
 
-    Queries release the GIL, and Ctrl-C stops them. A segment without length and a ray without direction hit nothing.
-    Queries raise InputError, a ValueError, for an array of another shape, for coordinates that are not finite, and for
+    Queries release the GIL, and Ctrl-C stops them. Queries raise InputError, a ValueError, for an array of
+    another shape, for coordinates that are not finite, for segments without length and rays without direction, and for
     an unknown engine.
     """
 
@@ -269,28 +269,25 @@ class Mesh(Shown):
         A point on the surface may count as inside or as outside. Raises InputError if the mesh is not closed.
         """
         is_one = np.shape(points) == (3,)
-        rows = _arrays.rows("points", [points] if is_one else points, (3,))
-        inside = self._index(engine).contains(rows, threads, progress)
+        inside = self._index(engine).contains(_arrays.points(points), threads, progress)
         return bool(inside[0]) if is_one else inside
 
-    def closest(self, points: Rows, *, max_distance: float = math.inf, engine: Engine = "auto", threads: int = 0,
+    def closest(self, points: ArrayLike, *, max_distance: float = math.inf, engine: Engine = "auto", threads: int = 0,
                 progress: Optional[Progress] = None) -> ClosestPoints:
         """Finds for each point the closest point of the mesh, and how far it is.
 
-        points: (n, 3).
+        points: (n, 3), or a single point, (3,), which is row 0 of the answer.
         max_distance: points of which the mesh is not certainly within this distance get no answer; saves time.
         """
-        rows = _arrays.rows("points", points, (3,))
-        return ClosestPoints(*self._index(engine).closest(rows, max_distance, threads, progress))
+        return ClosestPoints(*self._index(engine).closest(_arrays.points(points), max_distance, threads, progress))
 
-    def signed_distance(self, points: Rows, *, engine: Engine = "auto", threads: int = 0,
+    def signed_distance(self, points: ArrayLike, *, engine: Engine = "auto", threads: int = 0,
                         progress: Optional[Progress] = None) -> ClosestPoints:
         """closest(), with distances and bounds that are negative where contains() has the point inside.
 
-        points: (n, 3). Raises InputError if the mesh is not closed.
+        points: as of closest(). Raises InputError if the mesh is not closed.
         """
-        rows = _arrays.rows("points", points, (3,))
-        return ClosestPoints(*self._index(engine).signed_distances(rows, threads, progress))
+        return ClosestPoints(*self._index(engine).signed_distances(_arrays.points(points), threads, progress))
 
     def _index(self, engine: Engine) -> _prohull.Index:
         if engine not in self._indices:
@@ -317,7 +314,7 @@ def _lines(origins: Optional[ArrayLike], directions: Optional[ArrayLike],
            segments: Optional[ArrayLike]) -> tuple[NDArray[np.float64], bool]:
     """Rows of six numbers, and whether they are rays."""
     if segments is not None and origins is None and directions is None:
-        return _arrays.rows("segments", segments, (2, 3), (6,)).reshape(-1, 6), False
+        return _arrays.with_length(_arrays.rows("segments", segments, (2, 3), (6,)).reshape(-1, 6), False), False
     if segments is None and origins is not None and directions is not None:
-        return _arrays.rays(origins, directions), True
+        return _arrays.with_length(_arrays.rays(origins, directions), True), True
     raise InputError("expected either origins and directions, or segments")

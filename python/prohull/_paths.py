@@ -1,7 +1,7 @@
 """Paths of robots: free all along, proven, or where bodies meet first."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, Optional, Union, get_args
 
 import numpy as np
@@ -107,7 +107,7 @@ def path_rows(names: Sequence[str], joints: Optional[Sequence[str]], positions: 
         if joints is not None or any(other is not None for other in others):
             raise InputError("joints, times, velocities and accelerations are those of the file")
         return _prohull.read_path_rows(bytes_of(positions), os.fspath(positions))
-    columns = list(names if joints is None else joints)
+    columns = list(names) if joints is None else _arrays.names("joints", joints)
     times, velocities, accelerations = others
 
     def table(name: str, values: Optional[ArrayLike]) -> list[Any]:
@@ -123,11 +123,30 @@ def check_geometry(geometry: Geometry) -> None:
         raise InputError(f"geometry={geometry!r}: expected one of {', '.join(get_args(Geometry))}")
 
 
+def _world_of(world: Any) -> Mapping[str, MeshLike]:
+    if world is None:
+        return {}
+    if not isinstance(world, Mapping) or not all(isinstance(name, str) for name in world):
+        raise InputError(f"world: {_arrays.described(world)}; expected meshes by their names, as "
+                         '{"table": "table.off"}')
+    return world
+
+
+def _pairs_of(ignore: Any) -> list[tuple[str, str]]:
+    def is_pair(pair: Any) -> bool:
+        return isinstance(pair, (tuple, list)) and len(pair) == 2 and all(isinstance(name, str) for name in pair)
+
+    pairs = list(ignore) if isinstance(ignore, Iterable) else [ignore]
+    if not all(map(is_pair, pairs)):
+        raise InputError(f'ignore={ignore!r}: expected pairs of names, as [("base_link", "table")]')
+    return [(a, b) for a, b in pairs]
+
+
 def path_checker(robot: _prohull.Robot, joint_names: Sequence[str], world: Optional[Mapping[str, MeshLike]],
                  geometry: Geometry, srdf: Optional[Path], ignore: Sequence[tuple[str, str]]) -> PathChecker:
     check_geometry(geometry)
     text = b"" if srdf is None else bytes_of(srdf)
-    meshes = [(name, mesh_of(mesh)._core) for name, mesh in (world or {}).items()]
+    meshes = [(name, mesh_of(mesh)._core) for name, mesh in _world_of(world).items()]
     core = _prohull.PathChecker(robot, meshes, geometry, text, "" if srdf is None else os.fspath(srdf),
-                                [(a, b) for a, b in ignore])
+                                _pairs_of(ignore))
     return PathChecker(joint_names, core)

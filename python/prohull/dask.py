@@ -242,7 +242,7 @@ def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kin
     """
     if kind not in ("first_hit", "any_hit", "all_hits"):
         raise InputError(f"kind={kind!r}: expected one of first_hit, any_hit, all_hits")
-    rows = _finite(_arrays.rows("segments", segments, (2, 3), (6,)).reshape(-1, 6))
+    rows = _arrays.with_length(_finite(_arrays.rows("segments", segments, (2, 3), (6,)).reshape(-1, 6)), False)
     given = mesh_of(mesh)
     bare = Mesh._of(given._core, given._query_levels)  # of a Hull no more than is asked
     # Multiples of what a batch answers at a time, which paper-refinement can tell.

@@ -475,11 +475,12 @@ class Robot(Shown):
         check_geometry(geometry)
         rows = path_rows(self._path_joints(), joints, positions, times, velocities, accelerations)
         numbers = {link.name: number for number, link in enumerate(self.links)}
-        if unknown := [name for name in links or () if name not in numbers]:
+        swept = list(numbers) if links is None else _arrays.names("links", links)
+        if unknown := [name for name in swept if name not in numbers]:
             raise InputError(f"links: the robot has no link {unknown[0]!r}; it has {', '.join(numbers)}")
         made = _prohull.sweep_robot(
-            self._core, rows, [numbers[name] for name in (numbers if links is None else links)], geometry == "visual",
-            progress, sweep_keywords(pieces, max_distance, _arrays.not_negative, float32_coordinates, threads))
+            self._core, rows, [numbers[name] for name in swept], geometry == "visual", progress,
+            sweep_keywords(pieces, max_distance, _arrays.not_negative, float32_coordinates, threads))
         return {name: sweep_of(facts) for name, facts in made}
 
     def _path_joints(self) -> list[str]:

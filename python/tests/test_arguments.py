@@ -72,6 +72,8 @@ def test_empty_and_infinite_meshes_are_refused(cube):
     (dict(origins=np.zeros(3)), "either origins and directions, or segments"),
     (dict(segments=np.zeros((4, 6)), origins=np.zeros(3)), "either origins and directions, or segments"),
     (dict(origins=[[0, 0, np.nan]], directions=[[0, 0, 1]]), "0"),
+    (dict(origins=[0, 0, 9], directions=[[0, 0, -1], [0, 0, 0]]), "query 1: the ray's direction is zero; leave it out"),
+    (dict(segments=[[[0, 0, 0], [0, 0, 0]]]), "query 0: the segment's ends are equal; leave it out"),
     (dict(segments=np.zeros((1, 6)), engine="magic"), "engine='magic': expected one of auto, bvh"),
 ])
 def test_wrong_queries_are_named(cube, arguments, message):

@@ -122,6 +122,7 @@ def test_closest(cube, pony, random):
     signed = mesh.signed_distance(points)
     assert signed.distance.tolist() == [2, -0.25, math.sqrt(32)] and (signed.face == found.face).all()
     assert signed.lower[1] == -found.upper[1] and signed.upper[1] == -found.lower[1]
+    assert mesh.closest([3, 0, 0]).distance.tolist() == [2] and mesh.signed_distance((0, 0, 0)).distance.tolist() == [-1]
     near = mesh.closest(points, max_distance=2.5)
     assert near.face[2] == -1 and np.isnan(near.distance[2]) and np.isnan(near.position[2]).all()
     assert near.distance[:2].tolist() == [2, 0.25]

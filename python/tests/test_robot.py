@@ -272,6 +272,13 @@ def test_a_checker_serves_many_paths_in_a_world(slide):
     assert one[:5] == two[:5] and np.array_equal(one.distances, two.distances)
 
 
+def test_what_was_turned_is_noted(slide):
+    box = prohull.sample("box", 12)
+    world = {"room": (box.vertices, box.faces[:, ::-1]), "post": (box.vertices + 9, box.faces)}
+    assert [note for note in slide.path_checker(world=world).notes if "inside out" in note] == \
+        ["room is inside out: it was turned, so that its inside counts as solid"]
+
+
 def test_links_are_enclosed_all_along_a_path(slide):
     sweeps = slide.sweep([[0, 1], [2, 4]], links=["cart", "rail"])
     assert list(sweeps) == ["cart", "rail"] and all(sweep.covers_inside for sweep in sweeps.values())
@@ -280,6 +287,8 @@ def test_links_are_enclosed_all_along_a_path(slide):
     assert math.isnan(sweeps["cart"].volume) and list(slide.sweep([[0, 1]])) == ["base", "rail", "cart"]
     with pytest.raises(prohull.InputError, match="links: the robot has no link 'desk'; it has base, rail, cart"):
         slide.sweep([[0, 1]], links=["desk"])
+    with pytest.raises(prohull.InputError, match="links='cart': expected a sequence of names"):
+        slide.sweep([[0, 1]], links="cart")
     with pytest.raises(prohull.InputError, match="max_distance=-1"):
         slide.sweep([[0, 1]], max_distance=-1)
     with pytest.raises(prohull.InputError, match="max_distance=0: expected a distance greater than 0"):
@@ -318,6 +327,10 @@ def test_what_is_wrong_with_a_path_is_told(slide, tmp_path):
             ([[0, 1]], {"geometry": "inertial"}, "geometry='inertial': expected one of visual, collision"),
             ([[0, 1]], {"ignore": [("cart", "desk")]}, "is called 'desk'"),
             ([[0, 1]], {"ignore": [("cart", "base")]}, None),
+            ([[0, 1]], {"ignore": ["cart", "base"]}, "expected pairs of names, as "),
+            ([[0, 1]], {"ignore": "cart"}, "ignore='cart': expected pairs of names"),
+            ([[0, 1]], {"world": "table.off"}, "world: 'table.off'; expected meshes by their names"),
+            ([[0]], {"joints": "slide"}, "joints='slide': expected a sequence of names"),
             ([[0, 1]], {"world": {"cart": prohull.sample("box", 12)}}, "two bodies are called 'cart'"),
             (tmp_path / "none.csv", {}, None),
             (slide.path, {"times": [1]}, "are those of the file"),

@@ -50,6 +50,7 @@ hits = one.original.first_hit(v, -v, engine=prohull.TwoHulls(one, "walk"))
 inside: bool = mesh.contains([0, 0, 0])
 each: NDArray[np.bool_] = mesh.contains([[0, 0, 0], [1, 1, 1]], progress=lambda stage, fraction: None)
 closest: prohull.ClosestPoints = mesh.closest([[0, 0, 0]], max_distance=2)
+closest = mesh.closest([0, 0, 0])
 away: NDArray[np.float64] = mesh.signed_distance(v, threads=1).distance
 facts: dict[str, Any] = mesh.report()
 level: prohull.Hull = one.level(1000)
