@@ -92,7 +92,8 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
           {"within_bounds", cover.within_bounds},
           {"spheres", json_of(cover.balls)},
           {"reach", {{"lower", cover.reach.lower}, {"upper", cover.reach.upper}, {"farthest", {far.x, far.y, far.z}}}},
-          {"reach_from_triangles", facts(cover.reach_from_triangles)},
+          {"reach_from_triangles",
+           cover.is_of_wrap || cover.has_openings ? facts(cover.reach_from_triangles) : nlohmann::json()},
           {"non_finite_faces", cover.non_finite_faces},
           {"volume", cover.volume},
           {"original_volume", cover.original_volume},
@@ -107,9 +108,10 @@ void print_summary(const SpheresOptions& options, const Outcome& outcome) {
   say("{}: {} around {}, which reach out by at most {:.4g}, {} % of the diagonal{}\n", output_name(options.out),
       counted(cover.balls.size(), "sphere"), counted(outcome.faces, "face"), rounded_up(cover.reach.upper, 4),
       with_decimals_up(100 * outcome.part_of_diagonal(), 2),
-      cover.is_of_wrap ? fmt::format("; that is from a wrap, and from the triangles alone it is at most {:.4g}",
-                                     rounded_up(cover.reach_from_triangles.upper, 4))
-                       : text_of_openings(cover.has_openings, cover.reach_from_triangles));
+      cover.is_of_wrap && cover.reach.upper == cover.reach_from_triangles.upper ? ", from the triangles alone"
+      : cover.is_of_wrap ? fmt::format("; that is from a wrap, and from the triangles alone it is at most {:.4g}",
+                                       rounded_up(cover.reach_from_triangles.upper, 4))
+                         : text_of_openings(cover.has_openings, cover.reach_from_triangles));
   if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);
   if (outcome.has_volume())
     say("  volume: {:.4g} with overlaps counted once, {:.1f} % {} than the solid's{}\n", cover.volume,

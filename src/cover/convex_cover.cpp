@@ -32,10 +32,9 @@ namespace {
 
 /// Cuts are looked for on a hull of so many faces: more make them hardly better.
 constexpr std::size_t kSearchFaces = 1500;
-/// Of the hull around triangles that bound no solid: so many for each triangle, up to kSearchFaces.
-constexpr std::size_t kHullFacesPerTriangle = 4, kFewestHullFaces = 400;
-/// Of a grid along the diagonal, to find space that triangles enclose: from 1.6 % of the diagonal on.
-constexpr double kNodesForSpace = 128;
+/// Along the diagonal, of wraps around triangles that bound no solid: the finest that has space inside tells what lies
+/// between them. Coarse ones close large openings.
+constexpr double kWrapNodes = 128, kFewestWrapNodes = 16, kClosing = 1.5;
 /// Those of the wide search, which is costlier.
 constexpr std::size_t kWideSearchFaces = 800;
 constexpr double kSearchTolerance = 1e-6;
@@ -56,8 +55,8 @@ void check(const ConvexCoverOptions& options) {
 
 /// What is cut into pieces.
 struct Material {
-  TriangleMesh solid;    ///< closed, outwards; or without faces
-  TriangleMesh beside;   ///< triangles to cover that bound nothing
+  TriangleMesh solid;    ///< closed, outwards; or without faces: what lies in it is covered, too
+  TriangleMesh faces;    ///< pieces are fitted to these
   TriangleMesh coarse;   ///< like both, of few faces: the cuts are looked for in it
   TriangleMesh coarser;  ///< around `coarse`, for the wide search
   InsideVolume inside;
@@ -115,6 +114,11 @@ std::vector<TriangleMesh> meshes_around(const std::vector<ConvexPiece>& pieces) 
   return meshes;
 }
 
+/// The mesh of the piece is larger than what is written.
+bool is_round(const ConvexPiece& piece) {
+  return std::holds_alternative<Capsule>(piece.primitive) || std::holds_alternative<Ball>(piece.primitive);
+}
+
 class Covering {
  public:
   Covering(TriangleMesh triangles, const ConvexCoverOptions& options)
@@ -125,15 +129,14 @@ class Covering {
     std::optional<ConvexCover> cover;
     if (prepared_.closed) cover = best_cover(measurable(of_closed_mesh()));
     // One convex piece holds all that lies between the triangles, too. Bounds of the void ask for more: a volume.
-    if (!cover && options_.max_pieces == 1 && !options_.bounds.any()) cover = best_cover(of_convex_hull());
+    if (!cover && options_.max_pieces == 1 && !options_.bounds.any() && !is_flat())
+      cover = best_cover(of_convex_hull());
     if (!cover || !cover->certified) {
       const Material material = measurable(of_open_triangles());
       cover = best_cover(material);
       if (prepared_.closed) cover->notes.emplace_back("no cover of the mesh itself was certified");
-      if (material.solid.face_count() > 0)
-        cover->notes.emplace_back("a hull around the mesh was cut into pieces");
-      else if (!cover->covers_inside)
-        cover->notes.emplace_back("the triangles are covered, but not what lies between them");
+      if (!cover->covers_inside)
+        cover->notes.emplace_back("the triangles are covered; what lies between them may not be");
     }
     if (!cover->certified) {
       cover = best_cover(of_convex_hull());
@@ -147,8 +150,10 @@ class Covering {
   }
 
  private:
+  bool is_flat() const { return convex_hull(prepared_.original).face_count() == 0; }
+
   bool is_no_better_than_one_piece(const ConvexCover& cover) const {
-    return cover.pieces.size() > 1 && !options_.bounds.any() &&
+    return cover.pieces.size() > 1 && !options_.bounds.any() && !is_flat() &&
            signed_volume(convex_hull(prepared_.original)) <= cover.volume;
   }
 
@@ -159,9 +164,14 @@ class Covering {
   }
 
   Material of_closed_mesh() const {
-    const TriangleMesh& closed = prepared_.closed->mesh;
+    TriangleMesh faces = prepared_.closed->mesh;
+    append(faces, prepared_.dropped);
+    return of_solid(prepared_.closed->mesh, std::move(faces), volume_of_solid());
+  }
+
+  Material of_solid(const TriangleMesh& closed, TriangleMesh faces, InsideVolume volume) const {
     TriangleMesh coarse = with_faces(closed, kSearchFaces), coarser = with_faces(coarse, kWideSearchFaces);
-    return {closed, prepared_.dropped, std::move(coarse), std::move(coarser), volume_of_solid()};
+    return {closed, std::move(faces), std::move(coarse), std::move(coarser), volume};
   }
 
   InsideVolume volume_of_solid() const { return volume_inside(prepared_.closed->mesh, options_.progress); }
@@ -176,42 +186,40 @@ class Covering {
         .hull.base();
   }
 
-  /// Of triangles that bound no solid by themselves. Without any space inside, or if no better solid than the convex
-  /// hull is found, they are cut themselves.
+  /// Of triangles that bound no solid by themselves: what lies between them is what lies in a wrap.
   Material of_open_triangles() const {
     const TriangleMesh& triangles = prepared_.original;
-    if (convex_hull(triangles).face_count() == 0) return {{}, triangles, triangles, triangles, {}};
-    if (!enclose_space(triangles)) return of_surface({});
-    const std::size_t faces[]{
-        std::clamp(kHullFacesPerTriangle * triangles.face_count(), kFewestHullFaces, kSearchFaces)};
-    EnclosingHulls made = enclosing_hulls(triangles, faces, enclosing_options(options_.threads, options_.progress));
-    TriangleMesh& hull = made.hulls[0].mesh;
-    const InsideVolume volume{made.volume, made.is_estimated};
-    if (made.hulls[0].source == Source::ConvexHull) return of_surface(volume);
-    return {hull, {}, hull, hull, volume};
+    if (is_flat()) return {{}, triangles, triangles, triangles, {}};
+    TriangleMesh with_caps = triangles;
+    append(with_caps, prepared_.caps);
+    const double diagonal = bounding_box(triangles).diagonal();
+    Wrap around;
+    for (double nodes = kWrapNodes; around.inside_volume == 0; nodes /= 2) {
+      if (nodes < kFewestWrapNodes) return of_surface();
+      const double spacing = diagonal / nodes;
+      around =
+          wrap(with_caps,
+               {.spacing = spacing, .seal_rooms = true, .closing = kClosing * spacing, .progress = options_.progress});
+    }
+    return of_solid(around.mesh, triangles, {around.inside_volume, /*is_estimated=*/true});
   }
 
-  bool enclose_space(const TriangleMesh& triangles) const {
-    const double spacing = bounding_box(triangles).diagonal() / kNodesForSpace;
-    return inside_volume(triangles, {.spacing = spacing, .seal_rooms = true, .progress = options_.progress}) > 0;
-  }
-
-  Material of_surface(InsideVolume volume) const {
+  Material of_surface() const {
     const TriangleMesh coarse = clustered(prepared_.original);
-    return {{}, prepared_.original, coarse, coarse, volume};
+    return {{}, prepared_.original, coarse, coarse, {}};
   }
 
   /// One piece.
   Material of_convex_hull() const {
     const TriangleMesh hull = convex_hull(prepared_.original);
-    return {hull, {}, hull, hull, prepared_.closed ? volume_of_solid() : InsideVolume()};
+    return {hull, hull, hull, hull, prepared_.closed ? volume_of_solid() : InsideVolume()};
   }
 
   /// The most pieces, or as few as keep the bounds.
   ConvexCover best_cover(const Material& material) {
     const CutSearch search = search_of(material);
     const CutTree tree = tree_of(search, options_.max_pieces, material);
-    Solid solid(material.solid, material.beside, kTolerances[0]);
+    Solid solid(material.faces, material.solid, kTolerances[0]);
     const std::size_t most = fewest_parts(tree);
     ConvexCover best = fitted(tree, most, solid, material);
     // Fewer pieces do without the cut that defeats the proof.
@@ -263,7 +271,7 @@ class Covering {
 
   static Solid search_solid(const TriangleMesh& mesh, const Material& material, const Frame& frame) {
     const TriangleMesh scaled = frame.scaled(mesh);
-    return material.solid.face_count() > 0 ? Solid(scaled, {}, kSearchTolerance) : Solid({}, scaled, kSearchTolerance);
+    return Solid(scaled, material.solid.face_count() > 0 ? scaled : TriangleMesh(), kSearchTolerance);
   }
 
   /// Pieces that save nothing are not made.
@@ -367,6 +375,8 @@ class Covering {
     cover.reach_from_triangles = union_reach(meshes, prepared_.original, how);
     cover.has_openings = prepared_.closed && prepared_.caps.face_count() > 0;
     cover.reach = cover.has_openings ? union_reach(meshes, prepared_.closed->mesh, how) : cover.reach_from_triangles;
+    cover.reach.upper = std::min(cover.reach.upper, cover.reach_from_triangles.upper);  // the solid has the triangles
+    if (std::ranges::any_of(cover.pieces, is_round)) cover.reach.lower = cover.reach_from_triangles.lower = 0;
     cover.non_finite_faces = prepared_.repairs.dropped_non_finite_faces;
     cover.within_bounds = keeps_bounds(cover);
     return cover;

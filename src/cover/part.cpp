@@ -93,9 +93,8 @@ class Half {
 
 }  // namespace
 
-Solid::Solid(const TriangleMesh& mesh, const TriangleMesh& more, double tolerance) : index_(mesh) {
-  append_used(surface_, mesh);
-  append_used(surface_, more);
+Solid::Solid(const TriangleMesh& faces, const TriangleMesh& closed, double tolerance) : index_(closed) {
+  append_used(surface_, faces);
   box_ = bounding_box(surface_);
   set_tolerance(tolerance);
 }

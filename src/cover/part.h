@@ -29,8 +29,8 @@ inline Vec3 crossing(const Vec3& p, const Vec3& q, double height_p, double heigh
 /// The surface of a solid, and what is inside of it.
 class Solid {
  public:
-  /// `mesh` is closed, or has no faces. `more` are further triangles to cover, which bound nothing.
-  Solid(const TriangleMesh& mesh, const TriangleMesh& more, double tolerance);
+  /// What lies in `closed` is to be covered, too; it may have no faces.
+  Solid(const TriangleMesh& faces, const TriangleMesh& closed, double tolerance);
   /// Corners within `tolerance` of a plane count as on it, relative to the diagonal of the box.
   void set_tolerance(double tolerance) { tolerance_ = tolerance * box_.diagonal(); }
 
@@ -42,7 +42,7 @@ class Solid {
   bool contains(const Vec3& p) const;
 
  private:
-  TriangleMesh surface_;  // `more` included
+  TriangleMesh surface_;
   Box box_;
   double tolerance_;
   QueryIndex index_;

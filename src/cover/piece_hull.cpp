@@ -45,7 +45,8 @@ TriangleMesh piece_hull(const Part& part, std::size_t max_vertices, bool float32
   if (points.empty()) return {};
   Box box;
   for (const Vec3& p : points) box.extend(p);
-  const double hair = 1e-9 * (norm(box.center()) + box.diagonal());
+  constexpr double kRounding = 1e-13;  // of coordinates, some hundred times that of one
+  const double hair = 1e-9 * box.diagonal() + kRounding * norm(box.center());
   TriangleMesh hull = convex_hull_of(points);
   const bool is_rounded = std::any_of(hull.positions.begin(), hull.positions.end(),
                                       [&](const Vec3& p) { return is_on_a_plane(p, part, hair); });

@@ -200,6 +200,7 @@ class SphereCoverer {
     const bool has_more = made_.is_of_wrap || made_.has_openings;
     made_.reach_from_triangles =
         has_more ? union_reach(made_.balls, input_.original, {.progress = options_.progress}) : made_.reach;
+    made_.reach.upper = std::min(made_.reach.upper, made_.reach_from_triangles.upper);  // the solid has the triangles
     made_.volume = union_volume(made_.balls);
     // No estimate may say that the mesh is larger than what covers it.
     if (made_.is_estimated && made_.covers_inside && made_.original_volume > made_.volume) made_.original_volume = 0;

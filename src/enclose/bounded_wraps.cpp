@@ -18,29 +18,34 @@ constexpr double kBoundedSpacing = 0.5;  // of the largest distance
 // as few. By 0.12, wraps of two parts leave triangles uncovered.
 constexpr WrapKind kCloseWrap{3.5, 0.3, 0, 0.08};
 
+double square(double x) { return x * x; }
+
 // With as many nodes as memory and patience allow, and less for a mesh of few faces. A wrap of a million nodes has up
 // to 340,000 faces, and a hull of it takes seconds.
-double finest_spacing(const Request& request, double nodes_per_face, double most) {
+double finest_spacing(const Request& request, double nodes, double most) {
   constexpr double kMargin = 20;  // nodes on both sides
-  const double most_nodes = std::clamp(nodes_per_face * double(request.to_cover().face_count()), 0x1p20, most);
+  const double most_nodes = std::clamp(nodes, 0x1p20, most);
   const Box box = bounding_box(request.to_cover());
   const Vec3 size = box.max - box.min;
   double spacing = request.diagonal / std::cbrt(most_nodes);
-  const auto nodes = [&](double s) { return (size.x / s + kMargin) * (size.y / s + kMargin) * (size.z / s + kMargin); };
-  while (nodes(spacing / 1.1) < most_nodes) spacing /= 1.1;
+  const auto nodes_at = [&](double s) {
+    return (size.x / s + kMargin) * (size.y / s + kMargin) * (size.z / s + kMargin);
+  };
+  while (nodes_at(spacing / 1.1) < most_nodes) spacing /= 1.1;
   return spacing;
 }
 
 double finest_loose_spacing(const Request& request) {
   constexpr double kNodesPerFace = 0x1p12, kMostNodes = 0x1p25;  // 128 MB of distances
-  return finest_spacing(request, kNodesPerFace, kMostNodes);
+  return finest_spacing(request, kNodesPerFace * double(request.to_cover().face_count()), kMostNodes);
 }
 
 // With as many faces as patience allows, and less for a mesh of few faces: a hull of a wrap of 2.9 million takes 26 s.
+// A wheel of 476 faces keeps 0.3 % of the diagonal by so many; 59 loose ones shall not take a minute.
 double spacing_of_many_faces(const TriangleMesh& mesh) {
-  constexpr double kPerFace = 0x1p13, kLeast = 0x1p18, kMost = 25e6;  // of cells of one size
+  constexpr double kPerPair = 16, kLeast = 0x1p16, kMost = 25e6;  // of cells of one size
   constexpr double kFacesPerArea = 8.4;  // in spacings; wraps of two robots' parts had 8.0 and 8.4
-  const double most = std::clamp(kPerFace * double(mesh.face_count()), kLeast, kMost);
+  const double most = std::clamp(kPerPair * square(double(mesh.face_count())), kLeast, kMost);
   return std::sqrt(kFacesPerArea * area_of(mesh) / most);
 }
 
@@ -68,9 +73,10 @@ void Candidates::plan_close_wraps() {
   constexpr double kReach = 0.6;                          // of most vertices, in spacings
   constexpr int kMost = 2;
   const double max_distance = request_.options.bounds.max_distance;
-  constexpr double kNodesPerFace = 0x1p18, kMostNodes = 0x1p28;  // 1 GB of distances
+  constexpr double kNodesPerPair = 0x1p9, kMostNodes = 0x1p28;  // 1 GB of distances
   const double finest =
-      std::max(finest_spacing(request_, kNodesPerFace, kMostNodes), spacing_of_many_faces(request_.to_cover()));
+      std::max(finest_spacing(request_, kNodesPerPair * square(double(request_.to_cover().face_count())), kMostNodes),
+               spacing_of_many_faces(request_.to_cover()));
   const auto plan = [this](double spacing, double distance) {
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       if (ranking.has_certified() && (ranking.best().hull.within_bounds || is_of_clean_mesh(ranking, solids)))

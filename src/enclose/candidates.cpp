@@ -12,8 +12,9 @@ Candidates::Candidates(const Request& request, std::size_t target_faces, Notes& 
   if (request.is_outer() && may_stay_within()) plan_within_of_mesh();
   if (request.is_free()) {
     plan_convex_hull();
-    if (!request.options.bounds.any() && !request.options.levels) plan_polytope();
-    request.options.bounds.any() ? plan_bounded_wraps() : plan_wraps();
+    if (!request.options.levels) plan_polytope();
+    if (!request.options.bounds.any() || !request.options.levels) plan_wraps();
+    if (request.options.bounds.any()) plan_bounded_wraps();
   }
   if (!request.is_outer() && request.options.repair != Repair::None) {
     if (request.is_padded())
@@ -66,6 +67,11 @@ bool Candidates::has_too_many_parts(const Solid& solid) const {
          4 * solid.components > target_faces_;
 }
 
+/// The best hull is as asked for, and bounds ask for no more faces.
+bool Candidates::has_few_faces(const Ranking& ranking) const {
+  return ranking.is_as_asked() && ranking.best().hull.mesh.face_count() <= target_faces_;
+}
+
 // Where many parts overlap, the mesh's hull is several times larger than the others, if there is any. But it may be the
 // only one that keeps a bound.
 bool Candidates::is_worth_the_mesh(const Solids& solids) const {
@@ -102,8 +108,7 @@ bool Candidates::may_stay_within() const {
 // where each collapse keeps the bound by itself; at 3 %, levels may have fewer.
 void Candidates::plan_within_of_mesh() {
   steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-    if (!is_worth_the_mesh(solids) || (ranking.is_as_asked() && ranking.best().hull.mesh.face_count() <= target_faces_))
-      return std::nullopt;
+    if (!is_worth_the_mesh(solids) || has_few_faces(ranking)) return std::nullopt;
     const SolidId id = ranking.has_certified() ? ranking.best().hull.solid : 0;
     return within(id, request_.options.bounds.max_distance, solids);
   });
@@ -113,7 +118,7 @@ void Candidates::plan_convex_hull() {
   steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
     constexpr double kLittleVoid = 0.02;
     const EnclosingOptions& options = request_.options;
-    const bool is_good = ranking.is_as_asked();
+    const bool is_good = has_few_faces(ranking);
     if (options.levels || (is_good && (options.keep_cavities || ranking.slack() < kLittleVoid))) return std::nullopt;
     const auto too_large = is_good ? std::optional(ranking.best_volume()) : std::nullopt;
     const auto id = solids.convex_hull(too_large);

@@ -26,6 +26,7 @@ class Candidates {
   void plan_convex_hull();
   void plan_polytope();
   void plan_wraps();
+  bool has_few_faces(const Ranking& ranking) const;
   void plan_bounded_wraps();
   void plan_close_wraps();
   void plan_loose_wraps();

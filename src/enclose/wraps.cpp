@@ -67,6 +67,7 @@ std::optional<Candidate> Candidates::of_wrap(const WrapKind& kind, const Ranking
 
 bool Candidates::is_worth_a_wrap(const Ranking& ranking, const Solids& solids, bool is_first) const {
   if (ranking.is_empty()) return true;
+  if (request_.options.bounds.any() && !has_few_faces(ranking)) return true;
   const EnclosingHull& best = ranking.best().hull;
   if (!best.certified || !best.target_reached || !best.within_bounds) return true;
   if (ranking.is_of_flat() || ranking.is_on_triangles()) return false;  // and convex: no wrap comes nearer
@@ -77,12 +78,18 @@ bool Candidates::is_worth_a_wrap(const Ranking& ranking, const Solids& solids, b
   return ranking.slack() > (is_first ? kLittleVoid : kMuchVoid);
 }
 
+// With bounds, in case that they are as loose as to ask for no more faces: then the best hull is the one without them.
+// Such hulls of five samples were 2.5 to 6 spacings away.
 void Candidates::plan_wraps() {
   for (std::size_t i = 0; i < kMostWraps; ++i)
     steps_.push_back([this, i](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       const auto kinds = wraps(request_, solids.volume(target_faces_));
-      if (i >= kinds.size() || !is_worth_a_wrap(ranking, solids, i == 0)) return std::nullopt;
-      return of_wrap(kinds[i], ranking, solids);
+      if (i >= kinds.size() || !is_worth_a_wrap(ranking, solids, i == 0) ||
+          spacing_for(kinds[i]) > request_.options.bounds.max_distance)
+        return std::nullopt;
+      std::optional<Candidate> candidate = of_wrap(kinds[i], ranking, solids);
+      if (candidate && request_.options.bounds.any()) candidate->recipe.method = Method::InSteps;
+      return candidate;
     });
 }
 

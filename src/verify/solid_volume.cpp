@@ -105,9 +105,11 @@ class Boundary {
       for (const Vec3& corner : cells[i]) box.extend(corner);
       if (!box.overlaps(box_of(h))) continue;
       FlatCell above, below;
+      bool is_above = false, is_below = false;  // somewhere; neither beside a needle, whose normal vanishes
       for (std::size_t c = 0; c < cells[i].size(); ++c) {
         const Vec3 &from = cells[i][c], &to = cells[i][(c + 1) % cells[i].size()];
         const double d = dot(normal, from - p), e = dot(normal, to - p);
+        is_above |= d > 0, is_below |= d < 0;
         if (d >= 0) above.push_back(from);
         if (d <= 0) below.push_back(from);
         if ((d < 0 && e > 0) || (d > 0 && e < 0)) {
@@ -115,7 +117,7 @@ class Boundary {
           above.push_back(middle), below.push_back(middle);
         }
       }
-      if (above.size() < 3 || below.size() < 3) continue;
+      if (!is_above || !is_below || above.size() < 3 || below.size() < 3) continue;
       if (++cells_ > kMostCells) throw TooManyCells();
       cells[i] = std::move(above);
       cells.push_back(std::move(below));

@@ -89,5 +89,16 @@ TEST(SolidVolume, IsGivenUpAtOnceWherePartsMeetTooOften) {
   EXPECT_LT(steps, 5000) << "one for each cell of a face";
 }
 
+// Its corners are on one line but for rounding, which its normal is lost in.
+TEST(SolidVolume, IsThatOfAPartThatANeedlePierces) {
+  const double edge = 1.2379400392853803;
+  const TriangleMesh needle =
+      make({{-edge, edge, edge}, {0, -edge, edge / 2}, {-0.6565364447793076, 0.0751328502732348, 0.947238242032344}},
+           {{0, 1, 2}, {0, 2, 1}});
+  const TriangleMesh crate = box({-edge, -edge, -edge}, {edge, 1.125, edge});
+  ProgressMeter silent({}, "measure");
+  EXPECT_NEAR(solid_volume(together(crate, needle), silent) / signed_volume(crate), 1, 1e-12);
+}
+
 }  // namespace
 }  // namespace prohull::verify
