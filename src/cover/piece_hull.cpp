@@ -45,8 +45,10 @@ TriangleMesh piece_hull(const Part& part, std::size_t max_vertices, bool float32
   if (points.empty()) return {};
   Box box;
   for (const Vec3& p : points) box.extend(p);
-  constexpr double kRounding = 1e-13;  // of coordinates, some hundred times that of one
-  const double hair = 1e-9 * box.diagonal() + kRounding * norm(box.center());
+  constexpr double kHair = 1e-9, kFar = 10;
+  constexpr double kRounding = 1e-13;  // of coordinates far from the origin: some hundred times that of one
+  const double diagonal = box.diagonal(), away = norm(box.center());
+  const double hair = std::max(kHair * (std::min(away, kFar * diagonal) + diagonal), kRounding * away);
   TriangleMesh hull = convex_hull_of(points);
   const bool is_rounded = std::any_of(hull.positions.begin(), hull.positions.end(),
                                       [&](const Vec3& p) { return is_on_a_plane(p, part, hair); });

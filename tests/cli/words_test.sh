@@ -109,7 +109,7 @@ for part in cube nested rock; do
 done
 expect 0 "nothing to close" $prohull spheres sheet.obj -o s.json --count 4
 says_not out "nothing to close" "its openings"
-says out "nothing to close" "that is from a wrap, and from the triangles alone it is at most"
+says out "nothing to close" "of the diagonal, from the triangles alone"
 expect 0 "a distance that is kept" $prohull spheres cube.obj -o s.json --max-distance 0.3 --count 8
 says_not out "a distance that is kept" "keep a distance"
 expect 1 "a distance that is not kept" $prohull spheres cube.obj -o s.json --max-distance 0.01 --count 1
