@@ -8,21 +8,20 @@
 namespace prohull {
 
 // Engines by name: those of the library, and those that only the paper's study needs (docs/queries.md).
-//   refinement         P&T 3.2.1 with bounds, for a hull: splits every vertex with something below it that the query
-//   may
-//                      meet.
-//   paper-refinement   P&T 3.2.1 as published, for a hull: splits the corners of the hull faces that the query meets.
-//   Of
-//                      a segment or ray that starts outside of an outer base hull it finds the first crossing into the
-//                      solid always. It may miss crossings further in, where the query passes below the hull (P&T
-//                      Figure 5), and sheets without thickness. Hulls that are kept from query to query are finer, and
-//                      may miss less.
-//   walk               Follows the line through the void between base hull and mesh, tetrahedron by tetrahedron, of an
-//                      outer hull, or of an outer and an inner one. With both it finds every crossing. With the outer
-//                      hull alone it finds those from which the line comes to the base mesh without crossing the mesh
-//                      again. These include the first hit of every segment or ray that starts outside of the bounding
-//                      box of the base mesh, if the mesh winds around no point a negative number of times.
-//   kdop6, kdop6-overlap, ...   trees of k-DOPs over the mesh (kdop_index.h)
+// refinement: P&T 3.2.1 with bounds, for a hull: splits every vertex with something below it that the query may meet.
+//
+// paper-refinement: P&T 3.2.1 as published, for a hull: splits the corners of the hull faces that the query meets. Of a
+// segment or ray that starts outside of an outer base hull it finds the first crossing into the solid always. It may
+// miss crossings further in, where the query passes below the hull (P&T Figure 5), and sheets without thickness. Hulls
+// that are kept from query to query are finer, and may miss less.
+//
+// walk: follows the line through the void between base hull and mesh, tetrahedron by tetrahedron, of an outer hull, or
+// of an outer and an inner one. With both it finds every crossing. With the outer hull alone it finds those from which
+// the line comes to the base mesh without crossing the mesh again. These include the first hit of every segment or ray
+// that starts outside of the bounding box of the base mesh, if the mesh winds around no point a negative number of
+// times.
+//
+// kdop6, kdop6-overlap, ...: trees of k-DOPs over the mesh (kdop_index.h).
 
 /// What becomes of the refined hull between one query and the next (P&T 3.2.2).
 enum class BetweenQueries {
