@@ -20,8 +20,7 @@ std::vector<double> places_of(const robot::JointPath& path, const robot::PathPro
   for (double i = 1; i <= steps; ++i) places.push_back(length * (i / steps));
   if (const robot::PathPairProof* const first = proof.first()) places.push_back(first->end);
   std::ranges::sort(places);
-  const auto repeated = std::ranges::unique(places);
-  places.erase(repeated.begin(), repeated.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
   return places;
 }
 
