@@ -92,7 +92,7 @@ std::vector<char> reached_from_border(const Grid& grid, IsOpen is_open) {
     for (std::size_t n = z * layer; n < (z + 1) * layer; ++n) nodes[n] = is_open(n) ? kOpen : kClosed;
   });
   reach_from_border(grid, nodes);
-  std::ranges::replace(nodes, kOpen, kClosed);
+  std::replace(nodes.begin(), nodes.end(), kOpen, kClosed);
   return nodes;
 }
 
