@@ -103,15 +103,20 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
           {"seconds", {{"read", outcome.read_seconds}, {"cover", cover.seconds}, {"verify", cover.verify_seconds}}}};
 }
 
+/// From what they reach out.
+std::string text_of_origin(const SphereCover& cover) {
+  const double from_triangles = cover.reach_from_triangles.upper;
+  if (!cover.is_of_wrap) return text_of_openings(cover.has_openings, cover.reach_from_triangles);
+  if (cover.reach.upper == from_triangles) return ", from the triangles alone";
+  return fmt::format("; that is from a wrap, and from the triangles alone it is at most {:.4g}",
+                     rounded_up(from_triangles, 4));
+}
+
 void print_summary(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
   say("{}: {} around {}, which reach out by at most {:.4g}, {} % of the diagonal{}\n", output_name(options.out),
       counted(cover.balls.size(), "sphere"), counted(outcome.faces, "face"), rounded_up(cover.reach.upper, 4),
-      with_decimals_up(100 * outcome.part_of_diagonal(), 2),
-      cover.is_of_wrap && cover.reach.upper == cover.reach_from_triangles.upper ? ", from the triangles alone"
-      : cover.is_of_wrap ? fmt::format("; that is from a wrap, and from the triangles alone it is at most {:.4g}",
-                                       rounded_up(cover.reach_from_triangles.upper, 4))
-                         : text_of_openings(cover.has_openings, cover.reach_from_triangles));
+      with_decimals_up(100 * outcome.part_of_diagonal(), 2), text_of_origin(cover));
   if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);
   if (outcome.has_volume())
     say("  volume: {:.4g} with overlaps counted once, {:.1f} % {} than the solid's{}\n", cover.volume,

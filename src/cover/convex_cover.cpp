@@ -15,6 +15,7 @@
 #include "cover/enclosing_options.h"
 #include "cover/piece_hull.h"
 #include "cover/shape_choice.h"
+#include "cover/wrap_around.h"
 #include "enclose/known_void.h"
 #include "parallel/arena.h"
 #include "prohull/closed_solid.h"
@@ -24,7 +25,6 @@
 #include "prohull/detail/stopwatch.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
-#include "prohull/wrap.h"
 
 namespace prohull {
 namespace cover {
@@ -32,11 +32,11 @@ namespace {
 
 /// Cuts are looked for on a hull of so many faces: more make them hardly better.
 constexpr std::size_t kSearchFaces = 1500;
-/// Along the diagonal, of wraps around triangles that bound no solid: the finest that has space inside tells what lies
-/// between them. Coarse ones close large openings.
-constexpr double kWrapNodes = 128, kFewestWrapNodes = 16, kClosing = 1.5;
 /// Those of the wide search, which is costlier.
 constexpr std::size_t kWideSearchFaces = 800;
+/// Along the diagonal, of wraps around triangles that bound no solid: the finest that has space inside tells what lies
+/// between them. Coarse ones close large openings.
+constexpr double kWrapNodes = 128, kFewestWrapNodes = 16;
 constexpr double kSearchTolerance = 1e-6;
 /// How near a corner is to a plane that counts as on it, of the diagonal: the first is no more than rounding; each
 /// further one is tried where the proof of the cover fails.
@@ -57,7 +57,7 @@ void check(const ConvexCoverOptions& options) {
 struct Material {
   TriangleMesh solid;    ///< closed, outwards; or without faces: what lies in it is covered, too
   TriangleMesh faces;    ///< pieces are fitted to these
-  TriangleMesh coarse;   ///< like both, of few faces: the cuts are looked for in it
+  TriangleMesh coarse;   ///< like the solid, or the faces where there is none, but few: cuts are looked for in it
   TriangleMesh coarser;  ///< around `coarse`, for the wide search
   InsideVolume inside;
 };
@@ -123,7 +123,8 @@ class Covering {
  public:
   Covering(TriangleMesh triangles, const ConvexCoverOptions& options)
       : options_(options),
-        prepared_(prepared_for_hulls(std::move(triangles), enclosing_options(options.threads, options.progress))) {}
+        prepared_(prepared_for_hulls(std::move(triangles), enclosing_options(options.threads, options.progress))),
+        hull_(convex_hull(prepared_.original)) {}
 
   ConvexCover run() {
     std::optional<ConvexCover> cover;
@@ -150,11 +151,10 @@ class Covering {
   }
 
  private:
-  bool is_flat() const { return convex_hull(prepared_.original).face_count() == 0; }
+  bool is_flat() const { return hull_.face_count() == 0; }
 
   bool is_no_better_than_one_piece(const ConvexCover& cover) const {
-    return cover.pieces.size() > 1 && !options_.bounds.any() && !is_flat() &&
-           signed_volume(convex_hull(prepared_.original)) <= cover.volume;
+    return cover.pieces.size() > 1 && !options_.bounds.any() && !is_flat() && signed_volume(hull_) <= cover.volume;
   }
 
   /// Bounds of the void ask for a volume.
@@ -190,16 +190,12 @@ class Covering {
   Material of_open_triangles() const {
     const TriangleMesh& triangles = prepared_.original;
     if (is_flat()) return {{}, triangles, triangles, triangles, {}};
-    TriangleMesh with_caps = triangles;
-    append(with_caps, prepared_.caps);
+    const TriangleMesh near = with_caps(prepared_);
     const double diagonal = bounding_box(triangles).diagonal();
     Wrap around;
     for (double nodes = kWrapNodes; around.inside_volume == 0; nodes /= 2) {
       if (nodes < kFewestWrapNodes) return of_surface();
-      const double spacing = diagonal / nodes;
-      around =
-          wrap(with_caps,
-               {.spacing = spacing, .seal_rooms = true, .closing = kClosing * spacing, .progress = options_.progress});
+      around = wrap_around(near, diagonal / nodes, options_.progress);
     }
     return of_solid(around.mesh, triangles, {around.inside_volume, /*is_estimated=*/true});
   }
@@ -211,8 +207,7 @@ class Covering {
 
   /// One piece.
   Material of_convex_hull() const {
-    const TriangleMesh hull = convex_hull(prepared_.original);
-    return {hull, hull, hull, hull, prepared_.closed ? volume_of_solid() : InsideVolume()};
+    return {hull_, hull_, hull_, hull_, prepared_.closed ? volume_of_solid() : InsideVolume()};
   }
 
   /// The most pieces, or as few as keep the bounds.
@@ -333,7 +328,7 @@ class Covering {
   /// Shapes that are worse than one polytope are hardly meant.
   void note_size(ConvexCover& cover) const {
     constexpr double kClearly = 1.05;  // the polytopes around capsules and spheres are some per cent larger than these
-    const double one = signed_volume(convex_hull(prepared_.original));
+    const double one = signed_volume(hull_);
     if (!(one > 0) || cover.volume <= kClearly * one) return;
     cover.notes.push_back(
         fmt::format("together the pieces in the shape of a {} have {:.2g} times the volume of the convex hull of the "
@@ -390,6 +385,7 @@ class Covering {
 
   const ConvexCoverOptions& options_;
   const RepairedMesh prepared_;
+  const TriangleMesh hull_;  // the convex hull of the triangles; without faces if they are flat
 };
 
 }  // namespace

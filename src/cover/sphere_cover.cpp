@@ -12,6 +12,7 @@
 #include "cover/enclosing_options.h"
 #include "cover/inside_cubes.h"
 #include "cover/patches.h"
+#include "cover/wrap_around.h"
 #include "geometry/largest_coordinate.h"
 #include "mesh/area.h"
 #include "parallel/arena.h"
@@ -23,7 +24,6 @@
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
-#include "prohull/wrap.h"
 
 namespace prohull {
 namespace {
@@ -93,12 +93,10 @@ class SphereCoverer {
 
   /// Of triangles that bound no solid: a wrap, which closes what is open.
   void wrap_solid() {
-    constexpr double kPerDiagonal = 96, kClosing = 1.5;  // the closing in spacings, as for hulls
+    constexpr double kPerDiagonal = 96;
     const double spacing = std::max(diagonal_ / kPerDiagonal, least_margin_);
-    TriangleMesh near = input_.original;
-    append(near, input_.caps);
-    Wrap made = wrap(
-        near, {.spacing = spacing, .seal_rooms = true, .closing = kClosing * spacing, .progress = options_.progress});
+    TriangleMesh near = cover::with_caps(input_);
+    Wrap made = cover::wrap_around(near, spacing, options_.progress);
     solid_ = std::move(made.mesh);
     append(near, made.doors);
     slack_ = distance_bounds(solid_, near, {.progress = options_.progress}).upper;

@@ -26,7 +26,6 @@ class Candidates {
   void plan_convex_hull();
   void plan_polytope();
   void plan_wraps();
-  bool has_few_faces(const Ranking& ranking) const;
   void plan_bounded_wraps();
   void plan_close_wraps();
   void plan_loose_wraps();
@@ -37,6 +36,7 @@ class Candidates {
   bool is_worth_a_wrap(const Ranking& ranking, const Solids& solids, bool is_first) const;
   std::optional<SolidId> wrap(const WrapKind& kind, double spacing, Solids& solids) const;
   std::optional<Candidate> of_wrap(const WrapKind& kind, const Ranking& ranking, Solids& solids) const;
+  bool has_few_faces(const Ranking& ranking) const;
   bool has_too_many_parts(const Solid& solid) const;
   bool is_worth_the_mesh(const Solids& solids) const;
   double spacing_for(const WrapKind& kind) const;

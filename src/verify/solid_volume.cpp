@@ -105,7 +105,7 @@ class Boundary {
       for (const Vec3& corner : cells[i]) box.extend(corner);
       if (!box.overlaps(box_of(h))) continue;
       FlatCell above, below;
-      bool is_above = false, is_below = false;  // somewhere; neither beside a needle, whose normal vanishes
+      bool is_above = false, is_below = false;  // anywhere; a needle whose normal vanishes cuts nothing
       for (std::size_t c = 0; c < cells[i].size(); ++c) {
         const Vec3 &from = cells[i][c], &to = cells[i][(c + 1) % cells[i].size()];
         const double d = dot(normal, from - p), e = dot(normal, to - p);
@@ -117,7 +117,7 @@ class Boundary {
           above.push_back(middle), below.push_back(middle);
         }
       }
-      if (!is_above || !is_below || above.size() < 3 || below.size() < 3) continue;
+      if (!is_above || !is_below) continue;
       if (++cells_ > kMostCells) throw TooManyCells();
       cells[i] = std::move(above);
       cells.push_back(std::move(below));
