@@ -18,6 +18,8 @@ constexpr double kBoundedSpacing = 0.5;  // of the largest distance
 // as few. By 0.12, wraps of two parts leave triangles uncovered.
 constexpr WrapKind kCloseWrap{3.5, 0.3, 0, 0.08};
 
+constexpr double kReach = 0.6;  // of most vertices of a wrap from the triangles, in spacings
+
 double square(double x) { return x * x; }
 
 // With as many nodes as memory and patience allow, and less for a mesh of few faces. A wrap of a million nodes has up
@@ -49,6 +51,15 @@ double spacing_of_many_faces(const TriangleMesh& mesh) {
   return std::sqrt(kFacesPerArea * area_of(mesh) / most);
 }
 
+double finest_close_spacing(const Request& request) {
+  constexpr double kNodesPerPair = 0x1p9, kMostNodes = 0x1p28;  // 1 GB of distances
+  const TriangleMesh& mesh = request.to_cover();
+  return std::max(finest_spacing(request, kNodesPerPair * square(double(mesh.face_count())), kMostNodes),
+                  spacing_of_many_faces(mesh));
+}
+
+constexpr double kNearerByMoving = 4;  // by moving, a hull comes so much nearer than its wrap
+
 /// No wrap is nearer than the hull of a mesh that does not intersect itself.
 bool is_of_clean_mesh(const Ranking& ranking, const Solids& solids) {
   return ranking.best().hull.source == Source::Mesh && solids[0].self_intersections == 0;
@@ -61,7 +72,8 @@ void Candidates::plan_bounded_wraps() {
   const double max_distance = request_.options.bounds.max_distance;
   const bool is_close =
       max_distance < kClose * request_.diagonal || kBoundedSpacing * max_distance < finest_loose_spacing(request_);
-  may_stay_within() && is_close ? plan_close_wraps() : plan_loose_wraps();
+  const bool is_hopeless = kReach * finest_close_spacing(request_) > kNearerByMoving * max_distance;
+  may_stay_within() && is_close && !is_hopeless ? plan_close_wraps() : plan_loose_wraps();
 }
 
 // A few vertices of a wrap are up to 1.3 spacings away, most of them less than 0.6; the rest of the bound is for
@@ -70,13 +82,9 @@ void Candidates::plan_bounded_wraps() {
 void Candidates::plan_close_wraps() {
   constexpr double kSpacing = 2.0 / 3, kFiner = 2.0 / 3;  // of the bound, and of the spacing before
   constexpr double kNearer = 0.85;                        // of the bound
-  constexpr double kReach = 0.6;                          // of most vertices, in spacings
   constexpr int kMost = 2;
   const double max_distance = request_.options.bounds.max_distance;
-  constexpr double kNodesPerPair = 0x1p9, kMostNodes = 0x1p28;  // 1 GB of distances
-  const double finest =
-      std::max(finest_spacing(request_, kNodesPerPair * square(double(request_.to_cover().face_count())), kMostNodes),
-               spacing_of_many_faces(request_.to_cover()));
+  const double finest = finest_close_spacing(request_);
   const auto plan = [this](double spacing, double distance) {
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       if (ranking.has_certified() && (ranking.best().hull.within_bounds || is_of_clean_mesh(ranking, solids)))
@@ -102,7 +110,6 @@ void Candidates::plan_close_wraps() {
 void Candidates::plan_loose_wraps() {
   constexpr int kMostBounded = 4;
   constexpr double kFine = 256, kPlain = 100;  // to the diagonal; finer ones take ten seconds and more, and one second
-  constexpr double kNearerByMoving = 4;        // by moving, a hull comes so much nearer than its wrap
   // A hull of a wrap that keeps the bounds has at most so many times fewer faces than the wrap. Where another hull
   // keeps them with fewer still, the wrap is left out: of 10 robots' parts at 1 % of the diagonal, it had a better hull
   // for 2, and took 2 to 10 times as long.

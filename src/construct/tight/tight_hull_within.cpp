@@ -23,14 +23,16 @@ class TightSearch {
         meter_(options.progress, "search") {}
 
   TightHull run() {
-    const std::size_t enough = build_progressive();
+    build_progressive();
+    const std::size_t enough = best_.mesh.face_count();
+    const bool is_known_to_be_enough = enough <= most_faces_ && is_within_(best_.mesh);
     std::size_t too_few = options_.target_faces;
     if (build_tight_within(too_few)) {
       keep_if_within(build_tight_hull(mesh_, next_options(too_few), wrapped_, padding_));
       return best_;
     }
-    if (enough > most_faces_ && (most_faces_ <= too_few || !build_tight_within(most_faces_))) return best_;
     std::size_t fewest_within = std::min(enough, most_faces_);
+    if (!is_known_to_be_enough && (fewest_within <= too_few || !build_tight_within(fewest_within))) return best_;
     constexpr double kCloseEnough = 1.03;  // what is left to gain is less than the chance in each hull
     while (builds_ < kMaxTightBuilds - 1) {
       if (static_cast<double>(fewest_within) < kCloseEnough * static_cast<double>(too_few)) break;
@@ -52,14 +54,17 @@ class TightSearch {
     return options;
   }
 
-  /// Its coarsest level that is accepted is the answer if no tight hull is better; returns the faces of that.
-  std::size_t build_progressive() {
+  /// Its coarsest level that is accepted, or else its finest, is the answer if no tight hull is better.
+  void build_progressive() {
     HullOptions guarded = next_options(options_.target_faces);
     guarded.self_intersections = SelfIntersections::Refused;
     HullResult result = build_hull(mesh_, guarded);
-    const std::size_t faces = faces_within(result.hull, is_within_);
-    best_ = {result.hull.level(faces), result.stopped, result.refusals, result.blocked, 0, result.relaxed_guards};
-    return faces;
+    best_ = {result.hull.level(faces_within(result.hull, is_within_)),
+             result.stopped,
+             result.refusals,
+             result.blocked,
+             0,
+             result.relaxed_guards};
   }
 
   /// Whether the tight hull of so many faces is accepted; it is then the best.
