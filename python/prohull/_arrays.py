@@ -60,7 +60,12 @@ def rows(name: str, values: ArrayLike, *shapes: tuple[int, ...]) -> NDArray[np.f
     if array.shape[1:] not in shapes or array.ndim == 0:
         expected = " or ".join(str(("n", *shape)).replace("'", "") for shape in shapes)
         raise InputError(f"{name}: an array of shape {array.shape}; expected {expected}")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    made = np.ascontiguousarray(array, dtype=np.float64)
+    if array.dtype.itemsize > 8 or (array.dtype.kind in "iu" and array.dtype.itemsize == 8):
+        is_rounded = (made != array.astype(np.longdouble)) & ~np.isnan(made)
+        if is_rounded.any():
+            raise InputError(f"{name}: {array[is_rounded][0]} is no float64 number; round to float64 before, if that will do")
+    return made
 
 
 def finite(name: str, array: NDArray[np.float64]) -> NDArray[np.float64]:

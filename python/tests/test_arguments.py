@@ -34,6 +34,8 @@ def test_what_is_given_may_change_afterwards(cube):
     (np.zeros((8, 3), complex), "vertices: an array of complex128"),
     (np.zeros((8, 3), bool), "vertices: an array of bool"),
     ([["a", "b", "c"]] * 8, "vertices: an array of <U1"),
+    (np.full((8, 3), 2**53 + 1), "vertices: 9007199254740993 is no float64 number"),
+    (np.full((8, 3), 2**64 - 1, np.uint64), "vertices: 18446744073709551615 is no float64 number"),
 ])
 def test_wrong_vertices_are_named(cube, vertices, message):
     with pytest.raises(ValueError, match=message):

@@ -186,9 +186,9 @@ void check_float32_spacing(const TriangleMesh& mesh) {
   if (diagonal > 0 && spacing > kMaxFloat32Spacing * diagonal)
     throw InputError(Defect::NonFiniteCoordinate,
                      fmt::format("float32 numbers, which the file has, are {:.2g} apart at its coordinates of up to "
-                                 "{:.9g}; that is too coarse for a mesh that is {:.3g} across; move the mesh to the "
-                                 "origin (prohull build --recenter), or write a .ply, .obj or .off file, which keep "
-                                 "doubles",
+                                 "{:.9g}; that is too coarse for a mesh that is {:.3g} across; write a .ply, .obj "
+                                 "or .off file, which keep doubles, or move the mesh to the origin (`prohull build` "
+                                 "does with --recenter)",
                                  spacing, most, diagonal));
 }
 

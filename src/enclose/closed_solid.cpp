@@ -5,6 +5,7 @@
 #include "enclose/folds.h"
 #include "enclose/known_void.h"
 #include "geometry/float32.h"
+#include "prohull/detail/float32_hull.h"
 #include "prohull/enclosure.h"
 #include "prohull/wrap.h"
 
@@ -48,6 +49,7 @@ ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& optio
       solid.folds = {};
     }
   }
+  if (options.float32_coordinates) check_float32_spacing(solid.input.original);
   solid.source = Source::Wrap;
   solid.wrap_spacing = options.spacing > 0
                            ? options.spacing

@@ -407,6 +407,11 @@ TEST(ClosedSolid, KeepsAllFacesThatAreNotAroundAFold) {
   EXPECT_GT(solid.mesh.face_count(), mesh.face_count() - 40);
 }
 
+// The wrap would collapse on the float32 grid, which took minutes to find out.
+TEST(ClosedSolid, InFloat32FarFromTheOriginIsRefusedBeforeAWrapIsMade) {
+  EXPECT_THROW(closed_solid(moved(folded_rock(), {1e9, 1e9, 0}), {.float32_coordinates = true}), InputError);
+}
+
 TEST(EnclosingHull, OnTheInnerSideLiesWithinTheUnionOfParts) {
   const TriangleMesh crossing =
       together(subdivided(subdivided(box({0, 0, 0}, {1, 1, 1}))), subdivided(box({0.3, 0.3, -1}, {0.7, 0.7, 2})));
