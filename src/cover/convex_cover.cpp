@@ -82,6 +82,33 @@ TriangleMesh clustered(const TriangleMesh& mesh) {
   return result;
 }
 
+/// The surfaces of prisms on flat triangles, so that parts of them have volumes by which cuts can be compared.
+TriangleMesh prisms_on(const TriangleMesh& flat) {
+  constexpr double kHeight = 1.0 / 64;  // of the diagonal
+  const double diagonal = bounding_box(flat).diagonal();
+  Vec3 normal;  // of the largest triangle
+  for (const FaceId f : flat.triangles.ids()) {
+    const Triangle t = flat.triangle(f);
+    const Vec3 n = cross((t.b - t.a) / diagonal, (t.c - t.a) / diagonal);
+    if (norm(n) > norm(normal)) normal = n;
+  }
+  if (!(norm(normal) > 0)) return flat;
+  const Vec3 up = normal * (kHeight * diagonal / norm(normal));
+  const auto count = std::uint32_t(flat.positions.size());
+  const auto above = [&](VertexId v) { return VertexId{index(v) + count}; };
+  TriangleMesh result = flat;
+  for (const Vec3& p : flat.positions) result.positions.push_back(p + up);
+  for (const auto& t : flat.triangles) {
+    result.triangles.push_back({above(t[0]), above(t[1]), above(t[2])});
+    for (std::size_t i = 0; i < 3; ++i) {
+      const VertexId a = t[i], b = t[(i + 1) % 3];
+      result.triangles.push_back({a, b, above(b)});
+      result.triangles.push_back({a, above(b), above(a)});
+    }
+  }
+  return result;
+}
+
 /// A copy of the mesh in the frame in which cuts are looked for.
 class Frame {
  public:
@@ -151,7 +178,11 @@ class Covering {
   }
 
  private:
-  bool is_flat() const { return hull_.face_count() == 0; }
+  // But for rounding.
+  bool is_flat() const {
+    constexpr double kFlat = 1e-4;  // of the diagonal: the edge of a cube as large as the convex hull
+    return std::cbrt(signed_volume(hull_)) < kFlat * bounding_box(prepared_.original).diagonal();
+  }
 
   bool is_no_better_than_one_piece(const ConvexCover& cover) const {
     return cover.pieces.size() > 1 && !options_.bounds.any() && !is_flat() && signed_volume(hull_) <= cover.volume;
@@ -189,7 +220,10 @@ class Covering {
   /// Of triangles that bound no solid by themselves: what lies between them is what lies in a wrap.
   Material of_open_triangles() const {
     const TriangleMesh& triangles = prepared_.original;
-    if (is_flat()) return {{}, triangles, triangles, triangles, {}};
+    if (is_flat()) {
+      const TriangleMesh thick = prisms_on(clustered(triangles));
+      return {{}, triangles, thick, thick, {}};
+    }
     const TriangleMesh near = with_caps(prepared_);
     const double diagonal = bounding_box(triangles).diagonal();
     Wrap around;
@@ -385,7 +419,7 @@ class Covering {
 
   const ConvexCoverOptions& options_;
   const RepairedMesh prepared_;
-  const TriangleMesh hull_;  // the convex hull of the triangles; without faces if they are flat
+  const TriangleMesh hull_;  // the convex hull of the triangles; without faces if they lie in a plane
 };
 
 }  // namespace

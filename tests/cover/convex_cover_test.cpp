@@ -185,6 +185,25 @@ TEST(ConvexCover, OfTrianglesThatEncloseNothingCutsTheseThemselves) {
   EXPECT_LT(cover.reach.upper, 0.01);
 }
 
+// As of a floor with a hole: parts of a plane have no volumes to compare.
+TEST(ConvexCover, OfFlatTrianglesGoesAroundTheirHole) {
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  TriangleMesh frame;
+  for (const double half : {5.0, 2.0})
+    for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
+      frame.positions.push_back({half * x, half * y * c, half * y * s});
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t j = (i + 1) % 4;
+    frame.triangles.push_back({VertexId{i}, VertexId{j}, VertexId{4 + i}});
+    frame.triangles.push_back({VertexId{j}, VertexId{4 + j}, VertexId{4 + i}});
+  }
+  const ConvexCover cover = convex_cover(frame, {.max_pieces = 8, .bounds = {.max_distance = 0.2}});
+  EXPECT_TRUE(cover.certified && cover.within_bounds);
+  EXPECT_EQ(cover.pieces.size(), 4U);
+  frame.triangles.resize(2);
+  EXPECT_EQ(convex_cover(frame, {.max_pieces = 8, .bounds = {.max_distance = 0.2}}).pieces.size(), 1U);
+}
+
 TEST(ConvexCover, KeepsFloat32Coordinates) {
   const TriangleMesh mesh = meshes::torus(effort(20u, 12u), effort(9u, 6u));
   const ConvexCover cover = convex_cover(mesh, {.max_pieces = 6, .float32_coordinates = true});
