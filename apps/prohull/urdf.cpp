@@ -13,6 +13,7 @@
 #include "robot/hulls/write_robot.h"
 #include "robot/motion/bodies.h"
 #include "robot/motion/motion.h"
+#include "robot/motion/planner_files.h"
 #include "robot/report/report.h"
 #include "robot_folder.h"
 #include "robot_summary.h"
@@ -178,9 +179,18 @@ void write_certificates(const UrdfOptions& options, ReportInput& facts, std::spa
   facts.certificates = std::move(made.certificates);
 }
 
-void write_report(const UrdfOptions& options, const ReportInput& facts, RobotFolder& folder) {
-  if (facts.motion)
-    folder.add(robot_stem(facts.file) + ".srdf", srdf_of(facts.file.robot, *facts.motion, options.sampled_pairs));
+/// What planners read beside the robot's own file.
+void write_pairs(const UrdfOptions& options, const ReportInput& facts, const RobotFiles& files, RobotFolder& folder) {
+  const std::string stem = robot_stem(facts.file);
+  folder.add(stem + ".srdf", srdf_of(facts.file.robot, *facts.motion, options.sampled_pairs));
+  if (files.balls.empty() || facts.file.format != RobotFormat::Urdf) return;
+  const PlannerRobot planned{facts.file.robot, files.balls, facts.motion->pairs, files.robot.string()};
+  folder.add(stem + "_curobo.yml", curobo_file(planned));
+  folder.add(stem + ".xrdf", xrdf_file(planned));
+}
+
+void write_report(const UrdfOptions& options, const ReportInput& facts, const RobotFiles& files, RobotFolder& folder) {
+  if (facts.motion) write_pairs(options, facts, files, folder);
   ProgressLine line;
   PageOptions page{.pictures = !options.no_pictures, .threads = options.threads, .progress = std::ref(line)};
   if (page.pictures && view::has_page()) {
@@ -227,7 +237,7 @@ int run_build(const UrdfOptions& options, const RobotFile& file) {
   look_at_the_rest(options, facts);
   facts.seconds = watch.seconds();
   const bool is_done = is_covered && (!facts.motion || facts.motion->missed() == 0);
-  write_report(options, facts, folder);
+  write_report(options, facts, files, folder);
   folder.commit(report_json(facts), key, is_done ? kDone : kAnswerIsNo);
   say("{}  {:.1f} s\n", robot_summary(options.out, facts, options.sampled_pairs), watch.seconds());
   return is_done ? kDone : kAnswerIsNo;

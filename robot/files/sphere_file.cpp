@@ -15,20 +15,6 @@ namespace {
 constexpr const char* kSpheres = "collision_spheres";
 constexpr std::size_t kMostBalls = 100'000;  // aliases let a short file name any number
 
-/// Reads back as the same double. YAML 1.1, which Python reads, has no numbers such as 1e-05: they need a point.
-std::string decimal(double number) {
-  std::string text = fmt::format("{}", number);
-  if (text.find('.') == std::string::npos) text.insert(std::min(text.find('e'), text.size()), ".0");
-  return text;
-}
-
-std::string quoted_utf8(const std::string& name) {
-  std::string text = quoted(name);
-  if (YAML::Load(text).as<std::string>() != name)
-    throw InputError(Defect::InvalidOption, fmt::format("'{}' is no name of a link: it is not UTF-8", name));
-  return text;
-}
-
 void add(const Ball& ball, LinkBalls& link) {
   if (ball.radius > 0)
     link.balls.push_back(ball);
@@ -41,7 +27,9 @@ class SphereReader : YamlReader {
   using YamlReader::parse;
   using YamlReader::YamlReader;
 
-  std::vector<LinkBalls> links(const YAML::Node& file) {
+  std::vector<LinkBalls> links(const YAML::Node& whole) {
+    const YAML::Node kinematics = whole.IsMap() && whole["robot_cfg"] ? whole["robot_cfg"]["kinematics"] : whole;
+    const YAML::Node file = kinematics ? kinematics : whole;
     if (!file.IsMap() || !file[kSpheres]) refuse(file, "expected collision_spheres: and below it links");
     const YAML::Node map = file[kSpheres];
     if (!map.IsMap()) refuse(map, "collision_spheres: expected the name of a link and its spheres on each line");
@@ -114,13 +102,31 @@ nlohmann::json parsed(const std::string& text, const std::filesystem::path& path
 
 }  // namespace
 
+// YAML 1.1, which Python reads, has no numbers such as 1e-05: they need a point.
+std::string yaml_decimal(double number) {
+  std::string text = fmt::format("{}", number);
+  if (text.find('.') == std::string::npos) text.insert(std::min(text.find('e'), text.size()), ".0");
+  return text;
+}
+
+std::string yaml_quoted(const std::string& name) {
+  std::string text = quoted(name);
+  if (YAML::Load(text).as<std::string>() != name)
+    throw InputError(Defect::InvalidOption, fmt::format("'{}' is no name of a link: it is not UTF-8", name));
+  return text;
+}
+
+std::string yaml_ball(const Ball& ball) {
+  const auto& [center, radius] = ball;
+  return fmt::format("{{center: [{}, {}, {}], radius: {}}}", yaml_decimal(center.x), yaml_decimal(center.y),
+                     yaml_decimal(center.z), yaml_decimal(radius));
+}
+
 std::string sphere_file(std::span<const LinkBalls> links) {
   std::string text = fmt::format("{}:{}\n", kSpheres, links.empty() ? " {}" : "");
   for (const LinkBalls& link : links) {
-    text += fmt::format("  {}:{}\n", quoted_utf8(link.link), link.balls.empty() ? " []" : "");
-    for (const auto& [center, radius] : link.balls)
-      text += fmt::format("    - {{center: [{}, {}, {}], radius: {}}}\n", decimal(center.x), decimal(center.y),
-                          decimal(center.z), decimal(radius));
+    text += fmt::format("  {}:{}\n", yaml_quoted(link.link), link.balls.empty() ? " []" : "");
+    for (const Ball& ball : link.balls) text += fmt::format("    - {}\n", yaml_ball(ball));
   }
   return text;
 }

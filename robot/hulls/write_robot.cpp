@@ -129,6 +129,7 @@ class RobotSet {
     require_balls(text, folder / name);
     files_.push_back(text_file(name, std::move(text)));
     if (!balls_.empty()) files_.push_back(text_file(robot_stem(file_) + "_spheres.yaml", sphere_file(balls_)));
+    if (set_ == 0) all.robot = name, all.balls = balls_;
     std::ranges::move(files_, std::back_inserter(all.files));
     std::ranges::move(hulls_, std::back_inserter(all.hulls));
   }

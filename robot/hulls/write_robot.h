@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "robot/files/robot_file.h"
+#include "robot/files/sphere_file.h"
 #include "robot/hulls/link_hulls.h"
 
 namespace prohull::robot {
@@ -29,6 +30,8 @@ struct HullFiles {
 struct RobotFiles {
   std::vector<OutputFile> files;
   std::vector<HullFiles> hulls;  ///< which of them are those of hulls
+  std::filesystem::path robot;   ///< the robot with the first number of faces
+  std::vector<LinkBalls> balls;  ///< its spheres, as ROBOT_spheres.yaml has them
 };
 
 struct WriteOptions {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -49,6 +50,14 @@ struct Cut {
   Patches patches;
   std::vector<Place> places = {};
 };
+
+/// As many as a float32 has, of any exponent.
+double of_24_bits(double x, double (&round)(double)) {
+  constexpr int kBits = std::numeric_limits<float>::digits;
+  int exponent = 0;
+  const double fraction = std::frexp(x, &exponent);
+  return std::ldexp(round(std::ldexp(fraction, kBits)), exponent - kBits);
+}
 
 class SphereCoverer {
  public:
@@ -170,12 +179,21 @@ class SphereCoverer {
     constexpr double kGrowth = 10;
     double margin = least_margin_;
     for (int trial = 0; trial < kTrials; ++trial, margin *= kGrowth) {
-      made_.balls = found.balls;
-      for (Ball& ball : made_.balls) ball.radius += margin;
+      made_.balls.clear();
+      for (const auto& [center, radius] : found.balls) made_.balls.push_back(stored({center, radius + margin}));
       made_.certified = covers();
       if (made_.certified) break;
     }
     made_.covers_inside = made_.certified && options_.fill;
+  }
+
+  // Planners on GPUs read float32 numbers. Far from the origin these are too coarse.
+  Ball stored(const Ball& ball) const {
+    constexpr double kMostRounding = 1e-5;  // of the diagonal
+    Vec3 center;
+    for (int axis = 0; axis < 3; ++axis) center[axis] = of_24_bits(ball.center[axis], std::nearbyint);
+    const double radius = of_24_bits(ball.radius + norm(center - ball.center), std::ceil);
+    return radius - ball.radius < kMostRounding * diagonal_ ? Ball{center, radius} : ball;
   }
 
   bool covers() const {

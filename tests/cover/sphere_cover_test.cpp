@@ -8,6 +8,7 @@
 #include <random>
 
 #include "effort.h"
+#include "geometry/float32.h"
 #include "meshes.h"
 #include "progress.h"
 #include "prohull/error.h"
@@ -76,6 +77,16 @@ TEST(SphereCover, OneBallIsAboutTheSmallestAroundTheMesh) {
   ASSERT_EQ(cover.balls.size(), 1U);
   EXPECT_NEAR(cover.balls[0].radius, std::sqrt(3.0), 0.02);
   EXPECT_NEAR(cover.reach.upper, std::sqrt(3.0) - 1, 0.03);
+}
+
+TEST(SphereCover, HasFloat32NumbersNearTheOrigin) {
+  const auto is_stored = [](const Ball& ball) {
+    return is_float32(ball.center) && nearest_float32(ball.radius) == ball.radius;
+  };
+  const TriangleMesh mesh = meshes::moved(meshes::octahedron(), {0.1, 0.2, 0.3});
+  EXPECT_TRUE(std::ranges::all_of(sphere_cover(mesh, {.max_balls = 8}).balls, is_stored));
+  const SphereCover far = sphere_cover(meshes::moved(mesh, {1e6, 1e6, 1e6}), {.max_balls = 8});
+  EXPECT_TRUE(far.certified && !std::ranges::all_of(far.balls, is_stored));
 }
 
 TEST(SphereCover, OfABallIsThatBall) {

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <yaml-cpp/yaml.h>
+
 #include <limits>
 
 #include "prohull/error.h"
+#include "robot/motion/planner_files.h"
+#include "robot_of_joints.h"
 
 namespace prohull::robot {
 namespace {
@@ -118,6 +122,54 @@ TEST(SphereFile, RefusesAliasesOfTooManySpheres) {
   text += "collision_spheres:\n";
   for (int i = 0; i < 60; ++i) text += "  l" + std::to_string(i) + ": *all\n";
   EXPECT_NE(refusal(text).find("more than 100000 spheres"), std::string::npos);
+}
+
+/// An arm of which the last link but one has no balls.
+struct Planned {
+  Robot robot = robot_of(5, {limited(joint(JointType::Revolute, 0, 1, {}, {0, 0, 1}), -1, 2),
+                             joint(JointType::Continuous, 1, 2, {1, 0, 0}, {0, 0, 1}),
+                             mimicking(joint(JointType::Prismatic, 2, 3, {1, 0, 0}, {0, 0, 1}), 0, 1, 0),
+                             joint(JointType::Fixed, 3, 4, {1, 0, 0}, {1, 0, 0})});
+  std::vector<LinkBalls> balls{{"link0", {{{0.1, 0, 0}, 0.5}}},
+                               {"link1", {{{0, 0, 1e-5}, 1}, {{1, 0, 0}, 2}}},
+                               {"link2", {{{0, 0, 0}, 1}}},
+                               {"link3", {}},
+                               {"link4", {{{0, 0, 0}, 1}}}};
+  std::vector<MotionPair> pairs{{.a = 0, .b = 1, .kind = PairKind::Adjacent},
+                                {.a = 0, .b = 2, .kind = PairKind::ProvenNever},
+                                {.a = 0, .b = 3, .kind = PairKind::ProvenNever},
+                                {.a = 0, .b = 4, .kind = PairKind::Never},
+                                {.a = 1, .b = 4, .kind = PairKind::Sometimes}};
+  PlannerRobot planner() const { return {robot, balls, pairs, "arm.urdf"}; }
+};
+
+TEST(PlannerFiles, OfCuRoboLeaveOutPairsThatAreProven) {
+  const Planned arm;
+  const std::string text = curobo_file(arm.planner());
+  const YAML::Node file = YAML::Load(text)["robot_cfg"]["kinematics"];
+  EXPECT_EQ(file["base_link"].as<std::string>(), "link0");
+  EXPECT_EQ(file["ee_link"].as<std::string>(), "link4");
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(file["collision_link_names"].as<Names>(), (Names{"link0", "link1", "link2", "link4"}));
+  EXPECT_EQ(file["self_collision_ignore"].size(), 1U);
+  EXPECT_EQ(file["self_collision_ignore"]["link0"].as<Names>(), (Names{"link1", "link2"}));
+  EXPECT_EQ(file["cspace"]["joint_names"].as<Names>(), (Names{"joint0", "joint1"}));
+  EXPECT_EQ(file["cspace"]["retract_config"].as<std::vector<double>>(), (std::vector<double>{0.5, 0}));
+  const std::vector<LinkBalls> read = read_sphere_file(text, "arm_curobo.yml");
+  ASSERT_EQ(read.size(), 4U);
+  EXPECT_EQ(read[1].balls, arm.balls[1].balls);
+}
+
+TEST(PlannerFiles, OfXrdfHaveTheSameSpheresAndPairs) {
+  const Planned arm;
+  const YAML::Node file = YAML::Load(xrdf_file(arm.planner()));
+  EXPECT_EQ(file["format"].as<std::string>(), "xrdf");
+  const auto spheres = file["geometry"][file["self_collision"]["geometry"].as<std::string>()]["spheres"];
+  EXPECT_EQ(spheres.size(), 4U);
+  EXPECT_EQ(spheres["link1"][1]["radius"].as<double>(), 2);
+  EXPECT_EQ(file["self_collision"]["ignore"]["link0"].size(), 2U);
+  EXPECT_EQ(file["cspace"]["acceleration_limits"].size(), 2U);
+  EXPECT_EQ(file["default_joint_positions"]["joint0"].as<double>(), 0.5);
 }
 
 }  // namespace
