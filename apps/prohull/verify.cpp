@@ -65,9 +65,9 @@ std::string verdict(const Verification& found, const SizeComparison& sizes, cons
   std::string how = ", exactly";
   if (replayed)
     how = fmt::format("{}; {} splits replayed, {} signs exact",
-                      !base_only ? ""
-                      : inner    ? ", and the solid of every level"
-                                 : ", and every level its solid",
+                      !base_only || !found.has_solid ? ""
+                      : inner                        ? ", and the solid of every level"
+                                                     : ", and every level its solid",
                       grouped(found.splits), grouped(found.signs));
   if (gap > 0) how = fmt::format(" and keeps a gap of {:.9g}", gap) + how;
   if (sizes.is_doubtful() && !options.any_scale) return fmt::format("UNITS: {}{}, but {}", what, how, sizes.doubt());

@@ -69,7 +69,7 @@ struct Verification {
   /// minutes. If there are any, `encloses` is false.
   std::size_t faces_undecided = 0;
   /// Faces of the inner mesh that bound no part of its solid, as in folds. Of a progressive hull only the base mesh is
-  /// known to cover them.
+  /// known to cover them; of an original without a solid, they are those that the finest level does not cover.
   std::size_t faces_beside_solid = 0;
   std::size_t self_intersections = 0;     ///< pairs of faces of the hull that intersect; of a progressive hull its base
   std::size_t inverted_hull_faces = 0;    ///< faces of the hull, or of components of it, that is inside out

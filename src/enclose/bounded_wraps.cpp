@@ -4,6 +4,7 @@
 
 #include "enclose/candidates.h"
 #include "enclose/known_void.h"
+#include "enclose/making.h"
 #include "mesh/area.h"
 
 namespace prohull {
@@ -57,8 +58,6 @@ double finest_close_spacing(const Request& request) {
   return std::max(finest_spacing(request, kNodesPerPair * square(double(mesh.face_count())), kMostNodes),
                   spacing_of_many_faces(mesh));
 }
-
-constexpr double kNearerByMoving = 4;  // by moving, a hull comes so much nearer than its wrap
 
 /// No wrap is nearer than the hull of a mesh that does not intersect itself.
 bool is_of_clean_mesh(const Ranking& ranking, const Solids& solids) {

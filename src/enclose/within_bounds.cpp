@@ -42,9 +42,9 @@ EnclosingHull built_within(const Making& making) {
   hull.refusals = result.refusals, hull.blocked = result.blocked, hull.relaxed_guards = result.relaxed_guards;
   if (!making.recipe().moves) {
     hull.levels = std::move(result.hull);
-  } else {
+  } else if (const double excess = excess_of(hull.mesh, making); is_worth_moving(hull.mesh.face_count(), excess)) {
     TriangleMesh moved = placed(hull.mesh, making);
-    if (excess_of(moved, making) <= std::max(1.0, excess_of(hull.mesh, making))) hull.mesh = std::move(moved);
+    if (excess_of(moved, making) <= std::max(1.0, excess)) hull.mesh = std::move(moved);
   }
   return hull;
 }

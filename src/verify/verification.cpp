@@ -119,6 +119,19 @@ class Judge {
          "triangles of the original lie outside of the hull, or in part");
   }
 
+  /// By the finest level of a hull, and so by all, or else by the base mesh.
+  void cover_all_by_levels(const TriangleMesh& finest, const TriangleMesh& base) {
+    cover_all(finest);
+    if (found.faces_outside == 0) return;
+    const std::size_t outside = found.faces_beside_solid = found.faces_outside;
+    cover_all(base);
+    if (found.encloses)
+      found.notes.push_back(
+          fmt::format("{} of the original lie{} outside of the finest level, as in folds: the base mesh "
+                      "covers {}, finer levels may not",
+                      counted(outside, "face"), outside == 1 ? "s" : "", outside == 1 ? "it" : "them"));
+  }
+
   /// Where solids are enclosed, triangles that bound them are covered: what is left are the others.
   void cover_the_rest(verify::KnownSolid& hull) {
     const EnclosureOptions looking = next_step(), how = next_step();
@@ -260,7 +273,7 @@ Verification verify::verify_hull(const ProgressiveHull& hull, Original& original
   const TriangleMesh base = hull.base();
   KnownSolid known(base, "hull");
   if (!found.has_solid) {
-    judge.cover_all(finest);
+    judge.cover_all_by_levels(finest, base);
   } else if (!judge.refuses_inverted(base)) {
     KnownSolid level(finest, "hull");
     if (!is_finest) judge.enclose_solid(level);

@@ -425,6 +425,11 @@ INSTANTIATE_TEST_SUITE_P(All, Soups,
                                          Product{"spheres", spheres, 4}, Product{"verify", verify, 8}),
                          [](const auto& product) { return std::string(product.param.name); });
 
+TEST(SoupLevels, OfFoldsAreCoveredByTheBaseMeshWhereTheFinestLevelDoesNot) {
+  Case open_with_folds(70001992);
+  build_outer(open_with_folds);
+}
+
 TEST(SoupCovers, OfOpenSoupsReachFromTheirTrianglesNoFartherThanTheySay) {
   Case box_without_sides(9062);
   box_without_sides.progress = {};  // however long it takes
