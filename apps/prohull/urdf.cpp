@@ -192,7 +192,10 @@ void write_pairs(const UrdfOptions& options, const ReportInput& facts, const Rob
 void write_report(const UrdfOptions& options, const ReportInput& facts, const RobotFiles& files, RobotFolder& folder) {
   if (facts.motion) write_pairs(options, facts, files, folder);
   ProgressLine line;
-  PageOptions page{.pictures = !options.no_pictures, .threads = options.threads, .progress = std::ref(line)};
+  PageOptions page{.pictures = !options.no_pictures,
+                   .threads = options.threads,
+                   .progress = std::ref(line),
+                   .cache = options.hulls.cache};
   if (page.pictures && view::has_page()) {
     folder.add("view.html", view_page(options, facts, page.progress));
     page.view = "view.html#x=2";  // what it ships with, the third thing on the page, is not drawn at first

@@ -124,7 +124,7 @@ std::string fingerprint_of(std::string_view bytes) {
 }
 
 constexpr std::size_t kTextSize = 32;  // of Fingerprint::text
-constexpr std::string_view kSuffix = ".hulls", kOldSuffix = ".cbor";
+constexpr std::string_view kOldSuffix = ".cbor";
 
 bool is_shared_library(const path& file) {
   const std::string name = file.filename().string();
@@ -135,7 +135,8 @@ bool is_shared_library(const path& file) {
 std::optional<std::chrono::hours> lifetime(const path& file) {
   const std::string name = file.filename().string();
   if (name.find_first_not_of("0123456789abcdef") != kTextSize) return std::nullopt;
-  if (name.substr(kTextSize) == kSuffix || name.substr(kTextSize) == kOldSuffix) return std::chrono::hours(24 * 90);
+  for (const std::string_view suffix : {HullCache::kHullsSuffix, HullCache::kPictureSuffix, kOldSuffix})
+    if (name.substr(kTextSize) == suffix) return std::chrono::hours(24 * 90);
   if (name.ends_with(".unfinished")) return std::chrono::hours(1);
   return std::nullopt;
 }
@@ -210,27 +211,21 @@ std::string key_of(const TriangleMesh& triangles, const Budget& budget, const Li
   return key.text();
 }
 
-std::optional<LinkHulls> HullCache::find(std::string_view key) const {
+std::optional<std::string> HullCache::find_content(std::string_view key, std::string_view suffix) const {
   if (folder_.empty()) return std::nullopt;
-  const path file = folder_ / fmt::format("{}{}", key, kSuffix);
+  const path file = folder_ / fmt::format("{}{}", key, suffix);
   std::ifstream in(file, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  std::string bytes(std::istreambuf_iterator<char>(in), {});
   if (bytes.size() < kTextSize) return std::nullopt;
-  const std::string_view content = std::string_view(bytes).substr(kTextSize);
-  if (fingerprint_of(content) != bytes.substr(0, kTextSize)) return std::nullopt;
+  if (fingerprint_of(std::string_view(bytes).substr(kTextSize)) != bytes.substr(0, kTextSize)) return std::nullopt;
   std::error_code error;  // the time is not worth a failure
   std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
-  try {
-    return hulls_of(json::parse(content, nullptr, false));
-  } catch (const Unusable&) {
-    return std::nullopt;
-  }
+  return bytes.erase(0, kTextSize);
 }
 
-void HullCache::keep(std::string_view key, const LinkHulls& hulls) const {
+void HullCache::keep_content(std::string_view key, std::string_view suffix, const std::string& content) const {
   if (folder_.empty()) return;
   static std::atomic<int> count = 0;
-  const std::string content = json_of(hulls).dump(-1, ' ', false, json::error_handler_t::replace);
   const path beside = folder_ / fmt::format("{}.{}.{}.unfinished", key, getpid(), count++);
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
@@ -238,8 +233,22 @@ void HullCache::keep(std::string_view key, const LinkHulls& hulls) const {
   std::ofstream out(beside, std::ios::binary);
   out << fingerprint_of(content) << content;
   out.close();
-  if (out) std::filesystem::rename(beside, folder_ / fmt::format("{}{}", key, kSuffix), error);
+  if (out) std::filesystem::rename(beside, folder_ / fmt::format("{}{}", key, suffix), error);
   if (!out || error) std::filesystem::remove(beside, error);
+}
+
+std::optional<LinkHulls> HullCache::find(std::string_view key) const {
+  const std::optional<std::string> content = find_content(key, kHullsSuffix);
+  if (!content) return std::nullopt;
+  try {
+    return hulls_of(json::parse(*content, nullptr, false));
+  } catch (const Unusable&) {
+    return std::nullopt;
+  }
+}
+
+void HullCache::keep(std::string_view key, const LinkHulls& hulls) const {
+  keep_content(key, kHullsSuffix, json_of(hulls).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 }  // namespace prohull::robot

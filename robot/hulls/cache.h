@@ -37,8 +37,8 @@ const std::string& program_fingerprint();
 /// importers they come from.
 std::string key_of(const TriangleMesh& triangles, const Budget& budget, const LinkHullOptions& options);
 
-/// A folder that keeps how the hulls of links were constructed, by what they were made from. It saves their search and
-/// nothing else: what it returns is a proposal, and `verified` (verdict.h) decides about it.
+/// A folder that keeps how the hulls of links were constructed, by what they were made from, and pictures of them. It
+/// saves their search and nothing else: what it returns is a proposal, and `verified` (verdict.h) decides about it.
 class HullCache {
  public:
   /// An empty path: nothing is kept.
@@ -51,7 +51,16 @@ class HullCache {
   /// removed, and what earlier runs have left unfinished.
   void keep(std::string_view key, const LinkHulls& hulls) const;
 
+  /// The same of a picture: the content of a PNG file.
+  std::optional<std::string> find_picture(std::string_view key) const { return find_content(key, kPictureSuffix); }
+  void keep_picture(std::string_view key, const std::string& png) const { keep_content(key, kPictureSuffix, png); }
+
+  static constexpr std::string_view kHullsSuffix = ".hulls", kPictureSuffix = ".picture";  ///< of files in the folder
+
  private:
+  std::optional<std::string> find_content(std::string_view key, std::string_view suffix) const;
+  void keep_content(std::string_view key, std::string_view suffix, const std::string& content) const;
+
   std::filesystem::path folder_;
 };
 

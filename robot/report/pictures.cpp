@@ -6,6 +6,7 @@
 #include "prohull/error.h"
 #include "render/draw.h"
 #include "render/marks.h"
+#include "robot/hulls/cache.h"
 
 namespace prohull::robot {
 namespace {
@@ -118,15 +119,40 @@ Progress part_of(const Progress& progress, std::size_t picture, std::size_t coun
   };
 }
 
+/// What all of them look like; which of them is asked for is to be added.
+Fingerprint fingerprint_of(std::span<const Picture> pictures, const PictureOptions& options) {
+  Fingerprint key;
+  key.add(program_fingerprint());
+  for (const int size : {options.width, options.height}) key.add(std::size_t(size));
+  key.add(std::size_t(options.lines));
+  for (const Picture& picture : pictures) {
+    key.add(picture.inside), key.add(picture.around), key.add(std::size_t(picture.shell));
+    key.add(std::size_t(picture.marked.has_value()));
+    for (int axis = 0; picture.marked && axis < 3; ++axis) key.add((*picture.marked)[axis]);
+  }
+  return key;
+}
+
 }  // namespace
 
 std::vector<std::string> draw_pictures(std::span<const Picture> pictures, const PictureOptions& options) {
   const std::vector<Picture> shown = drawable(pictures);
   std::vector<std::string> files(shown.size());
   try {
-    const Stage stage(shown, options);
-    for (std::size_t i = 0; i < shown.size(); ++i)
-      files[i] = drawn(shown[i], stage, options, part_of(options.progress, i, shown.size()));
+    const HullCache cache(options.cache);
+    Fingerprint key = fingerprint_of(shown, options);
+    std::optional<Stage> stage;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      key.add(i);
+      const std::string own = key.text();
+      if (auto known = cache.find_picture(own)) {
+        files[i] = std::move(*known);
+        continue;
+      }
+      if (!stage) stage.emplace(shown, options);
+      files[i] = drawn(shown[i], *stage, options, part_of(options.progress, i, shown.size()));
+      if (!files[i].empty()) cache.keep_picture(own, files[i]);
+    }
   } catch (const InputError&) {
     // Nothing of any extent. What could not be drawn is missing, which is no reason to lose a report.
   }

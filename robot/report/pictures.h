@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,7 +17,8 @@ struct PictureOptions {
   int width = 560, height = 420;
   bool lines = true;  ///< the edges of what is around
   unsigned threads = 0;
-  Progress progress = {};  ///< stage "draw"
+  Progress progress = {};            ///< stage "draw"
+  std::filesystem::path cache = {};  ///< of HullCache
 };
 
 /// What is around a geometry tells its colour.

@@ -41,7 +41,8 @@ struct PageOptions {
   bool pictures = true;
   std::string view = {};  ///< URL of a page that shows the robot in three dimensions; empty: there is none
   unsigned threads = 0;
-  Progress progress = {};  ///< stage "draw"
+  Progress progress = {};            ///< stage "draw"
+  std::filesystem::path cache = {};  ///< of HullCache; empty: all pictures are drawn
 };
 
 /// One page of HTML without any other file: pictures, tables, marks on what needs a look. Texts of the robot's file are

@@ -114,12 +114,14 @@ PagePictures drawn_pictures(const ReportInput& input, const PageOptions& options
   result.cards.resize(input.file.robot.links.size());
   if (!options.pictures) return result;
   Drawing drawing(1 + result.cards.size(), options.progress);
-  result.robot = drawing
-                     .step({picture_of_robot(input)},
-                           {.width = kWide, .height = kHigh, .lines = false, .threads = options.threads})
-                     .front();
+  result.robot =
+      drawing
+          .step({picture_of_robot(input)},
+                {.width = kWide, .height = kHigh, .lines = false, .threads = options.threads, .cache = options.cache})
+          .front();
   for (std::size_t i = 0; i < result.cards.size(); ++i) {
-    std::vector<std::string> files = drawing.step(pictures_of_card(input, i), {.threads = options.threads});
+    std::vector<std::string> files =
+        drawing.step(pictures_of_card(input, i), {.threads = options.threads, .cache = options.cache});
     const LinkHulls* const hulls = hulls_of(input, i);
     if (files.size() > (hulls ? hulls->hulls.size() : 0)) {
       result.cards[i].shipped = std::move(files.back());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <limits>
 
 #include "prohull/error.h"
@@ -10,6 +11,7 @@
 #include "robot/report/pictures.h"
 #include "robot/report/report_facts.h"
 #include "robot/report/report_page.h"
+#include "robot_folder.h"
 
 namespace prohull::robot {
 namespace {
@@ -347,6 +349,23 @@ TEST(Pictures, AreTheSameForAnyNumberOfThreads) {
   const Picture picture{make_sample("sphere", 100), make_sample("box", 12), Shell::Hull, Vec3{1, 0, 0}};
   EXPECT_EQ(draw_pictures({&picture, 1}, {.width = 96, .height = 72, .threads = 1}),
             draw_pictures({&picture, 1}, {.width = 96, .height = 72, .threads = 4}));
+}
+
+TEST(Pictures, AreTheSameFromACacheWhoseFilesMayBeBroken) {
+  const RobotFolder folder;
+  const std::vector<Picture> pictures{{make_sample("box", 12), {}, Shell::Hull, {}},
+                                      {{}, make_sample("box", 12), Shell::Hull, {}}};
+  PictureOptions options{.width = 48, .height = 36};
+  const std::vector<std::string> drawn = draw_pictures(pictures, options);
+  options.cache = folder.path();
+  for (int run = 0; run < 2; ++run) EXPECT_EQ(draw_pictures(pictures, options), drawn);
+  std::size_t kept = 0;
+  for (const auto& file : std::filesystem::directory_iterator(options.cache)) {
+    std::ofstream(file.path(), std::ios::binary) << "broken, and longer than a fingerprint";
+    ++kept;
+  }
+  EXPECT_EQ(kept, 2U);
+  EXPECT_EQ(draw_pictures(pictures, options), drawn);
 }
 
 TEST(Pictures, AMarkedPointIsSeen) {
