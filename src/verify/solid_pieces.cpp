@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "geometry/predicates.h"
+#include "geometry/triangle_contact.h"
+#include "geometry/triangle_predicates.h"
 #include "prohull/enclosure.h"
 #include "prohull/mesh_query.h"
 #include "prohull/union_verification.h"
@@ -300,7 +302,15 @@ class Reach {
     return result;
   }
 
+  /// A segment is halved as one. Halves of it as a triangle would lie on each other, and cells be without number.
+  static void add_halves_of(const Segment& s, std::vector<Triangle>& result) {
+    const Vec3 middle = s.a * 0.5 + s.b * 0.5;
+    result.push_back({s.a, middle, middle});
+    result.push_back({middle, s.b, s.b});
+  }
+
   static void add_halves(const Triangle& t, std::vector<Triangle>& result) {
+    if (!projection_axis(t)) return add_halves_of(segment_of(t), result);
     const double ab = squared_norm(t.b - t.a), bc = squared_norm(t.c - t.b), ca = squared_norm(t.a - t.c);
     const auto [a, b, c] = ab >= bc && ab >= ca ? t : bc >= ca ? Triangle{t.b, t.c, t.a} : Triangle{t.c, t.a, t.b};
     const Vec3 middle = a * 0.5 + b * 0.5;

@@ -135,6 +135,7 @@ class TriangleCutter {
     std::vector<std::array<Corner, 3>> parts{{corner({1, 0, 0}), corner({0, 1, 0}), corner({0, 0, 1})}};
     for (const Corner& c : parts[0])
       if (c.holders.empty()) return found(c, Decision::Outside);
+    if (!projection_axis(triangle_)) parts[0] = ends_of(segment_of(triangle_), parts[0]);
     const double coarse = kCoarse * longest_side(parts[0]).second;
     Decision decision = Decision::Covered;
     for (std::size_t count = 1; !parts.empty(); count += 2) {
@@ -152,7 +153,8 @@ class TriangleCutter {
         if (count > kMostParts) break;
         continue;
       }
-      parts.push_back({part[i], middle, part[k]});
+      const bool is_segment = part[j].weights == part[k].weights;
+      parts.push_back({part[i], middle, is_segment ? middle : part[k]});
       parts.push_back({std::move(middle), part[j], part[k]});
     }
     return decision;
@@ -165,6 +167,13 @@ class TriangleCutter {
   Decision found(const Corner& point, Decision decision) {
     point_ = point;
     return decision;
+  }
+
+  /// A segment is cut as one, with the corners u, v, v. As a triangle it would have parts without number beside a point
+  /// in doubt: all those that lie on each other there.
+  std::array<Corner, 3> ends_of(const Segment& segment, const std::array<Corner, 3>& corners) const {
+    const auto at = [&](const Vec3& p) { return corners[p == triangle_.a ? 0 : p == triangle_.b ? 1 : 2]; };
+    return {at(segment.a), at(segment.b), at(segment.b)};
   }
 
   Corner corner(const Vec3& weights) const {

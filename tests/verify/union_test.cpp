@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "effort.h"
+#include "progress.h"
 #include "prohull/convex_hull.h"
 #include "prohull/error.h"
 #include "prohull/sample.h"
@@ -168,7 +169,7 @@ TEST(UnionOfPieces, AgreesWithBruteForce) {
   RandomChains chains(test_seed());
   std::mt19937 random(test_seed());
   int accepted = 0, rejected = 0;
-  for (int i = 0; i < rounds(300); ++i) {
+  for (int i = 0; i < rounds(150); ++i) {
     TriangleMesh original = random_polytope(chains, 5);
     if (original.face_count() == 0) continue;
     original = moved(scaled(original, 0.5), {0.75, 0.75, 0.75});
@@ -235,6 +236,19 @@ TEST(UnionOfBalls, WithAPointInDoubtAreUndecided) {
   ASSERT_EQ(found.undecided.size(), 1u);
   EXPECT_NEAR(found.undecided[0].point.x, third, 1e-9);
   EXPECT_NE(found.why_not.find("undecided"), std::string::npos) << found.why_not;
+}
+
+// The balls meet at x = 1/3. There, a segment that is cut like a triangle has a million parts.
+TEST(UnionOfBalls, AreUndecidedOfASegmentAfterFewParts) {
+  const std::vector<Ball> balls{{{1.0 / 3 - 2, 0, 0}, 2}, {{1.0 / 3 + 2, 0, 0}, 2}};
+  const UnthrottledProgress unthrottled;
+  for (const double middle : {-1.0, 0.25, 1.0}) {
+    int calls = 0;
+    const Progress count = [&](std::string_view, double) { return ++calls > 0; };
+    const TriangleMesh segment = make({{middle, 0, 0}, {1, 0, 0}, {-1, 0, 0}}, {{0, 1, 2}});
+    EXPECT_EQ(verify_union(balls, segment, false, {.progress = count}).faces_undecided, 1U) << middle;
+    EXPECT_LT(calls, 1000) << middle;
+  }
 }
 
 TEST(UnionOfBalls, ThatLeaveAPointOutsideBesideOneInDoubtDoNotCover) {
