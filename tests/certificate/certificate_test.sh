@@ -5,10 +5,10 @@ set -u
 prohull=$1
 . "$(dirname "$0")/../cli/checks.sh"
 is "the checker compiles" "${CC:-cc}" -std=c99 -O1 -o prohull_check "$2" -lm
-$prohull sample bracket --faces 3000 -o bracket.stl >/dev/null
-$prohull sample bracket --faces 3000 -o bracket.ply >/dev/null
+$prohull sample bracket --faces 1500 -o bracket.stl >/dev/null
+$prohull sample bracket --faces 1500 -o bracket.ply >/dev/null
 $prohull sample torus --faces 800 -o torus.obj >/dev/null
-$prohull sample knot --faces 2000 -o knot.off >/dev/null
+$prohull sample knot --faces 1000 -o knot.off >/dev/null
 
 # proves NAME ORIGINAL HULL OPTIONS...: the checker accepts the certificate of what `prohull build` makes
 proves() {

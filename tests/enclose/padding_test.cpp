@@ -78,15 +78,15 @@ TEST(Padding, OfSamplesIsProven) {
   for (const std::string_view name : {"asteroid", "bracket", "box", "knot", "pony", "sphere", "torus"})
     for (const double share : {0.002, 0.05}) {
       SCOPED_TRACE(std::string(name) + " " + std::to_string(share));
-      const TriangleMesh mesh = make_sample(name, effort<std::size_t>(800, 60));
+      const TriangleMesh mesh = make_sample(name, effort<std::size_t>(200, 60));
       const double padding = share * bounding_box(mesh).diagonal();
-      expect_padding(mesh, padded(mesh, effort<std::size_t>(100, 40), padding), padding, random);
+      expect_padding(mesh, padded(mesh, effort<std::size_t>(60, 40), padding), padding, random);
     }
 }
 
 TEST(Padding, OfSoupsIsProven) {
   SoupMaker random(test_seed());
-  for (int i = 0; i < effort(15, 6); ++i) {
+  for (int i = 0; i < effort(10, 6); ++i) {
     const Soup soup = random.soup();
     const double padding = soup.size() * std::pow(10.0, random.real(-4, 0.5));
     SCOPED_TRACE("soup " + std::to_string(i) + " padding " + std::to_string(padding / soup.size()));
@@ -125,14 +125,14 @@ TEST(Padding, OfNeedlesAndSheetsIsProven) {
 
 TEST(Padding, HoldsForTheCoordinatesOfTheFile) {
   SoupMaker random(test_seed());
-  const TriangleMesh mesh = make_sample("pony", effort<std::size_t>(800, 80));
+  const TriangleMesh mesh = make_sample("pony", effort<std::size_t>(200, 80));
   const double diagonal = bounding_box(mesh).diagonal();
   for (const double away : effort<std::vector<double>>({0.0, 100.0}, {100.0}))
     for (const double padding : {1e-4 * diagonal, 0.02 * diagonal}) {
       SCOPED_TRACE(std::to_string(away) + " " + std::to_string(padding));
       const TriangleMesh there = moved(mesh, Vec3{1, -2, 3} * (away * diagonal));
       const EnclosingHull hull =
-          padded(there, effort<std::size_t>(200, 80), padding, {.hull = {.float32_coordinates = true}});
+          padded(there, effort<std::size_t>(100, 80), padding, {.hull = {.float32_coordinates = true}});
       expect_padding(there, hull, padding, random);
       EXPECT_TRUE(std::ranges::all_of(hull.mesh.positions, is_float32));
     }
@@ -140,7 +140,7 @@ TEST(Padding, HoldsForTheCoordinatesOfTheFile) {
 
 TEST(Padding, IsKeptByTightHullsAndWithBounds) {
   SoupMaker random(test_seed());
-  const TriangleMesh mesh = make_sample("asteroid", effort<std::size_t>(500, 80));
+  const TriangleMesh mesh = make_sample("asteroid", effort<std::size_t>(200, 80));
   const double diagonal = bounding_box(mesh).diagonal(), padding = 0.02 * diagonal;
   for (const Repair repair : {Repair::Auto, Repair::Wrap}) {
     const EnclosingHull tight = padded(mesh, 60, padding, {.tight = true, .repair = repair});
@@ -156,7 +156,7 @@ TEST(Padding, IsKeptByTightHullsAndWithBounds) {
 // No wrap with that padding is as fine as half of what is left of the distance.
 TEST(Padding, MayBeNearlyTheLargestDistance) {
   const TriangleMesh mesh = make_sample("bracket", effort<std::size_t>(200, 80));
-  const double padding = 0.01 * bounding_box(mesh).diagonal();
+  const double padding = 0.03 * bounding_box(mesh).diagonal();
   for (const Repair repair : {Repair::Auto, Repair::Wrap})
     EXPECT_TRUE(padded(mesh, 20, padding, {.bounds = {.max_distance = 1.1 * padding}, .repair = repair}).certified);
 }
@@ -196,9 +196,10 @@ double void_by_least(const TriangleMesh& torus_mesh, const EnclosingHull& hull, 
 
 TEST(Padding, OfTightHullsIsHardlyMoreThanTheOffsetSurface) {
   constexpr double kTube = 0.4;
-  const TriangleMesh ring = torus(120, 60);
+  const TriangleMesh ring = torus(80, 40);
   const double gap = 0.02 * bounding_box(ring).diagonal();
-  EXPECT_LT(void_by_least(ring, padded(ring, 1000, gap, {.tight = true}), kTube, gap), 1.08);
+  EXPECT_LT(void_by_least(ring, padded(ring, 1000, gap, {.tight = true}), kTube, gap), 1.055)
+      << "a hull that is not tight has 1.060";
 }
 
 EnclosingHull inner(const TriangleMesh& mesh, std::size_t faces, double padding, EnclosingOptions options = {}) {
@@ -225,9 +226,9 @@ TEST(Padding, InsideOfSamplesIsProven) {
   for (const std::string_view name : {"bracket", "pony"})
     for (const double share : {0.001, 0.01}) {
       SCOPED_TRACE(std::string(name) + " " + std::to_string(share));
-      const TriangleMesh mesh = make_sample(name, effort<std::size_t>(800, 100));
+      const TriangleMesh mesh = make_sample(name, effort<std::size_t>(300, 100));
       const double gap = share * bounding_box(mesh).diagonal();
-      expect_gap_inside(mesh, inner(mesh, effort<std::size_t>(150, 60), gap), gap);
+      expect_gap_inside(mesh, inner(mesh, effort<std::size_t>(80, 60), gap), gap);
     }
 }
 

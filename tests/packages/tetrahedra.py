@@ -135,9 +135,9 @@ def main():
         if files:
             return 0
         for name in ("sphere", "torus", "knot", "asteroid", "box", "bracket", "pony", "gyroid"):
-            subprocess.run([prohull, "sample", name, "--faces", "800", "-o", "sample.ply", "-q"], cwd=work, check=True)
+            subprocess.run([prohull, "sample", name, "--faces", "500", "-o", "sample.ply", "-q"], cwd=work, check=True)
             has_inner = name != "gyroid"  # its walls are too thin for so few faces
-            for options in (["--faces", "300"], ["--faces", "300", "--even"]):
+            for options in (["--faces", "200"], ["--faces", "200", "--even"]):
                 if has_inner or "--even" not in options:
                     check_cage(prohull, "sample.ply", name, has_inner, work, *options)
     return 0

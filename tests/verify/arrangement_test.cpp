@@ -65,7 +65,7 @@ TEST(HullsThatOverlapOften, CoverWhatBruteForceSaysTheyCover) {
   RandomChains chains(test_seed());
   std::mt19937 random(test_seed());
   int covered = 0, outside = 0;
-  for (int round = 0; round < rounds(8); ++round) {
+  for (int round = 0; round < rounds(4); ++round) {
     const TriangleMesh hull = tetrahedra_on_grid(chains.uniform(20, 60), true, chains);
     if (signed_volume(hull) < 0.1) continue;  // would be turned
     const oracle::Chain oracle(hull);
