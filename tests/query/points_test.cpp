@@ -268,5 +268,16 @@ TEST(Distances, OfABatchAreThoseOfEachPoint) {
   EXPECT_THROW(signed_distances(index, points), InputError);
 }
 
+TEST(Batches, RefuseWhatIsNotFiniteInOnePlace) {
+  const QueryIndex index(meshes::octahedron());
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Ray> rays_from_nowhere{{{kNan, 0, 0}, {1, 0, 0}}}, rays_to_nowhere{{{0, 0, 0}, {1, kNan, 0}}};
+  const std::vector<Segment> from_nowhere{{{kNan, 0, 0}, {1, 0, 0}}}, to_nowhere{{{0, 0, 0}, {1, kNan, 0}}};
+  EXPECT_THROW(crosses(index, rays_from_nowhere), InputError);
+  EXPECT_THROW(crosses(index, rays_to_nowhere), InputError);
+  EXPECT_THROW(crosses(index, from_nowhere), InputError);
+  EXPECT_THROW(crosses(index, to_nowhere), InputError);
+}
+
 }  // namespace
 }  // namespace prohull
