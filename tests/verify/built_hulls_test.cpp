@@ -54,14 +54,14 @@ TEST(BuiltHulls, AreAcceptedAndTheirMutantsAreNot) {
   std::mt19937 random(test_seed());
   std::size_t lost = 0, kept = 0;
   for (const char* name : {"asteroid", "knot", "bracket", "box", "torus", "pony"}) {
-    const TriangleMesh original = make_sample(name, 1000);
+    const TriangleMesh original = make_sample(name, effort(3000, 1000));
     const ProgressiveHull hull = build_hull(original, {.target_faces = 100}).hull;
     const double diagonal = bounding_box(original).diagonal();
     for (const std::size_t faces :
-         {hull.base_face_count(), std::size_t{300}, original.face_count() / 2, original.face_count() - 2}) {
+         {hull.base_face_count(), std::size_t{400}, original.face_count() / 2, original.face_count() - 2}) {
       const TriangleMesh level = hull.level(faces);
       ASSERT_TRUE(verify_enclosure(original, level).encloses) << name << " " << faces;
-      for (int i = 0; i < effort(6, 3); ++i) {
+      for (int i = 0; i < effort(8, 3); ++i) {
         TriangleMesh mutant = level;
         std::uniform_int_distribution<std::uint32_t> any(0, static_cast<std::uint32_t>(level.vertex_count() - 1));
         const VertexId v{any(random)};

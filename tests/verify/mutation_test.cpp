@@ -131,7 +131,7 @@ TEST(Enclosure, RejectsMutantsExactlyWhereTheyLoseAPartOfTheOriginal) {
     GrowingHull hull(original, test_seed());
     for (int generation = 0; generation < 5; ++generation, ++hulls) {
       ASSERT_TRUE(verify_enclosure(original, hull.mesh()).encloses) << "hull " << hulls;
-      for (int i = 0; i < effort(2, 1); ++i) {
+      for (int i = 0; i < effort(3, 1); ++i) {
         const VertexId v = hull.random_vertex();
         const Vec3 p = hull.mutated(v);
         const TriangleMesh mutant = hull.with(v, p);
