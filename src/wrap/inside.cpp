@@ -161,8 +161,9 @@ std::vector<std::uint8_t> balls_that_reach(const Grid& grid, const std::vector<f
   };
   grid.along_border([&](std::size_t n) { visit(n, levels.size()); });
   for (std::size_t balls = levels.size(); balls > 0; --balls)
-    for (std::size_t i = 0; i < fronts[balls].size(); ++i)
-      grid.around(fronts[balls][i], [&](std::size_t n) { visit(n, balls); });
+    while (!fronts[balls].empty())
+      for (const std::uint32_t m : std::exchange(fronts[balls], {}))
+        grid.around(m, [&](std::size_t n) { visit(n, balls); });
   return reached;
 }
 
@@ -171,20 +172,21 @@ constexpr float kLargerBall = 1.5F;
 /// Adds the hollows whose doors balls of radius `level` do not pass, but in which larger ones fit. `reached` has for
 /// each node how many balls get there; this is the one numbered `ball`.
 void add_rooms(const Grid& grid, const std::vector<float>& far, float level, std::size_t ball,
-               const std::vector<std::uint8_t>& reached, const std::vector<std::size_t>& hollows, Rooms& rooms) {
+               const std::vector<std::uint8_t>& reached, Rooms& rooms) {
   std::vector<char> is_core;
-  for (const std::size_t seed : hollows) {
+  for (std::size_t seed = 0; seed < grid.node_count(); ++seed) {
     if (reached[seed] > ball || far[seed] <= kLargerBall * level || rooms.hold(seed)) continue;
     is_core.resize(grid.node_count());
     if (is_core[seed]) continue;
     Nodes core{static_cast<std::uint32_t>(seed)};
     is_core[seed] = 1;
-    for (std::size_t i = 0; i < core.size(); ++i)
-      grid.around(core[i], [&](std::size_t n) {
-        if (is_core[n] || far[n] <= level) return;
-        is_core[n] = 1;
-        core.push_back(static_cast<std::uint32_t>(n));
-      });
+    while (!core.empty())
+      for (const std::uint32_t m : std::exchange(core, {}))
+        grid.around(m, [&](std::size_t n) {
+          if (is_core[n] || far[n] <= level) return;
+          is_core[n] = 1;
+          core.push_back(static_cast<std::uint32_t>(n));
+        });
   }
   if (is_core.empty()) return;
   rooms.nodes.resize(grid.node_count());
@@ -208,12 +210,9 @@ Rooms find_rooms(const Grid& grid, const std::vector<float>& far, float seal, Pr
   std::vector<float> levels;
   for (float level = seal; level < widest; level *= kStep) levels.push_back(level);
   const std::vector<std::uint8_t> reached = balls_that_reach(grid, far, levels);
-  std::vector<std::size_t> hollows;  // nodes that balls do not reach in which larger ones fit
-  for (std::size_t n = 0; n < grid.node_count(); ++n)
-    if (reached[n] < levels.size() && far[n] > kLargerBall * levels[reached[n]]) hollows.push_back(n);
-  for (std::size_t ball = 0; ball < levels.size() && !hollows.empty(); ++ball) {
+  for (std::size_t ball = 0; ball < levels.size(); ++ball) {
     meter.at(0);
-    add_rooms(grid, far, levels[ball], ball, reached, hollows, rooms);
+    add_rooms(grid, far, levels[ball], ball, reached, rooms);
   }
   return rooms;
 }
