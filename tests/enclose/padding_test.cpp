@@ -111,6 +111,18 @@ TEST(Padding, ClosesWhatIsNarrowerThanTwiceOfIt) {
     }
 }
 
+// A hull that keeps the larger gap keeps the smaller one, too. The last digits of a gap once decided whether a wrap
+// came down to so few faces.
+TEST(Padding, ThatIsSmallerNeedsHardlyMoreVoid) {
+  const TriangleMesh bracket = make_sample("bracket", 1000);
+  double least = std::numeric_limits<double>::infinity();
+  for (const double gap : {0.08, 0.0625, 0.05}) {
+    const double ratio = padded(bracket, 60, gap).void_ratio;
+    EXPECT_LT(1 + ratio, 1.2 * (1 + least)) << gap;
+    least = std::min(least, ratio);
+  }
+}
+
 TEST(Padding, OfNeedlesAndSheetsIsProven) {
   SoupMaker random(test_seed());
   const TriangleMesh needle = tetrahedron({0, 0, 0}, {0, 1e-3, 0}, {0, 0, 1e-3}, {1, 0, 0});
