@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -53,9 +55,11 @@ double spacing_of_many_faces(const TriangleMesh& mesh) {
 }
 
 double finest_close_spacing(const Request& request) {
-  constexpr double kNodesPerPair = 0x1p9, kMostNodes = 0x1p28;  // 1 GB of distances
+  constexpr double kNodesPerPair = 0x1p9;
+  constexpr double kMostNodes = 0x1p28, kMostWithRooms = 0x1p27;  // 6 and 15 bytes for each: less than 2 GB
   const TriangleMesh& mesh = request.to_cover();
-  return std::max(finest_spacing(request, kNodesPerPair * square(double(mesh.face_count())), kMostNodes),
+  const double most_nodes = request.input.closed ? kMostNodes : kMostWithRooms;
+  return std::max(finest_spacing(request, kNodesPerPair * square(double(mesh.face_count())), most_nodes),
                   spacing_of_many_faces(mesh));
 }
 
@@ -77,7 +81,8 @@ void Candidates::plan_bounded_wraps() {
 
 // A few vertices of a wrap are up to 1.3 spacings away, most of them less than 0.6; the rest of the bound is for
 // collapses. What is between vertices may break it by a little. If memory and patience are not enough for a wrap that
-// could keep it, the hull is as near as they allow.
+// could keep it, the hull is as near as they allow. Where more is missed than 0.85 of the bound would make
+// up for, the wrap itself misses it.
 void Candidates::plan_close_wraps() {
   constexpr double kSpacing = 2.0 / 3, kFiner = 2.0 / 3;  // of the bound, and of the spacing before
   constexpr double kNearer = 0.85;                        // of the bound
@@ -90,6 +95,7 @@ void Candidates::plan_close_wraps() {
         return std::nullopt;
       const std::span<const SolidId> made = solids.wraps(target_faces_);
       const bool is_made = !made.empty() && solids[made.back()].wrap_spacing == spacing;
+      if (is_made && kNearer * ranking.best().hull.excess > 1) return std::nullopt;
       const auto id = is_made ? std::optional(made.back()) : wrap(kCloseWrap, spacing, solids);
       return id ? std::optional(within(*id, distance, solids)) : std::nullopt;
     });
@@ -101,6 +107,19 @@ void Candidates::plan_close_wraps() {
     if (spacing == finest) break;
     spacing = std::max(kFiner * spacing, finest);
   }
+  if (finest > kSpacing * max_distance) plan_why_not_closer(finest, kSpacing * max_distance);
+}
+
+/// The last step: it has no candidate.
+void Candidates::plan_why_not_closer(double finest, double wanted) {
+  steps_.push_back([=, this](const Ranking& ranking, Solids&) -> std::optional<Candidate> {
+    if (!ranking.has_certified() || !ranking.best().hull.within_bounds)
+      notes_.add(
+          fmt::format("a wrap that keeps the largest distance needs a spacing of about {:.4g}, and so more memory "
+                      "and time than a single hull may take: the finest one that is tried has a spacing of {:.4g}",
+                      wanted, finest));
+    return std::nullopt;
+  });
 }
 
 // Ever finer ones, until one keeps the bounds; a single one, as near as patience allows, if none can. A hull of a wrap

@@ -12,6 +12,7 @@ Candidates::Candidates(const Request& request, std::size_t target_faces, Notes& 
   if (request.is_outer() && may_stay_within()) plan_within_of_mesh();
   if (request.is_free()) {
     plan_convex_hull();
+    if (request.options.bounds.any() && !request.options.levels) plan_convex_hull_in_steps();
     if (!request.options.levels) plan_polytope();
     if (!request.options.bounds.any() || !request.options.levels) plan_wraps();
     if (request.options.bounds.any()) plan_bounded_wraps();
@@ -124,6 +125,19 @@ void Candidates::plan_convex_hull() {
     const auto id = solids.convex_hull(too_large);
     if (!id || (too_large && solids[*id].volume >= *too_large)) return std::nullopt;
     return of(*id, solids);
+  });
+}
+
+// What comes down to the faces asked for without bounds may keep them: of a gyroid, a hull of 60 faces that is nearer
+// than the level of 90.
+void Candidates::plan_convex_hull_in_steps() {
+  steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+    if (has_few_faces(ranking) || !ranking.has_certified() || !ranking.best().hull.within_bounds ||
+        ranking.best().hull.source != Source::ConvexHull)
+      return std::nullopt;
+    Candidate candidate = of(ranking.best().hull.solid, solids);
+    candidate.recipe.method = Method::InSteps;
+    return candidate;
   });
 }
 

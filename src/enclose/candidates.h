@@ -24,11 +24,13 @@ class Candidates {
   void plan_unfolded_mesh();
   void plan_within_of_mesh();
   void plan_convex_hull();
+  void plan_convex_hull_in_steps();
   void plan_polytope();
   void plan_wraps();
   void plan_bounded_wraps();
   void plan_close_wraps();
   void plan_loose_wraps();
+  void plan_why_not_closer(double finest, double wanted);
   void plan_inner();
   void plan_inner_with_padding();
   void plan_tight();

@@ -57,10 +57,15 @@ void Ranking::take(std::optional<Attempt> attempt) {
   if (!attempt->why_not_storable.empty())
     notes_.add(fmt::format("a hull of {} has no float32 coordinates: {}",
                            described(solids_[hull.solid], request_.input.repairs), attempt->why_not_storable));
-  else if (!is_as_asked(hull) && request_.is_free() &&
+  else if (!is_as_asked(hull) && request_.is_free() && !is_in_spite_of_bounds(*attempt) &&
            (hull.certified || !other_way(attempt->candidate.recipe, request_)))
     note_why_not(hull);
   if (!best_ || is_better(hull, best_->hull)) best_ = std::move(attempt);
+}
+
+/// It was made without a look at them.
+bool Ranking::is_in_spite_of_bounds(const Attempt& attempt) const {
+  return request_.options.bounds.any() && attempt.candidate.recipe.method == Method::InSteps;
 }
 
 bool Ranking::is_clean(const EnclosingHull& hull) const {

@@ -47,6 +47,7 @@ class Ranking {
   EnclosingHull winner();
 
  private:
+  bool is_in_spite_of_bounds(const Attempt& attempt) const;
   bool is_clean(const EnclosingHull& hull) const;
   bool is_as_asked(const EnclosingHull& hull) const;
   bool is_better(const EnclosingHull& a, const EnclosingHull& b) const;

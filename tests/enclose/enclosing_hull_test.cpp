@@ -486,6 +486,14 @@ TEST(EnclosingHull, HasFewerFacesWithinABoundThanALevel) {
 }
 
 // What the wraps of one budget tell of the inside decides nothing for another.
+// Levels of the convex hull keep it with 90 faces; the hull that moves on its way down, with 60.
+TEST(EnclosingHull, KeepsABoundWithAsFewFacesAsTheHullWithoutIt) {
+  const EnclosingHull hull = enclosing_hull(make_sample("gyroid", 1500), 60, {.bounds = {.max_distance = 0.25}});
+  EXPECT_TRUE(hull.certified && hull.within_bounds);
+  EXPECT_EQ(hull.mesh.face_count(), 60U);
+  EXPECT_TRUE(hull.notes.empty() || hull.notes.back().find("convex hull") == std::string::npos);
+}
+
 TEST(EnclosingHull, OfASoupIsTheSameBesideOtherBudgets) {
   const TriangleMesh soup = without_a_face(make_sample("bracket", 100));
   const EnclosingOptions options{.repair = Repair::Wrap, .open_shells = OpenShells::Keep};
