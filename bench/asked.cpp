@@ -28,6 +28,7 @@ constexpr std::size_t kBoundedFaces = 20, kTightFaces = 100;
 struct AskedOptions {
   ModelOptions models{.folder = {}, .samples = {"bracket"}, .sample_faces = 2000};
   std::filesystem::path data = "../shared/data";
+  std::vector<std::string> folders{"robots", "models", "dirty"};
   std::size_t every = 1;
   double budget = 60;
   std::filesystem::path out;
@@ -199,9 +200,10 @@ class AskedBench {
 };
 
 /// Collision geometry is what others made of these meshes.
-std::vector<std::filesystem::path> meshes_of_data(const std::filesystem::path& data) {
+std::vector<std::filesystem::path> meshes_of(const std::filesystem::path& data,
+                                             const std::vector<std::string>& folders) {
   std::vector<std::filesystem::path> files;
-  for (const char* folder : {"robots", "models", "dirty"}) {
+  for (const std::string& folder : folders) {
     if (!is_directory(data / folder)) {
       fmt::print(stderr, "skipped: there is no folder {}\n", (data / folder).string());
       continue;
@@ -219,7 +221,7 @@ int run_asked(const AskedOptions& options) {
   AskedBench bench(options);
   std::vector<std::string> refused;
   std::vector<std::filesystem::path> files = options.models.files;
-  if (files.empty() && !options.models.record_sample) files = meshes_of_data(options.data);
+  if (files.empty() && !options.models.record_sample) files = meshes_of(options.data, options.folders);
   for (std::size_t i = 0; i < files.size(); i += options.every) try {
       const TriangleMesh mesh = finite_part(read_mesh(files[i], {.non_finite = NonFinite::Keep}));
       bench.measure(files[i].lexically_relative(options.data).string(), mesh);
@@ -242,6 +244,10 @@ void add_asked(CLI::App& app, Run& run) {
   command.add_option("--data", options->data, "Folder of robots/, models/ and dirty/; bundled meshes come after them")
       ->capture_default_str()
       ->type_name("DIR");
+  command.add_option("--folders", options->folders, "Those of them that are measured")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->type_name("NAME,...");
   command.add_option("--every", options->every, "Measure only the first mesh of so many")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
