@@ -21,7 +21,8 @@ constexpr double kBoundedSpacing = 0.5;  // of the largest distance
 // as few. By 0.12, wraps of two parts leave triangles uncovered.
 constexpr WrapKind kCloseWrap{3.5, 0.3, 0, 0.08};
 
-constexpr double kReach = 0.6;  // of most vertices of a wrap from the triangles, in spacings
+constexpr double kCloseSpacing = 2.0 / 3;  // of the largest distance
+constexpr double kReach = 0.6;             // of most vertices of a wrap from the triangles, in spacings
 
 double square(double x) { return x * x; }
 
@@ -75,8 +76,10 @@ void Candidates::plan_bounded_wraps() {
   const double max_distance = request_.options.bounds.max_distance;
   const bool is_close =
       max_distance < kClose * request_.diagonal || kBoundedSpacing * max_distance < finest_loose_spacing(request_);
-  const bool is_hopeless = kReach * finest_close_spacing(request_) > kNearerByMoving * max_distance;
+  const double finest = finest_close_spacing(request_);
+  const bool is_hopeless = kReach * finest > kNearerByMoving * max_distance;
   may_stay_within() && is_close && !is_hopeless ? plan_close_wraps() : plan_loose_wraps();
+  if (finest > kCloseSpacing * max_distance) plan_why_not_closer(finest, kCloseSpacing * max_distance);
 }
 
 // A few vertices of a wrap are up to 1.3 spacings away, most of them less than 0.6; the rest of the bound is for
@@ -84,8 +87,8 @@ void Candidates::plan_bounded_wraps() {
 // could keep it, the hull is as near as they allow. Where more is missed than 0.85 of the bound would make
 // up for, the wrap itself misses it.
 void Candidates::plan_close_wraps() {
-  constexpr double kSpacing = 2.0 / 3, kFiner = 2.0 / 3;  // of the bound, and of the spacing before
-  constexpr double kNearer = 0.85;                        // of the bound
+  constexpr double kFiner = 2.0 / 3;  // of the spacing before
+  constexpr double kNearer = 0.85;    // of the bound
   constexpr int kMost = 2;
   const double max_distance = request_.options.bounds.max_distance;
   const double finest = finest_close_spacing(request_);
@@ -100,14 +103,13 @@ void Candidates::plan_close_wraps() {
       return id ? std::optional(within(*id, distance, solids)) : std::nullopt;
     });
   };
-  double spacing = std::max(kSpacing * max_distance, finest);
+  double spacing = std::max(kCloseSpacing * max_distance, finest);
   for (int i = 0; i < kMost; ++i) {
     plan(spacing, kReach * spacing < max_distance ? max_distance : spacing);
     if (spacing < max_distance) plan(spacing, kNearer * max_distance);
     if (spacing == finest) break;
     spacing = std::max(kFiner * spacing, finest);
   }
-  if (finest > kSpacing * max_distance) plan_why_not_closer(finest, kSpacing * max_distance);
 }
 
 /// The last step: it has no candidate.
