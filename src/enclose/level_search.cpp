@@ -8,7 +8,9 @@
 namespace prohull {
 namespace {
 
-// Moving takes 0.1 to 0.4 ms for each face, most of it in soups: this is at most 6 s.
+// Moving takes 0.1 to 0.4 ms for each face, most of it in soups: this is at most 6 s. With 4,000 for meshes of less
+// than 40 faces and 100 for each face of others, 28 requests of soups took 0.63 of the time, but one missed a bound
+// that it keeps, and eight had up to twice the faces.
 std::size_t most_faces_tried(std::size_t fewest) { return std::max<std::size_t>(16'000, 3 * fewest); }
 
 class LevelSearch {
