@@ -23,8 +23,8 @@ struct SphereCoverOptions {
 };
 
 struct SphereCover {
-  /// Their numbers are float32 numbers, as planners on GPUs read them, unless the mesh is so far from the origin that
-  /// these would be too coarse.
+  /// Their numbers have the 24 bits of float32, as planners on GPUs read them, unless the mesh is so far from the
+  /// origin that these would be too coarse.
   std::vector<Ball> balls;
   bool certified = false;      ///< the balls cover, proven exactly (verify_union)
   bool covers_inside = false;  ///< what was proven: also the inside

@@ -82,29 +82,33 @@ TriangleMesh clustered(const TriangleMesh& mesh) {
   return result;
 }
 
-/// The surfaces of prisms on flat triangles, so that parts of them have volumes by which cuts can be compared.
-TriangleMesh prisms_on(const TriangleMesh& flat) {
+/// A prism on flat triangles, so that parts of it have volumes by which cuts can be compared. Not closed if they are a
+/// surface that branches.
+TriangleMesh prism_on(const TriangleMesh& flat) {
   constexpr double kHeight = 1.0 / 64;  // of the diagonal
   const double diagonal = bounding_box(flat).diagonal();
+  const auto normal_of = [&](const Triangle& t) { return cross((t.b - t.a) / diagonal, (t.c - t.a) / diagonal); };
   Vec3 normal;  // of the largest triangle
-  for (const FaceId f : flat.triangles.ids()) {
-    const Triangle t = flat.triangle(f);
-    const Vec3 n = cross((t.b - t.a) / diagonal, (t.c - t.a) / diagonal);
-    if (norm(n) > norm(normal)) normal = n;
-  }
+  for (const FaceId f : flat.triangles.ids())
+    if (const Vec3 n = normal_of(flat.triangle(f)); norm(n) > norm(normal)) normal = n;
   if (!(norm(normal) > 0)) return flat;
-  const Vec3 up = normal * (kHeight * diagonal / norm(normal));
-  const auto count = std::uint32_t(flat.positions.size());
-  const auto above = [&](VertexId v) { return VertexId{index(v) + count}; };
-  TriangleMesh result = flat;
-  for (const Vec3& p : flat.positions) result.positions.push_back(p + up);
-  for (const auto& t : flat.triangles) {
-    result.triangles.push_back({above(t[0]), above(t[1]), above(t[2])});
-    for (std::size_t i = 0; i < 3; ++i) {
-      const VertexId a = t[i], b = t[(i + 1) % 3];
-      result.triangles.push_back({a, b, above(b)});
-      result.triangles.push_back({a, above(b), above(a)});
-    }
+  TriangleMesh result{flat.positions, {}};
+  for (const Vec3& p : flat.positions) result.positions.push_back(p + normal * (kHeight * diagonal / norm(normal)));
+  const auto above = [&](VertexId v) { return VertexId{index(v) + std::uint32_t(flat.positions.size())}; };
+  std::set<std::array<VertexId, 2>> edges;
+  for (const FaceId f : flat.triangles.ids()) {
+    const double up = dot(normal_of(flat.triangle(f)), normal);
+    auto [a, b, c] = flat.triangles[f];
+    if (up == 0) continue;
+    if (up < 0) std::swap(b, c);
+    result.triangles.push_back({a, c, b});
+    result.triangles.push_back({above(a), above(b), above(c)});
+    for (const auto& edge : {std::array{a, b}, std::array{b, c}, std::array{c, a}}) edges.insert(edge);
+  }
+  for (const auto& [a, b] : edges) {
+    if (edges.contains({b, a})) continue;
+    result.triangles.push_back({a, b, above(b)});
+    result.triangles.push_back({a, above(b), above(a)});
   }
   return result;
 }
@@ -221,8 +225,11 @@ class Covering {
   Material of_open_triangles() const {
     const TriangleMesh& triangles = prepared_.original;
     if (is_flat()) {
-      const TriangleMesh thick = prisms_on(clustered(triangles));
-      return {{}, triangles, thick, thick, {}};
+      constexpr double kSame = 1 - 1e-6;  // but for rounding: a cut of what is convex gains nothing
+      const TriangleMesh prism = prism_on(clustered(triangles));
+      const bool may_gain = is_closed(prism) && signed_volume(prism) < kSame * signed_volume(convex_hull(prism));
+      const TriangleMesh& coarse = may_gain ? prism : triangles;
+      return {{}, triangles, coarse, coarse, {}};
     }
     const TriangleMesh near = with_caps(prepared_);
     const double diagonal = bounding_box(triangles).diagonal();
@@ -300,7 +307,8 @@ class Covering {
 
   static Solid search_solid(const TriangleMesh& mesh, const Material& material, const Frame& frame) {
     const TriangleMesh scaled = frame.scaled(mesh);
-    return Solid(scaled, material.solid.face_count() > 0 ? scaled : TriangleMesh(), kSearchTolerance);
+    const bool is_solid = material.solid.face_count() > 0 || is_closed(scaled);
+    return Solid(scaled, is_solid ? scaled : TriangleMesh(), kSearchTolerance);
   }
 
   /// Pieces that save nothing are not made.

@@ -200,7 +200,13 @@ TEST(ConvexCover, OfFlatTrianglesGoesAroundTheirHole) {
   const ConvexCover cover = convex_cover(frame, {.max_pieces = 8, .bounds = {.max_distance = 0.2}});
   EXPECT_TRUE(cover.certified && cover.within_bounds);
   EXPECT_EQ(cover.pieces.size(), 4U);
+  EXPECT_LT(convex_cover(frame, {.max_pieces = 8}).reach.upper, 0.2);
   frame.triangles.resize(2);
+  EXPECT_EQ(convex_cover(frame, {.max_pieces = 8, .bounds = {.max_distance = 0.2}}).pieces.size(), 1U);
+  frame.triangles.resize(1);
+  EXPECT_EQ(convex_cover(frame, {.max_pieces = 8}).pieces.size(), 1U);
+  frame.triangles = {{VertexId{0}, VertexId{1}, VertexId{2}}, {VertexId{0}, VertexId{2}, VertexId{3}}};
+  EXPECT_EQ(convex_cover(frame, {.max_pieces = 8}).pieces.size(), 1U);
   EXPECT_EQ(convex_cover(frame, {.max_pieces = 8, .bounds = {.max_distance = 0.2}}).pieces.size(), 1U);
 }
 
