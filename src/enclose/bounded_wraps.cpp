@@ -69,6 +69,11 @@ bool is_of_clean_mesh(const Ranking& ranking, const Solids& solids) {
   return ranking.best().hull.source == Source::Mesh && solids[0].self_intersections == 0;
 }
 
+/// A wrap of half the spacing misses at least half as much of the bounds.
+bool may_keep_bounds(double spacing, const Ranking& ranking, double last) {
+  return !ranking.has_certified() || ranking.best().hull.excess * spacing <= last;
+}
+
 }  // namespace
 
 void Candidates::plan_bounded_wraps() {
@@ -134,13 +139,22 @@ void Candidates::plan_loose_wraps() {
   // keeps them with fewer still, the wrap is left out: of 10 robots' parts at 1 % of the diagonal, it had a better hull
   // for 2, and took 2 to 10 times as long.
   constexpr std::size_t kMostReduced = 300;
+  // One that missed 17 times a bound of the void was no nearer by ever finer ones.
+  constexpr double kHopeless = 2;
   const double finest = std::max(finest_loose_spacing(request_), request_.aim() / 2),
                max_distance = request_.options.bounds.max_distance - request_.options.padding;
   const bool is_hopeless = kBoundedWrap.offset * finest > kNearerByMoving * max_distance;
   const double wanted = std::max(kBoundedSpacing * max_distance, request_.diagonal / (is_hopeless ? kPlain : kFine));
   double spacing = std::max(std::min(spacing_for(kBoundedWrap), wanted), finest);
   for (int i = 0; i < (is_hopeless ? 1 : kMostBounded); ++i) {
+    const bool is_last = i + 1 == kMostBounded || spacing == finest;
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+      if (const std::span<const SolidId> made = solids.wraps(target_faces_); i > 0 && !made.empty()) {
+        const double last = solids[made.back()].wrap_spacing;
+        const bool may_the_finest = may_keep_bounds(finest / kHopeless, ranking, last);
+        const bool may_this = is_last || may_keep_bounds(spacing, ranking, last);
+        if (may_the_finest ? !may_this : i > 1) return std::nullopt;
+      }
       if (ranking.has_certified() && ranking.best().hull.within_bounds) {
         const EnclosingHull& best = ranking.best().hull;
         const bool is_fine = spacing < request_.diagonal / kFine;
@@ -154,7 +168,7 @@ void Candidates::plan_loose_wraps() {
         return std::nullopt;
       return of(*id, solids);
     });
-    if (spacing == finest) break;
+    if (is_last) break;
     spacing = std::max(spacing / 2, finest);
   }
 }

@@ -41,8 +41,9 @@ constexpr double kNearerByMoving = 4;  ///< by moving, a hull comes so much near
 /// could gain stays as it is.
 inline bool is_worth_moving(std::size_t faces, double excess) { return faces <= 16'000 || excess <= kNearerByMoving; }
 
-/// Moved towards the triangles.
-TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds = kRoundsAtTheEnd);
+/// Moved towards the triangles; in few rounds, where they are few beside its faces.
+TriangleMesh placed(const TriangleMesh& level, const Making& making);
+TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds);
 
 // One for each method.
 EnclosingHull built_of_levels(const Making& making);
