@@ -57,10 +57,9 @@ double spacing_of_many_faces(const TriangleMesh& mesh) {
 
 double finest_close_spacing(const Request& request) {
   constexpr double kNodesPerPair = 0x1p9;
-  constexpr double kMostNodes = 0x1p28, kMostWithRooms = 0x1p27;  // 6 and 15 bytes for each: less than 2 GB
+  constexpr double kMostNodes = 0x1p28;  // 6 bytes for each, or 10 where the mesh is not closed: less than 3 GB
   const TriangleMesh& mesh = request.to_cover();
-  const double most_nodes = request.input.closed ? kMostNodes : kMostWithRooms;
-  return std::max(finest_spacing(request, kNodesPerPair * square(double(mesh.face_count())), most_nodes),
+  return std::max(finest_spacing(request, kNodesPerPair * square(double(mesh.face_count())), kMostNodes),
                   spacing_of_many_faces(mesh));
 }
 
