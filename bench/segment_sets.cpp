@@ -131,6 +131,14 @@ std::vector<Segment> to_vertex(const TriangleMesh& mesh, std::size_t count, std:
   return segments;
 }
 
+/// Rounded: the line misses the vertex by about a unit in the last place.
+std::vector<Segment> past_vertex(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
+  constexpr double kBeyond = 5;
+  std::vector<Segment> segments = to_vertex(mesh, count, seed);
+  for (Segment& s : segments) s.b = s.a + kBeyond * (s.b - s.a);
+  return segments;
+}
+
 std::vector<Segment> to_edge(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
   Random random(seed);
   const Box around = bounding_box(mesh);
@@ -180,6 +188,7 @@ constexpr std::array kCommon{
 };
 constexpr std::array kAimed{
     SegmentSet{"to a vertex", "from outside, ending exactly at a vertex", to_vertex},
+    SegmentSet{"past a vertex", "from outside, past a vertex within a unit in the last place", past_vertex},
     SegmentSet{"to an edge", "from outside, ending at the rounded middle of an edge", to_edge},
     SegmentSet{"along an axis", "along an axis, exactly through a vertex", along_axis},
     SegmentSet{"vertex to vertex", "exactly from one vertex to another", vertex_to_vertex},

@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "geometry/triangle_contact.h"
-#include "query/exact_line.h"
+#include "query/line.h"
 
 namespace prohull {
 
 bool HitCollector::before(const Found& one, const Found& other) const {
   if (const int order = rounded_order(one.at, other.at); order != 0) return order < 0;
-  const int order = exact_order(line_, mesh_.triangle(one.face), mesh_.triangle(other.face));
+  const int order = prohull::order(line_, mesh_.triangle(one.face), mesh_.triangle(other.face));
   return order != 0 ? order < 0 : one.face < other.face;
 }
 

@@ -34,6 +34,10 @@ Crossing crossing(const DirectedLine& line, const Triangle& face);
 /// o)) for its origin o. 0 only if the line is parallel to the edge. Exact, and slow: for what filters leave open.
 int exact_edge_side(const DirectedLine& line, const Vec3& p, const Vec3& q);
 
+/// The order in which the line, moved likewise, crosses the planes of two faces, to neither of which it is parallel: -1
+/// if the first comes first, 0 if they are one plane. Exact, and slow: where rounded_order leaves it open.
+int order(const DirectedLine& line, const Triangle& first, const Triangle& second);
+
 /// How the whole line, moved likewise and extended beyond both ends, passes through the face: 1 if it leaves, -1 if it
 /// enters, 0 if it does not. Exact.
 int pierced(const DirectedLine& line, const Triangle& face);
@@ -59,7 +63,8 @@ namespace line_filter {
 // For rows that are rounded differences of coordinates Shewchuk ("Adaptive Precision Floating-Point Arithmetic and
 // Fast Robust Geometric Predicates", 1997, 4.3) bounds the error of the determinant (x, y, z), evaluated as here, by
 // (7 + 56 eps) eps times its permanent, eps = 2^-53. The permanent is at most 6 times the product of the rows' largest
-// entries; 2^-1000 stands for products that underflow, while the entries are below 2^300.
+// entries; 2^-1000, times the first row's if that is above 1, stands for products that underflow, while the entries are
+// below 2^300.
 constexpr double kEpsilon = 0x1p-53;
 constexpr double kPermanentBound = (7.0 + 56.0 * kEpsilon) * kEpsilon;
 constexpr double kLargest = 0x1p300, kUnderflow = 0x1p-1000;
@@ -74,7 +79,7 @@ inline double determinant(const Vec3& x, const Vec3& y, const Vec3& z) {
 /// Of determinants of rows with these largest entries; infinite where the bound is not proven.
 inline double error_bound(double x, double y, double z) {
   if (!(x < kLargest && y < kLargest && z < kLargest)) return std::numeric_limits<double>::infinity();
-  return 6.0 * (1 + 4 * kEpsilon) * kPermanentBound * x * y * z + kUnderflow;
+  return 6.0 * (1 + 4 * kEpsilon) * kPermanentBound * x * y * z + kUnderflow * std::max(1.0, x);
 }
 
 }  // namespace line_filter

@@ -6,6 +6,7 @@
 
 #include "dyadic_points.h"
 #include "effort.h"
+#include "geometry/double_double.h"
 #include "query/exact_line.h"
 #include "query/exact_points.h"
 #include "query/line.h"
@@ -79,6 +80,7 @@ TEST_P(CrossingOnGrid, IsThatOfALineActuallyMoved) {
     const int order = truth->t < other->t ? -1 : other->t < truth->t ? 1 : 0, rounded = rounded_order(at, at_other);
     EXPECT_EQ(exact_order(line, first, second), order);
     EXPECT_EQ(exact_order(line, second, first), -order);
+    EXPECT_EQ(prohull::order(line, first, second), order);
     EXPECT_TRUE(rounded == 0 || rounded == order);
   }
   EXPECT_GT(crossings, rounds(20000) / 100);
@@ -107,6 +109,58 @@ TEST(Crossing, IsAtTheRightTWhereRoundedProductsOverflow) {
   EXPECT_DOUBLE_EQ(parameter(line, face).t, 0.25);
   ASSERT_TRUE(parameter_if_within(line, face, -1));
   EXPECT_DOUBLE_EQ(parameter_if_within(line, face, -1)->t, 0.25);
+}
+
+// Of lines that all but meet an edge, of all sizes, also where products underflow: by a true sign of three edges' ends.
+TEST(Crossing, IsOnTheRightSideOfAnEdgeThatTheLineAllButMeets) {
+  std::mt19937 random{test_seed()};
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::uniform_int_distribution<int> exponent(-560, 280);
+  const auto point = [&](int power) {
+    return Vec3{std::ldexp(unit(random), power), std::ldexp(unit(random), power), std::ldexp(unit(random), power)};
+  };
+  int decided = 0, count = 0;
+  for (int i = 0; i < rounds(2000); ++i) {
+    const int size = exponent(random), length = i % 2 == 0 ? 290 : size;  // of the line
+    const Vec3 p = point(size), q = point(size), between = p + unit(random) * (q - p);
+    const Vec3 direction = between * std::ldexp(1, length - size);
+    const DirectedLine ray(Ray{Vec3{}, direction});
+    const int sign = CGAL::sign(dot(exact(direction), cross(exact(p), exact(q))));
+    const DoubleDoubleVector along(Vec3{}, direction), to_p(Vec3{}, p), to_q(Vec3{}, q);
+    const int rounded = double_double_sign(along, to_p, to_q);
+    EXPECT_TRUE(rounded == 0 || rounded == sign) << size << ' ' << length;
+    if (sign == 0) continue;
+    EXPECT_EQ(exact_edge_side(ray, p, q), sign) << size << ' ' << length;
+    const FaceFromLine seen(ray, {p, q, Vec3{}});
+    EXPECT_TRUE(std::abs(seen.ab) <= seen.error || (seen.ab > 0 ? 1 : -1) == sign) << size << ' ' << length;
+    if (size > -200) ++count, decided += rounded != 0;
+  }
+  EXPECT_GT(decided, 0.99 * count);
+}
+
+// Of two faces that share a corner, which the line all but meets.
+TEST(Crossing, IsInTheRightOrderWhereTwoAreAllButOne) {
+  std::mt19937 random{test_seed()};
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::uniform_int_distribution<int> exponent(-340, 100);
+  for (int i = 0; i < rounds(2000); ++i) {
+    const int power = exponent(random);
+    const auto point = [&](double size) {
+      return size *
+             Vec3{std::ldexp(unit(random), power), std::ldexp(unit(random), power), std::ldexp(unit(random), power)};
+    };
+    const Vec3 from = point(100), corner = point(1);
+    const DirectedLine line(Segment{from, from + 5 * (corner - from)});
+    const Triangle first{corner, corner + point(0.1), corner + point(0.1)},
+        second{corner, first.c, corner + point(0.1)};
+    const auto t = [&](const Triangle& face) {
+      const Point a = exact(face.a), o = exact(line.origin), n = cross(exact(face.b) - a, exact(face.c) - a);
+      return dot(n, a - o) / dot(n, exact(line.end) - o);
+    };
+    const Number one = t(first), other = t(second);
+    const int order = prohull::order(line, first, second);
+    EXPECT_TRUE(one == other || order == (one < other ? -1 : 1)) << power;
+  }
 }
 
 TEST(Crossing, IsAtAFiniteTWhereTheLineAllButRunsInTheFace) {
