@@ -19,6 +19,8 @@ std::optional<EnclosingHull> built(const Making& making) {
       return built_in_steps(making);
     case Method::Tight:
       return built_tight(making);
+    case Method::Searched:
+      return built_searched(making);
     default:
       return built_tight_of_gap_body(making);
   }

@@ -13,6 +13,7 @@ enum class Method {
   InSteps,         ///< a progressive hull whose vertices move towards the triangles before it has come down, too
   Tight,           ///< a tight hull (tight_hull.h)
   TightOfGapBody,  ///< a tight hull of a body that keeps the gap (gap_body.h)
+  Searched,        ///< a hull of few faces, searched on from (few_faces.h)
 };
 
 /// A hull that touches a closed mesh is tighter than one that keeps away from single triangles. But where the mesh
@@ -35,6 +36,7 @@ struct Candidate {
   Recipe recipe;
   double within = 0;  ///< Method::Within: the distance that collapses keep
   std::size_t most_faces = std::numeric_limits<std::size_t>::max();  ///< with more, it is not better than another hull
+  std::optional<EnclosingHull> start = {};                           ///< Method::Searched: what is searched on from
 };
 
 /// What came of a candidate.

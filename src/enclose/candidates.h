@@ -41,6 +41,7 @@ class Candidates {
   bool has_few_faces(const Ranking& ranking) const;
   bool has_too_many_parts(const Solid& solid) const;
   bool is_worth_the_mesh(const Solids& solids) const;
+  bool is_worth_a_search(const EnclosingHull& hull) const;
   double spacing_for(const WrapKind& kind) const;
   double finest_worth_its_faces(const Solids& solids) const;
   Candidate of(SolidId id, const Solids& solids) const;

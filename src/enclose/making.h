@@ -50,6 +50,7 @@ EnclosingHull built_of_levels(const Making& making);
 EnclosingHull built_in_steps(const Making& making);
 EnclosingHull built_within(const Making& making);
 EnclosingHull built_tight(const Making& making);
+EnclosingHull built_searched(const Making& making);
 /// None if the gap's body of the solid intersects itself.
 std::optional<EnclosingHull> built_tight_of_gap_body(const Making& making);
 

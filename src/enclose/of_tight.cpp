@@ -1,6 +1,8 @@
 #include <optional>
 #include <utility>
 
+#include "construct/shape_guards.h"
+#include "construct/tight/few_faces.h"
 #include "construct/tight/gap_body.h"
 #include "enclose/making.h"
 #include "prohull/mesh_report.h"
@@ -47,6 +49,14 @@ EnclosingHull as_hull(TightHull tight) {
 }  // namespace
 
 EnclosingHull built_tight(const Making& making) { return as_hull(tight_of_solid(making)); }
+
+EnclosingHull built_searched(const Making& making) {
+  EnclosingHull hull = *making.candidate.start;
+  HullOptions options = making.hull_options();
+  if (hull.relaxed_guards > 0) options.guards = weaker(options.guards, kRelaxedGuards[hull.relaxed_guards - 1]);
+  hull.mesh = with_less_volume(hull.mesh, Original::triangles(making.to_cover(), options.threads), options);
+  return hull;
+}
 
 std::optional<EnclosingHull> built_tight_of_gap_body(const Making& making) {
   std::optional<TightHull> tight = tight_of_gap_body(making);

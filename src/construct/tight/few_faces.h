@@ -13,16 +13,12 @@ constexpr std::size_t kFewFaces = 200;
 
 /// Searches on from a tight hull of few faces, by trials. The result has at most as many faces, at most as much volume
 /// and at most as many pairs of intersecting faces as `hull`. It encloses the original too, and keeps the guards of
-/// shape. HullOptions::seed decides what is tried, and HullOptions::tight_trials how often. Inner hulls, and their
-/// original and `coarse`, are turned inside out.
+/// shape. HullOptions::seed decides what is tried, and HullOptions::tight_trials how often. Inner hulls and their
+/// original are turned inside out.
 ///
 /// A trial puts new vertices on some edges, moves them towards the original, and collapses those edges that add least,
 /// until the hull has as few faces as before. So faces go to where they are worth more. The hull that comes of it is
 /// kept if it has less volume, or at first hardly more: some of these are on the way to better ones.
-///
-/// Most trials see in the original's place `coarse`, which encloses it and has a few times the faces of `hull`: what
-/// encloses that encloses the original. That is several times as fast. The last trials see the original itself.
-TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original, const TriangleMesh& coarse,
-                              const HullOptions& options);
+TriangleMesh with_less_volume(const TriangleMesh& hull, const Original& original, const HullOptions& options);
 
 }  // namespace prohull

@@ -22,6 +22,10 @@ std::vector<Triangle> triangles_of(const TriangleMesh& mesh) {
   return triangles;
 }
 
+TriangleSieve sieve_of(const TriangleMesh& mesh, unsigned threads) {
+  return arena_of(threads).execute([&] { return TriangleSieve(mesh); });
+}
+
 /// Whether they are so far apart for certain: one lies beyond the plane of the other. False for some that are.
 bool is_certainly_beyond(const Triangle& plane, const Triangle& t, double distance) {
   constexpr double kLittleMore = 1 + 1e-9;
@@ -66,13 +70,14 @@ Original Original::closed(const TriangleMesh& mesh, HullSide side, unsigned thre
   return original;
 }
 
-Original Original::triangles(const TriangleMesh& mesh, double clearance, unsigned threads) {
-  return {arena_of(threads).execute([&] { return TriangleSieve(mesh); }), clearance};
+Original Original::triangles(const TriangleMesh& mesh, unsigned threads) {
+  constexpr double kClearance = 1e-6;  // of the diagonal: more than a hull moves when it is rounded to float32
+  return {sieve_of(mesh, threads), kClearance * bounding_box(mesh).diagonal()};
 }
 
 Original Original::padded_triangles(const TriangleMesh& mesh, double padding, unsigned threads) {
   constexpr double kLittleMore = 1 + 1e-9;  // for what proposals have rounded
-  Original original = triangles(mesh, kLittleMore * padding, threads);
+  Original original(sieve_of(mesh, threads), kLittleMore * padding);
   original.padding_ = padding;
   return original;
 }

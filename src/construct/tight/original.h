@@ -16,8 +16,8 @@ class Original {
  public:
   /// For an inner hull turned inside out, as the hull is: then it too is outside of it.
   static Original closed(const TriangleMesh& mesh, HullSide side, unsigned threads);
-  /// Hulls keep `clearance` from triangles, about, but never touch them.
-  static Original triangles(const TriangleMesh& mesh, double clearance, unsigned threads);
+  /// Hulls never touch triangles, and keep a small clearance from them, about.
+  static Original triangles(const TriangleMesh& mesh, unsigned threads);
   /// New faces of hulls keep this distance from triangles.
   static Original padded_triangles(const TriangleMesh& mesh, double padding, unsigned threads);
 
