@@ -7,6 +7,7 @@
 #include <new>
 
 #include "prohull/detail/missing_file.h"
+#include "prohull/detail/threads.h"
 
 namespace {
 
@@ -14,6 +15,7 @@ namespace {
 /// their locks, but not them: one in a thousand waited for ever. Does nothing while other threads of Python use
 /// prohull.
 void end_idle_threads() {
+  prohull::give_up_idle_arenas();
   oneapi::tbb::task_scheduler_handle scheduler{oneapi::tbb::attach{}};
   static_cast<void>(oneapi::tbb::finalize(scheduler, std::nothrow));
 }

@@ -3,6 +3,7 @@
 import _thread
 import concurrent.futures
 import multiprocessing
+import os
 import signal
 import threading
 
@@ -105,6 +106,21 @@ def test_threads_share_a_hull(hull, random):
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
         for hits in pool.map(lambda _: hull.first_hit(*rays), range(8)):
             assert np.array_equal(hits.face, expected.face)
+
+
+def count_threads():
+    return len(os.listdir("/proc/self/task"))
+
+
+def test_idle_threads_end_before_a_fork(pony):
+    """A process forked beside them would have their locks, but not them."""
+    before = count_threads()
+    prohull.build(pony, target_faces=300, threads=2)
+    child = os.fork()
+    if child == 0:
+        os._exit(0)
+    os.waitpid(child, 0)
+    assert count_threads() <= before
 
 
 def ask(hull, rays):

@@ -10,7 +10,7 @@
 
 namespace prohull {
 
-/// Lends the arenas of the process, by their numbers of threads, and never destroys one. An arena that is destroyed
+/// Lends the arenas of the process, by their numbers of threads, and keeps them. An arena that is destroyed
 /// stays in memory for as long as a worker is asked for that did not get to run: on a busy machine, that is every
 /// arena. Each is lent to one call at a time, so that calls neither wait for each other nor take up each other's tasks:
 /// there are as many arenas as calls that ran at the same time. They decide nothing but which threads work.
@@ -37,6 +37,11 @@ class ArenaPool {
     const std::lock_guard lock(mutex_);
     Arenas& idle = idle_[threads];
     idle.splice(idle.begin(), lent);
+  }
+
+  void give_up_idle() {
+    const std::lock_guard lock(mutex_);
+    idle_.clear();
   }
 
  private:
