@@ -129,6 +129,8 @@ class ExactSum {
 inline bool certainly_equal(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& c,
                             const DoubleDouble& d) {
   constexpr double kLeast = 0x1p-800;  // no product of low parts underflows
+  const double ab = a.high * b.high, cd = c.high * d.high;
+  if (std::abs(ab - cd) > 16 * kEpsilon * std::abs(ab)) return false;  // plainly: each is rounded by less than 4 eps
   ExactSum difference;
   const auto add = [&](const DoubleDouble& x, const DoubleDouble& y, double sign) {
     for (const double s : {x.high, x.low})

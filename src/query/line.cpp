@@ -43,7 +43,9 @@ DoubleDoubleVector exact_direction(const DirectedLine& line) {
 int unmoved_edge_sign(const DirectedLine& line, const Vec3& p, const Vec3& q) {
   const DoubleDoubleVector along = exact_direction(line), to_p(line.origin, p), to_q(line.origin, q);
   if (const int sign = double_double_sign(along, to_p, to_q); sign != 0) return sign;
-  const bool is_met = certainly_parallel(along, to_p) || certainly_parallel(along, to_q);
+  const DoubleDoubleVector edge(p, q);
+  const bool is_met = certainly_parallel(along, to_p) || certainly_parallel(along, to_q) ||
+                      certainly_parallel(edge, to_p) || (!line.is_ray() && certainly_parallel(edge, {p, line.end}));
   return is_met ? 0 : exact_edge_sign(line, p, q);
 }
 
