@@ -291,11 +291,12 @@ int run_aimed(const AimedOptions& options) {
   });
   publish(
       options.out, "aimed",
-      fmt::format("# Segments aimed at vertices and edges\n\n{}; {} segments of each of {} sets: to a vertex, to an "
-                  "edge, along an axis through\na vertex, from vertex to vertex. Wrong against an exact reference; "
-                  "of peers, crossings near the ends do not count.\nparity: hits that do not enter and leave as "
-                  "they must; odd: segments between points outside with an odd number of hits.\n\n{}",
-                  machine(), options.count, aimed_sets().size(), summary(facts)),
+      fmt::format(
+          "# Segments aimed at vertices and edges\n\n{}; {} segments of each of {} sets: to a vertex, past "
+          "one, to an edge, along an axis\nthrough a vertex, from vertex to vertex. Wrong against an exact reference; "
+          "of peers, crossings near the ends do not count.\nparity: hits that do not enter and leave as "
+          "they must; odd: segments between points outside with an odd number of hits.\n\n{}",
+          machine(), options.count, aimed_sets().size(), summary(facts)),
       csv(facts));
   const bool is_right = std::ranges::all_of(facts, [](const CaseFacts& f) {
     const Counts& wrong = f.engines[0].wrong;
