@@ -128,19 +128,19 @@ class ExactSum {
 /// Whether it is certain that a b = c d.
 inline bool certainly_equal(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& c,
                             const DoubleDouble& d) {
-  constexpr double kLeast = 0x1p-800;  // no product of low parts underflows
+  constexpr double kLeast = 0x1p-800;  // what rounding loses of such a product does not underflow
   const double ab = a.high * b.high, cd = c.high * d.high;
   if (std::abs(ab - cd) > 16 * kEpsilon * std::abs(ab)) return false;  // plainly: each is rounded by less than 4 eps
   ExactSum difference;
   const auto add = [&](const DoubleDouble& x, const DoubleDouble& y, double sign) {
     for (const double s : {x.high, x.low})
-      for (const double t : {y.high, y.low})
-        if (s != 0 && t != 0) {
-          const DoubleDouble st = product(sign * s, t);
-          difference.add(st.high), difference.add(st.low);
-        }
-    const bool is_zero = x.high == 0 || y.high == 0;
-    return is_zero || std::abs(x.high * y.high) > kLeast;
+      for (const double t : {y.high, y.low}) {
+        if (s == 0 || t == 0) continue;
+        const DoubleDouble st = product(sign * s, t);
+        if (!(std::abs(st.high) > kLeast)) return false;
+        difference.add(st.high), difference.add(st.low);
+      }
+    return true;
   };
   return add(a, b, 1) && add(c, d, -1) && difference.is_zero();
 }

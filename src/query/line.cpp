@@ -85,22 +85,25 @@ struct PlaneFromLine {
   PlaneFromLine(const DirectedLine& line, const DoubleDoubleVector& along, const Triangle& face) {
     const DoubleDoubleVector u(face.a, face.b), v(face.a, face.c), to_face(line.origin, face.a);
     const double area = u.largest_entry() * v.largest_entry();
+    largest = std::max({along.largest_entry(), to_face.largest_entry(), u.largest_entry(), v.largest_entry()});
     most_speed = along.largest_entry() * area, most_above = to_face.largest_entry() * area;
     speed = double_double::determinant(along, u, v), above = double_double::determinant(to_face, u, v);
   }
   DoubleDouble speed, above;
+  double largest;                 ///< entry of all vectors
   double most_speed, most_above;  ///< but for a factor of 6
 };
 
 // Speeds and distances are in doubt by 512 eps^2 of these bounds, and at most 7 times as large. So their products are
 // in doubt by 2 x 7 x 512 eps^2; the product of two low parts, which is left out, and the roundings come to less than
-// 2^13 eps^2 more. What underflows is off by less than 2^-390, while the bounds are below 2^300.
+// 2^13 eps^2 more. While entries are below 2^100, a speed or distance is off by less than 2^-900 where products
+// underflow, and their products by less than 2^-390.
 int double_double_order(const DirectedLine& line, const Triangle& first, const Triangle& second) {
   using namespace double_double;
-  constexpr double kLargest = 0x1p300, kLeast = 0x1p-390, kProducts = 0x1p16;
+  constexpr double kLargest = 0x1p100, kLeast = 0x1p-390, kProducts = 0x1p16;
   const DoubleDoubleVector along = exact_direction(line);
   const PlaneFromLine one(line, along, first), other(line, along, second);
-  if (!(std::max({one.most_speed, one.most_above, other.most_speed, other.most_above}) < kLargest)) return 0;
+  if (!(one.largest < kLargest && other.largest < kLargest)) return 0;
   const auto speed_of = [](const PlaneFromLine& plane) {
     return sign_beyond(513 * kEpsilon * kEpsilon * plane.most_speed + kUnderflow * kLargest, plane.speed);
   };

@@ -111,7 +111,7 @@ TEST(Crossing, IsAtTheRightTWhereRoundedProductsOverflow) {
   EXPECT_DOUBLE_EQ(parameter_if_within(line, face, -1)->t, 0.25);
 }
 
-// Of lines that all but meet an edge, of all sizes, also where products underflow: by a true sign of three edges' ends.
+// Lines of all sizes that all but meet an edge, against the exact sign; some of the products underflow.
 TEST(Crossing, IsOnTheRightSideOfAnEdgeThatTheLineAllButMeets) {
   std::mt19937 random{test_seed()};
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -136,6 +136,15 @@ TEST(Crossing, IsOnTheRightSideOfAnEdgeThatTheLineAllButMeets) {
     if (size > -200) ++count, decided += rounded != 0;
   }
   EXPECT_GT(decided, 0.99 * count);
+}
+
+TEST(Crossing, IsNotTakenForAMeetingWhereLowPartsUnderflow) {
+  const DoubleDoubleVector one(Vec3{0x1p-600, 0, 0}, {1, 1, 0}), other(Vec3{-0x1p-600, 0, 0}, {1, 1, 0});
+  EXPECT_FALSE(certainly_parallel(one, other));
+  // (1 + t)(1 - t) is 1 but for t^2, which underflows.
+  const DoubleDouble more{1, 0x1p-600}, less{1, -0x1p-600}, unit{1, 0};
+  EXPECT_FALSE(double_double::certainly_equal(more, less, unit, unit));
+  EXPECT_TRUE(double_double::certainly_equal({3, 0}, {5, 0}, {15, 0}, unit));
 }
 
 // Of two faces that share a corner, which the line all but meets.
