@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "geometry/double_double.h"
 #include "prohull/geometry.h"
 
 namespace prohull {
@@ -18,11 +19,9 @@ struct MirrorPlane {
 
   /// Nothing if no double is the image of the coordinate.
   std::optional<Vec3> image(Vec3 p) const {
-    const double x = p[axis], image = sum - x;
-    // Knuth's TwoSum: what rounding has lost of sum - x.
-    const double minus_x = image - sum, rest = (sum - (image - minus_x)) + (-x - minus_x);
-    if (rest != 0) return std::nullopt;
-    p[axis] = image;
+    const DoubleDouble image = double_double::difference(sum, p[axis]);
+    if (image.low != 0) return std::nullopt;
+    p[axis] = image.high;
     return p;
   }
 };
