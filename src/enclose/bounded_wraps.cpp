@@ -24,6 +24,8 @@ constexpr WrapKind kCloseWrap{3.5, 0.3, 0, 0.08};
 constexpr double kCloseSpacing = 2.0 / 3;  // of the largest distance
 constexpr double kReach = 0.6;             // of most vertices of a wrap from the triangles, in spacings
 
+constexpr double kFineWrap = 256;  // to the diagonal; finer ones take ten seconds and more
+
 double square(double x) { return x * x; }
 
 // With as many nodes as memory and patience allow, and less for a mesh of few faces. A wrap of a million nodes has up
@@ -71,6 +73,14 @@ bool is_of_clean_mesh(const Ranking& ranking, const Solids& solids) {
 /// A wrap of half the spacing misses at least half as much of the bounds.
 bool may_keep_bounds(double spacing, const Ranking& ranking, double last) {
   return !ranking.has_certified() || ranking.best().hull.excess * spacing <= last;
+}
+
+/// After a wrap with the spacing `last`. Where the finest would miss the bounds by far, only a second one is: a hull
+/// that missed a bound of the void 17 times over came no nearer by ever finer wraps.
+bool is_worth_a_finer_wrap(const LooseWrap& next, double finest, const Ranking& ranking, double last) {
+  constexpr double kHopeless = 2;
+  if (!may_keep_bounds(finest / kHopeless, ranking, last)) return next.number == 1;
+  return next.is_last || may_keep_bounds(next.spacing, ranking, last);
 }
 
 }  // namespace
@@ -133,43 +143,41 @@ void Candidates::plan_why_not_closer(double finest, double wanted) {
 // itself no wrap does better: its own hull touches it. A padding of more than 2.4 spacings is too much for a wrap.
 void Candidates::plan_loose_wraps() {
   constexpr int kMostBounded = 4;
-  constexpr double kFine = 256, kPlain = 100;  // to the diagonal; finer ones take ten seconds and more, and one second
-  // A hull of a wrap that keeps the bounds has at most so many times fewer faces than the wrap. Where another hull
-  // keeps them with fewer still, the wrap is left out: of 10 robots' parts at 1 % of the diagonal, it had a better hull
-  // for 2, and took 2 to 10 times as long.
-  constexpr std::size_t kMostReduced = 300;
-  // One that missed 17 times a bound of the void was no nearer by ever finer ones.
-  constexpr double kHopeless = 2;
+  constexpr double kPlain = 100;  // to the diagonal; a finer one takes a second and more
   const double finest = std::max(finest_loose_spacing(request_), request_.aim() / 2),
                max_distance = request_.options.bounds.max_distance - request_.options.padding;
   const bool is_hopeless = kBoundedWrap.offset * finest > kNearerByMoving * max_distance;
-  const double wanted = std::max(kBoundedSpacing * max_distance, request_.diagonal / (is_hopeless ? kPlain : kFine));
-  double spacing = std::max(std::min(spacing_for(kBoundedWrap), wanted), finest);
-  for (int i = 0; i < (is_hopeless ? 1 : kMostBounded); ++i) {
-    const bool is_last = i + 1 == kMostBounded || spacing == finest;
+  const double wanted =
+      std::max(kBoundedSpacing * max_distance, request_.diagonal / (is_hopeless ? kPlain : kFineWrap));
+  LooseWrap next{0, std::max(std::min(spacing_for(kBoundedWrap), wanted), finest), false};
+  for (; !next.is_last && next.number < (is_hopeless ? 1 : kMostBounded); ++next.number) {
+    next.is_last = next.number + 1 == kMostBounded || next.spacing == finest;
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-      if (const std::span<const SolidId> made = solids.wraps(target_faces_); i > 0 && !made.empty()) {
-        const double last = solids[made.back()].wrap_spacing;
-        const bool may_the_finest = may_keep_bounds(finest / kHopeless, ranking, last);
-        const bool may_this = is_last || may_keep_bounds(spacing, ranking, last);
-        if (may_the_finest ? !may_this : i > 1) return std::nullopt;
-      }
-      if (ranking.has_certified() && ranking.best().hull.within_bounds) {
-        const EnclosingHull& best = ranking.best().hull;
-        const bool is_fine = spacing < request_.diagonal / kFine;
-        if (i > 0 || is_of_clean_mesh(ranking, solids) || best.mesh.face_count() <= target_faces_ || is_fine)
-          return std::nullopt;
-      }
-      const auto id = wrap(kBoundedWrap, spacing, solids);
-      if (!request_.input.closed) require_volume(solids.volume(target_faces_), request_.options.bounds);
-      if (!id || (ranking.has_certified() && ranking.best().hull.within_bounds &&
-                  ranking.best().hull.mesh.face_count() * kMostReduced < solids[*id].mesh.face_count()))
+      const std::span<const SolidId> made = solids.wraps(target_faces_);
+      if (next.number > 0 && !made.empty() &&
+          !is_worth_a_finer_wrap(next, finest, ranking, solids[made.back()].wrap_spacing))
         return std::nullopt;
-      return of(*id, solids);
+      return loose_wrap(next, ranking, solids);
     });
-    if (is_last) break;
-    spacing = std::max(spacing / 2, finest);
+    next.spacing = std::max(next.spacing / 2, finest);
   }
+}
+
+// A hull of a wrap that keeps the bounds has at most kMostReduced times fewer faces than the wrap. Where another hull
+// keeps them with fewer still, the wrap is left out: of 10 robots' parts at 1 % of the diagonal, it had a better hull
+// for 2, and took 2 to 10 times as long.
+std::optional<Candidate> Candidates::loose_wrap(const LooseWrap& next, const Ranking& ranking, Solids& solids) const {
+  constexpr std::size_t kMostReduced = 300;
+  const bool is_within = ranking.has_certified() && ranking.best().hull.within_bounds;
+  if (is_within &&
+      (next.number > 0 || is_of_clean_mesh(ranking, solids) || ranking.best().hull.mesh.face_count() <= target_faces_ ||
+       next.spacing < request_.diagonal / kFineWrap))
+    return std::nullopt;
+  const auto id = wrap(kBoundedWrap, next.spacing, solids);
+  if (!request_.input.closed) require_volume(solids.volume(target_faces_), request_.options.bounds);
+  if (!id || (is_within && ranking.best().hull.mesh.face_count() * kMostReduced < solids[*id].mesh.face_count()))
+    return std::nullopt;
+  return of(*id, solids);
 }
 
 }  // namespace prohull

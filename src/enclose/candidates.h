@@ -8,6 +8,13 @@
 
 namespace prohull {
 
+/// One of ever finer wraps, which bounds ask for.
+struct LooseWrap {
+  int number;  ///< from 0 on
+  double spacing;
+  bool is_last;
+};
+
 /// What is tried for one number of faces, in order. What cannot win any more is left out.
 class Candidates {
  public:
@@ -38,6 +45,7 @@ class Candidates {
   bool is_worth_a_wrap(const Ranking& ranking, const Solids& solids, bool is_first) const;
   std::optional<SolidId> wrap(const WrapKind& kind, double spacing, Solids& solids) const;
   std::optional<Candidate> of_wrap(const WrapKind& kind, const Ranking& ranking, Solids& solids) const;
+  std::optional<Candidate> loose_wrap(const LooseWrap& next, const Ranking& ranking, Solids& solids) const;
   bool has_few_faces(const Ranking& ranking) const;
   bool has_too_many_parts(const Solid& solid) const;
   bool is_worth_the_mesh(const Solids& solids) const;

@@ -51,10 +51,14 @@ EnclosingHull as_hull(TightHull tight) {
 EnclosingHull built_tight(const Making& making) { return as_hull(tight_of_solid(making)); }
 
 EnclosingHull built_searched(const Making& making) {
-  EnclosingHull hull = *making.candidate.start;
+  const EnclosingHull& start = *making.candidate.start;
   HullOptions options = making.hull_options();
-  if (hull.relaxed_guards > 0) options.guards = weaker(options.guards, kRelaxedGuards[hull.relaxed_guards - 1]);
-  hull.mesh = with_less_volume(hull.mesh, Original::triangles(making.to_cover(), options.threads), options);
+  if (start.relaxed_guards > 0) options.guards = weaker(options.guards, kRelaxedGuards[start.relaxed_guards - 1]);
+  EnclosingHull hull;
+  hull.mesh = with_less_volume(start.mesh, Original::triangles(making.to_cover(), options.threads), options);
+  hull.target_reached = start.target_reached;
+  hull.refusals = start.refusals, hull.blocked = start.blocked;
+  hull.relaxed_guards = start.relaxed_guards;
   return hull;
 }
 
