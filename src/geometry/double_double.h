@@ -39,22 +39,22 @@ constexpr double kEpsilon = 0x1p-53;
   return {p, x.low * y.low - (((p - x.high * y.high) - x.low * y.high) - x.high * y.low)};
 }
 
+}  // namespace double_double
+
 // In what follows, each low part is bounded in eps of the largest product of the entries' high parts, D, P and Q of the
 // three vectors; those of given numbers are at most eps of their high parts.
 
 /// Rounded by 8 eps^2 P Q; the low part is at most 3 eps P Q.
 [[gnu::always_inline]] inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
-  const DoubleDouble p = product(a.high, b.high);
+  const DoubleDouble p = double_double::product(a.high, b.high);
   return {p.high, p.low + (a.high * b.low + a.low * b.high)};
 }
 
 /// Of two such products, rounded by 14 eps^2 P Q; the low part is at most 8 eps P Q.
 [[gnu::always_inline]] inline DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) {
-  const DoubleDouble d = difference(a.high, b.high);
+  const DoubleDouble d = double_double::difference(a.high, b.high);
   return {d.high, d.low + (a.low - b.low)};
 }
-
-}  // namespace double_double
 
 /// Differences of coordinates, exactly.
 struct DoubleDoubleVector {
@@ -93,13 +93,12 @@ inline int sign_beyond(double error, const DoubleDouble& x) {
 
 /// The sign of dot(d, p cross q), or 0 if it is in doubt: if the value is less than about 2^-97 of what it may be.
 inline int double_double_sign(const DoubleDoubleVector& d, const DoubleDoubleVector& p, const DoubleDoubleVector& q) {
-  using namespace double_double;
   constexpr double kLargest = 0x1p300;
   const double largest_d = d.largest_entry(), largest_p = p.largest_entry(), largest_q = q.largest_entry();
   if (!(largest_d < kLargest && largest_p < kLargest && largest_q < kLargest)) return 0;
-  const double error =
-      513 * kEpsilon * kEpsilon * largest_d * largest_p * largest_q + kUnderflow * std::max(1.0, largest_d);
-  return sign_beyond(error, determinant(d, p, q));
+  const double error = 513 * double_double::kEpsilon * double_double::kEpsilon * largest_d * largest_p * largest_q +
+                       double_double::kUnderflow * std::max(1.0, largest_d);
+  return double_double::sign_beyond(error, double_double::determinant(d, p, q));
 }
 
 namespace double_double {

@@ -99,7 +99,7 @@ struct PlaneFromLine {
 // 2^13 eps^2 more. While entries are below 2^100, a speed or distance is off by less than 2^-900 where products
 // underflow, and their products by less than 2^-390.
 int double_double_order(const DirectedLine& line, const Triangle& first, const Triangle& second) {
-  using namespace double_double;
+  using double_double::sign_beyond, double_double::kEpsilon, double_double::kUnderflow;
   constexpr double kLargest = 0x1p100, kLeast = 0x1p-390, kProducts = 0x1p16;
   const DoubleDoubleVector along = exact_direction(line);
   const PlaneFromLine one(line, along, first), other(line, along, second);
