@@ -274,7 +274,15 @@ class Planner {
   std::optional<std::size_t> companion(const std::vector<std::string>& names, const std::filesystem::path& of) {
     const auto name = for_panel(names, plans_.size());
     if (!name || *name == kNone) return std::nullopt;
+    if (is_robot_file(*name)) return robot_as_shown(*name);
     return table_.add(*name == kOriginal ? of : std::filesystem::path(*name), MeshTable::kFinest);
+  }
+
+  /// Its visual geometry at rest; nothing if it has none.
+  std::optional<std::size_t> robot_as_shown(const std::filesystem::path& path) const {
+    TriangleMesh visual = robot_mesh(robot::read_robot(path, options_.robots).robot, robot::Geometry::Visual, path);
+    if (visual.face_count() == 0) return std::nullopt;
+    return table_.add(std::move(visual));
   }
 
   const RenderOptions& options_;
@@ -380,8 +388,8 @@ void add_content_options(CLI::App& command, RenderOptions& options) {
       ->group(kContent);
   command
       .add_option("--over", options.over,
-                  std::string("Draw IN translucent over this mesh, or over its own original mesh, if that is original "
-                              "and IN is a .phull file; none draws it over nothing.") +
+                  std::string("Draw IN translucent over this mesh or robot, or over its own original mesh, if that is "
+                              "original and IN is a .phull file; none draws it over nothing.") +
                       kForPanels)
       ->allow_extra_args(false)
       ->type_name("MESH")
@@ -522,6 +530,7 @@ void add_render(CLI::App& app, Run& run) {
                 "prohull render horse.phull --faces original,2000,200 --wireframe -o levels.png --size 1200x400",
                 "prohull render horse.ply horse_pieces.obj --explode none --explode 0.3 -o pieces.png",
                 "prohull render arm_spheres.yaml --over arm.urdf -o spheres.png",
+                "prohull render zone.stl --over arm.urdf -o zone.png",
                 "prohull render arm.urdf arm_safe/arm.urdf --color orange --color blue -o arm.png",
                 "prohull render pump.stl -o pump.png --up y --azimuth 120 --background transparent"});
   command.callback([options, &run] { run = [options] { return run_render(*options); }; });

@@ -305,6 +305,8 @@ expect 0 "a robot beside a mesh" $prohull render drawn/gripper.urdf rock.ply --c
   --report robot.json
 is_png robot.png "a robot beside a mesh" 000000a0 00000050
 says robot.json "a robot within its collision geometry" '"faces_inside": '
+expect 0 "over a robot" $prohull render rock.ply --over drawn/gripper.urdf --size 160x80 -o robot.png --report robot.json
+says robot.json "over a robot" '"faces_inside": '
 expect 3 "a robot that is none" sh -c "echo '<a/>' >none.urdf; $prohull render none.urdf -o none.png"
 for option in "--over rock.ply" "--split rock.ply" "--refine --segment 3,0,0,-3,0,0"; do
   expect 2 "a robot $option" $prohull render drawn/gripper.urdf $option -o none.png
