@@ -59,7 +59,7 @@ void add_link(const std::string& name, const Link& link, const LinkHulls& made, 
   row.push_back(std::string(name_of(shipped.verdict)));
   row.push_back(leaks ? number(1000 * shipped.sticks_out_at_least, 3) : "");
   row.push_back(is_measured ? number(ratio(shipped.collision_volume, shipped.visual_volume), 3) : "");
-  row.push_back(is_measured ? number(1000 * shipped.fat.upper, 3) : "");
+  row.push_back(is_measured ? number(1000 * shipped.reach.upper, 3) : "");
   tables.links.add(row);
 }
 

@@ -248,7 +248,7 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
     if (robot::was_measured(check))
       table.add({name, check.verdict == CheckVerdict::Covered ? "0" : at_least(check.sticks_out_at_least),
                  ratio(check.collision_volume, check.visual_volume), ratio(check.collision_volume, check.convex_volume),
-                 at_most(check.fat.upper), verdict_text(check, allow)});
+                 at_most(check.reach.upper), verdict_text(check, allow)});
     else
       table.add({name, "", "", "", "", verdict_text(check, allow)});
   }

@@ -214,8 +214,8 @@ py::dict facts_of(const RobotFile& file, const LinkCheck& check, double allow) {
   facts["worst_point"] = py::make_tuple(check.worst_point.x, check.worst_point.y, check.worst_point.z);
   facts["faces_outside"] = check.faces_outside;
   facts["volume_ratio"] = check.visual_volume > 0 ? check.collision_volume / check.visual_volume : NAN;
-  facts["distance_bound"] = check.fat.upper;
-  facts["mean_distance"] = check.mean_fat;
+  facts["distance_bound"] = check.reach.upper;
+  facts["mean_distance"] = check.mean_distance;
   facts["notes"] = check.notes;
   return facts;
 }

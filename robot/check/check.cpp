@@ -23,14 +23,17 @@ namespace prohull::robot {
 namespace {
 
 /// Where triangles cannot be closed, estimated by a wrap of them and of caps on all openings.
-InsideVolume enclosed_volume(const TriangleMesh& triangles, const Progress& progress) {
+InsideVolume enclosed_volume(const RepairedMesh& repaired, const Progress& progress) {
   constexpr double kPerDiagonal = 100;
-  const double diagonal = bounding_box(triangles).diagonal();
-  if (triangles.face_count() == 0 || diagonal == 0) return {};
-  const RepairedMesh repaired = prepared_for_hulls(triangles);
+  const double diagonal = bounding_box(repaired.original).diagonal();
+  if (diagonal == 0) return {};
   if (repaired.closed) return volume_inside(repaired.closed->mesh, progress);
   const TriangleMesh solid = with_caps(repaired.original, find_openings(repaired.original));
   return {inside_volume(solid, {.spacing = diagonal / kPerDiagonal, .seal_rooms = true, .progress = progress}), true};
+}
+
+InsideVolume enclosed_volume(const TriangleMesh& triangles, const Progress& progress) {
+  return triangles.face_count() == 0 ? InsideVolume{} : enclosed_volume(prepared_for_hulls(triangles), progress);
 }
 
 double area(const Triangle& t) { return norm(cross(t.b - t.a, t.c - t.a)) / 2; }
@@ -96,7 +99,7 @@ class LinkChecker {
     if (check_.verdict != CheckVerdict::Missing) attempt([&] { decide(); });
     measure();
     for (TriangleMesh* mesh : {&check_.visual, &check_.collision}) *mesh = placed(frame_.in_link, std::move(*mesh));
-    for (Vec3* point : {&check_.worst_point, &check_.fat.farthest}) *point = placed(frame_.in_link, *point);
+    for (Vec3* point : {&check_.worst_point, &check_.reach.farthest}) *point = placed(frame_.in_link, *point);
     return std::move(check_);
   }
 
@@ -261,26 +264,36 @@ class LinkChecker {
     }
   }
 
-  void measure_volumes() {
+  void measure_volumes(const RepairedMesh& visual) {
     const auto balls = only_balls(pieces_);
-    const InsideVolume visual = measured([&] { return enclosed_volume(check_.visual, progress_); });
+    const InsideVolume inside = measured([&] { return enclosed_volume(visual, progress_); });
     const InsideVolume collision = measured([&] {
       return balls.empty() ? enclosed_volume(check_.collision, progress_) : InsideVolume{union_volume(balls)};
     });
     check_.collision_volume = collision.volume;
     // No estimate may say that what is covered is larger than what covers it.
-    const bool is_exact = !visual.is_estimated && !collision.is_estimated;
-    if (is_exact || check_.verdict != CheckVerdict::Covered || visual.volume <= collision.volume)
-      check_.visual_volume = visual.volume;
+    const bool is_exact = !inside.is_estimated && !collision.is_estimated;
+    if (is_exact || check_.verdict != CheckVerdict::Covered || inside.volume <= collision.volume)
+      check_.visual_volume = inside.volume;
+  }
+
+  void measure_reach(const RepairedMesh& visual) {
+    const TriangleMesh& solid = visual.closed ? visual.closed->mesh : check_.visual;
+    const DistanceOptions how{.max_cells = 100'000, .progress = progress_};
+    if (const auto balls = only_balls(pieces_); !balls.empty())
+      check_.reach = union_reach(balls, solid, how);
+    else
+      check_.reach = visual.closed ? union_reach({&check_.collision, 1}, solid, how)
+                                   : distance_bounds(check_.collision, solid, how);
+    check_.mean_distance = mean_distance(check_.collision, check_.visual);
   }
 
   void measure() {
-    measure_volumes();
-    if (check_.visual.face_count() == 0) return;
+    if (check_.visual.face_count() == 0) return measure_volumes({});
+    const RepairedMesh visual = prepared_for_hulls(check_.visual);
+    measure_volumes(visual);
     check_.convex_volume = signed_volume(convex_hull(check_.visual));
-    if (check_.collision.face_count() == 0) return;
-    check_.fat = distance_bounds(check_.collision, check_.visual, {.max_cells = 100'000, .progress = progress_});
-    check_.mean_fat = mean_distance(check_.collision, check_.visual);
+    if (check_.collision.face_count() > 0) measure_reach(visual);
   }
 
   /// Corners around the axis of the meshes that are measured and shown: many forms need fewer each.

@@ -36,8 +36,10 @@ struct LinkCheck {
   double visual_volume = 0;     ///< of what lies inside of the visual geometry: as EnclosingHulls::volume; 0: unknown
   double collision_volume = 0;  ///< of the union of the pieces; estimated, where they overlap
   double convex_volume = 0;     ///< of the convex hull of the visual geometry
-  DistanceBounds fat;           ///< how far points of the collision geometry are from the visual one at most
-  double mean_fat = 0;          ///< the mean over the surface of the collision geometry, by samples
+  /// How far the collision geometry reaches out of the solid of the visual one, whose openings count as closed; from
+  /// its triangles if they bound none. Curved forms count as meshes around them.
+  DistanceBounds reach;
+  double mean_distance = 0;        ///< of the surface of the collision geometry from the visual triangles, by samples
   std::vector<std::string> notes;  ///< sentences for the user
   TriangleMesh visual, collision;  ///< both in the frame of the link, for pictures
 };

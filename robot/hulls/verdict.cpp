@@ -11,6 +11,9 @@
 namespace prohull::robot {
 namespace {
 
+/// Or the triangles, if they bound none.
+const TriangleMesh& solid_of(const RepairedMesh& input) { return input.closed ? input.closed->mesh : input.original; }
+
 void judge_hull(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Budget& budget,
                 const Progress& go_on) {
   const double gap = budget.padding > 0 ? hull.padding : 0;
@@ -32,7 +35,7 @@ void judge_pieces(LinkHull& hull, const TriangleMesh& triangles, const RepairedM
   hull.volume = found.union_volume;
   hull.certified = found.covers;
   hull.proof = "union";
-  hull.distance = union_reach(hull.pieces, input.original, {.progress = go_on});
+  hull.distance = union_reach(hull.pieces, solid_of(input), {.progress = go_on});
 }
 
 void judge_balls(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Progress& go_on) {
@@ -41,7 +44,7 @@ void judge_balls(LinkHull& hull, const TriangleMesh& triangles, const RepairedMe
   hull.proof = "union";
   hull.mesh = mesh_of({}, hull.balls);
   hull.volume = union_volume(hull.balls);
-  hull.distance = union_reach(hull.balls, input.closed ? input.closed->mesh : input.original, {.progress = go_on});
+  hull.distance = union_reach(hull.balls, solid_of(input), {.progress = go_on});
 }
 
 bool keeps_float32(const TriangleMesh& mesh) {

@@ -89,8 +89,8 @@ Json facts_of(const LinkCheck& check, double allow) {
   facts["convex_volume"] = number(check.convex_volume);
   facts["volume_ratio"] = number(ratio(check.collision_volume, check.visual_volume));
   facts["convex_ratio"] = number(ratio(check.collision_volume, check.convex_volume));
-  facts["distance"] = distance(check.fat);
-  facts["mean_distance"] = number(check.mean_fat);
+  facts["distance"] = distance(check.reach);
+  facts["mean_distance"] = number(check.mean_distance);
   return facts;
 }
 

@@ -438,9 +438,9 @@ class FactsTable {
         [](Check c) { return ratio_text(ratio(c.collision_volume, c.convex_volume)); });
     text += line(
         "Greatest distance from the geometry", [](Hull h) { return range_text(h.distance.lower, h.distance.upper); },
-        [](Check c) { return range_text(c.fat.lower, c.fat.upper); });
+        [](Check c) { return range_text(c.reach.lower, c.reach.upper); });
     if (check_)
-      text += line("Mean distance from the geometry", unknown, [](Check c) { return length_text(c.mean_fat); });
+      text += line("Mean distance from the geometry", unknown, [](Check c) { return length_text(c.mean_distance); });
     if (!hulls_ || hulls_->hulls.empty()) return text;
     if (std::ranges::any_of(hulls_->hulls, [](Hull h) { return h.padding > 0; }))
       text += line(

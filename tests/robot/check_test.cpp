@@ -61,11 +61,16 @@ TEST_F(Check, ABoxCoversItselfAndWhatIsWithin) {
   EXPECT_DOUBLE_EQ(check.visual_volume, 1);
   EXPECT_DOUBLE_EQ(check.collision_volume, 8);
   EXPECT_DOUBLE_EQ(check.convex_volume, 1);
-  EXPECT_NEAR(check.fat.lower, std::sqrt(0.75), 1e-12);
-  EXPECT_GE(check.fat.upper, std::sqrt(0.75));
-  EXPECT_GT(check.mean_fat, 0.5);
-  EXPECT_LT(check.mean_fat, 0.75);
+  EXPECT_NEAR(check.reach.lower, std::sqrt(0.75), 1e-12);
+  EXPECT_GE(check.reach.upper, std::sqrt(0.75));
+  EXPECT_GT(check.mean_distance, 0.5);
+  EXPECT_LT(check.mean_distance, 0.75);
   EXPECT_TRUE(passes(check));
+}
+
+TEST_F(Check, WhatLiesInsideOfTheSolidDoesNotReachOutOfIt) {
+  EXPECT_LT(checked({cube(1)}, {cube(1), cube(0.1)}).reach.upper, 1e-3);
+  EXPECT_LT(checked({cube(1)}, {shape(SphereForm{0.8}), shape(SphereForm{0.9})}).reach.upper, 0.402);
 }
 
 TEST_F(Check, APieceSmallerByOneUnitLeaks) {
@@ -563,7 +568,7 @@ TEST_F(Check, TheResultDoesNotDependOnThreads) {
     EXPECT_EQ(many[i].verdict, one[i].verdict);
     EXPECT_EQ(many[i].sticks_out_at_most, one[i].sticks_out_at_most);
     EXPECT_EQ(many[i].worst_point, one[i].worst_point);
-    EXPECT_EQ(many[i].mean_fat, one[i].mean_fat);
+    EXPECT_EQ(many[i].mean_distance, one[i].mean_distance);
   }
 }
 
