@@ -121,7 +121,7 @@ nlohmann::json facts_of_hull(const BuildOptions& options, const BuildOutcome& ou
           {"target_faces", hull.target_faces},
           {"faces", hull.mesh.face_count()},
           {"vertices", hull.mesh.vertex_count()},
-          {"volume", signed_volume(hull.mesh)},
+          {"volume", volume_of(hull)},
           {"void_ratio", finite_or_null(hull.void_ratio)},
           {"void_is_estimated", outcome.made.is_estimated},
           {"source", name_of(source_names(), hull.source)},

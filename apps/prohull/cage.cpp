@@ -117,7 +117,7 @@ nlohmann::json facts_of(const File& file) {
           {"target_faces", hull.target_faces},
           {"faces", hull.mesh.face_count()},
           {"vertices", hull.mesh.vertex_count()},
-          {"volume", signed_volume(hull.mesh)},
+          {"volume", volume_of(hull)},
           {"void_ratio", finite_or_null(hull.void_ratio)},
           {"source", name_of(source_names(), hull.source)},
           {"certified", file.certified},

@@ -40,15 +40,12 @@ struct HullBounds {
   bool any() const { return *this != HullBounds{}; }
   bool operator==(const HullBounds&) const = default;
 
-  /// The greatest of the three quotients of what the hull has and its bound: at most 1 if it keeps all bounds. The
-  /// distance from `original` is proven (distance_bounds). Volumes are computed in double precision and compared with
-  /// `volume`. Throws as distance_bounds does.
-  double excess(const TriangleMesh& hull, const TriangleMesh& original, double volume,
+  /// The greatest of the three quotients of what a hull of `hull_volume` has and its bound: at most 1 if it keeps all
+  /// bounds. The distance from `original` is proven (distance_bounds). Throws as distance_bounds does.
+  double excess(const TriangleMesh& hull, double hull_volume, const TriangleMesh& original, double volume,
                 const Progress& progress = {}) const;
-  bool hold(const TriangleMesh& hull, const TriangleMesh& original, double volume,
-            const Progress& progress = {}) const {
-    return excess(hull, original, volume, progress) <= 1;
-  }
+  /// Of the solid_volume of the hull (enclosure.h); of its signed volume where that would take too long.
+  bool hold(const TriangleMesh& hull, const TriangleMesh& original, double volume, const Progress& progress = {}) const;
 };
 
 }  // namespace prohull

@@ -89,6 +89,10 @@ struct EnclosingHull {
   double build_seconds = 0, verify_seconds = 0;  ///< with those of all that was tried for it
 };
 
+/// Of all that the hull winds around at least once, as the verdict has it: overlaps count once. Where these are too
+/// many, its signed volume.
+double volume_of(const EnclosingHull& hull);
+
 /// Places where a closed mesh folds over itself, inside out: faces there bound no part of its solid, and stick out.
 struct Folds {
   std::size_t faces = 0;  ///< faces that the mesh itself does not cover

@@ -113,6 +113,9 @@ py::tuple float32_hull(const TriangleMesh& hull, const std::string& side) {
 void bind_verification(py::module_& module) {
   module.def("is_closed", &is_closed, Release());
   module.def("count_self_intersections", &count_self_intersections, Release());
+  module.def(
+      "solid_volume", [](const TriangleMesh& mesh) { return solid_volume(mesh).value_or(signed_volume(mesh)); },
+      Release());
   module.def("verify_mesh", &verified_mesh);
   module.def("verify_levels", &verified_levels);
   module.def("proof_of", &proof_of);

@@ -46,7 +46,8 @@ class Hull(Mesh):
     _mirror: Optional[Axis] = None  # that build() was asked for
     _volume_inside: float  # that void is measured against
     _replay_suffices: bool  # whether a level that encloses the solid of the original covers every triangle of it
-    _distance: Optional[float]  # computed when it is asked for, and so is the next
+    _solid_volume: Optional[float]  # computed when it is asked for, and so are the next
+    _distance: Optional[float]
     _self_intersections: Optional[int]
 
     @classmethod
@@ -64,13 +65,13 @@ class Hull(Mesh):
     def _with(cls, core: _prohull.Mesh, **attributes: Any) -> "Hull":
         hull = cls.__new__(cls)
         hull._set(core)
-        hull._distance, hull._self_intersections = None, None
+        hull._solid_volume, hull._distance, hull._self_intersections = None, None, None
         hull.__dict__.update(attributes)
         return hull
 
     def _as(self, core: _prohull.Mesh, **changes: Any) -> "Hull":
         """Another mesh with the facts of this hull, but for `changes`."""
-        computed = ("_core", "_query_levels", "_is_closed", "_indices", "_distance", "_self_intersections")
+        computed = ("_core", "_query_levels", "_is_closed", "_indices", "_solid_volume", "_distance", "_self_intersections")
         facts = {name: value for name, value in self.__dict__.items() if name not in computed}
         return Hull._with(core, **{**facts, **changes})
 
@@ -170,12 +171,17 @@ class Hull(Mesh):
 
     @property
     def void_ratio(self) -> float:
-        """The void, as a share of the volume of the mesh: volume of the hull / volume of the mesh - 1.
+        """The void, as a share of the volume of the mesh: volume of the hull / volume of the mesh - 1. Parts that overlap
+        count once.
 
         Negative for inner hulls. Where the volume of the mesh is only estimated, `notes` says so. nan if nothing is known
         of it, as of a mesh that encloses no space.
         """
-        return self.volume / self._volume_inside - 1 if self._volume_inside else math.nan
+        if not self._volume_inside:
+            return math.nan
+        if self._solid_volume is None:
+            self._solid_volume = _prohull.solid_volume(self._core)
+        return self._solid_volume / self._volume_inside - 1
 
     @property
     def distance_bound(self) -> float:

@@ -57,7 +57,7 @@ std::optional<Attempt> attempt(const Candidate& candidate, const Request& reques
   if (stored) certify(made, request, solids);
   made.hull.self_intersections =
       made.hull.verdict.holds() ? made.hull.verdict.self_intersections : count_self_intersections(made.hull.mesh);
-  if (stored && request.options.bounds.any()) made.hull.excess = excess_of(made.hull.mesh, making);
+  if (stored && request.options.bounds.any()) made.hull.excess = verified_excess_of(made.hull, making);
   made.hull.within_bounds = made.hull.excess <= 1;
   made.hull.verify_seconds = verifying.seconds();
   return made;

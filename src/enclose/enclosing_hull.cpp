@@ -38,7 +38,7 @@ EnclosingHull best_hull(const Request& request, std::size_t target_faces, Solids
 EnclosingHulls best_hulls(Request request, std::span<const std::size_t> target_faces) {
   const HullBounds bounds = request.options.bounds;
   Solids solids(request);
-  if (request.input.closed) require_volume(solids.volume(target_faces.front()), bounds);
+  if (request.input.closed) require_volume(solids.verified_volume(target_faces.front()), bounds);
   EnclosingHulls made;
   for (const std::size_t faces : target_faces) made.hulls.push_back(best_hull(request, faces, solids));
   const double volume = made.hulls.front().verdict.original_volume;
@@ -97,6 +97,11 @@ void require_volume(double volume, const HullBounds& bounds) {
     throw InputError(Defect::NoVolume,
                      "the mesh encloses no volume of which the void could be a share; bound the "
                      "distance instead");
+}
+
+double volume_of(const EnclosingHull& hull) {
+  const double known = hull.verdict.holds() ? hull.verdict.hull_volume : std::numeric_limits<double>::quiet_NaN();
+  return std::isnan(known) ? signed_volume(hull.mesh) : known;
 }
 
 // No estimate may say that what encloses is smaller than what it encloses.

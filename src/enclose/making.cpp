@@ -14,13 +14,15 @@ namespace {
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 /// What the volumes of hulls are compared with; 0 where nothing is inside, or nothing is known of it yet.
-double original_volume(const Making& making) { return making.solids.volume(making.candidate.target_faces); }
+double original_volume(const Making& making) { return making.solids.verified_volume(making.candidate.target_faces); }
 
-double excess_of(const HullBounds& bounds, const TriangleMesh& hull, double volume, const Making& making) {
+double excess_of(const HullBounds& bounds, const TriangleMesh& hull, double hull_volume, double volume,
+                 const Making& making) {
   const Solid& solid = making.solid();
   // What lies around folds is not of the mesh.
   const bool is_near_solid = solid.source == Source::Mesh && solid.folds.faces == 0;
-  return bounds.excess(hull, is_near_solid ? solid.mesh : making.to_cover(), volume, making.options().progress);
+  return bounds.excess(hull, hull_volume, is_near_solid ? solid.mesh : making.to_cover(), volume,
+                       making.options().progress);
 }
 
 }  // namespace
@@ -36,7 +38,11 @@ std::pair<std::optional<Float32Hull>, std::string> as_stored(const TriangleMesh&
 }
 
 double excess_of(const TriangleMesh& hull, const Making& making) {
-  return excess_of(making.options().bounds, hull, original_volume(making), making);
+  return excess_of(making.options().bounds, hull, signed_volume(hull), original_volume(making), making);
+}
+
+double verified_excess_of(const EnclosingHull& hull, const Making& making) {
+  return excess_of(making.options().bounds, hull.mesh, volume_of(hull), original_volume(making), making);
 }
 
 double excess_when_padded(const TriangleMesh& hull, const Making& making) {
@@ -46,7 +52,7 @@ double excess_when_padded(const TriangleMesh& hull, const Making& making) {
   HullBounds left = making.options().bounds;
   left.max_distance -= padding;
   left.max_added_volume = std::min(left.max_added_volume, std::exchange(left.max_void_ratio, kNoBound) * volume);
-  return excess_of(left, hull, making.request.is_outer() ? volume - gain : volume + gain, making);
+  return excess_of(left, hull, signed_volume(hull), making.request.is_outer() ? volume - gain : volume + gain, making);
 }
 
 bool is_within_as_stored(const TriangleMesh& hull, const Making& making) {

@@ -28,8 +28,10 @@ struct Making {
 /// for its vertices: the certificate decides, and lifting may help.
 std::pair<std::optional<Float32Hull>, std::string> as_stored(const TriangleMesh& hull, const Making& making);
 
-/// HullBounds::excess of what is asked for.
+/// HullBounds::excess of what is asked for; parts of the hull that overlap count twice.
 double excess_of(const TriangleMesh& hull, const Making& making);
+/// The same, of the volume that the verdict has: overlaps count once.
+double verified_excess_of(const EnclosingHull& hull, const Making& making);
 /// The same of a hull that is moved away by the padding when it is done, if it is one of the mesh: it gains about its
 /// area times the padding. Wraps keep the padding themselves.
 double excess_when_padded(const TriangleMesh& hull, const Making& making);

@@ -101,6 +101,12 @@ double Solids::volume(std::size_t faces) const {
   return made.empty() ? 0 : entries_[made.front()].inside_volume;
 }
 
+double Solids::verified_volume(std::size_t faces) {
+  ProgressMeter meter(request_.options.progress, "verify");
+  const double verified = original_.has_solid() ? original_.solid().volume(meter) : 0;
+  return verified > 0 ? verified : volume(faces);
+}
+
 std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::size_t faces, std::string& why_not) {
   const Stopwatch watch;
   const EnclosingOptions& options = request_.options;

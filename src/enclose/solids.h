@@ -56,6 +56,9 @@ class Solids {
 
   /// Of what lies inside of the input; 0 if nothing is known of it. Of what is not closed, the first wrap tells it.
   double volume(std::size_t faces) const;
+  /// That with which hulls are compared, as verify_hull has it: without the cavities that were filled before hulls were
+  /// built. As `volume` where the original bounds no solid, or is too tangled.
+  double verified_volume(std::size_t faces);
   double repair_seconds() const { return repair_seconds_; }
   std::vector<Solid> taken();  ///< all, in the order in which they were made; nothing is left here
 

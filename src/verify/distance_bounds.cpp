@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "prohull/detail/progress_meter.h"
+#include "prohull/enclosure.h"
 #include "verify/nearest_face.h"
 
 namespace prohull {
@@ -36,9 +37,9 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
   return bounds;
 }
 
-double HullBounds::excess(const TriangleMesh& hull, const TriangleMesh& original, double volume,
+double HullBounds::excess(const TriangleMesh& hull, double hull_volume, const TriangleMesh& original, double volume,
                           const Progress& progress) const {
-  const double added = std::abs(signed_volume(hull) - volume);
+  const double added = std::abs(hull_volume - volume);
   // A bound of 0 is kept by nothing but 0.
   const auto quotient = [](double value, double bound) {
     return value > bound ? value / bound : bound > 0 ? value / bound : 0;
@@ -48,6 +49,12 @@ double HullBounds::excess(const TriangleMesh& hull, const TriangleMesh& original
   if (std::isfinite(max_distance))
     most = std::max(most, quotient(distance_bounds(hull, original, {.progress = progress}).upper, max_distance));
   return most;
+}
+
+bool HullBounds::hold(const TriangleMesh& hull, const TriangleMesh& original, double volume,
+                      const Progress& progress) const {
+  const double hull_volume = solid_volume(hull, progress).value_or(signed_volume(hull));
+  return excess(hull, hull_volume, original, volume, progress) <= 1;
 }
 
 }  // namespace prohull

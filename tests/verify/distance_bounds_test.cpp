@@ -150,6 +150,9 @@ TEST(HullBounds, HoldEachByItself) {
   EXPECT_FALSE(hold({.max_added_volume = 31}));
   EXPECT_FALSE(hold({.max_distance = 1.02, .max_void_ratio = 0.1}));
   EXPECT_TRUE((HullBounds{.max_added_volume = 32.01}.hold(inner, outer, 96))) << "an inner hull";
+  TriangleMesh twice = outer;
+  append(twice, box({-0.5, 1, 1}, {5.5, 2, 2}));  // 6, of which 5.5 lie in the other
+  EXPECT_TRUE((HullBounds{.max_added_volume = 32.6}.hold(twice, inner, 64))) << "overlaps count once";
 }
 
 }  // namespace
