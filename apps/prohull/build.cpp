@@ -366,8 +366,11 @@ void add_build(CLI::App& app, Run& run) {
              "Order in which edges collapse. lazy is the tightest and fastest; paper1 and paper2 are those of Platis "
              "and Theoharis (2003).");
   command
-      .add_option("--hierarchy", options->hierarchy,
-                  "Also write all levels between hull and mesh to this file, for lod, verify, query and render.")
+      .add_option(
+          "--hierarchy", options->hierarchy,
+          "Also write all levels between hull and mesh to this file, for lod, verify, query and render. The hull is "
+          "then the coarsest of these levels: collapses alone make it, and with few faces it may be much larger "
+          "than without this option.")
       ->excludes(tight)
       ->excludes(gap)
       ->type_name("H.phull");

@@ -26,6 +26,8 @@ void judge_hull(LinkHull& hull, const TriangleMesh& triangles, const RepairedMes
   TriangleMesh sealed = input.closed ? input.closed->mesh : input.original;
   if (!input.closed) append(sealed, input.caps);
   hull.distance = distance_bounds(hull.mesh, sealed, {.progress = go_on});
+  if (budget.max_distance > 0 && hull.within_bounds && hull.distance.upper > budget.max_distance)
+    hull.notes.emplace_back("keeps the largest distance only if the openings that its wrap closed count as closed");
 }
 
 void judge_pieces(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Progress& go_on) {

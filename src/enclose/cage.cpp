@@ -48,7 +48,7 @@ class CageMaker {
   EnclosingHulls inner_hull(std::size_t faces) const;
   EnclosingHulls hull(HullSide side, std::size_t faces) const;
   EnclosingHulls even_hull(HullSide side, std::size_t faces) const;
-  void move_inwards(EnclosingHulls& made) const;
+  bool move_inwards(EnclosingHulls& made) const;
   void make_even(EnclosingHulls& made, HullSide side) const;
   bool accept(EnclosingHulls& made, HullSide side, TriangleMesh mesh) const;
   double distance_of(const EnclosingHulls& made, const TriangleMesh& mesh) const;
@@ -68,10 +68,19 @@ EnclosingHulls CageMaker::outer_hull(std::size_t faces) const {
   return wrapped.hulls[0].self_intersections == 0 ? wrapped : made;
 }
 
+// Where the hull cannot move inwards, one with fewer faces may: of a teapot, one of 100 where those of 200 and more
+// touch themselves.
 EnclosingHulls CageMaker::inner_hull(std::size_t faces) const {
-  EnclosingHulls made = build(HullSide::Inner, Repair::Auto, faces);
-  move_inwards(made);
-  return made;
+  for (const std::size_t fewer : {faces, faces / 2, faces / 4, faces / 8}) {
+    EnclosingHulls made = build(HullSide::Inner, Repair::Auto, std::max<std::size_t>(fewer, 4));
+    made.hulls[0].target_faces = faces;
+    if (move_inwards(made)) return made;
+  }
+  throw InputError(
+      Defect::NoCertificate,
+      fmt::format("no inner hull of at most {} faces was found that lies strictly inside of the mesh: mend "
+                  "it where it intersects itself, use a smaller gap, or leave out the inner hull",
+                  faces));
 }
 
 EnclosingHulls CageMaker::hull(HullSide side, std::size_t faces) const {
@@ -160,26 +169,22 @@ bool CageMaker::accept(EnclosingHulls& made, HullSide side, TriangleMesh mesh) c
 }
 
 // What is missing of the gap is added, and measured again. Where that finds no hull, as in a thin mesh, less of the gap
-// is kept.
-void CageMaker::move_inwards(EnclosingHulls& made) const {
+// is kept. False if there is none at all.
+bool CageMaker::move_inwards(EnclosingHulls& made) const {
   constexpr int kMostAttempts = 4;
   constexpr double kLeast = 1e-3;  // of the gap
   const TriangleMesh before = turned(made.hulls[0].mesh);
   bool found = false;
-  for (double aim = kHair * cage_.gap; aim > kLeast * cage_.gap; aim /= 4) {
+  for (double aim = kHair * cage_.gap; !found && aim > kLeast * cage_.gap; aim /= 4) {
     double added = aim - distance_of(made, turned(before));
     for (int i = 0; i < kMostAttempts && added > 0; ++i) {
       const TriangleMesh moved = turned(padded_hull(before, added, options_.float32_coordinates).mesh);
       found |= accept(made, HullSide::Inner, moved);
-      if (found && made.hulls[0].padding >= cage_.gap) return;
+      if (found && made.hulls[0].padding >= cage_.gap) return true;
       added += 2 * std::max(0.0, aim - distance_of(made, moved));
     }
-    if (found) return;
   }
-  throw InputError(
-      Defect::NoCertificate,
-      fmt::format("no inner hull of {} faces was found that lies strictly inside of the mesh; try more faces",
-                  made.hulls[0].target_faces));
+  return found;
 }
 
 void CageMaker::make_even(EnclosingHulls& made, HullSide side) const {

@@ -17,7 +17,10 @@ Candidates::Candidates(const Request& request, std::size_t target_faces, Notes& 
     if (request.options.bounds.any() && !request.options.levels) plan_convex_hull_in_steps();
     if (!request.options.levels) plan_polytope();
     if (!request.options.bounds.any() || !request.options.levels) plan_wraps();
-    if (request.options.bounds.any()) plan_bounded_wraps();
+    if (request.options.bounds.any())
+      plan_bounded_wraps();
+    else
+      plan_other_wraps(), plan_clear_of_wraps();
   }
   if (!request.is_outer() && request.options.repair != Repair::None) {
     if (request.is_padded())
@@ -46,11 +49,19 @@ std::optional<Candidate> Candidates::follow_up(const Ranking& ranking, const Sol
   return next;
 }
 
+// A hull that moves away by a gap of more than its details passes through itself.
+bool Candidates::keeps_clear(const Solid& solid) const {
+  constexpr double kSmallGap = 0.6;  // in spacings
+  const bool is_small_gap =
+      request_.is_outer() && !request_.options.bounds.any() && request_.aim() < kSmallGap * solid.wrap_spacing;
+  return (request_.is_padded() && !is_small_gap) || !request_.input.closed || solid.doors.face_count() > 0;
+}
+
 Candidate Candidates::of(SolidId id, const Solids& solids) const {
   Candidate candidate = moved(id);
   if (solids[id].source == Source::Mesh || request_.options.levels)
     candidate.recipe = {.method = Method::Levels};
-  else if (request_.is_padded() || !request_.input.closed || solids[id].doors.face_count() > 0)
+  else if (keeps_clear(solids[id]))
     candidate.recipe.approach = Approach::Clear;
   return candidate;
 }

@@ -34,6 +34,8 @@ class Candidates {
   void plan_convex_hull_in_steps();
   void plan_polytope();
   void plan_wraps();
+  void plan_other_wraps();
+  void plan_clear_of_wraps();
   void plan_bounded_wraps();
   void plan_close_wraps();
   void plan_loose_wraps();
@@ -42,6 +44,8 @@ class Candidates {
   void plan_inner_with_padding();
   void plan_tight();
   std::optional<Candidate> follow_up(const Ranking& ranking, const Solids& solids) const;
+  static bool has_very_much_void(const Ranking& ranking);
+  bool are_wraps_stuck(const Ranking& ranking) const;
   bool is_worth_a_wrap(const Ranking& ranking, const Solids& solids, bool is_first) const;
   std::optional<SolidId> wrap(const WrapKind& kind, double spacing, Solids& solids) const;
   std::optional<Candidate> of_wrap(const WrapKind& kind, const Ranking& ranking, Solids& solids) const;
@@ -52,6 +56,7 @@ class Candidates {
   bool is_worth_a_search(const EnclosingHull& hull) const;
   double spacing_for(const WrapKind& kind) const;
   double finest_worth_its_faces(const Solids& solids) const;
+  bool keeps_clear(const Solid& solid) const;
   Candidate of(SolidId id, const Solids& solids) const;
   Candidate moved(SolidId id) const;
   Candidate within(SolidId id, double max_distance, const Solids& solids) const;

@@ -56,7 +56,7 @@ EnclosingHull built_of_levels(const Making& making) {
   const TriangleMesh level = result.hull.level(faces);
   EnclosingHull hull;
   hull.mesh = moved ? std::move(moved->mesh) : TriangleMesh(level);
-  hull.target_reached = faces > making.candidate.target_faces;  // which bounds ask for
+  hull.target_reached = making.options().bounds.any() && faces > making.candidate.target_faces;  // which they ask for
   if (hull.mesh == level)
     hull.levels = faces > result.hull.base_face_count() ? result.hull.with_base(faces) : result.hull;
   hull.refusals = result.refusals, hull.blocked = result.blocked;

@@ -53,6 +53,7 @@ void Ranking::take(std::optional<Attempt> attempt) {
   if (!attempt) return;
   const EnclosingHull& hull = attempt->hull;
   build_seconds_ += hull.build_seconds, verify_seconds_ += hull.verify_seconds;
+  if (hull.source == Source::Wrap) fewest_of_wraps_ = std::min(fewest_of_wraps_, hull.mesh.face_count());
   if (attempt->void_before_padding) void_before_padding_ = *attempt->void_before_padding;
   if (!attempt->why_not_storable.empty())
     notes_.add(fmt::format("a hull of {} has no float32 coordinates: {}",

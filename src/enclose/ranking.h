@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,6 +39,9 @@ class Ranking {
   bool is_of_flat() const { return best_ && solids_[best_->hull.solid].slab_width > 0; }
   bool is_near_flat() const;     ///< and as near as a tent
   bool is_on_triangles() const;  ///< a convex hull all of which lies on triangles that do not bound a solid
+  std::size_t fewest_faces_of_wraps() const {
+    return fewest_of_wraps_;
+  }  ///< of their hulls; the largest number if none
   double best_volume() const { return signed_volume(best_->hull.mesh); }
   double best_void() const { return best_volume() / volume() - 1; }
   /// How much larger the best is than it has to be, about.
@@ -66,6 +70,7 @@ class Ranking {
   double void_before_padding_ = 0;  ///< of the last hull of the mesh
   double build_seconds_ = 0, verify_seconds_ = 0;
   bool last_failed_ = false;
+  std::size_t fewest_of_wraps_ = std::numeric_limits<std::size_t>::max();
 };
 
 }  // namespace prohull

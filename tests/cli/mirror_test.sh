@@ -61,6 +61,9 @@ symmetric hull_203.obj "a hull of several"
 expect 0 "symmetric: bounds" $prohull build torus.obj --faces 20 --mirror x --max-distance 0.2 -o hull.obj
 symmetric hull.obj "a hull within bounds"
 
+expect 1 "symmetric: too few faces" $prohull build torus.obj --faces 8 --mirror x --strict -o hull.obj
+says out "symmetric: too few faces" "no legal collapse is left above the 8 faces asked for"
+
 # --- what is refused ---
 expect 2 "not symmetric" $prohull build torus.obj --faces 200 --mirror z -o none.obj
 says err "not symmetric" "the mesh is not exactly symmetric: face 0 at "

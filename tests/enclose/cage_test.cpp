@@ -58,6 +58,15 @@ TEST(Cage, HullsOfSamplesAreDisjointAndKeepTheGap) {
   }
 }
 
+// The hulls of 200 faces and 100 touch themselves.
+TEST(Cage, TakesFewerFacesWhereTheInnerHullNeedsThat) {
+  TriangleMesh mesh = make_sample("torus", 600);
+  append(mesh, make_sample("sphere", 400));
+  const Cage cage = build_cage(mesh, {.outer_faces = 100, .inner_faces = 200});
+  EXPECT_TRUE(cage.inner->is_disjoint);
+  EXPECT_LE(cage.inner->hull().mesh.face_count(), 200u);
+}
+
 // Hulls without a gap share the planes of a box.
 TEST(Cage, OfABoxTouchesNothing) {
   const Cage cage = build_cage(unit_box(), {.outer_faces = 12, .inner_faces = 12, .gap = 0.25});

@@ -174,6 +174,23 @@ TEST(EnclosingHull, HasNoVoidBelowZeroWherePartsOverlap) {
   EXPECT_GE(made.hulls[0].void_ratio, -1e-9);
 }
 
+// The void that is told is that of the file: without its cavity, and with overlaps counted once.
+TEST(EnclosingHull, KeepsBoundsOfTheVoidThatIsTold) {
+  TriangleMesh mesh = together(make_sample("torus", 600), inside_out(box({0.9, -0.1, -0.1}, {1.1, 0.1, 0.1})));
+  append(mesh, box({-2, -0.2, -0.2}, {2, 0.2, 0.2}));
+  for (const double most : {0.03, 0.1}) {
+    const EnclosingHulls made = hull_of(mesh, 20, {.bounds = {.max_void_ratio = most}});
+    const EnclosingHull& hull = made.hulls[0];
+    EXPECT_DOUBLE_EQ(volume_of(hull) / made.volume - 1, hull.void_ratio);
+    EXPECT_EQ(hull.within_bounds, hull.void_ratio <= most) << hull.void_ratio;
+  }
+}
+
+// Hulls of its three wraps do not come down to so few faces. The convex hull does, with a void of 175 %.
+TEST(EnclosingHull, TriesOtherWrapsWhereTheirHullsAreStuck) {
+  EXPECT_LT(hull_of(make_sample("bracket", 3000), 60).hulls[0].void_ratio, 0.3);
+}
+
 // Once outwards and once inside out, in the same place.
 TEST(EnclosingHull, OfWhatCoversItsConvexHullTakesNoWrap) {
   const TriangleMesh solid = octahedron();
