@@ -1,8 +1,5 @@
 #include "prohull/sample.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,6 +15,7 @@
 
 #include "effort.h"
 #include "prohull/error.h"
+#include "verify/oracle.h"
 
 namespace prohull {
 namespace {
@@ -73,16 +71,6 @@ double least_compactness(const TriangleMesh& mesh) {
   return least;
 }
 
-bool intersects_itself(const TriangleMesh& mesh) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  CGAL::Surface_mesh<Kernel::Point_3> surface;
-  std::vector<decltype(surface)::Vertex_index> vertices;
-  for (const Vec3& p : mesh.positions) vertices.push_back(surface.add_vertex(Kernel::Point_3(p.x, p.y, p.z)));
-  for (const auto& t : mesh.triangles)
-    surface.add_face(vertices[index(t[0])], vertices[index(t[1])], vertices[index(t[2])]);
-  return CGAL::Polygon_mesh_processing::does_self_intersect(surface);
-}
-
 /// FNV-1a of all bits.
 std::uint64_t hash(const TriangleMesh& mesh) {
   std::uint64_t h = 0xcbf29ce484222325;
@@ -129,7 +117,7 @@ TEST_P(EverySample, HasTheFacesAskedFor) {
 
 TEST_P(EverySample, IsFreeOfSelfIntersection) {
   for (double faces = double(fewest_faces(GetParam().name)); faces < effort(30'000, 3'000); faces *= 1.3)
-    EXPECT_FALSE(intersects_itself(make_sample(GetParam().name, std::size_t(faces))))
+    EXPECT_EQ(oracle::self_intersections(make_sample(GetParam().name, std::size_t(faces))), 0u)
         << GetParam().name << " of " << faces;
 }
 

@@ -3,6 +3,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/convex_hull_3.h>
 
 #include <algorithm>
 #include <utility>
@@ -275,6 +276,23 @@ std::size_t self_intersections(const TriangleMesh& mesh) {
   std::vector<std::pair<CGAL::SM_Face_index, CGAL::SM_Face_index>> pairs;
   CGAL::Polygon_mesh_processing::self_intersections(surface, std::back_inserter(pairs));
   return pairs.size();
+}
+
+TriangleMesh convex_hull(const TriangleMesh& mesh) {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  std::vector<Kernel::Point_3> points;
+  for (const Vec3& p : mesh.positions) points.emplace_back(p.x, p.y, p.z);
+  CGAL::Surface_mesh<Kernel::Point_3> surface;
+  CGAL::convex_hull_3(points.begin(), points.end(), surface);
+  TriangleMesh hull;
+  for (const auto v : surface.vertices())
+    hull.positions.push_back({surface.point(v).x(), surface.point(v).y(), surface.point(v).z()});
+  for (const auto f : surface.faces()) {
+    std::vector<VertexId> corners;
+    for (const auto v : surface.vertices_around_face(surface.halfedge(f))) corners.push_back(VertexId(v.idx()));
+    hull.triangles.push_back({corners[0], corners[1], corners[2]});
+  }
+  return hull;
 }
 
 }  // namespace prohull::oracle

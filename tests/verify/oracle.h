@@ -51,4 +51,7 @@ bool are_apart(const Triangle& s, const Triangle& t, double distance);
 /// The pairs of faces that intersect, as CGAL counts them.
 std::size_t self_intersections(const TriangleMesh& mesh);
 
+/// The convex hull of all vertices, as CGAL makes it.
+TriangleMesh convex_hull(const TriangleMesh& mesh);
+
 }  // namespace prohull::oracle

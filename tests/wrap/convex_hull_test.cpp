@@ -1,8 +1,5 @@
 #include "prohull/convex_hull.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/convex_hull_3.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -17,6 +14,7 @@
 #include "prohull/mesh_report.h"
 #include "prohull/sample.h"
 #include "random.h"
+#include "verify/oracle.h"
 
 namespace prohull {
 namespace {
@@ -33,23 +31,6 @@ TriangleMesh through(const std::vector<Vec3>& points) {
   return mesh;
 }
 
-double volume_by_cgal(const TriangleMesh& mesh) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  std::vector<Kernel::Point_3> points;
-  for (const Vec3& p : mesh.positions) points.emplace_back(p.x, p.y, p.z);
-  CGAL::Surface_mesh<Kernel::Point_3> surface;
-  CGAL::convex_hull_3(points.begin(), points.end(), surface);
-  TriangleMesh hull;
-  for (const auto v : surface.vertices())
-    hull.positions.push_back({surface.point(v).x(), surface.point(v).y(), surface.point(v).z()});
-  for (const auto f : surface.faces()) {
-    std::vector<VertexId> corners;
-    for (const auto v : surface.vertices_around_face(surface.halfedge(f))) corners.push_back(VertexId(v.idx()));
-    hull.triangles.push_back({corners[0], corners[1], corners[2]});
-  }
-  return signed_volume(hull);
-}
-
 /// What the header guarantees: it is closed, and no vertex of the mesh is outside of a face's plane.
 void expect_convex_hull(const TriangleMesh& mesh, const TriangleMesh& hull) {
   ASSERT_TRUE(inspect(hull).is_closed_manifold()) << inspect(hull).first_defect;
@@ -60,7 +41,7 @@ void expect_convex_hull(const TriangleMesh& mesh, const TriangleMesh& hull) {
   std::set<std::tuple<double, double, double>> given;
   for (const Vec3& p : mesh.positions) given.insert({p.x, p.y, p.z});
   for (const Vec3& p : hull.positions) ASSERT_TRUE(given.contains({p.x, p.y, p.z}));
-  const double expected = volume_by_cgal(mesh);
+  const double expected = signed_volume(oracle::convex_hull(mesh));
   EXPECT_NEAR(signed_volume(hull), expected, 1e-9 * expected);
 }
 
