@@ -41,7 +41,7 @@ if(BUILD_SHARED_LIBS AND NOT CMAKE_INSTALL_FULL_LIBDIR IN_LIST CMAKE_CXX_IMPLICI
   file(RELATIVE_PATH from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(prohull_cli PROPERTIES INSTALL_RPATH $ORIGIN/${from_bin})
 endif()
-install(TARGETS prohull_cli prohull_check RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tool)
+install(TARGETS prohull_cli prohull_check prohull_check_motion RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tool)
 
 set(shell ${PROJECT_BINARY_DIR}/share)
 file(MAKE_DIRECTORY ${shell})

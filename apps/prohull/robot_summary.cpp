@@ -137,6 +137,14 @@ std::string certificates_text(std::span<const LinkCertificate> all) {
   return text + "; report.json names the files for prohull_check\n";
 }
 
+std::string motion_certificate_text(const std::filesystem::path& folder, const ReportInput& facts) {
+  const auto& [file, pairs] = facts.motion_certificate;
+  if (file.empty()) return "";
+  return fmt::format("  {}: certificate of {} of {}; to check it: prohull_check_motion {}\n", file.string(), pairs,
+                     counted(verdicts_of(*facts.motion).never, "pair that never meets", "pairs that never meet"),
+                     (folder / file).string());
+}
+
 std::string described(const Form& form) {
   static constexpr const char* kNames[] = {"mesh", "box", "sphere", "cylinder", "capsule", "other"};
   return kNames[form.index()];
@@ -298,6 +306,7 @@ std::string robot_summary(const std::filesystem::path& folder, const ReportInput
   std::string text = hulls_text(facts) + shipped_text(facts);
   text += certificates_text(facts.certificates);
   if (facts.motion) text += motion_text(*facts.motion, covers, sampled_pairs);
+  text += motion_certificate_text(folder, facts);
   text += fmt::format(
       "{}: the robot with its {}, and report.html; {} of {} certified\n", folder.string(), covers, certified,
       covers == "hulls" ? counted(hulls, "hull is", "hulls are") : counted(hulls, "link is", "links are"));

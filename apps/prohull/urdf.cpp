@@ -140,6 +140,7 @@ void look_at_the_rest(const UrdfOptions& options, ReportInput& facts) {
     facts.motion = check_motion(robot, bodies, motion);
     ProofOptions proof = options.proof;
     proof.progress = progress;
+    proof.keep_trees = options.certificate;
     if (proof.cells > 0) add_proofs(robot, bodies, proof, *facts.motion);
   }
 }
@@ -177,6 +178,18 @@ void write_certificates(const UrdfOptions& options, ReportInput& facts, std::spa
   LinkCertificates made = link_certificates(facts.file.robot, facts.hulls, hulls, folder.get(), how);
   for (const OutputFile& file : made.files) folder.add(file.path, file.write);
   facts.certificates = std::move(made.certificates);
+}
+
+/// Of the pairs that never meet.
+void write_motion_certificate(ReportInput& facts, const RobotFiles& files, RobotFolder& folder) {
+  std::vector<PairProof> proofs;
+  for (const MotionPair& pair : facts.motion->pairs)
+    if (pair.proof) proofs.push_back(*pair.proof);
+  MotionCertificate made = pairs_certificate(
+      facts.file.robot, certified_bodies(facts.file.robot, facts.hulls, files.hulls, facts.from), proofs);
+  if (made.pairs == 0) return;
+  facts.motion_certificate = {robot_stem(facts.file) + ".phmotion", made.pairs};
+  folder.add(facts.motion_certificate.file, made.text);
 }
 
 /// What planners read beside the robot's own file.
@@ -238,6 +251,7 @@ int run_build(const UrdfOptions& options, const RobotFile& file) {
   }
   if (options.certificate) write_certificates(options, facts, files.hulls, folder);
   look_at_the_rest(options, facts);
+  if (options.certificate && facts.motion) write_motion_certificate(facts, files, folder);
   facts.seconds = watch.seconds();
   const bool is_done = is_covered && (!facts.motion || facts.motion->missed() == 0);
   write_report(options, facts, files, folder);
@@ -427,7 +441,8 @@ void add_urdf(CLI::App& app, Run& run) {
       "Also write a certificate beside each hull, or the pieces or spheres of a link: a file with which prohull_check, "
       "a program of one C file that shares nothing with this one, decides again what is proven "
       "(docs/certificate.md). It is about the mesh file that the robot names, or else about a copy of the link's "
-      "triangles in the folder, which report.json names.");
+      "triangles in the folder, which report.json names. ROBOT.phmotion is the certificate of the pairs of links that "
+      "never meet, for prohull_check_motion.");
   CLI::Option* const dry_run =
       command.add_flag("--dry-run", options->dry_run, "Say what would be done with each link, and write nothing.");
   command.add_flag("--no-pictures", options->no_pictures,

@@ -1,28 +1,56 @@
 #include "robot/motion/bodies.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "prohull/convex_hull.h"
+#include "robot/motion/proof_body.h"
 
 namespace prohull::robot {
+
+namespace {
+
+/// With the primitives that are kept; none if the hull is not certified.
+TriangleMesh hull_in_link(const Robot& robot, const LinkHulls& link, Geometry from, std::size_t set) {
+  const bool is_hulled = link.status == LinkStatus::Hulled;
+  if (is_hulled && !link.hulls[set].certified) return {};
+  TriangleMesh hull = is_hulled ? placed(link.frame.in_link, link.hulls[set].mesh) : TriangleMesh();
+  for (const std::size_t i : link.primitives) {
+    const Shape& shape = shapes(robot.links[link.link], from)[i];
+    append(hull, placed(shape.origin, form_mesh(shape.form, Curved::Around)));
+  }
+  return hull;
+}
+
+}  // namespace
 
 Bodies bodies_of(const Robot& robot, std::span<const LinkHulls> links, Geometry from, std::size_t set) {
   Bodies bodies;
   for (const LinkHulls& link : links) {
-    TriangleMesh visual, hull;
-    if (link.status == LinkStatus::Hulled) {
-      visual = placed(link.frame.in_link, link.triangles);
-      hull = placed(link.frame.in_link, link.hulls[set].mesh);
-    }
+    TriangleMesh visual;
+    if (link.status == LinkStatus::Hulled) visual = placed(link.frame.in_link, link.triangles);
     for (const std::size_t i : link.primitives) {
       const Shape& shape = shapes(robot.links[link.link], from)[i];
-      const TriangleMesh primitive = placed(shape.origin, form_mesh(shape.form, Curved::Around));
-      append(visual, primitive), append(hull, primitive);
+      append(visual, placed(shape.origin, form_mesh(shape.form, Curved::Around)));
     }
-    if (link.status == LinkStatus::Hulled && !link.hulls[set].certified) hull = {};
     bodies.convex.push_back(convex_hull(visual));
     bodies.visual.push_back(std::move(visual));
-    bodies.hull.push_back(std::move(hull));
+    bodies.hull.push_back(hull_in_link(robot, link, from, set));
+  }
+  return bodies;
+}
+
+std::vector<std::optional<CertifiedBody>> certified_bodies(const Robot& robot, std::span<const LinkHulls> links,
+                                                           std::span<const HullFiles> hulls, Geometry from) {
+  std::vector<std::optional<CertifiedBody>> bodies(robot.links.size());
+  for (const LinkHulls& link : links) {
+    CertifiedBody& body = bodies[link.link].emplace(CertifiedBody{.name = robot.links[link.link].name, .link = link.link});
+    const auto files = std::ranges::find_if(
+        hulls, [&](const HullFiles& of) { return of.link == link.link && of.set == 0 && of.meshes.size() == 1; });
+    if (link.primitives.empty() && files != hulls.end() && files->meshes[0].extension() == ".stl")
+      body.stl = files->meshes[0], body.in_link = link.frame.in_link;
+    else
+      body.triangles = with_finite_faces(hull_in_link(robot, link, from, 0));
   }
   return bodies;
 }

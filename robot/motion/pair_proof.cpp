@@ -30,8 +30,14 @@ struct IsLater {
 
 class PairSearch {
  public:
-  PairSearch(const Robot& robot, const LinkPair& pair, const ProofBody& a, const ProofBody& b, std::size_t cells)
-      : robot_(robot), a_(a), b_(b), chain_(robot, pair.first, pair.second, a.corners, b.corners), most_cells_(cells) {
+  PairSearch(const Robot& robot, const LinkPair& pair, const ProofBody& a, const ProofBody& b,
+             const ProofOptions& options)
+      : robot_(robot),
+        a_(a),
+        b_(b),
+        chain_(robot, pair.first, pair.second, a.corners, b.corners),
+        most_cells_(options.cells),
+        record_(options.keep_trees, chain_.freedoms().size()) {
     result_.a = pair.first, result_.b = pair.second;
   }
 
@@ -48,7 +54,7 @@ class PairSearch {
       meter.go_on();
       halve(cell);
     }
-    if (result_.verdict == PairVerdict::Open) result_.verdict = PairVerdict::Never, result_.proven_free = 1;
+    if (result_.verdict == PairVerdict::Open) set_never();
     return result_;
   }
 
@@ -58,7 +64,16 @@ class PairSearch {
     return result_;
   }
 
+  void set_never() {
+    result_.verdict = PairVerdict::Never, result_.proven_free = 1;
+    result_.tree = record_.tree();
+    if (result_.tree.empty()) return;
+    result_.freedoms.assign(chain_.freedoms().begin(), chain_.freedoms().end());
+    result_.ranges.assign(chain_.ranges().begin(), chain_.ranges().end());
+  }
+
   void halve(const Cell& cell) {
+    record_.halve(cell.number, cell.widest, result_.cells);
     const JointRange range = cell.box[cell.widest];
     for (const JointRange& half : {JointRange{range.lower, range.middle()}, JointRange{range.middle(), range.upper}}) {
       Cell part = cell;
@@ -100,6 +115,7 @@ class PairSearch {
   const JointChain chain_;
   const std::size_t most_cells_;
   std::priority_queue<Cell, std::vector<Cell>, IsLater> open_;
+  CellRecord record_;
   PairProof result_;
 };
 
@@ -125,7 +141,7 @@ std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const std::opti
   ProgressMeter meter(options.progress, "prove");
   in_parallel(pairs.size(), options.threads, meter, [&](std::size_t i) {
     const auto& [a, b] = pairs[i];
-    proofs[i] = PairSearch(robot, pairs[i], *links[a], *links[b], options.cells).run(meter);
+    proofs[i] = PairSearch(robot, pairs[i], *links[a], *links[b], options).run(meter);
   });
   return proofs;
 }

@@ -10,6 +10,8 @@
 
 #include "prohull/progress.h"
 #include "robot/model.h"
+#include "robot/motion/cell_tree.h"
+#include "robot/motion/joint_chain.h"
 #include "robot/motion/proof_body.h"
 
 namespace prohull::robot {
@@ -39,11 +41,17 @@ struct PairProof {
   std::size_t cells = 0;               ///< of the joints' positions that were looked at
   std::vector<double> positions = {};  ///< of Always and Meets: of all joints of the robot, within their limits
   FacePair faces = {};                 ///< two faces that meet there; 0 and 0 where one link is inside of the other
+  /// Of Never, if ProofOptions::keep_trees: the joints that move freely, the positions that are looked at of each, and
+  /// what became of the cells.
+  std::vector<std::size_t> freedoms = {};
+  std::vector<JointRange> ranges = {};
+  CellTree tree = {};
 };
 
 struct ProofOptions {
   std::size_t cells = 10'000;  ///< most cells of a pair. Time does not count, so that results are the same everywhere
   unsigned threads = 0;        ///< 0: one for each core
+  bool keep_trees = false;     ///< for certificates
   Progress progress = {};      ///< stage "prove"
 };
 

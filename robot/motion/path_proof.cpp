@@ -57,7 +57,8 @@ class PathSearch {
         chain_(robot, *a.link, b.link ? *b.link : root_of(robot, *a.link), corners_of(a),
                b.link ? corners_of(b) : corners_in_root(b), ranges),
         options_(options),
-        end_(path.length()) {
+        end_(path.length()),
+        record_(options.keep_trees, 1) {
     for (const std::size_t joint : chain_.freedoms()) numbers_.push_back(path_.number_of(joint));
   }
 
@@ -121,6 +122,7 @@ class PathSearch {
 
   void halve(const Piece& piece) {
     const double middle = middle_place(piece.begin, piece.end);
+    record_.halve(piece.number, 0, result_.cells);
     look_at(piece.begin, middle);
     if (middle < end_) look_at(middle, piece.end);
   }
@@ -175,6 +177,7 @@ class PathSearch {
     }
     if (undecided && result_.verdict == PathVerdict::Free) result_.verdict = PathVerdict::Open;
     if (result_.verdict != PathVerdict::Open) result_.why.clear();
+    if (result_.verdict == PathVerdict::Free) result_.tree = record_.tree();
     const bool meets = result_.verdict == PathVerdict::Meets;
     result_.begin = undecided ? undecided->lower : end_;
     result_.end = meets || !undecided ? end_ : undecided->upper;
@@ -190,6 +193,7 @@ class PathSearch {
   double end_;  // of what is looked at: the first place where they are known to meet
   std::priority_queue<Piece, std::vector<Piece>, IsLessUrgent> open_;
   std::vector<Piece> done_;
+  CellRecord record_;
   PathPairProof result_;
 };
 

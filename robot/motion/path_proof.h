@@ -8,6 +8,7 @@
 
 #include "prohull/progress.h"
 #include "robot/model.h"
+#include "robot/motion/cell_tree.h"
 #include "robot/motion/joint_path.h"
 #include "robot/motion/path_bodies.h"
 
@@ -42,6 +43,7 @@ struct PathPairProof {
   std::size_t cells = 0;               ///< pieces of the path that were looked at
   /// In their order; nothing is known between them. They are sharp only if PathProofOptions::distances asks for it.
   std::vector<DistanceBound> bounds = {};
+  CellTree tree = {};  ///< of Free, if PathProofOptions::keep_trees: 0 for each piece that is halved
 };
 
 struct PathProof {
@@ -59,6 +61,7 @@ struct PathProofOptions {
   double gap = 0;              ///< how far bodies have to be apart
   std::size_t cells = 10'000;  ///< most pieces of the path for a pair. Time does not count: see ProofOptions
   bool distances = false;      ///< also find the curve: no bound is less than 0.6 of the distance, as cells allow
+  bool keep_trees = false;     ///< for certificates
   unsigned threads = 0;        ///< 0: one for each core
   Progress progress = {};      ///< stage "prove"
 };

@@ -159,6 +159,12 @@ Json facts_of(const MotionPair& pair, const Robot& robot) {
           {"proof", proof_of(pair, robot)}};
 }
 
+Json certificate_facts(const ReportInput& input) {
+  if (input.motion_certificate.file.empty()) return {};
+  return {{"file", clean_text(input.motion_certificate.file.generic_string())},
+          {"pairs", input.motion_certificate.pairs}};
+}
+
 Json facts_of(const MotionResult& motion, const Robot& robot) {
   Json pairs = Json::array();
   for (const MotionPair& pair : motion.pairs) pairs.push_back(facts_of(pair, robot));
@@ -295,6 +301,7 @@ Json report_json(const ReportInput& input) {
           {"notes", texts(input.file.notes)},
           {"links", links_of(input)},
           {"motion", input.motion ? facts_of(*input.motion, input.file.robot) : Json()},
+          {"motion_certificate", certificate_facts(input)},
           {"disabled_pairs", disabled_facts(input)},
           {"totals", facts_of(totals_of(input))}};
 }

@@ -25,6 +25,10 @@ struct ReportInput {
   std::string version;               ///< of the program
   Geometry from = Geometry::Visual;  ///< LinkHullOptions::from
   std::vector<LinkCertificate> certificates = {};
+  struct {
+    std::filesystem::path file = {};  ///< relative to the folder of the robot; empty: there is none
+    std::size_t pairs = 0;            ///< that never meet
+  } motion_certificate = {};
   std::vector<DisabledCheck> disabled = {};  ///< the rows of an SRDF file
 };
 
