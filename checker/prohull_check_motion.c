@@ -43,7 +43,7 @@ static void* room(void* array, size_t n, size_t size) {
 /* Real files need far less. Files that were made to take for ever end here. */
 static void spend(size_t steps) {
   static uint64_t spent;
-  if ((spent += steps) > UINT64_C(20000000000)) end(1, "this would take too long");
+  if ((spent += steps) > UINT64_C(10000000000)) end(1, "this would take too long");
 }
 
 /* ---- The file ---- */
@@ -279,6 +279,7 @@ static void find_components(Body* b) {
 
 static void finish(Body* b) {
   if (!b->n) end(1, "%s has no triangles", b->name);
+  spend(100 * b->n);
   b->box = resized(NULL, 4 * b->n, sizeof *b->box);
   find_components(b), build_tree(b, 1, 0, b->n);
   for (size_t i = 0; i < b->n; ++i) b->some[b->t[i].component] = i;
@@ -687,6 +688,7 @@ static double gap;
 static void prove_cell(void) {
   Sight* const s = &sight;
   const int is_first = cells++ == 0;
+  spend(50);
   s->least = change_of(s->a, s->b, &s->p) + gap, s->back = inverse(&s->p);
   s->doubt = larger(doubt_of(&s->p, s->b->radius) + ROUND * s->a->radius, doubt_of(&s->back, s->a->radius) + ROUND * s->b->radius);
   if (is_first) s->least += s->doubt; /* so that points that are placed have not passed through the other surface */

@@ -11,6 +11,7 @@
 #include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "robot/hulls/budgets.h"
+#include "robot/motion/motion_certificate.h"
 #include "robot/motion/motion.h"
 #include "robot/motion/path_proof.h"
 #include "robot_summary.h"
@@ -24,7 +25,7 @@ using namespace prohull::robot;
 using std::filesystem::path;
 
 struct PathOptions {
-  path in, srdf, curve, page, report;
+  path in, srdf, curve, page, report, certificate;
   std::vector<path> paths, world;
   std::vector<std::string> ignored;
   std::string gap = "0";
@@ -307,15 +308,31 @@ std::string page_of(const PathOptions& options, const Decision& decision) {
       {.unit = "m", .version = PROHULL_VERSION, .threads = options.proof.threads, .progress = std::ref(line)});
 }
 
+/// Returns a line of the summary.
+std::string add_certificate(const PathOptions& options, const Decision& decision, Outputs& outputs) {
+  if (options.certificate.empty()) return "";
+  const PathProof& proof = decision.proofs.front();
+  const path folder = std::filesystem::absolute(options.certificate).parent_path();
+  const MotionCertificate made = path_certificate(decision.file.robot, decision.paths.front(), options.proof.gap,
+                                                  certified_bodies(decision.made.bodies, folder), proof);
+  const std::string name = output_name(options.certificate), of = counted(proof.pairs.size(), "pair");
+  if (made.pairs == 0) return fmt::format("{}: not written, as none of {} is free all along\n", name, of);
+  outputs.add(options.certificate, made.text);
+  return fmt::format("{}: certificate of {} of {}, free all along; to check it: prohull_check_motion {}\n", name,
+                     made.pairs, of, options.certificate.string());
+}
+
 int run_motion(PathOptions options) {
   options.proof.gap = length_of(options.gap, "--gap");
   options.proof.distances = !options.curve.empty() || !options.page.empty();
-  if (options.proof.distances && options.paths.size() > 1) refuse("--curve and --page are for one path");
+  options.proof.keep_trees = !options.certificate.empty();
+  if ((options.proof.distances || options.proof.keep_trees) && options.paths.size() > 1)
+    refuse("--curve, --page and --certificate are for one path");
   if (!options.page.empty()) require_page(options.page);
   std::vector<path> inputs{options.in, options.srdf};
   inputs.insert(inputs.end(), options.paths.begin(), options.paths.end());
   inputs.insert(inputs.end(), options.world.begin(), options.world.end());
-  check_files(inputs, {options.curve, options.page, options.report});
+  check_files(inputs, {options.curve, options.page, options.report, options.certificate});
   const Stopwatch reading;
   const RobotFile file = read_robot(options.in, options.file);
   Decision decision = read_all(options, file);
@@ -330,6 +347,7 @@ int run_motion(PathOptions options) {
   Outputs outputs;
   if (!options.curve.empty()) outputs.add(options.curve, curve_csv(decision));
   if (!options.page.empty()) outputs.add(options.page, page_of(options, decision));
+  const std::string certificate = add_certificate(options, decision, outputs);
   outputs.add_report(options.report, report_of(options, decision, seconds));
   outputs.commit();
   say_robot(file);
@@ -341,6 +359,7 @@ int run_motion(PathOptions options) {
       decision.left_out.empty() ? "" : fmt::format(", {} left out", grouped(decision.left_out.size()));
   say("  {} of bodies{}; read and index {:.2f} s, prove {:.3f} s\n", counted(decision.pairs.size(), "pair"), rest,
       read_seconds, seconds);
+  say("{}", certificate);
   return all ? kDone : kAnswerIsNo;
 }
 
@@ -410,6 +429,12 @@ void add_motion(CLI::App& app, Run& run) {
                   "Page of HTML that shows the robot on its path, with a slider of time and the curve of --curve, as "
                   "`prohull view` shows robots.")
       ->type_name("FILE.html");
+  command
+      .add_option("--certificate", options->certificate,
+                  "File with which prohull_check_motion, a program of one C file that shares nothing with this one, "
+                  "decides again that pairs of bodies are free all along (docs/certificate.md). Pairs that are not are "
+                  "left out of it.")
+      ->type_name("FILE.phmotion");
   add_threads_option(command, options->proof.threads, "The result is the same for any number.");
   add_report_option(command, options->report);
   add_world(command, *options);

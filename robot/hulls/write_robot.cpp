@@ -36,15 +36,6 @@ void write_text(const path& file, const std::string& text) {
       fmt::format("{}: the file does not hold what was certified; choose another --format", file.string()));
 }
 
-bool has_same_triangles(const TriangleMesh& a, const TriangleMesh& b) {
-  if (a.face_count() != b.face_count()) return false;
-  for (const FaceId f : a.triangles.ids()) {
-    const Triangle s = a.triangle(f), t = b.triangle(f);
-    if (!(s.a == t.a && s.b == t.b && s.c == t.c)) return false;
-  }
-  return true;
-}
-
 /// Whether the robot has the ball among the collision elements of a link.
 bool has_ball(const Link& link, const Ball& ball) {
   return std::ranges::any_of(link.collision, [&](const Shape& shape) {

@@ -6,8 +6,11 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <system_error>
 #include <utility>
 
+#include "prohull/mesh_io.h"
+#include "robot/link_triangles.h"
 #include "robot/motion/kinematics.h"
 
 namespace prohull::robot {
@@ -138,7 +141,27 @@ class Writer {
 /// A freedom for each letter.
 bool is_written(const CellTree& tree, std::size_t freedoms) { return !tree.empty() && freedoms <= kLetters; }
 
+/// Whether it is a binary STL file with the triangles of the body, and no others.
+bool is_whole(const PathBody& body) {
+  if (body.file.extension() != ".stl") return false;
+  std::error_code error;
+  if (std::filesystem::file_size(body.file, error) != 84 + 50 * body.triangles.face_count() || error) return false;
+  return has_same_triangles(placed(body.in_link, read_mesh(body.file)), body.triangles);
+}
+
 }  // namespace
+
+std::vector<CertifiedBody> certified_bodies(std::span<const PathBody> bodies, const std::filesystem::path& folder) {
+  std::vector<CertifiedBody> certified;
+  for (const PathBody& body : bodies) {
+    certified.push_back({.name = body.name, .link = body.link});
+    if (is_whole(body))
+      certified.back().stl = std::filesystem::proximate(body.file, folder), certified.back().in_link = body.in_link;
+    else
+      certified.back().triangles = body.triangles;
+  }
+  return certified;
+}
 
 MotionCertificate pairs_certificate(const Robot& robot, std::span<const std::optional<CertifiedBody>> bodies,
                                     std::span<const PairProof> proofs) {

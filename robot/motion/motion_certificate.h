@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "robot/motion/pair_proof.h"
+#include "robot/motion/path_bodies.h"
 #include "robot/motion/path_proof.h"
 
 namespace prohull::robot {
@@ -30,6 +31,9 @@ struct MotionCertificate {
 /// About those of the pairs that are proven never to meet, and have trees. `bodies` has one of each link of these.
 MotionCertificate pairs_certificate(const Robot& robot, std::span<const std::optional<CertifiedBody>> bodies,
                                     std::span<const PairProof> proofs);
+
+/// Bodies of a path, for a certificate in this folder. Mesh files are named where they have all triangles as they are.
+std::vector<CertifiedBody> certified_bodies(std::span<const PathBody> bodies, const std::filesystem::path& folder);
 
 /// About those of the pairs that are proven to be apart by more than the gap all along the path, and have trees.
 /// `bodies` are those of the path.

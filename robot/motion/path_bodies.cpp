@@ -34,6 +34,13 @@ struct Shapes {
       if (mesh->face_count() > 0) meshes.push_back(*mesh);
     return meshes.empty() ? std::nullopt : std::optional<ProofBody>(std::span(meshes));
   }
+
+  void give(PathBody& body) const {
+    body.shape = shape();
+    body.was_inside_out = were_inside_out;
+    body.triangles = closed;
+    append(body.triangles, open);
+  }
 };
 
 bool has_finite_faces(const TriangleMesh& mesh) { return with_finite_faces(mesh).face_count() == mesh.face_count(); }
@@ -80,15 +87,18 @@ PathBody link_body(const Robot& robot, std::size_t link, Geometry which) {
     if (!has_finite_faces(mesh)) body.unread = "a mesh of it has corners that are not finite";
     all.add(std::move(mesh));
   }
-  body.shape = all.shape();
-  body.was_inside_out = all.were_inside_out;
+  all.give(body);
+  if (const auto& only = shapes(robot.links[link], which); only.size() == 1 && only[0].mesh())
+    body.file = only[0].mesh()->path, body.in_link = only[0].origin;
   return body;
 }
 
 PathBody path_body(std::string name, std::optional<std::size_t> link, const TriangleMesh& mesh) {
   Shapes all;
   all.add(mesh);
-  return {std::move(name), link, all.shape(), "", all.were_inside_out};
+  PathBody body{std::move(name), link};
+  all.give(body);
+  return body;
 }
 
 PathBodies path_bodies(const Robot& robot, Geometry which, std::span<const WorldMesh> world, const Progress& progress) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +23,10 @@ struct PathBody {
   std::optional<ProofBody> shape = {};
   std::string unread = {};      ///< why nothing can be proven about it; empty if all of it was read
   bool was_inside_out = false;  ///< a closed mesh of it, or a component of one, was turned
+  TriangleMesh triangles = {};  ///< of all parts
+  /// A mesh file that has all of it but for where its frame is in that of the link; empty if there is none.
+  std::filesystem::path file = {};
+  Pose in_link = {};
 };
 
 /// The bodies of a robot and its world. A link without the geometry that is asked for has the other one.
