@@ -590,6 +590,8 @@ static void find_way(double way[3], const double* x, double t[3][3]) {
     double s = dot(d, e) / dot(e, e);
     is_within &= dot(across, d) > 0, s = s > 0 ? (s < 1 ? s : 1) : 0;
     for (int k = 0; k < 3; ++k) d[k] -= s * e[k];
+    const double rest = s > 0 && s < 1 ? dot(d, e) / dot(e, e) : 0; /* what rounding left along the edge */
+    for (int k = 0; k < 3; ++k) d[k] -= rest * e[k];
     if (dot(d, d) < best) best = dot(d, d), memcpy(way, d, sizeof d);
   }
   const double s = dot(d, n) / dot(n, n);

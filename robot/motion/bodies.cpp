@@ -44,7 +44,8 @@ std::vector<std::optional<CertifiedBody>> certified_bodies(const Robot& robot, s
                                                            std::span<const HullFiles> hulls, Geometry from) {
   std::vector<std::optional<CertifiedBody>> bodies(robot.links.size());
   for (const LinkHulls& link : links) {
-    CertifiedBody& body = bodies[link.link].emplace(CertifiedBody{.name = robot.links[link.link].name, .link = link.link});
+    CertifiedBody& body =
+        bodies[link.link].emplace(CertifiedBody{.name = robot.links[link.link].name, .link = link.link});
     const auto files = std::ranges::find_if(
         hulls, [&](const HullFiles& of) { return of.link == link.link && of.set == 0 && of.meshes.size() == 1; });
     if (link.primitives.empty() && files != hulls.end() && files->meshes[0].extension() == ".stl")

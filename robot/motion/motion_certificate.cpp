@@ -28,7 +28,8 @@ std::string text_of(const Pose& pose) {
 
 /// A name for the end of a line.
 std::string line_of(std::string name) {
-  std::ranges::replace_if(name, [](unsigned char c) { return c < ' '; }, '?');
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return c < ' '; }, '?');
   return name;
 }
 
@@ -108,8 +109,7 @@ class Writer {
                              : slides(joint)                ? "slides"
                                                             : "loose";
     add("frame {} {}  {}", kind, parent, text_of(joint.origin));
-    if (moves(joint))
-      add("  {}  {}  {} {} ", text_of(joint.anchor), text_of(joint.axis), joint.lower, joint.upper);
+    if (moves(joint)) add("  {}  {}  {} {} ", text_of(joint.anchor), text_of(joint.axis), joint.lower, joint.upper);
     if (moves(joint) && joint.mimic)
       add("{} {} {}", frame_of_joint(joint.mimic->joint), joint.mimic->multiplier, joint.mimic->offset);
     else if (moves(joint))

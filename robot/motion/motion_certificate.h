@@ -17,7 +17,7 @@ namespace prohull::robot {
 struct CertifiedBody {
   std::string name;
   std::optional<std::size_t> link;  ///< that moves it; none: of the world
-  Pose in_link = {};     ///< where the frame of its triangles is in that of the link
+  Pose in_link = {};                ///< where the frame of its triangles is in that of the link
   /// A binary STL file that holds all of its triangles, as seen from the certificate; empty: `triangles` are written.
   std::filesystem::path stl = {};
   TriangleMesh triangles = {};

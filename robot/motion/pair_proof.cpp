@@ -87,13 +87,15 @@ class PairSearch {
     cell.number = result_.cells++;
     const JointChain::Motion motion = chain_.motion(cell.box);
     cell.distance = distance_of_balls(a_, b_, motion.pose, chain_.rounding());
-    if (cell.distance <= motion.change) {
-      const Closest closest = closest_parts(a_, b_, motion.pose, just_above(motion.change));
+    const double margin = record_.is_kept() ? chain_.rounding() : 0;
+    if (cell.distance <= motion.change + margin) {
+      const Closest closest = closest_parts(a_, b_, motion.pose, just_above(motion.change + 2 * margin));
       if (closest.separation.collide()) return meets_at(cell, motion.pose, closest);
       cell.distance = closest.separation.lower;
     }
     if (cell.distance > motion.change) {
       result_.proven_free += cell.share;
+      if (cell.distance <= motion.change + margin) record_.give_up();
       return;
     }
     const auto widest = std::ranges::max_element(motion.parts);

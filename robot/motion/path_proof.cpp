@@ -133,8 +133,8 @@ class PathSearch {
     double rounding = chain_.rounding();
     piece.change = motion.change;
     piece.distance = distance_of_balls(motion.pose);
-    if (options_.distances || !is_done(piece)) {
-      const double limit = options_.distances ? kInfinity : just_above(motion.change + options_.gap);
+    if (options_.distances || !(piece.distance > piece.change + options_.gap + margin())) {
+      const double limit = options_.distances ? kInfinity : just_above(motion.change + options_.gap + 2 * margin());
       const Closest found = closest(motion.pose, limit);
       piece.distance = std::max(piece.distance, found.separation.lower);
       rounding = std::max(rounding, std::min(found.separation.upper, limit) - found.separation.lower);
@@ -145,7 +145,10 @@ class PathSearch {
       }
     }
     piece.is_free = piece.distance > piece.change + options_.gap;
-    if (is_done(piece)) return done_.push_back(piece);
+    if (is_done(piece)) {
+      if (piece.distance <= piece.change + options_.gap + margin()) record_.give_up();
+      return done_.push_back(piece);
+    }
     const double middle = middle_place(piece.begin, piece.end);
     piece.may_be_smaller = piece.begin < middle && middle < piece.end &&
                            std::ranges::any_of(motion.parts, [&](double part) { return part > rounding; });
@@ -154,6 +157,9 @@ class PathSearch {
     else
       done_.push_back(piece);
   }
+
+  /// By how much a checker may see a distance otherwise, if it has to.
+  double margin() const { return record_.is_kept() ? chain_.rounding() : 0; }
 
   /// With a distance a of at least four times the change, the bound a - change is no less than 0.6 of any distance in
   /// the piece, which is at most a + change.

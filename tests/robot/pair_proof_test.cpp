@@ -380,6 +380,45 @@ TEST(PairProof, DecidesTheArmAndIsTheSameWithAnyNumberOfThreads) {
   EXPECT_GE(nevers, 8U);
 }
 
+/// The number of nodes of the tree that begins there, all freedoms of which are below `freedoms`.
+std::size_t tree_size(const CellTree& tree, std::size_t freedoms, std::size_t begin = 0) {
+  if (tree.at(begin) == kLeaf) return 1;
+  EXPECT_LT(tree[begin], freedoms);
+  const std::size_t first = tree_size(tree, freedoms, begin + 1);
+  return 1 + first + tree_size(tree, freedoms, begin + 1 + first);
+}
+
+TEST(PairProof, KeepsTheTreeOfItsCellsIfAsked) {
+  const Arm arm;
+  const std::vector<LinkPair> pairs{{0, 2}, {0, 3}, {1, 3}, {1, 4}};
+  const std::vector<PairProof> without = prove_pairs(arm.robot, arm.links, pairs);
+  const std::vector<PairProof> with = prove_pairs(arm.robot, arm.links, pairs, {.keep_trees = true});
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    EXPECT_EQ(with[i].verdict, without[i].verdict);
+    EXPECT_EQ(with[i].cells, without[i].cells);
+    EXPECT_TRUE(without[i].tree.empty());
+    EXPECT_EQ(with[i].tree.empty(), with[i].verdict != PairVerdict::Never);
+    if (with[i].tree.empty()) continue;
+    ++kept;
+    EXPECT_EQ(with[i].tree.size(), with[i].cells);
+    EXPECT_EQ(tree_size(with[i].tree, with[i].freedoms.size()), with[i].cells);
+    EXPECT_EQ(with[i].ranges.size(), with[i].freedoms.size());
+  }
+  EXPECT_GT(kept, 0U);
+}
+
+// A tree is kept only if a checker, which rounds in another way, finds the same.
+TEST(PairProof, KeepsNoTreeOfWhatIsProvenBarely) {
+  const std::vector<TriangleMesh> links{meshes::box({0, 0, 0}, {1, 1, 1}), meshes::box({0, 0, 0}, {1, 1, 1})};
+  for (const double distance : {1e-9, 1e-13}) {
+    const Robot robot = robot_of(2, {joint(JointType::Fixed, 0, 1, {1 + distance, 0, 0}, kAlongX)});
+    const LinkPair pair{0, 1};
+    const PairProof proof = prove_pairs(robot, links, std::span(&pair, 1), {.keep_trees = true}).front();
+    EXPECT_EQ(proof.tree.empty(), distance < 1e-12) << name_of(proof.verdict);
+  }
+}
+
 // What is proven takes the place of what was sampled.
 TEST(AddProofs, SetsKindsAndRowsOfTheSrdf) {
   Hinge hinge;

@@ -50,6 +50,15 @@ TEST(PathProof, FindsTheTimeOfAKnownContact) {
   EXPECT_EQ(slide.proof(slide.path({}, {{1}, {0}})).verdict, PathVerdict::Meets) << "touching counts";
 }
 
+TEST(PathProof, KeepsTheTreeOfItsPiecesIfAsked) {
+  const Slide slide;
+  const PathPairProof free = slide.proof(slide.path({}, {{3}, {0.1}, {2}}), {.keep_trees = true});
+  EXPECT_EQ(free.tree.size(), free.cells);
+  EXPECT_EQ(std::ranges::count(free.tree, kLeaf), std::ranges::count(free.tree, 0) + 1);
+  EXPECT_TRUE(slide.proof(slide.path({}, {{3}, {0.1}, {2}})).tree.empty());
+  EXPECT_TRUE(slide.proof(slide.path({}, {{3}, {-0.1}, {2}}), {.keep_trees = true}).tree.empty());
+}
+
 TEST(PathProof, FindsTheFirstOfSeveralContacts) {
   const Slide slide;
   const PathPairProof proof = slide.proof(slide.path({0, 1, 2, 3, 4}, {{1}, {-1e-3}, {1}, {-2}, {3}}));
