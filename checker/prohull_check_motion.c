@@ -140,7 +140,8 @@ static double doubt_of(const Pose* p, double distance) {
 static Pose composed(const Pose* a, const Pose* b) {
   Pose c;
   for (int i = 0; i < 9; ++i)
-    c.r[i / 3][i % 3] = a->r[i / 3][0] * b->r[0][i % 3] + a->r[i / 3][1] * b->r[1][i % 3] + a->r[i / 3][2] * b->r[2][i % 3];
+    c.r[i / 3][i % 3] =
+        a->r[i / 3][0] * b->r[0][i % 3] + a->r[i / 3][1] * b->r[1][i % 3] + a->r[i / 3][2] * b->r[2][i % 3];
   place(c.t, a, b->t, 0);
   c.turn = a->turn + b->turn + a->turn * b->turn + ROUND, c.shift = b->shift + doubt_of(a, length(b->t));
   if (!(c.turn < 1e-3)) end(1, "a rotation is too far from a rotation");
@@ -181,7 +182,7 @@ typedef struct {
   const char* name;
   size_t frame, n, components;
   Triangle* t;
-  Box* box; /* node 1 is the root; node i of n triangles has the children 2 i, of the first n / 2, and 2 i + 1 */
+  Box* box;      /* node 1 is the root; node i of n triangles has the children 2 i, of the first n / 2, and 2 i + 1 */
   double radius; /* no corner is farther from the origin */
   size_t* some;  /* of each component: a triangle */
   char* is_open; /* of each component */
@@ -344,7 +345,8 @@ static double *lows, *highs, *middles, *halves; /* of the freedoms */
 /* A matrix differs from the rotation that is closest to it by less than its product with its transpose from 1. */
 static void read_origin(Pose* p) {
   double across[3], sum = 0;
-  reals(p->r[0], 9, 2), reals(p->t, 3, FARTHEST), cross(across, p->r[0], p->r[1]);
+  for (int i = 0; i < 3; ++i) reals(p->r[i], 3, 2);
+  reals(p->t, 3, FARTHEST), cross(across, p->r[0], p->r[1]);
   for (int i = 0; i < 9; ++i) {
     const double d = dot(p->r[i / 3], p->r[i % 3]) - (i % 4 == 0);
     sum += d * d;
@@ -361,7 +363,8 @@ static void read_frame(void) {
   if (f.kind == KINDS) unreadable("this kind of frame is not known");
   if (f.kind != ROOT) f.parent = count(frame_count), read_origin(&f.origin);
   if (f.kind == TURNS || f.kind == SLIDES) {
-    reals(f.anchor, 3, FARTHEST), reals(f.axis, 3, 2), f.low = real(-INFINITY, INFINITY), f.high = real(-INFINITY, INFINITY);
+    reals(f.anchor, 3, FARTHEST), reals(f.axis, 3, 2), f.low = real(-INFINITY, INFINITY),
+                                                       f.high = real(-INFINITY, INFINITY);
     if (!(fabs(length(f.axis) - 1) < 1e-6)) unreadable("the axis has not the length 1");
     if (!pass("free")) f.master = count(NONE), f.factor = real(-1e6, 1e6), f.offset = real(-1e6, 1e6);
   }
@@ -389,7 +392,8 @@ static size_t leader_of(size_t j, int* whole) {
     if (++steps > 100 || frames[j].master >= frame_count || frames[frames[j].master].kind == FIXED)
       end(1, "joint %s follows one that is not known", frames[j].name);
   }
-  if (frames[j].kind != TURNS && frames[j].kind != SLIDES) end(1, "%s moves in a way that is not known", frames[j].name);
+  if (frames[j].kind != TURNS && frames[j].kind != SLIDES)
+    end(1, "%s moves in a way that is not known", frames[j].name);
   return j;
 }
 
@@ -431,7 +435,8 @@ static void find_reach(size_t j, double* middle, double* half) {
   if (f->master != NONE) {
     find_reach(f->master, middle, half);
     const double scaled = f->factor * *middle;
-    *half = fabs(f->factor) * *half * (1 + ROUND) + ROUND * (fabs(scaled) + fabs(f->offset)), *middle = scaled + f->offset;
+    *half = fabs(f->factor) * *half * (1 + ROUND) + ROUND * (fabs(scaled) + fabs(f->offset)),
+    *middle = scaled + f->offset;
   } else if (f->freedom != NONE) {
     *middle = middles[f->freedom], *half = halves[f->freedom];
   } else {
@@ -503,8 +508,8 @@ static Axis moved_axis(const Pose* p, const Axis* axis) {
   return moved;
 }
 
-/* The pose of b in the frame of a where all freedoms are in their middles; and of each hinge how far it goes from there,
-   and its axis in the frame of a. */
+/* The pose of b in the frame of a where all freedoms are in their middles; and of each hinge how far it goes from
+   there, and its axis in the frame of a. */
 static Pose middle_pose(double* reach, Axis* axes) {
   Pose p = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}, 0, 0};
   for (size_t h = 0; h < hinge_count; ++h) {
@@ -628,7 +633,8 @@ static int are_apart(Sight* s, size_t i, size_t first, size_t n, size_t j, size_
   if (m == 1 || (n > 1 && length(a->half) > length(b->half)))
     return are_apart(s, 2 * i, first, n / 2, j, other, m) &&
            are_apart(s, 2 * i + 1, first + n / 2, n - n / 2, j, other, m);
-  return are_apart(s, i, first, n, 2 * j, other, m / 2) && are_apart(s, i, first, n, 2 * j + 1, other + m / 2, m - m / 2);
+  return are_apart(s, i, first, n, 2 * j, other, m / 2) &&
+         are_apart(s, i, first, n, 2 * j + 1, other + m / 2, m - m / 2);
 }
 
 /* ---- Whether one body is inside of the other ---- */
@@ -692,7 +698,8 @@ static void prove_cell(void) {
   const int is_first = cells++ == 0;
   spend(50);
   s->least = change_of(s->a, s->b, &s->p) + gap, s->back = inverse(&s->p);
-  s->doubt = larger(doubt_of(&s->p, s->b->radius) + ROUND * s->a->radius, doubt_of(&s->back, s->a->radius) + ROUND * s->b->radius);
+  s->doubt = larger(doubt_of(&s->p, s->b->radius) + ROUND * s->a->radius,
+                    doubt_of(&s->back, s->a->radius) + ROUND * s->b->radius);
   if (is_first) s->least += s->doubt; /* so that points that are placed have not passed through the other surface */
   if (!are_apart(s, 1, 0, s->a->n, 1, 0, s->b->n))
     end(1, "%s and %s may be too close in cell %lu of their tree", s->a->name, s->b->name, COUNT(cells));
@@ -738,7 +745,8 @@ static void add_segment(double* const row[2], const double* time, const int* kin
   degrees = room(degrees, rows - 1, sizeof *degrees), degrees[rows - 1] = degree;
   for (size_t k = 0; k < path_joints; ++k) {
     const double *const a = row[0] + 3 * k, *const b = row[1] + 3 * k, v = h * a[1], w = h * b[1];
-    double* const c = (curves = room(curves, (rows - 1) * path_joints + k, sizeof *curves))[(rows - 1) * path_joints + k];
+    double* const c =
+        (curves = room(curves, (rows - 1) * path_joints + k, sizeof *curves))[(rows - 1) * path_joints + k];
     c[0] = a[0], c[degree] = b[0];
     if (degree == 3) c[1] = a[0] + v / 3, c[2] = b[0] - w / 3;
     if (degree == 5)
@@ -778,7 +786,8 @@ static double blossom(const double* curve, int degree, double u, double v, int t
   double c[6];
   memcpy(c, curve, sizeof c);
   for (int step = 0; step < degree; ++step)
-    for (int i = 0; i < degree - step; ++i) c[i] = (1 - (step < times ? v : u)) * c[i] + (step < times ? v : u) * c[i + 1];
+    for (int i = 0; i < degree - step; ++i)
+      c[i] = (1 - (step < times ? v : u)) * c[i] + (step < times ? v : u) * c[i + 1];
   return c[0];
 }
 
@@ -857,7 +866,8 @@ int main(int arguments, char** names) {
     else
       unreadable("this belongs not here, or the end is missing");
   if (!pairs) end(1, "the certificate has no pairs");
-  printf("proven: %lu pair%s %s", COUNT(pairs), pairs == 1 ? "" : "s", rows ? "apart at every moment of the path" : "that never meet");
+  printf("proven: %lu pair%s %s", COUNT(pairs), pairs == 1 ? "" : "s",
+         rows ? "apart at every moment of the path" : "that never meet");
   if (gap > 0) printf(", by more than %.17g", gap);
   putchar('\n');
   return 0;
