@@ -865,6 +865,8 @@ int main(int arguments, char** names) {
       prove_pair(), ++pairs;
     else
       unreadable("this belongs not here, or the end is missing");
+  skip_space();
+  if (at != begin_of_file + size) unreadable("the certificate goes on behind its end");
   if (!pairs) end(1, "the certificate has no pairs");
   printf("proven: %lu pair%s %s", COUNT(pairs), pairs == 1 ? "" : "s",
          rows ? "apart at every moment of the path" : "that never meet");

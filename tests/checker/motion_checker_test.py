@@ -256,6 +256,7 @@ class Hostile(Folder):
         self.expect(UNREADABLE, "no tree", *hinge(-1, 1, tree="a" * 900 + "b"))
         self.expect(UNREADABLE, "belongs not here", *hinge(-1, 1, tree=full_tree(5) + "."))
         self.expect(NOT_PROVEN, "no pairs", root())
+        self.expect(UNREADABLE, "behind its end", *hinge(-1, 1), "end\n")
         self.expect(UNREADABLE, "a path already", *hinge(-1, 1)[:4], *2 * [path([1], [(0, (0,))])])
 
     def test_files_that_are_none(self):
