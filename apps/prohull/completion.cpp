@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <string_view>
 
 #include "arguments.h"
@@ -216,7 +217,7 @@ void add_completion(CLI::App& app, Run& run) {
   add_examples(command, {"source <(prohull completion bash)", "prohull completion fish | source"});
   command.callback([&app, shell, &run] {
     run = [&app, shell] {
-      fmt::print("{}", (*shell)(command_of(app), commands_of(app)));
+      std::fputs((*shell)(command_of(app), commands_of(app)).c_str(), stdout);
       return kDone;
     };
   });

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
@@ -237,7 +238,7 @@ void add_help(CLI::App& app, Run& run) {
     if (!name->empty() && std::ranges::find(words, *name) == words.end())
       throw CLI::ValidationError("command", fmt::format("unknown command '{}'{}", *name, suggestion(*name, words)));
     run = [&app, name, all] {
-      fmt::print("{}", help_of(name->empty() ? app : *app.get_subcommand(*name), *all));
+      std::fputs(help_of(name->empty() ? app : *app.get_subcommand(*name), *all).c_str(), stdout);
       return kDone;
     };
   });

@@ -40,9 +40,7 @@ void add_commands(CLI::App& app, Run& run) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
   CLI::App app(fmt::format("prohull {}: {}. Makes ever coarser meshes, each of which provably encloses the finer one.",
                            PROHULL_VERSION, kWhatItIs),
                "prohull");
@@ -62,10 +60,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
-
   catch_interrupts(remove_unfinished_outputs);
+  return run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    return run();
+    const int code = parse_and_run(argc, argv);
+    flush_standard_output();
+    return code;
   } catch (const prohull::Cancelled&) {
     return tell_interrupted();
   } catch (const prohull::InputError& error) {

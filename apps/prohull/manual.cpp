@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <string_view>
 
 #include "arguments.h"
@@ -113,7 +114,7 @@ void add_manual(CLI::App& app, Run& run) {
   add_examples(command, {"prohull manual | man -l -"});
   command.callback([&app, &run] {
     run = [&app] {
-      fmt::print("{}", manual_page(command_of(app), commands_of(app)));
+      std::fputs(manual_page(command_of(app), commands_of(app)).c_str(), stdout);
       return kDone;
     };
   });

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -34,7 +35,7 @@ std::vector<path> g_temporaries, g_folders;
 std::atomic<bool> g_any_has_appeared = false;
 
 [[noreturn]] void fail_to_write(const path& target, const std::string& why) {
-  throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write: {}", target.string(), why));
+  throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write: {}", output_name(target), why));
 }
 
 [[noreturn]] void fail_to_write(const path& target) { fail_to_write(target, std::generic_category().message(errno)); }
@@ -285,6 +286,15 @@ CLI::Option* add_out_format_option(CLI::App& command, std::string& format, const
 }
 
 void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
+
+void flush_standard_output() {
+  const bool has_failed = std::ferror(stdout) != 0;
+  if (std::fflush(stdout) != 0) {
+    if (errno != EPIPE) fail_to_write("-");  // a reader who goes away has seen enough
+  } else if (has_failed) {
+    fail_to_write("-", "a part of what was printed is missing");
+  }
+}
 
 std::string output_name(const path& file) { return is_standard_stream(file) ? "standard output" : file.string(); }
 

@@ -53,6 +53,10 @@ bool has_any_output_appeared();
 /// Removes what was not committed, for a program that ends without unwinding. No output can be committed after that.
 void remove_unfinished_outputs();
 
+/// What was printed is not lost: throws InputError(CannotWrite) if standard output has not taken all of it. A pipe
+/// whose reader has gone away is no error.
+void flush_standard_output();
+
 bool is_standard_stream(const std::filesystem::path& path);
 
 /// Before any work: throws InputError(InvalidOption) if two of the outputs are the same file, or one of them is an

@@ -55,6 +55,29 @@ is "a link that led to nothing leads to the file" test -L dangling.ply -a -s mis
 # --- standard output ---
 expect 0 "standard output" $build -o - --out-format ply --quiet
 is "standard output has the file" cmp -s out new.ply
+if [ -e /dev/full ]; then
+  into_full() { "$@" >/dev/full; }
+  while read -r lost; do
+    expect 3 "an answer that is lost: $lost" into_full $prohull $lost
+    is "an answer that is lost: $lost" test "$(tail -n 1 err | cut -d: -f1-3)" = "prohull: standard output: cannot write"
+  done <<END
+info mesh.ply
+verify mesh.ply mesh.ply
+build mesh.ply --faces 50 -o lost.ply
+help build
+manual
+completion bash
+--version
+info mesh.ply --report -
+END
+  expect 3 "why an answer is lost" into_full $prohull verify mesh.ply mesh.ply
+  is "why an answer is lost" test "$(cat err)" = "prohull: standard output: cannot write: No space left on device"
+  expect 2 "an error is told first" into_full $prohull info --no-such-option
+  expect 0 "nothing to lose" into_full $build -o new.ply --quiet
+fi
+into_closed_pipe() { { trap '' PIPE; "$@" 2>err; echo $? >code; } | true; }
+into_closed_pipe sh -c "sleep 0.2; $prohull info mesh.ply"
+is "a reader who goes away is no error" test "$(cat code)" = 0
 mkfifo fifo
 $build -o - --out-format ply --quiet >fifo 2>err &
 cat fifo >piped.ply
