@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
+#include <functional>
+#include <optional>
+
 #include "command.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/detail/summary.h"
 #include "prohull/mesh_io.h"
+#include "verdict.h"
 
 namespace prohull::cli {
 namespace {
@@ -15,33 +19,84 @@ struct LodOptions {
   std::optional<Axis> mirror;
 };
 
-int extract(const LodOptions& options) {
-  const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
-  check_files({options.in}, {options.out, options.report});
-  const Stopwatch reading;
-  const ProgressiveHull hull = read_hull(options.in);
-  const double read_seconds = reading.seconds();
-  stop_if_interrupted();
-  const Stopwatch extracting;
+TriangleMesh level_of(const ProgressiveHull& hull, const LodOptions& options, const std::string& suffix) {
   TriangleMesh level =
       hull.level(options.mirror ? symmetric_faces(hull, *options.mirror, options.faces) : options.faces);
   if (stores_float32(mesh_format("mesh" + suffix)) && level.face_count() < hull.original_face_count())
     level = with_float32_coordinates(level, hull.side()).mesh;
-  const double extract_seconds = extracting.seconds();
-  Outputs outputs;
-  outputs.add(options.out, suffix, [&](const auto& file) { return write_mesh(file, level), true; });
-  outputs.add_report(options.report, {{"path", options.out.string()},
-                                      {"faces", level.face_count()},
-                                      {"vertices", level.vertex_count()},
-                                      {"volume", signed_volume(level)},
-                                      {"finest_level", name_of(finest_level_names(), hull.finest_level())}});
-  outputs.commit();
-  say("{}: {} of {}{}\n", output_name(options.out), counted(level.face_count(), "face"),
-      grouped(hull.original_face_count()),
-      options.faces != 0 && level.face_count() > options.faces ? ", which is the coarsest level of the file" : "");
+  return level;
+}
+
+struct LodOutcome {
+  TriangleMesh level, written;             ///< `written`: what the file holds
+  std::optional<Verification> found = {};  ///< against the finest level, unless it is that, bit for bit
+  double read_seconds = 0, extract_seconds = 0, verify_seconds = 0;
+
+  bool certified() const { return !found || found->encloses; }
+};
+
+Verification verified(const TriangleMesh& written, const TriangleMesh& finest, HullSide side) {
+  ProgressLine line;
+  return verify_hull(written, finest, side, {.progress = std::ref(line)});
+}
+
+std::string certificate_of(const LodOutcome& outcome) {
+  return outcome.found ? certificate_of_level(*outcome.found) : "yes, the file as written is the finest level";
+}
+
+nlohmann::json report_of(const LodOptions& options, const ProgressiveHull& hull, const LodOutcome& outcome) {
+  nlohmann::json report = {
+      {"path", options.out.string()},
+      {"faces", outcome.level.face_count()},
+      {"vertices", outcome.level.vertex_count()},
+      {"volume", signed_volume(outcome.level)},
+      {"finest_level", name_of(finest_level_names(), hull.finest_level())},
+      {"certified", outcome.certified()},
+      {"seconds",
+       {{"read", outcome.read_seconds}, {"extract", outcome.extract_seconds}, {"verify", outcome.verify_seconds}}}};
+  if (outcome.found) {
+    report["why_not"] = outcome.found->why_not;
+    report["faces_outside"] = outcome.found->faces_outside;
+    report["verdict"] = facts(*outcome.found);
+  }
+  return report;
+}
+
+void print_summary(const LodOptions& options, const ProgressiveHull& hull, const LodOutcome& outcome) {
+  const std::size_t faces = outcome.level.face_count();
+  say("{}: {} of {}{}\n", output_name(options.out), counted(faces, "face"), grouped(hull.original_face_count()),
+      options.faces != 0 && faces > options.faces ? ", which is the coarsest level of the file" : "");
   if (const std::string finest = described_finest_level(hull.finest_level()); !finest.empty())
     say("  the finest level of the file is {}, not the input itself\n", finest);
-  say_more("  read {:.2f} s, extracted {:.2f} s\n", read_seconds, extract_seconds);
+  say("  certified: {}\n", certificate_of(outcome));
+  say_more("  read {:.2f} s, extracted {:.2f} s, verified in {:.2f} s\n", outcome.read_seconds, outcome.extract_seconds,
+           outcome.verify_seconds);
+}
+
+int extract(const LodOptions& options) {
+  const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
+  check_files({options.in}, {options.out, options.report});
+  LodOutcome outcome;
+  const Stopwatch reading;
+  const ProgressiveHull hull = read_hull(options.in);
+  outcome.read_seconds = reading.seconds();
+  stop_if_interrupted();
+  const Stopwatch extracting;
+  outcome.level = level_of(hull, options, suffix);
+  outcome.extract_seconds = extracting.seconds();
+  Outputs outputs;
+  outputs.add(options.out, suffix, [&](const auto& file) {
+    write_mesh(file, outcome.level);
+    outcome.written = read_mesh(file);
+    return true;
+  });
+  const Stopwatch verifying;
+  const TriangleMesh finest = hull.original();
+  if (!has_triangles_of(outcome.written, finest)) outcome.found = verified(outcome.written, finest, hull.side());
+  outcome.verify_seconds = verifying.seconds();
+  outputs.add_report(options.report, report_of(options, hull, outcome));
+  outputs.commit();
+  print_summary(options, hull, outcome);
   return kDone;
 }
 
@@ -51,10 +106,11 @@ void add_lod(CLI::App& app, Run& run) {
   const auto options = std::make_shared<LodOptions>();
   CLI::App& command = *app.add_subcommand(
       "lod",
-      "Extracts a level of a .phull file as a mesh. Every level encloses the next finer one (of an inner hull: is "
-      "enclosed by it), and the finest is the mesh that the hull was built from, bit for bit: the input, or what was "
-      "made of it, which "
-      "is then said.");
+      "Extracts a level of a .phull file as a mesh. Every level encloses the solid of the next finer one (of an inner "
+      "hull: is enclosed by it), and the finest is the mesh that the hull was built from, bit for bit: the input, or "
+      "what was made of it, which is then said. Where the finest level folds over itself, as that of an input with "
+      "openings or overlapping parts may, a level can leave some of its faces uncovered. Each level is compared with "
+      "the finest one as it is written, and the summary says whether it encloses it.");
   command
       .add_option("in", options->in,
                   "File with all levels of a hull, which `prohull build --hierarchy` wrote. With - it is "

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "command.h"
+#include "prohull/detail/text.h"
 
 namespace prohull::cli {
 
@@ -38,6 +39,16 @@ std::string SizeComparison::doubt() const {
 
 nlohmann::json SizeComparison::facts() const {
   return {{"size_ratio", finite_or_null(ratio_)}, {"units_doubtful", is_doubtful()}};
+}
+
+std::string certificate_of_level(const Verification& found) {
+  const std::string file = "the file as written", finest = "the finest level";
+  const bool is_outer = found.side == HullSide::Outer;
+  const std::string what = claim(found, is_outer ? file : finest, is_outer ? finest : file);
+  if (found.encloses) return "yes, " + what;
+  if (found.faces_outside == 0) return fmt::format("no, {}: {}", what, found.why_not);
+  return fmt::format("no, {} {} of {} uncovered, at least in part: {}", is_outer ? "it leaves" : finest + " leaves",
+                     counted(found.faces_outside, "face"), is_outer ? finest : "it", found.why_not);
 }
 
 nlohmann::json facts(const Verification& found) {

@@ -30,6 +30,9 @@ class SizeComparison {
   double ratio_ = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// What `lod` says behind "certified: " of a level as it is written, which was compared with the finest one.
+std::string certificate_of_level(const Verification& found);
+
 /// As reports have them: what was proven, against what.
 nlohmann::json facts(const Verification& found);
 nlohmann::json facts(const DistanceBounds& bounds);

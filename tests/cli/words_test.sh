@@ -60,6 +60,32 @@ says solid.json "parts that overlap count once" '"volume": 1.0'
 expect 0 "one defect" $prohull info nan.obj
 says out "one defect" "1 vertex that is not finite"
 
+# --- levels ---
+$prohull sample sphere -o sphere.obj --faces 600 --quiet
+awk '/^v / { ++n; if (n == 1 || $4 > top) { top = $4; highest = n } } { line[NR] = $0 } END { n = 0
+  for (i = 1; i <= NR; ++i) print line[i] ~ /^v / && ++n == highest ? "v 0.03 0.05 -1.001" : line[i] }' sphere.obj >folded.obj
+for mesh in sphere folded; do
+  expect 0 "levels: $mesh" $prohull build $mesh.obj --faces 12 --hierarchy $mesh.phull -o hull.ply
+done
+expect 0 "a level that encloses" $prohull lod sphere.phull --faces 300 -o level.stl --report level.json
+says out "a level that encloses" "certified: yes, the file as written encloses the finest level"
+says level.json "a level that encloses" '"certified": true'
+expect 0 "a level that leaves folds" $prohull lod folded.phull --faces 300 -o level.ply --report level.json
+says out "a level that leaves folds" "of the finest level uncovered, at least in part: triangles of folds"
+says level.json "a level that leaves folds" '"certified": false'
+expect 1 "a level that leaves folds: verify" $prohull verify level.ply folded.obj
+uncovered=$(sed -n 's/^  \([0-9]*\) faces* of folded.obj lies* outside.*/\1/p' out)
+expect 0 "how many faces it leaves" $prohull lod folded.phull --faces 300 -o level.ply
+says out "how many faces it leaves" "certified: no, it leaves $uncovered face"
+expect 0 "the base mesh covers them" $prohull lod folded.phull -o level.ply
+says out "the base mesh covers them" "certified: yes, the file as written encloses the finest level"
+expect 0 "the finest level" $prohull lod folded.phull --faces 600 -o level.ply --report level.json
+says level.json "the finest level" '"certified": true'
+says out "the finest level" "certified: yes, the file as written is the finest level"
+expect 0 "an inner hull" $prohull build sphere.obj --side inner --faces 100 --hierarchy inner.phull -o hull.ply
+expect 0 "an inner level" $prohull lod inner.phull --faces 300 -o level.ply
+says out "an inner level" "certified: yes, the finest level encloses the file as written"
+
 # --- several meshes ---
 mkdir hulls
 expect 0 "more faces than asked for" $prohull build cube.obj rock.ply --repair none --faces 6 -o hulls/{name}.obj
