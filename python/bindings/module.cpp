@@ -4,7 +4,10 @@
 
 #include <oneapi/tbb/global_control.h>
 
+#include <cstring>
+#include <exception>
 #include <new>
+#include <utility>
 
 #include "prohull/detail/missing_file.h"
 #include "prohull/detail/threads.h"
@@ -20,13 +23,37 @@ void end_idle_threads() {
   static_cast<void>(oneapi::tbb::finalize(scheduler, std::nothrow));
 }
 
+/// Names of files need not be UTF-8: such a byte becomes "\\xff" in the message.
+void raise(const pybind11::handle& type, const char* what) {
+  const auto message = pybind11::reinterpret_steal<pybind11::object>(
+      PyUnicode_DecodeUTF8(what, static_cast<Py_ssize_t>(std::strlen(what)), "backslashreplace"));
+  PyErr_SetObject(type.ptr(), message.ptr());
+}
+
+/// The classes live as long as the module, which is never unloaded.
+void bind_errors(pybind11::module_& module) {
+  static const pybind11::handle bad_input =
+      pybind11::exception<prohull::InputError>(module, "InputError", PyExc_ValueError).inc_ref();
+  static const pybind11::handle missing =
+      pybind11::exception<prohull::MissingFile>(
+          module, "MissingFile", pybind11::make_tuple(bad_input, pybind11::handle(PyExc_FileNotFoundError)))
+          .inc_ref();
+  pybind11::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(std::move(thrown));
+    } catch (const prohull::MissingFile& error) {
+      raise(missing, error.what());
+    } catch (const prohull::InputError& error) {
+      raise(bad_input, error.what());
+    }
+  });
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_prohull, module) {
   module.attr("version") = PROHULL_VERSION;
-  const auto error = pybind11::register_exception<prohull::InputError>(module, "InputError", PyExc_ValueError);
-  pybind11::register_exception<prohull::MissingFile>(
-      module, "MissingFile", pybind11::make_tuple(error, pybind11::handle(PyExc_FileNotFoundError)));
+  bind_errors(module);
   pybind11::module_::import("os").attr("register_at_fork")(pybind11::arg("before") =
                                                                pybind11::cpp_function(&end_idle_threads));
   prohull::python::bind_meshes(module);

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <future>
+#include <string>
 
 #include "prohull/error.h"
 
@@ -18,6 +19,9 @@ void tell(const pybind11::object& progress, const std::string& stage, double fra
 
 void watch_over(const pybind11::object& progress, const std::function<void(Watch&)>& work) {
   constexpr std::chrono::milliseconds kLook{50};
+  if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0)
+    throw pybind11::type_error(std::string("progress must be callable, or None; it is of type ") +
+                               Py_TYPE(progress.ptr())->tp_name);
   Watch watch;
   tell(progress, "start", 0);
   std::future<void> result = std::async(std::launch::async, [&] { work(watch); });

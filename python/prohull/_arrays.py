@@ -30,6 +30,14 @@ def _numbers(name: str, values: ArrayLike) -> NDArray[Any]:
     return made
 
 
+def path(value: Any) -> Any:
+    """The path of a file. No system has names with a zero byte."""
+    name = os.fspath(value)
+    if ("\0" if isinstance(name, str) else b"\0") in name:
+        raise InputError(f"{name!r}: a zero byte is in this name, and so there is no such file")
+    return value
+
+
 def face_counts(name: str, counts: Any) -> NDArray[Any]:
     """One number of faces, or several of them."""
     array = np.asarray(counts)

@@ -18,6 +18,7 @@ def mesh_of(mesh: MeshLike, keep_non_finite: bool = False) -> Mesh:
     if isinstance(mesh, Mesh):
         return mesh
     if isinstance(mesh, (str, os.PathLike)):
+        _arrays.path(mesh)
         return load(mesh) if _prohull.is_hull_file(mesh) else Mesh._of(_prohull.read(mesh, keep_non_finite, 1.0))
     arrays = _arrays.arrays_of_mesh(mesh)
     if arrays is None:
@@ -54,7 +55,7 @@ def read(path: Path, *, scale: float = 1.0) -> Mesh:
     scale: every coordinate is multiplied by this number, greater than 0, and rounded to the nearest double. 0.001 makes
         metres of millimetres.
     """
-    if _prohull.is_hull_file(path):
+    if _prohull.is_hull_file(_arrays.path(path)):
         raise InputError(f"{os.fspath(path)}: this file holds the levels of a hull; prohull.load reads it")
     return Mesh._of(_prohull.read(path, False, float(scale)))
 
@@ -71,7 +72,7 @@ def load(path: Path) -> Hull:
     level, the `original`, is not what build() was given but what it made of that. Raises InputError if the file is not
     a sound .phull file. A mesh file is read by read().
     """
-    levels = _prohull.load(path)
+    levels = _prohull.load(_arrays.path(path))
     faces = levels.base_face_count
     original = levels.level(levels.original_face_count)
     found = _prohull.verify_levels(levels, original, False, 0.0, False, None)
@@ -98,6 +99,7 @@ def sample(name: str, faces: int) -> Mesh:
 
 def bytes_of(path: Path) -> bytes:
     """Of a whole file; errors are those of meshes that cannot be read."""
+    _arrays.path(path)
     try:
         return pathlib.Path(path).read_bytes()
     except FileNotFoundError:

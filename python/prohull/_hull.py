@@ -4,13 +4,21 @@ import math
 import os
 from typing import TYPE_CHECKING, Any, Optional
 
-from . import _prohull
+from . import _arrays, _prohull
 from ._meshes import Mesh
 from ._prohull import InputError
 from ._types import Axis, Path, Proof, Side, Source
 
 if TYPE_CHECKING:
     from ._view import Part
+
+
+def _why_no_proof(certified: bool) -> str:
+    """Of a level."""
+    if not certified:
+        return "the hull that this is a level of is not certified"
+    return ("this level leaves faces of the original uncovered: where it folds over itself, levels that are finer than the "
+            "hull may")
 
 
 class Hull(Mesh):
@@ -99,16 +107,18 @@ class Hull(Mesh):
         """The finest level of at most `faces` faces; the coarsest one if that has more.
 
         Of a hull that was built with `mirror`, it is the finest symmetric one. A hull that was loaded does not know it.
-        Each level encloses the next finer one (inner hulls: is enclosed by it). A level is a hull without levels of its
-        own. Raises InputError if the hull has no levels.
+        Each level encloses the solid of the next finer one (inner hulls: is enclosed by it). Where the original folds
+        over itself, as with openings or overlapping parts, a level may leave some of its faces uncovered: then
+        `certified` is false, and `notes` say why. A level is a hull without levels of its own. Raises InputError if the
+        hull has no levels.
         """
-        levels = self._with_levels()
+        levels, faces = self._with_levels(), _arrays.count("faces", faces, bits=63)
         level = levels.level(levels.symmetric_faces(self._mirror, faces) if self._mirror else faces)
         proof = ("" if not self.certified else
                  "replay" if self._replay_suffices and self._covered is None else self._proof_of(level))
         return self._as(level, certified=bool(proof), proof=proof, target_faces=faces,
                         target_reached=len(level.faces) <= faces, within_bounds=self._is_within_bounds(level),
-                        rounded_vertices=0, refusals={}, blocked={}, relaxed_guards=0, notes=[], _levels=None)
+                        rounded_vertices=0, refusals={}, blocked={}, relaxed_guards=0, notes=[] if proof else [_why_no_proof(self.certified)], _levels=None)
 
     def with_float32_coordinates(self) -> "Hull":
         """The hull with coordinates that float32 keeps, as STL and GLB files do: itself if it has such already.
@@ -135,7 +145,7 @@ class Hull(Mesh):
         Raises InputError for another suffix, for .phull if there are no levels, and if a certified hull that is rounded
         for STL or GLB is not certified, or not within its bounds, any more; the message says what to do.
         """
-        if os.fspath(path).lower().endswith(".phull"):
+        if os.fspath(_arrays.path(path)).lower().endswith(".phull"):
             self._with_levels().save(path)
         elif _prohull.stores_float32(path):
             self._rounded_for(path)._core.write(path)

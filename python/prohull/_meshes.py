@@ -204,7 +204,7 @@ class Mesh(Shown):
         Raises InputError for another suffix, if the file cannot be written, and if coordinates are not float32 numbers,
         which is all that .stl and .glb files keep. A Hull is rounded where that is needed.
         """
-        self._core.write(path)
+        self._core.write(_arrays.path(path))
 
     def to_trimesh(self) -> "trimesh.Trimesh":
         """Makes a copy as a mesh of trimesh, which must be installed."""

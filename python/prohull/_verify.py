@@ -7,7 +7,7 @@ from typing import NamedTuple, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _prohull
+from . import _arrays, _prohull
 from ._files import distance_of, mesh_of
 from ._hull import Hull
 from ._types import Gap, MeshLike, Progress, Proof, Side
@@ -85,7 +85,7 @@ def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, s
     """
     mesh = mesh_of(original, keep_non_finite=True)
     second, distance = mesh._core, distance_of("gap", gap, mesh)
-    if isinstance(hull, (str, os.PathLike)) and _prohull.is_hull_file(hull):
+    if isinstance(hull, (str, os.PathLike)) and _prohull.is_hull_file(_arrays.path(hull)):
         facts = _prohull.verify_levels(_prohull.load(hull), second, solid_only, distance, finite_only, progress)
     else:
         first = mesh_of(hull)

@@ -179,7 +179,7 @@ def _name_of_file(path: Path) -> str:
 
 def _part_of_file(path: str) -> Part:
     name = _name_of_file(path)
-    if _prohull.is_hull_file(path):
+    if _prohull.is_hull_file(_arrays.path(path)):
         return levels_part(name, _prohull.load(path))
     if _prohull.is_robot_file(path):
         robot = _prohull.read_robot(path, [])

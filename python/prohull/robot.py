@@ -345,7 +345,7 @@ class Robot(Shown):
 
         Raises InputError for what cannot be read, or is no robot.
         """
-        return cls(_prohull.read_robot(path, list(package_paths)), os.fspath(path))
+        return cls(_prohull.read_robot(_arrays.path(path), list(package_paths)), os.fspath(path))
 
     def poses(self, positions: Positions = ()) -> NDArray[np.float64]:
         """(links, 4, 4): where each link is, in the frame of the root, for positions of the joints."""

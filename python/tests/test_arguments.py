@@ -97,3 +97,23 @@ def test_a_report_lists_openings(cube):
     assert prohull.Mesh(vertices, faces).report()["openings"] == []
     without_a_side = prohull.Mesh(vertices, faces[2:]).report()
     assert without_a_side["openings"] == pytest.approx([8**0.5])
+
+
+@pytest.mark.parametrize("ask", [lambda path: prohull.build(path, 200), prohull.read, prohull.load,
+                                 lambda path: prohull.verify(path, path)])
+def test_names_that_no_file_has_are_told(ask):
+    with pytest.raises(prohull.InputError, match=r"a\\xffb.stl: cannot read: there is no such file") as told:
+        ask("a\udcffb.stl")
+    assert isinstance(told.value, FileNotFoundError)
+    with pytest.raises(prohull.InputError, match=r"'a\\x00b.stl': a zero byte is in this name"):
+        ask("a\0b.stl")
+
+
+def test_a_level_has_a_number_of_faces(hull):
+    with pytest.raises(prohull.InputError, match="faces=-1: expected a whole number, at least 0"):
+        hull.level(-1)
+
+
+def test_progress_is_called(pony):
+    with pytest.raises(TypeError, match="progress must be callable, or None; it is of type int"):
+        prohull.build(pony, 200, progress=3)

@@ -164,6 +164,18 @@ def test_levels_are_nested_views(hull, pony):
     assert np.array_equal(finest.vertices[finest.faces], pony.vertices[pony.faces])
 
 
+def test_a_level_that_leaves_folds_says_so():
+    ball = prohull.sample("sphere", 600)
+    vertices = ball.vertices.copy()
+    vertices[np.argmax(vertices[:, 2])] = [0.03, 0.05, -1.001]
+    hull = prohull.build(vertices, ball.faces, target_faces=12, levels=True)
+    assert hull.certified and hull.source == "mesh"
+    level = hull.level(300)
+    assert not prohull.verify(level, hull.original)
+    assert not level.certified and "leaves faces of the original uncovered" in level.notes[0]
+    assert hull.level(12).certified and not hull.level(12).notes
+
+
 def test_openings_are_closed_unless_they_are_to_be_kept(cube):
     vertices, faces = cube
     lidless = faces[2:]
