@@ -50,7 +50,9 @@ std::string check_options(const BuildOptions& options) {
     refuse("--hierarchy is for one number of --faces only; its file holds all finer levels anyway");
   if (options.enclosing.hull.self_intersections == SelfIntersections::Allowed &&
       (options.enclosing.tight || !options.is_outer()))
-    refuse("--self-intersections allowed is for outer hulls without --tight; no other may intersect itself");
+    refuse(
+        "--self-intersections allowed is for outer hulls without --tight; all others refuse collapses that make them "
+        "intersect themselves");
   check_certified_original(options.certificate, options.in);
   check_certified_output(options.certificate, suffix);
   require_faces_in_name(options, options.certificate);
@@ -326,8 +328,9 @@ void add_build(CLI::App& app, Run& run) {
              "enclosed by it.");
   CLI::Option* const tight = command.add_flag(
       "--tight", enclosing.tight,
-      "Also move vertices towards the mesh between collapses. Such a hull has the least void and never intersects "
-      "itself, but takes 2 to 8 times as long to build, and some seconds if it has at most 200 faces.");
+      "Also move vertices towards the mesh between collapses. Such a hull has the least void, but takes 2 to 8 times "
+      "as long to build, and some seconds if it has at most 200 faces. It does not intersect itself unless the mesh "
+      "does; the summary counts the pairs of faces.");
   CLI::Option* const gap = add_length(
       command, "--gap", options->gap,
       "Least distance between hull and mesh. It is proven. All points within this distance of the mesh are inside of "

@@ -60,6 +60,11 @@ says solid.json "parts that overlap count once" '"volume": 1.0'
 expect 0 "one defect" $prohull info nan.obj
 says out "one defect" "1 vertex that is not finite"
 
+# --- self-intersections ---
+expect 0 "what --tight guarantees" env COLUMNS=1000 $prohull help build
+says out "what --tight guarantees" "It does not intersect itself unless the mesh does"
+says_not out "what --tight guarantees" "never intersects itself"
+
 # --- levels ---
 $prohull sample sphere -o sphere.obj --faces 600 --quiet
 awk '/^v / { ++n; if (n == 1 || $4 > top) { top = $4; highest = n } } { line[NR] = $0 } END { n = 0
