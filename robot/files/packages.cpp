@@ -298,11 +298,23 @@ MeshFile Packages::found(std::string uri, const Vec3& scale, const fs::path& fol
   return mesh;
 }
 
+namespace {
+
+/// The file that a robot in `folder` finds, without package paths.
+fs::path found_from(const fs::path& folder, const std::string& uri) {
+  return Packages(folder / "robot", {}).find(uri, {1, 1, 1}).path;
+}
+
+}  // namespace
+
 std::string Packages::uri_from(const fs::path& folder, const MeshFile& mesh) const {
-  if (mesh.path.empty() || !scheme_of(mesh.uri).empty() || fs::path(mesh.uri).is_absolute()) return mesh.uri;
+  const std::string_view scheme = scheme_of(mesh.uri);
+  const bool is_relative = scheme.empty() && !fs::path(mesh.uri).is_absolute();
+  const bool is_of_model = scheme == "model" && package_paths_.empty();
+  if (mesh.path.empty() || (!is_relative && !is_of_model)) return mesh.uri;
   std::error_code error;
-  const auto found = file_at(folder, mesh.uri);
-  if (found && fs::equivalent(*found, mesh.path, error)) return mesh.uri;
+  const fs::path found = found_from(folder, mesh.uri);
+  if (!found.empty() && fs::equivalent(found, mesh.path, error)) return mesh.uri;
   const fs::path relative = fs::relative(mesh.path, fs::absolute(folder), error);  // it may not be there yet
   return error || relative.empty() ? mesh.path.string() : relative.generic_string();
 }

@@ -32,7 +32,8 @@ class Packages {
   MeshFile find_description(std::string uri, const std::filesystem::path& folder = {}) const;
 
   /// The URI that a robot in `folder` has to name in place of `uri` to find the same file. A relative path that finds
-  /// another file from there, or none, becomes a path relative to `folder`. Every other URI stays as it is.
+  /// another file from there, or none, becomes a path relative to `folder`. So does model://NAME/..., which was found
+  /// beside the robot, unless there are package paths. Every other URI stays as it is.
   std::string uri_from(const std::filesystem::path& folder, const MeshFile& mesh) const;
 
  private:

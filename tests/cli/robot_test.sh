@@ -226,6 +226,20 @@ if [ ! -w closed ]; then
   expect 3 "a folder that takes no files" $urdf -o closed/out $small
 fi
 
+# --- a model of Gazebo ---
+mkdir -p models/ball/meshes
+$prohull sample sphere --faces 200 -o models/ball/meshes/ball.stl >/dev/null
+cat >models/ball/model.sdf <<END
+<sdf version="1.9"><model name="ball"><link name="base"><visual name="v"><geometry><mesh>
+<uri>model://ball/meshes/ball.stl</uri></mesh></geometry></visual></link></model></sdf>
+END
+expect 0 "a model" $prohull urdf models/ball/model.sdf -o model_out $small
+says model_out/model.sdf "a model opens where it was written" "<uri>../models/ball/meshes/ball.stl</uri>"
+expect 0 "a model opens where it was written" $prohull urdf model_out/model.sdf --check
+expect 0 "a model beside it" $prohull urdf models/ball/model.sdf -o models/ball_safe $small
+says models/ball_safe/model.sdf "a model that is found keeps its URI" "<uri>model://ball/meshes/ball.stl</uri>"
+expect 0 "a model beside it opens" $prohull urdf models/ball_safe/model.sdf --check
+
 # --- Ctrl-C ---
 $prohull sample knot --faces 300000 -o robot/meshes/knot.ply >/dev/null
 $urdf -o interrupted --faces 500 --no-cache >out 2>err &

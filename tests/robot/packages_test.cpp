@@ -183,6 +183,11 @@ TEST_F(PackagesTest, RelatesPathsToAnotherFolder) {
   EXPECT_EQ(uri_from(out, "../urdf/meshes/a.stl"), "../urdf/meshes/a.stl");
   EXPECT_EQ(uri_from(out, "package://arm_description/urdf/meshes/a.stl"),
             "package://arm_description/urdf/meshes/a.stl");
+  EXPECT_EQ(uri_from(out, "model://arm_description/urdf/meshes/a.stl"), "model://arm_description/urdf/meshes/a.stl");
+  EXPECT_EQ(uri_from(folder_.path() / "out", "model://arm_description/urdf/meshes/a.stl"),
+            "../ws/src/arm_description/urdf/meshes/a.stl");
+  EXPECT_EQ(uri_from(folder_.path() / "out", "package://arm_description/urdf/meshes/a.stl"),
+            "package://arm_description/urdf/meshes/a.stl");
   EXPECT_EQ(uri_from(out, robot_.parent_path() / "meshes/a.stl"), robot_.parent_path() / "meshes/a.stl");
   EXPECT_EQ(uri_from(out, "meshes/none.stl"), "meshes/none.stl");
   file("ws/src/arm_description/out/meshes/a.stl");  // another file of this name
