@@ -144,7 +144,7 @@ nlohmann::json report_of(const CageRunOptions& options, const Cage& cage, const 
                          {{"faces", options.cage.outer_faces},
                           {"inner_faces", options.cage.inner_faces},
                           {"scale", options.input.factor()},
-                          {"gap", options.cage.gap},
+                          {"gap", cage.gap},
                           {"even", options.cage.even},
                           {"tight", options.cage.tight},
                           {"float32_coordinates", options.cage.float32_coordinates}}}};

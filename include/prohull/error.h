@@ -21,6 +21,7 @@ enum class Defect {
   NoLength,                 ///< a segment whose ends are equal, or a ray without direction
   NoCertificate,            ///< no hull that was built could be certified
   InvalidOption,            ///< an option outside its documented range
+  NotSymmetric,             ///< no exact mirror image of itself, as HullOptions::mirror needs
 };
 
 /// Thrown at the door, by whatever reads a file or takes a mesh; what() says what is wrong, where, and what to do.

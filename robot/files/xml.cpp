@@ -51,8 +51,7 @@ class Reader {
     const char* const begin = text_.data() + skipped_;
     const XML_Status status = XML_Parse(parser_.get(), begin, static_cast<int>(text_.size() - skipped_), XML_TRUE);
     if (!problem_.empty()) refuse_line(file_, problem_line_, problem_);
-    if (status != XML_STATUS_OK)
-      refuse_line(file_, line(), fmt::format("no XML: {}", XML_ErrorString(XML_GetErrorCode(parser_.get()))));
+    if (status != XML_STATUS_OK) refuse_line(file_, line(), fmt::format("no XML: {}", what_is_wrong()));
   }
 
  private:
@@ -82,6 +81,14 @@ class Reader {
   static std::size_t blanks_before_declaration(std::string_view text) {
     const std::size_t first = text.find_first_not_of(kBlanks);
     return first != text.npos && text.substr(first).starts_with("<?xml") ? first : 0;
+  }
+
+  /// For a file that was cut off, the parser says "no element found", of whatever elements it has.
+  std::string what_is_wrong() const {
+    const XML_Error error = XML_GetErrorCode(parser_.get());
+    const bool is_at_end = error == XML_ERROR_NO_ELEMENTS || error == XML_ERROR_UNCLOSED_TOKEN;
+    if (!is_at_end || open_.empty()) return XML_ErrorString(error);
+    return fmt::format("the file ends before </{}>: it was cut off", open_.back()->name);
   }
 
   std::size_t line() const { return skipped_lines_ + XML_GetCurrentLineNumber(parser_.get()); }

@@ -14,6 +14,7 @@ says out "a pair: the inner hull" "inner.obj: inner hull of 150 faces"
 says out "a pair: shapes" "smallest angle"
 says out "a pair: the gap" "gap: at least"
 says out "a pair: disjoint" "disjoint: yes, no face touches the mesh, the other hull or itself"
+is "a pair: the default gap is an option" sh -c "! grep -q '\"gap\": 0\\.0,' pair.json"
 says pair.json "a pair: report" '"disjoint": true'
 expect 0 "the outer hull encloses" $prohull verify outer.obj torus.ply
 expect 0 "the inner hull is enclosed" $prohull verify torus.ply inner.obj

@@ -65,7 +65,7 @@ expect 1 "symmetric: too few faces" $prohull build torus.obj --faces 8 --mirror 
 says out "symmetric: too few faces" "no legal collapse is left above the 8 faces asked for"
 
 # --- what is refused ---
-expect 2 "not symmetric" $prohull build torus.obj --faces 200 --mirror z -o none.obj
+expect 3 "not symmetric" $prohull build torus.obj --faces 200 --mirror z -o none.obj
 says err "not symmetric" "the mesh is not exactly symmetric: face 0 at "
 says err "not symmetric: where" "has no mirror image in the plane z = 0; in all, 1,536 faces have none"
 absent none.obj "not symmetric"
@@ -79,7 +79,7 @@ expect 2 "with wraps" $prohull build torus.obj --mirror x --repair wrap -o none.
 says err "with wraps" "a wrap is not symmetric"
 # Moved by a third, the coordinates of the two halves are rounded differently.
 awk '/^v / { printf "v %.17g %.17g %.17g\n", $2 + 1 / 3, $3, $4; next } { print }' torus.obj >moved.obj
-expect 2 "moved" $prohull build moved.obj --faces 200 --mirror x -o none.obj
+expect 3 "moved" $prohull build moved.obj --faces 200 --mirror x -o none.obj
 says err "moved" "with the plane between them at x = 0"
 
 count_checks

@@ -50,6 +50,8 @@ TEST(XmlDocument, ReadsNoEntitiesOfTheDocument) {
 
 TEST(XmlDocument, RefusesWhatIsNoXmlWithTheLine) {
   EXPECT_EQ(message_of("<robot>\n<link>\n</robot>"), "arm.urdf: line 3: no XML: mismatched tag");
+  EXPECT_EQ(message_of("<robot>\n<link>\n"), "arm.urdf: line 3: no XML: the file ends before </link>: it was cut off");
+  EXPECT_EQ(message_of("<robot>\n<link"), "arm.urdf: line 2: no XML: the file ends before </robot>: it was cut off");
   EXPECT_NE(message_of(""), "");
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "<a>";

@@ -28,7 +28,7 @@ void require_symmetry(const TriangleMesh& mesh, Axis mirror) {
                                   ? counted(found.vertices_without_image, "vertex has", "vertices have")
                                   : counted(found.faces_without_image, "face has", "faces have");
   throw InputError(
-      Defect::InvalidOption,
+      Defect::NotSymmetric,
       fmt::format("the mesh is not exactly symmetric: {}; in all, {} none. Make one half of it the mirror image of the "
                   "other, for instance by Blender's Symmetrize, with the plane between them at {} = 0: elsewhere files "
                   "round the coordinates of the two halves differently",
