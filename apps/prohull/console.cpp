@@ -27,6 +27,14 @@ std::string printable(std::string_view text) {
 
 void tell(std::string_view text, std::FILE* to) { std::fputs(printable(text).c_str(), to); }
 
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) line += c == '\n' || c == '\t' ? fmt::format("\\x{:02x}", c) : std::string(1, c);
+  return printable(line);
+}
+
+void tell_error(std::string_view what) { tell("prohull: " + one_line(what) + "\n", stderr); }
+
 ProgressLine::~ProgressLine() {
   if (shown_) fmt::print(stderr, "\r\x1b[K");
 }

@@ -29,6 +29,12 @@ std::string printable(std::string_view text);
 /// The way of all messages to the terminal: prints what is printable. Errors of printing are not told.
 void tell(std::string_view text, std::FILE* to);
 
+/// What is printable, on one line: new lines and tabs, as names may have them, become "\\x0a" and "\\x09".
+std::string one_line(std::string_view text);
+
+/// Tells an error on one line of standard error.
+void tell_error(std::string_view what);
+
 /// Prints a part of the summary, unless --quiet was given.
 template <class... Values>
 void say(fmt::format_string<Values...> text, Values&&... values) {

@@ -74,13 +74,13 @@ int main(int argc, char** argv) {
   } catch (const prohull::Cancelled&) {
     return tell_interrupted();
   } catch (const prohull::InputError& error) {
-    tell(fmt::format("prohull: {}\n", error.what()), stderr);
+    tell_error(error.what());
     return error.defect() == prohull::Defect::InvalidOption ? kWrongUsage : kBadInput;
   } catch (const std::bad_alloc&) {
-    tell("prohull: out of memory\n", stderr);
+    tell_error("out of memory");
     return kBadInput;
   } catch (const std::exception& error) {
-    tell(fmt::format("prohull: {}\n", error.what()), stderr);
+    tell_error(error.what());
     return kBadInput;
   }
 }

@@ -69,7 +69,7 @@ int run_each(const std::vector<fs::path>& meshes, const std::string& head,
       exit_code = std::max(exit_code, outcome.exit_code);
       done += outcome.is_as_asked;
     } catch (const InputError& error) {
-      tell(fmt::format("prohull: {}\n", error.what()), stderr);
+      tell_error(error.what());
       exit_code = kBadInput;
     }
   }

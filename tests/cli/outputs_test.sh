@@ -135,6 +135,12 @@ harmless err "a hostile option"
 cp mesh.ply "$hostile"
 expect 0 "a hostile name of a mesh" $prohull info "$hostile"
 harmless out "a hostile name of a mesh"
+lines="a
+b	c.ply"
+expect 3 "a name of two lines" $prohull info "$lines"
+is "a name of two lines" test "$(cat err)" = 'prohull: a\x0ab\x09c.ply: cannot read: there is no such file; look at its name and its folder'
+expect 2 "an option of two lines" $prohull info "--no$lines"
+is "an option of two lines" test "$(wc -l <err)" = 2
 printf '<robot name="r"><link name="a\302\233[2J"/><joint name="%s[2J"/></robot>' "$escape" >hostile.urdf
 expect 3 "a hostile robot" $prohull urdf hostile.urdf -o robot
 is "a hostile robot: no control characters" test -z "$(LC_ALL=C tr -d '\n\t -~' <err)"
