@@ -60,6 +60,17 @@ says solid.json "parts that overlap count once" '"volume": 1.0'
 expect 0 "one defect" $prohull info nan.obj
 says out "one defect" "1 vertex that is not finite"
 
+# --- docs/formats.md: which commands scale meshes ---
+for command in build cage collide contains convex distance info motion query repair spheres sweep verify view; do
+  expect 0 "help $command" $prohull help $command --all
+  says out "$command scales meshes" "  --unit "
+  says out "$command scales meshes" "  --scale "
+done
+for command in render urdf lod sample; do
+  expect 0 "help $command" $prohull help $command --all
+  says_not out "$command scales no meshes" "  --unit "
+done
+
 # --- self-intersections ---
 expect 0 "what --tight guarantees" env COLUMNS=1000 $prohull help build
 says out "what --tight guarantees" "It does not intersect itself unless the mesh does"
