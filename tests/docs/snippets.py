@@ -12,8 +12,8 @@ Of README.md, CONTRIBUTING.md and all pages below docs/, or of the given ones, e
     yaml      where PyYAML is installed
     sh        installs or builds: not run here, and no line of it begins with prohull
 
-Lines shown must be printed, in this order, numbers aside; more may be printed. --write puts the numbers that are
-printed now into the pages. Blocks that are indented, not fenced, take minutes or models and are not run. Where a module is not
+Lines shown must be printed, in this order; more may be printed. Their numbers must be those that are printed, but for times and sizes
+of memory, which change from machine to machine. --write puts the other numbers that are printed now into the pages. Blocks that are indented, not fenced, take minutes or models and are not run. Where a module is not
 installed that the Python of a page imports, the rest of its Python is not run, which is said.
 """
 
@@ -36,9 +36,27 @@ class Wrong(Exception):
     pass
 
 
+NUMBER = r"\d[\d,.]*(e[-+]?\d+)?"
+MEASURED = re.compile(rf"\b{NUMBER} ?(s|ms|us|ns|min|minutes?|hours?|MiB|GiB|MB|GB|KB|threads?|per second|times)\b|"
+                      rf"(?<=seconds\": ){NUMBER}|(?<=threads: ){NUMBER}|\d[\d.]*e-1\d")  # the last is rounding
+
+
 def form(line):
-    """The line without its numbers, which change from machine to machine and from version to version."""
-    return re.sub(r"\d[\d,.]*(e[-+]?\d+)?", "#", line).replace("threads", "thread").strip()
+    """The line without its numbers."""
+    return re.sub(NUMBER, "#", line).replace("threads", "thread").strip()
+
+
+def without_measures(line):
+    """The line without its numbers that change from machine to machine."""
+    return form(line) if re.search(r"seconds|per second", line) else MEASURED.sub("#", line).replace("threads", "thread").strip()
+
+
+def with_measures_of(line, found):
+    """The line `found` with the times that `line` has, if it has as many."""
+    known = [measure[0] for measure in MEASURED.finditer(line)]
+    if len(known) != len(list(MEASURED.finditer(found))):
+        return found
+    return MEASURED.sub(lambda _: known.pop(0), found)
 
 
 def run(command):
@@ -59,7 +77,8 @@ class Page:
         self.root, self.path, self.text = root, path, path.read_text()
         self.names = {"__name__": "page"}  # of its Python; None if that cannot run
         self.printed = []  # by the last block that ran
-        self.renewed = []  # lines to write: where, what is there, what was printed
+        self.renewed = []  # lines whose numbers are others now: where, what is there, what to write
+        self.stale = []  # the same for messages
 
     def check(self):
         kinds = dict(console=self.console, python=self.python, text=self.shown, cpp=self.cpp, cmake=self.cmake,
@@ -106,14 +125,18 @@ class Page:
             self.find(line, begin, unseen)
 
     def find(self, line, at, unseen):
-        """Takes the lines off `unseen` up to one of this form."""
-        printed = list(unseen)
-        while unseen:
-            found = unseen.pop(0)
-            if form(found) == form(line):
-                self.renewed.append((at, line, found + "\n"))
-                return
-        raise Wrong(f"shows what is not printed: {line}printed is\n" + "\n".join(printed))
+        """Takes the lines off `unseen` up to one that is this line, or else up to one of its form, whose numbers are then stale."""
+        for key in (without_measures, form):
+            at_line = next((i for i, found in enumerate(unseen) if key(found) == key(line)), None)
+            if at_line is None:
+                continue
+            found = unseen[at_line]
+            del unseen[:at_line + 1]
+            if key is form:
+                self.renewed.append((at, line, with_measures_of(line, found) + "\n"))
+                self.stale.append(f"{line.strip()}\n  printed is: {found.strip()}")
+            return
+        raise Wrong(f"shows what is not printed: {line}printed is\n" + "\n".join(unseen))
 
     def cpp(self, code, _):
         for example in self.root.glob("examples/*.cpp"):
@@ -155,6 +178,8 @@ def check(page, write):
         try:
             run("prohull sample bracket --faces 3000 -o part.stl")
             page.check()
+            if page.stale and not write:
+                raise Wrong("shows numbers that are others now; --write renews them\n" + "\n".join(page.stale))
         except Exception as error:  # also what the Python of the page raises
             print(f"{page.path}: {error if isinstance(error, Wrong) else repr(error)}")
             return False
