@@ -95,7 +95,7 @@ void require_usable_mirror(const EnclosingOptions& options) {
 void require_volume(double volume, const HullBounds& bounds) {
   if (std::isfinite(bounds.max_void_ratio) && !(volume > 0))
     throw InputError(Defect::NoVolume,
-                     "the mesh encloses no volume of which the void could be a share; bound the "
+                     "no volume was found inside of the mesh of which the void could be a share; bound the "
                      "distance instead");
 }
 

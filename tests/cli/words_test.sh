@@ -126,7 +126,7 @@ expect 0 "a void with a gap" $prohull build rock.ply -o away.obj --faces 12 --ga
 is "a void with a gap" awk '/"void_ratio":/ { void = $2 + 0 } END { exit !(0 < void && void <= 0.2) }' away.json
 for command in build convex; do
   expect 3 "the void of nothing: $command" $prohull $command sheet.obj -o hull.obj --max-void 20
-  says err "the void of nothing: $command" "the mesh encloses no volume of which the void could be a share; bound the distance instead"
+  says err "the void of nothing: $command" "no volume was found inside of the mesh of which the void could be a share; bound the distance instead"
 done
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0.5\nf 1 2 3\n' >leaf.obj
 expect 3 "the void of a leaf" $prohull build leaf.obj -o hull.obj --max-void 20
