@@ -141,9 +141,11 @@ class Writer {
 /// A freedom for each letter.
 bool is_written(const CellTree& tree, std::size_t freedoms) { return !tree.empty() && freedoms <= kLetters; }
 
-/// Whether it is a binary STL file with the triangles of the body, and no others.
+/// Whether it is a binary STL file with the triangles of the body, and no others, whose name fits into a line.
 bool is_whole(const PathBody& body) {
-  if (body.file.extension() != ".stl") return false;
+  const std::string name = body.file.string();
+  if (body.file.extension() != ".stl" || std::ranges::any_of(name, [](unsigned char c) { return c < ' '; }))
+    return false;
   std::error_code error;
   if (std::filesystem::file_size(body.file, error) != 84 + 50 * body.triangles.face_count() || error) return false;
   return has_same_triangles(placed(body.in_link, read_mesh(body.file)), body.triangles);

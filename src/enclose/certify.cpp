@@ -117,6 +117,9 @@ void certify_with_padding(Attempt& attempt, const Solid& solid, const Request& r
   hull.levels.reset();
   certify_as_it_is(hull, solid, request, solids);
   if (hull.certified) hull.proof = "padding";
+  // One that keeps clear all along does not pass through itself, and comes next.
+  const bool has_other_way = solid.source == Source::Wrap && other_way(attempt.candidate.recipe, request).has_value();
+  if (has_other_way && hull.verdict.self_intersections > 0) hull.certified = false, hull.proof = {};
 }
 
 }  // namespace
