@@ -23,7 +23,7 @@ from motion_certificates import *
 
 PROHULL, CHECKER, *ROBOTS = sys.argv[1:]
 SEED = os.environ.get("PROHULL_TEST_SEED", "1")
-MUTANTS = 60
+MUTANTS = 30
 
 
 def run(*command):
