@@ -103,8 +103,8 @@ void Candidates::plan_other_wraps() {
     });
 }
 
-// Hulls that may touch the triangles, and move away by the gap in the end, are mostly the better ones: of a bracket at
-// 50 and 100 faces, five gaps each, they had 14 to 97 % of void in place of 52 to 125 %, and were worse once.
+// Hulls that may touch the triangles, and move away by the gap in the end, are mostly the better ones: of 63 robots'
+// parts at 100 faces with a gap of 0.1 % of the diagonal, 36 have less void, down to half of it, and one has more.
 void Candidates::plan_clear_of_wraps() {
   for (std::size_t i = 0; i < kMostWraps; ++i)
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
