@@ -117,7 +117,18 @@ class Pairs(Folder):
         self.expect(NOT_PROVEN, "inside", root(), body(0, small), body(0, large), still)
         self.expect(NOT_PROVEN, "inside", root(), body(0, box((-9, 0, 0), (-8, 1, 1)), small), body(0, large), still)
         self.expect(PROVEN, "", root(), body(0, large, hollow), body(0, small), still)
-        self.expect(PROVEN, "", root(), body(0, (large[0], large[1][1:])), body(0, small), still)
+        self.expect(PROVEN, "of 1, what is not closed counts by its triangles only", root(), body(0, (large[0], large[1][1:])), body(0, small), still)
+        scrap = [(0, 0, 0), (-1, 0, 0), (0, -1, 0)], [(0, 1, 2)]
+        self.expect(NOT_PROVEN, "inside", root(), body(0, large, scrap), body(0, small), still)
+
+    def test_are_not_proven_where_squares_underflow(self):
+        a, b = ([tuple(1e-162 * x for x in p) for p in box((x, -0.01, -0.01), (x + 0.06, 0.01, 0.01))[0]] for x in (-1.46, 1.4))
+        triangles = box((0, 0, 0), (1, 1, 1))[1]
+        self.expect(NOT_PROVEN, "too close", root(), joint("turns", 0, (0, 0, 0), Z, -4, 4), body(0, (a, triangles)), body(1, (b, triangles)),
+                    pair(0, 1, [(1, -4, 4)], "."))
+
+    def test_have_limits_in_order(self):
+        self.expect(UNREADABLE, "the lower limit is above the upper one", *hinge(1, -1, -1, 1))
 
     def test_need_joints_that_connect_and_are_known(self):
         one, two = box((0, 0, 0), (1, 1, 1)), box((2, 0, 0), (3, 1, 1))
