@@ -215,4 +215,19 @@ wait $!
 code=$?
 is "Ctrl-C: exit code $code" test $code -eq 130
 
+# --- certificates: a name with a new line in it writes no line of its own ---
+$prohull sample box --faces 100 -o box.stl -q
+cp box.stl "$(printf 'part\nframe.stl')"
+geometry() { echo "<collision>${2:-}<geometry><mesh filename=\"$1\"/></geometry></collision>"; }
+hinge() {
+  echo "<joint name=\"$1\" type=\"revolute\"><parent link=\"$2\"/><child link=\"$3\"/><axis xyz=\"0 0 1\"/>" \
+    "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/></joint>"
+}
+echo "<robot name=\"r\"><link name=\"a\">$(geometry 'part&#10;frame.stl')</link><link name=\"b\"/><link name=\"c\">" \
+  "$(geometry box.stl '<origin xyz="99 0 0"/>')</link>$(hinge j1 a b)$(hinge j2 b c)</robot>" >line.urdf
+printf 'j1,j2\n0,0\n0.1,0.1\n' >line.csv
+expect 0 "a new line in a name" $prohull motion line.urdf line.csv --certificate line.phmotion
+says line.phmotion "a new line in a name: triangles" "triangles "
+is "a new line in a name: no line of its own" test "$(grep -c '^frame.stl' line.phmotion)" = 0
+
 count_checks
