@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "prohull/closed_solid.h"
@@ -255,7 +256,7 @@ class LinkChecker {
   }
 
   template <class Measure>
-  InsideVolume measured(Measure measure_it) {
+  auto measured(Measure measure_it) -> decltype(measure_it()) {
     try {
       return measure_it();
     } catch (const InputError& error) {
@@ -264,9 +265,9 @@ class LinkChecker {
     }
   }
 
-  void measure_volumes(const RepairedMesh& visual) {
+  void measure_volumes(const std::optional<RepairedMesh>& visual) {
     const auto balls = only_balls(pieces_);
-    const InsideVolume inside = measured([&] { return enclosed_volume(visual, progress_); });
+    const InsideVolume inside = measured([&] { return visual ? enclosed_volume(*visual, progress_) : InsideVolume{}; });
     const InsideVolume collision = measured([&] {
       return balls.empty() ? enclosed_volume(check_.collision, progress_) : InsideVolume{union_volume(balls)};
     });
@@ -277,21 +278,24 @@ class LinkChecker {
       check_.visual_volume = inside.volume;
   }
 
-  void measure_reach(const RepairedMesh& visual) {
-    const TriangleMesh& solid = visual.closed ? visual.closed->mesh : check_.visual;
+  void measure_reach(const std::optional<RepairedMesh>& visual) {
+    const bool is_solid = visual && visual->closed;
+    const TriangleMesh& solid = is_solid ? visual->closed->mesh : check_.visual;
     const DistanceOptions how{.max_cells = 100'000, .progress = progress_};
     if (const auto balls = only_balls(pieces_); !balls.empty())
       check_.reach = union_reach(balls, solid, how);
     else
-      check_.reach = visual.closed ? union_reach({&check_.collision, 1}, solid, how)
-                                   : distance_bounds(check_.collision, solid, how);
+      check_.reach =
+          is_solid ? union_reach({&check_.collision, 1}, solid, how) : distance_bounds(check_.collision, solid, how);
     check_.mean_distance = mean_distance(check_.collision, check_.visual);
   }
 
   void measure() {
-    if (check_.visual.face_count() == 0) return measure_volumes({});
-    const RepairedMesh visual = prepared_for_hulls(check_.visual);
+    std::optional<RepairedMesh> visual;
+    if (check_.visual.face_count() > 0)
+      visual = measured([&] { return std::optional(prepared_for_hulls(check_.visual)); });
     measure_volumes(visual);
+    if (check_.visual.face_count() == 0) return;
     check_.convex_volume = signed_volume(convex_hull(check_.visual));
     if (check_.collision.face_count() > 0) measure_reach(visual);
   }

@@ -73,6 +73,17 @@ TEST_F(Check, WhatLiesInsideOfTheSolidDoesNotReachOutOfIt) {
   EXPECT_LT(checked({cube(1)}, {shape(SphereForm{0.8}), shape(SphereForm{0.9})}).reach.upper, 0.402);
 }
 
+// Volumes would overflow, or vanish. The verdict stands.
+TEST_F(Check, WhatHasNoVolumeIsCheckedAllTheSame) {
+  for (const double size : {1e170, 1e-170}) {
+    const Shape huge = mesh(meshes::box({0, 0, 0}, {size, size, size}));
+    const LinkCheck check = checked({huge}, {huge});
+    EXPECT_EQ(check.verdict, CheckVerdict::Covered);
+    EXPECT_EQ(check.notes.size(), 2U) << "no volume of the visual geometry, nor of the collision geometry";
+    EXPECT_EQ(check.visual_volume, 0);
+  }
+}
+
 TEST_F(Check, APieceSmallerByOneUnitLeaks) {
   const LinkCheck check = checked({cube(1)}, {cube(less(1))});
   EXPECT_EQ(check.verdict, CheckVerdict::Leaks);
