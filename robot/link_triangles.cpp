@@ -49,13 +49,4 @@ TriangleMesh link_triangles(std::span<const Shape> shapes, const Frame& frame) {
   return triangles;
 }
 
-bool has_same_triangles(const TriangleMesh& a, const TriangleMesh& b) {
-  if (a.face_count() != b.face_count()) return false;
-  for (const FaceId f : a.triangles.ids()) {
-    const Triangle s = a.triangle(f), t = b.triangle(f);
-    if (!(s.a == t.a && s.b == t.b && s.c == t.c)) return false;
-  }
-  return true;
-}
-
 }  // namespace prohull::robot

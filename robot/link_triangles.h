@@ -39,7 +39,4 @@ TriangleMesh link_triangles(std::span<const Shape> shapes, const Frame& frame);
 /// Moves a mesh from the frame of its shape into `frame`, not rounded if both are the same.
 TriangleMesh in_frame(TriangleMesh mesh, const Pose& origin, const Frame& frame);
 
-/// In the same order, with the same coordinates.
-bool has_same_triangles(const TriangleMesh& a, const TriangleMesh& b);
-
 }  // namespace prohull::robot

@@ -23,7 +23,7 @@ void judge_hull(LinkHull& hull, const TriangleMesh& triangles, const RepairedMes
   hull.proof = budget.padding > 0 ? "padding" : found.proof;
   hull.volume = found.hull_volume;
   hull.self_intersections = found.self_intersections;
-  TriangleMesh sealed = input.closed ? input.closed->mesh : input.original;
+  TriangleMesh sealed = solid_of(input);
   if (!input.closed) append(sealed, input.caps);
   hull.distance = distance_bounds(hull.mesh, sealed, {.progress = go_on});
   if (budget.max_distance > 0 && hull.within_bounds && hull.distance.upper > budget.max_distance)

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "prohull/detail/summary.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "robot/files/sphere_file.h"
@@ -190,7 +191,7 @@ OutputFile text_file(path name, std::string text) {
 
 void write_certified(const path& target, const TriangleMesh& mesh) {
   write_mesh(target, mesh);
-  if (!has_same_triangles(read_mesh(target), mesh)) fail_to_write(target);
+  if (!has_triangles_of(read_mesh(target), mesh)) fail_to_write(target);
 }
 
 std::string robot_stem(const RobotFile& file) {

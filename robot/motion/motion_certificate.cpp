@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "prohull/detail/summary.h"
 #include "prohull/mesh_io.h"
-#include "robot/link_triangles.h"
 #include "robot/motion/kinematics.h"
 
 namespace prohull::robot {
@@ -148,7 +148,7 @@ bool is_whole(const PathBody& body) {
     return false;
   std::error_code error;
   if (std::filesystem::file_size(body.file, error) != 84 + 50 * body.triangles.face_count() || error) return false;
-  return has_same_triangles(placed(body.in_link, read_mesh(body.file)), body.triangles);
+  return has_triangles_of(placed(body.in_link, read_mesh(body.file)), body.triangles);
 }
 
 }  // namespace

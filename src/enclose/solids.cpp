@@ -48,6 +48,10 @@ Solids::Solids(const Request& request)
   const bool is_exact = has_mesh() && entries_[0].solid.self_intersections == 0;
   if (options.repair != Repair::None && closed && !is_exact && request.is_outer())
     if (const double volume = volume_without_overlaps(); volume > 0) volume_ = volume;
+  if (options.bounds.any() && original_.has_solid()) {
+    ProgressMeter meter(options.progress, "repair");
+    verified_volume_ = original_.solid().volume(meter);
+  }
   repair_seconds_ += watch.seconds();
 }
 
@@ -101,10 +105,8 @@ double Solids::volume(std::size_t faces) const {
   return made.empty() ? 0 : entries_[made.front()].inside_volume;
 }
 
-double Solids::verified_volume(std::size_t faces) {
-  ProgressMeter meter(request_.options.progress, "verify");
-  const double verified = original_.has_solid() ? original_.solid().volume(meter) : 0;
-  return verified > 0 ? verified : volume(faces);
+double Solids::verified_volume(std::size_t faces) const {
+  return verified_volume_ > 0 ? verified_volume_ : volume(faces);
 }
 
 std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::size_t faces, std::string& why_not) {

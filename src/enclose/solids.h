@@ -56,9 +56,9 @@ class Solids {
 
   /// Of what lies inside of the input; 0 if nothing is known of it. Of what is not closed, the first wrap tells it.
   double volume(std::size_t faces) const;
-  /// That with which hulls are compared, as verify_hull has it: without the cavities that were filled before hulls were
-  /// built. As `volume` where the original bounds no solid, or is too tangled.
-  double verified_volume(std::size_t faces);
+  /// That with which bounds compare hulls, as verify_hull has it: without the cavities that were filled before hulls
+  /// were built. As `volume` where the original bounds no solid, or is too tangled.
+  double verified_volume(std::size_t faces) const;
   double repair_seconds() const { return repair_seconds_; }
   std::vector<Solid> taken();  ///< all, in the order in which they were made; nothing is left here
 
@@ -80,7 +80,7 @@ class Solids {
   const Request& request_;
   verify::Original original_;
   std::vector<Entry> entries_;
-  double volume_ = 0, repair_seconds_ = 0;
+  double volume_ = 0, verified_volume_ = 0, repair_seconds_ = 0;
   bool has_no_convex_hull_ = false;
   std::optional<std::optional<SolidId>> unfolded_;  ///< once it was asked for
   std::optional<SolidId> convex_hull_;

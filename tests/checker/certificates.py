@@ -5,9 +5,31 @@ is what the oracle reads.
 """
 
 import math
+import os
 import random
 import struct
+import tempfile
+import unittest
 from fractions import Fraction
+
+
+class Folder(unittest.TestCase):
+    """Tests that write files."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def path(self, name, content):
+        """Of a file with this content."""
+        path = os.path.join(self.folder.name, name)
+        with open(path, "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+        return path
 
 
 def number(n):

@@ -12,7 +12,6 @@ import re
 import struct
 import subprocess
 import sys
-import tempfile
 import unittest
 from fractions import Fraction
 
@@ -35,21 +34,7 @@ def both(a, b):
     return a[0] + b[0], a[1] + [tuple(v + len(a[0]) for v in t) for t in b[1]]
 
 
-class Folder(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    def path(self, name, content):
-        path = os.path.join(self.folder.name, name)
-        with open(path, "wb") as file:
-            file.write(content)
-        return path
-
+class Checked(Folder):
     def check(self, cert, hull, original, hull_name="hull.off", original_name="original.off"):
         """Exit code and line. Meshes may be given as bytes."""
         paths = [self.path("c", cert)]
@@ -67,7 +52,7 @@ class Folder(unittest.TestCase):
         self.assertEqual(code, got[0], got)
 
 
-class Tetrahedra(Folder):
+class Tetrahedra(Checked):
     def test_prove_an_outer_and_an_inner_hull(self):
         for sign, side, words in ((1, 0, "the hull encloses the solid"), (-1, 1, "the solid encloses the hull")):
             hull, added, fans = moved_outwards(CUBE, random.Random(1), 8, sign)
@@ -99,7 +84,7 @@ class Tetrahedra(Folder):
         self.expect(NOT_PROVEN, "not negative", [tetrahedra(added, fans)], hull, CUBE, turned=[7])
 
 
-class Surfaces(Folder):
+class Surfaces(Checked):
     def test_prove_outer_and_inner_hulls(self):
         self.expect(PROVEN, "covers every finite triangle; the hull encloses the solid", [surfaces()], WIDE, CUBE)
         self.expect(PROVEN, "covers every triangle of the hull; the solid encloses the hull", [surfaces()], CUBE, WIDE, side=1)
@@ -173,7 +158,7 @@ class Surfaces(Folder):
             self.expect(NOT_PROVEN, "", [surfaces()], small, cube)
 
 
-class Formats(Folder):
+class Formats(Checked):
     def test_every_format_is_read(self):
         mesh = (CUBE[0], CUBE[1])
         cert = certificate(len(WIDE[1]), len(mesh[1]), surfaces())
@@ -228,7 +213,7 @@ class Formats(Folder):
         self.assertEqual(self.check(certificate(12, 1, surfaces(1)), hull, text)[0], NOT_PROVEN)
 
 
-class Unreadable(Folder):
+class Unreadable(Checked):
     def test_certificates(self):
         hull, added, fans = moved_outwards(CUBE, random.Random(1), 3)
         cert = certificate(len(hull[1]), len(CUBE[1]), tetrahedra(added, fans))
@@ -276,7 +261,7 @@ def ball_cover(rng, count=40):
     return found, [bisected_tree(t, leaf) for t in soup(CUBE)]
 
 
-class Page(Folder):
+class Page(Checked):
     def test_the_example_of_the_page(self):
         root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
         with open(os.path.join(root, "docs", "certificate.md"), encoding="utf-8") as file:
@@ -288,7 +273,7 @@ class Page(Folder):
         self.assertEqual((code, line), (PROVEN, "proven: the hull covers every finite triangle; the hull encloses the solid\n"))
 
 
-class Covers(Folder):
+class Covers(Checked):
     def test_pieces(self):
         mesh = two_boxes()
         self.expect(PROVEN, "covers every finite triangle", [surfaces(1)], mesh, CUBE)
@@ -329,7 +314,7 @@ class Covers(Folder):
             self.assertEqual(self.check(cert, yaml([(0.0, 0.0, 0.0, radius)]), mesh, hull_name="balls.yaml")[0], code)
 
 
-class Distances(Folder):
+class Distances(Checked):
     def test_gap(self):
         self.expect(PROVEN, "keeps a gap of at least 1", [gap(1.0)], WIDE, CUBE)
         self.expect(NOT_PROVEN, "nearer", [gap(1.0000000000000002)], WIDE, CUBE)
@@ -349,7 +334,7 @@ class Distances(Folder):
         self.expect(NOT_PROVEN, "farther", [distance(1.7, trees)], WIDE, CUBE)
 
 
-class Mutants(Folder):
+class Mutants(Checked):
     """No yes that brute force in fractions or prohull.verify denies."""
 
     @classmethod

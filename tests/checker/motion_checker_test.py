@@ -12,10 +12,9 @@ import random
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 
-from certificates import box, stl
+from certificates import Folder, box, stl
 from motion_certificates import *
 
 try:
@@ -36,22 +35,9 @@ def collider(vertices, triangles):
     return prohull.Collider((vertices, triangles))
 
 
-class Folder(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    def write(self, name, content):
-        with open(os.path.join(self.folder.name, name), "wb") as file:
-            file.write(content if isinstance(content, bytes) else content.encode())
-
+class Checked(Folder):
     def check(self, written):
-        self.write("c.phmotion", written)
-        done = subprocess.run([PROGRAM, os.path.join(self.folder.name, "c.phmotion")], capture_output=True, text=True, timeout=60, errors="replace")
+        done = subprocess.run([PROGRAM, self.path("c.phmotion", written)], capture_output=True, text=True, timeout=60, errors="replace")
         self.assertIn(done.returncode, (PROVEN, NOT_PROVEN, UNREADABLE), done.stderr)
         self.assertEqual((done.stdout.count("\n"), done.stderr), (1, ""))
         return done.returncode, done.stdout
@@ -67,7 +53,7 @@ def hinge(low, high, lower=None, upper=None, tree=full_tree(9), **options):
     return root(), joint("turns", 0, (2, 0, 0), Z, low, high, **options), body(0, WALL), body(1, LEVER), pair(0, 1, freedoms, tree)
 
 
-class Pairs(Folder):
+class Pairs(Checked):
     def test_are_proven_up_to_where_they_touch(self):
         self.expect(PROVEN, "1 pair that never meet", *hinge(-TOUCH + 0.01, TOUCH - 0.01))
         self.expect(NOT_PROVEN, "too close", *hinge(-TOUCH - 1e-6, TOUCH - 0.01))
@@ -141,16 +127,16 @@ class Pairs(Folder):
             self.expect(NOT_PROVEN, "not known", root(), *joints, body(0, one), body(2, two), still)
 
     def test_may_be_triangles_of_a_file(self):
-        self.write("lever.stl", stl(LEVER))
+        self.path("lever.stl", stl(LEVER))
         for end, code in (("lever.stl", PROVEN), ("other.stl", UNREADABLE)):
             parts = hinge(-1, 1)
             self.expect(code, "", *parts[:3], f"body 1 lever\nstl {end}\n", parts[4])
         for size in (0, 83, 84, 100):
-            self.write("lever.stl", stl(LEVER)[:size])
+            self.path("lever.stl", stl(LEVER)[:size])
             self.expect(UNREADABLE, "", *parts[:3], "body 1 lever\nstl lever.stl\n", parts[4])
 
 
-class Paths(Folder):
+class Paths(Checked):
     def expect_path(self, code, rows, gap=0, tree=full_tree(9, "aa")):
         parts = root(), joint("turns", 0, (2, 0, 0), Z, 0, 0), body(0, WALL), body(1, LEVER)
         self.expect(code, "", *parts, f"gap {gap}\n", path([1], rows), f"pair 0 1\n{tree}\n")
@@ -178,7 +164,7 @@ class Paths(Folder):
             self.expect(code, "", *parts, f"gap {gap}\n", path([1], [(0, (0,)), (1, (-1.2,))]), f"pair 0 1\n{full_tree(8)}\n")
 
 
-class Random(Folder):
+class Random(Checked):
     def chain(self, rng):
         """A base and three to five joints, each with a box."""
         def size():
@@ -238,7 +224,7 @@ class Random(Folder):
         self.assertGreater(min(proven, meeting), 20)
 
 
-class Hostile(Folder):
+class Hostile(Checked):
     def test_truncated_files(self):
         whole = certificate(*hinge(-1, 1, tree=full_tree(5)))
         for size in range(0, len(whole) - 1, 7):
