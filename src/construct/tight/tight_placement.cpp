@@ -54,11 +54,16 @@ bool is_beyond(const std::array<HalfSpace, 3>& planes, const Vec3& p, double lea
 /// Keeps what is deeper than that.
 void clip(std::vector<Vec3>& polygon, const HalfSpace& plane, double least_depth, std::vector<Vec3>& result) {
   result.clear();
+  if (polygon.empty()) return;
+  const double first = depth(plane, polygon.front()) - least_depth;
+  double dp = first;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
-    const double dp = depth(plane, p) - least_depth, dq = depth(plane, q) - least_depth;
+    const bool is_last = i + 1 == polygon.size();
+    const Vec3 &p = polygon[i], &q = polygon[is_last ? 0 : i + 1];
+    const double dq = is_last ? first : depth(plane, q) - least_depth;
     if (dp >= 0) result.push_back(p);
     if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) result.push_back(p + (q - p) * (dp / (dp - dq)));
+    dp = dq;
   }
   std::swap(polygon, result);
 }
@@ -223,6 +228,13 @@ class TightPlacement::Deepest {
  public:
   Deepest(const Removed& removed, double allowed) : removed_(removed), allowed_(allowed), deepest_(allowed) {}
 
+  /// False where the triangle has no point inside, for certain: it lies beyond one of the planes.
+  bool may_reach(const std::array<Vec3, 3>& triangle) const {
+    const auto is_before = [&](const HalfSpace& plane) {
+      return std::ranges::all_of(triangle, [&](const Vec3& p) { return depth(plane, p) < allowed_; });
+    };
+    return !is_before(removed_.new_face) && std::ranges::none_of(removed_.others, is_before);
+  }
   void take_if_inside(const Vec3& p) {
     if (depth(removed_.new_face, p) > deepest_ && is_beyond(removed_.others, p, allowed_)) take(p);
   }
@@ -250,12 +262,16 @@ std::array<Vec3, 3> TightPlacement::local_corners(FaceId f) const {
   return {to_local(t.a), to_local(t.b), to_local(t.c)};
 }
 
-// Those left out are certainly not in the way.
 void TightPlacement::find_near(const Tetrahedron& removed) {
   near_.clear();
   original_.find_near(removed, near_);
   looks_ += near_.size();
-  if (original_.clearance() > 0 || near_.empty()) return;
+  if (original_.clearance() == 0) leave_out_apart(removed);
+}
+
+/// Those left out are certainly not in the way.
+void TightPlacement::leave_out_apart(const Tetrahedron& removed) {
+  if (near_.empty()) return;
   const auto& [a, b, c, d] = removed;
   const ApartFilter filter({to_local(a), to_local(b), to_local(c), to_local(d)});
   std::size_t kept = 0;
@@ -268,12 +284,23 @@ void TightPlacement::find_near(const Tetrahedron& removed) {
   near_.resize(kept, FaceId{});
 }
 
-void TightPlacement::take_parts_of_near(Deepest& deepest) {
-  for (const FaceId f : near_) {
-    const auto corners = local_corners(f);
+void TightPlacement::find_reaching(const Deepest& deepest) {
+  reaching_.clear();
+  for (const FaceId f : near_)
+    if (const auto corners = local_corners(f); deepest.may_reach(corners)) reaching_.push_back(corners);
+}
+
+void TightPlacement::take_parts_of_reaching(Deepest& deepest) {
+  for (const auto& corners : reaching_) {
     polygon_.assign(corners.begin(), corners.end());
     deepest.take_part_of(polygon_, clipped_);
   }
+}
+
+/// Exact, of the triangles that are near.
+bool TightPlacement::is_any_in_the_way(const Tetrahedron& removed) {
+  if (original_.clearance() > 0) leave_out_apart(removed);
+  return std::ranges::any_of(near_, [&](FaceId f) { return original_.is_in_the_way(f, removed); });
 }
 
 // Adds a cut for each removed tetrahedron that the original is in the way of: at a corner, or where there is none at a
@@ -287,11 +314,12 @@ bool TightPlacement::cut_where_met(const Vec3& apex, const Vec3& to) {
     if (near_.empty()) continue;
     const Removed removed(apex, local_[i], local_[after(i)]);
     Deepest deepest(removed, allowed_depth());
-    for (const FaceId f : near_)
-      for (const Vec3& p : local_corners(f)) deepest.take_if_inside(p);
-    if (!deepest.point()) take_parts_of_near(deepest);
+    find_reaching(deepest);
+    for (const auto& corners : reaching_)
+      for (const Vec3& p : corners) deepest.take_if_inside(p);
+    if (!deepest.point()) take_parts_of_reaching(deepest);
     if (!deepest.point()) {
-      met = met || std::ranges::any_of(near_, [&](FaceId f) { return original_.is_in_the_way(f, tetrahedron); });
+      met = met || is_any_in_the_way(tetrahedron);
       continue;
     }
     met = true;
@@ -365,7 +393,8 @@ std::optional<Vec3> TightPlacement::deepest_in(std::size_t i, const Vec3& apex, 
   std::erase_if(near_, [&](FaceId f) { return !original_.is_in_the_way(f, tetrahedron); });
   const Removed removed(apex, local_[i], local_[after(i)]);
   Deepest deepest(removed, 0);
-  take_parts_of_near(deepest);
+  find_reaching(deepest);
+  take_parts_of_reaching(deepest);
   return deepest.point();
 }
 
@@ -408,7 +437,7 @@ bool TightPlacement::keeps_enclosing(const Vec3& to) {
     const Tetrahedron removed{from_, link_[i], link_[after(i)], to};
     if (side(removed.a, removed.b, removed.c, removed.d) != Side::Inside) continue;
     find_near(removed);
-    if (std::ranges::any_of(near_, [&](FaceId f) { return original_.is_in_the_way(f, removed); })) return false;
+    if (is_any_in_the_way(removed)) return false;
     if (!original_.is_outside_inside_of(removed)) return false;
   }
   return keeps_padding(to);

@@ -71,7 +71,10 @@ class TightPlacement {
   class Deepest;
   std::array<Vec3, 3> local_corners(FaceId f) const;
   void find_near(const Tetrahedron& removed);
-  void take_parts_of_near(Deepest& deepest);
+  void leave_out_apart(const Tetrahedron& removed);
+  void find_reaching(const Deepest& deepest);
+  void take_parts_of_reaching(Deepest& deepest);
+  bool is_any_in_the_way(const Tetrahedron& removed);
   bool cut_where_met(const Vec3& apex, const Vec3& to);
   bool add_padding_cut(std::size_t i, const Vec3& apex, const Vec3& point);
   bool add_known_padding_cuts(const Vec3& apex);
@@ -108,6 +111,7 @@ class TightPlacement {
   // Scratch.
   std::size_t looks_ = 0;
   std::vector<FaceId> near_;
+  std::vector<std::array<Vec3, 3>> reaching_;  ///< local
   std::vector<Vec3> polygon_, clipped_;
 };
 
