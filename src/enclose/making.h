@@ -45,7 +45,7 @@ inline bool is_worth_moving(std::size_t faces, double excess) { return faces <= 
 
 /// Moved towards the triangles; in few rounds, where they are few beside its faces.
 TriangleMesh placed(const TriangleMesh& level, const Making& making);
-TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds);
+TriangleMesh placed(const TriangleMesh& level, const Making& making, const MoveOptions& how);
 
 // One for each method.
 EnclosingHull built_of_levels(const Making& making);

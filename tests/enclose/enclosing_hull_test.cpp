@@ -332,6 +332,16 @@ TEST(EnclosingHull, OfAWrapMovesTowardsTheTriangles) {
   EXPECT_EQ(finest_level(with_levels, level), FinestLevel::Wrap);
 }
 
+TEST(EnclosingHull, OfSeveralSeedsIsTheSmallestWhenItHasMoved) {
+  const TriangleMesh mesh = make_sample("knot", 600);
+  EnclosingOptions options{.repair = Repair::Wrap};
+  double least = std::numeric_limits<double>::infinity();
+  for (options.hull.seed = 3; options.hull.seed < 6; ++options.hull.seed)
+    least = std::min(least, signed_volume(enclosing_hull(mesh, 40, options).mesh));
+  options.hull.seed = 3, options.hull.best_of = 3;
+  EXPECT_EQ(signed_volume(enclosing_hull(mesh, 40, options).mesh), least);
+}
+
 TEST(EnclosingHull, OfPartsThatCrossIsThatOfTheirUnion) {
   const TriangleMesh crossing = together(box({0, 0, 0}, {2, 1, 1}), box({1, 0.25, 0.25}, {3, 0.75, 0.75}));
   const EnclosingHulls made = hull_of(subdivided(subdivided(crossing)), 100, {.hull = {.relax_guards = true}});
