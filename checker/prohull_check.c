@@ -1032,15 +1032,27 @@ static unsigned find_signs(Cut* u, const uint32_t* lines, size_t n, const uint32
   return sides;
 }
 
-/* No triangle of `by` crosses the part: either side of it is free. */
+/* Rounds weights that are at least 0 from their limbs, but for a factor that all have. */
+static void round_weights(Number w[3]) {
+  const int m = w[0].n > w[1].n ? w[0].n : w[1].n, top = m > w[2].n ? m : w[2].n;
+  for (int i = 0; i < 3; ++i) {
+    w[i].value = 0;
+    for (int j = 0; j < top; ++j) w[i].value = w[i].value * 0x1p-32 + (j < w[i].n ? w[i].d[j] : 0);
+    w[i].error = 1e-15 * w[i].value + 1e-290;
+  }
+}
+
+/* No triangle of `by` crosses the part: either side of it is free. Lines are known but for a factor, which is another
+   one where they are exact: rounded and exact corners, added up, would be two points. So one is rounded. */
 static void prove_within(const Cut* u, const uint32_t* lines, size_t n) {
   Spot middle = {u->of->t + u->i, {zero, zero, zero}};
   Number at[3];
-  for (int pass = 0; pass < 2; ++pass)
-    for (size_t k = 0; k < n; ++k) {
-      exactly = pass, cross(at, u->line[lines[k]].at, u->line[lines[(k + 1) % n]].at);
-      for (int i = 0; i < 3; ++i) add(&middle.weight[i], &middle.weight[i], &at[i], 1);
-    }
+  exactly = 1;
+  for (size_t k = 0; k < n; ++k) {
+    cross(at, u->line[lines[k]].at, u->line[lines[(k + 1) % n]].at);
+    for (int i = 0; i < 3; ++i) add(&middle.weight[i], &middle.weight[i], &at[i], 1);
+  }
+  round_weights(middle.weight);
   if (winding_beside(u->by, &middle, 1) < 1 && (u->is_flat || winding_beside(u->by, &middle, 0) < 1))
     end(1, "a part of triangle %u of %s lies outside of %s", u->of->number[u->i], u->of->name, u->by->name);
 }

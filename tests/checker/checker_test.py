@@ -23,7 +23,7 @@ except ImportError:
     prohull = None
 
 PROGRAM = sys.argv.pop(1)
-MUTANTS = int(os.environ.get("PROHULL_CHECK_MUTANTS", "2000"))
+MUTANTS = int(os.environ.get("PROHULL_CHECK_MUTANTS", "7500"))
 SEED = os.environ.get("PROHULL_TEST_SEED", "1")
 PROVEN, NOT_PROVEN, UNREADABLE = 0, 1, 2
 CUBE = subdivided(box((0, 0, 0), (4, 4, 4)))
@@ -32,6 +32,20 @@ WIDE = box((-1, -1, -1), (9, 9, 9))
 
 def both(a, b):
     return a[0] + b[0], a[1] + [tuple(v + len(a[0]) for v in t) for t in b[1]]
+
+
+def scaled(mesh, scale):
+    return [tuple(x * scale for x in p) for p in mesh[0]], mesh[1]
+
+
+def tetrahedron(v):
+    """Outwards."""
+    sides = [(0, 1, 2), (0, 3, 1), (1, 3, 2), (0, 2, 3)]
+    return v, sides if orient(*v) < 0 else [(a, c, b) for a, b, c in sides]
+
+
+def some_tetrahedron(rng):
+    return tetrahedron([tuple(rng.randint(-99, 99) for _ in range(3)) for _ in range(4)])
 
 
 class Checked(Folder):
@@ -113,6 +127,31 @@ class Surfaces(Checked):
         self.expect(PROVEN, "covers", [surfaces(1)], both(box((-1, -1, -1), (4, 5, 5)), wide), original)
         self.expect(NOT_PROVEN, "hole", [surfaces(3)], both(box((-1, -1, -1), (5, 5, 5)), wide), original)
         self.expect(NOT_PROVEN, "a part of triangle", [surfaces(1)], both(box((-1, -1, -1), (3, 5, 5)), wide), original)
+
+    def test_cut_a_tiny_triangle_at_overlapping_tetrahedra(self):
+        # Of a part of it, one point was rounded and another one exact: together they were within.
+        corners = [(1.7, -11, 83), (9.9, -36, -58), (-15, 62, 89), (-5.6, -36, -17)]
+        corners += [(92, -73, 41), (22, 18, -20), (-56, 38, -13), (-81, -20, -60)]
+        corners += [(-25, -70, 17), (73, 66, -14), (-41, 81, -94), (-90, 40, 92)]
+        triangle = [(-19, -40, 6.3), (2.4, -11, -11), (1.4, 37, -33)]
+        hull = both(both(tetrahedron(corners[:4]), tetrahedron(corners[4:8])), tetrahedron(corners[8:]))
+        tiny = lambda mesh: ([tuple(float(f"{x}e-61") for x in p) for p in mesh[0]], mesh[1])
+        self.expect(NOT_PROVEN, "a part of triangle", [surfaces(1)], tiny(hull), tiny((triangle, [(0, 1, 2)])))
+
+    def test_cut_triangles_of_any_size_alike(self):
+        answers = set()
+        for seed in range(120, 170):
+            rng = random.Random(seed)
+            hull = some_tetrahedron(rng)
+            for _ in range(rng.randint(2, 6)):
+                hull = both(hull, some_tetrahedron(rng))
+            corner = lambda: tuple(rng.choice(hull[0])[k] // 4 + rng.randint(-20, 20) for k in range(3))
+            triangle = ([corner() for _ in range(3)], [(0, 1, 2)])
+            cert = certificate(len(hull[1]), 1, surfaces(1))
+            got = [self.check(cert, scaled(hull, s), scaled(triangle, s)) for s in (1.0, 2.0**-30, 2.0**-200, 2.0**100)]
+            self.assertEqual(len(set(got)), 1, (seed, got))
+            answers.add(got[0][0])
+        self.assertEqual(answers, {PROVEN, NOT_PROVEN})
 
     def test_leave_no_hole(self):
         # A thick shell covers the triangles of a cube, but not its inside.
@@ -489,7 +528,8 @@ class Mutants(Checked):
                 hull, original = original, hull
             claims = rng.choice((1, 3, 3))
             cert = certificate(len(hull[1]), len(original[1]), surfaces(claims), side=side)
-            code, line = self.check(cert, hull, original)
+            size = 2.0 ** rng.choice((0, -30, -200, 100))
+            code, line = self.check(cert, scaled(hull, size), scaled(original, size))
             proven += code == PROVEN
             self.judge(rng, (code, line), hull, original, side)
         self.assertGreater(proven, MUTANTS // 30)
