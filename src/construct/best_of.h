@@ -24,12 +24,12 @@ namespace prohull {
 template <class Build, class MeshOf>
 auto best_of(const HullOptions& options, const char* stage, Build build, MeshOf mesh_of) {
   using Result = decltype(build(options));
-  struct OfSeed {
+  struct Candidate {
     std::size_t faces;
     double void_volume;
     Result result;
   };
-  std::vector<std::optional<OfSeed>> candidates(options.best_of);
+  std::vector<std::optional<Candidate>> candidates(options.best_of);
   std::vector<std::atomic<double>> done(options.best_of);
   ProgressMeter meter(options.progress, stage);
   const auto build_all = [&] {
@@ -57,7 +57,7 @@ auto best_of(const HullOptions& options, const char* stage, Build build, MeshOf 
   };
   run_beside(build_all, tell, ProgressMeter::interval);
   meter.at(1);
-  const auto best = std::ranges::min_element(candidates, {}, [&](const std::optional<OfSeed>& c) {
+  const auto best = std::ranges::min_element(candidates, {}, [&](const std::optional<Candidate>& c) {
     return std::tuple(std::max(c->faces, options.target_faces), c->void_volume);
   });
   return std::move((*best)->result);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -34,6 +35,7 @@ struct Candidate {
   SolidId solid;
   std::size_t target_faces;
   Recipe recipe;
+  std::uint64_t seed = 0;
   double within = 0;  ///< Method::Within: the distance that collapses keep
   std::size_t most_faces = std::numeric_limits<std::size_t>::max();  ///< with more, it is not better than another hull
   std::optional<EnclosingHull> start = {};                           ///< Method::Searched: what is searched on from

@@ -7,8 +7,9 @@
 
 namespace prohull {
 
-Candidates::Candidates(const Request& request, std::size_t target_faces, Notes& notes)
-    : request_(request), target_faces_(target_faces), notes_(notes) {
+Candidates::Candidates(const Request& request, std::size_t target_faces, std::uint64_t seed, Notes& notes)
+    : request_(request), target_faces_(target_faces), seed_(seed), notes_(notes) {
+  if (request.is_free() && !request.input.closed && std::isfinite(request.options.bounds.max_void_ratio)) plan_volume();
   plan_mesh();
   if (request.is_outer() && !request.is_bound_to_mesh()) plan_unfolded_mesh();
   if (request.is_outer() && may_stay_within()) plan_within_of_mesh();
@@ -23,10 +24,8 @@ Candidates::Candidates(const Request& request, std::size_t target_faces, Notes& 
       plan_other_wraps(), plan_clear_of_wraps();
   }
   if (!request.is_outer() && request.options.repair != Repair::None) {
-    if (request.is_padded())
-      plan_inner_with_padding();
-    else if (!request.is_bound_to_mesh() && !request.options.levels)
-      plan_inner();
+    if (!request.is_bound_to_mesh() && !request.options.levels) plan_inner();
+    if (request.is_padded()) plan_inner_with_padding();
   }
   if (request.options.tight) plan_tight();
 }
@@ -34,6 +33,7 @@ Candidates::Candidates(const Request& request, std::size_t target_faces, Notes& 
 std::optional<Candidate> Candidates::next(const Ranking& ranking, Solids& solids) {
   std::optional<Candidate> next = last_ ? follow_up(ranking, solids) : std::nullopt;
   while (!next && next_step_ < steps_.size()) next = steps_[next_step_++](ranking, solids);
+  if (next) next->seed = seed_;
   return last_ = next;
 }
 
@@ -50,11 +50,15 @@ std::optional<Candidate> Candidates::follow_up(const Ranking& ranking, const Sol
 }
 
 // A hull that moves away by a gap of more than its details passes through itself.
-bool Candidates::keeps_clear(const Solid& solid) const {
+bool Candidates::is_small_gap(double spacing) const {
   constexpr double kSmallGap = 0.6;  // in spacings
-  const bool is_small_gap =
-      request_.is_outer() && !request_.options.bounds.any() && request_.aim() < kSmallGap * solid.wrap_spacing;
-  return (request_.is_padded() && !is_small_gap) || !request_.input.closed || solid.doors.face_count() > 0;
+  return request_.aim() < kSmallGap * spacing;
+}
+
+bool Candidates::keeps_clear(const Solid& solid) const {
+  const bool moves_away_later =
+      request_.is_outer() && !request_.options.bounds.any() && is_small_gap(solid.wrap_spacing);
+  return (request_.is_padded() && !moves_away_later) || !request_.input.closed || solid.doors.face_count() > 0;
 }
 
 Candidate Candidates::of(SolidId id, const Solids& solids) const {
@@ -67,12 +71,23 @@ Candidate Candidates::of(SolidId id, const Solids& solids) const {
 }
 
 Candidate Candidates::moved(SolidId id) const {
-  return {id, target_faces_, {request_.options.bounds.any() ? Method::Levels : Method::InSteps, /*moves=*/true}};
+  const Method method = request_.options.bounds.any() ? Method::Levels : Method::InSteps;
+  return {.solid = id, .target_faces = target_faces_, .recipe = {method, /*moves=*/true}};
+}
+
+// Bounds that ask for no more faces shall not ask for more void.
+Candidate Candidates::of_convex(SolidId id, const Ranking& ranking, const Solids& solids) const {
+  Candidate candidate = of(id, solids);
+  if (has_few_faces(ranking) && !request_.options.levels) candidate.recipe.method = Method::InSteps;
+  return candidate;
 }
 
 Candidate Candidates::within(SolidId id, double max_distance, const Solids& solids) const {
   const bool moves = solids[id].source == Source::Wrap;  // it has less void then
-  return {id, target_faces_, {Method::Within, moves, Approach::Clear}, max_distance};
+  return {.solid = id,
+          .target_faces = target_faces_,
+          .recipe = {Method::Within, moves, Approach::Clear},
+          .within = max_distance};
 }
 
 // Where so few are asked for that not even tetrahedra around its parts would do, and something else may.
@@ -137,7 +152,7 @@ void Candidates::plan_convex_hull() {
     const auto too_large = is_good ? std::optional(ranking.best_volume()) : std::nullopt;
     const auto id = solids.convex_hull(too_large);
     if (!id || (too_large && solids[*id].volume >= *too_large)) return std::nullopt;
-    return of(*id, solids);
+    return of_convex(*id, ranking, solids);
   });
 }
 
@@ -164,7 +179,7 @@ void Candidates::plan_polytope() {
                                                   : target_faces_ <= kFew && is_worth_a_wrap(ranking, solids, true);
     if (!is_worth_it) return std::nullopt;
     const auto id = solids.polytope(std::max(target_faces_, kFewest));
-    return id ? std::optional(of(*id, solids)) : std::nullopt;
+    return id ? std::optional(of_convex(*id, ranking, solids)) : std::nullopt;
   });
 }
 
@@ -182,7 +197,8 @@ void Candidates::plan_tight() {
   const auto tight = [this](SolidId id, const Ranking& ranking, const Solids& solids) {
     const bool may_have_body =
         request_.is_padded() && !request_.options.bounds.any() && solids[id].source != Source::ConvexHull;
-    Candidate candidate{id, target_faces_, {may_have_body ? Method::TightOfGapBody : Method::Tight}};
+    Candidate candidate{
+        .solid = id, .target_faces = target_faces_, .recipe = {may_have_body ? Method::TightOfGapBody : Method::Tight}};
     if (ranking.is_as_asked()) candidate.most_faces = std::max(target_faces_, ranking.best().hull.mesh.face_count());
     return candidate;
   };
@@ -196,7 +212,7 @@ void Candidates::plan_tight() {
     const EnclosingHull& best = ranking.best().hull;
     if (best.source == Source::Mesh) return std::nullopt;
     if (is_worth_a_search(best)) {
-      Candidate candidate{best.solid, target_faces_, {Method::Searched}};
+      Candidate candidate{.solid = best.solid, .target_faces = target_faces_, .recipe = {Method::Searched}};
       candidate.start = best;
       return candidate;
     }

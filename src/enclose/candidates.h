@@ -15,10 +15,10 @@ struct LooseWrap {
   bool is_last;
 };
 
-/// What is tried for one number of faces, in order. What cannot win any more is left out.
+/// What is tried for one number of faces, with one seed, in order. What cannot win any more is left out.
 class Candidates {
  public:
-  Candidates(const Request& request, std::size_t target_faces, Notes& notes);
+  Candidates(const Request& request, std::size_t target_faces, std::uint64_t seed, Notes& notes);
 
   /// After the last one was built, and `ranking` has taken what came of it.
   std::optional<Candidate> next(const Ranking& ranking, Solids& solids);
@@ -27,6 +27,7 @@ class Candidates {
   /// None if it is not worth trying, or if there is no such solid.
   using Step = std::function<std::optional<Candidate>(const Ranking&, Solids&)>;
 
+  void plan_volume();
   void plan_mesh();
   void plan_unfolded_mesh();
   void plan_within_of_mesh();
@@ -56,14 +57,17 @@ class Candidates {
   bool is_worth_a_search(const EnclosingHull& hull) const;
   double spacing_for(const WrapKind& kind) const;
   double finest_worth_its_faces(const Solids& solids) const;
+  bool is_small_gap(double spacing) const;
   bool keeps_clear(const Solid& solid) const;
   Candidate of(SolidId id, const Solids& solids) const;
+  Candidate of_convex(SolidId id, const Ranking& ranking, const Solids& solids) const;
   Candidate moved(SolidId id) const;
   Candidate within(SolidId id, double max_distance, const Solids& solids) const;
   bool may_stay_within() const;
 
   const Request& request_;
   const std::size_t target_faces_;
+  const std::uint64_t seed_;
   Notes& notes_;
   std::vector<Step> steps_;
   std::size_t next_step_ = 0;

@@ -1,5 +1,6 @@
 #include "enclose/certify.h"
 
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,7 +38,8 @@ bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& reque
   if (hull.verdict.worst.size() < hull.verdict.faces_outside) return false;
   TriangleMesh outside{request.to_cover().positions, {}};
   for (const Offender& o : hull.verdict.worst) outside.triangles.push_back(request.to_cover().triangles[o.face]);
-  auto lifted = lifted_until_covered(hull.mesh, outside, hull.verdict.worst, request.hull_options(hull.target_faces));
+  auto lifted = lifted_until_covered(hull.mesh, outside, hull.verdict.worst,
+                                     request.hull_options(hull.target_faces, request.options.hull.seed));
   if (!lifted) return false;
   hull.mesh = std::move(*lifted);
   hull.levels.reset();
@@ -74,19 +76,19 @@ void certify_as_it_is(EnclosingHull& hull, const Solid& solid, const Request& re
   hull.proof = hull.certified ? hull.verdict.proof : std::string_view();
 }
 
-// What is missing is added, and measured again; twice of it after the first time, as faces turn when they move. The
-// distances propose only: verify_gap decides.
+// What is missing is added, and measured again; twice of it after the first time, as faces turn when they move, and
+// then four times. The distances propose only: verify_gap decides.
 void keep_away(EnclosingHull& hull, const Request& request, Solids& solids) {
-  constexpr int kMostAttempts = 6;
+  constexpr double kOfWhatIsMissing[]{1, 2, 2, 4, 4, 4};
   constexpr unsigned kMostRounds = 6;
   const double padding = request.options.padding;
   const bool is_float32 = request.options.hull.float32_coordinates;
   const TriangleMesh before = hull.mesh;
   double added = 0;
-  for (int i = 0;; ++i) {
+  for (std::size_t i = 0;; ++i) {
     hull.padding = solids.distance_from(hull.mesh, hull.solid);
-    if (hull.padding >= padding || (i > 0 && hull.padding == 0) || i == kMostAttempts) break;
-    added += (i == 0 ? 1 : 2) * (request.aim() - hull.padding);
+    if (hull.padding >= padding || (i > 0 && hull.padding == 0) || i == std::size(kOfWhatIsMissing)) break;
+    added += kOfWhatIsMissing[i] * (request.aim() - hull.padding);
     hull.mesh = request.is_outer() ? padded_hull(before, added, is_float32).mesh
                                    : turned(padded_hull(turned(before), added, is_float32).mesh);
   }

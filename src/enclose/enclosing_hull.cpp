@@ -26,10 +26,15 @@ constexpr std::array<std::pair<std::string_view, Source>, 3> kSourceNames{
 
 EnclosingHull best_hull(const Request& request, std::size_t target_faces, Solids& solids) {
   Notes notes;
-  Ranking ranking(request, target_faces, solids, notes);
-  Candidates candidates(request, target_faces, notes);
-  while (const auto candidate = candidates.next(ranking, solids)) ranking.take(attempt(*candidate, request, solids));
-  EnclosingHull hull = ranking.winner();
+  Ranking of_all_seeds(request, target_faces, solids, notes);
+  const HullOptions& options = request.options.hull;
+  for (unsigned i = 0; i < options.best_of; ++i) {
+    Ranking ranking(request, target_faces, solids, notes);
+    Candidates candidates(request, target_faces, options.seed + i, notes);
+    while (const auto candidate = candidates.next(ranking, solids)) ranking.take(attempt(*candidate, request, solids));
+    of_all_seeds.take(std::move(ranking).taken());
+  }
+  EnclosingHull hull = of_all_seeds.winner();
   if (request.has_tolerances()) request.require_tolerances(hull.mesh);
   if (request.is_symmetric()) request.require_symmetry(hull.mesh);
   return hull;

@@ -66,11 +66,11 @@ TriangleMesh placed(const TriangleMesh& level, const Making& making) {
   constexpr double kLeast = 16'000, kPerTriangle = 100;
   const double most = std::max(kLeast, kPerTriangle * double(making.to_cover().face_count()));
   const double rounds = kRoundsAtTheEnd * most / double(level.face_count());
-  const auto max_rounds = static_cast<unsigned>(std::clamp(rounds, 1.0, double(kRoundsAtTheEnd)));
-  return placed(level, making, making.request.move_options(max_rounds));
+  return placed(level, making, static_cast<unsigned>(std::clamp(rounds, 1.0, double(kRoundsAtTheEnd))));
 }
 
-TriangleMesh placed(const TriangleMesh& level, const Making& making, const MoveOptions& how) {
+TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds) {
+  const MoveOptions how = making.request.move_options(max_rounds);
   return making.recipe().approach == Approach::Touching
              ? moved_towards_closed(level, making.request.input.closed->mesh, how.side, how)
              : moved_towards(level, making.to_cover(), how);

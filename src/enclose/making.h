@@ -21,7 +21,7 @@ struct Making {
   const EnclosingOptions& options() const { return request.options; }
   const Solid& solid() const { return solids[candidate.solid]; }
   const TriangleMesh& to_cover() const { return solids.to_cover(candidate.solid); }
-  HullOptions hull_options() const { return request.hull_options(candidate.target_faces); }
+  HullOptions hull_options() const { return request.hull_options(candidate.target_faces, candidate.seed); }
 };
 
 /// With the coordinates that a file keeps, or why it has none. A hull of a mesh that intersects itself may have no room
@@ -45,7 +45,7 @@ inline bool is_worth_moving(std::size_t faces, double excess) { return faces <= 
 
 /// Moved towards the triangles; in few rounds, where they are few beside its faces.
 TriangleMesh placed(const TriangleMesh& level, const Making& making);
-TriangleMesh placed(const TriangleMesh& level, const Making& making, const MoveOptions& how);
+TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds);
 
 // One for each method.
 EnclosingHull built_of_levels(const Making& making);

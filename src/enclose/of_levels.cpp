@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "construct/best_of.h"
 #include "construct/shape_guards.h"
 #include "enclose/level_search.h"
 #include "enclose/making.h"
@@ -47,32 +46,10 @@ LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
   return {faces, hull.level(faces), 1};
 }
 
-// Moved before it has come down to its faces, too, a hull is up to 1 % smaller.
-EnclosingHull in_steps(const Making& making, const HullOptions& options) {
-  constexpr std::pair<double, unsigned> kSteps[]{{1.5, 2}, {1, kRoundsAtTheEnd}};
-  EnclosingHull hull;
-  hull.mesh = making.solid().mesh;
-  for (const auto& [faces, rounds] : kSteps) {
-    if (!(signed_volume(hull.mesh) > 0)) break;  // an inner hull may vanish
-    HullOptions step = options;
-    step.target_faces = std::size_t(std::llround(faces * double(options.target_faces)));
-    step.guards.max_overhang = overhang_left(bounding_box(hull.mesh), bounding_box(making.request.input.original),
-                                             making.options().hull.guards.max_overhang);
-    HullResult result = build_hull(hull.mesh, step);
-    MoveOptions moves = making.request.move_options(rounds);
-    moves.threads = options.threads, moves.progress = options.progress;
-    hull.mesh = placed(result.hull.base(), making, moves);
-    hull.target_reached = result.stopped == Stopped::TargetReached;
-    hull.refusals += result.refusals, hull.blocked = result.blocked;
-    hull.relaxed_guards = std::max(hull.relaxed_guards, result.relaxed_guards);
-  }
-  return hull;
-}
-
 }  // namespace
 
 EnclosingHull built_of_levels(const Making& making) {
-  const HullResult& result = making.solids.levels(making.candidate.solid);
+  const HullResult& result = making.solids.levels(making.candidate.solid, making.candidate.seed);
   std::optional<LevelTrial> moved;
   if (making.recipe().moves) moved = moved_level(result.hull, making);
   const std::size_t faces = moved ? moved->faces : faces_of_level(result.hull, making);
@@ -87,12 +64,25 @@ EnclosingHull built_of_levels(const Making& making) {
   return hull;
 }
 
-// Which of several hulls is the smallest, is known when they have moved.
+// Moved before it has come down to its faces, too, a hull is up to 1 % smaller.
 EnclosingHull built_in_steps(const Making& making) {
-  const HullOptions options = making.hull_options();
-  const auto build = [&](const HullOptions& one) { return in_steps(making, one); };
-  if (options.best_of == 1) return build(options);
-  return best_of(options, "collapse", build, [](const EnclosingHull& hull) -> const TriangleMesh& { return hull.mesh; });
+  constexpr std::pair<double, unsigned> kSteps[]{{1.5, 2}, {1, kRoundsAtTheEnd}};
+  const double target = double(making.candidate.target_faces);
+  EnclosingHull hull;
+  hull.mesh = making.solid().mesh;
+  for (const auto& [faces, rounds] : kSteps) {
+    if (!(signed_volume(hull.mesh) > 0)) break;  // an inner hull may vanish
+    HullOptions options = making.hull_options();
+    options.target_faces = std::size_t(std::llround(faces * target));
+    options.guards.max_overhang = overhang_left(bounding_box(hull.mesh), bounding_box(making.request.input.original),
+                                                making.options().hull.guards.max_overhang);
+    HullResult result = build_hull(hull.mesh, options);
+    hull.mesh = placed(result.hull.base(), making, rounds);
+    hull.target_reached = result.stopped == Stopped::TargetReached;
+    hull.refusals += result.refusals, hull.blocked = result.blocked;
+    hull.relaxed_guards = std::max(hull.relaxed_guards, result.relaxed_guards);
+  }
+  return hull;
 }
 
 }  // namespace prohull

@@ -157,9 +157,14 @@ void Ranking::refuse() {
                                what_to_try(request_.options)));
 }
 
+std::optional<Attempt> Ranking::taken() && {
+  if (best_) best_->hull.build_seconds = build_seconds_, best_->hull.verify_seconds = verify_seconds_;
+  return std::move(best_);
+}
+
 EnclosingHull Ranking::winner() {
   if (!has_certified()) refuse();
-  EnclosingHull hull = std::move(best_->hull);
+  EnclosingHull hull = std::move(*this).taken()->hull;
   const Solid& solid = solids_[hull.solid];
   if (solid.folds.faces > 0)
     notes_.add(describe(solid.folds) +
@@ -172,7 +177,6 @@ EnclosingHull Ranking::winner() {
         fmt::format("the mesh is not closed: openings up to about {:.4g} across count as closed", solid.largest_door));
   if (solid.source == Source::Wrap && !request_.input.closed && volume() == 0)
     notes_.add("the triangles enclose no space: the hull is a sheet around them");
-  hull.build_seconds = build_seconds_, hull.verify_seconds = verify_seconds_;
   hull.notes = notes_.all();
   return hull;
 }

@@ -47,7 +47,9 @@ class Ranking {
   /// How much larger the best is than it has to be, about.
   double slack() const;
 
-  /// The best one, with the times of all that was tried. Throws InputError if none is certified.
+  /// The best one, with the times of all that was tried; none if nothing was.
+  std::optional<Attempt> taken() &&;
+  /// The same, with notes. Throws InputError if none is certified.
   EnclosingHull winner();
 
  private:

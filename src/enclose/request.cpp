@@ -36,9 +36,10 @@ Request::Request(TriangleMesh triangles, std::size_t fewest, const EnclosingOpti
   repair_seconds = watch.seconds();
 }
 
-HullOptions Request::hull_options(std::size_t target_faces) const {
+HullOptions Request::hull_options(std::size_t target_faces, std::uint64_t seed) const {
   HullOptions hull = options.hull;
   hull.target_faces = target_faces;
+  hull.seed = seed, hull.best_of = 1;
   hull.tolerances = tolerances;
   hull.progress = options.progress;
   return hull;

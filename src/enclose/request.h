@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 #include "prohull/enclosing_hull.h"
 #include "prohull/tight_hull.h"
 
@@ -21,10 +24,13 @@ struct Request {
 
   /// The triangles, and the caps of their openings.
   const TriangleMesh& to_cover() const { return input.caps.face_count() > 0 ? with_caps : input.original; }
-  /// The padding and a hair, for rounding; 0 without padding.
-  double aim() const { return is_padded() ? options.padding * (1 + 1e-6) + 1e-12 * diagonal : 0; }
+  /// The padding and a hair, for rounding, and at least so much that hulls move; 0 without padding.
+  double aim() const {
+    return is_padded() ? std::max(options.padding * (1 + 1e-6) + 1e-12 * diagonal, 1e-7 * diagonal) : 0;
+  }
 
-  HullOptions hull_options(std::size_t target_faces) const;
+  /// Of one hull.
+  HullOptions hull_options(std::size_t target_faces, std::uint64_t seed) const;
   MoveOptions move_options(unsigned max_rounds) const;
   /// What every hull must have that was built with them. Throw InputError otherwise.
   void require_tolerances(const TriangleMesh& hull) const;

@@ -87,7 +87,8 @@ std::optional<SolidId> Solids::unfolded() {
   const Stopwatch watch;
   if (!unfolded_) {
     unfolded_.emplace();
-    if (auto made = prohull::unfolded(entries_[0].solid.mesh, request_.hull_options(request_.fewest_faces)))
+    if (auto made = prohull::unfolded(entries_[0].solid.mesh,
+                                      request_.hull_options(request_.fewest_faces, request_.options.hull.seed)))
       *unfolded_ = add({.source = Source::Mesh, .mesh = std::move(made->mesh), .folds = made->folds});
     repair_seconds_ += watch.seconds();
   }
@@ -110,6 +111,8 @@ double Solids::verified_volume(std::size_t faces) const {
 }
 
 std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::size_t faces, std::string& why_not) {
+  for (const SolidId id : wraps(faces))
+    if (entries_[id].kind == kind && entries_[id].solid.wrap_spacing == spacing) return id;
   const Stopwatch watch;
   const EnclosingOptions& options = request_.options;
   const bool is_closed = request_.input.closed.has_value();
@@ -137,7 +140,7 @@ std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::s
                 .doors = std::move(made.doors),
                 .largest_door = made.largest_door,
                 .components = wrapped.report.components});
-      entries_[*id].inside_volume = made.inside_volume;
+      entries_[*id].inside_volume = made.inside_volume, entries_[*id].kind = kind;
       wraps_[faces].push_back(*id);
     } catch (const InputError& error) {
       why_not = fmt::format("the wrap with a spacing of {:.4g} is no closed 2-manifold: {}", spacing, error.what());
@@ -146,10 +149,11 @@ std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::s
   return id;
 }
 
-const HullResult& Solids::levels(SolidId id) {
-  std::optional<HullResult>& levels = entries_[id].levels;
-  if (!levels) levels = build_hull(entries_[id].solid.mesh, request_.hull_options(request_.fewest_faces));
-  return *levels;
+const HullResult& Solids::levels(SolidId id, std::uint64_t seed) {
+  std::map<std::uint64_t, HullResult>& levels = entries_[id].levels;
+  if (const auto known = levels.find(seed); known != levels.end()) return known->second;
+  const HullOptions options = request_.hull_options(request_.fewest_faces, seed);
+  return levels.emplace(seed, build_hull(entries_[id].solid.mesh, options)).first->second;
 }
 
 const TriangleMesh& Solids::to_cover(SolidId id) const {

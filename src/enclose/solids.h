@@ -21,6 +21,8 @@ struct WrapKind {
   double nodes_per_edge;   ///< of a face of the hull: the grid is as fine as these faces can carry, about
   double offset, closing;  ///< as in WrapOptions, in spacings
   double flatness = 0;     ///< as in WrapOptions
+
+  bool operator==(const WrapKind&) const = default;
 };
 
 /// The closed meshes that hulls are built from, and what is made once of each. All is made when it is asked for first.
@@ -48,7 +50,7 @@ class Solids {
   /// What hulls are verified against.
   verify::Original& original() { return original_; }
   /// The progressive hull of the solid, down to the fewest faces that are asked for.
-  const HullResult& levels(SolidId id);
+  const HullResult& levels(SolidId id, std::uint64_t seed);
   /// What its hulls must cover: the triangles, their caps, and the doors of the wrap.
   const TriangleMesh& to_cover(SolidId id) const;
   /// A lower bound of the distance of a hull from that.
@@ -65,10 +67,11 @@ class Solids {
  private:
   struct Entry {
     Solid solid;
-    TriangleMesh with_doors;                ///< if it has doors: what to cover, and these
-    std::optional<CollisionIndex> surface;  ///< of what to cover
-    std::optional<HullResult> levels;
-    double inside_volume = 0;  ///< of a wrap: of what it takes for the inside of the input
+    TriangleMesh with_doors;                     ///< if it has doors: what to cover, and these
+    std::optional<CollisionIndex> surface;       ///< of what to cover
+    std::map<std::uint64_t, HullResult> levels;  ///< by seed
+    double inside_volume = 0;                    ///< of a wrap: of what it takes for the inside of the input
+    std::optional<WrapKind> kind;                ///< of a wrap
   };
 
   SolidId add(Solid solid);

@@ -516,7 +516,6 @@ TEST(EnclosingHull, HasFewerFacesWithinABoundThanALevel) {
   EXPECT_LT(hull.mesh.face_count(), level.mesh.face_count());
 }
 
-// What the wraps of one budget tell of the inside decides nothing for another.
 // Levels of the convex hull keep it with 90 faces; the hull that moves on its way down, with 60.
 TEST(EnclosingHull, KeepsABoundWithAsFewFacesAsTheHullWithoutIt) {
   const EnclosingHull hull = enclosing_hull(make_sample("gyroid", 1500), 60, {.bounds = {.max_distance = 0.25}});
@@ -525,6 +524,16 @@ TEST(EnclosingHull, KeepsABoundWithAsFewFacesAsTheHullWithoutIt) {
   EXPECT_TRUE(hull.notes.empty() || hull.notes.back().find("convex hull") == std::string::npos);
 }
 
+TEST(EnclosingHull, OfBoundsThatItKeepsWithoutThemIsTheSame) {
+  const TriangleMesh asteroid = make_sample("asteroid", 1500);
+  for (const TriangleMesh& mesh : {asteroid, without_a_face(asteroid)}) {
+    const TriangleMesh hull = enclosing_hull(mesh, 60).mesh;
+    EXPECT_EQ(enclosing_hull(mesh, 60, {.bounds = {.max_void_ratio = 9}}).mesh, hull);
+    EXPECT_EQ(enclosing_hull(mesh, 60, {.bounds = {.max_distance = 9}}).mesh, hull);
+  }
+}
+
+// What the wraps of one budget tell of the inside decides nothing for another.
 TEST(EnclosingHull, OfASoupIsTheSameBesideOtherBudgets) {
   const TriangleMesh soup = without_a_face(make_sample("bracket", 100));
   const EnclosingOptions options{.repair = Repair::Wrap, .open_shells = OpenShells::Keep};
