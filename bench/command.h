@@ -26,6 +26,7 @@ void add_covers(CLI::App& app, Run& run);
 void add_filters(CLI::App& app, Run& run);
 void add_gaps(CLI::App& app, Run& run);
 void add_intersections(CLI::App& app, Run& run);
+void add_joint_slice(CLI::App& app, Run& run);
 void add_leaks(CLI::App& app, Run& run);
 void add_link_covers(CLI::App& app, Run& run);
 void add_looser(CLI::App& app, Run& run);

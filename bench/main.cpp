@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   add_filters(app, run);
   add_gaps(app, run);
   add_intersections(app, run);
+  add_joint_slice(app, run);
   add_leaks(app, run);
   add_looser(app, run);
   add_memory(app, run);
