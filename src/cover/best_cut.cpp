@@ -113,6 +113,14 @@ double least_volume_between(double area, double other, double distance) {
   return distance / 3 * (area + std::sqrt(area * other) + other);
 }
 
+/// A volume that GrowingHull leaves out at most of what is in the box: points within a millionth of the hull, whose
+/// surface is no larger than that of the box.
+double left_out_by_hulls(const Box& box) {
+  constexpr double kLeftOut = 1e-5;
+  const Vec3 size = box.max - box.min;
+  return kLeftOut * 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+}
+
 /// The merits of the best cuts that were found so far.
 class Leaders {
  public:
@@ -237,10 +245,7 @@ class Sweep {
       above_[i] = bound_ +=
           least_volume_between(slabs_[i].upper_area, slabs_[i + 1].lower_area, offsets_[i + 1] - offsets_[i]);
     bound_ += least_volume_between(0, slabs_.front().lower_area, offsets_.front() - heights_[order_.front()]);
-    // GrowingHull leaves out points within a millionth of the hull, whose surface is no larger than that of the box.
-    constexpr double kLeftOut = 1e-5;
-    const Vec3 size = box_of(part_).max - box_of(part_).min;
-    slack_ = kLeftOut * 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+    slack_ = left_out_by_hulls(box_of(part_));
   }
 
   /// goes_on(i, volume) for the hulls below, or above, of plane i, until it returns false.
@@ -308,7 +313,8 @@ class Neighborhood {
     upper_.add(upper);
   }
 
-  Cut cut_by(const Plane& plane) const {
+  /// There is none if the volume is greater than `most`.
+  Cut cut_by(const Plane& plane, double most) const {
     static thread_local std::vector<Vec3> lower, upper, both;
     static thread_local std::vector<double> heights;
     lower.clear(), upper.clear(), both.clear(), heights.clear();
@@ -330,7 +336,8 @@ class Neighborhood {
     for (const Vec3& p : new_corners(part_, plane, solid_)) both.push_back(p);
     keep_extreme(both, plane.normal);
     for (const Vec3& p : both) lower.push_back(p), upper.push_back(p);
-    return cut_of(plane, volume_with(lower_, lower), volume_with(upper_, upper));
+    const double below = volume_with(lower_, lower);
+    return below + upper_.volume() > most ? no_cut() : cut_of(plane, below, volume_with(upper_, upper));
   }
 
  private:
@@ -398,32 +405,36 @@ std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets, std::si
   return result;
 }
 
-std::vector<Cut> HalvesVolume::operator()(std::span<const Plane> planes) const {
+HalvesVolume::HalvesVolume(const Part& part, const Solid& solid)
+    : part_(part), solid_(solid), box_(box_of(part)), edges_(edges(part)) {}
+
+std::vector<Cut> HalvesVolume::operator()(std::span<const Plane> planes, double most) const {
   const Neighborhood neighborhood(part_, edges_, planes, solid_);
+  const double limit = most + left_out_by_hulls(box_);
   std::vector<Cut> result(planes.size());
   oneapi::tbb::parallel_for(std::size_t{0}, planes.size(),
-                            [&](std::size_t i) { result[i] = neighborhood.cut_by(planes[i]); });
+                            [&](std::size_t i) { result[i] = neighborhood.cut_by(planes[i], limit); });
   return result;
 }
 
-Cut refined(const Part& part, const Cut& cut, const Solid& solid) {
-  const HalvesVolume halves(part, solid);
-  const auto merits = [&](std::span<const Plane> planes) {
+Cut refined(const HalvesVolume& halves, const Cut& cut) {
+  const auto merits = [&](std::span<const Plane> planes, double most) {
     std::vector<double> result;
-    for (const Cut& c : halves(planes)) result.push_back(c.merit);
+    for (const Cut& c : halves(planes, most)) result.push_back(c.merit);
     return result;
   };
-  const Plane best = with_least_value(cut.plane, box_of(part), merits);
+  const Plane best = with_least_value(cut.plane, halves.box(), merits);
   return halves({&best, 1}).front();
 }
 
 Plane with_least_value(const Plane& plane, const Box& box, const ValuesOfPlanes& values) {
   Plane best = plane;
-  double least = values({&plane, 1}).front(), angle = 0.25, shift = box.diagonal() / 30;
+  double least = values({&plane, 1}, std::numeric_limits<double>::infinity()).front(), angle = 0.25,
+         shift = box.diagonal() / 30;
   for (int round = 0; round < 5; ++round, angle /= 2, shift /= 2) {
     for (bool improved = true; improved;) {
       const std::vector<Plane> tries = neighbors(best, box.center(), angle, shift);
-      const std::vector<double> tried = values(tries);
+      const std::vector<double> tried = values(tries, least);
       const auto found = std::min_element(tried.begin(), tried.end());
       // Rounding makes merits below 0, too.
       improved = *found < least * (least > 0 ? 1 - kLeastImprovement : 1 + kLeastImprovement);

@@ -25,26 +25,29 @@ std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets, std::si
 /// Of a cut whose halves have this volume together.
 double greatest_merit(double volume);
 
-/// Turns and moves the plane as long as that makes the volume less.
-Cut refined(const Part& part, const Cut& cut, const Solid& solid);
-
-/// Turns and moves the plane, which meets the box, as long as that makes its value less. `values` are those of several
-/// planes that are close to each other.
-using ValuesOfPlanes = std::function<std::vector<double>(std::span<const Plane>)>;
-Plane with_least_value(const Plane& plane, const Box& box, const ValuesOfPlanes& values);
-
 /// The volumes of the convex hulls of both sides of a plane together, for many planes.
 class HalvesVolume {
  public:
-  HalvesVolume(const Part& part, const Solid& solid) : part_(part), solid_(solid), edges_(edges(part)) {}
+  HalvesVolume(const Part& part, const Solid& solid);
+  const Box& box() const { return box_; }
   /// Of several planes together: what lies on the same side of all of them is looked at once, so they had better be
-  /// close to each other. The volume is infinite if all is on one side.
-  std::vector<Cut> operator()(std::span<const Plane> planes) const;
+  /// close to each other. The volume is infinite if all is on one side, and may be if it is greater than `most`.
+  std::vector<Cut> operator()(std::span<const Plane> planes,
+                              double most = std::numeric_limits<double>::infinity()) const;
 
  private:
   const Part& part_;
   const Solid& solid_;
+  const Box box_;
   const std::vector<std::array<std::uint32_t, 2>> edges_;
 };
+
+/// Turns and moves the plane as long as that makes the volume less.
+Cut refined(const HalvesVolume& halves, const Cut& cut);
+
+/// Turns and moves the plane, which meets the box, as long as that makes its value less. `values` are those of several
+/// planes that are close to each other; one that is greater than `most` may have any value that is.
+using ValuesOfPlanes = std::function<std::vector<double>(std::span<const Plane>, double most)>;
+Plane with_least_value(const Plane& plane, const Box& box, const ValuesOfPlanes& values);
 
 }  // namespace prohull::cover

@@ -161,9 +161,9 @@ class Cutting {
 
   /// The first cuts, refined; of those that end in nearly the same plane only the best one.
   std::vector<Cut> distinct_refined(const Part& part, const std::vector<Cut>& first) const {
+    const HalvesVolume halves(part, solid_);
     std::vector<Cut> all(first.size()), distinct;
-    oneapi::tbb::parallel_for(std::size_t{0}, first.size(),
-                              [&](std::size_t i) { all[i] = refined(part, first[i], solid_); });
+    oneapi::tbb::parallel_for(std::size_t{0}, first.size(), [&](std::size_t i) { all[i] = refined(halves, first[i]); });
     std::ranges::stable_sort(all, {}, &Cut::merit);
     for (const Cut& cut : all)
       if (std::ranges::none_of(distinct, [&](const Cut& d) { return nearly_same(d.plane, cut.plane); }))
@@ -326,10 +326,10 @@ class Settling {
   Plane moved_plane(const CutTree::Node& node, const Part& part) const {
     const HalvesVolume halves(part, solid_);
     const bool is_last = is_leaf(node.below) && is_leaf(node.above);
-    return with_least_value(node.plane, box_of(part), [&](std::span<const Plane> planes) {
+    return with_least_value(node.plane, halves.box(), [&](std::span<const Plane> planes, double most) {
       std::vector<double> volumes(planes.size());
       if (is_last)
-        std::ranges::transform(halves(planes), volumes.begin(), &Cut::volume);
+        std::ranges::transform(halves(planes, most), volumes.begin(), &Cut::volume);
       else
         oneapi::tbb::parallel_for(std::size_t{0}, planes.size(),
                                   [&](std::size_t i) { volumes[i] = volume_of_leaves(node, part, planes[i]); });

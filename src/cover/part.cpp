@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "cover/polytope.h"
@@ -201,17 +202,31 @@ Vec3 area_vector(const Part& part, std::span<const std::uint32_t> polygon) {
   return area;
 }
 
-std::vector<std::array<std::uint32_t, 2>> edges(const Part& part) {
-  std::vector<std::array<std::uint32_t, 2>> result;
-  result.reserve(part.corners.size());
+namespace {
+
+/// visit(a, b) for each side of a polygon, with a < b.
+template <class Visit>
+void visit_sides(const Part& part, Visit visit) {
   for (std::size_t p = 0; p < part.polygon_count(); ++p) {
     const std::span<const std::uint32_t> polygon = part.polygon(p);
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const auto [a, b] = std::minmax(polygon[i], polygon[(i + 1) % polygon.size()]);
-      result.push_back({a, b});
+      visit(a, b);
     }
   }
-  std::sort(result.begin(), result.end());
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 2>> edges(const Part& part) {
+  std::vector<std::uint32_t> places(part.points.size() + 1, 0);  // where the edges of a corner begin, by counting
+  visit_sides(part, [&](std::uint32_t a, std::uint32_t) { ++places[a + 1]; });
+  std::partial_sum(places.begin(), places.end(), places.begin());
+  std::vector<std::array<std::uint32_t, 2>> result(part.corners.size());
+  std::vector<std::uint32_t> ends = places;
+  visit_sides(part, [&](std::uint32_t a, std::uint32_t b) { result[ends[a]++] = {a, b}; });
+  for (std::size_t a = 0; a + 1 < places.size(); ++a)
+    std::sort(result.begin() + places[a], result.begin() + places[a + 1]);
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
@@ -240,8 +255,11 @@ class Cutter {
         upper_(part.points.size()) {
     std::transform(part.points.begin(), part.points.end(), heights_.begin(),
                    [&](const Vec3& p) { return plane.height(p); });
-    crossed_ = edges(part);
-    std::erase_if(crossed_, [&](const auto& e) { return side(e[0]) * side(e[1]) >= 0; });
+    visit_sides(part, [&](std::uint32_t a, std::uint32_t b) {
+      if (side(a) * side(b) < 0) crossed_.push_back({a, b});
+    });
+    std::sort(crossed_.begin(), crossed_.end());
+    crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
     for (const auto& [a, b] : crossed_) {
       const Vec3 p = crossing(part.points[a], part.points[b], heights_[a], heights_[b]);
       lower_.result.points.push_back(p);

@@ -172,19 +172,38 @@ class MovedPiece {
 
 // Volume
 
-/// What a line along x has in a convex polytope: nothing if the first number is not less than the second.
-std::pair<double, double> on_line(const TriangleMesh& polytope, double y, double z) {
-  double begin = -std::numeric_limits<double>::infinity(), end = -begin;
-  for (const FaceId f : polytope.triangles.ids()) {
-    const auto [a, b, c] = polytope.triangle(f);
-    const Vec3 normal = cross(b - a, c - a);
-    const double rest = normal.y * (a.y - y) + normal.z * (a.z - z);
-    if (normal.x == 0 && rest < 0) return {0, 0};
-    if (normal.x > 0) end = std::min(end, a.x + rest / normal.x);
-    if (normal.x < 0) begin = std::max(begin, a.x + rest / normal.x);
+/// A convex polytope, for lines along x.
+class LineClipper {
+ public:
+  explicit LineClipper(const TriangleMesh& polytope) : box_(bounding_box(polytope)) {
+    for (const FaceId f : polytope.triangles.ids()) {
+      const auto [a, b, c] = polytope.triangle(f);
+      const Vec3 normal = cross(b - a, c - a);
+      (normal.x > 0 ? ends_ : normal.x < 0 ? begins_ : sides_).push_back({a, normal});
+    }
   }
-  return {begin, end};
-}
+
+  const Box& box() const { return box_; }
+
+  /// What the line has in it: nothing if the first number is not less than the second.
+  std::pair<double, double> on_line(double y, double z) const {
+    double begin = -std::numeric_limits<double>::infinity(), end = -begin;
+    for (const Side& side : sides_)
+      if (side.rest(y, z) < 0) return {0, 0};
+    for (const Side& side : ends_) end = std::min(end, side.corner.x + side.rest(y, z) / side.normal.x);
+    for (const Side& side : begins_) begin = std::max(begin, side.corner.x + side.rest(y, z) / side.normal.x);
+    return {begin, end};
+  }
+
+ private:
+  struct Side {
+    Vec3 corner, normal;
+    double rest(double y, double z) const { return normal.y * (corner.y - y) + normal.z * (corner.z - z); }
+  };
+
+  Box box_;
+  std::vector<Side> ends_, begins_, sides_;  // where lines end, where they begin, and along lines
+};
 
 double length_of_union(std::vector<std::pair<double, double>>& intervals) {
   std::ranges::sort(intervals);
@@ -199,9 +218,9 @@ double length_of_union(std::vector<std::pair<double, double>>& intervals) {
 /// Of the union of convex polytopes. The exact clipping of union_volume takes minutes where so many overlap.
 double volume_along_lines(std::span<const TriangleMesh> pieces) {
   constexpr int kLines = 100;  // along each side
-  std::vector<Box> boxes;
+  const std::vector<LineClipper> clippers(pieces.begin(), pieces.end());
   Box box;
-  for (const TriangleMesh& piece : pieces) boxes.push_back(bounding_box(piece)), box.extend(boxes.back());
+  for (const LineClipper& clipper : clippers) box.extend(clipper.box());
   const double width = (box.max.y - box.min.y) / kLines, height = (box.max.z - box.min.z) / kLines;
   return oneapi::tbb::parallel_deterministic_reduce(
       oneapi::tbb::blocked_range<int>(0, kLines), 0.0,
@@ -211,8 +230,8 @@ double volume_along_lines(std::span<const TriangleMesh> pieces) {
           const int row = line / kLines, column = line % kLines;
           const double y = box.min.y + (column + 0.5) * width, z = box.min.z + (row + 0.5) * height;
           intervals.clear();
-          for (std::size_t i = 0; i < pieces.size(); ++i)
-            if (boxes[i].contains({boxes[i].min.x, y, z})) intervals.push_back(on_line(pieces[i], y, z));
+          for (const LineClipper& clipper : clippers)
+            if (clipper.box().contains({clipper.box().min.x, y, z})) intervals.push_back(clipper.on_line(y, z));
           sum += length_of_union(intervals) * width * height;
         }
         return sum;

@@ -79,7 +79,7 @@ TEST(ConvexCover, FindsTheCutThatLeavesNoVoid) {
 }
 
 TEST(ConvexCover, MovesNoCutAgainThatGetsNoBetter) {
-  const cover::ValuesOfPlanes below_zero = [](auto planes) { return std::vector<double>(planes.size(), -1); };
+  const cover::ValuesOfPlanes below_zero = [](auto planes, double) { return std::vector<double>(planes.size(), -1); };
   const cover::Plane plane{{1, 0, 0}, 0.5};
   EXPECT_EQ(cover::with_least_value(plane, {{0, 0, 0}, {1, 1, 1}}, below_zero).offset, plane.offset);
 }
