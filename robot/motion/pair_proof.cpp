@@ -1,6 +1,7 @@
 #include "robot/motion/pair_proof.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <queue>
 
@@ -28,6 +29,9 @@ struct IsLater {
   }
 };
 
+/// Where the cells are used up, there is one step downhill for so many of them.
+constexpr std::size_t kCellsForAStep = 8;
+
 class PairSearch {
  public:
   PairSearch(const Robot& robot, const LinkPair& pair, const ProofBody& a, const ProofBody& b,
@@ -48,7 +52,10 @@ class PairSearch {
     look_at({.box = {ranges.begin(), ranges.end()}});
     while (result_.verdict == PairVerdict::Open && !open_.empty()) {
       const Cell cell = open_.top();
-      if (result_.cells + 2 > most_cells_) return stopped("the number of cells is used up");
+      if (result_.cells + 2 > most_cells_) {
+        look_downhill(meter);
+        return result_.verdict == PairVerdict::Open ? stopped("the number of cells is used up") : result_;
+      }
       if (!cell.may_be_smaller) return stopped("rounding hides whether they touch");
       open_.pop();
       meter.go_on();
@@ -104,6 +111,60 @@ class PairSearch {
     open_.push(std::move(cell));
   }
 
+  /// A place where the links are close without meeting can use up all cells, as those of small distance come first.
+  /// Positions at which they meet are then found from the cells that are left, the largest first.
+  void look_downhill(ProgressMeter& meter) {
+    std::vector<Cell> left;
+    for (; !open_.empty(); open_.pop()) left.push_back(open_.top());
+    std::ranges::stable_sort(left, std::greater(), &Cell::share);
+    steps_left_ = most_cells_ / kCellsForAStep;
+    for (const Cell& cell : left) {
+      if (may_step()) descend(cell, meter);
+    }
+  }
+
+  bool may_step() const { return result_.verdict == PairVerdict::Open && steps_left_ > 0; }
+
+  /// From the middle of the cell, along one joint at a time.
+  void descend(Cell at, ProgressMeter& meter) {
+    constexpr int kHalvings = 8;  // of a step
+    std::vector<double> steps;
+    for (JointRange& range : at.box) {
+      steps.push_back((range.upper - range.lower) / 2);
+      range = {range.middle(), range.middle()};
+    }
+    for (int i = 0; i < kHalvings; ++i) {
+      while (steps_down(at, steps)) meter.go_on();
+      for (double& step : steps) step /= 2;
+    }
+  }
+
+  /// Takes the first step that makes the distance less, if there is one.
+  bool steps_down(Cell& at, std::span<const double> steps) {
+    for (std::size_t f = 0; f < steps.size(); ++f)
+      for (const double step : {steps[f], -steps[f]}) {
+        if (!may_step()) return false;
+        --steps_left_;
+        Cell next = at;
+        const JointRange& range = chain_.ranges()[f];
+        const double position = std::clamp(at.box[f].middle() + step, range.lower, range.upper);
+        next.box[f] = {position, position};
+        if (!is_closer(next, at.distance)) continue;
+        at = std::move(next);
+        return true;
+      }
+    return false;
+  }
+
+  /// Whether the distance in the cell, which is set, is less. Says so if the links meet there.
+  bool is_closer(Cell& cell, double distance) {
+    const Pose pose = chain_.motion(cell.box).pose;
+    const Closest closest = closest_parts(a_, b_, pose, distance);
+    if (closest.separation.collide()) meets_at(cell, pose, closest);
+    cell.distance = closest.separation.lower;
+    return cell.distance < distance;
+  }
+
   void meets_at(const Cell& cell, const Pose& pose, const Closest& closest) {
     result_.verdict = cell.box.empty() ? PairVerdict::Always : PairVerdict::Meets;
     result_.positions = rest_positions(robot_);
@@ -117,6 +178,7 @@ class PairSearch {
   const JointChain chain_;
   const std::size_t most_cells_;
   std::priority_queue<Cell, std::vector<Cell>, IsLater> open_;
+  std::size_t steps_left_ = 0;
   CellRecord record_;
   PairProof result_;
 };

@@ -62,7 +62,8 @@ struct ProofOptions {
 /// How it works: A cell is a range of positions of each joint between the links. The links are apart in all of it if
 /// their distance in the middle, a proven lower bound, is greater than what the motion can change it by
 /// (JointChain::Motion::change). Otherwise it is halved, across the joint that can change the distance most. Cells with
-/// a small distance come first, so that positions at which the links meet are found early.
+/// a small distance come first, so that positions at which the links meet are found early. Where the cells are used up,
+/// such positions are looked for downhill from those that are left, by an eighth as many steps.
 ///
 /// What "proven" means: the axes, anchors and limits are those of `robot`, and the origins of its joints are the
 /// rotations closest to their matrices; what doubles lose on the way is bounded, and part of the change.

@@ -77,6 +77,22 @@ TEST(PairProof, DecidesAHingeOnEitherSideOfItsTouch) {
   }
 }
 
+TEST(PairProof, FindsWhereLinksMeetBesideAWallThatUsesUpAllCells) {
+  Robot robot =
+      robot_of(3, {joint(JointType::Prismatic, 0, 1, {}, kAlongX), joint(JointType::Prismatic, 1, 2, {}, kAlongZ)});
+  robot.joints[0].lower = -10, robot.joints[0].upper = 10;
+  robot.joints[1].lower = 0, robot.joints[1].upper = 10;
+  TriangleMesh wall_and_ceiling = meshes::box({-12, 0.51, -1}, {-6, 1, 12});  // cells would have to be as small as 0.01
+  append(wall_and_ceiling, meshes::box({5, -1, 9.2}, {12, 1, 10}));
+  const std::vector<TriangleMesh> links{wall_and_ceiling, {}, meshes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})};
+  const PairProof meets = proof_of(robot, links, 0, 2, 1000);
+  EXPECT_EQ(meets.verdict, PairVerdict::Meets) << meets.why;
+  expect_witness(robot, links, meets);
+  EXPECT_LE(meets.cells, 1000u);
+  robot.joints[1].upper = 8.5;
+  EXPECT_EQ(proof_of(robot, links, 0, 2, 1000).verdict, PairVerdict::Open) << "the ceiling is out of reach";
+}
+
 TEST(PairProof, DecidesASlideOnEitherSideOfItsTouch) {
   const std::vector<TriangleMesh> links{meshes::box({0, 0, 0}, {1, 1, 1}), meshes::box({0, 0, 0}, {1, 1, 1})};
   for (const double travel : {0.999999, 1.0001}) {
