@@ -65,26 +65,26 @@ def test_distance_bound_holds_and_bounds_are_kept(pony):
 
 def test_a_gap_is_proven_and_kept_by_files(pony, tmp_path):
     gap = 0.02 * float(np.linalg.norm(np.ptp(pony.vertices, axis=0)))
-    hull = prohull.build(pony, 200, gap=gap)
+    hull = prohull.build(pony, 60, gap=gap)
     assert hull.certified and hull.proof == "padding" and hull.gap >= gap and not hull.levels
     assert prohull.verify(hull, pony)
     faces = np.vstack([hull.faces, hull.faces[:1]])  # not closed: its surface alone
     surface = prohull.Collider((hull.vertices, faces))
     assert surface.distances(pony).lower[0] >= gap
-    stored = prohull.build(pony, 200, gap=gap, float32_coordinates=True)
+    stored = prohull.build(pony, 60, gap=gap, float32_coordinates=True)
     assert stored.proof == "padding" and stored.gap >= gap and stored.with_float32_coordinates() is stored
     stored.save(tmp_path / "hull.stl")
     rounded = hull.with_float32_coordinates()
     assert rounded.certified == (rounded.gap >= gap) and rounded.gap == pytest.approx(hull.gap, rel=1e-4)
-    assert prohull.build(pony, 200).gap == 0
+    assert prohull.build(pony, 60).gap == 0
 
 
 @pytest.mark.parametrize("side", ["outer", "inner"])
 def test_gaps_are_kept_and_verified(pony, side):
     diagonal = float(np.linalg.norm(np.ptp(pony.vertices, axis=0)))
-    hull = prohull.build(pony, 200, gap="1%", side=side)
+    hull = prohull.build(pony, 60, gap="1%", side=side)
     assert hull.certified and hull.proof == "padding" and hull.gap >= 0.01 * diagonal
-    assert np.array_equal(hull.vertices, prohull.build(pony, 200, gap=0.01 * diagonal, side=side).vertices)
+    assert np.array_equal(hull.vertices, prohull.build(pony, 60, gap=0.01 * diagonal, side=side).vertices)
     found = prohull.verify(hull, pony, gap="1%")
     assert found and found.keeps_gap and not found.nearest and found.least_distance == pytest.approx(hull.gap)
     more = prohull.verify(hull, pony, gap=1.01 * hull.gap)

@@ -44,7 +44,7 @@ def robot(path):
 
 @pytest.fixture(scope="module")
 def hulls(robot):
-    return robot.hulls([200, 100], gap=0.01)
+    return robot.hulls([100, 60], gap=0.01)
 
 
 def test_a_robot_has_links_and_joints(robot):
@@ -72,7 +72,7 @@ def test_poses_follow_the_joints(robot):
 def test_hulls_are_certified_in_the_frame_that_they_tell(robot, hulls):
     assert hulls.certified and [link.status for link in hulls] == ["hulled"] * 3  # also a ball gets a gap
     for link in robot.links[:2]:
-        for hull, faces in zip(hulls[link.name].hulls, (200, 100)):
+        for hull, faces in zip(hulls[link.name].hulls, (100, 60)):
             assert len(hull.mesh.faces) <= faces == hull.target_faces
             assert hull.proof == "padding" and hull.gap >= 0.01 and hull.volume_ratio > 1
             in_link = hull.mesh.vertices @ hull.origin[:3, :3].T + hull.origin[:3, 3]
