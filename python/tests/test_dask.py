@@ -157,6 +157,7 @@ def test_a_mesh_that_kills_is_a_row(client, folder, tmp_path):
         rows = prohull.dask.build_folder(client, meshes, tmp_path / "out", target_faces=300, progress=None)
     finally:
         client.unregister_worker_plugin("killed")
+        client.wait_for_workers(2, timeout=120)  # those that died begin anew; without them, the next test would wait for ever
     assert statuses(rows) == {"a": "built", "b": "built", "c": "built", "d": "built", "killer": "failed"}
     assert "KilledWorker" in rows[-1].message and of_report(tmp_path / "out")["killer"]["status"] == "failed"
 
