@@ -22,13 +22,13 @@ class Keywords {
   bool flag(const char* name, bool& to) const { return to = get<bool>(name, "True or False"), true; }
   template <class Count>
   bool count(const char* name, Count& to, unsigned least = 0) const {
-    const std::string expected = "a whole number, at least " + std::to_string(least);
+    const std::string expected = "a whole number, at least " + std::to_string(least) + " and less than 2^32";
     const auto value = get<unsigned>(name, expected.c_str());
     if (value < least) refuse(name, expected.c_str());
     return to = value, true;
   }
   bool seed(const char* name, std::uint64_t& to) const {
-    return to = get<std::uint64_t>(name, "a whole number, at least 0"), true;
+    return to = get<std::uint64_t>(name, "a whole number, at least 0 and less than 2^64"), true;
   }
   bool number(const char* name, double& to) const { return to = get<double>(name, "a number"), true; }
   bool not_negative(const char* name, double& to) const {

@@ -18,9 +18,12 @@ MESHES = "expected the path of a file, vertices and faces, or an object that has
 
 def array(name: str, values: Any) -> NDArray[Any]:
     try:
-        return np.asarray(values)
+        made = np.asarray(values)
     except ValueError:
         raise InputError(f"{name}: rows of different lengths are no array") from None
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
+        raise InputError(f"{name}: a masked array with masked numbers; leave them out, or fill them with .filled()")
+    return made
 
 
 def _numbers(name: str, values: ArrayLike) -> NDArray[Any]:
@@ -46,11 +49,11 @@ def face_counts(name: str, counts: Any) -> NDArray[Any]:
     return array
 
 
-def count(name: str, value: Any, bits: int = 32) -> int:
-    """A whole number, at least 0, that has no more than these bits."""
+def count(name: str, value: Any, bits: int = 32, least: int = 0) -> int:
+    """A whole number, at least `least`, that has no more than these bits."""
     is_whole = isinstance(value, numbers.Integral)
-    if not is_whole or not 0 <= value < 1 << bits:
-        raise InputError(f"{name}={value!r}: expected a whole number, at least 0")
+    if not is_whole or not least <= value < 1 << bits:
+        raise InputError(f"{name}={value!r}: expected a whole number, at least {least} and less than 2^{bits}")
     return int(value)
 
 

@@ -94,7 +94,7 @@ def sample(name: str, faces: int) -> Mesh:
 
     Raises InputError for another name, and for a number of faces outside of this range.
     """
-    return Mesh._of(_prohull.sample(name, faces))
+    return Mesh._of(_prohull.sample(str(name), _arrays.count("faces", faces)))
 
 
 def bytes_of(path: Path) -> bytes:

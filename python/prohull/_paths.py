@@ -87,9 +87,7 @@ class PathChecker:
         are not finite, and times that do not increase; and if there is no pair of bodies that could meet.
         """
         rows = path_rows(self._joint_names, joints, positions, times, velocities, accelerations)
-        if _arrays.count("cells", cells) < 2:
-            raise InputError(f"cells={cells!r}: expected a whole number, at least 2")
-        facts = self._core.prove(rows, _arrays.not_negative("gap", gap), int(cells), bool(distances),
+        facts = self._core.prove(rows, _arrays.not_negative("gap", gap), _arrays.count("cells", cells, least=2), bool(distances),
                                  _arrays.count("threads", threads), progress)
         pairs = [PathPair(**pair) for pair in facts.pop("pairs")]
         pairs.sort(key=lambda pair: (pair.verdict != "meets", pair.end if pair.verdict == "meets" else pair.begin))

@@ -369,7 +369,7 @@ class Robot(Shown):
         gap: least distance that hulls keep from the geometry, proven. Not for pieces and spheres.
         max_distance: largest distance of a point of a hull from the geometry, proven; greater than 0. None: no bound.
             Pieces and spheres are as few as keep it.
-        tight: whether to build tight hulls, which takes some five times as long. Not for pieces and spheres.
+        tight: whether to build tight hulls, which takes some 4 times as long. Not for pieces and spheres.
         budgets: a YAML file with collision, faces, pieces, vertices, spheres, max_distance, gap and skip for single
             links.
         cache: a folder that keeps hulls for the next time.
@@ -387,8 +387,7 @@ class Robot(Shown):
                 raise InputError(f"{name}={value!r}: expected one of {', '.join(get_args(choices))}")
         sizes = {"pieces": (pieces, 1), "vertices": (vertices, 4), "spheres": (spheres, 1)}
         for name, (size, least) in sizes.items():
-            if _arrays.count(name, size) < least:
-                raise InputError(f"{name}={size!r}: expected a whole number, at least {least}")
+            _arrays.count(name, size, least=least)
         counts = np.atleast_1d(_arrays.face_counts("faces", faces))
         distance = 0.0 if max_distance is None else _arrays.not_negative("max_distance", max_distance)
         if max_distance is not None and distance == 0:

@@ -114,6 +114,25 @@ def test_a_level_has_a_number_of_faces(hull):
         hull.level(-1)
 
 
+def test_a_sample_has_a_number_of_faces():
+    for faces in (-1, 2**40, 1.5):
+        with pytest.raises(prohull.InputError, match=f"faces={faces}: expected a whole number, at least 0 and less than"):
+            prohull.sample("pony", faces)
+    with pytest.raises(prohull.InputError, match="5"):
+        prohull.sample(5, 100)
+
+
+def test_masked_numbers_are_refused(cube):
+    vertices, faces = cube
+    masked = np.ma.masked_less(vertices, 0.5)
+    with pytest.raises(prohull.InputError, match="vertices: a masked array with masked numbers"):
+        prohull.Mesh(masked, faces)
+    for points in (masked, masked[0]):
+        with pytest.raises(prohull.InputError, match="points: a masked array"):
+            prohull.Mesh(vertices, faces).closest(points)
+    assert np.array_equal(prohull.Mesh(np.ma.asarray(vertices), faces).vertices, vertices)
+
+
 def test_progress_is_called(pony):
     with pytest.raises(TypeError, match="progress must be callable, or None; it is of type int"):
         prohull.build(pony, 200, progress=3)

@@ -164,6 +164,7 @@ def test_progress_is_told_and_can_stop(small, work):
 
 @pytest.mark.parametrize("function, options, message", [
     (prohull.convex_pieces, {"pieces": 0}, "pieces=0: expected a whole number, at least 1"),
+    (prohull.convex_pieces, {"pieces": 10**12}, "pieces=1000000000000: .* less than 2\\^32"),
     (prohull.convex_pieces, {"pieces": "many"}, "pieces='many': expected a whole number"),
     (prohull.convex_pieces, {"vertices": 3}, "vertices=3: expected a whole number, at least 4"),
     (prohull.convex_pieces, {"max_distance": -1}, "max_distance=-1: expected a number, at least 0"),

@@ -147,3 +147,12 @@ def test_faces_met(cube):
     mesh = prohull.Mesh(*cube)
     met = mesh.faces_met([[[0, 0.5, 0], [0, 0.6, 5], [0.1, 0.5, 5]], [[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]]])
     assert met.offsets.tolist() == [0, 1, 1] and met.face[0] in (10, 11)
+
+
+@pytest.mark.parametrize("engine", ["auto", "brute"])
+def test_a_hit_at_a_huge_t_has_its_position(engine):
+    mesh = prohull.Mesh([[0, -1, -1], [0, 2, -1], [0, 0, 2]], [[0, 1, 2]])
+    for speed in (5e-324, 1e-310):
+        ray = [[-5, 0.1, 0]], [[speed, 0, 0]]
+        for hits in (mesh.first_hit(*ray, engine=engine), mesh.all_hits(*ray, engine=engine)):
+            assert np.isinf(hits.t).all() and hits.position.tolist() == [[0, 0.1, 0]]
