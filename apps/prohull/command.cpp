@@ -19,7 +19,7 @@ nlohmann::json facts(const MeshQuality& quality) {
     return {{"worst", p.worst / unit}, {"p1", p.p1 / unit}, {"p10", p.p10 / unit}, {"median", p.median / unit}};
   };
   return {{"compactness", percentiles(quality.compactness, 1)},
-          {"dihedral_degrees", percentiles(quality.dihedral_angle, kDegree)},
+          {"dihedral_degrees", quality.edges > 0 ? percentiles(quality.dihedral_angle, kDegree) : nlohmann::json()},
           {"edges", quality.edges},
           {"sharp_edges", quality.sharp_edges},
           {"sharp_below_degrees", kSharpDihedralAngle / kDegree}};

@@ -178,6 +178,16 @@ std::string missing(const CLI::App& app) {
   return "";
 }
 
+/// The first of the arguments that the command does not take, or what is missing if it takes all. Behind -- are files.
+std::string unexpected(const CLI::App& app) {
+  const std::vector<std::string> extras = app.remaining();
+  const auto mark = std::ranges::find(extras, "--"), option = std::find_if(extras.begin(), mark, is_option);
+  if (option != mark) return unknown(app, *option);
+  if (mark != extras.begin()) return unknown(app, extras.front());
+  if (extras.size() < 2) return missing(app);
+  return fmt::format("'{}' is one argument too many for {}; options go before --", extras[1], app.get_name());
+}
+
 /// CLI11 says "--a excludes --b".
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
   if (const auto at = text.find(from); at != std::string::npos) text.replace(at, from.size(), to);
@@ -188,11 +198,8 @@ std::string what_is_wrong(const CLI::App& app, const CLI::Error& error) {
   const std::string what = error.what();
   switch (static_cast<CLI::ExitCodes>(error.get_exit_code())) {
     case CLI::ExitCodes::RequiredError:
-    case CLI::ExitCodes::ExtrasError: {
-      const auto extras = app.remaining();
-      const auto option = std::ranges::find_if(extras, is_option);
-      return extras.empty() ? missing(app) : unknown(app, option == extras.end() ? extras.front() : *option);
-    }
+    case CLI::ExitCodes::ExtrasError:
+      return unexpected(app);
     case CLI::ExitCodes::ValidationError:
       return what.substr(what.find(": ") + 2);  // ours, behind the name of the option
     case CLI::ExitCodes::ExcludesError:

@@ -38,6 +38,7 @@ void print_quality(const MeshQuality& quality) {
              p.p10 / unit, p.p1 / unit, p.worst / unit, unit_name);
   };
   print("compactness", quality.compactness, 1, "");
+  if (quality.edges == 0) return;
   print("dihedral angle", quality.dihedral_angle, kDegree, " degrees");
   say_fact("sharp", "{} of {} edges, below {:.0f} degrees", grouped(quality.sharp_edges), grouped(quality.edges),
            kSharpDihedralAngle / kDegree);

@@ -10,6 +10,11 @@ namespace {
 
 using namespace prohull::cli;
 
+/// What is wrong with the name; empty if nothing is.
+std::string names_an_output(const std::string& name) {
+  return name.empty() ? "the name of the output is empty; name a file" : "";
+}
+
 void add_commands(CLI::App& app, Run& run) {
   add_build(app, run);
   add_cage(app, run);
@@ -33,6 +38,8 @@ void add_commands(CLI::App& app, Run& run) {
   add_manual(app, run);
   add_help(app, run);
   for (CLI::App* command : app.get_subcommands({})) {
+    for (const char* name : {"--out", "--report"})
+      if (CLI::Option* const output = command->get_option_no_throw(name)) output->check(names_an_output);
     CLI::Option* const quiet = command->add_flag(
         "-q,--quiet", console().quiet, "Print no summary and no progress. Errors and files written to - still appear.");
     command->add_flag("-v,--verbose", console().verbose, "Print more about what was done, and how long it took.")

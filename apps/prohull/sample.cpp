@@ -8,6 +8,7 @@
 #include "command.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
+#include "robot/files/robot_file.h"
 #include "robot/samples/sample_robots.h"
 
 namespace prohull::cli {
@@ -57,6 +58,12 @@ void check_robot_options(const SampleOptions& options) {
         Defect::InvalidOption,
         fmt::format("the robot {0} is a folder of files; name the folder, as in -o {0}, without --out-format",
                     options.name));
+  const std::vector<std::string> meshes = read_mesh_extensions();
+  if (robot::is_robot_file(options.out) || std::ranges::find(meshes, options.out.extension().string()) != meshes.end())
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("{}: the robot {} is a folder of files, and this is the name of a file; name the "
+                                 "folder, as in -o {}",
+                                 options.out.string(), options.name, options.out.stem().string()));
 }
 
 /// Throws InputError(CannotWrite) for what is there, unless it is an empty folder. The current one is refused too: the

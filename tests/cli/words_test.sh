@@ -26,6 +26,27 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n' >sheet.obj
 } >nested.obj
 $prohull sample asteroid -o rock.ply --faces 500 >out
 
+# --- what does not exist ---
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >triangle.obj
+expect 0 "no edge between faces" $prohull info triangle.obj --report info.json
+says_not out "no edge between faces" "dihedral"
+says_not out "no edge between faces" "of 0 edges"
+says info.json "no edge between faces" '"dihedral_degrees": null'
+for command in "build cube.obj" "sample box" "sample arm" "view cube.obj"; do
+  expect 2 "no name: $command" $prohull $command -o ''
+  says err "no name: $command" "the name of the output is empty; name a file"
+done
+expect 2 "no name of a report" $prohull info cube.obj --report ''
+expect 2 "a robot is no file" $prohull sample arm -o arm.urdf
+says err "a robot is no file" "name the folder, as in -o arm"
+absent arm.urdf "a robot is no file"
+cp cube.obj ./-cube.obj
+expect 0 "behind -- are files" $prohull build -o hull.obj -- -cube.obj
+expect 2 "behind -- are no options" $prohull info -- -cube.obj -v
+says err "behind -- are no options" "'-v' is one argument too many for info; options go before --"
+expect 2 "-- is no option" $prohull query -o - -- -cube.obj
+says_not err "-- is no option" "'--'"
+
 # --- what a hull is built from ---
 expect 0 "no collapse" $prohull build cube.obj --faces 12 -o hull.obj
 says out "the mesh itself" "the mesh has no more faces than were asked for: the hull is the mesh itself"

@@ -23,6 +23,7 @@ struct MeshQuality {
   Percentiles compactness;
   /// The dihedral angle of edges between two faces that have an area and agree about the outside. In radians: pi where
   /// the surface is flat, 0 where it is folded onto itself. Convex and concave edges are not told apart.
+  /// 0 if there is no such edge.
   Percentiles dihedral_angle;
   double smallest_angle = 0;      ///< of all corners of faces, in radians; 0 if a face has no area
   double worst_aspect_ratio = 0;  ///< longest edge of a face / its shortest altitude; 1.15 if all are equilateral,
