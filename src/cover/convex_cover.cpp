@@ -251,7 +251,7 @@ class Covering {
     return {hull_, hull_, hull_, hull_, prepared_.closed ? volume_of_solid() : InsideVolume()};
   }
 
-  /// The most pieces, or as few as keep the bounds.
+  /// The most pieces; or as few as keep the bounds, or fill the mesh.
   ConvexCover best_cover(const Material& material) {
     const CutSearch search = search_of(material);
     const CutTree tree = tree_of(search, options_.max_pieces, material);
@@ -263,17 +263,22 @@ class Covering {
       count -= std::max<std::size_t>(1, count / 6);
       best = fitted(tree_of(search, count, material), count, solid, material);
     }
-    if (!options_.bounds.any()) return shaped(std::move(best), material);
-    std::size_t low = 0, high = most;  // the cover of `low` pieces does not keep the bounds
-    while (best.within_bounds && high - low > 1) {
+    std::size_t low = 0, high = most;  // the cover of `low` pieces does not suffice
+    while (suffices(best) && high - low > 1) {
       const std::size_t middle = (low + high) / 2;
       ConvexCover cover = fitted(tree_of(search, middle, material), middle, solid, material);
-      if (cover.certified && cover.within_bounds)
+      if (cover.certified && suffices(cover))
         best = std::move(cover), high = middle;
       else
         low = middle;
     }
     return shaped(std::move(best), material);
+  }
+
+  /// Pieces that fill the mesh, but for rounding, may be more than that takes: not every way to cut it ends in few.
+  bool suffices(const ConvexCover& cover) const {
+    constexpr double kNoVoid = 1e-6;
+    return options_.bounds.any() ? cover.within_bounds : cover.void_ratio < kNoVoid;
   }
 
   CutSearch search_of(const Material& material) const {

@@ -61,6 +61,13 @@ TEST(ConvexCover, OfABoxIsTheBox) {
   EXPECT_LT(cover.reach.upper, 1e-8);
 }
 
+TEST(ConvexCover, OfABoxWithAHoleIsFourPiecesHoweverManyMayBe) {
+  const ConvexCover cover = convex_cover(make_sample("box", 60));
+  EXPECT_EQ(cover.pieces.size(), 4u);
+  EXPECT_TRUE(cover.certified && cover.covers_inside);
+  EXPECT_NEAR(cover.void_ratio, 0, 1e-6);
+}
+
 TEST(ConvexCover, OfABoxWithoutALidCoversWhatItsOpeningLeadsInto) {
   const TriangleMesh box = meshes::box({0, 0, 0}, {1, 2, 3});
   TriangleMesh bucket{box.positions, {}};
