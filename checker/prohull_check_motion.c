@@ -839,8 +839,21 @@ static void make_room(size_t freedoms) {
   for (int i = 0; i < 4; ++i) *all[i] = resized(*all[i], freedoms, sizeof **all[i]);
 }
 
+static size_t (*pairs)[2], pair_count; /* the lower number of a body comes first */
+
+/* A pair that stood twice would count twice. */
+static void note_pair(size_t a, size_t b) {
+  const size_t low = a < b ? a : b, high = a < b ? b : a;
+  spend(pair_count);
+  for (size_t i = 0; i < pair_count; ++i)
+    if (pairs[i][0] == low && pairs[i][1] == high) unreadable("this pair is there already");
+  pairs = room(pairs, pair_count, sizeof *pairs), pairs[pair_count][0] = low, pairs[pair_count++][1] = high;
+}
+
 static void prove_pair(void) {
-  const Body *const a = bodies + count(body_count), *const b = bodies + count(body_count);
+  const size_t i_of_a = count(body_count), i_of_b = count(body_count);
+  const Body *const a = bodies + i_of_a, *const b = bodies + i_of_b;
+  note_pair(i_of_a, i_of_b);
   memset(&sight, 0, sizeof sight), sight.a = a, sight.b = b, cells = 0;
   find_chain(a->frame, b->frame);
   if (rows) {
@@ -860,7 +873,7 @@ static void prove_pair(void) {
 }
 
 int main(int arguments, char** names) {
-  size_t size, pairs = 0;
+  size_t size, gaps = 0;
   if (arguments != 2) end(2, "usage: prohull_check_motion CERTIFICATE");
   file_name = names[1], begin_of_file = at = bytes_of(file_name, &size);
   if (!pass("prohull-motion") || !pass("1")) unreadable("this is no certificate of motion of version 1");
@@ -869,18 +882,18 @@ int main(int arguments, char** names) {
       read_frame();
     else if (pass("body"))
       read_body();
-    else if (pass("gap") && !pairs)
+    else if (pass("gap") && !pair_count && !gaps++)
       gap = real(0, FARTHEST);
-    else if (pass("path") && !pairs)
+    else if (pass("path") && !pair_count)
       read_path();
     else if (pass("pair"))
-      prove_pair(), ++pairs;
+      prove_pair();
     else
       unreadable("this belongs not here, or the end is missing");
   skip_space();
   if (at != begin_of_file + size) unreadable("the certificate goes on behind its end");
-  if (!pairs) end(1, "the certificate has no pairs");
-  printf("proven: %lu pair%s %s", COUNT(pairs), pairs == 1 ? "" : "s",
+  if (!pair_count) end(1, "the certificate has no pairs");
+  printf("proven: %lu pair%s %s", COUNT(pair_count), pair_count == 1 ? "" : "s",
          rows ? "apart at every moment of the path" : "that never meet");
   if (gap > 0) printf(", by more than %.17g", gap);
   if (open_bodies) printf("; of %lu, what is not closed counts by its triangles only", COUNT(open_bodies));

@@ -254,6 +254,9 @@ class Hostile(Checked):
         self.expect(UNREADABLE, "belongs not here", *hinge(-1, 1, tree=full_tree(5) + "."))
         self.expect(NOT_PROVEN, "no pairs", root())
         self.expect(UNREADABLE, "behind its end", *hinge(-1, 1), "end\n")
+        self.expect(UNREADABLE, "this pair is there already", *hinge(-1, 1), pair(0, 1, [(1, -1, 1)], full_tree(5)))
+        self.expect(UNREADABLE, "this pair is there already", *hinge(-1, 1), pair(1, 0, [(1, -1, 1)], full_tree(5)))
+        self.expect(UNREADABLE, "belongs not here", "gap 0.01\n", "gap 0\n", *hinge(-1, 1))
         self.expect(UNREADABLE, "a path already", *hinge(-1, 1)[:4], *2 * [path([1], [(0, (0,))])])
 
     def test_files_that_are_none(self):
