@@ -1,8 +1,10 @@
 #include "query/engine.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/triangle_contact.h"
+#include "query/exact_line.h"
 #include "query/line.h"
 
 namespace prohull {
@@ -29,9 +31,14 @@ void HitCollector::offer_pierced(FaceId face, const Triangle& triangle, int sign
   }
 }
 
-Hit HitCollector::hit(const Found& found) const {
-  return {found.face, found.at.t, line_.at(found.at.t), found.entering};
+// A ray with a tiny direction meets a face at a t that is too large for a double, one with a huge direction at a t that
+// has lost digits.
+Vec3 HitCollector::position(const Found& found) const {
+  const double t = found.at.t;
+  return std::isnormal(t) || t == 0 ? line_.at(t) : exact_crossing_point(line_, mesh_.triangle(found.face));
 }
+
+Hit HitCollector::hit(const Found& found) const { return {found.face, found.at.t, position(found), found.entering}; }
 
 std::optional<Hit> HitCollector::best() const { return best_ ? std::optional(hit(*best_)) : std::nullopt; }
 

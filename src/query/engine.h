@@ -62,6 +62,7 @@ class HitCollector {
 
  private:
   bool before(const Found& one, const Found& other) const;
+  Vec3 position(const Found& found) const;
   Hit hit(const Found& found) const;
 
   const TriangleMesh& mesh_;

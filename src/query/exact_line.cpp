@@ -65,4 +65,13 @@ double exact_parameter(const DirectedLine& line, const Triangle& face) {
   return (Rational(plane.above) / Rational(plane.speed)).rounded();
 }
 
+Vec3 exact_crossing_point(const DirectedLine& line, const Triangle& face) {
+  const Plane plane(line, face);
+  const Vector way = scaled(direction(line), plane.above);
+  Vec3 point;
+  for (int axis = 0; axis < 3; ++axis)
+    point[axis] = (Rational(Number(line.origin[axis]) * plane.speed + way[axis]) / Rational(plane.speed)).rounded();
+  return point;
+}
+
 }  // namespace prohull

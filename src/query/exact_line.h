@@ -22,4 +22,7 @@ int exact_order(const DirectedLine& line, const Triangle& first, const Triangle&
 /// Where the line, unmoved, crosses the plane of the face, to which it is not parallel; rounded.
 double exact_parameter(const DirectedLine& line, const Triangle& face);
 
+/// The point there, rounded.
+Vec3 exact_crossing_point(const DirectedLine& line, const Triangle& face);
+
 }  // namespace prohull

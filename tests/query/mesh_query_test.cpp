@@ -40,6 +40,21 @@ TEST(MeshQuery, FindsWhereASegmentEntersAndLeaves) {
   EXPECT_FALSE(query.first_hit(Ray{{0.3, 0.4, 2}, {0, 0, 2}}));
 }
 
+TEST(MeshQuery, HitsHavePositionsWhereNoDoubleHoldsT) {
+  const TriangleMesh mesh = meshes::make({{0, -1, -1}, {0, 2, -1}, {0, 0, 2}}, {{0, 1, 2}});
+  for (const Engine engine : {Engine::Bvh, Engine::Brute}) {
+    MeshQuery query{QueryIndex(mesh, engine)};
+    for (const auto& [start, speed] : {std::pair(-5.0, 5e-324), std::pair(-5.0, 1e-310), std::pair(-2e-15, 1e308)}) {
+      const Ray ray{{start, 0.1, 0}, {speed, 0, 0}};
+      const auto hit = query.first_hit(ray);
+      ASSERT_TRUE(hit) << speed;
+      EXPECT_EQ(hit->position, (Vec3{0, 0.1, 0})) << speed;
+      EXPECT_GE(hit->t, 0);
+      EXPECT_EQ(query.all_hits(ray), std::vector{*hit});
+    }
+  }
+}
+
 TEST(MeshQuery, EntersAndLeavesInTurnHoweverASegmentRuns) {
   for (const TriangleMesh& mesh : {box({0, 0, 0}, {1, 1, 1}), octahedron(), torus(8, 6), two_spheres_and_a_box()}) {
     MeshQuery query{QueryIndex(mesh)};
