@@ -74,13 +74,9 @@ class SphereCoverer {
   SphereCover run() {
     const Stopwatch all;
     find_solid();
-    const BallCover found = search();
-    const Stopwatch verifying;
-    certify(found);
-    made_.verify_seconds = verifying.seconds();
-    measure();
-    made_.seconds = all.seconds();
-    return std::move(made_);
+    SphereCover cover = best_cover();
+    cover.seconds = all.seconds();
+    return cover;
   }
 
  private:
@@ -115,29 +111,49 @@ class SphereCoverer {
         input_.obstacle, rounded_up(slack_, 4)));
   }
 
-  BallCover search() {
-    ProgressMeter meter(options_.progress, "spheres");
-    if (std::isfinite(options_.max_distance)) {
-      BallCover found = keep_distance(meter);
-      if (!found.balls.empty()) return found;
-    }
-    return reach_least(meter);
+  /// The first that keeps max_distance, of covers of few balls and one of all; or the one that reaches least.
+  SphereCover best_cover() {
+    std::optional<SphereCover> best = within_distance();
+    if (best && best->within_bounds) return std::move(*best);
+    SphereCover nearest = proven(reach_least());
+    nearest.verify_seconds += best ? best->verify_seconds : 0;
+    if (!best || nearest.reach.upper <= best->reach.upper) best = std::move(nearest);
+    if (!best->within_bounds)
+      best->notes.push_back(fmt::format("no cover by {} was found that keeps a distance of {:.4g}",
+                                        counted(options_.max_balls, "sphere"), options_.max_distance));
+    return std::move(*best);
   }
 
-  /// Few balls that keep max_distance; none if that takes too many.
-  BallCover keep_distance(ProgressMeter& meter) {
+  /// Of few balls: what is proven of them may exceed what the search estimates, so that it aims again, by that nearer.
+  std::optional<SphereCover> within_distance() {
+    constexpr double kRoomForTheProof = 1.0 / 512;  // of what is asked for: union_reach is a bound
+    constexpr int kMostAims = 2;
+    std::optional<SphereCover> cover;
+    if (!std::isfinite(options_.max_distance)) return cover;
+    double verify_seconds = 0, aim = options_.max_distance * (1 - kRoomForTheProof) - 2 * least_margin_;
+    for (int i = 0; i < kMostAims && aim > 0; ++i, aim *= options_.max_distance / cover->reach.upper) {
+      const BallCover found = keep_distance(aim);
+      if (found.balls.empty()) break;
+      cover = proven(found);
+      verify_seconds += cover->verify_seconds;
+      cover->verify_seconds = verify_seconds;
+      if (cover->within_bounds) break;
+    }
+    return cover;
+  }
+
+  /// Few balls that reach out by no more, as far as the search can tell; none if that takes too many.
+  BallCover keep_distance(double reach) {
     constexpr double kCoarsest = 8;
-    constexpr double kRoomForTheProof =
-        1.0 / 512;  // of what is asked for: union_reach bounds what the search estimates
-    const double reach = options_.max_distance * (1 - kRoomForTheProof) - 2 * least_margin_;
-    if (!(reach > 0)) return {};
+    ProgressMeter meter(options_.progress, "spheres");
     const Cut cut = cut_up(std::min(reach / kCubesPerReach, diagonal_ / kCoarsest), meter);
     const BallTask task{cut.patches, *depth_, cut.size, meter};
     return cover::fewest_balls(task, cut.places, options_.max_balls, reach);
   }
 
   /// Searches with coarser or finer patches, until they are small beside the reach.
-  BallCover reach_least(ProgressMeter& meter) {
+  BallCover reach_least() {
+    ProgressMeter meter(options_.progress, "spheres");
     const double first = diagonal_ * 0.25 / std::sqrt(static_cast<double>(options_.max_balls));
     constexpr int kMostRounds = 12;  // where a finer guess finds nothing and a coarser one too much, they would go on
     double guess = first;
@@ -173,18 +189,28 @@ class SphereCoverer {
     return cut;
   }
 
+  /// What was found, with all that is told of it.
+  SphereCover proven(const BallCover& found) const {
+    SphereCover cover = made_;
+    const Stopwatch verifying;
+    certify(cover, found);
+    cover.verify_seconds = verifying.seconds();
+    measure(cover);
+    return cover;
+  }
+
   /// The balls become larger by a hair, so that no rounding uncovers anything.
-  void certify(const BallCover& found) {
+  void certify(SphereCover& cover, const BallCover& found) const {
     constexpr int kTrials = 4;
     constexpr double kGrowth = 10;
     double margin = least_margin_;
     for (int trial = 0; trial < kTrials; ++trial, margin *= kGrowth) {
-      made_.balls.clear();
-      for (const auto& [center, radius] : found.balls) made_.balls.push_back(stored({center, radius + margin}));
-      made_.certified = covers();
-      if (made_.certified) break;
+      cover.balls.clear();
+      for (const auto& [center, radius] : found.balls) cover.balls.push_back(stored({center, radius + margin}));
+      cover.certified = covers(cover.balls);
+      if (cover.certified) break;
     }
-    made_.covers_inside = made_.certified && options_.fill;
+    cover.covers_inside = cover.certified && options_.fill;
   }
 
   // Planners on GPUs read float32 numbers. Far from the origin these are too coarse.
@@ -196,34 +222,31 @@ class SphereCoverer {
     return radius - ball.radius < kMostRounding * diagonal_ ? Ball{center, radius} : ball;
   }
 
-  bool covers() const {
+  bool covers(const std::vector<Ball>& balls) const {
     const VerificationOptions options{.progress = options_.progress};
     const bool asks_inside = options_.fill && is_closed(input_.original);
-    if (!verify_union(made_.balls, input_.original, asks_inside, options).covers) return false;
-    return !options_.fill || asks_inside || verify_union(made_.balls, solid_, true, options).covers;
+    if (!verify_union(balls, input_.original, asks_inside, options).covers) return false;
+    return !options_.fill || asks_inside || verify_union(balls, solid_, true, options).covers;
   }
 
-  void measure() {
-    made_.reach = union_reach(made_.balls, solid_, {.progress = options_.progress});
+  void measure(SphereCover& cover) const {
+    cover.reach = union_reach(cover.balls, solid_, {.progress = options_.progress});
     const double most = options_.max_distance - slack_;
-    if (const double lower = made_.reach.lower; made_.reach.upper > most && lower < most && lower > 0)
-      made_.reach = union_reach(made_.balls, solid_, {.relative_gap = most / lower - 1, .progress = options_.progress});
-    made_.reach.upper += slack_;
-    if (slack_ > 0 || input_.dropped.face_count() > 0) made_.reach.lower = 0;
-    made_.original_closed = is_closed(input_.original);
-    made_.is_of_wrap = !input_.closed, made_.has_openings = input_.closed && input_.caps.face_count() > 0;
-    made_.non_finite_faces = input_.repairs.dropped_non_finite_faces;
-    const bool has_more = made_.is_of_wrap || made_.has_openings;
-    made_.reach_from_triangles =
-        has_more ? union_reach(made_.balls, input_.original, {.progress = options_.progress}) : made_.reach;
-    made_.reach.upper = std::min(made_.reach.upper, made_.reach_from_triangles.upper);  // the solid has the triangles
-    made_.volume = union_volume(made_.balls);
+    if (const double lower = cover.reach.lower; cover.reach.upper > most && lower < most && lower > 0)
+      cover.reach = union_reach(cover.balls, solid_, {.relative_gap = most / lower - 1, .progress = options_.progress});
+    cover.reach.upper += slack_;
+    if (slack_ > 0 || input_.dropped.face_count() > 0) cover.reach.lower = 0;
+    cover.original_closed = is_closed(input_.original);
+    cover.is_of_wrap = !input_.closed, cover.has_openings = input_.closed && input_.caps.face_count() > 0;
+    cover.non_finite_faces = input_.repairs.dropped_non_finite_faces;
+    const bool has_more = cover.is_of_wrap || cover.has_openings;
+    cover.reach_from_triangles =
+        has_more ? union_reach(cover.balls, input_.original, {.progress = options_.progress}) : cover.reach;
+    cover.reach.upper = std::min(cover.reach.upper, cover.reach_from_triangles.upper);  // the solid has the triangles
+    cover.volume = union_volume(cover.balls);
     // No estimate may say that the mesh is larger than what covers it.
-    if (made_.is_estimated && made_.covers_inside && made_.original_volume > made_.volume) made_.original_volume = 0;
-    made_.within_bounds = made_.reach.upper <= options_.max_distance;
-    if (!made_.within_bounds)
-      made_.notes.push_back(fmt::format("no cover by {} was found that keeps a distance of {:.4g}",
-                                        counted(options_.max_balls, "sphere"), options_.max_distance));
+    if (cover.is_estimated && cover.covers_inside && cover.original_volume > cover.volume) cover.original_volume = 0;
+    cover.within_bounds = cover.reach.upper <= options_.max_distance;
   }
 
   static constexpr double kCubesPerReach = 3;
@@ -236,7 +259,7 @@ class SphereCoverer {
   TriangleMesh solid_, to_cover_;
   double slack_ = 0;
   std::optional<Depth> depth_;
-  SphereCover made_;
+  SphereCover made_;  ///< what is known of the solid, without balls
 };
 
 }  // namespace

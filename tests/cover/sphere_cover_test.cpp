@@ -131,6 +131,19 @@ TEST(SphereCover, KeepsADistanceWithFewBalls) {
   EXPECT_LT(sphere_cover(mesh, {.max_balls = 500, .max_distance = 2 * distance}).balls.size(), cover.balls.size());
 }
 
+TEST(SphereCover, KeepsADistanceThatIsKeptWithoutIt) {
+  for (const auto& [name, factor] : {std::pair("knot", 1.0), std::pair("bracket", 1.05)}) {
+    const TriangleMesh mesh = make_sample(name, 200);
+    const double reach = sphere_cover(mesh, {.max_balls = 16}).reach.upper;
+    const SphereCover cover = sphere_cover(mesh, {.max_balls = 16, .max_distance = factor * reach});
+    expect_covers(cover, mesh);
+    EXPECT_TRUE(cover.within_bounds) << name;
+    EXPECT_LE(cover.reach.upper, factor * reach) << name;
+    EXPECT_LE(cover.balls.size(), 16U);
+    EXPECT_TRUE(cover.notes.empty()) << name;
+  }
+}
+
 TEST(SphereCover, SaysWhereADistanceIsNotKept) {
   const TriangleMesh mesh = make_sample("bracket", 500);
   for (const double distance : {0.02 * diagonal(mesh), 1e-9, std::numeric_limits<double>::denorm_min()}) {
