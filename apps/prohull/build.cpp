@@ -330,8 +330,7 @@ void add_build(CLI::App& app, Run& run) {
       "--tight", enclosing.tight,
       "Also move vertices towards the mesh between collapses. Such a hull has the least void, but takes some 4 times "
       "as long to build: 1.5 to 14 times at 100 faces. It does not intersect itself unless the mesh does, as it is or "
-      "with its "
-      "openings closed; the summary counts the pairs of faces.");
+      "with its openings closed; the summary counts the pairs of faces.");
   CLI::Option* const gap = add_length(
       command, "--gap", options->gap,
       "Least distance between hull and mesh. It is proven. All points within this distance of the mesh are inside of "
