@@ -399,6 +399,18 @@ TEST(UnionVolume, CountsOverlapsOnce) {
   EXPECT_NEAR(union_volume(Pieces{moved(cube, {1e4, 0, 0}), moved(cube, {1e4 + 0.5, 0, 0})}), 1.5, 1e-6);
 }
 
+// A tetrahedron of a campaign, whose void was -5e-9.
+TEST(UnionVolume, FarFromTheOriginIsNoLessThanThatOfAPiece) {
+  const TriangleMesh piece = tetrahedron({-4764914.664184279, 5392716.7202296015, -1561132.3407013682},
+                                         {-4764914.651857092, 5392716.157642355, -1561131.8598227266},
+                                         {-4764913.164184279, 5392717.7202296015, -1561133.8407013682},
+                                         {-4764913.203213532, 5392716.924670614, -1561133.1835054602});
+  const TriangleMesh outwards = signed_volume(piece) > 0 ? piece : inside_out(piece);
+  const double volume = signed_volume(outwards), found = union_volume(Pieces{outwards});
+  EXPECT_GE(found, volume);
+  EXPECT_LE(found, (1 + 1e-7) * volume);
+}
+
 TEST(UnionVolume, OfBalls) {
   const double ball = 4 * std::numbers::pi / 3;
   EXPECT_NEAR(union_volume(std::vector<Ball>{{{1, 2, 3}, 1}}), ball, 1e-6 * ball);
