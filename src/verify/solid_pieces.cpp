@@ -15,6 +15,7 @@
 #include "prohull/mesh_query.h"
 #include "prohull/union_verification.h"
 #include "verify/convex_pairs.h"
+#include "verify/solids.h"
 
 namespace prohull {
 namespace {
@@ -424,22 +425,7 @@ std::vector<Ball> only_balls(const SolidPieces& pieces) {
   return has_others ? std::vector<Ball>() : balls;
 }
 
-/// Inside out, the mesh winds at least once around such points. A tetrahedron far away, of greater volume, sees to it
-/// that it does not count as turned.
-bool is_tangled(const TriangleMesh& mesh, const Progress& progress) {
-  const Box box = bounding_box(mesh);
-  const double size = 2 * box.diagonal() * (2 + std::cbrt(static_cast<double>(mesh.face_count())));
-  const Vec3 origin = box.max + Vec3{size, size, size};
-  const std::array<Vec3, 4> corners{origin, origin + Vec3{size, 0, 0}, origin + Vec3{0, size, 0},
-                                    origin + Vec3{0, 0, size}};
-  const TriangleMesh far =
-      mesh_of(std::array{Triangle{corners[0], corners[2], corners[1]}, Triangle{corners[0], corners[1], corners[3]},
-                         Triangle{corners[0], corners[3], corners[2]}, Triangle{corners[1], corners[2], corners[3]}});
-  TriangleMesh turned = mesh;
-  for (auto& corners_of_face : turned.triangles) std::swap(corners_of_face[1], corners_of_face[2]);
-  append(turned, far);
-  return !verify_enclosure(turned, far, {.progress = progress}).encloses;
-}
+bool is_tangled(const TriangleMesh& mesh, const Progress& progress) { return verify::winds_negatively(mesh, progress); }
 
 PieceCover verify_pieces(const TriangleMesh& triangles, const SolidPieces& pieces, const Progress& progress) {
   return cover_flat(triangles, pieces, progress);

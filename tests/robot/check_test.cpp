@@ -267,6 +267,7 @@ TEST_F(Check, ALobeThatIsInsideOutTakesNothingFromAnotherPiece) {
   EXPECT_TRUE(is_tangled(bow()));
   EXPECT_TRUE(is_tangled(meshes::inside_out(bow())));
   EXPECT_FALSE(is_tangled(meshes::box({-1, -1, -1}, {1, 1, 1})));
+  EXPECT_FALSE(is_tangled(meshes::box({-9e99, -9e99, -9e99}, {9e99, 9e99, 9e99})));
   EXPECT_FALSE(is_tangled(meshes::together(meshes::box({0, 0, 0}, {2, 2, 2}), meshes::box({1, 1, 1}, {3, 3, 3}))));
   int alone = 0;
   for (const Vec3& corner : {Vec3{0.1, 0.5, 0.5}, Vec3{1.3, 0.7, 0.5}}) {
