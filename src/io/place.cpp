@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "prohull/detail/text.h"
+
 namespace prohull {
 namespace {
 
@@ -19,6 +23,8 @@ std::string text(Place place) {
   return {};
 }
 
+bool is_end_or_tab(char c) { return c == '\n' || c == '\r' || c == '\t'; }
+
 }  // namespace
 
 void fail(std::string_view file, Place place, std::string_view message, Defect defect) {
@@ -27,8 +33,14 @@ void fail(std::string_view file, Place place, std::string_view message, Defect d
 
 std::string printable(std::string_view word, std::size_t longest) {
   std::string text;
-  for (const char c : word.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '?';
-  return text + (word.size() > longest ? "..." : "");
+  std::size_t at = 0;
+  while (at < std::min(word.size(), longest)) {
+    const std::size_t length = is_end_or_tab(word[at]) ? 0 : character_length(word.substr(at));
+    text += length > 0 ? std::string(word.substr(at, length))
+                       : fmt::format("\\x{:02x}", static_cast<unsigned char>(word[at]));
+    at += std::max<std::size_t>(length, 1);
+  }
+  return text + (at < word.size() ? "..." : "");
 }
 
 std::string in_quotes(std::string_view word) { return fmt::format("'{}'", printable(word)); }

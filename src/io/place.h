@@ -19,7 +19,8 @@ struct Place {
 /// Throws InputError "file: line 14: message", or "file: message" without a unit.
 [[noreturn]] void fail(std::string_view file, Place place, std::string_view message, Defect defect = Defect::Malformed);
 
-/// A word of a hostile file, fit for a message: shortened, without control characters.
+/// A word of a hostile file, fit for a message: shortened, on one line. "\\x1b" stands for the control character
+/// 0x1b, and so on.
 std::string printable(std::string_view word, std::size_t longest = 40);
 /// The same in quotes.
 std::string in_quotes(std::string_view word);

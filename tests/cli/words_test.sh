@@ -68,6 +68,11 @@ says out "one pair" "(the mesh: 1 pair of faces)"
 expect 3 "no inner hull of a closed sheet" $prohull build sheet.obj --side inner -o hull.obj
 says err "no inner hull of a closed sheet" "sheet.obj: the mesh encloses no volume; there is no inner hull of what bounds no solid"
 
+# --- control characters ---
+printf 'v 0 0 \033[31m\n' >red.obj
+expect 3 "a control character in a file" $prohull info red.obj
+says err "a control character in a file" "red.obj: line 1: '\x1b[31m' is not a number"
+
 # --- repairs ---
 expect 0 "a corner that is not finite" $prohull build nan.obj --faces 12 -o hull.obj
 says out "a corner that is not finite" "the finite triangles of the original"

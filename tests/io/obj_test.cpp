@@ -69,7 +69,7 @@ TEST(Obj, RefusesWhatIsNotANumber) {
   expect_refused("v 0 1.#QNAN 0\n", "a.obj", "a.obj: line 1: '1.#QNAN' is not a number; expected a coordinate");
   expect_refused("v 0 0,5 0\n", "a.obj", "a.obj: line 1: '0,5' is not a number; expected a coordinate");
   expect_refused("v 0 1e400 0\n", "a.obj", "a.obj: line 1: '1e400' is beyond the range of a number in 64 bits");
-  expect_refused("v 0 \x1b[2J 0\n", "a.obj", "a.obj: line 1: '?[2J' is not a number; expected a coordinate");
+  expect_refused("v 0 \x1b[2J 0\n", "a.obj", "a.obj: line 1: '\\x1b[2J' is not a number; expected a coordinate");
   expect_refused(kThreeVertices + "f 1 2 x\n", "a.obj",
                  "a.obj: line 4: 'x' is not a corner of a face; expected a vertex number");
 }

@@ -162,7 +162,7 @@ TEST(NpyReader, RefusesDamagedHeaders) {
   refuse("{'fortran_order': 0}", "28: the header is damaged: True or False was expected");
   refuse("{'shape': [2, 6]}", "20: the header is damaged: '(' was expected");
   refuse("{'shape': (2 6)}", "23: the header is damaged: ')' was expected");
-  refuse("{'color\n': 'red'}", "20: the header has an entry 'color?', which is not known");
+  refuse("{'color\n': 'red'}", "20: the header has an entry 'color\\x0a', which is not known");
   refused(npy(header("<f8", kShape), kTwoRows, 4), "s.npy",
           "s.npy: byte 8: version 4.0 of the format; versions 1 to 3 are read: save it with another numpy",
           Defect::UnknownFormat);
