@@ -221,14 +221,13 @@ std::string table_head() {
 std::vector<std::string> table_rows(const BuildOutcome& outcome) {
   std::vector<std::string> rows;
   for (const Written& written : outcome.written)
-    rows.push_back(
-        fmt::format("{:>11}  {:>9}  {:>8}  {:>9.4g}  {}", grouped(outcome.made.input.found.faces),
-                    grouped(written.hull.mesh.face_count()),
-                    std::isnan(written.hull.void_ratio) ? "" : fmt::format("{:.2f} %", 100 * written.hull.void_ratio),
-                    rounded_up(written.measures.to_solid.upper, 4),
-                    !written.certified            ? "NO"
-                    : !written.hull.within_bounds ? "yes, NOT within the bounds"
-                                                  : "yes"));
+    rows.push_back(fmt::format("{:>11}  {:>9}  {:>8}  {:>9.4g}  {}", grouped(outcome.made.input.found.faces),
+                               grouped(written.hull.mesh.face_count()),
+                               std::isnan(written.hull.void_ratio) ? "" : percent_text(written.hull.void_ratio, 2),
+                               rounded_up(written.measures.to_solid.upper, 4),
+                               !written.certified            ? "NO"
+                               : !written.hull.within_bounds ? "yes, NOT within the bounds"
+                                                             : "yes"));
   return rows;
 }
 

@@ -271,7 +271,7 @@ std::string described_pieces(const ConvexCover& cover) {
 
 std::string described_size(const ConvexCover& cover) {
   if (!cover.covers_inside || !(cover.original_volume > 0)) return fmt::format("volume {:.4g}", cover.volume);
-  return fmt::format("{:.2f} % more volume than the mesh{}", 100 * std::max(0.0, cover.void_ratio),
+  return fmt::format("{} more volume than the mesh{}", percent_text(std::max(0.0, cover.void_ratio), 2),
                      cover.is_estimated ? " (estimated)" : "");
 }
 

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "prohull/detail/openings.h"
+#include "prohull/detail/rounded.h"
 #include "prohull/detail/summary.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/error.h"
@@ -134,8 +135,8 @@ nlohmann::json describe_hull(const ProgressiveHull& hull) {
            grouped(hull.original_vertex_count()), original);
   if (const std::string finest = described_finest_level(hull.finest_level()); !finest.empty())
     say_fact("finest level", "{}, not the input itself", finest);
-  say_fact("coarsest", "{} faces, volume {:.9g}, void {:.3f} %", grouped(hull.base_face_count()), base,
-           100 * (base / original - 1));
+  say_fact("coarsest", "{} faces, volume {:.9g}, void {}", grouped(hull.base_face_count()), base,
+           percent_text(base / original - 1, 3));
   say_fact("splits", "{}", grouped(hull.splits().size()));
   return {{"side", side},
           {"finest_level", name_of(finest_level_names(), hull.finest_level())},

@@ -119,8 +119,8 @@ void print_summary(const SpheresOptions& options, const Outcome& outcome) {
       with_decimals_up(100 * outcome.part_of_diagonal(), 2), text_of_origin(cover));
   if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);
   if (outcome.has_volume())
-    say("  volume: {:.4g} with overlaps counted once, {:.1f} % {} than the solid's{}\n", cover.volume,
-        std::abs(outcome.void_ratio()) * 100, outcome.void_ratio() < 0 ? "less" : "more",
+    say("  volume: {:.4g} with overlaps counted once, {} {} than the solid's{}\n", cover.volume,
+        percent_text(std::abs(outcome.void_ratio()), 1), outcome.void_ratio() < 0 ? "less" : "more",
         cover.is_estimated ? " (estimated)" : "");
   for (const std::string& note : cover.notes) say("  {}\n", note);
   if (cover.certified)

@@ -68,6 +68,13 @@ says out "one pair" "(the mesh: 1 pair of faces)"
 expect 3 "no inner hull of a closed sheet" $prohull build sheet.obj --side inner -o hull.obj
 says err "no inner hull of a closed sheet" "sheet.obj: the mesh encloses no volume; there is no inner hull of what bounds no solid"
 
+# --- numbers that nobody can read ---
+awk '/^v / { $4 = $4 * 1e-18 } { print }' cube.obj >thin.obj
+expect 0 "spheres around a thin cube" $prohull spheres thin.obj --count 8 -o thin.yaml
+says out "spheres around a thin cube" ", more than 1000000 % more than the solid's"
+expect 0 "a box around a thin cube" $prohull convex thin.obj --shape box -o thin.urdf
+says out "a box around a thin cube" ", more than 1000000 % more volume than the mesh"
+
 # --- control characters ---
 printf 'v 0 0 \033[31m\n' >red.obj
 expect 3 "a control character in a file" $prohull info red.obj

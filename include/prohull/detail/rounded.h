@@ -34,6 +34,28 @@ inline std::string with_decimals_up(double number, int decimals) {
   return shown >= number || !std::isfinite(number) ? nearest : text(shown + std::pow(10.0, -decimals));
 }
 
+constexpr double kGreatestRatio = 1e4;  ///< that is written with its digits
+
+/// In per cent: 0.5 -> "50.0 %", and 1e9 -> "more than 1000000 %".
+inline std::string percent_text(double ratio, int decimals) {
+  char text[64];
+  if (ratio > kGreatestRatio)
+    std::snprintf(text, sizeof text, "more than %.0f %%", 100 * kGreatestRatio);
+  else
+    std::snprintf(text, sizeof text, "%.*f %%", decimals, 100 * ratio);
+  return text;
+}
+
+/// 1.234 -> "1.23", and 1e9 -> "> 10000".
+inline std::string times_text(double ratio) {
+  char text[64];
+  if (ratio > kGreatestRatio)
+    std::snprintf(text, sizeof text, "> %.0f", kGreatestRatio);
+  else
+    std::snprintf(text, sizeof text, "%.2f", ratio);
+  return text;
+}
+
 /// Not above `number`, as a lower bound needs it.
 inline double rounded_down(double number, int digits) { return -rounded_up(-number, digits); }
 
