@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "command.h"
+#include "prohull/detail/closed_original.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "prohull/verification.h"
@@ -30,11 +32,20 @@ void print_near_faces(const Verification& found, const std::string& hull) {
         near.distance, index(near.original_face));
 }
 
+HullSide side_of(const MeshOrHull& hull, const VerifyOptions& options) {
+  const auto* const levels = std::get_if<ProgressiveHull>(&hull);
+  return levels ? levels->side() : options.side;
+}
+
 Verification verify(const VerifyOptions& options, const MeshOrHull& hull, const TriangleMesh& original, double gap) {
   ProgressLine line;
-  const VerificationOptions how{
-      .solid_only = options.solid_only, .gap = gap, .finite_only = options.finite_only, .progress = std::ref(line)};
   try {
+    const std::optional<ClosedMesh> closed = closed_original(original, side_of(hull, options), options.open_shells);
+    const VerificationOptions how{.solid_only = options.solid_only,
+                                  .gap = gap,
+                                  .finite_only = options.finite_only,
+                                  .closed = closed ? &closed->mesh : nullptr,
+                                  .progress = std::ref(line)};
     const auto* const levels = std::get_if<ProgressiveHull>(&hull);
     return levels ? verify_hull(*levels, original, how)
                   : verify_hull(std::get<TriangleMesh>(hull), original, options.side, how);
@@ -49,6 +60,17 @@ bool has_failed_replay(const Verification& found) {
   return found.proof == "replay" && !found.encloses && std::isnan(found.hull_volume);
 }
 
+/// "part.stl with its openings closed by 2 faces encloses hull.stl"
+std::string claim_of_inner(Verification found, const std::string& original, const std::string& hull) {
+  if (found.original_closed) return claim(found, original, hull);
+  found.original_closed = true;  // with what closes it
+  return claim(
+      found,
+      original + (found.cap_faces > 0 ? fmt::format(" with its openings closed by {}", counted(found.cap_faces, "face"))
+                                      : std::string(" after repairs")),
+      hull);
+}
+
 /// "yes: hull.stl encloses part.stl", or why not.
 std::string verdict(const Verification& found, const SizeComparison& sizes, const VerifyOptions& options, double gap) {
   const std::string hull = input_name(options.hull), original = input_name(options.original);
@@ -56,9 +78,7 @@ std::string verdict(const Verification& found, const SizeComparison& sizes, cons
   if (has_failed_replay(found)) return fmt::format("NO: {} proves nothing about {}: {}", hull, original, found.why_not);
   const bool base_only = !found.encloses || found.faces_beside_solid > 0;
   const std::string levels = replayed ? (base_only ? "the base mesh of " : "every level of ") + hull : hull;
-  const std::string& subject = inner ? original : levels;
-  const std::string& object = inner ? levels : original;
-  const std::string what = claim(found, subject, object);
+  const std::string what = inner ? claim_of_inner(found, original, levels) : claim(found, levels, original);
   if (!found.encloses) return fmt::format("NO: {}: {}", what, found.why_not);
   if (!found.keeps_gap)
     return fmt::format("NO: {}, but {} does not keep the gap of {:.9g}: {}", what, hull, gap, found.why_not);
@@ -193,7 +213,7 @@ void add_verify(CLI::App& app, Run& run) {
                                           "construction of hulls. Two mesh files are compared; a .phull file is a "
                                           "proof, which is replayed. The solid of the "
                                           "mesh must be enclosed, and every triangle covered. Of a mesh that is not "
-                                          "closed, only the latter is asked. A hull "
+                                          "closed, only the latter is asked, unless --open-shells closes it. A hull "
                                           "whose faces look inwards is refused.\n"
                                           "With --union it is decided whether convex pieces together, or spheres "
                                           "together, cover a mesh.");
@@ -230,6 +250,11 @@ void add_verify(CLI::App& app, Run& run) {
   add_choice(command, "--side", options->side, hull_side_names(),
              "Side on which the hull lies. With inner it is decided whether ORIGINAL encloses HULL. A .phull file "
              "knows its side.");
+  add_choice(command, "--open-shells", options->open_shells, open_shells_names(),
+             "What to do with openings of ORIGINAL. close gives them caps, as `prohull build` does, so that what they "
+             "lead into must be enclosed too, and so that an inner hull has an inside to lie in; keep asks for the "
+             "triangles only.")
+      ->excludes(is_union);
   command.add_flag("--solid-only", options->solid_only,
                    "Ask only for the solid that a closed mesh bounds. Triangles of folds and of parts that are inside "
                    "out bound no part of it, and may stick out.");
@@ -250,8 +275,9 @@ void add_verify(CLI::App& app, Run& run) {
   add_examples(
       command,
       {"prohull verify hull.stl horse.ply", "prohull verify horse.phull horse.ply",
-       "prohull verify occluder.obj rock.obj --side inner", "prohull verify hull.stl soup.stl",
-       "prohull verify cage.obj horse.ply --gap 0.5%", "prohull verify arm_collision.stl arm.stl --unit mm",
+       "prohull verify occluder.obj rock.obj --side inner", "prohull verify hull.stl bucket.stl --open-shells close",
+       "prohull verify hull.stl soup.stl", "prohull verify cage.obj horse.ply --gap 0.5%",
+       "prohull verify arm_collision.stl arm.stl --unit mm",
        "prohull verify house.glb house_utm.ply --offset 500010,5400000,0", "prohull verify --union pieces.obj part.stl",
        "prohull verify --union a.stl b.stl c.stl part.stl", "prohull verify --union spheres.yaml part.stl --inside",
        "prohull verify --union arm_pieces.urdf arm.stl",

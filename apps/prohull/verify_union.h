@@ -8,6 +8,7 @@
 #include "inputs.h"
 #include "options.h"
 #include "prohull/enclosure.h"
+#include "prohull/repair.h"
 
 namespace prohull::cli {
 
@@ -17,6 +18,7 @@ struct VerifyOptions {
   std::vector<std::filesystem::path> more;  ///< files after the second one
   InputOptions hull_input, original_input;
   HullSide side = HullSide::Outer;
+  OpenShells open_shells = OpenShells::Keep;
   bool solid_only = false, finite_only = false, is_union = false, inside = false, any_scale = false;
   std::string offset = "0,0,0";
   std::string link;  ///< of the files of pieces, with --union

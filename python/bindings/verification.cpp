@@ -1,10 +1,12 @@
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "arrays.h"
 #include "module.h"
+#include "prohull/detail/closed_original.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/distance.h"
 #include "prohull/enclosure.h"
@@ -52,24 +54,42 @@ HullSide side_called(const std::string& name) {
   throw InputError(Defect::InvalidOption, "side='" + name + "': expected one of " + joined(hull_side_names()));
 }
 
+/// What is asked, beside the meshes.
+struct Asked {
+  bool solid_only;
+  double gap;
+  bool finite_only;
+  std::string open_shells;
+};
+
 template <class Decide>
-py::dict verified(bool solid_only, double gap, bool finite_only, const py::object& progress, Decide decide) {
+py::dict verified(const TriangleMesh& original, HullSide side, const Asked& asked, const py::object& progress,
+                  Decide decide) {
+  const auto open_shells = value_of(open_shells_names(), asked.open_shells);
+  if (!open_shells)
+    throw InputError(Defect::InvalidOption,
+                     "open_shells='" + asked.open_shells + "': expected one of " + joined(open_shells_names()));
   return facts_of(watched(progress, [&](Watch& watch) {
-    return decide(VerificationOptions{
-        .solid_only = solid_only, .gap = gap, .finite_only = finite_only, .progress = watch.progress()});
+    const std::optional<ClosedMesh> closed = closed_original(original, side, *open_shells);
+    return decide(VerificationOptions{.solid_only = asked.solid_only,
+                                      .gap = asked.gap,
+                                      .finite_only = asked.finite_only,
+                                      .closed = closed ? &closed->mesh : nullptr,
+                                      .progress = watch.progress()});
   }));
 }
 
 py::dict verified_mesh(const TriangleMesh& hull, const TriangleMesh& original, const std::string& side_name,
-                       bool solid_only, double gap, bool finite_only, const py::object& progress) {
+                       bool solid_only, double gap, bool finite_only, const std::string& open_shells,
+                       const py::object& progress) {
   const HullSide side = side_called(side_name);
-  return verified(solid_only, gap, finite_only, progress,
+  return verified(original, side, {solid_only, gap, finite_only, open_shells}, progress,
                   [&](const VerificationOptions& options) { return verify_hull(hull, original, side, options); });
 }
 
 py::dict verified_levels(const ProgressiveHull& hull, const TriangleMesh& original, bool solid_only, double gap,
-                         bool finite_only, const py::object& progress) {
-  return verified(solid_only, gap, finite_only, progress,
+                         bool finite_only, const std::string& open_shells, const py::object& progress) {
+  return verified(original, hull.side(), {solid_only, gap, finite_only, open_shells}, progress,
                   [&](const VerificationOptions& options) { return verify_hull(hull, original, options); });
 }
 

@@ -75,7 +75,7 @@ def load(path: Path) -> Hull:
     levels = _prohull.load(_arrays.path(path))
     faces = levels.base_face_count
     original = levels.level(levels.original_face_count)
-    found = _prohull.verify_levels(levels, original, False, 0.0, False, None)
+    found = _prohull.verify_levels(levels, original, False, 0.0, False, "keep", None)
     proven, why_not = found["encloses"], found["why_not"]
     finest = _FINEST.get(levels.finest_level)
     notes = ([why_not] if why_not else []) + ([f"the finest level is {finest}, not the input itself"] if finest else [])

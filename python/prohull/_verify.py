@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from . import _arrays, _prohull
 from ._files import distance_of, mesh_of
 from ._hull import Hull
-from ._types import Gap, MeshLike, Progress, Proof, Side
+from ._types import Gap, MeshLike, OpenShells, Progress, Proof, Side
 
 
 class Offender(NamedTuple):
@@ -60,12 +60,13 @@ class Verification:
 
 
 def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, solid_only: bool = False,
-           gap: Gap = 0.0, finite_only: bool = False, progress: Optional[Progress] = None) -> Verification:
+           gap: Gap = 0.0, finite_only: bool = False, open_shells: OpenShells = "keep",
+           progress: Optional[Progress] = None) -> Verification:
     """Decides exactly whether `hull` encloses `original`, as `prohull verify` does.
 
     A .phull file is a proof, and is replayed. Any other hull must be closed, and is compared with the original. The
     solid of the original must be enclosed, and every triangle covered; of an original that is not closed, only the
-    latter. Components of the original that are inside out count as turned; `notes` tell of it. A hull that is inside out is refused: the answer is no, and `why_not` says so.
+    latter, unless open_shells closes it. Components of the original that are inside out count as turned; `notes` tell of it. A hull that is inside out is refused: the answer is no, and `why_not` says so.
 
     hull, original: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
     side: "outer"; or "inner" to decide whether `original` encloses `hull`. Unless given, it is the side of the Hull or
@@ -76,6 +77,9 @@ def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, s
         "0.5%" of the diagonal of the original's bounding box. Not for .phull files, whose levels touch.
     finite_only: whether triangles of the original that are not finite are left out. Otherwise the answer is no if there
         are any.
+    open_shells: what is done with openings of the original. "close" gives them caps, as build() does, so that what they
+        lead into must be enclosed too, and so that an inner hull has an inside to lie in; "keep" asks for the triangles
+        only.
     progress: called as build() calls it, with the stage "verify".
 
     Raises InputError if a mesh is empty, if it is not finite or not closed where it has to be, or if a coordinate is
@@ -86,11 +90,13 @@ def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, s
     mesh = mesh_of(original, keep_non_finite=True)
     second, distance = mesh._core, distance_of("gap", gap, mesh)
     if isinstance(hull, (str, os.PathLike)) and _prohull.is_hull_file(_arrays.path(hull)):
-        facts = _prohull.verify_levels(_prohull.load(hull), second, solid_only, distance, finite_only, progress)
+        facts = _prohull.verify_levels(_prohull.load(hull), second, solid_only, distance, finite_only, open_shells,
+                                       progress)
     else:
         first = mesh_of(hull)
         own_side = first.side if isinstance(first, Hull) else "outer"
-        facts = _prohull.verify_mesh(first._core, second, side or own_side, solid_only, distance, finite_only, progress)
+        facts = _prohull.verify_mesh(first._core, second, side or own_side, solid_only, distance, finite_only,
+                                     open_shells, progress)
     facts["nearest"] = [NearFace(*near) for near in facts["nearest"]]
     facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
     return Verification(**facts)

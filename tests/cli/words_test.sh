@@ -68,6 +68,21 @@ says out "one pair" "(the mesh: 1 pair of faces)"
 expect 3 "no inner hull of a closed sheet" $prohull build sheet.obj --side inner -o hull.obj
 says err "no inner hull of a closed sheet" "sheet.obj: the mesh encloses no volume; there is no inner hull of what bounds no solid"
 
+printf "$corners$bottom$walls" >bucket.obj
+for side in outer inner; do
+  expect 0 "openings of a bucket: $side" $prohull build bucket.obj --faces 12 --side $side -o $side.obj
+  expect 0 "openings are closed as by build: $side" $prohull verify $side.obj bucket.obj --side $side --open-shells close --report closed.json
+  says closed.json "openings are closed as by build: $side" '"cap_faces": 2'
+done
+says out "an inner hull of a bucket" "yes: bucket.obj with its openings closed by 2 faces encloses inner.obj, exactly"
+expect 0 "the triangles of a bucket" $prohull verify outer.obj bucket.obj
+says out "the triangles of a bucket" "yes: outer.obj covers every triangle of bucket.obj, exactly"
+expect 0 "a shell" $prohull build bucket.obj --faces 500 --open-shells keep -o shell.obj
+expect 0 "a shell covers the triangles" $prohull verify shell.obj bucket.obj
+expect 1 "a shell has the inside outside" $prohull verify shell.obj bucket.obj --open-shells close
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >leaf.obj
+expect 3 "nothing closes a leaf" $prohull verify cube.obj leaf.obj --side inner --open-shells close
+
 # --- numbers that nobody can read ---
 awk '/^v / { $4 = $4 * 1e-18 } { print }' cube.obj >thin.obj
 expect 0 "spheres around a thin cube" $prohull spheres thin.obj --count 8 -o thin.yaml
