@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "prohull/detail/text.h"
+
 namespace prohull::robot {
 namespace {
 
@@ -41,13 +43,13 @@ json json_of(const LinkHull& hull) {
           {"within_bounds", hull.within_bounds},
           {"source", hull.source},
           {"padding", hull.padding},
-          {"notes", hull.notes}};
+          {"notes", hull.notes.size()}};
 }
 
-json json_of(const LinkHulls& hulls) {
+json json_of(std::span<const LinkHull> hulls) {
   json list = json::array();
-  for (const LinkHull& hull : hulls.hulls) list.push_back(json_of(hull));
-  return {{"hulls", list}, {"sealed_volume", hulls.sealed_volume}};
+  for (const LinkHull& hull : hulls) list.push_back(json_of(hull));
+  return {{"hulls", list}};
 }
 
 /// What a file of the cache says that is not as keep() writes it.
@@ -73,7 +75,11 @@ std::size_t count_of(const json& value) {
 
 bool truth_of(const json& value) { return value.is_boolean() ? value.get<bool>() : throw Unusable(); }
 
-std::string text_of(const json& value) { return value.is_string() ? value.get<std::string>() : throw Unusable(); }
+/// Empty of pieces and balls.
+std::string source_of(const json& value) {
+  const std::string name = value.is_string() ? value.get<std::string>() : throw Unusable();
+  return name.empty() || value_of(source_names(), name) ? name : throw Unusable();
+}
 
 TriangleMesh mesh_of(const json& mesh) {
   TriangleMesh result;
@@ -104,16 +110,17 @@ LinkHull hull_of(const json& hull) {
   if (!mesh.is_null()) result.mesh = mesh_of(mesh);
   result.target_reached = truth_of(member(hull, "target_reached"));
   result.within_bounds = truth_of(member(hull, "within_bounds"));
-  result.source = text_of(member(hull, "source"));
+  result.source = source_of(member(hull, "source"));
   result.padding = number_of(member(hull, "padding"));
-  for (const json& note : list_of(member(hull, "notes"))) result.notes.push_back(text_of(note));
+  if (const std::size_t notes = count_of(member(hull, "notes")); notes > 0)
+    result.notes.push_back(fmt::format("it is from the cache: {} told only when it is built anew",
+                                       counted(notes, "note on its construction is", "notes on its construction are")));
   return result;
 }
 
-LinkHulls hulls_of(const json& hulls) {
-  LinkHulls result;
-  for (const json& hull : list_of(member(hulls, "hulls"))) result.hulls.push_back(hull_of(hull));
-  result.sealed_volume = number_of(member(hulls, "sealed_volume"));
+std::vector<LinkHull> hulls_of(const json& hulls) {
+  std::vector<LinkHull> result;
+  for (const json& hull : list_of(member(hulls, "hulls"))) result.push_back(hull_of(hull));
   return result;
 }
 
@@ -237,7 +244,7 @@ void HullCache::keep_content(std::string_view key, std::string_view suffix, cons
   if (!out || error) std::filesystem::remove(beside, error);
 }
 
-std::optional<LinkHulls> HullCache::find(std::string_view key) const {
+std::optional<std::vector<LinkHull>> HullCache::find(std::string_view key) const {
   const std::optional<std::string> content = find_content(key, kHullsSuffix);
   if (!content) return std::nullopt;
   try {
@@ -247,7 +254,7 @@ std::optional<LinkHulls> HullCache::find(std::string_view key) const {
   }
 }
 
-void HullCache::keep(std::string_view key, const LinkHulls& hulls) const {
+void HullCache::keep(std::string_view key, std::span<const LinkHull> hulls) const {
   keep_content(key, kHullsSuffix, json_of(hulls).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "robot/hulls/link_hulls.h"
 
@@ -44,12 +46,13 @@ class HullCache {
   /// An empty path: nothing is kept.
   explicit HullCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// What keep() has kept under the key, if the file is whole: LinkHulls::hulls with what their construction gave, and
-  /// sealed_volume. All numbers are finite, and all corners of faces exist. Nothing is certified or measured.
-  std::optional<LinkHulls> find(std::string_view key) const;
+  /// What keep() has kept under the key, if the file is whole: hulls with what their construction gave. All numbers are
+  /// finite, and all corners of faces exist. Nothing is certified or measured. Of notes only their number is kept: no
+  /// file says what a report tells.
+  std::optional<std::vector<LinkHull>> find(std::string_view key) const;
   /// If it cannot be written, the next run is slower, and nothing else. Hulls that were not found for 90 days are
   /// removed, and what earlier runs have left unfinished.
-  void keep(std::string_view key, const LinkHulls& hulls) const;
+  void keep(std::string_view key, std::span<const LinkHull> hulls) const;
 
   /// The same of a picture: the content of a PNG file.
   std::optional<std::string> find_picture(std::string_view key) const { return find_content(key, kPictureSuffix); }

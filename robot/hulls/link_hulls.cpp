@@ -147,24 +147,20 @@ EnclosingOptions enclosing_options(const Budget& budget, const LinkHullOptions& 
   return enclosing;
 }
 
-/// What `input` tells of the geometry.
-void describe_input(const RepairedMesh& input, LinkHulls& result) {
+/// What `input` tells of the geometry within the judged hulls.
+void describe_input(const RepairedMesh& input, LinkHulls& result, const Progress& go_on) {
+  result.sealed_volume = sealed_volume(input, result.hulls, go_on);
   result.convex_volume = signed_volume(convex_hull(input.original));
   result.repairs = describe(input.repairs);
 }
 
-void build_hulls(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
+/// They return the repaired geometry.
+RepairedMesh build_hulls(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
   const EnclosingOptions enclosing = enclosing_options(plan.budget, options, go_on);
   if (enclosing.hull.float32_coordinates) check_float32_spacing(result.triangles);
-  const EnclosingHulls made = enclosing_hulls(result.triangles, plan.budget.faces, enclosing);
-  for (const EnclosingHull& hull : made.hulls) {
-    result.hulls.push_back(link_hull(hull));
-    judge(result.hulls.back(), result.triangles, made.input, plan.budget, go_on);
-  }
-  // No estimate may say that what is enclosed is larger than its hull.
-  const bool may_be = std::ranges::all_of(made.hulls, [](const EnclosingHull& h) { return !std::isnan(h.void_ratio); });
-  if (may_be) result.sealed_volume = made.volume;
-  describe_input(made.input, result);
+  EnclosingHulls made = enclosing_hulls(result.triangles, plan.budget.faces, enclosing);
+  for (const EnclosingHull& hull : made.hulls) result.hulls.push_back(link_hull(hull));
+  return std::move(made.input);
 }
 
 ConvexCover pieces_around(const TriangleMesh& triangles, const Budget& budget, const LinkHullOptions& options,
@@ -184,37 +180,31 @@ SphereCover balls_around(const TriangleMesh& triangles, const Budget& budget, co
   return sphere_cover(triangles, how);
 }
 
-template <class Cover>
-void take_cover(const Cover& cover, const Budget& budget, LinkHulls& result, const Progress& go_on) {
-  result.hulls.push_back(link_hull(cover));
-  result.sealed_volume = cover.original_volume;
-  const RepairedMesh input = prepared_for_hulls(result.triangles);
-  judge(result.hulls.back(), result.triangles, input, budget, go_on);
-  describe_input(input, result);
-}
-
-void build(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
+/// Constructs the hulls, which are not judged yet, and returns the repaired geometry.
+RepairedMesh build(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
   const Budget& budget = plan.budget;
   switch (budget.collision) {
     case Collision::Hull:
       return build_hulls(plan, options, result, go_on);
     case Collision::Convex:
-      return take_cover(pieces_around(result.triangles, budget, options, go_on), budget, result, go_on);
+      result.hulls.push_back(link_hull(pieces_around(result.triangles, budget, options, go_on)));
+      break;
     case Collision::Spheres:
-      return take_cover(balls_around(result.triangles, budget, options, go_on), budget, result, go_on);
+      result.hulls.push_back(link_hull(balls_around(result.triangles, budget, options, go_on)));
+      break;
   }
+  return prepared_for_hulls(result.triangles);
 }
 
 /// Whether hulls of the cache pass as those of this link.
-bool take_proposal(LinkHulls proposal, const Plan& plan, const LinkHullOptions& options, LinkHulls& result,
+bool take_proposal(std::vector<LinkHull> proposal, const Plan& plan, const LinkHullOptions& options, LinkHulls& result,
                    const Progress& go_on) {
   const RepairedMesh input = prepared_for_hulls(result.triangles);
-  auto hulls = verified(std::move(proposal.hulls), result.triangles, input, plan.budget,
+  auto hulls = verified(std::move(proposal), result.triangles, input, plan.budget,
                         stores_float32(mesh_format("hull." + options.format)), go_on);
   if (!hulls) return false;
   result.hulls = *std::move(hulls);
-  result.sealed_volume = proposal.sealed_volume;
-  describe_input(input, result);
+  describe_input(input, result, go_on);
   return true;
 }
 
@@ -237,11 +227,13 @@ void name_link_in_errors(const Link& link, const Work& work) {
 void add_hulls(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
   const auto start = std::chrono::steady_clock::now();
   const HullCache cache(options.cache);
-  std::optional<LinkHulls> kept = cache.find(plan.key);
+  std::optional<std::vector<LinkHull>> kept = cache.find(plan.key);
   result.from_cache = kept && take_proposal(*std::move(kept), plan, options, result, go_on);
   if (!result.from_cache) {
-    build(plan, options, result, go_on);
-    cache.keep(plan.key, result);
+    const RepairedMesh input = build(plan, options, result, go_on);
+    cache.keep(plan.key, result.hulls);
+    for (LinkHull& hull : result.hulls) judge(hull, result.triangles, input, plan.budget, go_on);
+    describe_input(input, result, go_on);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -74,7 +74,7 @@ struct LinkHull {
   std::string source = {};       ///< "mesh", "convex-hull" or "wrap": what a hull was built from
   double volume = 0;             ///< of the union
   DistanceBounds distance = {};  ///< from the triangles and the caps of their openings
-  double padding = 0;            ///< proven least distance from the triangles; 0 if none was asked for
+  double padding = 0;  ///< proven least distance from the triangles; 0 if none was asked for
   std::size_t self_intersections = 0;
   std::vector<std::string> notes = {};
 };
@@ -101,7 +101,7 @@ struct LinkHulls {
   TriangleMesh triangles;               ///< of the meshes among the shapes: what the hulls enclose
   std::vector<std::size_t> primitives;  ///< shapes that are kept beside the hull; with spheres only spheres are
   std::vector<LinkHull> hulls;          ///< one for each number of faces; empty unless Hulled
-  double sealed_volume = 0;             ///< EnclosingHulls::volume: of what lies inside of the triangles; 0: unknown
+  double sealed_volume = 0;             ///< of what lies inside of the triangles; 0: unknown
   double convex_volume = 0;             ///< of their convex hull
   std::vector<std::string> repairs;     ///< sentences: what was repaired, which openings were closed
   double seconds = 0;

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "prohull/closed_solid.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "prohull/verification.h"
+#include "prohull/wrap.h"
 
 namespace prohull::robot {
 namespace {
@@ -78,6 +80,17 @@ bool is_within_bounds(const LinkHull& hull, const Budget& budget) {
   return budget.max_distance == 0 || hull.distance.upper <= budget.max_distance;
 }
 
+/// Of triangles that bound no solid it is estimated by a wrap.
+InsideVolume volume_inside_of(const RepairedMesh& input, const Progress& go_on) {
+  if (input.closed) return volume_inside(input.closed->mesh, go_on);
+  constexpr double kPerDiagonal = 100;
+  TriangleMesh sealed = input.original;
+  append(sealed, input.caps);
+  const double spacing = bounding_box(sealed).diagonal() / kPerDiagonal;
+  if (spacing == 0) return {};
+  return {inside_volume(sealed, {.spacing = spacing, .seal_rooms = true, .progress = go_on}), true};
+}
+
 std::vector<std::size_t> targets_of(const Budget& budget) {
   return budget.collision == Collision::Hull ? budget.faces : std::vector<std::size_t>{0};
 }
@@ -98,6 +111,12 @@ void judge(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& in
       break;
   }
   if (!hull.certified) hull.proof.clear();
+}
+
+double sealed_volume(const RepairedMesh& input, std::span<const LinkHull> hulls, const Progress& go_on) {
+  const InsideVolume inside = volume_inside_of(input, go_on);
+  const auto encloses = [&](const LinkHull& hull) { return hull.volume >= inside.volume; };
+  return !inside.is_estimated || std::ranges::all_of(hulls, encloses) ? inside.volume : 0;
 }
 
 std::optional<std::vector<LinkHull>> verified(std::vector<LinkHull> proposal, const TriangleMesh& triangles,

@@ -334,7 +334,7 @@ class ForgedCacheTest : public LinkHullsTest {
     if (!made_) made_ = link_hulls(robot_, options_)[0];
     LinkHulls kept = *made_;
     forge(kept);
-    HullCache(options_.cache).keep(key_of(made_->triangles, options_.budget, options_), kept);
+    HullCache(options_.cache).keep(key_of(made_->triangles, options_.budget, options_), kept.hulls);
     const LinkHulls again = link_hulls(robot_, options_)[0];
     EXPECT_FALSE(again.from_cache) << what;
     ASSERT_EQ(again.hulls.size(), made_->hulls.size()) << what;
@@ -377,6 +377,7 @@ TEST_F(ForgedCacheTest, OfHulls) {
   expect_made_anew("too many faces", [&](LinkHulls& kept) { append(mesh_of_first(kept), make_sample("torus", 600)); });
   expect_made_anew("no hull", [](LinkHulls& kept) { kept.hulls.clear(); });
   expect_made_anew("another number of faces", [](LinkHulls& kept) { kept.hulls[0].target_faces = 100; });
+  expect_made_anew("another source", [](LinkHulls& kept) { kept.hulls[0].source = "a proof"; });
   expect_made_anew("pieces in place of a hull", [](LinkHulls& kept) { kept.hulls[0].pieces = {kept.hulls[0].mesh}; });
 }
 
@@ -416,15 +417,27 @@ TEST_F(ForgedCacheTest, OfSpheres) {
   expect_made_anew("too many spheres", [](LinkHulls& kept) { kept.hulls[0].balls.resize(7, kept.hulls[0].balls[0]); });
 }
 
+TEST_F(ForgedCacheTest, TellsNothingThatAFileSays) {
+  const LinkHulls made = link_hulls(robot_, options_)[0];
+  LinkHulls kept = made;
+  kept.sealed_volume = 0.001, kept.hulls[0].notes = {"no point is nearer than 5"};
+  HullCache(options_.cache).keep(key_of(made.triangles, options_.budget, options_), kept.hulls);
+  const LinkHulls again = link_hulls(robot_, options_)[0];
+  EXPECT_TRUE(again.from_cache);
+  EXPECT_EQ(again.sealed_volume, made.sealed_volume);
+  EXPECT_EQ(
+      again.hulls[0].notes,
+      std::vector<std::string>{"it is from the cache: 1 note on its construction is told only when it is built anew"});
+}
+
 /// A file may say anything, with a right checksum.
 TEST_F(ForgedCacheTest, OfOtherText) {
   const HullCache cache(options_.cache);
   std::filesystem::create_directories(options_.cache);
   const std::string key(32, '7');
-  for (const std::string& text :
-       {std::string(), std::string("null"), std::string("{}"), std::string(R"({"hulls":3,"sealed_volume":1})"),
-        std::string(R"({"hulls":[3],"sealed_volume":1})"), std::string(R"({"hulls":[],"sealed_volume":"1"})"),
-        std::string(1'000'000, '['), std::string("\xff\x00", 2)}) {
+  for (const std::string& text : {std::string(), std::string("null"), std::string("{}"), std::string(R"({"hulls":3})"),
+                                  std::string(R"({"hulls":[3]})"), std::string(R"({"hulls":[{}]})"),
+                                  std::string(1'000'000, '['), std::string("\xff\x00", 2)}) {
     Fingerprint checksum;
     checksum.add(text);
     write_file(options_.cache / (key + ".hulls"), checksum.text() + text);

@@ -90,10 +90,10 @@ TEST(Mutants, OfBudgetsAndSpheres) {
 
 TEST(Mutants, OfKeptHulls) {
   const RobotFolder folder;
-  LinkHulls hulls;
-  hulls.hulls = {{.target_faces = 8, .mesh = meshes::octahedron(), .source = "mesh", .notes = {"a note"}},
-                 {.pieces = {meshes::octahedron()}},
-                 {.balls = {{{0, 0, 0}, 1}}}};
+  const std::vector<LinkHull> hulls{
+      {.target_faces = 8, .mesh = meshes::octahedron(), .source = "mesh", .notes = {"a note"}},
+      {.pieces = {meshes::octahedron()}},
+      {.balls = {{{0, 0, 0}, 1}}}};
   const std::string key(32, '1');
   HullCache(folder.path()).keep(key, hulls);
   ASSERT_TRUE(HullCache(folder.path()).find(key));
