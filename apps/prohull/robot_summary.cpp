@@ -45,7 +45,7 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-std::string ratio(double a, double b) { return b > 0 ? fmt::format("{:.2f}", a / b) : "-"; }
+std::string ratio(double a, double b) { return b > 0 ? times_text(a / b) : "-"; }
 
 /// "500" faces of a hull, "8 pieces" or "64 spheres"
 std::string size_of(const LinkHull& hull) {
@@ -67,6 +67,9 @@ std::string notes_text(const std::string& link, const LinkHull& hull, bool has_o
   std::string text;
   if (!hull.within_bounds)
     text += fmt::format("  {}: NOT within the distance asked for: {}\n", which, at_most(hull.distance.upper));
+  if (hull.has_openings)
+    text += fmt::format("  {}: its openings count as closed, and from its triangles alone it reaches at most {}\n",
+                        which, at_most(hull.distance_from_triangles.upper));
   for (const std::string& note : hull.notes) text += fmt::format("  {}: {}\n", which, note);
   return text;
 }
@@ -80,6 +83,10 @@ std::string hulls_text(const ReportInput& facts) {
   for (const LinkHulls& made : facts.hulls) {
     const std::string& name = facts.file.robot.links[made.link].name;
     if (!made.why.empty()) text += fmt::format("  {}: left as it is: {}\n", name, made.why);
+    if (made.non_finite_faces > 0)
+      text += fmt::format(
+          "  {}: {} left out\n", name,
+          counted(made.non_finite_faces, "triangle that is not finite was", "triangles that are not finite were"));
     for (const LinkHull& hull : made.hulls) text += notes_text(name, hull, made.hulls.size() > 1);
   }
   return text;

@@ -159,6 +159,7 @@ py::dict facts_of(const LinkHull& hull, const LinkHulls& link) {
   facts["source"] = hull.source;
   facts["volume_ratio"] = link.sealed_volume > 0 ? hull.volume / link.sealed_volume : NAN;
   facts["distance_bound"] = hull.distance.upper;
+  facts["distance_from_triangles"] = hull.distance_from_triangles.upper;
   facts["gap"] = hull.padding;
   facts["self_intersections"] = hull.self_intersections;
   facts["notes"] = hull.notes;
@@ -176,6 +177,7 @@ py::list facts_of(const RobotHulls& hulls) {
     facts["why"] = link.why;
     facts["hulls"] = sets;
     facts["repairs"] = link.repairs;
+    facts["non_finite_faces"] = link.non_finite_faces;
     facts["seconds"] = link.seconds;
     facts["from_cache"] = link.from_cache;
     links.append(facts);

@@ -99,7 +99,8 @@ class LinkHull(NamedTuple):
     within_bounds: bool  #: whether max_distance holds
     source: Source  #: what it was built from
     volume_ratio: float  #: its volume / the volume inside of the geometry; nan if that encloses no space
-    distance_bound: float  #: no point of the hull is farther than this from the geometry: proven
+    distance_bound: float  #: no point of the hull is farther than this from the geometry, whose openings count as closed: proven
+    distance_from_triangles: float  #: the same from the triangles alone, without what closes their openings
     gap: float  #: least distance from the geometry, proven, if a gap was asked for; else 0
     self_intersections: int  #: pairs of its faces that intersect
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
@@ -113,6 +114,7 @@ class LinkHulls(NamedTuple):
     why: str  #: why it was skipped, or what is not read
     hulls: list[LinkHull]  #: one for each number of faces; empty unless the status is "hulled"
     repairs: list[str]  #: what was done to the geometry before hulls were built
+    non_finite_faces: int  #: number of triangles with a corner that is not finite: they were left out
     seconds: float
     from_cache: bool
 

@@ -190,6 +190,14 @@ def test_openings_are_closed_unless_they_are_to_be_kept(cube):
     assert shell.distance_bound > 0 and len(shell.levels) == 0
     assert len(shell.original.faces) == len(lidless)
     assert prohull.verify(shell, (vertices, lidless)) and prohull.verify(solid, (vertices, lidless))
+    assert prohull.verify(solid, (vertices, lidless), open_shells="close")
+    assert not prohull.verify(shell, (vertices, lidless), open_shells="close")
+    inner = prohull.build(vertices, lidless, target_faces=50, side="inner")
+    assert prohull.verify(inner, (vertices, lidless), open_shells="close")
+    with pytest.raises(prohull.InputError, match="no inside"):
+        prohull.verify(inner, (vertices, lidless))
+    with pytest.raises(prohull.InputError, match="open_shells='shut': expected one of"):
+        prohull.verify(inner, (vertices, lidless), open_shells="shut")
 
 
 def test_the_best_source_is_taken(part_of_two):

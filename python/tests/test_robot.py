@@ -105,6 +105,7 @@ def test_links_get_convex_pieces(robot, tmp_path):
     assert made.certified and [link.status for link in made] == ["hulled", "hulled", "primitives"]
     for link in robot.links[:2]:
         hull, = made[link.name].hulls
+        assert hull.distance_from_triangles >= hull.distance_bound > 0 and made[link.name].non_finite_faces == 0
         assert 1 <= len(hull.pieces) <= 3 and hull.proof == "union" and hull.spheres.shape == (0, 4)
         assert all(len(piece.vertices) <= 20 for piece in hull.pieces)
         assert len(hull.mesh.faces) == sum(len(piece.faces) for piece in hull.pieces)

@@ -147,9 +147,11 @@ EnclosingOptions enclosing_options(const Budget& budget, const LinkHullOptions& 
   return enclosing;
 }
 
-/// What `input` tells of the geometry within the judged hulls.
+/// What `input` tells of the geometry within the judged hulls. An exact volume may be known from this run's
+/// construction.
 void describe_input(const RepairedMesh& input, LinkHulls& result, const Progress& go_on) {
-  result.sealed_volume = sealed_volume(input, result.hulls, go_on);
+  if (!(result.sealed_volume > 0)) result.sealed_volume = sealed_volume(input, result.collision, result.hulls, go_on);
+  result.non_finite_faces = input.repairs.dropped_non_finite_faces;
   result.convex_volume = signed_volume(convex_hull(input.original));
   result.repairs = describe(input.repairs);
 }
@@ -160,6 +162,7 @@ RepairedMesh build_hulls(const Plan& plan, const LinkHullOptions& options, LinkH
   if (enclosing.hull.float32_coordinates) check_float32_spacing(result.triangles);
   EnclosingHulls made = enclosing_hulls(result.triangles, plan.budget.faces, enclosing);
   for (const EnclosingHull& hull : made.hulls) result.hulls.push_back(link_hull(hull));
+  if (!made.is_estimated) result.sealed_volume = made.volume;
   return std::move(made.input);
 }
 
@@ -180,6 +183,12 @@ SphereCover balls_around(const TriangleMesh& triangles, const Budget& budget, co
   return sphere_cover(triangles, how);
 }
 
+template <class Cover>
+void take_cover(const Cover& cover, LinkHulls& result) {
+  result.hulls.push_back(link_hull(cover));
+  if (!cover.is_estimated) result.sealed_volume = cover.original_volume;
+}
+
 /// Constructs the hulls, which are not judged yet, and returns the repaired geometry.
 RepairedMesh build(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
   const Budget& budget = plan.budget;
@@ -187,10 +196,10 @@ RepairedMesh build(const Plan& plan, const LinkHullOptions& options, LinkHulls& 
     case Collision::Hull:
       return build_hulls(plan, options, result, go_on);
     case Collision::Convex:
-      result.hulls.push_back(link_hull(pieces_around(result.triangles, budget, options, go_on)));
+      take_cover(pieces_around(result.triangles, budget, options, go_on), result);
       break;
     case Collision::Spheres:
-      result.hulls.push_back(link_hull(balls_around(result.triangles, budget, options, go_on)));
+      take_cover(balls_around(result.triangles, budget, options, go_on), result);
       break;
   }
   return prepared_for_hulls(result.triangles);
@@ -211,6 +220,7 @@ bool take_proposal(std::vector<LinkHull> proposal, const Plan& plan, const LinkH
 /// Those of a link with the same triangles and budget.
 void share_hulls(const LinkHulls& of, LinkHulls& result) {
   result.hulls = of.hulls, result.repairs = of.repairs;
+  result.non_finite_faces = of.non_finite_faces;
   result.sealed_volume = of.sealed_volume, result.convex_volume = of.convex_volume;
   result.from_cache = of.from_cache;
 }

@@ -74,6 +74,8 @@ struct LinkHull {
   std::string source = {};       ///< "mesh", "convex-hull" or "wrap": what a hull was built from
   double volume = 0;             ///< of the union
   DistanceBounds distance = {};  ///< from the triangles and the caps of their openings
+  bool has_openings = false;     ///< there are such caps: the two distances may differ
+  DistanceBounds distance_from_triangles = {};
   double padding = 0;  ///< proven least distance from the triangles; 0 if none was asked for
   std::size_t self_intersections = 0;
   std::vector<std::string> notes = {};
@@ -99,6 +101,7 @@ struct LinkHulls {
   Frame frame;                          ///< of the meshes among the shapes, and of `triangles` and the hulls; with
                                         ///< spheres that of the link
   TriangleMesh triangles;               ///< of the meshes among the shapes: what the hulls enclose
+  std::size_t non_finite_faces = 0;     ///< of `triangles`: they are left out
   std::vector<std::size_t> primitives;  ///< shapes that are kept beside the hull; with spheres only spheres are
   std::vector<LinkHull> hulls;          ///< one for each number of faces; empty unless Hulled
   double sealed_volume = 0;             ///< of what lies inside of the triangles; 0: unknown

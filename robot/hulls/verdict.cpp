@@ -16,6 +16,23 @@ namespace {
 /// Or the triangles, if they bound none.
 const TriangleMesh& solid_of(const RepairedMesh& input) { return input.closed ? input.closed->mesh : input.original; }
 
+/// `sealed` are the triangles with what closes their openings; `distance_from` measures from one of the two.
+template <class Measure>
+void measure_distances(LinkHull& hull, const TriangleMesh& sealed, const RepairedMesh& input, bool has_openings,
+                       Measure distance_from) {
+  hull.has_openings = has_openings;
+  hull.distance = distance_from(sealed);
+  hull.distance_from_triangles = has_openings ? distance_from(input.original) : hull.distance;
+  hull.distance.upper = std::min(hull.distance.upper, hull.distance_from_triangles.upper);  // the sealed has these
+}
+
+/// A reach counts the caps of a solid only.
+template <class Parts>
+void measure_reaches(LinkHull& hull, const Parts& parts, const RepairedMesh& input, const Progress& go_on) {
+  measure_distances(hull, solid_of(input), input, input.closed && input.caps.face_count() > 0,
+                    [&](const TriangleMesh& from) { return union_reach(parts, from, {.progress = go_on}); });
+}
+
 void judge_hull(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Budget& budget,
                 const Progress& go_on) {
   const double gap = budget.padding > 0 ? hull.padding : 0;
@@ -27,7 +44,8 @@ void judge_hull(LinkHull& hull, const TriangleMesh& triangles, const RepairedMes
   hull.self_intersections = found.self_intersections;
   TriangleMesh sealed = solid_of(input);
   if (!input.closed) append(sealed, input.caps);
-  hull.distance = distance_bounds(hull.mesh, sealed, {.progress = go_on});
+  measure_distances(hull, sealed, input, input.caps.face_count() > 0,
+                    [&](const TriangleMesh& from) { return distance_bounds(hull.mesh, from, {.progress = go_on}); });
   if (budget.max_distance > 0 && hull.within_bounds && hull.distance.upper > budget.max_distance)
     hull.notes.emplace_back("keeps the largest distance only if the openings that its wrap closed count as closed");
 }
@@ -39,7 +57,7 @@ void judge_pieces(LinkHull& hull, const TriangleMesh& triangles, const RepairedM
   hull.volume = found.union_volume;
   hull.certified = found.covers;
   hull.proof = "union";
-  hull.distance = union_reach(hull.pieces, solid_of(input), {.progress = go_on});
+  measure_reaches(hull, hull.pieces, input, go_on);
 }
 
 void judge_balls(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Progress& go_on) {
@@ -48,7 +66,7 @@ void judge_balls(LinkHull& hull, const TriangleMesh& triangles, const RepairedMe
   hull.proof = "union";
   hull.mesh = mesh_of({}, hull.balls);
   hull.volume = union_volume(hull.balls);
-  hull.distance = union_reach(hull.balls, solid_of(input), {.progress = go_on});
+  measure_reaches(hull, hull.balls, input, go_on);
 }
 
 bool keeps_float32(const TriangleMesh& mesh) {
@@ -80,8 +98,11 @@ bool is_within_bounds(const LinkHull& hull, const Budget& budget) {
   return budget.max_distance == 0 || hull.distance.upper <= budget.max_distance;
 }
 
-/// Of triangles that bound no solid it is estimated by a wrap.
-InsideVolume volume_inside_of(const RepairedMesh& input, const Progress& go_on) {
+/// Of triangles that bound no solid it is estimated by a wrap. Pieces and balls fill cavities, and hulls are compared
+/// with a closed mesh as it is.
+InsideVolume volume_inside_of(const RepairedMesh& input, Collision collision, const Progress& go_on) {
+  if (collision == Collision::Hull && is_closed(input.original))
+    return volume_inside(turned_outwards(input.original), go_on);
   if (input.closed) return volume_inside(input.closed->mesh, go_on);
   constexpr double kPerDiagonal = 100;
   TriangleMesh sealed = input.original;
@@ -113,8 +134,9 @@ void judge(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& in
   if (!hull.certified) hull.proof.clear();
 }
 
-double sealed_volume(const RepairedMesh& input, std::span<const LinkHull> hulls, const Progress& go_on) {
-  const InsideVolume inside = volume_inside_of(input, go_on);
+double sealed_volume(const RepairedMesh& input, Collision collision, std::span<const LinkHull> hulls,
+                     const Progress& go_on) {
+  const InsideVolume inside = volume_inside_of(input, collision, go_on);
   const auto encloses = [&](const LinkHull& hull) { return hull.volume >= inside.volume; };
   return !inside.is_estimated || std::ranges::all_of(hulls, encloses) ? inside.volume : 0;
 }

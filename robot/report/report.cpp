@@ -50,6 +50,7 @@ Json facts_of(const LinkHull& hull, const LinkHulls& link) {
           {"volume_ratio", number(ratio(hull.volume, link.sealed_volume))},
           {"convex_ratio", number(ratio(hull.volume, link.convex_volume))},
           {"distance", distance(hull.distance)},
+          {"distance_from_triangles", hull.has_openings ? distance(hull.distance_from_triangles) : Json()},
           {"padding", number(hull.padding)},
           {"self_intersections", hull.self_intersections},
           {"notes", texts(hull.notes)}};
@@ -60,6 +61,7 @@ void add_hulls(const LinkHulls& link, std::span<const LinkCertificate> certifica
   facts["collision"] = prohull::name_of(collision_names(), link.collision);
   facts["why"] = link.why.empty() ? Json() : Json(clean_text(link.why));
   facts["faces"] = link.triangles.face_count();
+  facts["non_finite_faces"] = link.non_finite_faces;
   facts["sealed_volume"] = number(link.sealed_volume);
   facts["convex_volume"] = number(link.convex_volume);
   facts["kept_primitives"] = link.primitives.size();

@@ -84,10 +84,11 @@ std::string sum_up_hulls(const Totals& totals, std::string_view geometry, std::s
     return fmt::format("{} of {} with {} {} not certified.", totals.hulled - totals.certified, hulled, covers,
                        totals.hulled - totals.certified == 1 ? "is" : "are");
   const std::string_view cover = covers == "hulls" ? "hull" : covers;
+  const std::string_view point = totals.non_finite_faces > 0 ? "no point of a finite triangle" : "no point";
   if (totals.hulled == 1)
-    return fmt::format("The one link is certified: no point of its {} lies outside of its {}.", geometry, cover);
-  return fmt::format("All {} {}are certified: no point of their {} lies outside of its {}.", hulled,
-                     totals.hulled == totals.links ? "" : fmt::format("with {} ", covers), geometry, cover);
+    return fmt::format("The one link is certified: {} of its {} lies outside of its {}.", point, geometry, cover);
+  return fmt::format("All {} {}are certified: {} of their {} lies outside of its {}.", hulled,
+                     totals.hulled == totals.links ? "" : fmt::format("with {} ", covers), point, geometry, cover);
 }
 
 Finding finding_of_checks(const Totals& totals) {
@@ -121,7 +122,7 @@ void count_hulls(const LinkHulls& hulls, Totals& totals) {
   if (!first) return;
   ++totals.hulled;
   totals.certified += is_certified(hulls);
-  totals.faces_before += hulls.triangles.face_count();
+  totals.faces_before += hulls.triangles.face_count(), totals.non_finite_faces += hulls.non_finite_faces;
   if (first->balls.empty()) totals.faces_after += first->mesh.face_count();
   totals.pieces += first->pieces.size(), totals.balls += first->balls.size();
 }
@@ -191,7 +192,7 @@ std::string size_text(const LinkHull& hull) {
   return counted(hull.mesh.face_count(), "face");
 }
 
-std::string ratio_text(std::optional<double> ratio) { return ratio ? fmt::format("{:.2f} ×", *ratio) : "–"; }
+std::string ratio_text(std::optional<double> ratio) { return ratio ? times_text(*ratio) + " ×" : "–"; }
 
 std::optional<double> ratio(double value, double of) {
   const bool known = std::isfinite(value) && std::isfinite(of) && value > 0 && of > 0 && std::isfinite(value / of);

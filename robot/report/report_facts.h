@@ -62,6 +62,7 @@ std::vector<Mark> marks_of(const ReportInput& input);  ///< in the order of the 
 struct Totals {
   std::size_t links = 0, hulled = 0, certified = 0, primitives = 0, skipped = 0, empty = 0;
   std::size_t faces_before = 0, faces_after = 0;     ///< of the links that have hulls, and of their first hulls
+  std::size_t non_finite_faces = 0;                  ///< of these links: they were left out
   std::size_t pieces = 0, balls = 0;                 ///< of the links that have these in place of hulls
   std::optional<double> volume_ratio, convex_ratio;  ///< medians: hull / sealed original, hull / convex hull
   std::size_t checked = 0, passed = 0;               ///< links with visual geometry, and those that pass the check

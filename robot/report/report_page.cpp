@@ -439,6 +439,10 @@ class FactsTable {
     text += line(
         "Greatest distance from the geometry", [](Hull h) { return range_text(h.distance.lower, h.distance.upper); },
         [](Check c) { return range_text(c.reach.lower, c.reach.upper); });
+    if (hulls_ && std::ranges::any_of(hulls_->hulls, &LinkHull::has_openings))
+      text += line(
+          "The same, from its triangles alone",
+          [](Hull h) { return range_text(h.distance_from_triangles.lower, h.distance_from_triangles.upper); }, unknown);
     if (check_)
       text += line("Mean distance from the geometry", unknown, [](Check c) { return length_text(c.mean_distance); });
     if (!hulls_ || hulls_->hulls.empty()) return text;
@@ -673,9 +677,11 @@ std::string words(const ReportInput& input) {
   shown.push_back({"Volume / convex hull",
                    "The volume by that of the smallest convex body around the geometry, which "
                    "is a common collision mesh."});
-  shown.push_back({"Greatest distance",
-                   "How far a point of the collision geometry is from the geometry of the link at "
-                   "most. The bounds are proven."});
+  shown.push_back(
+      {"Greatest distance",
+       "How far a point of the collision geometry is from the geometry of the link at "
+       "most. The bounds are proven. Openings count as closed: what closes them is no part of the file, and "
+       "the distance from the triangles alone is told, too."});
   if (!input.shipped.empty()) {
     shown.push_back({"Shipped", "The collision geometry that came with the file of the robot."});
     shown.push_back({"Leaks",

@@ -68,7 +68,17 @@ says out "one pair" "(the mesh: 1 pair of faces)"
 expect 3 "no inner hull of a closed sheet" $prohull build sheet.obj --side inner -o hull.obj
 says err "no inner hull of a closed sheet" "sheet.obj: the mesh encloses no volume; there is no inner hull of what bounds no solid"
 
+# --- open meshes: what closes them is no part of the file ---
 printf "$corners$bottom$walls" >bucket.obj
+for mesh in bucket nan; do
+  echo "<robot name='r'><link name='a'><visual><geometry><mesh filename='$mesh.obj'/></geometry></visual></link></robot>" >$mesh.urdf
+done
+expect 0 "a bucket" $prohull urdf bucket.urdf -o bucket --max-distance 1cm --no-pictures
+says out "a bucket" "a: its openings count as closed, and from its triangles alone it reaches at most 501 mm"
+says bucket/report.json "a bucket" '"distance_from_triangles": {'
+expect 0 "a corner that is not finite" $prohull urdf nan.urdf -o nan --no-pictures
+says out "a corner that is not finite" "a: 1 triangle that is not finite was left out"
+says nan/report.json "a corner that is not finite" "no point of a finite triangle of its visual meshes lies outside of its hull"
 for side in outer inner; do
   expect 0 "openings of a bucket: $side" $prohull build bucket.obj --faces 12 --side $side -o $side.obj
   expect 0 "openings are closed as by build: $side" $prohull verify $side.obj bucket.obj --side $side --open-shells close --report closed.json

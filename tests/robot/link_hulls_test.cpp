@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -192,6 +193,33 @@ TEST_F(LinkHullsTest, NameTheLinkOfABadMesh) {
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()).find("link arm: "), 0U) << error.what();
   }
+}
+
+TEST_F(LinkHullsTest, OfOpenMeshesAreMeasuredFromTheirTrianglesAloneToo) {
+  TriangleMesh bucket = meshes::box({0, 0, 0}, {1, 1, 1});
+  bucket.triangles.pop_back(), bucket.triangles.pop_back();
+  folder_.add("bucket.ply", bucket);
+  robot_.links[0].visual = {mesh("bucket.ply")};
+  for (const Collision kind : {Collision::Hull, Collision::Convex, Collision::Spheres}) {
+    options_.budget.collision = kind;
+    const std::vector<LinkHulls> made = link_hulls(robot_, options_);
+    const LinkHull &open = made[0].hulls[0], &closed = made[1].hulls[0];
+    EXPECT_TRUE(open.has_openings && open.certified);
+    EXPECT_GE(open.distance_from_triangles.upper, kind == Collision::Spheres ? open.distance.upper : 0.49);
+    EXPECT_LT(open.distance.upper, 0.4);
+    EXPECT_FALSE(closed.has_openings);
+    EXPECT_EQ(closed.distance_from_triangles.upper, closed.distance.upper);
+    EXPECT_NEAR(made[0].sealed_volume, 1, 1e-12);
+  }
+}
+
+TEST_F(LinkHullsTest, CountTrianglesThatAreLeftOut) {
+  write_file(folder_.path() / "broken.obj",
+             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv nan 0 0\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 1 2 5\n");
+  robot_.links[0].visual = robot_.links[1].visual = {mesh("broken.obj")};
+  const std::vector<LinkHulls> made = link_hulls(robot_, options_);
+  EXPECT_EQ(made[0].non_finite_faces, 1U);
+  EXPECT_EQ(made[1].non_finite_faces, 1U);
 }
 
 TEST_F(LinkHullsTest, AreSharedByLinksWithTheSameGeometry) {
@@ -415,6 +443,27 @@ TEST_F(ForgedCacheTest, OfSpheres) {
   expect_made_anew("a smaller sphere", [](LinkHulls& kept) { kept.hulls[0].balls[0].radius /= 2; });
   expect_made_anew("a sphere inside out", [](LinkHulls& kept) { kept.hulls[0].balls[0].radius *= -1; });
   expect_made_anew("too many spheres", [](LinkHulls& kept) { kept.hulls[0].balls.resize(7, kept.hulls[0].balls[0]); });
+}
+
+TEST_F(LinkHullsTest, HaveTheSameVolumeWithAndWithoutTheCache) {
+  options_.cache = folder_.path() / "cache";
+  TriangleMesh bucket = meshes::box({0, 0, 0}, {1, 1, 1});
+  bucket.triangles.pop_back(), bucket.triangles.pop_back();
+  const TriangleMesh cube = meshes::box({-1, -1, -1}, {1, 1, 1}), small = meshes::scaled(cube, 0.5);
+  folder_.add("bucket.ply", bucket);
+  folder_.add("hollow.ply", meshes::together(cube, meshes::inside_out(small)));
+  folder_.add("overlapping.ply", meshes::together(cube, meshes::moved(small, {1, 0.1, 0.2})));
+  folder_.add("fan.ply", meshes::together(cube, meshes::make({{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}, {{0, 1, 2}})));
+  const std::array names{"bucket.ply", "hollow.ply", "overlapping.ply", "fan.ply"};
+  for (std::size_t i = 0; i < names.size(); ++i) robot_.links[i].visual = {mesh(names[i])};
+  for (const Collision kind : {Collision::Hull, Collision::Convex, Collision::Spheres}) {
+    options_.budget.collision = kind;
+    const std::vector<LinkHulls> made = link_hulls(robot_, options_), again = link_hulls(robot_, options_);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      EXPECT_TRUE(again[i].from_cache) << names[i];
+      EXPECT_EQ(again[i].sealed_volume, made[i].sealed_volume) << names[i];
+    }
+  }
 }
 
 TEST_F(ForgedCacheTest, TellsNothingThatAFileSays) {

@@ -126,6 +126,31 @@ TEST(ReportFacts, AHullThatIsNotCertifiedIsAFailureAndALargeOneNeedsALook) {
   EXPECT_EQ(totals_of(input).certified, 1);
 }
 
+TEST(ReportFacts, TrianglesThatAreLeftOutAreNotSaidToLieInside) {
+  const RobotFile file = robot_of({"a"});
+  ReportInput input = input_of(file);
+  input.hulls = {certified_hulls(0)};
+  input.hulls[0].non_finite_faces = 2;
+  EXPECT_EQ(findings_of(input).front().text,
+            "The one link is certified: no point of a finite triangle of its visual meshes lies outside of its hull.");
+  EXPECT_EQ(report_json(input)["links"][0]["non_finite_faces"], 2);
+}
+
+TEST(ReportFacts, OpeningsAreToldWithTheDistanceFromTheTriangles) {
+  const RobotFile file = robot_of({"a"});
+  ReportInput input = input_of(file);
+  input.hulls = {certified_hulls(0)};
+  LinkHull& hull = input.hulls[0].hulls[0];
+  EXPECT_TRUE(report_json(input)["links"][0]["hulls"][0]["distance_from_triangles"].is_null());
+  hull.has_openings = true, hull.distance_from_triangles.lower = hull.distance_from_triangles.upper = 0.5;
+  EXPECT_EQ(report_json(input)["links"][0]["hulls"][0]["distance_from_triangles"]["at_most"], 0.5);
+}
+
+TEST(ReportFacts, NoRatioHasTwentyDigits) {
+  EXPECT_EQ(ratio_text(1.234), "1.23 ×");
+  EXPECT_EQ(ratio_text(1.6e20), "> 10000 ×");
+}
+
 TEST(ReportFacts, PiecesAndSpheresAreCalledSo) {
   const RobotFile file = robot_of({"a"});
   ReportInput input = input_of(file);
