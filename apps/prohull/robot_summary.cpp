@@ -67,9 +67,10 @@ std::string notes_text(const std::string& link, const LinkHull& hull, bool has_o
   std::string text;
   if (!hull.within_bounds)
     text += fmt::format("  {}: NOT within the distance asked for: {}\n", which, at_most(hull.distance.upper));
-  if (hull.has_openings)
+  if (const std::string from_triangles = at_most(hull.distance_from_triangles.upper);
+      hull.has_openings && from_triangles != at_most(hull.distance.upper))
     text += fmt::format("  {}: its openings count as closed, and from its triangles alone it reaches at most {}\n",
-                        which, at_most(hull.distance_from_triangles.upper));
+                        which, from_triangles);
   for (const std::string& note : hull.notes) text += fmt::format("  {}: {}\n", which, note);
   return text;
 }

@@ -5,7 +5,7 @@ from typing import Any, Callable, Optional, Sequence, Tuple, Union, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from ._types import Axis, Path, Proof, Side
+from ._types import Axis, OpenShells, Path, Proof, Side
 from ._types import Progress as _Progress
 
 Progress = Optional[_Progress]
