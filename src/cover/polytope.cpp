@@ -1,6 +1,7 @@
 #include "cover/polytope.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -26,7 +27,8 @@ double depth(const Vec3& p, const TriangleMesh& polytope) {
   double least = std::numeric_limits<double>::infinity();
   for (const FaceId f : polytope.triangles.ids()) {
     const auto [a, b, c] = polytope.triangle(f);
-    const Vec3 normal = cross(b - a, c - a);
+    const double unit = std::ldexp(1.0, -std::ilogb(norm(b - a)));  // the square of the normal shall not overflow
+    const Vec3 normal = cross((b - a) * unit, (c - a) * unit);
     least = std::min(least, dot(a - p, normal) / norm(normal));
   }
   return least;

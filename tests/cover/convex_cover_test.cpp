@@ -245,6 +245,17 @@ TEST(ConvexCover, TakesTheShapeThatIsAskedFor) {
   }
 }
 
+// A square of a normal overflowed: the volume and the reach were those of pieces without size.
+TEST(ConvexCover, OfRoundShapesIsMeasuredAtAnySize) {
+  for (const PieceShape shape : {PieceShape::Capsule, PieceShape::Ball})
+    for (const double size : {0x1p-270, 0x1p270}) {
+      const TriangleMesh mesh = meshes::scaled(meshes::box({0, 0, 0}, {1, 2, 3}), size);
+      const ConvexCover cover = convex_cover(mesh, {.max_pieces = 1, .shape = shape});
+      EXPECT_GT(cover.volume, cover.original_volume);
+      EXPECT_GT(cover.reach.upper, 0.1 * size);
+    }
+}
+
 TEST(ConvexCover, TakesAShapeOnlyAsFarAsTheBoundsAllow) {
   TriangleMesh mesh = meshes::box({0, 0, 0}, {1, 1, 1});
   append(mesh, meshes::tetrahedron({3, 0, 0}, {4, 0, 0}, {3, 1, 0}, {3, 0, 1}));
