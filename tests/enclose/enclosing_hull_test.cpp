@@ -499,7 +499,7 @@ TEST(EnclosingHull, OfASoupKeepsACloseBound) {
 
 // So close that no collapse may be left to chance.
 TEST(EnclosingHull, OfASoupKeepsAVeryCloseBound) {
-  const TriangleMesh soup = without_a_face(make_sample("asteroid", 100));
+  const TriangleMesh soup = without_a_face(make_sample("asteroid", 300));
   const double bound = 0.0049 * bounding_box(soup).diagonal();
   const EnclosingHull hull = enclosing_hull(soup, 20, {.bounds = {.max_distance = bound}, .repair = Repair::Wrap});
   EXPECT_TRUE(hull.certified && hull.within_bounds);
@@ -573,7 +573,7 @@ TEST(EnclosingHull, CanBeCancelledAnywhere) {
   options.progress = [&](std::string_view, double) { return ++calls > 0; };
   hull_of(open, 40, options);
   const int all = calls;
-  for (int most = 0; most < all; most += 1 + all / 7) {
+  for (int most = 0; most < all; most += 1 + all / effort(20, 7)) {
     calls = 0;
     options.progress = [&](std::string_view, double) { return ++calls <= most; };
     EXPECT_THROW(hull_of(open, 40, options), Cancelled) << most << " of " << all;
