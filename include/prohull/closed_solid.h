@@ -39,10 +39,13 @@ ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& optio
 /// Of all points that a closed mesh winds around at least once, in cubic units.
 struct InsideVolume {
   double volume = 0;
-  bool is_estimated = false;  ///< faces intersect too often for solid_volume: by a wrap
+  bool is_estimated = false;  ///< by a wrap: nothing is closed, or faces intersect too often for solid_volume
 };
 
 /// The stage of progress is "wrap". Throws InputError if the mesh is empty, not closed or not finite; Cancelled.
 InsideVolume volume_inside(const TriangleMesh& closed, const Progress& progress = {});
+
+/// Of the closed mesh; or, where repairs do not do, of the triangles with caps on all openings. 0 of a single point.
+InsideVolume volume_inside(const RepairedMesh& repaired, const Progress& progress = {});
 
 }  // namespace prohull

@@ -10,31 +10,19 @@
 
 #include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
-#include "prohull/detail/openings.h"
 #include "prohull/detail/solid_pieces.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
 #include "prohull/union_verification.h"
-#include "prohull/wrap.h"
 #include "robot/side_by_side.h"
 
 namespace prohull::robot {
 namespace {
 
-/// Where triangles cannot be closed, estimated by a wrap of them and of caps on all openings.
-InsideVolume enclosed_volume(const RepairedMesh& repaired, const Progress& progress) {
-  constexpr double kPerDiagonal = 100;
-  const double diagonal = bounding_box(repaired.original).diagonal();
-  if (diagonal == 0) return {};
-  if (repaired.closed) return volume_inside(repaired.closed->mesh, progress);
-  const TriangleMesh solid = with_caps(repaired.original, find_openings(repaired.original));
-  return {inside_volume(solid, {.spacing = diagonal / kPerDiagonal, .seal_rooms = true, .progress = progress}), true};
-}
-
 InsideVolume enclosed_volume(const TriangleMesh& triangles, const Progress& progress) {
-  return triangles.face_count() == 0 ? InsideVolume{} : enclosed_volume(prepared_for_hulls(triangles), progress);
+  return triangles.face_count() == 0 ? InsideVolume{} : volume_inside(prepared_for_hulls(triangles), progress);
 }
 
 double area(const Triangle& t) { return norm(cross(t.b - t.a, t.c - t.a)) / 2; }
@@ -267,7 +255,7 @@ class LinkChecker {
 
   void measure_volumes(const std::optional<RepairedMesh>& visual) {
     const auto balls = only_balls(pieces_);
-    const InsideVolume inside = measured([&] { return visual ? enclosed_volume(*visual, progress_) : InsideVolume{}; });
+    const InsideVolume inside = measured([&] { return visual ? volume_inside(*visual, progress_) : InsideVolume{}; });
     const InsideVolume collision = measured([&] {
       return balls.empty() ? enclosed_volume(check_.collision, progress_) : InsideVolume{union_volume(balls)};
     });

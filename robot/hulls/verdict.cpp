@@ -8,7 +8,6 @@
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "prohull/verification.h"
-#include "prohull/wrap.h"
 
 namespace prohull::robot {
 namespace {
@@ -98,18 +97,11 @@ bool is_within_bounds(const LinkHull& hull, const Budget& budget) {
   return budget.max_distance == 0 || hull.distance.upper <= budget.max_distance;
 }
 
-/// Of triangles that bound no solid it is estimated by a wrap. Pieces and balls fill cavities, and hulls are compared
-/// with a closed mesh as it is.
+/// Pieces and balls fill cavities, and hulls are compared with a closed mesh as it is.
 InsideVolume volume_inside_of(const RepairedMesh& input, Collision collision, const Progress& go_on) {
   if (collision == Collision::Hull && is_closed(input.original))
     return volume_inside(turned_outwards(input.original), go_on);
-  if (input.closed) return volume_inside(input.closed->mesh, go_on);
-  constexpr double kPerDiagonal = 100;
-  TriangleMesh sealed = input.original;
-  append(sealed, input.caps);
-  const double spacing = bounding_box(sealed).diagonal() / kPerDiagonal;
-  if (spacing == 0) return {};
-  return {inside_volume(sealed, {.spacing = spacing, .seal_rooms = true, .progress = go_on}), true};
+  return volume_inside(input, go_on);
 }
 
 std::vector<std::size_t> targets_of(const Budget& budget) {

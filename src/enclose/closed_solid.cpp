@@ -6,6 +6,7 @@
 #include "enclose/known_void.h"
 #include "geometry/float32.h"
 #include "prohull/detail/float32_hull.h"
+#include "prohull/detail/openings.h"
 #include "prohull/enclosure.h"
 #include "prohull/wrap.h"
 
@@ -13,6 +14,7 @@ namespace prohull {
 namespace {
 
 constexpr double kSpacingsPerDiagonal = 256;
+constexpr double kPerDiagonal = 100;  // spacings of wraps that estimate volumes
 
 void judge(ClosedSolid& solid, const ClosedSolidOptions& options) {
   if (options.float32_coordinates)
@@ -60,13 +62,20 @@ ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& optio
 }
 
 double estimated_volume(const TriangleMesh& closed, const Progress& progress) {
-  constexpr double kPerDiagonal = 100;
   return inside_volume(closed, {.spacing = bounding_box(closed).diagonal() / kPerDiagonal, .progress = progress});
 }
 
 InsideVolume volume_inside(const TriangleMesh& closed, const Progress& progress) {
   if (const auto volume = solid_volume(closed, progress)) return {*volume, false};
   return {estimated_volume(closed, progress), true};
+}
+
+InsideVolume volume_inside(const RepairedMesh& repaired, const Progress& progress) {
+  if (repaired.closed) return volume_inside(repaired.closed->mesh, progress);
+  const double diagonal = bounding_box(repaired.original).diagonal();
+  if (diagonal == 0) return {};
+  const TriangleMesh capped = with_caps(repaired.original, find_openings(repaired.original));
+  return {inside_volume(capped, {.spacing = diagonal / kPerDiagonal, .seal_rooms = true, .progress = progress}), true};
 }
 
 }  // namespace prohull
