@@ -120,21 +120,21 @@ std::vector<Polygon> without(const std::vector<Polygon>& polygons, const ConvexP
   return result;
 }
 
-void add(TriangleMesh& mesh, const Polygon& polygon, const Frame& frame) {
+void add(TriangleMesh& mesh, const Polygon& polygon) {
   for (std::size_t i = 2; i < polygon.size(); ++i) {
     std::array<VertexId, 3> corners;
-    for (int k = 0; k < 3; ++k)
-      corners[k] = mesh.positions.push_back(frame.origin + polygon[k == 0 ? 0 : i - 2 + std::size_t(k)] * frame.size);
+    for (int k = 0; k < 3; ++k) corners[k] = mesh.positions.push_back(polygon[k == 0 ? 0 : i - 2 + std::size_t(k)]);
     mesh.triangles.push_back(corners);
   }
 }
 
-}  // namespace
-
-TriangleMesh exposed_surface(std::span<const TriangleMesh> meshes) {
+Frame frame_of(std::span<const TriangleMesh> meshes) {
   Box box;
   for (const TriangleMesh& mesh : meshes) box.extend(bounding_box(mesh));
-  const Frame frame = frame_of(box);
+  return frame_of(box);
+}
+
+TriangleMesh surface_in(const Frame& frame, std::span<const TriangleMesh> meshes) {
   std::vector<ConvexPiece> pieces;
   for (const TriangleMesh& mesh : meshes) pieces.push_back(convex_piece(mesh, frame, growth(pieces.size())));
   TriangleMesh surface;
@@ -143,9 +143,23 @@ TriangleMesh exposed_surface(std::span<const TriangleMesh> meshes) {
       std::vector<Polygon> exposed{{t.a, t.b, t.c}};
       for (const ConvexPiece& other : pieces)
         if (&other != &piece && other.box.overlaps(prohull::box_of(t))) exposed = without(exposed, other);
-      for (const Polygon& polygon : exposed) add(surface, polygon, frame);
+      for (const Polygon& polygon : exposed) add(surface, polygon);
     }
   return surface;
+}
+
+}  // namespace
+
+TriangleMesh exposed_surface(std::span<const TriangleMesh> meshes) {
+  const Frame frame = frame_of(meshes);
+  TriangleMesh surface = surface_in(frame, meshes);
+  for (Vec3& p : surface.positions) p = frame.origin + p * frame.size;
+  return surface;
+}
+
+double exposed_volume(std::span<const TriangleMesh> meshes) {
+  const Frame frame = frame_of(meshes);
+  return signed_volume(surface_in(frame, meshes)) * frame.size * frame.size * frame.size;
 }
 
 bool is_about_convex(const TriangleMesh& mesh) {

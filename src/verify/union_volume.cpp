@@ -120,26 +120,10 @@ class BallVolume {
   Box box_;
 };
 
-/// Along the axes on which they are far from the origin, pieces can be moved to it without rounding, and where faces
-/// cross is rounded less then.
-std::vector<TriangleMesh> near_origin(std::span<const TriangleMesh> pieces) {
-  constexpr double kFar = 64;  // sizes
-  std::vector<TriangleMesh> moved(pieces.begin(), pieces.end());
-  Box box;
-  for (const TriangleMesh& piece : pieces)
-    for (const Vec3& p : piece.positions) box.extend(p);
-  Vec3 shift;
-  for (int axis = 0; axis < 3; ++axis)
-    if (const double c = box.center()[axis]; std::abs(c) > kFar * (box.max[axis] - box.min[axis])) shift[axis] = c;
-  for (TriangleMesh& piece : moved)
-    for (Vec3& p : piece.positions) p = p - shift;
-  return moved;
-}
-
 }  // namespace
 
 double union_volume(std::span<const TriangleMesh> pieces) {
-  return pieces.empty() ? 0 : signed_volume(verify::exposed_surface(near_origin(pieces)));
+  return pieces.empty() ? 0 : verify::exposed_volume(pieces);
 }
 
 double union_volume(std::span<const Ball> balls) { return balls.empty() ? 0 : BallVolume(balls).value(); }
