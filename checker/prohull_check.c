@@ -920,6 +920,19 @@ static int is_closed(const Mesh* m) {
   return !sum.used;
 }
 
+/* Of six times the volume of the component of triangle r, exactly. */
+static int sign_of_volume(const Mesh* m, uint32_t* parent, uint32_t r) {
+  Number normal[3], way[3], part, sum = zero;
+  const Point base = points[m->t[r][0]];
+  exactly = 1, spend(m->n);
+  for (uint32_t i = 0; i < m->n; ++i) {
+    if (root(parent, i) != r) continue;
+    set_normal(normal, points[m->t[i][0]], base, points[m->t[i][1]], base), set_way(way, points[m->t[i][2]], base);
+    dot(&part, normal, way), add(&sum, &sum, &part, 1);
+  }
+  return sign_of(&sum);
+}
+
 /* Turns the components of the named triangles, whose volumes must be negative. */
 static void turn_components(const Mesh* m, File* f, uint64_t count) {
   uint32_t* const parent = each_alone(m->n);
@@ -942,7 +955,7 @@ static void turn_components(const Mesh* m, File* f, uint64_t count) {
     t[1] = t[2], t[2] = x;
   }
   for (uint32_t i = 0; i < m->n; ++i)
-    if (named[i] && !(volume[i][0] < -volume[i][1]))
+    if (named[i] && !(volume[i][0] < -volume[i][1]) && sign_of_volume(m, parent, i) <= 0) /* now that it is turned */
       end(1, "the volume of the component of triangle %u of the original is not negative", i);
   free(edges.slot), free(parent), free(volume), free(named);
 }

@@ -97,6 +97,13 @@ class Tetrahedra(Checked):
         self.expect(NOT_PROVEN, "", [tetrahedra(added, fans)], hull, turned)
         self.expect(NOT_PROVEN, "not negative", [tetrahedra(added, fans)], hull, CUBE, turned=[7])
 
+    def test_know_turned_components_of_any_size(self):
+        for scale in (2.0**-300, 2.0**300):
+            hull, cube = scaled(WIDE, scale), scaled(CUBE, scale)
+            turned = (cube[0], [(a, c, b) for a, b, c in cube[1]])
+            self.expect(PROVEN, "components of the original that are turned: 1", [surfaces()], hull, turned, turned=[7])
+            self.expect(NOT_PROVEN, "not negative", [surfaces()], hull, cube, turned=[7])
+
 
 class Surfaces(Checked):
     def test_prove_outer_and_inner_hulls(self):

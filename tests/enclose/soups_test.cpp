@@ -6,14 +6,15 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <optional>
 
+#include "checker.h"
 #include "effort.h"
 #include "few_trials.h"
 #include "geometry/float32.h"
 #include "judge.h"
 #include "prohull/cage.h"
+#include "prohull/certificate.h"
 #include "prohull/convex_cover.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/error.h"
@@ -60,6 +61,7 @@ struct Case {
   Judge judge;  ///< of the raw triangles
   TriangleMesh finite;
   std::string command = {};  ///< which does the same, about
+  int certificates = 0, proven = 0;
 
   std::vector<Point> inside_points();
 
@@ -134,6 +136,20 @@ void expect_claims(Case& given, const TriangleMesh& hull, HullSide side, const R
     expect_covered(given, Judge(hull));
 }
 
+/// The checker looks at all points, where the judge has samples.
+oracle::Checked expect_not_denied(Case& given, const Certificate& certificate, const std::string& hull,
+                                  std::string_view suffix = ".off") {
+  const oracle::Checked found = oracle::checked(certificate, hull, suffix, oracle::off(given.soup.mesh));
+  ++given.certificates, given.proven += found.is_proven;
+  EXPECT_FALSE(found.is_denied) << found.line;
+  return found;
+}
+
+void expect_certificate(Case& given, const TriangleMesh& hull, const HullClaims& claims) {
+  if (claims.side == HullSide::Inner && !given.judge.is_closed()) return;
+  expect_not_denied(given, hull_certificate(hull, {given.soup.mesh}, claims), oracle::off(hull));
+}
+
 // --- products ---
 
 template <class Value>
@@ -190,6 +206,11 @@ void build(Case& given, const EnclosingOptions& options) {
   if (options.padding > 0) expect_gap(given, Judge(hull.mesh), hull.padding);
   EXPECT_TRUE(options.repair == Repair::None || verify_hull(hull.mesh, given.finite, side).encloses)
       << "verify_hull says no";
+  expect_certificate(given, hull.mesh,
+                     {.side = side,
+                      .levels = hull.levels,
+                      .gap = claimed_gap(options.padding, hull.padding),
+                      .distance = options.bounds.max_distance});
   if (!hull.levels || side == HullSide::Inner || options.repair == Repair::None) return;
   expect_covered(given, Judge(hull.levels->base()));
   EXPECT_TRUE(verify_hull(hull.levels->with_finest_level(finest_level(made, hull)), given.finite).encloses)
@@ -239,7 +260,12 @@ void cage(Case& given) {
   if (!given.random.one_in(3)) options.gap = some_distance(given, "--gap");
   const Cage made = build_cage(given.soup.mesh, options);
   const auto check = [&](const CageHull& hull, HullSide side) {
-    if (hull.hull().certified) expect_claims(given, hull.hull().mesh, side, hull.made.input);
+    if (hull.hull().certified) {
+      expect_claims(given, hull.hull().mesh, side, hull.made.input);
+      expect_certificate(
+          given, hull.hull().mesh,
+          {.side = side, .levels = hull.hull().levels, .gap = claimed_gap(hull.hull().padding, hull.hull().padding)});
+    }
     EXPECT_TRUE(!hull.keeps_gap || hull.hull().padding >= made.gap);
     expect_gap(given, Judge(hull.hull().mesh), hull.hull().padding);
   };
@@ -297,8 +323,12 @@ void convex(Case& given) {
   options.shape = static_cast<PieceShape>(given.random.one_in(3) ? given.random.uniform(0, 3) : 0);
   noted(given, "--shape", name_of(piece_shape_names(), options.shape));
   const ConvexCover cover = convex_cover(given.soup.mesh, options);
+  std::vector<TriangleMesh> parts;
+  TriangleMesh file;
   std::vector<Judge> pieces;
   for (const ConvexPiece& piece : cover.pieces) {
+    parts.push_back(piece.mesh);
+    file = meshes::together(std::move(file), piece.mesh);
     const Judge& made = pieces.emplace_back(piece.mesh);
     for (const Vec3& p : piece.mesh.positions) {
       ASSERT_TRUE(made.has_within_planes(oracle::exact(p))) << "a piece is not convex";
@@ -310,6 +340,7 @@ void convex(Case& given) {
   }
   expect_cover(given, cover, cover.covers_inside, pieces.size(),
                [&](std::size_t i, const Point& x) { return pieces[i].has_within_planes(x); });
+  expect_not_denied(given, pieces_certificate(parts, {given.soup.mesh}), oracle::off(file));
   const double bound = bound_of_reach(cover, options.bounds.max_distance);
   for (std::size_t i = 0; i < pieces.size(); ++i)
     for (const Point& x : pieces[i].points_on_faces(given.random)) {
@@ -329,6 +360,7 @@ void spheres(Case& given) {
   // Of what is open, the inside is that of a wrap.
   expect_cover(given, cover, cover.covers_inside && cover.original_closed, cover.balls.size(),
                [&](std::size_t i, const Point& x) { return oracle::contains(cover.balls[i], x); });
+  expect_not_denied(given, balls_certificate(cover.balls, {given.soup.mesh}), oracle::yaml(cover.balls), ".yaml");
   const double bound = bound_of_reach(cover, options.max_distance);
   for (std::size_t i = 0; i < cover.balls.size(); ++i)
     for (int k = 0; k < rounds(20); ++k) {
@@ -361,6 +393,13 @@ void verify(Case& given) {
   const Verification found = verify_hull(hull, given.finite, HullSide::Outer, {.gap = gap, .progress = given.progress});
   if (found.encloses) expect_covered(given, Judge(hull));
   if (found.keeps_gap) expect_gap(given, Judge(hull), gap);
+  const HullClaims claims{.gap = found.keeps_gap ? claimed_gap(gap, gap) : 0};
+  const Certificate certificate = hull_certificate(hull, {given.soup.mesh}, claims);
+  if (found.encloses)
+    expect_not_denied(given, certificate, oracle::off(hull));
+  else
+    EXPECT_FALSE(oracle::checked(certificate, oracle::off(hull), ".off", oracle::off(given.soup.mesh)).is_proven)
+        << "the checker proves what verify_hull denies";
 }
 
 // --- the campaign ---
@@ -371,16 +410,6 @@ struct Product {
   int soups;  ///< where there is no campaign
 };
 void PrintTo(const Product& product, std::ostream* out) { *out << product.name; }
-
-/// Also what is not finite, which write_mesh refuses.
-std::string kept(const TriangleMesh& mesh, const std::string& name) {
-  const std::string file = testing::TempDir() + name + ".off";
-  std::ofstream out(file);
-  out << fmt::format("OFF\n{} {} 0\n", mesh.vertex_count(), mesh.face_count());
-  for (const Vec3& p : mesh.positions) out << fmt::format("{} {} {}\n", p.x, p.y, p.z);
-  for (const auto& [a, b, c] : mesh.triangles) out << fmt::format("3 {} {} {}\n", index(a), index(b), index(c));
-  return file;
-}
 
 int failures() { return testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count(); }
 
@@ -412,7 +441,7 @@ TEST_P(Soups, KeepTheirWordOrAreRefused) {
     if (failures() == failures_before && slow.empty()) continue;
     const std::string name = fmt::format("{}_{}", GetParam().name, seed);
     fmt::print("{}: {}: PROHULL_TEST_SEED={}: prohull {} {}\n", slow.empty() ? "FALSE" : "slow", slow, seed,
-               given.command, kept(given.soup.mesh, name));
+               given.command, oracle::write(testing::TempDir() + name + ".off", oracle::off(given.soup.mesh)));
     std::fflush(stdout);
   }
   EXPECT_TRUE(8 * refused < 7 * soups || soups < 20) << "nearly all were refused: " << refused;
