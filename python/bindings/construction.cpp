@@ -104,6 +104,7 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
   facts["build_seconds"] = hull.build_seconds;
   facts["verify_seconds"] = hull.verify_seconds;
   facts["repairs"] = describe(made.input.repairs);
+  facts["open_shells"] = name_of(open_shells_names(), options.open_shells);
   return facts;
 }
 

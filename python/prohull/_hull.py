@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any, Optional
 from . import _arrays, _prohull
 from ._meshes import Mesh
 from ._prohull import InputError
-from ._types import Axis, Path, Proof, Side, Source
+from ._types import Axis, OpenShells, Path, Proof, Side, Source
 
 if TYPE_CHECKING:
+    from ._verify import Verification
     from ._view import Part
 
 
@@ -53,10 +54,12 @@ class Hull(Mesh):
     _gap_asked: float
     _mirror: Optional[Axis] = None  # that build() was asked for
     _volume_inside: float  # that void is measured against
+    _open_shells: OpenShells
     _replay_suffices: bool  # whether a level that encloses the solid of the original covers every triangle of it
     _solid_volume: Optional[float]  # computed when it is asked for, and so are the next
     _distance: Optional[float]
     _self_intersections: Optional[int]
+    _verdict: "Optional[Verification]"
 
     @classmethod
     def _made(cls, facts: dict[str, Any], side: Side) -> "Hull":
@@ -65,7 +68,8 @@ class Hull(Mesh):
         private = dict(_levels=levels, _given=facts.pop("given", original._core), _original=original,
                        _covered=facts.pop("covered", None),
                        _bounds=facts.pop("bounds", ()), _gap_asked=facts.pop("gap_asked", 0.0),
-                       _mirror=facts.pop("mirror", None), _replay_suffices=facts.pop("replay_suffices"),
+                       _mirror=facts.pop("mirror", None), _open_shells=facts.pop("open_shells", "keep"),
+                       _replay_suffices=facts.pop("replay_suffices"),
                        _volume_inside=facts.pop("volume_inside", original.volume))
         return cls._with(facts.pop("mesh"), side=side, **private, **facts)
 
@@ -73,13 +77,14 @@ class Hull(Mesh):
     def _with(cls, core: _prohull.Mesh, **attributes: Any) -> "Hull":
         hull = cls.__new__(cls)
         hull._set(core)
-        hull._solid_volume, hull._distance, hull._self_intersections = None, None, None
+        hull._solid_volume = hull._distance = hull._self_intersections = hull._verdict = None
         hull.__dict__.update(attributes)
         return hull
 
     def _as(self, core: _prohull.Mesh, **changes: Any) -> "Hull":
         """Another mesh with the facts of this hull, but for `changes`."""
-        computed = ("_core", "_query_levels", "_is_closed", "_indices", "_solid_volume", "_distance", "_self_intersections")
+        computed = ("_core", "_query_levels", "_is_closed", "_indices", "_solid_volume", "_distance", "_self_intersections",
+                    "_verdict")
         facts = {name: value for name, value in self.__dict__.items() if name not in computed}
         return Hull._with(core, **{**facts, **changes})
 
@@ -178,6 +183,19 @@ class Hull(Mesh):
         if self._levels is None:
             raise InputError("the hull has no levels; build with levels=True and tight=False")
         return self._levels
+
+    @property
+    def verdict(self) -> "Verification":
+        """What verify() says of the hull and the mesh as it was given, without triangles that are not finite: what is
+        proven, against what, and if it is not, why not. Openings count as closed if build() closed them.
+
+        Of a hull that was loaded, the mesh is the finest level. Decided when it is first asked for.
+        """
+        from . import _verify
+
+        if self._verdict is None:
+            self._verdict = _verify.verify(self, Mesh._of(self._given), gap=self._gap_asked, open_shells=self._open_shells)
+        return self._verdict
 
     @property
     def void_ratio(self) -> float:

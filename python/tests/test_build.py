@@ -412,3 +412,22 @@ def test_a_mesh_that_is_not_symmetric_is_refused():
         prohull.build(prohull.sample("bracket", 500), 50, mirror="x")
     with pytest.raises(prohull.InputError, match="mirror='w': expected one of x, y, z"):
         prohull.build(prohull.sample("bracket", 500), 50, mirror="w")
+
+
+def test_the_verdict_is_that_of_verify(pony, tmp_path):
+    hull = prohull.build(pony, 300)
+    assert hull.verdict and hull.verdict is hull.verdict and hull.verdict.original_closed
+    assert hull.verdict.void_ratio == pytest.approx(hull.void_ratio)
+    assert hull.level(600).verdict.void_ratio < hull.verdict.void_ratio
+    hull.save(tmp_path / "pony.phull")
+    assert prohull.load(tmp_path / "pony.phull").verdict.encloses
+    gap = prohull.build(pony, 60, gap="1%").verdict
+    assert gap and gap.least_distance > 0
+
+
+def test_the_verdict_of_an_open_mesh_closes_what_build_has_closed(pony):
+    vertices, faces = pony.vertices, pony.faces[:-1]
+    inner = prohull.build((vertices, faces), 40, side="inner")
+    assert inner.verdict and inner.verdict.proof == "enclosure"
+    kept = prohull.build((vertices, faces), 40, open_shells="keep")
+    assert kept.verdict and kept.verdict.proof == "coverage" and not kept.verdict.original_closed
