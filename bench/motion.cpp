@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "machine.h"
+#include "motion_attack.h"
 #include "robot/motion/bodies.h"
 #include "robot/motion/joint_paths.h"
 #include "robot/motion/pair_proof.h"
@@ -30,6 +31,7 @@ struct MotionBenchOptions {
   ProofOptions proof;
   std::size_t paths = 50;
   PathProofOptions path_proof{.threads = 1};
+  AttackOptions attack;
   path out;
 };
 
@@ -42,6 +44,9 @@ struct Found {
   Table pairs{{"robot", "link", "other", "verdict", "proven_free_pct", "cells", "cpu_seconds"}};
   Table paths{{"robot", "path", "verdict", "cells", "cpu_seconds"}};
   Table robots{{"robot", "pairs", "decided", "free", "median of cells", "median of seconds"}};
+  Table attacks{{"robot", "never", "poses", "climbs", "contradictions", "least_mm", "witnesses", "confirmed",
+                 "surfaces_meet", "fcl_agrees"}};
+  Attack attack;
   Decided decided_pairs, decided_paths;
 };
 
@@ -55,17 +60,29 @@ std::vector<LinkPair> pairs_of(const Robot& robot, const Bodies& bodies) {
   return pairs;
 }
 
-void measure_pairs(const std::string& name, const Robot& robot, const Bodies& bodies, const ProofOptions& options,
+void add_attack(const std::string& name, const Attack& attack, Table& table) {
+  const auto cell = [](std::size_t n) { return std::to_string(n); };
+  table.add({name, cell(attack.never), cell(attack.poses), cell(attack.climbs), cell(attack.contradictions),
+             number(1000 * attack.least, 3), cell(attack.witnesses), cell(attack.confirmed), cell(attack.by_surfaces),
+             cell(attack.by_fcl)});
+}
+
+void measure_pairs(const std::string& name, const Robot& robot, const Bodies& bodies, const MotionBenchOptions& options,
                    Found& found) {
+  std::vector<PairProof> proofs;
   for (const LinkPair& pair : pairs_of(robot, bodies)) {
     PairProof proof;
     const double seconds =
-        seconds_of([&] { proof = prove_pairs(robot, bodies.hull, std::span(&pair, 1), options).front(); });
+        seconds_of([&] { proof = prove_pairs(robot, bodies.hull, std::span(&pair, 1), options.proof).front(); });
     ++found.decided_pairs.all, found.decided_pairs.decided += proof.verdict != PairVerdict::Open;
     found.pairs.add({name, as_cell(robot.links[pair.first].name), as_cell(robot.links[pair.second].name),
                      std::string(name_of(proof.verdict)), number(100 * proof.proven_free, 2),
                      std::to_string(proof.cells), number(seconds, 3)});
+    proofs.push_back(std::move(proof));
   }
+  const Attack attacked = attack(robot, bodies, proofs, options.attack);
+  add_attack(name, attacked, found.attacks);
+  found.attack += attacked;
 }
 
 /// From one position of all joints straight to another one.
@@ -125,7 +142,7 @@ void measure(const path& path_of_robot, const MotionBenchOptions& options, Found
   how.budget.faces = {options.faces}, how.skip_missing = true;
   const Bodies bodies = bodies_of(file.robot, link_hulls(file.robot, how), Geometry::Visual);
   const std::string name = as_cell(path_of_robot.stem().string());
-  measure_pairs(name, file.robot, bodies, options.proof, found);
+  measure_pairs(name, file.robot, bodies, options, found);
   measure_paths(name, file.robot, bodies, options, found);
 }
 
@@ -166,7 +183,10 @@ void add_motion(CLI::App& app, Run& run) {
   command.add_option("--paths", options->paths, "Random paths of each robot")->capture_default_str();
   command.add_option("--cells", options->path_proof.cells, "Largest number of cells of a pair on a path")
       ->capture_default_str();
-  add_out_option(command, options->out, "motion_pairs and motion_paths");
+  command.add_option("--poses", options->attack.poses, "Random poses of pairs that never meet")->capture_default_str();
+  command.add_option("--climbs", options->attack.climbs, "Searches of poses in which such pairs are close")
+      ->capture_default_str();
+  add_out_option(command, options->out, "motion_pairs, motion_paths and motion_attack");
   command.callback([options, &run] { run = [options] { return run_motion(*options); }; });
 }
 

@@ -382,7 +382,7 @@ void add_build(CLI::App& app, Run& run) {
       command, "--self-intersections", hull.self_intersections, self_intersections_names(),
       "Whether collapses may make an outer hull intersect itself, which is faster. by-strategy allows it for the "
       "strategies paper1 and paper2 only.");
-  add_number(command, "--best-of", hull.best_of, {1, 1e6},
+  add_number(command, "--best-of", enclosing.best_of, {1, 1e6},
              "Build this many hulls, with a seed each, and keep the one of least void.");
   add_number(command, "--seed", hull.seed, kSeed,
              "Number that varies the order of collapses a little, and so the hull; the first seed of --best-of.");

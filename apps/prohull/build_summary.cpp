@@ -96,7 +96,7 @@ nlohmann::json options_report(const BuildOptions& options) {
       {"self_intersections", options.enclosing.tight || hull.refuses_self_intersections() ? "refused" : "allowed"},
       {"relax_guards", hull.relax_guards},
       {"seed", hull.seed},
-      {"best_of", hull.best_of},
+      {"best_of", options.enclosing.best_of},
       {"float32_coordinates", hull.float32_coordinates}};
   if (hull.mirror) report["mirror"] = name_of(axis_names(), *hull.mirror);
   return report;

@@ -352,7 +352,6 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
   for (std::size_t i = 0; i < cover.pieces.size(); ++i) pieces.push_back(facts_of(cover.pieces[i], files.name(i)));
   if (outcome.certified)
     for (const path& file : files.written(cover.pieces)) paths.push_back(file.string());
-  const Vec3& farthest = cover.reach.farthest;
   return {{"input", in},
           {"paths", paths},
           {"pieces", pieces},
@@ -362,10 +361,7 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
           {"original_volume", finite_or_null(cover.original_volume)},
           {"void_ratio", cover.original_volume > 0 ? finite_or_null(cover.void_ratio) : nlohmann::json()},
           {"void_is_estimated", cover.is_estimated},
-          {"reach",
-           {{"lower", cover.reach.lower},
-            {"upper", finite_or_null(cover.reach.upper)},
-            {"farthest", {farthest.x, farthest.y, farthest.z}}}},
+          {"reach", facts(cover.reach)},
           {"reach_from_triangles", facts(cover.reach_from_triangles)},
           {"non_finite_faces", cover.non_finite_faces},
           {"within_bounds", cover.within_bounds},

@@ -56,7 +56,10 @@ void print_report(const MeshReport& report) {
   if (report.is_closed_manifold()) {
     say_fact("surface", "closed 2-manifold");
     say_fact("genus", "{}", genus(report));
-    say_fact("volume", "{:.9g}{}", report.volume, report.volume < 0 ? " (inside out)" : "");
+    say_fact("volume", "{:.9g}{}", report.volume,
+             report.volume < 0       ? " (inside out)"
+             : report.components > 1 ? " (where components overlap, it counts them all)"
+                                     : "");
   } else {
     say_fact("surface", "{}", report.faces == 0 ? "no faces" : "not a closed 2-manifold");
   }

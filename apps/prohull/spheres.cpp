@@ -83,7 +83,6 @@ std::string check_options(const SpheresOptions& options) {
 
 nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
-  const Vec3& far = cover.reach.farthest;
   return {{"input", {{"path", options.in.string()}, {"faces", outcome.faces}, {"diagonal", outcome.diagonal}}},
           {"path", options.out.string()},
           {"link", link_name(options)},
@@ -91,7 +90,7 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
           {"covers_inside", cover.covers_inside},
           {"within_bounds", cover.within_bounds},
           {"spheres", json_of(cover.balls)},
-          {"reach", {{"lower", cover.reach.lower}, {"upper", cover.reach.upper}, {"farthest", {far.x, far.y, far.z}}}},
+          {"reach", facts(cover.reach)},
           {"reach_from_triangles",
            cover.is_of_wrap || cover.has_openings ? facts(cover.reach_from_triangles) : nlohmann::json()},
           {"non_finite_faces", cover.non_finite_faces},

@@ -68,7 +68,9 @@ nlohmann::json facts(const Folds& folds) {
 }
 
 nlohmann::json facts(const DistanceBounds& bounds) {
-  return {{"lower", bounds.lower}, {"upper", finite_or_null(bounds.upper)}};
+  const Vec3& p = bounds.farthest;
+  const nlohmann::json farthest = bounds.lower > 0 ? nlohmann::json{p.x, p.y, p.z} : nlohmann::json();
+  return {{"lower", bounds.lower}, {"upper", finite_or_null(bounds.upper)}, {"farthest", farthest}};
 }
 
 }  // namespace prohull::cli

@@ -35,7 +35,7 @@ std::string certificate_of_level(const Verification& found);
 
 /// As reports have them: what was proven, against what.
 nlohmann::json facts(const Verification& found);
-nlohmann::json facts(const DistanceBounds& bounds);
+nlohmann::json facts(const DistanceBounds& bounds);  ///< `farthest` is null where no point is known to be away
 nlohmann::json facts(const Folds& folds);
 
 }  // namespace prohull::cli

@@ -103,9 +103,12 @@ void print_summary(const Union& all, const UnionVerification& found, const Dista
   for (const auto* notes : {&all.notes, &found.notes})
     for (const std::string& note : *notes) say("  {}\n", note);
   if (!std::isnan(found.union_volume))
-    say("  union: volume {:.9g}{}\n", found.union_volume, text_of_void(found.void_ratio));
-  say("  it reaches out by {:.6g} to {:.6g}, at {}\n", reach.lower, rounded_up(reach.upper, 6),
-      text_of_point(reach.farthest));
+    say("  union: volume {:.6g}{}\n", found.union_volume, text_of_void(found.void_ratio));
+  if (reach.lower > 0)
+    say("  it reaches out by {:.6g} to {:.6g}, at {}\n", reach.lower, rounded_up(reach.upper, 6),
+        text_of_point(reach.farthest));
+  else
+    say("  it reaches out by at most {:.6g}\n", rounded_up(reach.upper, 6));
 }
 
 nlohmann::json point_or_null(const std::optional<PointOfFace>& point) {
@@ -117,7 +120,6 @@ nlohmann::json report_of(const std::vector<std::filesystem::path>& files, const 
                          const UnionVerification& found, const DistanceBounds& reach) {
   nlohmann::json names = nlohmann::json::array();
   for (const std::filesystem::path& file : files) names.push_back(file.string());
-  const Vec3& p = reach.farthest;
   std::vector<std::string> notes = all.notes;
   notes.insert(notes.end(), found.notes.begin(), found.notes.end());
   return {{"union", names},
@@ -137,7 +139,7 @@ nlohmann::json report_of(const std::vector<std::filesystem::path>& files, const 
           {"union_volume", finite_or_null(found.union_volume)},
           {"original_volume", finite_or_null(found.original_volume)},
           {"void_ratio", finite_or_null(found.void_ratio)},
-          {"reach", {{"lower", reach.lower}, {"upper", reach.upper}, {"farthest", {p.x, p.y, p.z}}}},
+          {"reach", facts(reach)},
           {"notes", notes}};
 }
 

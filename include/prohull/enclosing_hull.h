@@ -44,6 +44,7 @@ struct EnclosingOptions {
   /// is not tight, and is checked by inspect_symmetry.
   HullOptions hull = {};
   HullBounds bounds = {};
+  unsigned best_of = 1;  ///< build with this many seeds, from HullOptions::seed on, and keep the best hull; at least 1
   /// Try tight hulls too (tight_hull.h), which have no levels: of the mesh if that is closed, else of the solid that
   /// has the best hull. The hull is never worse than without.
   bool tight = false;

@@ -125,9 +125,6 @@ struct HullOptions {
   QueueKind queue = QueueKind::Bucket;
   /// A seed other than 0 changes the order of the collapses a little, and so the hull.
   std::uint64_t seed = 0;
-  /// Build with this many seeds, from `seed` on, and keep the hull that is nearest to the target; of several, that with
-  /// the least void. At least 1.
-  unsigned best_of = 1;
   unsigned tight_trials = 1000;  ///< most trials of the search for a tight hull of few faces (tight_hull.h)
   unsigned threads = 0;          ///< threads at most; 0: one for each core. The hull is the same for any number.
   Progress progress = {};        ///< stage "build"

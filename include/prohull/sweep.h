@@ -40,8 +40,8 @@ struct Sweep {
   bool covers_inside = false;        ///< what is enclosed: also the inside of the mesh, as ConvexCover says it,
   bool has_openings = false;         ///< with its openings closed, which it then has
   double volume = 0;                 ///< of the union of the pieces, measured along 10,000 lines
-  /// Proven: no point of the pieces is farther from all positions of the mesh's solid, or of its triangles if there is
-  /// none.
+  /// Proven: no point of the surfaces of the pieces is farther from all positions of the mesh's solid, or of its
+  /// triangles if there is none.
   double reach = 0;
   std::size_t cover_pieces = 0;    ///< convex pieces of the mesh
   std::vector<std::string> notes;  ///< sentences for the user

@@ -178,7 +178,8 @@ class Mesh(Shown):
 
     @property
     def volume(self) -> float:
-        """The volume inside, in cubic units. Meaningful for closed meshes only; negative if they are inside out."""
+        """The signed volume, in cubic units. Of a closed mesh that does not overlap itself it is the volume inside; overlaps
+        count several times. Negative if the mesh is inside out."""
         return self._core.volume
 
     @property

@@ -29,7 +29,7 @@ class Sweep(CoverShown):
     pieces: list[Mesh]  #: convex polytopes, which overlap
     covers_inside: bool  #: whether all positions of the inside are enclosed too; else those of the triangles
     has_openings: bool  #: whether the mesh has openings, which count as closed where covers_inside is True
-    reach: float  #: no point of the pieces is farther than this from all positions of the mesh: proven
+    reach: float  #: no point of the pieces' surfaces is farther than this from all positions of the mesh: proven
     cover_pieces: int  #: number of convex pieces of the mesh itself
     notes: list[str]
     volume: float = math.nan  #: of the union, in cubic units: an estimate, along 10,000 lines; nan of links

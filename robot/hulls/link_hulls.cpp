@@ -150,7 +150,7 @@ EnclosingOptions enclosing_options(const Budget& budget, const LinkHullOptions& 
 /// What `input` tells of the geometry within the judged hulls. An exact volume may be known from this run's
 /// construction.
 void describe_input(const RepairedMesh& input, LinkHulls& result, const Progress& go_on) {
-  if (!(result.sealed_volume > 0)) result.sealed_volume = sealed_volume(input, result.collision, result.hulls, go_on);
+  if (!(result.sealed_volume > 0)) result.sealed_volume = sealed_volume(input, result.hulls, go_on);
   result.non_finite_faces = input.repairs.dropped_non_finite_faces;
   result.convex_volume = signed_volume(convex_hull(input.original));
   result.repairs = describe(input.repairs);
@@ -314,7 +314,7 @@ std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& opt
     } else if (const OtherForm* const form = unread_form(shapes(robot.links[i], options.from))) {
       leave_as_it_is(results[i], LinkStatus::Unread, fmt::format("its geometry of type {} is not read", form->what));
     } else if (const MeshFile* const mesh = missing_mesh(plan)) {
-      missing += fmt::format("\n  link {}: {}", robot.links[i].name, mesh->why_not);
+      missing += fmt::format("{}link {}: {}", missing.empty() ? "" : "; ", robot.links[i].name, mesh->why_not);
       leave_as_it_is(results[i], LinkStatus::Skipped, mesh->why_not);
     } else if (results[i].status == LinkStatus::Hulled) {
       plans.push_back(std::move(plan));
@@ -322,7 +322,7 @@ std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& opt
   }
   if (!missing.empty() && !options.skip_missing)
     throw InputError(Defect::CannotRead,
-                     fmt::format("{}: mesh files were not found:{}\nSay where packages are by --package-path, or leave "
+                     fmt::format("{}: mesh files were not found: {}; say where packages are by --package-path, or leave "
                                  "these links as they are by --skip-missing",
                                  robot.name, missing));
   // The largest first, so that none of them is left alone in the end.

@@ -97,13 +97,6 @@ bool is_within_bounds(const LinkHull& hull, const Budget& budget) {
   return budget.max_distance == 0 || hull.distance.upper <= budget.max_distance;
 }
 
-/// Pieces and balls fill cavities, and hulls are compared with a closed mesh as it is.
-InsideVolume volume_inside_of(const RepairedMesh& input, Collision collision, const Progress& go_on) {
-  if (collision == Collision::Hull && is_closed(input.original))
-    return volume_inside(turned_outwards(input.original), go_on);
-  return volume_inside(input, go_on);
-}
-
 std::vector<std::size_t> targets_of(const Budget& budget) {
   return budget.collision == Collision::Hull ? budget.faces : std::vector<std::size_t>{0};
 }
@@ -126,9 +119,8 @@ void judge(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& in
   if (!hull.certified) hull.proof.clear();
 }
 
-double sealed_volume(const RepairedMesh& input, Collision collision, std::span<const LinkHull> hulls,
-                     const Progress& go_on) {
-  const InsideVolume inside = volume_inside_of(input, collision, go_on);
+double sealed_volume(const RepairedMesh& input, std::span<const LinkHull> hulls, const Progress& go_on) {
+  const InsideVolume inside = volume_inside(input, go_on);
   const auto encloses = [&](const LinkHull& hull) { return hull.volume >= inside.volume; };
   return !inside.is_estimated || std::ranges::all_of(hulls, encloses) ? inside.volume : 0;
 }

@@ -22,8 +22,7 @@ void judge(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& in
 
 /// Of what lies inside of the repaired geometry, in cubic metres: LinkHulls::sealed_volume. 0 if nothing does, or if it
 /// can only be estimated and the estimate is larger than one of the judged hulls. Throws Cancelled.
-double sealed_volume(const RepairedMesh& input, Collision collision, std::span<const LinkHull> hulls,
-                     const Progress& go_on);
+double sealed_volume(const RepairedMesh& input, std::span<const LinkHull> hulls, const Progress& go_on);
 
 /// What is left of a proposal: all hulls, judged; nullopt if one of them is not as the budget asks, is not certified,
 /// or is not within the bounds that its construction claims. `float32` says that files keep coordinates in single

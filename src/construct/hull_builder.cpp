@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "construct/best_of.h"
 #include "construct/checked_options.h"
 #include "construct/closed_manifold.h"
 #include "construct/progressive/rounds.h"
@@ -20,7 +19,6 @@ void check(const HullOptions& options) {
     if (!holds) throw InputError(Defect::InvalidOption, what);
   };
   require(options.target_faces >= 4, "target_faces must be at least 4, the faces of a tetrahedron");
-  require(options.best_of >= 1, "best_of must be at least 1");
   require(options.side == HullSide::Outer || options.self_intersections != SelfIntersections::Allowed,
           "self-intersections cannot be allowed: an inner hull that intersects itself could stick out of the mesh");
   const ShapeGuards& guards = options.guards;
@@ -91,10 +89,6 @@ ShapeGuards weaker(const ShapeGuards& a, const ShapeGuards& b) {
 HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
   check(options);
   check_tolerances(mesh, options);
-  if (options.best_of > 1)
-    return best_of(
-        options, "build", [&](const HullOptions& one) { return build_hull(mesh, one); },
-        [](const HullResult& result) { return result.hull.base(); });
   if (mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces");
   if (!std::ranges::all_of(mesh.positions, is_finite)) require_closed_manifold(mesh);
   if (!(signed_volume(mesh) > 0)) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 
+#include "cover/cavities.h"
 #include "cover/cut_tree.h"
 #include "cover/enclosing_options.h"
 #include "cover/piece_hull.h"
@@ -59,7 +60,8 @@ struct Material {
   TriangleMesh faces;    ///< pieces are fitted to these
   TriangleMesh coarse;   ///< like the solid, or the faces where there is none, but few: cuts are looked for in it
   TriangleMesh coarser;  ///< around `coarse`, for the wide search
-  InsideVolume inside;
+  InsideVolume inside;   ///< of the mesh
+  double fillable = 0;   ///< the same with the cavities that the solid does not have
 };
 
 /// Vertices within the cubes of a grid become one.
@@ -155,9 +157,18 @@ class Covering {
   Covering(TriangleMesh triangles, const ConvexCoverOptions& options)
       : options_(options),
         prepared_(prepared_for_hulls(std::move(triangles), enclosing_options(options.threads, options.progress))),
-        hull_(convex_hull(prepared_.original)) {}
+        hull_(convex_hull(prepared_.original)),
+        inside_(prepared_.closed ? volume_inside(prepared_, options.progress) : InsideVolume()),
+        fillable_(prepared_.closed ? fillable_volume(prepared_, inside_, options.progress) : 0) {}
 
   ConvexCover run() {
+    ConvexCover cover = certified_cover();
+    add_note_of_cavities(inside_.volume, fillable_, cover.notes);
+    return cover;
+  }
+
+ private:
+  ConvexCover certified_cover() {
     std::optional<ConvexCover> cover;
     if (prepared_.closed) cover = best_cover(measurable(of_closed_mesh()));
     // One convex piece holds all that lies between the triangles, too. Bounds of the void ask for more: a volume.
@@ -181,7 +192,6 @@ class Covering {
     return std::move(*cover);
   }
 
- private:
   // But for rounding.
   bool is_flat() const {
     constexpr double kFlat = 1e-4;  // of the diagonal: the edge of a cube as large as the convex hull
@@ -201,15 +211,15 @@ class Covering {
   Material of_closed_mesh() const {
     TriangleMesh faces = prepared_.closed->mesh;
     append(faces, prepared_.dropped);
-    return of_solid(prepared_.closed->mesh, std::move(faces), volume_of_solid());
+    Material material = of_solid(prepared_.closed->mesh, std::move(faces), inside_);
+    material.fillable = fillable_;
+    return material;
   }
 
   Material of_solid(const TriangleMesh& closed, TriangleMesh faces, InsideVolume volume) const {
     TriangleMesh coarse = with_faces(closed, kSearchFaces), coarser = with_faces(coarse, kWideSearchFaces);
-    return {closed, std::move(faces), std::move(coarse), std::move(coarser), volume};
+    return {closed, std::move(faces), std::move(coarse), std::move(coarser), volume, volume.volume};
   }
-
-  InsideVolume volume_of_solid() const { return volume_inside(prepared_.closed->mesh, options_.progress); }
 
   /// The mesh, or a hull around it of so many faces.
   TriangleMesh with_faces(const TriangleMesh& mesh, std::size_t faces) const {
@@ -247,9 +257,7 @@ class Covering {
   }
 
   /// One piece.
-  Material of_convex_hull() const {
-    return {hull_, hull_, hull_, hull_, prepared_.closed ? volume_of_solid() : InsideVolume()};
-  }
+  Material of_convex_hull() const { return {hull_, hull_, hull_, hull_, inside_, fillable_}; }
 
   /// The most pieces; or as few as keep the bounds, or fill the mesh.
   ConvexCover best_cover(const Material& material) {
@@ -264,10 +272,10 @@ class Covering {
       best = fitted(tree_of(search, count, material), count, solid, material);
     }
     std::size_t low = 0, high = most;  // the cover of `low` pieces does not suffice
-    while (suffices(best) && high - low > 1) {
+    while (suffices(best, material) && high - low > 1) {
       const std::size_t middle = (low + high) / 2;
       ConvexCover cover = fitted(tree_of(search, middle, material), middle, solid, material);
-      if (cover.certified && suffices(cover))
+      if (cover.certified && suffices(cover, material))
         best = std::move(cover), high = middle;
       else
         low = middle;
@@ -276,9 +284,10 @@ class Covering {
   }
 
   /// Pieces that fill the mesh, but for rounding, may be more than that takes: not every way to cut it ends in few.
-  bool suffices(const ConvexCover& cover) const {
+  bool suffices(const ConvexCover& cover, const Material& material) const {
     constexpr double kNoVoid = 1e-6;
-    return options_.bounds.any() ? cover.within_bounds : cover.void_ratio < kNoVoid;
+    return options_.bounds.any() ? cover.within_bounds
+                                 : material.fillable > 0 && cover.volume < (1 + kNoVoid) * material.fillable;
   }
 
   CutSearch search_of(const Material& material) const {
@@ -432,7 +441,9 @@ class Covering {
 
   const ConvexCoverOptions& options_;
   const RepairedMesh prepared_;
-  const TriangleMesh hull_;  // the convex hull of the triangles; without faces if they lie in a plane
+  const TriangleMesh hull_;    // the convex hull of the triangles; without faces if they lie in a plane
+  const InsideVolume inside_;  // of the triangles, if they can be closed
+  const double fillable_;      // the same with cavities
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cover/ball_search.h"
+#include "cover/cavities.h"
 #include "cover/depth.h"
 #include "cover/enclosing_options.h"
 #include "cover/inside_cubes.h"
@@ -84,8 +85,10 @@ class SphereCoverer {
     TriangleMesh sheets;
     if (input_.closed) {
       solid_ = input_.closed->mesh, sheets = input_.dropped;
-      const InsideVolume inside = volume_inside(solid_, options_.progress);
+      const InsideVolume inside = volume_inside(input_, options_.progress);
       made_.original_volume = inside.volume, made_.is_estimated = inside.is_estimated;
+      cover::add_note_of_cavities(inside.volume, cover::fillable_volume(input_, inside, options_.progress),
+                                  made_.notes);
     } else {
       wrap_solid();
       sheets = input_.original;

@@ -71,6 +71,7 @@ InsideVolume volume_inside(const TriangleMesh& closed, const Progress& progress)
 }
 
 InsideVolume volume_inside(const RepairedMesh& repaired, const Progress& progress) {
+  if (is_closed(repaired.original)) return volume_inside(turned_outwards(repaired.original), progress);
   if (repaired.closed) return volume_inside(repaired.closed->mesh, progress);
   const double diagonal = bounding_box(repaired.original).diagonal();
   if (diagonal == 0) return {};

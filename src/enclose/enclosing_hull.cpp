@@ -27,10 +27,9 @@ constexpr std::array<std::pair<std::string_view, Source>, 3> kSourceNames{
 EnclosingHull best_hull(const Request& request, std::size_t target_faces, Solids& solids) {
   Notes notes;
   Ranking of_all_seeds(request, target_faces, solids, notes);
-  const HullOptions& options = request.options.hull;
-  for (unsigned i = 0; i < options.best_of; ++i) {
+  for (unsigned i = 0; i < request.options.best_of; ++i) {
     Ranking ranking(request, target_faces, solids, notes);
-    Candidates candidates(request, target_faces, options.seed + i, notes);
+    Candidates candidates(request, target_faces, request.options.hull.seed + i, notes);
     while (const auto candidate = candidates.next(ranking, solids)) ranking.take(attempt(*candidate, request, solids));
     of_all_seeds.take(std::move(ranking).taken());
   }
@@ -148,6 +147,7 @@ TriangleMesh triangles_to_cover(const EnclosingHulls& made, const EnclosingHull&
 EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size_t> target_faces,
                                const EnclosingOptions& options) {
   if (target_faces.empty()) throw InputError(Defect::InvalidOption, "no number of faces was asked for");
+  if (options.best_of < 1) throw InputError(Defect::InvalidOption, "best_of is 0; it must be at least 1");
   if (options.tight && options.levels)
     throw InputError(Defect::InvalidOption, "a tight hull has no levels: ask for one of the two");
   require_usable_padding(options);

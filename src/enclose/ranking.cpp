@@ -173,8 +173,8 @@ EnclosingHull Ranking::winner() {
     notes_.add(
         fmt::format("the triangles are flat: the hull is one of a slab around them, {:.4g} wide", solid.slab_width));
   if (solid.largest_door > 0)
-    notes_.add(
-        fmt::format("the mesh is not closed: openings up to about {:.4g} across count as closed", solid.largest_door));
+    notes_.add(fmt::format("{}openings up to about {:.4g} across count as closed",
+                           is_closed(request_.input.original) ? "" : "the mesh is not closed: ", solid.largest_door));
   if (solid.source == Source::Wrap && !request_.input.closed && volume() == 0)
     notes_.add("the triangles enclose no space: the hull is a sheet around them");
   hull.notes = notes_.all();

@@ -39,7 +39,7 @@ Request::Request(TriangleMesh triangles, std::size_t fewest, const EnclosingOpti
 HullOptions Request::hull_options(std::size_t target_faces, std::uint64_t seed) const {
   HullOptions hull = options.hull;
   hull.target_faces = target_faces;
-  hull.seed = seed, hull.best_of = 1;
+  hull.seed = seed;
   hull.tolerances = tolerances;
   hull.progress = options.progress;
   return hull;

@@ -214,8 +214,9 @@ std::vector<std::string> lines_of_limits(const ToldHull& told) {
   if (!hull.within_bounds)
     lines.push_back(fmt::format(
         "NOT within the bounds asked for: of all that was tried, this hull misses them least, by {:.3g} %; allow that "
-        "much, or mend the mesh where it is open or intersects itself",
-        rounded_up(100 * (hull.excess - 1), 3)));
+        "much, or mend the mesh where it is open or intersects itself{}",
+        rounded_up(100 * (hull.excess - 1), 3),
+        told.made.input.repairs.dropped_components > 0 ? ", or leave cavities open by --keep-cavities" : ""));
   return lines;
 }
 

@@ -71,9 +71,9 @@ const FormatTraits* format_of_magic(std::string_view content) {
 const FormatTraits& format_of(std::string_view content, const std::filesystem::path& name) {
   const auto *const named = named_format(name), *const found = format_of_magic(content);
   if (named && found && named->read != found->read)
-    fail(
-        name.string(), {Place::Unit::Line, 1},
-        fmt::format("the name says {}, but the content is {}; name it {}", named->name, found->name, found->extension));
+    fail(name.string(), {Place::Unit::Line, 1},
+         fmt::format("the name says {}, but the content is {}; name it {}, or say so by --in-format in a pipe",
+                     named->name, found->name, found->extension));
   if (named) return *named;
   if (found) return *found;
   if (is_obj_keyword(first_word(content))) return traits(MeshFormat::Obj);

@@ -45,10 +45,7 @@ PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& 
                                 dropped == 1 ? "is" : "are", dropped == 1 ? "is" : "are"));
   result.box = usable_box(mesh, "original");
   result.closed = is_closed(mesh);
-  if (!result.closed) {
-    notes.emplace_back("the original is not closed: it has no volume, and every triangle of it must be covered");
-    return result;
-  }
+  if (!result.closed) return result;
   result.turned_faces = turn_outwards(mesh, "original");
   if (const std::size_t count = result.turned_faces)
     notes.push_back(fmt::format("{} of the original {} inwards and {} as turned", counted(count, "face"),
@@ -65,6 +62,7 @@ Original::Original(const TriangleMesh& given, const TriangleMesh* closed)
              : is_changed() ? *changed_
                             : given_,
              "original") {
+  if (!facts_.closed) notes_.emplace_back(stand_in_ ? "the original is not closed" : kNotClosed);
   if (!is_changed()) changed_.reset();
 }
 

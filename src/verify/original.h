@@ -21,6 +21,10 @@ struct PreparedOriginal {
   std::size_t non_finite_faces = 0;  ///< that were left out
 };
 
+/// Of one that nothing stands for.
+inline constexpr std::string_view kNotClosed =
+    "the original is not closed: it has no volume, and every triangle of it must be covered";
+
 /// Leaves out faces that are not finite and turns a closed mesh outwards; `notes` tell of both. Throws InputError if
 /// the mesh is empty or too large to verify.
 PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& notes);

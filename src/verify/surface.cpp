@@ -104,6 +104,25 @@ std::pair<std::vector<std::uint32_t>, std::uint32_t> components(const TriangleMe
   return {std::move(component), count};
 }
 
+/// Tells of each face how it faced.
+template <class See>
+std::size_t turn_outwards(TriangleMesh& mesh, std::string_view name, const See& see) {
+  require_usable(mesh, name);
+  const auto [component, count] = components(mesh);
+  const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
+  const Orientation facing = orientation(triangle, component, count);
+  std::size_t turned = 0;
+  for (const FaceId f : mesh.triangles.ids()) {
+    auto& t = mesh.triangles[f];
+    const Facing own = facing.components[component[index(f)]];
+    see(f, own);
+    if (facing.turn_all == (own == Facing::InsideOut)) continue;
+    std::swap(t[1], t[2]);
+    turned += t[1] != t[2];
+  }
+  return turned;
+}
+
 }  // namespace
 
 bool is_one_sheet(const TriangleMesh& mesh) {
@@ -134,18 +153,17 @@ bool is_one_sheet(const TriangleMesh& mesh) {
 }
 
 std::size_t turn_outwards(TriangleMesh& mesh, std::string_view name) {
-  require_usable(mesh, name);
-  const auto [component, count] = components(mesh);
-  const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
-  const Orientation facing = orientation(triangle, component, count);
-  std::size_t turned = 0;
-  for (const FaceId f : mesh.triangles.ids()) {
-    auto& t = mesh.triangles[f];
-    if (facing.turn_all == (facing.components[component[index(f)]] == Facing::InsideOut)) continue;
-    std::swap(t[1], t[2]);
-    turned += t[1] != t[2];
-  }
-  return turned;
+  return turn_outwards(mesh, name, [](FaceId, Facing) {});
+}
+
+TriangleMesh without_cavities(TriangleMesh mesh, std::string_view name) {
+  std::vector<FaceId> kept;
+  turn_outwards(mesh, name, [&](FaceId f, Facing facing) {
+    if (facing != Facing::Cavity) kept.push_back(f);
+  });
+  TriangleMesh filled{std::move(mesh.positions), {}};
+  for (const FaceId f : kept) filled.triangles.push_back(mesh.triangles[f]);
+  return filled;
 }
 
 }  // namespace prohull::verify

@@ -135,6 +135,7 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
   ProgressMeter meter(options.progress, "verify");
   UnionVerification found;
   const verify::PreparedOriginal prepared = verify::prepare_original(original, found.notes);
+  if (!prepared.closed) found.notes.emplace_back(verify::kNotClosed);
   found.original_closed = prepared.closed;
   if (prepared.closed) found.original_volume = verify::solid_volume(original, meter);
   const verify::Pieces sound = verify::prepare_pieces(pieces, meter.part(0, 0.1));

@@ -499,6 +499,7 @@ UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh origina
                                const VerificationOptions& options) {
   UnionVerification found;
   const verify::PreparedOriginal prepared = verify::prepare_original(original, found.notes);
+  if (!prepared.closed) found.notes.emplace_back(verify::kNotClosed);
   verify::check(balls);
   found.original_closed = prepared.closed;
   found.covers = true;

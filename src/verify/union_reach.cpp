@@ -14,6 +14,7 @@
 #include "prohull/union_verification.h"
 #include "verify/exposed_surface.h"
 #include "verify/nearest_face.h"
+#include "verify/surface.h"
 
 // The surfaces of the pieces are cut into parts, the one with the greatest bound first, as by distance_bounds. Two
 // bounds hold for the points of a part that are outside of the solid:
@@ -25,11 +26,14 @@
 namespace prohull {
 namespace {
 
-/// The triangles from which distances count, and the solid if they bound one.
+/// The triangles from which distances count, and the solid if they bound one. What lies in cavities reaches nowhere
+/// out.
 class Target {
  public:
   explicit Target(const TriangleMesh& original)
-      : is_closed_(is_closed(original)), mesh_(is_closed_ ? turned_outwards(original) : original), faces_(mesh_) {
+      : is_closed_(is_closed(original)),
+        mesh_(is_closed_ ? verify::without_cavities(original, "original") : original),
+        faces_(mesh_) {
     if (!is_closed_) return;
     std::vector<Triangle> triangles;
     for (const FaceId f : mesh_.triangles.ids()) triangles.push_back(mesh_.triangle(f));

@@ -207,7 +207,7 @@ TEST(BuildHullOptions, OutOfTheirRangesAreRefused) {
         HullOptions{.guards = {.min_compactness_ratio = nan}}, HullOptions{.guards = {.sufficient_compactness = -1}},
         HullOptions{.guards = {.sufficient_compactness = 2}}, HullOptions{.guards = {.sufficient_compactness = nan}},
         HullOptions{.guards = {.max_normal_deviation = -0.1}}, HullOptions{.guards = {.max_normal_deviation = 1.6}},
-        HullOptions{.guards = {.max_normal_deviation = nan}}, HullOptions{.best_of = 0}}) {
+        HullOptions{.guards = {.max_normal_deviation = nan}}}) {
     try {
       build_hull(mesh, wrong);
       ADD_FAILURE();
@@ -338,25 +338,13 @@ TEST(BuildHullInRounds, LevelsOfTheSameSizeAreAsTightAsIfBuiltForIt) {
 }
 #endif
 
-TEST(BuildHullSeeds, ChangeTheHullAndTheBestOfThemIsKept) {
+TEST(BuildHull, OfAnotherSeedIsAnotherHull) {
   const TriangleMesh mesh = make_sample("asteroid", kFaces);
-  const auto volume = [&](const HullOptions& options) { return inspect(build_hull(mesh, options).hull.base()).volume; };
-  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
-    std::vector<double> volumes;
-    for (std::uint64_t seed = 5; seed < 9; ++seed)
-      volumes.push_back(volume({.target_faces = 100, .side = side, .seed = seed}));
-    EXPECT_NE(volumes[0], volumes[1]);
-    const double best = side == HullSide::Outer ? std::ranges::min(volumes) : std::ranges::max(volumes);
-    for (const unsigned threads : {1u, 0u})
-      EXPECT_EQ(volume({.target_faces = 100, .side = side, .seed = 5, .best_of = 4, .threads = threads}), best);
-  }
-}
-
-TEST(BuildHullSeeds, GoForwardAndCancel) {
-  const TriangleMesh mesh = make_sample("asteroid", 4000);
-  expect_progress("build", 2, [&](const Progress& progress) {
-    build_hull(mesh, {.target_faces = 40, .best_of = 5, .threads = 1, .progress = progress});
-  });
+  const auto hull = [&](std::uint64_t seed) {
+    return build_hull(mesh, {.target_faces = 100, .seed = seed}).hull.base();
+  };
+  EXPECT_EQ(hull(5), hull(5));
+  EXPECT_NE(hull(5), hull(6));
 }
 
 TEST(BuildHullLimits, ValenceIsKeptAndNothingIsDoneForATargetThatIsReached) {

@@ -200,7 +200,7 @@ TEST(Mirror, KeepsFlatPartsFlat) {
 
 TEST(Mirror, IsTheSameForAnyNumberOfThreads) {
   const TriangleMesh mesh = bumpy_sphere(effort(5, 3));
-  HullOptions options{.target_faces = 100, .mirror = Axis::Y, .best_of = 3, .threads = 1};
+  HullOptions options{.target_faces = 100, .mirror = Axis::Y, .threads = 1};
   const HullResult one = build_hull(mesh, options);
   options.threads = 4;
   EXPECT_EQ(build_hull(mesh, options).hull, one.hull);

@@ -25,6 +25,12 @@ std::vector<TriangleMesh> meshes_of(const ConvexCover& cover) {
   return meshes;
 }
 
+/// A unit cube with a cavity of an eighth.
+TriangleMesh hollow_cube() {
+  return meshes::together(meshes::box({0, 0, 0}, {1, 1, 1}),
+                          meshes::inside_out(meshes::box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));
+}
+
 /// Two bars that share a corner.
 TriangleMesh angle_of_bars() {
   return meshes::make({{0, 0, 0},
@@ -51,6 +57,17 @@ TriangleMesh two_boxes_apart() {
 }
 
 TriangleMesh small_torus() { return meshes::torus(effort(16u, 9u), effort(8u, 5u)); }
+
+TEST(ConvexCover, FillsCavitiesAndTellsTheirVolume) {
+  const ConvexCover cover = convex_cover(hollow_cube(), {.max_pieces = 3});
+  EXPECT_TRUE(cover.certified && cover.covers_inside);
+  EXPECT_EQ(cover.pieces.size(), 1u) << "they count as filled";
+  EXPECT_DOUBLE_EQ(cover.original_volume, 0.875);
+  EXPECT_NEAR(cover.void_ratio, 1 / 0.875 - 1, 1e-8);
+  EXPECT_EQ(cover.notes,
+            std::vector<std::string>{"cavities of the mesh count as filled: with them it has 14.29 % more volume"});
+  EXPECT_FALSE(convex_cover(hollow_cube(), {.max_pieces = 3, .bounds = {.max_void_ratio = 0.05}}).within_bounds);
+}
 
 TEST(ConvexCover, OfABoxIsTheBox) {
   const ConvexCover cover = convex_cover(meshes::box({0, 0, 0}, {1, 2, 3}));

@@ -138,6 +138,7 @@ TEST(EnclosingHull, RefusesWhatCannotBeDone) {
   EXPECT_THROW(hull_of(leaf(), 100, {.hull = {.side = HullSide::Inner}}), InputError) << "nothing is inside";
   EXPECT_THROW(hull_of(octahedron(), 100, {.hull = {.side = HullSide::Inner}, .repair = Repair::Wrap}), InputError);
   EXPECT_THROW(hull_of(octahedron(), 100, {.tight = true, .levels = true}), InputError);
+  EXPECT_THROW(hull_of(octahedron(), 100, {.best_of = 0}), InputError);
   EXPECT_THROW(hull_of({}, 100), InputError);
 }
 
@@ -338,7 +339,7 @@ TEST(EnclosingHull, OfSeveralSeedsIsTheSmallestWhenItHasMoved) {
   double least = std::numeric_limits<double>::infinity();
   for (options.hull.seed = 3; options.hull.seed < 6; ++options.hull.seed)
     least = std::min(least, signed_volume(enclosing_hull(mesh, 40, options).mesh));
-  options.hull.seed = 3, options.hull.best_of = 3;
+  options.hull.seed = 3, options.best_of = 3;
   EXPECT_EQ(signed_volume(enclosing_hull(mesh, 40, options).mesh), least);
 }
 

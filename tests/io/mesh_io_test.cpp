@@ -49,9 +49,12 @@ TEST(MeshFormat, IsToldByTheContentIfTheNameHasNone) {
 }
 
 TEST(MeshFormat, ThatTheContentContradictsIsAnError) {
-  expect_refused("OFF\n0 0 0\n", "a.ply", "a.ply: line 1: the name says PLY, but the content is OFF; name it .off");
-  expect_refused("solid\nendsolid\n", "a.obj",
-                 "a.obj: line 1: the name says OBJ, but the content is STL; name it .stl");
+  expect_refused(
+      "OFF\n0 0 0\n", "a.ply",
+      "a.ply: line 1: the name says PLY, but the content is OFF; name it .off, or say so by --in-format in a pipe");
+  expect_refused(
+      "solid\nendsolid\n", "a.obj",
+      "a.obj: line 1: the name says OBJ, but the content is STL; name it .stl, or say so by --in-format in a pipe");
 }
 
 TEST(ReadMesh, PointsToWhatReadsAProgressiveHull) {

@@ -40,11 +40,11 @@ EnclosingOptions enclosing_options(const Given& given) {
   given.flag("relax_guards", hull.relax_guards);
   given.flag("float32_coordinates", hull.float32_coordinates);
   given.seed("seed", hull.seed);
-  given.count("best_of", hull.best_of);
   given.count("threads", hull.threads);
   given.numbers("tolerances", hull.tolerances);
   take_bounds(given, options.bounds);
   given.not_negative("gap", options.padding);
+  given.count("best_of", options.best_of);
   given.flag("tight", options.tight);
   given.flag("levels", options.levels);
   given.choice("repair", repair_names(), options.repair);

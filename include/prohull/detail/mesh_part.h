@@ -30,7 +30,7 @@ struct SimplifiedPart {
 /// not, unless options.self_intersections allows that.
 ///
 /// options.target_faces counts the own faces that lie strictly inside of the box; the others stay in any case.
-/// Strategy::Lazy only, without tolerances and best_of.
+/// Strategy::Lazy only, without tolerances.
 ///
 /// Throws InputError if faces around a vertex strictly inside of the box are missing, or are not one disk; for a face
 /// number or options outside of their range; Cancelled. That faces are missing that only cross the box is not noticed.

@@ -43,7 +43,7 @@ inline std::string percent_text(double ratio, int decimals) {
     std::snprintf(text, sizeof text, "more than %.0f %%", 100 * kGreatestRatio);
   else
     std::snprintf(text, sizeof text, "%.*f %%", decimals, 100 * ratio);
-  return text;
+  return *text == '-' && std::strtod(text, nullptr) == 0 ? text + 1 : text;
 }
 
 /// 1.234 -> "1.23", and 1e9 -> "> 10000".

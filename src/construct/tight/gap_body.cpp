@@ -28,7 +28,6 @@ constexpr std::size_t kFacesPerFace = 16;
 TriangleMesh fine_hull(const TriangleMesh& mesh, HullOptions options) {
   options.target_faces *= kFacesPerFace;
   options.float32_coordinates = false;
-  options.best_of = 1;
   if (mesh.face_count() <= options.target_faces) return mesh;
   return build_hull(mesh, options).hull.base();
 }

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "construct/best_of.h"
 #include "construct/shape_guards.h"
 #include "construct/tight/few_faces.h"
 #include "construct/tight/tight_collapses.h"
@@ -148,10 +147,7 @@ TightHull build(const TriangleMesh& mesh, const HullOptions& options, const Tria
     throw InputError(Defect::InvalidOption, "a tight hull has no tolerances for single faces: build it without tight");
   if (options.mirror) throw InputError(Defect::InvalidOption, "a tight hull is not symmetric: build it without tight");
   const Original original = original_of(mesh, wrapped, options.side, padding, options.threads);
-  if (options.best_of <= 1) return TightBuild(original, mesh, options, most_searched).run();
-  return best_of(
-      options, "tighten", [&](const HullOptions& one) { return TightBuild(original, mesh, one, most_searched).run(); },
-      [](const TightHull& result) -> const TriangleMesh& { return result.mesh; });
+  return TightBuild(original, mesh, options, most_searched).run();
 }
 
 }  // namespace

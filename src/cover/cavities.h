@@ -1,0 +1,28 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "prohull/closed_solid.h"
+#include "prohull/detail/rounded.h"
+#include "prohull/repair.h"
+
+namespace prohull::cover {
+
+// Covers fill the cavities of a mesh, as outer hulls do; their void is compared with the mesh as it is.
+
+/// Of the mesh with its cavities, whose volume is `inside`: of its closed mesh, which has none.
+inline double fillable_volume(const RepairedMesh& input, const InsideVolume& inside, const Progress& progress) {
+  return input.repairs.dropped_components > 0 ? volume_inside(input.closed->mesh, progress).volume : inside.volume;
+}
+
+inline void add_note_of_cavities(double volume, double fillable, std::vector<std::string>& notes) {
+  constexpr double kSame = 1 + 1e-6;
+  if (volume > 0 && fillable > kSame * volume)
+    notes.push_back(fmt::format("cavities of the mesh count as filled: with them it has {} more volume",
+                                percent_text(fillable / volume - 1, 2)));
+}
+
+}  // namespace prohull::cover
