@@ -57,10 +57,14 @@ std::optional<Attempt> attempt(const Candidate& candidate, const Request& reques
   if (stored) certify(made, request, solids);
   made.hull.self_intersections =
       made.hull.verdict.holds() ? made.hull.verdict.self_intersections : count_self_intersections(made.hull.mesh);
-  if (stored && request.options.bounds.any()) made.hull.excess = verified_excess_of(made.hull, making);
-  made.hull.within_bounds = made.hull.excess <= 1;
+  if (stored && candidate.bounds.any()) measure(made, candidate.bounds, request, solids);
   made.hull.verify_seconds = verifying.seconds();
   return made;
+}
+
+void measure(Attempt& made, const HullBounds& bounds, const Request& request, Solids& solids) {
+  made.hull.excess = verified_excess_of(made.hull, bounds, {made.candidate, request, solids});
+  made.hull.within_bounds = made.hull.excess <= 1;
 }
 
 }  // namespace prohull

@@ -87,7 +87,7 @@ bool is_worth_a_finer_wrap(const LooseWrap& next, double finest, const Ranking& 
 
 void Candidates::plan_bounded_wraps() {
   constexpr double kClose = 1.0 / 200;  // to the diagonal
-  const double max_distance = request_.options.bounds.max_distance;
+  const double max_distance = bounds_.max_distance;
   const bool is_close =
       max_distance < kClose * request_.diagonal || kBoundedSpacing * max_distance < finest_loose_spacing(request_);
   const double finest = finest_close_spacing(request_);
@@ -104,7 +104,7 @@ void Candidates::plan_close_wraps() {
   constexpr double kFiner = 2.0 / 3;  // of the spacing before
   constexpr double kNearer = 0.85;    // of the bound
   constexpr int kMost = 2;
-  const double max_distance = request_.options.bounds.max_distance;
+  const double max_distance = bounds_.max_distance;
   const double finest = finest_close_spacing(request_);
   const auto plan = [this](double spacing, double distance) {
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
@@ -145,7 +145,7 @@ void Candidates::plan_loose_wraps() {
   constexpr int kMostBounded = 4;
   constexpr double kPlain = 100;  // to the diagonal; a finer one takes a second and more
   const double finest = std::max(finest_loose_spacing(request_), request_.aim() / 2),
-               max_distance = request_.options.bounds.max_distance - request_.options.padding;
+               max_distance = bounds_.max_distance - request_.options.padding;
   const bool is_hopeless = kBoundedWrap.offset * finest > kNearerByMoving * max_distance;
   const double wanted =
       std::max(kBoundedSpacing * max_distance, request_.diagonal / (is_hopeless ? kPlain : kFineWrap));
@@ -174,7 +174,7 @@ std::optional<Candidate> Candidates::loose_wrap(const LooseWrap& next, const Ran
        next.spacing < request_.diagonal / kFineWrap))
     return std::nullopt;
   const auto id = wrap(kBoundedWrap, next.spacing, solids);
-  if (!request_.input.closed) require_volume(solids.volume(target_faces_), request_.options.bounds);
+  if (!request_.input.closed) require_volume(solids.volume(target_faces_), bounds_);
   if (!id || (is_within && ranking.best().hull.mesh.face_count() * kMostReduced < solids[*id].mesh.face_count()))
     return std::nullopt;
   return of(*id, solids);

@@ -35,6 +35,7 @@ struct Candidate {
   SolidId solid;
   std::size_t target_faces;
   Recipe recipe;
+  HullBounds bounds = {};  ///< that the hull is built to keep
   std::uint64_t seed = 0;
   double within = 0;  ///< Method::Within: the distance that collapses keep
   std::size_t most_faces = std::numeric_limits<std::size_t>::max();  ///< with more, it is not better than another hull
@@ -52,5 +53,8 @@ struct Attempt {
 
 /// Builds and certifies it. None if the recipe cannot be followed: the gap's body of the solid intersects itself.
 std::optional<Attempt> attempt(const Candidate& candidate, const Request& request, Solids& solids);
+
+/// Sets how far the hull is from bounds that it was not built to keep.
+void measure(Attempt& made, const HullBounds& bounds, const Request& request, Solids& solids);
 
 }  // namespace prohull

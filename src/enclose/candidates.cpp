@@ -7,18 +7,19 @@
 
 namespace prohull {
 
-Candidates::Candidates(const Request& request, std::size_t target_faces, std::uint64_t seed, Notes& notes)
-    : request_(request), target_faces_(target_faces), seed_(seed), notes_(notes) {
-  if (request.is_free() && !request.input.closed && std::isfinite(request.options.bounds.max_void_ratio)) plan_volume();
+Candidates::Candidates(const Request& request, std::size_t target_faces, const HullBounds& bounds, std::uint64_t seed,
+                       Notes& notes)
+    : request_(request), target_faces_(target_faces), bounds_(bounds), seed_(seed), notes_(notes) {
+  if (request.is_free() && !request.input.closed && std::isfinite(bounds.max_void_ratio)) plan_volume();
   plan_mesh();
   if (request.is_outer() && !request.is_bound_to_mesh()) plan_unfolded_mesh();
   if (request.is_outer() && may_stay_within()) plan_within_of_mesh();
   if (request.is_free()) {
     plan_convex_hull();
-    if (request.options.bounds.any() && !request.options.levels) plan_convex_hull_in_steps();
+    if (bounds_.any() && !request.options.levels) plan_convex_hull_in_steps();
     if (!request.options.levels) plan_polytope();
-    if (!request.options.bounds.any() || !request.options.levels) plan_wraps();
-    if (request.options.bounds.any())
+    if (!bounds_.any() || !request.options.levels) plan_wraps();
+    if (bounds_.any())
       plan_bounded_wraps();
     else
       plan_other_wraps(), plan_clear_of_wraps();
@@ -33,7 +34,7 @@ Candidates::Candidates(const Request& request, std::size_t target_faces, std::ui
 std::optional<Candidate> Candidates::next(const Ranking& ranking, Solids& solids) {
   std::optional<Candidate> next = last_ ? follow_up(ranking, solids) : std::nullopt;
   while (!next && next_step_ < steps_.size()) next = steps_[next_step_++](ranking, solids);
-  if (next) next->seed = seed_;
+  if (next) next->bounds = bounds_, next->seed = seed_;
   return last_ = next;
 }
 
@@ -56,8 +57,7 @@ bool Candidates::is_small_gap(double spacing) const {
 }
 
 bool Candidates::keeps_clear(const Solid& solid) const {
-  const bool moves_away_later =
-      request_.is_outer() && !request_.options.bounds.any() && is_small_gap(solid.wrap_spacing);
+  const bool moves_away_later = request_.is_outer() && !bounds_.any() && is_small_gap(solid.wrap_spacing);
   return (request_.is_padded() && !moves_away_later) || !request_.input.closed || solid.doors.face_count() > 0;
 }
 
@@ -71,7 +71,7 @@ Candidate Candidates::of(SolidId id, const Solids& solids) const {
 }
 
 Candidate Candidates::moved(SolidId id) const {
-  const Method method = request_.options.bounds.any() ? Method::Levels : Method::InSteps;
+  const Method method = bounds_.any() ? Method::Levels : Method::InSteps;
   return {.solid = id, .target_faces = target_faces_, .recipe = {method, /*moves=*/true}};
 }
 
@@ -92,8 +92,7 @@ Candidate Candidates::within(SolidId id, double max_distance, const Solids& soli
 
 // Where so few are asked for that not even tetrahedra around its parts would do, and something else may.
 bool Candidates::has_too_many_parts(const Solid& solid) const {
-  return request_.is_free() && !request_.options.levels && !request_.options.bounds.any() &&
-         4 * solid.components > target_faces_;
+  return request_.is_free() && !request_.options.levels && !bounds_.any() && 4 * solid.components > target_faces_;
 }
 
 /// The best hull is as asked for, and bounds ask for no more faces.
@@ -106,8 +105,7 @@ bool Candidates::has_few_faces(const Ranking& ranking) const {
 bool Candidates::is_worth_the_mesh(const Solids& solids) const {
   constexpr std::size_t kMany = 120;
   if (!solids.has_mesh() || has_too_many_parts(solids[0])) return false;
-  return !request_.is_free() || request_.options.levels || request_.options.bounds.any() ||
-         solids[0].self_intersections <= kMany;
+  return !request_.is_free() || request_.options.levels || bounds_.any() || solids[0].self_intersections <= kMany;
 }
 
 void Candidates::plan_mesh() {
@@ -128,7 +126,7 @@ void Candidates::plan_unfolded_mesh() {
 
 /// Collapses can keep what is asked for.
 bool Candidates::may_stay_within() const {
-  const double max_distance = request_.options.bounds.max_distance;
+  const double max_distance = bounds_.max_distance;
   return max_distance > 0 && std::isfinite(max_distance) && !request_.is_bound_to_mesh() && !request_.is_padded() &&
          !request_.options.levels;
 }
@@ -139,7 +137,7 @@ void Candidates::plan_within_of_mesh() {
   steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
     if (!is_worth_the_mesh(solids) || has_few_faces(ranking)) return std::nullopt;
     const SolidId id = ranking.has_certified() ? ranking.best().hull.solid : 0;
-    return within(id, request_.options.bounds.max_distance, solids);
+    return within(id, bounds_.max_distance, solids);
   });
 }
 
@@ -184,8 +182,7 @@ void Candidates::plan_polytope() {
 }
 
 bool Candidates::is_worth_a_search(const EnclosingHull& hull) const {
-  return request_.is_outer() && !request_.is_padded() && !request_.options.bounds.any() &&
-         hull.mesh.face_count() <= kFewFaces;
+  return request_.is_outer() && !request_.is_padded() && !bounds_.any() && hull.mesh.face_count() <= kFewFaces;
 }
 
 // Of the mesh, if that is closed, and of the solid that has the best hull so far. That hull is kept if no tight one is
@@ -195,8 +192,7 @@ bool Candidates::is_worth_a_search(const EnclosingHull& hull) const {
 // one of 77,000 faces that missed them took 12 s and was no nearer.
 void Candidates::plan_tight() {
   const auto tight = [this](SolidId id, const Ranking& ranking, const Solids& solids) {
-    const bool may_have_body =
-        request_.is_padded() && !request_.options.bounds.any() && solids[id].source != Source::ConvexHull;
+    const bool may_have_body = request_.is_padded() && !bounds_.any() && solids[id].source != Source::ConvexHull;
     Candidate candidate{
         .solid = id, .target_faces = target_faces_, .recipe = {may_have_body ? Method::TightOfGapBody : Method::Tight}};
     if (ranking.is_as_asked()) candidate.most_faces = std::max(target_faces_, ranking.best().hull.mesh.face_count());
@@ -216,7 +212,7 @@ void Candidates::plan_tight() {
       candidate.start = best;
       return candidate;
     }
-    const bool has_levels_that_moved = request_.options.bounds.any() && best.source == Source::Wrap;
+    const bool has_levels_that_moved = bounds_.any() && best.source == Source::Wrap;
     if ((!request_.is_padded() && is_worth_the_mesh(solids)) ||
         (has_levels_that_moved && (!request_.is_padded() || !best.within_bounds)))
       return std::nullopt;

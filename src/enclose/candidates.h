@@ -15,10 +15,12 @@ struct LooseWrap {
   bool is_last;
 };
 
-/// What is tried for one number of faces, with one seed, in order. What cannot win any more is left out.
+/// What is tried for one number of faces, with bounds or without, and with one seed, in order. What cannot win any more
+/// is left out.
 class Candidates {
  public:
-  Candidates(const Request& request, std::size_t target_faces, std::uint64_t seed, Notes& notes);
+  Candidates(const Request& request, std::size_t target_faces, const HullBounds& bounds, std::uint64_t seed,
+             Notes& notes);
 
   /// After the last one was built, and `ranking` has taken what came of it.
   std::optional<Candidate> next(const Ranking& ranking, Solids& solids);
@@ -67,6 +69,7 @@ class Candidates {
 
   const Request& request_;
   const std::size_t target_faces_;
+  const HullBounds bounds_;
   const std::uint64_t seed_;
   Notes& notes_;
   std::vector<Step> steps_;

@@ -16,6 +16,15 @@ constexpr double kNoBound = std::numeric_limits<double>::infinity();
 /// What the volumes of hulls are compared with; 0 where nothing is inside, or nothing is known of it yet.
 double original_volume(const Making& making) { return making.solids.verified_volume(making.candidate.target_faces); }
 
+/// Of one that is built from a mesh that intersects itself, overlaps are looked at where they may decide.
+double enclosed_volume(const TriangleMesh& hull, const HullBounds& bounds, double volume, const Making& making) {
+  const double with_overlaps = signed_volume(hull);
+  const bool is_enough = making.request.is_outer() && with_overlaps <= (1 + bounds.max_void_ratio) * volume &&
+                         with_overlaps <= volume + bounds.max_added_volume;
+  if (making.solid().self_intersections == 0 || is_enough) return with_overlaps;
+  return solid_volume(hull, making.options().progress).value_or(with_overlaps);
+}
+
 double excess_of(const HullBounds& bounds, const TriangleMesh& hull, double hull_volume, double volume,
                  const Making& making) {
   const Solid& solid = making.solid();
@@ -38,21 +47,23 @@ std::pair<std::optional<Float32Hull>, std::string> as_stored(const TriangleMesh&
 }
 
 double excess_of(const TriangleMesh& hull, const Making& making) {
-  return excess_of(making.options().bounds, hull, signed_volume(hull), original_volume(making), making);
+  const double volume = original_volume(making);
+  return excess_of(making.bounds(), hull, enclosed_volume(hull, making.bounds(), volume, making), volume, making);
 }
 
-double verified_excess_of(const EnclosingHull& hull, const Making& making) {
-  return excess_of(making.options().bounds, hull.mesh, volume_of(hull), original_volume(making), making);
+double verified_excess_of(const EnclosingHull& hull, const HullBounds& bounds, const Making& making) {
+  return excess_of(bounds, hull.mesh, volume_of(hull), original_volume(making), making);
 }
 
 double excess_when_padded(const TriangleMesh& hull, const Making& making) {
   const double padding = making.options().padding;
   if (padding == 0 || making.solid().source != Source::Mesh) return excess_of(hull, making);
   const double volume = original_volume(making), gain = padding * area_of(hull);
-  HullBounds left = making.options().bounds;
+  HullBounds left = making.bounds();
   left.max_distance -= padding;
   left.max_added_volume = std::min(left.max_added_volume, std::exchange(left.max_void_ratio, kNoBound) * volume);
-  return excess_of(left, hull, signed_volume(hull), making.request.is_outer() ? volume - gain : volume + gain, making);
+  const double most = making.request.is_outer() ? volume - gain : volume + gain;
+  return excess_of(left, hull, enclosed_volume(hull, left, most, making), most, making);
 }
 
 bool is_within_as_stored(const TriangleMesh& hull, const Making& making) {

@@ -18,6 +18,7 @@ struct Making {
   Solids& solids;
 
   const Recipe& recipe() const { return candidate.recipe; }
+  const HullBounds& bounds() const { return candidate.bounds; }
   const EnclosingOptions& options() const { return request.options; }
   const Solid& solid() const { return solids[candidate.solid]; }
   const TriangleMesh& to_cover() const { return solids.to_cover(candidate.solid); }
@@ -28,10 +29,10 @@ struct Making {
 /// for its vertices: the certificate decides, and lifting may help.
 std::pair<std::optional<Float32Hull>, std::string> as_stored(const TriangleMesh& hull, const Making& making);
 
-/// HullBounds::excess of what is asked for; parts of the hull that overlap count twice.
+/// HullBounds::excess. Overlaps of the hull count once, where that makes a difference.
 double excess_of(const TriangleMesh& hull, const Making& making);
-/// The same, of the volume that the verdict has: overlaps count once.
-double verified_excess_of(const EnclosingHull& hull, const Making& making);
+/// The same of other bounds, and of the volume that the verdict has.
+double verified_excess_of(const EnclosingHull& hull, const HullBounds& bounds, const Making& making);
 /// The same of a hull that is moved away by the padding when it is done, if it is one of the mesh: it gains about its
 /// area times the padding. Wraps keep the padding themselves.
 double excess_when_padded(const TriangleMesh& hull, const Making& making);

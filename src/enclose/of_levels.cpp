@@ -15,7 +15,7 @@ namespace {
 std::size_t faces_of_level(const ProgressiveHull& hull, const Making& making) {
   const std::size_t target = making.candidate.target_faces;
   std::size_t faces = target;
-  if (making.options().bounds.any() && excess_when_padded(making.solid().mesh, making) <= 1)
+  if (making.bounds().any() && excess_when_padded(making.solid().mesh, making) <= 1)
     faces = std::max(target,
                      faces_within(hull, [&](const TriangleMesh& level) { return is_within_as_stored(level, making); }));
   if (!making.request.is_symmetric()) return faces;
@@ -56,7 +56,7 @@ EnclosingHull built_of_levels(const Making& making) {
   const TriangleMesh level = result.hull.level(faces);
   EnclosingHull hull;
   hull.mesh = moved ? std::move(moved->mesh) : TriangleMesh(level);
-  hull.target_reached = making.options().bounds.any() && faces > making.candidate.target_faces;  // which they ask for
+  hull.target_reached = making.bounds().any() && faces > making.candidate.target_faces;  // which they ask for
   if (hull.mesh == level)
     hull.levels = faces > result.hull.base_face_count() ? result.hull.with_base(faces) : result.hull;
   hull.refusals = result.refusals, hull.blocked = result.blocked;

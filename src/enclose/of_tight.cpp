@@ -31,7 +31,7 @@ TightHull tight_of_solid(const Making& making) {
   const TriangleMesh& mesh = making.solid().mesh;
   const TriangleMesh* wrapped = making.solid().source == Source::Mesh ? nullptr : &making.to_cover();
   const double aim = making.request.aim();
-  if (!making.options().bounds.any()) return tight_of(mesh, wrapped, aim, making);
+  if (!making.bounds().any()) return tight_of(mesh, wrapped, aim, making);
   return build_tight_hull_within(
       mesh, [&](const TriangleMesh& hull) { return is_within_as_stored(hull, making); }, making.hull_options(), wrapped,
       aim, making.candidate.most_faces);

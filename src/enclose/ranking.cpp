@@ -66,7 +66,8 @@ void Ranking::take(std::optional<Attempt> attempt) {
 
 /// It was made without a look at them.
 bool Ranking::is_in_spite_of_bounds(const Attempt& attempt) const {
-  return request_.options.bounds.any() && attempt.candidate.recipe.method == Method::InSteps;
+  const HullBounds& bounds = request_.options.bounds;
+  return attempt.candidate.bounds != bounds || (bounds.any() && attempt.candidate.recipe.method == Method::InSteps);
 }
 
 bool Ranking::is_clean(const EnclosingHull& hull) const {

@@ -73,7 +73,7 @@ bool Candidates::has_very_much_void(const Ranking& ranking) {
 
 bool Candidates::is_worth_a_wrap(const Ranking& ranking, const Solids& solids, bool is_first) const {
   if (ranking.is_empty()) return true;
-  if (request_.options.bounds.any() && !has_few_faces(ranking)) return true;
+  if (bounds_.any() && !has_few_faces(ranking)) return true;
   const EnclosingHull& best = ranking.best().hull;
   if (!best.certified || !best.target_reached || !best.within_bounds) return true;
   if (ranking.is_of_flat() || ranking.is_on_triangles()) return false;  // and convex: no wrap comes nearer
@@ -135,10 +135,10 @@ void Candidates::plan_wraps() {
     steps_.push_back([this, i](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       const auto kinds = wraps(request_, solids.volume(target_faces_));
       if (i >= kinds.size() || !is_worth_a_wrap(ranking, solids, i == 0) ||
-          spacing_for(kinds[i]) > request_.options.bounds.max_distance)
+          spacing_for(kinds[i]) > bounds_.max_distance)
         return std::nullopt;
       std::optional<Candidate> candidate = of_wrap(kinds[i], ranking, solids);
-      if (candidate && request_.options.bounds.any()) candidate->recipe.method = Method::InSteps;
+      if (candidate && bounds_.any()) candidate->recipe.method = Method::InSteps;
       return candidate;
     });
 }
