@@ -1011,10 +1011,11 @@ typedef struct {
   Number at[3]; /* positive at the corners of the triangle that are on one side of a plane, 0 on it */
 } Line;
 typedef struct {
-  const Surface *of, *by;
-  size_t i, lines; /* the triangle that is cut */
+  const Surface *of, *by, *enclosed; /* enclosed: by `by`, so that beside a part either has to wind, or not; or NULL */
+  size_t i, lines;                   /* the triangle that is cut */
+  unsigned sides;                    /* of the triangle: those asked for */
   int is_flat;
-  List blocking; /* triangles of `by` */
+  List blocking; /* triangles of `by`; those from `next` on, as below, may cross the part */
   Line* line;    /* the sides of the triangle, and cuts */
 } Cut;
 
@@ -1055,8 +1056,8 @@ static void round_weights(Number w[3]) {
   }
 }
 
-/* No triangle of `by` crosses the part: either side of it is free. Lines are known but for a factor, which is another
-   one where they are exact: rounded and exact corners, added up, would be two points. So one is rounded. */
+/* No triangle of `by` crosses the part: the sides asked for are free. Lines are known but for a factor, which is
+   another one where they are exact: rounded and exact corners, added up, would be two points. So one is rounded. */
 static void prove_within(const Cut* u, const uint32_t* lines, size_t n) {
   Spot middle = {u->of->t + u->i, {zero, zero, zero}};
   Number at[3];
@@ -1066,17 +1067,26 @@ static void prove_within(const Cut* u, const uint32_t* lines, size_t n) {
     for (int i = 0; i < 3; ++i) add(&middle.weight[i], &middle.weight[i], &at[i], 1);
   }
   round_weights(middle.weight);
-  if (winding_beside(u->by, &middle, 1) < 1 && (u->is_flat || winding_beside(u->by, &middle, 0) < 1))
+  for (int w = OUTER; w <= INNER; ++w) {
+    if (!(u->sides & (unsigned)w)) continue;
+    const int within = winding_beside(u->by, &middle, w == OUTER) >= 1;
+    if (within && !u->enclosed) return;
+    if (!within && u->enclosed && winding_beside(u->enclosed, &middle, w == OUTER) >= 1)
+      end(1, "%s leaves a hole in %s beside triangle %u", u->by->name, u->enclosed->name, u->of->number[u->i]);
+  }
+  if (!u->enclosed)
     end(1, "a part of triangle %u of %s lies outside of %s", u->of->number[u->i], u->of->name, u->by->name);
 }
 
-/* Cuts a part at the next blocking triangle that crosses it. */
+/* Cuts a part at the next blocking triangle that crosses it. Those that its plane parts from a half do not cross that.
+ */
 static void prove_cut(Cut* u, const uint32_t* lines, size_t n, size_t next, int depth) {
   int* const sign = resized(NULL, n, sizeof *sign);
   uint32_t* const half = resized(NULL, n + 1, sizeof *half);
   const uint32_t* f = NULL;
+  const size_t last = u->blocking.n;
   unsigned sides = 0;
-  for (spend(n); sides != BOTH && next < u->blocking.n; ++next) {
+  for (spend(n); sides != BOTH && next < last; ++next) {
     sides = find_signs(u, lines, n, f = u->by->t[u->blocking.i[next]], sign);
     if (!sides && u->is_flat)
       end(1, "triangle %u of %s has no area and is on %s", u->of->number[u->i], u->of->name, u->by->name);
@@ -1095,22 +1105,31 @@ static void prove_cut(Cut* u, const uint32_t* lines, size_t n, size_t next, int 
       set_line(u, f);
       for (int k = 0; k < 3 && s < 0; ++k) add(&u->line[u->lines].at[k], &zero, &u->line[u->lines].at[k], -1);
     }
-    u->line = room(u->line, ++u->lines, sizeof *u->line), prove_cut(u, half, m, next, depth + 1), --u->lines;
+    spend(last - next);
+    for (size_t i = next; i < last; ++i) {
+      const uint32_t g = u->blocking.i[i];
+      int signs[3];
+      u->blocking.i = room(u->blocking.i, u->blocking.n, sizeof *u->blocking.i);
+      if (place(f, u->by->t[g], signs) & (s > 0 ? OUTER : INNER)) u->blocking.i[u->blocking.n++] = g;
+    }
+    u->line = room(u->line, ++u->lines, sizeof *u->line), prove_cut(u, half, m, last, depth + 1), --u->lines;
+    u->blocking.n = last;
   }
   free(sign), free(half);
 }
 
-/* Cuts triangle i of a at the triangles of b that block it. */
-static void prove_crossed(const Surface* a, size_t i, const Surface* b) {
+/* Cuts triangle i of a at the triangles of b that block the sides asked for. */
+static void prove_crossed(const Surface* a, size_t i, const Surface* b, const Surface* enclosed, unsigned sides) {
   static Cut u;
   static const uint32_t whole[3] = {0, 1, 2};
   size_t n = 0;
-  u.of = a, u.by = b, u.i = i, u.is_flat = !has_area(a->t[i]), u.lines = 3;
+  u.of = a, u.by = b, u.enclosed = enclosed, u.i = i, u.lines = 3, u.is_flat = !has_area(a->t[i]);
+  u.sides = u.is_flat ? OUTER : sides;
   if (!u.line) u.line = resized(NULL, 4, sizeof *u.line);
   for (int k = 0; k < 9; ++k) u.line[k / 3].at[k % 3] = k % 4 ? zero : one;
   find_near(b, zone_of(a->t[i]), 0, &u.blocking);
   for (size_t j = 0; j < u.blocking.n; ++j)
-    if (blocked_sides(a->t[i], b->t[u.blocking.i[j]], NULL, NULL) & BOTH) u.blocking.i[n++] = u.blocking.i[j];
+    if (blocked_sides(a->t[i], b->t[u.blocking.i[j]], NULL, NULL) & sides) u.blocking.i[n++] = u.blocking.i[j];
   u.blocking.n = n, prove_cut(&u, whole, 3, 0, 0);
 }
 
@@ -1134,22 +1153,16 @@ static void prove_surfaces(Case* c) {
     if (!(on_a.blocked[i] & OUTER) && winding_on(&on_a, i, 1) >= 1) continue;
     if (!(on_a.blocked[i] & INNER) && winding_on(&on_a, i, 0) >= 1) continue;
     if (!on_a.blocked[i]) end(1, "triangle %u of %s lies outside of %s", a.number[i], a.name, b.name);
-    if (has_area(a.t[i]) || !is_on_edge(&a, i)) prove_crossed(&a, i, &b);
+    if (has_area(a.t[i]) || !is_on_edge(&a, i)) prove_crossed(&a, i, &b, NULL, BOTH);
   }
   c->claims |= (int)claims;
   if (claims == 3 && !is_closed(in)) end(1, "%s is not closed", a.name);
-  for (size_t i = 0; i < b.n && claims == 3; ++i)
-    for (int w = OUTER; w <= INNER; ++w) {
-      const Spot middle = {b.t + i, {one, one, one}};
-      unsigned self = 0;
-      if (!(on_b.blocked[i] & w) && winding_on(&on_b, i, w == OUTER) < 1) continue;
-      for (find_near(&b, zone_of(b.t[i]), 0, &list); list.n-- > 0;)
-        if (list.i[list.n] != i) self |= blocked_sides(b.t[i], b.t[list.i[list.n]], NULL, NULL);
-      if (self & (unsigned)w)
-        end(1, "triangle %u of %s is crossed by others of it, and there may be a hole", b.number[i], b.name);
-      if (winding_beside(&b, &middle, w == OUTER) < 1)
-        end(1, "%s leaves a hole in %s beside triangle %u", b.name, a.name, b.number[i]);
-    }
+  for (size_t i = 0; i < b.n && claims == 3; ++i) {
+    unsigned sides = BOTH;
+    for (int w = OUTER; w <= INNER; ++w)
+      if (!(on_b.blocked[i] & w) && winding_on(&on_b, i, w == OUTER) < 1) sides ^= (unsigned)w;
+    if (sides) prove_crossed(&b, i, &b, &a, sides);
+  }
 }
 
 /* r = sum of w (p - base), for n <= 5 points; the weights are whole numbers. */

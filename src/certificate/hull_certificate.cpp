@@ -55,11 +55,13 @@ Certificate hull_certificate(const TriangleMesh& hull, const CertifiedOriginal& 
 Certificate pieces_certificate(std::span<const TriangleMesh> pieces, const CertifiedOriginal& original) {
   std::size_t triangles = 0;
   for (const TriangleMesh& piece : pieces) triangles += piece.face_count();
-  certificate::File file =
-      certificate::header(HullSide::Outer, original, triangles, certificate::FiniteOriginal(original.mesh));
+  const certificate::FiniteOriginal finite(original.mesh);
+  certificate::File file = certificate::header(HullSide::Outer, original, triangles, finite);
   file.section(certificate::Section::Surfaces);
-  file.number(certificate::kCovers);
-  return {.bytes = file.bytes(), .claims = {"cover every finite triangle"}};
+  file.number(finite.is_closed ? certificate::kCoversAndEncloses : certificate::kCovers);
+  Certificate made{.bytes = file.bytes(), .claims = {"cover every finite triangle"}};
+  if (finite.is_closed) made.claims.emplace_back("enclose the solid");
+  return made;
 }
 
 }  // namespace prohull

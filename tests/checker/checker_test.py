@@ -34,6 +34,10 @@ def both(a, b):
     return a[0] + b[0], a[1] + [tuple(v + len(a[0]) for v in t) for t in b[1]]
 
 
+def turned(mesh):
+    return mesh[0], [(a, c, b) for a, b, c in mesh[1]]
+
+
 def scaled(mesh, scale):
     return [tuple(x * scale for x in p) for p in mesh[0]], mesh[1]
 
@@ -132,7 +136,7 @@ class Surfaces(Checked):
         wide = box((1, 1, 1), (7, 7, 7))
         self.expect(PROVEN, "covers", [surfaces(1)], both(box((-1, -1, -1), (5, 5, 5)), wide), original)
         self.expect(PROVEN, "covers", [surfaces(1)], both(box((-1, -1, -1), (4, 5, 5)), wide), original)
-        self.expect(NOT_PROVEN, "hole", [surfaces(3)], both(box((-1, -1, -1), (5, 5, 5)), wide), original)
+        self.expect(PROVEN, "encloses", [surfaces(3)], both(box((-1, -1, -1), (5, 5, 5)), wide), original)
         self.expect(NOT_PROVEN, "a part of triangle", [surfaces(1)], both(box((-1, -1, -1), (3, 5, 5)), wide), original)
 
     def test_cut_a_tiny_triangle_at_overlapping_tetrahedra(self):
@@ -341,6 +345,34 @@ class Covers(Checked):
     def test_pieces_that_share_a_wall(self):
         self.expect(PROVEN, "covers", [surfaces(1)], two_boxes(3, 3), CUBE)
 
+    def test_pieces_that_leave_a_hole(self):
+        # Six boxes around a room of (2, 2, 2) to (4, 4, 4): slabs that cross each other, or touch in walls.
+        solid = box((1, 1, 1), (5, 5, 5))
+        for reach in (6, 4):
+            hull = ([], [])
+            for axis in range(3):
+                for from_, to in ((0, 2), (4, 6)):
+                    low, high = [0, 0, 0], [6, 6, 6]
+                    for other in range(axis):
+                        low[other], high[other] = 6 - reach, reach
+                    low[axis], high[axis] = from_, to
+                    hull = both(hull, box(low, high))
+            self.expect(PROVEN, "covers", [surfaces(1)], hull, solid)
+            self.expect(NOT_PROVEN, "hole", [surfaces(3)], hull, solid)
+            hollow = both(solid, turned(box((2, 2, 2), (4, 4, 4))))
+            self.expect(PROVEN, "encloses", [surfaces(3)], hull, hollow)
+            self.expect(NOT_PROVEN, "outside", [surfaces(3)], hull, both(solid, turned(box((2, 2, 3), (4, 4, 4)))))
+            self.expect(PROVEN, "encloses", [surfaces(3)], both(hull, box((2, 2, 2), (4, 4, 4))), solid)
+            self.expect(PROVEN, "encloses", [surfaces(3)], both(hull, box((1, 1, 1), (5, 5, 5))), solid)
+
+    def test_pieces_that_touch_or_cross(self):
+        for left, right in ((5, 3), (3, 3), (9, -1), (9, 3), (4, 4)):
+            self.expect(PROVEN, "encloses the solid", [surfaces(3)], two_boxes(left, right), CUBE)
+        # Of three pieces two share half of a wall of the third each.
+        halves = both(box((4, -1, -1), (9, 3, 9)), box((4, 3, -1), (9, 9, 9)))
+        self.expect(PROVEN, "encloses", [surfaces(3)], both(box((-1, -1, -1), (4, 9, 9)), halves), CUBE)
+        self.expect(NOT_PROVEN, "", [surfaces(3)], both(box((-1, -1, -1), (4, 9, 9)), box((4, -1, -1), (9, 3, 9))), CUBE)
+
     def test_balls(self):
         found, trees = ball_cover(random.Random(4))
         cert = certificate(len(found), len(CUBE[1]), balls(trees))
@@ -425,7 +457,11 @@ class Mutants(Checked):
                 hull, added, fans = moved_outwards(original, rng, 5, 1 - 2 * side)
                 sections = tetrahedra(added, fans)
             yield name, sections, hull, original, side
+        crossed = both(both(box((-1, -1, -1), (4, 6, 6)), box((2, -1, -1), (7, 7, 7))), tetrahedron([(0, 0, 0), (9, 0, 0), (0, 9, 1), (0, 2, 9)]))
+        yield "crossed, around a solid", surfaces(3), crossed, small, 0
         yield "pieces", surfaces(1), two_boxes(), CUBE, 0
+        yield "pieces around a solid", surfaces(3), two_boxes(), CUBE, 0
+        yield "pieces that share a wall", surfaces(3), two_boxes(3, 3), CUBE, 0
         yield "gap", surfaces(3) + gap(1.0), box((-1, -1, -1), (7, 7, 7)), small, 0
 
     def mutant(self, rng, sections, hull, original):
@@ -473,8 +509,10 @@ class Mutants(Checked):
         if "encloses" in line:
             if not is_closed(inner):
                 return "the inner surface is not closed"
-            for _ in range(12):
+            for i in range(24):
                 p = tuple(Fraction(rng.randint(-4000, 12000), 1000) for _ in range(3))
+                if i % 2:  # beside the outer surface, where holes are
+                    p = tuple(x + Fraction(rng.randint(-9, 9), 10 ** rng.randint(2, 9)) for x in point_of(rng.choice(outer), rng))
                 w, around = winding(inner, p, rng), winding(outer, p, rng)
                 if w is not None and around is not None and w >= 1 and around < 1:
                     return f"{p} is not enclosed"
@@ -540,6 +578,64 @@ class Mutants(Checked):
             proven += code == PROVEN
             self.judge(rng, (code, line), hull, original, side)
         self.assertGreater(proven, MUTANTS // 30)
+
+    def test_boxes_are_decided(self):
+        """Whole boxes, some inside out, that cross, touch and repeat, sheared: the answer is that of all cells of the grid."""
+        rng = random.Random(f"boxes {SEED}")
+        size = 4
+        cells = [(x, y, z) for x in range(size) for y in range(size) for z in range(size)]
+
+        def boxes(count, negative, margin=0):
+            found = []
+            for _ in range(count):
+                ends = [sorted(rng.sample(range(margin, size + 1 - margin), 2)) for _ in range(3)]
+                found.append((-1 if rng.random() < negative else 1, *zip(*ends)))
+            return found
+
+        def wound(found, cell):
+            return sum(s for s, low, high in found if all(l <= x < h for l, x, h in zip(low, cell, high)))
+
+        def is_wall_covered(hull, walls):
+            """Of each square of a box's walls one of the two cells beside it must be wound around."""
+            for _, low, high in walls:
+                for axis in range(3):
+                    for cell in cells:
+                        if not all(l <= x < h for k, (l, x, h) in enumerate(zip(low, cell, high)) if k != axis):
+                            continue
+                        for end in (low[axis], high[axis]):
+                            beside = [tuple(end - back if k == axis else x for k, x in enumerate(cell)) for back in (0, 1)]
+                            if all(wound(hull, c) < 1 for c in beside):
+                                return False
+            return True
+
+        def mesh_of(found, shear):
+            mesh = ([], [])
+            for s, low, high in found:
+                mesh = both(mesh, box(low, high) if s > 0 else turned(box(low, high)))
+            return [tuple(sum(m * x for m, x in zip(row, p)) for row in shear) for p in mesh[0]], mesh[1]
+
+        answers = {}
+        for i in range(MUTANTS // 3):
+            whole, cut = [(1, (0, 0, 0), (size, size, size))], rng.randint(1, size - 1)
+            halves = [(1, (0, 0, 0), (cut, size, size)), (1, (cut, 0, 0), (size, size, size))]
+            hull = (whole, halves, [])[i % 3] + boxes(rng.randint(0, 2), 1, 1) + boxes(rng.randint(0, 9), 0.2)
+            original = whole * (i % 2) + boxes(rng.randint(1, 2), 0) + boxes(rng.choice((0, 0, 1)), 1)
+            if rng.random() < 0.5:
+                hull = hull[: rng.randint(1, 4)]
+            if not hull:
+                continue
+            a, b, c = (rng.randint(-2, 2) for _ in range(3))
+            shear = [(1, a, b), (0, 1, c), (0, 0, 1)]
+            inner, outer = mesh_of(original, shear), mesh_of(hull, shear)
+            covered = is_wall_covered(hull, original)
+            enclosed = covered and all(wound(hull, cell) >= 1 or wound(original, cell) < 1 for cell in cells)
+            for claims, truth in ((1, covered), (3, enclosed)):
+                cert = certificate(len(outer[1]), len(inner[1]), surfaces(claims))
+                code, line = self.check(cert, outer, inner)
+                self.assertEqual(code == PROVEN, truth, (line, outer, inner))
+            answers[covered, enclosed] = answers.get((covered, enclosed), 0) + 1
+        for kind in ((False, False), (True, False), (True, True)):
+            self.assertGreater(answers.get(kind, 0), MUTANTS // 300, answers)
 
 
 if __name__ == "__main__":
