@@ -79,7 +79,6 @@ void write_certificate(Written& written, const CertifiedOriginal& original, cons
   written.certificate = hull_certificate(
       hull.mesh, original,
       {.side = options.enclosing.hull.side,
-       .levels = hull.levels,
        .gap = claimed_gap(options.enclosing.padding, hull.padding),
        .distance = claimed_distance(options.enclosing.bounds.max_distance, written.measures.to_triangles.upper)});
   outputs.add(written.certificate_path, written.certificate.bytes);

@@ -56,8 +56,9 @@ void check_certified_output(const std::filesystem::path& certificate, const std:
 
 CertifiedOriginal certified_original(TriangleMesh mesh, const std::filesystem::path& path,
                                      const InputOptions& options) {
-  CertifiedOriginal original{std::move(mesh), options.factor(), lower_suffix(unpacked(path)) == ".stl"};
-  if (!original.has_loose_corners) read_mesh(path, {.non_finite = NonFinite::Keep, .divided = &original.divided});
+  CertifiedOriginal original{std::move(mesh), options.factor()};
+  const bool has_polygons = lower_suffix(unpacked(path)) != ".stl";
+  if (has_polygons) read_mesh(path, {.non_finite = NonFinite::Keep, .divided = &original.divided});
   return original;
 }
 

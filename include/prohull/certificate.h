@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,18 +16,14 @@ namespace prohull {
 
 /// How ORIGINAL, the file that a certificate is about, came to be a mesh.
 struct CertifiedOriginal {
-  TriangleMesh mesh;  ///< as read_mesh gives it with NonFinite::Keep
-  double scale = 1;   ///< ReadOptions::scale of that call
-  /// The file is an STL file: it has a vertex for each corner of a facet, which read_mesh has joined.
-  bool has_loose_corners = false;
+  TriangleMesh mesh;                      ///< as read_mesh gives it with NonFinite::Keep
+  double scale = 1;                       ///< ReadOptions::scale of that call
   std::vector<DividedFace> divided = {};  ///< ReadOptions::divided of that call
 };
 
-/// What a certificate says about a hull, beside what its levels say.
+/// What a certificate says about a hull, beside what it covers and encloses.
 struct HullClaims {
   HullSide side = HullSide::Outer;
-  /// The levels of the hull, down to the hull itself, if there are any.
-  std::optional<ProgressiveHull> levels = {};
   double gap = 0;  ///< that the hull keeps from the triangles, in their unit; 0: says nothing of it
   /// Which no point of the hull exceeds from the triangles, in their unit; infinity: says nothing of it. It is left
   /// out, too, where it does not hold, or leaves so little to spare that the proof would be much larger than the
@@ -52,25 +47,21 @@ inline double claimed_distance(double asked, double proven) {
 struct Certificate {
   std::string bytes;                ///< of the file
   std::vector<std::string> claims;  ///< what it is to prove: "covers every finite triangle", "encloses the solid"
-  bool has_tetrahedra = false;      ///< that prove that the solid is enclosed
 };
 
 /// Of a hull with the coordinates that its file has. The triangles of the original that are not finite are left out. If
-/// the original is not closed, it has no solid. If the outer one of the two meshes intersects itself, the solid is
-/// claimed to be enclosed only if the chain of the levels leads to the triangles of the file itself: the certificate
-/// then holds the tetrahedra between them. Throws InputError if no triangle is finite, and for an inner hull if the
-/// original is not closed.
+/// the original is not closed, it has no solid. Throws InputError if no triangle is finite, and for an inner hull if
+/// the original is not closed.
 ///
 ///     const CertifiedOriginal original{read_mesh("part.ply", {.non_finite = NonFinite::Keep})};
 ///     const EnclosingHull hull = enclosing_hull(original.mesh, 500);
 ///     write_mesh("hull.ply", hull.mesh);
-///     std::ofstream("part.phcert", std::ios::binary) << hull_certificate(hull.mesh, original, {.levels =
-///     hull.levels}).bytes;
+///     std::ofstream("part.phcert", std::ios::binary) << hull_certificate(hull.mesh, original).bytes;
 Certificate hull_certificate(const TriangleMesh& hull, const CertifiedOriginal& original,
                              const HullClaims& claims = {});
 
 /// Of convex pieces, as convex_cover makes them, with the coordinates that their files have: together they are a hull,
-/// whose surface may cross itself.
+/// whose surface may cross itself. They enclose the solid, if the original is closed.
 Certificate pieces_certificate(std::span<const TriangleMesh> pieces, const CertifiedOriginal& original);
 
 /// Of balls, as sphere_cover makes them: for each triangle of the original cuts in halves, and the balls that hold the

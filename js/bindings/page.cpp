@@ -75,7 +75,6 @@ CertifiedOriginal original_of(const val& bytes, const std::string& name, bool is
   const auto content = emscripten::convertJSArrayToNumberVector<unsigned char>(bytes);
   const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
   CertifiedOriginal original;
-  original.has_loose_corners = is_stl;
   original.mesh =
       read_mesh(text, name, {.non_finite = NonFinite::Keep, .divided = is_stl ? nullptr : &original.divided});
   return original;
@@ -95,7 +94,6 @@ val certificate(const val& hull, const val& bytes, const std::string& name, cons
     named.not_negative("max_distance", asked);
     named.not_negative("distance", distance);
     named.refuse_others();
-    if (!hull["levels"].isUndefined()) claims.levels = levels_of(hull["levels"]);
     claims.gap = claimed_gap(gap, proven_gap);
     claims.distance = claimed_distance(asked, distance);
     const Certificate made = hull_certificate(mesh_of(hull, "hull"), original_of(bytes, name, is_stl), claims);

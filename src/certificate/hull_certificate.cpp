@@ -5,10 +5,8 @@
 #include "certificate/certificate_file.h"
 #include "certificate/distance_trees.h"
 #include "certificate/finite_original.h"
-#include "certificate/tetrahedra.h"
 #include "prohull/certificate.h"
 #include "prohull/detail/rounded.h"
-#include "prohull/enclosure.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -22,19 +20,10 @@ Certificate hull_certificate(const TriangleMesh& hull, const CertifiedOriginal& 
         "the original is not closed: it has no inside, of which a certificate of an inner hull could tell");
   Certificate made;
   certificate::File file = certificate::header(claims.side, original, hull.face_count(), finite);
-  // Faces that pass through the inside hide from a checker of surfaces what is enclosed.
-  bool encloses = finite.is_closed && count_self_intersections(is_outer ? hull : finite.turned) == 0;
-  const std::uint64_t of_surfaces = encloses ? certificate::kCoversAndEncloses : certificate::kCovers;
-  if (finite.is_closed && !encloses && claims.levels)
-    if (const auto section = certificate::tetrahedra(*claims.levels, hull, original, finite.turned)) {
-      file.section(Section::Tetrahedra);
-      file.add(*section);
-      made.has_tetrahedra = encloses = true;
-    }
   file.section(Section::Surfaces);
-  file.number(of_surfaces);
+  file.number(finite.is_closed ? certificate::kCoversAndEncloses : certificate::kCovers);
   made.claims.emplace_back(is_outer ? "covers every finite triangle" : "is covered by the original");
-  if (encloses) made.claims.emplace_back(is_outer ? "encloses the solid" : "is enclosed by the solid");
+  if (finite.is_closed) made.claims.emplace_back(is_outer ? "encloses the solid" : "is enclosed by the solid");
   if (claims.gap > 0) {
     file.section(Section::Gap);
     file.real(claims.gap);
