@@ -1078,15 +1078,15 @@ static void prove_within(const Cut* u, const uint32_t* lines, size_t n) {
     end(1, "a part of triangle %u of %s lies outside of %s", u->of->number[u->i], u->of->name, u->by->name);
 }
 
-/* Cuts a part at the next blocking triangle that crosses it. Those that its plane parts from a half do not cross that.
- */
+/* Cuts a part at the next blocking triangle that crosses it. Those that its plane parts from a half are left out. */
 static void prove_cut(Cut* u, const uint32_t* lines, size_t n, size_t next, int depth) {
   int* const sign = resized(NULL, n, sizeof *sign);
   uint32_t* const half = resized(NULL, n + 1, sizeof *half);
   const uint32_t* f = NULL;
   const size_t last = u->blocking.n;
   unsigned sides = 0;
-  for (spend(n); sides != BOTH && next < last; ++next) {
+  for (; sides != BOTH && next < last; ++next) {
+    spend(32 * n);
     sides = find_signs(u, lines, n, f = u->by->t[u->blocking.i[next]], sign);
     if (!sides && u->is_flat)
       end(1, "triangle %u of %s has no area and is on %s", u->of->number[u->i], u->of->name, u->by->name);
@@ -1105,7 +1105,7 @@ static void prove_cut(Cut* u, const uint32_t* lines, size_t n, size_t next, int 
       set_line(u, f);
       for (int k = 0; k < 3 && s < 0; ++k) add(&u->line[u->lines].at[k], &zero, &u->line[u->lines].at[k], -1);
     }
-    spend(last - next);
+    spend(16 * (last - next));
     for (size_t i = next; i < last; ++i) {
       const uint32_t g = u->blocking.i[i];
       int signs[3];

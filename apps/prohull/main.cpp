@@ -38,7 +38,7 @@ void add_commands(CLI::App& app, Run& run) {
   add_manual(app, run);
   add_help(app, run);
   for (CLI::App* command : app.get_subcommands({})) {
-    for (const char* name : {"--out", "--report"})
+    for (const char* name : {"--out", "--report", "--certificate"})
       if (CLI::Option* const output = command->get_option_no_throw(name)) output->check(names_an_output);
     CLI::Option* const quiet = command->add_flag(
         "-q,--quiet", console().quiet, "Print no summary and no progress. Errors and files written to - still appear.");

@@ -37,6 +37,10 @@ for command in "build cube.obj" "sample box" "sample arm" "view cube.obj"; do
   says err "no name: $command" "the name of the output is empty; name a file"
 done
 expect 2 "no name of a report" $prohull info cube.obj --report ''
+for command in "build cube.obj -o h.obj" "convex cube.obj -o h.obj" "spheres cube.obj -o h.yaml" "cage cube.obj -o h.obj" "motion arm.urdf path.csv"; do
+  expect 2 "no name of a certificate: $command" $prohull $command --certificate ''
+  says err "no name of a certificate: $command" "the name of the output is empty; name a file"
+done
 expect 2 "a robot is no file" $prohull sample arm -o arm.urdf
 says err "a robot is no file" "name the folder, as in -o arm"
 absent arm.urdf "a robot is no file"
