@@ -68,6 +68,9 @@ void print_certificate(const std::filesystem::path& file, const Certificate& cer
   for (const auto& name : hull) command += " " + name.string();
   say("{}: certificate ({}); to check it: {} {}{}\n", output_name(file), fmt::join(certificate.claims, ", "), command,
       unpacked(original).string(), is_packed(original) ? ", once that is unpacked" : "");
+  if (const std::size_t flat = certificate.flat_triangles_in_doubt; flat > 0)
+    say("  prohull_check may not prove it: {} without area {} on the hull, and on no edge of another one\n",
+        counted(flat, "triangle"), flat == 1 ? "lies" : "lie");
 }
 
 }  // namespace prohull::cli

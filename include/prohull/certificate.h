@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <string>
@@ -47,6 +48,9 @@ inline double claimed_distance(double asked, double proven) {
 struct Certificate {
   std::string bytes;                ///< of the file
   std::vector<std::string> claims;  ///< what it is to prove: "covers every finite triangle", "encloses the solid"
+  /// Triangles of the original without area, on the hull and on no edge of another triangle: a checker may not prove
+  /// that these are covered, and so nothing at all.
+  std::size_t flat_triangles_in_doubt = 0;
 };
 
 /// Of a hull with the coordinates that its file has. The triangles of the original that are not finite are left out. If

@@ -5,6 +5,7 @@
 #include "certificate/certificate_file.h"
 #include "certificate/distance_trees.h"
 #include "certificate/finite_original.h"
+#include "certificate/flat_triangles.h"
 #include "prohull/certificate.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/error.h"
@@ -37,6 +38,7 @@ Certificate hull_certificate(const TriangleMesh& hull, const CertifiedOriginal& 
       made.claims.push_back(
           fmt::format("is nowhere farther than {:.6g} from the triangles", rounded_up(claims.distance, 6)));
     }
+  if (is_outer) made.flat_triangles_in_doubt = certificate::flat_triangles_in_doubt(finite.triangles, {&hull, 1});
   made.bytes = file.bytes();
   return made;
 }
@@ -50,6 +52,7 @@ Certificate pieces_certificate(std::span<const TriangleMesh> pieces, const Certi
   file.number(finite.is_closed ? certificate::kCoversAndEncloses : certificate::kCovers);
   Certificate made{.bytes = file.bytes(), .claims = {"cover every finite triangle"}};
   if (finite.is_closed) made.claims.emplace_back("enclose the solid");
+  made.flat_triangles_in_doubt = certificate::flat_triangles_in_doubt(finite.triangles, pieces);
   return made;
 }
 

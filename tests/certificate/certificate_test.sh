@@ -64,6 +64,19 @@ proves "not finite" not_finite.off hull.off --faces 200
 sed '3,$s/^3 \(.*\) \(.*\) \(.*\)/3 \1 \3 \2/' cube.off >inside_out.off
 proves "inside out" inside_out.off hull.off --faces 12
 
+awk 'NR == 2 { print $1 + 3, $2 + 1, 0; next } { print } NR == 10 { print 0.25, 0, 0; print 0.5, 0, 0; print 0.75, 0, 0 }
+  END { print 3, 8, 9, 10 }' cube.off >flat.off
+expect 0 "a triangle without area on the hull" $prohull build flat.off -o hull.off --faces 12 --certificate c
+says out "a triangle without area on the hull" "may not prove it: 1 triangle without area lies on the hull"
+expect 1 "a triangle without area on the hull: the checker" ./prohull_check c hull.off flat.off
+expect 0 "pieces with such a triangle" $prohull convex flat.off -o pieces.obj --pieces 1 --certificate c
+says out "pieces with such a triangle" "may not prove it: 1 triangle without area lies on the hull"
+expect 1 "pieces with such a triangle: the checker" ./prohull_check c pieces.obj flat.off
+sed 's/^0.25 0 0$/0 0 0/; s/^0.75 0 0$/1 0 0/' flat.off >on_edge.off
+expect 0 "a triangle without area on an edge" $prohull build on_edge.off -o hull.off --faces 12 --certificate c
+says_not out "a triangle without area on an edge" "may not prove"
+expect 0 "a triangle without area on an edge: the checker" ./prohull_check c hull.off on_edge.off
+
 # --- what is not so ---
 proves "the mesh itself" cube.off hull.off --faces 12
 sed 's/^1 1 1$/1 1 0.9999999999999999/' hull.off >moved.off

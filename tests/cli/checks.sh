@@ -29,6 +29,12 @@ says() {
   grep -qF -- "$3" "$1" || fail "$2: no '$3' in its $1"
 }
 
+# says_not FILE NAME TEXT: the file does not hold the text
+says_not() {
+  checks=$((checks + 1))
+  if grep -qF -- "$3" "$1"; then fail "$2: '$3' in its $1"; fi
+}
+
 # absent FILES NAME: no such files are there
 absent() {
   checks=$((checks + 1))

@@ -4,11 +4,6 @@ set -u
 prohull=$1
 . "$(dirname "$0")/checks.sh"
 
-says_not() {
-  checks=$((checks + 1))
-  if grep -qF -- "$3" "$1"; then fail "$2: '$3' in its $1"; fi
-}
-
 corners='v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n'
 bottom='f 1 3 2\nf 2 3 4\n'
 walls='f 1 2 5\nf 2 6 5\nf 3 7 4\nf 4 7 8\nf 1 5 3\nf 3 5 7\nf 2 4 6\nf 4 8 6\n'
