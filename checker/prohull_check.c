@@ -1061,7 +1061,7 @@ static void round_weights(Number w[3]) {
 static void prove_within(const Cut* u, const uint32_t* lines, size_t n) {
   Spot middle = {u->of->t + u->i, {zero, zero, zero}};
   Number at[3];
-  exactly = 1;
+  exactly = 1, spend(10000);
   for (size_t k = 0; k < n; ++k) {
     cross(at, u->line[lines[k]].at, u->line[lines[(k + 1) % n]].at);
     for (int i = 0; i < 3; ++i) add(&middle.weight[i], &middle.weight[i], &at[i], 1);
