@@ -206,11 +206,9 @@ void build(Case& given, const EnclosingOptions& options) {
   if (options.padding > 0) expect_gap(given, Judge(hull.mesh), hull.padding);
   EXPECT_TRUE(options.repair == Repair::None || verify_hull(hull.mesh, given.finite, side).encloses)
       << "verify_hull says no";
-  expect_certificate(given, hull.mesh,
-                     {.side = side,
-                      .levels = hull.levels,
-                      .gap = claimed_gap(options.padding, hull.padding),
-                      .distance = options.bounds.max_distance});
+  expect_certificate(
+      given, hull.mesh,
+      {.side = side, .gap = claimed_gap(options.padding, hull.padding), .distance = options.bounds.max_distance});
   if (!hull.levels || side == HullSide::Inner || options.repair == Repair::None) return;
   expect_covered(given, Judge(hull.levels->base()));
   EXPECT_TRUE(verify_hull(hull.levels->with_finest_level(finest_level(made, hull)), given.finite).encloses)
@@ -262,9 +260,8 @@ void cage(Case& given) {
   const auto check = [&](const CageHull& hull, HullSide side) {
     if (hull.hull().certified) {
       expect_claims(given, hull.hull().mesh, side, hull.made.input);
-      expect_certificate(
-          given, hull.hull().mesh,
-          {.side = side, .levels = hull.hull().levels, .gap = claimed_gap(hull.hull().padding, hull.hull().padding)});
+      expect_certificate(given, hull.hull().mesh,
+                         {.side = side, .gap = claimed_gap(hull.hull().padding, hull.hull().padding)});
     }
     EXPECT_TRUE(!hull.keeps_gap || hull.hull().padding >= made.gap);
     expect_gap(given, Judge(hull.hull().mesh), hull.hull().padding);
@@ -447,6 +444,7 @@ TEST_P(Soups, KeepTheirWordOrAreRefused) {
   }
   EXPECT_TRUE(8 * refused < 7 * soups || soups < 20) << "nearly all were refused: " << refused;
   fmt::print("{}: {} certificates, {} proven by the checker\n", GetParam().name, certificates, proven);
+  EXPECT_TRUE(10 * proven >= 9 * certificates) << "the rest is not denied, but left undecided";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Soups,
