@@ -116,6 +116,7 @@ struct Member {
   std::vector<std::uint32_t> patches = {};
   double needed = -kUnbounded;      ///< the greatest need of its patches
   double without_it = -kUnbounded;  ///< the same, if the next best balls had its patches
+  std::vector<std::uint32_t> settled = {};  ///< patches for which no other place was found that is better
 };
 
 /// Balls that move until none can do better.
@@ -211,7 +212,7 @@ class Improvement {
                         best[p].offer(need(members_[i].place, task_.patches, patches[p]), i);
                     });
     });
-    for (Member& member : members_) member = {member.place};
+    for (Member& member : members_) member = {.place = member.place, .settled = std::move(member.settled)};
     for (std::uint32_t p = 0; p < patches.size(); ++p) {
       Member& member = members_[best[p].member];
       member.patches.push_back(p);
@@ -259,24 +260,33 @@ class Improvement {
   /// A pattern search for the least need.
   void recentre(Member& member) const {
     task_.meter.at(0);
-    std::vector<Vec3> points;
+    if (member.settled == member.patches) return;
+    std::vector<Vec3> points, feet{member.place.foot};
     for (const std::uint32_t patch : member.patches)
       points.insert(points.end(), points_of(patch).begin(), points_of(patch).end());
     constexpr double kFirstStep = 0.5, kLastStep = 0.01;
     const double size = std::max(member.needed, task_.size);
+    bool has_moved = false;
     for (double step = kFirstStep * size; step > kLastStep * size; step /= 2)
-      while (moves(member, points, step)) {
-      }
+      while (moves(member, points, feet, step)) has_moved = true;
+    if (has_moved)
+      member.settled.clear();
+    else
+      member.settled = member.patches;
   }
 
-  bool moves(Member& member, const std::vector<Vec3>& points, double step) const {
+  /// `feet` are those of all places tried so far.
+  bool moves(Member& member, const std::vector<Vec3>& points, std::vector<Vec3>& feet, double step) const {
+    const double enough = member.needed - 1e-3 * step;
     for (const Vec3& direction : directions(member.place, points)) {
       const Vec3 center = member.place.center + direction * step;
       const double far = farthest(center, points);
       if (far - member.place.depth - step >= member.needed) continue;  // the depth grows by no more than the step
-      const double depth = task_.depth.at(center);
-      if (!(far - depth < member.needed - 1e-3 * step)) continue;
-      member.place = {center, depth}, member.needed = far - depth;
+      if (far - task_.depth.most_at(center, feet) >= enough) continue;
+      const Place place = task_.depth.at(center);
+      feet.push_back(place.foot);
+      if (!(far - place.depth < enough)) continue;
+      member.place = place, member.needed = far - place.depth;
       return true;
     }
     return false;
@@ -288,7 +298,7 @@ class Improvement {
       return squared_norm(p - place.center) < squared_norm(q - place.center);
     };
     const Vec3 out = *std::ranges::max_element(points, nearer) - place.center;
-    std::vector<Vec3> all{norm(out) > 0 ? out / norm(out) : Vec3{}, task_.depth.inwards(place.center)};
+    std::vector<Vec3> all{norm(out) > 0 ? out / norm(out) : Vec3{}, place.inwards};
     all.push_back((all[0] + all[1]) * 0.7);
     for (int axis = 0; axis < 3; ++axis)
       for (const double sign : {1.0, -1.0}) {
@@ -319,8 +329,8 @@ std::vector<Place> places_for_balls(const BallTask& task, double spacing, std::s
   for_each_index(all.size(), [&](std::size_t i) {
     task.meter.at(0);
     const Patch& patch = patches[i * stride];
-    const Vec3 center = task.depth.medial_point(task.patches.points[patch.begin], task.size / 2).value_or(patch.middle);
-    all[i] = {center, task.depth.at(center)};
+    const auto medial = task.depth.medial_place(task.patches.points[patch.begin], task.size / 2);
+    all[i] = medial ? *medial : task.depth.at(patch.middle);
   });
   for (const Place& place : all) box.extend(place.center);
   const CubeGrid grid(box, spacing);

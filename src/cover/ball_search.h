@@ -24,12 +24,6 @@ struct BallCover {
   double reach = 0;  ///< none reaches out by more
 };
 
-/// A place for a ball.
-struct Place {
-  Vec3 center;
-  double depth = 0;
-};
-
 /// Places near the medial axis of the solid, in all parts of it: at most about `most`, some `spacing` apart.
 std::vector<Place> places_for_balls(const BallTask& task, double spacing, std::size_t most);
 
