@@ -114,8 +114,8 @@ class Coverage {
 struct Member {
   Place place;
   std::vector<std::uint32_t> patches = {};
-  double needed = -kUnbounded;      ///< the greatest need of its patches
-  double without_it = -kUnbounded;  ///< the same, if the next best balls had its patches
+  double needed = -kUnbounded;              ///< the greatest need of its patches
+  double without_it = -kUnbounded;          ///< the same, if the next best balls had its patches
   std::vector<std::uint32_t> settled = {};  ///< patches for which no other place was found that is better
 };
 
