@@ -8,10 +8,13 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 namespace prohull {
 namespace {
+
+using Double4 = double __attribute__((vector_size(32)));
 
 namespace baseline {
 #define TARGET

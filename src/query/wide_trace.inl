@@ -154,6 +154,24 @@ TARGET void offer_near_faces(const WideBvh& tree, std::uint32_t child, const Vec
   }
 }
 
+/// Of four children from `kFirst` on, how far q is from their boxes, squared. Which are as near as `squared_reach`.
+template <int kFirst>
+TARGET inline __attribute__((always_inline)) unsigned near_boxes(const WideBvh::Node& node, const Vec3& q, double squared_reach, double* squared_distance) {
+  Double4 sum{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float8 &all_low = node.plane[axis], &all_high = node.plane[axis + 3];
+    const Float4 low = __builtin_shufflevector(all_low, all_low, kFirst, kFirst + 1, kFirst + 2, kFirst + 3),
+                 high = __builtin_shufflevector(all_high, all_high, kFirst, kFirst + 1, kFirst + 2, kFirst + 3);
+    const Double4 below = __builtin_convertvector(low, Double4) - q[axis],
+                  above = q[axis] - __builtin_convertvector(high, Double4);
+    Double4 gap = below > above ? below : above;
+    gap = gap > 0 ? gap : Double4{};
+    sum += gap * gap;
+  }
+  std::memcpy(squared_distance + kFirst, &sum, sizeof sum);
+  return mask(__builtin_convertvector(sum <= squared_reach, Truth4)) << kFirst;
+}
+
 // In the frame q = (p - center) scale is off by at most 2 eps of each of its coordinates, eps = 2^-53. Distances to
 // boxes are rounded by a relative 4 eps, which the limit makes up for, with 2^-500 for squares that underflow.
 TARGET void trace_nearest(const WideBvh& tree, ClosestCollector& closest) {
@@ -161,7 +179,6 @@ TARGET void trace_nearest(const WideBvh& tree, ClosestCollector& closest) {
     double squared_distance;
     std::uint32_t child;
   };
-  using Lanes = double __attribute__((vector_size(WideBvh::kWidth * sizeof(double))));
   using line_filter::kEpsilon;
   const Vec3 q = tree.in_frame(closest.point());
   const double slack = 4 * kEpsilon * (std::abs(q.x) + std::abs(q.y) + std::abs(q.z)) + 0x1p-500;
@@ -177,16 +194,10 @@ TARGET void trace_nearest(const WideBvh& tree, ClosestCollector& closest) {
       continue;
     }
     const WideBvh::Node& node = tree.node(entry.child);
-    Lanes squared_distance{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const Lanes below = __builtin_convertvector(node.plane[axis], Lanes) - q[axis];
-      const Lanes above = q[axis] - __builtin_convertvector(node.plane[axis + 3], Lanes);
-      Lanes gap = below > above ? below : above;
-      gap = gap > 0 ? gap : Lanes{};
-      squared_distance += gap * gap;
-    }
+    double squared_distance[WideBvh::kWidth];
     const int first = size;
-    unsigned near = mask_of(__builtin_convertvector(squared_distance <= squared_reach, Truth8));
+    unsigned near = near_boxes<0>(node, q, squared_reach, squared_distance) |
+                    near_boxes<4>(node, q, squared_reach, squared_distance);
     for (; near != 0; near &= near - 1) {
       const int i = std::countr_zero(near);
       if (node.child[i] == WideBvh::kNoChild) continue;
