@@ -34,6 +34,11 @@ double need(const Place& place, const Patches& patches, const Patch& patch) {
 /// No more than the need.
 double least_need(const Place& place, const Patch& patch) { return norm(patch.middle - place.center) - place.depth; }
 
+/// No less than the need, but for rounding.
+double most_need(const Place& place, const Patch& patch) {
+  return norm(patch.middle - place.center) + patch.radius - place.depth;
+}
+
 Bvh tree_of(const Patches& patches) {
   std::vector<Box> boxes;
   boxes.reserve(patches.size());
@@ -63,7 +68,9 @@ class Coverage {
       if (!(radius > 0)) return;
       tree.visit([&](const Box& box) { return squared_distance(places[i].center, box) <= radius * radius; },
                  [&](std::uint32_t patch) {
-                   const double needed = need(places[i], task.patches, task.patches.patches[patch]);
+                   const Patch& held = task.patches.patches[patch];
+                   double needed = most_need(places[i], held);
+                   if (needed > 0) needed = need(places[i], task.patches, held);  // else it is held within any reach
                    if (needed <= most) lists_[i].push_back({patch, static_cast<float>(needed * per_unit_)});
                  });
     });
