@@ -234,6 +234,13 @@ void say_notes(const RobotFile& file, const LinkCheck& check) {
   for (const std::string& note : check.notes) say("  {}: {}\n", name, note);
 }
 
+std::string left_text(std::span<const LinkHulls> links) {
+  const auto left = std::ranges::count_if(links, [](const LinkHulls& link) { return !link.why.empty(); });
+  if (left == 0) return "";
+  return fmt::format("; {} left as {}, with nothing proven", counted(left, "link is", "links are"),
+                     left == 1 ? "it is" : "they are");
+}
+
 }  // namespace
 
 bool is_certified(const LinkHulls& link) { return std::ranges::all_of(link.hulls, &LinkHull::certified); }
@@ -316,8 +323,9 @@ std::string robot_summary(const std::filesystem::path& folder, const ReportInput
   if (facts.motion) text += motion_text(*facts.motion, covers, sampled_pairs);
   text += motion_certificate_text(folder, facts);
   text += fmt::format(
-      "{}: the robot with its {}, and report.html; {} of {} certified\n", folder.string(), covers, certified,
-      covers == "hulls" ? counted(hulls, "hull is", "hulls are") : counted(hulls, "link is", "links are"));
+      "{}: the robot with its {}, and report.html; {} of {} certified{}\n", folder.string(), covers, certified,
+      covers == "hulls" ? counted(hulls, "hull is", "hulls are") : counted(hulls, "link is", "links are"),
+      left_text(facts.hulls));
   return text;
 }
 

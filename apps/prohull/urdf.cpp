@@ -406,7 +406,7 @@ void add_urdf(CLI::App& app, Run& run) {
       "robot with its meshes, a report with pictures, and an SRDF of the links that joints connect or that provably "
       "never meet. With --check, it "
       "decides whether the collision geometry that the robot ships with covers the robot. The exit code is 1 if a "
-      "link is not covered.");
+      "link is not covered, unless --skip-missing or its budget says to leave it as it is.");
   command
       .add_option("in", options->in,
                   "Robot: URDF, SDF or MJCF. A .xacro file is expanded by the program xacro, if that is installed.")
@@ -434,8 +434,10 @@ void add_urdf(CLI::App& app, Run& run) {
                   "Make the folder a ROS package of this name: with package.xml, and hulls named by package:// URIs.")
       ->type_name("NAME");
   command.add_flag("--tight", options->hulls.tight, "Build tight hulls: least volume, but some 4 times as slow.");
-  command.add_flag("--skip-missing", options->hulls.skip_missing,
-                   "Leave links whose mesh files are not found as they are. Otherwise missing files are an error.");
+  command.add_flag(
+      "--skip-missing", options->hulls.skip_missing,
+      "Leave links whose mesh files are not found as they are: nothing is proven of them, and the exit code "
+      "does not tell. Otherwise missing files are an error.");
   CLI::Option* const certificate = command.add_flag(
       "--certificate", options->certificate,
       "Also write a certificate beside each hull, or the pieces or spheres of a link: a file with which prohull_check, "

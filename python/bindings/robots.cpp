@@ -213,7 +213,9 @@ py::dict facts_of(const RobotFile& file, const LinkCheck& check, double allow) {
   facts["passes"] = passes(check, allow);
   facts["sticks_out_at_least"] = check.sticks_out_at_least;
   facts["sticks_out_at_most"] = check.sticks_out_at_most;
-  facts["worst_point"] = py::make_tuple(check.worst_point.x, check.worst_point.y, check.worst_point.z);
+  facts["worst_point"] = py::none();
+  if (const Vec3& p = check.worst_point; check.sticks_out_at_least > 0)
+    facts["worst_point"] = py::make_tuple(p.x, p.y, p.z);
   facts["faces_outside"] = check.faces_outside;
   facts["volume_ratio"] = check.visual_volume > 0 ? check.collision_volume / check.visual_volume : NAN;
   facts["distance_bound"] = check.reach.upper;

@@ -127,11 +127,11 @@ class LinkCheck(NamedTuple):
     passes: bool  #: whether the link is as it should be: covered, nothing to cover, or sticking out by at most `allow`
     sticks_out_at_least: float  #: proven: some point of the visual geometry is that far outside
     sticks_out_at_most: float  #: proven: none is farther outside
-    worst_point: tuple[float, float, float]  #: such a point, in the frame of the link
+    worst_point: Optional[tuple[float, float, float]]  #: such a point, in the frame of the link; None if none is known
     faces_outside: int  #: number of faces of the visual geometry that are not covered
     volume_ratio: float  #: volume of the collision geometry / volume inside of the visual geometry; may be nan
-    distance_bound: float  #: no point of the collision geometry is farther than this from the visual one: proven
-    mean_distance: float  #: the mean of these distances, estimated
+    distance_bound: float  #: how far the collision geometry reaches out of the visual one at most: proven; what is inside counts as 0
+    mean_distance: float  #: the mean of the same distances over its surface, estimated
     notes: list[str]
 
 

@@ -86,6 +86,7 @@ def test_a_saved_robot_passes_its_check(robot, hulls, tmp_path):
     assert not shipped and not shipped.passes
     assert [link.verdict for link in shipped.links] == ["leaks", "covered", "no-collision"]
     assert shipped["base"].sticks_out_at_least > 0.1 and not shipped["base"].passes
+    assert len(shipped["base"].worst_point) == 3 and all(link.worst_point is None for link in shipped.links[1:])
     written = hulls.save(tmp_path / "safe", package="crane_safe")
     assert (tmp_path / "safe" / "package.xml").exists() and all((tmp_path / "safe").as_posix() in name for name in written)
     safe = prohull.robot.Robot.load(tmp_path / "safe" / "crane.urdf", [tmp_path / "safe"])

@@ -21,8 +21,42 @@
 namespace prohull::robot {
 namespace {
 
-InsideVolume enclosed_volume(const TriangleMesh& triangles, const Progress& progress) {
-  return triangles.face_count() == 0 ? InsideVolume{} : volume_inside(prepared_for_hulls(triangles), progress);
+/// Corners around the axis of the meshes that stand for curved forms where they are shown and their volume is measured:
+/// many forms need fewer each.
+std::size_t shown_segments(std::size_t forms) { return forms <= 8 ? 64 : 32; }
+/// The same where distances are measured.
+std::size_t fine_segments(std::size_t forms) { return forms <= 8 ? 128 : 32; }
+
+TriangleMesh with_forms(TriangleMesh mesh, std::span<const CurvedForm> forms, Curved curved, std::size_t segments) {
+  for (const CurvedForm& form : forms) append(mesh, form.mesh(curved, segments));
+  return mesh;
+}
+
+/// Of a mesh, the corner that is farthest from a convex form is the farthest point.
+double reach_at_most(const TriangleMesh& mesh, const CurvedForm& form) {
+  double upper = 0;
+  for (const Vec3& p : mesh.positions) upper = std::max(upper, form.distance(p).upper);
+  return upper;
+}
+
+/// How far the meshes around the forms reach out of them.
+double reach_of_meshes(std::span<const CurvedForm> forms, std::size_t segments) {
+  double upper = 0;
+  for (const CurvedForm& form : forms)
+    upper = std::max(upper, reach_at_most(form.mesh(Curved::Around, segments), form));
+  return upper;
+}
+
+DistanceBounds widened(const DistanceBounds& bounds, double above, double below) {
+  return {std::max(0.0, bounds.lower - below), bounds.upper + above, bounds.farthest};
+}
+
+/// Of a mesh that encloses what is measured, and of one within it.
+DistanceBounds reach_out_of(const CurvedForm& form, const TriangleMesh& around, const TriangleMesh& within) {
+  DistanceBounds reach{0, reach_at_most(around, form), {}};
+  for (const Vec3& p : within.positions)
+    if (const double lower = form.distance(p).lower; lower > reach.lower) reach.lower = lower, reach.farthest = p;
+  return reach;
 }
 
 double area(const Triangle& t) { return norm(cross(t.b - t.a, t.c - t.a)) / 2; }
@@ -48,12 +82,12 @@ std::vector<Vec3> samples(const TriangleMesh& mesh, std::size_t count) {
   return points;
 }
 
-double mean_distance(const TriangleMesh& from, const TriangleMesh& to) {
+template <class Distance>
+double mean_over(const TriangleMesh& surface, Distance distance) {
   constexpr std::size_t kSamples = 1'000;
-  MeshQuery query{QueryIndex(to)};
-  const std::vector<Vec3> points = samples(from, kSamples);
+  const std::vector<Vec3> points = samples(surface, kSamples);
   double sum = 0;
-  for (const Vec3& p : points) sum += query.closest_point(p)->distance;
+  for (const Vec3& p : points) sum += distance(p);
   return points.empty() ? 0 : sum / static_cast<double>(points.size());
 }
 
@@ -83,7 +117,7 @@ class LinkChecker {
   LinkCheck run() {
     for (const Shape& shape : link_.visual) check_visual(shape);
     for (const Shape& shape : link_.collision) check_collision(shape);
-    check_.visual_faces = flat_.face_count();
+    check_.visual_faces = visual_.triangles.face_count();
     check_.collision_faces = pieces_.triangles.face_count();
     if (check_.verdict != CheckVerdict::Missing) attempt([&] { decide(); });
     measure();
@@ -152,10 +186,10 @@ class LinkChecker {
     if (const auto form = curved_form(shape.form, pose_of(shape))) {
       see(*form, pose_of(shape));
       append(check_.visual, form->mesh(Curved::Around, shown_segments(link_.visual.size())));
-      return curved_.push_back(*form);
+      return visual_.curved.push_back(*form);
     }
     const TriangleMesh mesh = triangles_of(shape);
-    append(flat_, mesh);
+    append(visual_.triangles, mesh);
     append(check_.visual, mesh);
   }
 
@@ -205,14 +239,14 @@ class LinkChecker {
   void decide() {
     if (link_.visual.empty()) return;
     check_.verdict = CheckVerdict::Missing;
-    if (flat_.face_count() + curved_.size() == 0) return note("the visual geometry has no face that could be read");
+    if (visual_.empty()) return note("the visual geometry has no face that could be read");
     if (pieces_.empty() && has_unread_piece_) return;
     check_.verdict = CheckVerdict::NoCollision;
     if (pieces_.empty()) return;
     add_solids();
     check_.verdict = CheckVerdict::Covered;
-    if (flat_.face_count() > 0) take(verify_pieces(flat_, pieces_, progress_));
-    for (const CurvedForm& form : curved_) take(verify_pieces(form, pieces_, progress_));
+    if (visual_.triangles.face_count() > 0) take(verify_pieces(visual_.triangles, pieces_, progress_));
+    for (const CurvedForm& form : visual_.curved) take(verify_pieces(form, pieces_, progress_));
     judge_rounding();
     // What is not read may cover the rest.
     if (check_.verdict == CheckVerdict::Covered || !has_unread_piece_) return;
@@ -253,12 +287,26 @@ class LinkChecker {
     }
   }
 
+  /// Curved forms that overlap other pieces count as meshes with their volume.
+  InsideVolume volume_of(const SolidPieces& all) const {
+    if (all.empty()) return {};
+    if (const auto balls = only_balls(all); !balls.empty()) return {union_volume(balls)};
+    InsideVolume inside = volume_inside(prepared_for_hulls(with_same_volume(all)), progress_);
+    inside.is_estimated |= !all.curved.empty() && (all.triangles.face_count() > 0 || all.curved.size() > 1);
+    return inside;
+  }
+
+  static TriangleMesh with_same_volume(const SolidPieces& all) {
+    return with_forms(all.triangles, all.curved, Curved::SameVolume, shown_segments(all.curved.size()));
+  }
+
+  InsideVolume volume_of_visual(const RepairedMesh& visual) const {
+    return visual_.curved.empty() ? volume_inside(visual, progress_) : volume_of(visual_);
+  }
+
   void measure_volumes(const std::optional<RepairedMesh>& visual) {
-    const auto balls = only_balls(pieces_);
-    const InsideVolume inside = measured([&] { return visual ? volume_inside(*visual, progress_) : InsideVolume{}; });
-    const InsideVolume collision = measured([&] {
-      return balls.empty() ? enclosed_volume(check_.collision, progress_) : InsideVolume{union_volume(balls)};
-    });
+    const InsideVolume inside = measured([&] { return visual ? volume_of_visual(*visual) : InsideVolume{}; });
+    const InsideVolume collision = measured([&] { return volume_of(pieces_); });
     check_.collision_volume = collision.volume;
     // No estimate may say that what is covered is larger than what covers it.
     const bool is_exact = !inside.is_estimated && !collision.is_estimated;
@@ -266,16 +314,63 @@ class LinkChecker {
       check_.visual_volume = inside.volume;
   }
 
-  void measure_reach(const std::optional<RepairedMesh>& visual) {
-    const bool is_solid = visual && visual->closed;
-    const TriangleMesh& solid = is_solid ? visual->closed->mesh : check_.visual;
+  TriangleMesh fine_mesh(const SolidPieces& all, Curved curved) const {
+    return with_forms(all.triangles, all.curved, curved, fine_segments(all.curved.size()));
+  }
+
+  /// The pieces, but for forms that are visual ones as well: these reach nowhere.
+  SolidPieces other_pieces() const {
+    SolidPieces others{.solids = {}, .tangled = {}, .triangles = pieces_.triangles, .curved = pieces_.curved};
+    std::erase_if(others.curved, [&](const CurvedForm& form) { return std::ranges::count(visual_.curved, form) > 0; });
+    return others;
+  }
+
+  /// How far pieces reach out of a solid, or from triangles that bound none. Meshes around the curved forms of the
+  /// pieces give the upper bound, and of a solid meshes within them the lower one.
+  DistanceBounds reach_of(const SolidPieces& all, const TriangleMesh& from, bool is_solid) const {
+    if (all.empty()) return {};
     const DistanceOptions how{.max_cells = 100'000, .progress = progress_};
-    if (const auto balls = only_balls(pieces_); !balls.empty())
-      check_.reach = union_reach(balls, solid, how);
+    if (const auto balls = only_balls(all); !balls.empty()) return union_reach(balls, from, how);
+    const auto reach = [&](Curved curved) {
+      const TriangleMesh mesh = fine_mesh(all, curved);
+      return is_solid ? union_reach({&mesh, 1}, from, how) : distance_bounds(mesh, from, how);
+    };
+    DistanceBounds bounds = reach(Curved::Around);
+    if (all.curved.empty()) return bounds;
+    if (!is_solid) {
+      const double error = reach_of_meshes(all.curved, fine_segments(all.curved.size()));
+      return widened(bounds, error, error);
+    }
+    const double upper = bounds.upper;
+    bounds = reach(Curved::Within);
+    bounds.upper = upper;
+    return bounds;
+  }
+
+  /// From the visual geometry as a mesh, which is around its curved forms: the solid reaches farther than theirs.
+  void measure_reach_from(const TriangleMesh& from, bool is_solid) {
+    check_.reach = reach_of(other_pieces(), from, is_solid);
+    const double error = reach_of_meshes(visual_.curved, shown_segments(link_.visual.size()));
+    check_.reach = widened(check_.reach, error, is_solid ? 0 : error);
+    MeshQuery query{QueryIndex(from)};
+    check_.mean_distance = mean_over(fine_mesh(pieces_, Curved::Within), [&](const Vec3& p) {
+      return is_solid ? std::max(0.0, query.signed_distance(p).distance) : query.closest_point(p)->distance;
+    });
+  }
+
+  void measure_reach_from(const CurvedForm& form) {
+    const TriangleMesh within = fine_mesh(pieces_, Curved::Within);
+    check_.reach = reach_out_of(form, fine_mesh(other_pieces(), Curved::Around), within);
+    check_.mean_distance = mean_over(within, [&](const Vec3& p) { return form.distance(p).lower; });
+  }
+
+  void measure_reach(const std::optional<RepairedMesh>& visual) {
+    if (visual_.triangles.face_count() == 0 && visual_.curved.size() == 1)
+      measure_reach_from(visual_.curved[0]);
+    else if (visual && visual->closed)
+      measure_reach_from(visual->closed->mesh, true);
     else
-      check_.reach =
-          is_solid ? union_reach({&check_.collision, 1}, solid, how) : distance_bounds(check_.collision, solid, how);
-    check_.mean_distance = mean_distance(check_.collision, check_.visual);
+      measure_reach_from(check_.visual, false);
   }
 
   void measure() {
@@ -284,18 +379,14 @@ class LinkChecker {
       visual = measured([&] { return std::optional(prepared_for_hulls(check_.visual)); });
     measure_volumes(visual);
     if (check_.visual.face_count() == 0) return;
-    check_.convex_volume = signed_volume(convex_hull(check_.visual));
+    check_.convex_volume = signed_volume(convex_hull(with_same_volume(visual_)));
     if (check_.collision.face_count() > 0) measure_reach(visual);
   }
-
-  /// Corners around the axis of the meshes that are measured and shown: many forms need fewer each.
-  static std::size_t shown_segments(std::size_t forms) { return forms <= 8 ? 64 : 32; }
 
   const Link& link_;
   const Progress progress_;
   Frame frame_;
-  TriangleMesh flat_;               // of the visual meshes and boxes
-  std::vector<CurvedForm> curved_;  // the other visual forms
+  SolidPieces visual_;  // triangles of meshes and boxes, and the other forms
   SolidPieces pieces_;
   std::vector<TriangleMesh> solids_;  // of the pieces, before they are put together
   bool has_unread_piece_ = false;

@@ -37,9 +37,9 @@ struct LinkCheck {
   double collision_volume = 0;  ///< of the union of the pieces; estimated, where they overlap
   double convex_volume = 0;     ///< of the convex hull of the visual geometry
   /// How far the collision geometry reaches out of the solid of the visual one, whose openings count as closed; from
-  /// its triangles if they bound none. Curved forms count as meshes around them.
+  /// its triangles if they bound none. What is inside counts as 0. `farthest` is a point if the lower bound is not 0.
   DistanceBounds reach;
-  double mean_distance = 0;        ///< of the surface of the collision geometry from the visual triangles, by samples
+  double mean_distance = 0;        ///< of the surface of the collision geometry, measured as `reach`, by samples
   std::vector<std::string> notes;  ///< sentences for the user
   TriangleMesh visual, collision;  ///< both in the frame of the link, for pictures
 };

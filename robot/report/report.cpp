@@ -23,7 +23,9 @@ Json texts(const std::vector<std::string>& sentences) {
 }
 
 Json distance(const DistanceBounds& bounds) {
-  return {{"at_least", number(bounds.lower)}, {"at_most", number(bounds.upper)}, {"farthest", point(bounds.farthest)}};
+  return {{"at_least", number(bounds.lower)},
+          {"at_most", number(bounds.upper)},
+          {"farthest", bounds.lower > 0 ? point(bounds.farthest) : Json()}};
 }
 
 Json facts_of(const LinkCertificate& certificate) {

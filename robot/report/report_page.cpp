@@ -679,10 +679,14 @@ std::string words(const ReportInput& input) {
                    "is a common collision mesh."});
   shown.push_back(
       {"Greatest distance",
-       "How far a point of the collision geometry is from the geometry of the link at "
-       "most. The bounds are proven. Openings count as closed: what closes them is no part of the file, and "
-       "the distance from the triangles alone is told, too."});
+       "How far the collision geometry reaches out of the geometry of the link. What lies inside of the link counts as "
+       "0. The bounds are proven. Openings count as closed: what closes them is no part of the file, and "
+       "the distance from the triangles alone is told, too. If the geometry bounds no solid, distances are those from "
+       "its triangles."});
   if (!input.shipped.empty()) {
+    shown.push_back({"Mean distance",
+                     "The mean of the same distances over the surface of the collision geometry, estimated from "
+                     "samples."});
     shown.push_back({"Shipped", "The collision geometry that came with the file of the robot."});
     shown.push_back({"Leaks",
                      "Some point of the visual geometry lies outside of the collision geometry: exactly "

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "prohull/detail/solid_pieces.h"
@@ -160,6 +161,11 @@ double CurvedForm::margin() const {
   return (0x1p-44 + 5 * skew()) * (radius_ + half_) + 0x1p-44 * sum_of(pose_.translation);
 }
 
+double CurvedForm::volume() const {
+  const double tube = std::numbers::pi * radius_ * radius_ * 2 * half_;
+  return kind_ == Kind::Cylinder ? tube : tube + 4 * std::numbers::pi / 3 * radius_ * radius_ * radius_;
+}
+
 /// Whether the caps of a cylinder are parallel to the xy plane, at heights that are not rounded.
 bool CurvedForm::has_exact_caps() const {
   return pose_.rotation == Pose{}.rotation && is_exact_sum(pose_.translation.z, half_) &&
@@ -182,14 +188,24 @@ bool CurvedForm::has_exact_caps() const {
 // Within: the vertices of M are inside of the form by the margin. Rounding moves them by less; the form is convex.
 TriangleMesh CurvedForm::mesh(Curved curved, std::size_t segments) const {
   if (segments < 8) throw InputError(Defect::InvalidOption, "a curved form needs 8 segments or more");
+  if (curved != Curved::SameVolume) return placed(pose_, own_mesh(curved, segments));
+  TriangleMesh mesh = own_mesh(Curved::Within, segments);
+  if (const double flat = signed_volume(mesh); flat > 0) {
+    const double wider = std::sqrt(volume() / flat);
+    for (Vec3& p : mesh.positions) p.x *= wider, p.y *= wider;
+  }
+  return placed(pose_, std::move(mesh));
+}
+
+/// In the frame of the form.
+TriangleMesh CurvedForm::own_mesh(Curved curved, std::size_t segments) const {
   const bool is_around = curved == Curved::Around;
   const double offset = is_around ? margin() : -margin();
   double radius = std::max(0.0, radius_ + offset);
   if (is_around) radius /= std::pow(std::cos(std::numbers::pi / static_cast<double>(segments)), 2);
-  if (kind_ != Kind::Cylinder)
-    return placed(pose_, turned(outline_of_balls(radius, half_, (segments + 3) / 4), segments));
+  if (kind_ != Kind::Cylinder) return turned(outline_of_balls(radius, half_, (segments + 3) / 4), segments);
   const double half = has_exact_caps() ? half_ : std::max(0.0, half_ + offset);
-  return placed(pose_, turned({{0, -half}, {radius, -half}, {radius, half}, {0, half}}, segments));
+  return turned({{0, -half}, {radius, -half}, {radius, half}, {0, half}}, segments);
 }
 
 }  // namespace prohull

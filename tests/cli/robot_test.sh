@@ -217,7 +217,7 @@ says out "a dry run with a missing mesh" "an error, as its mesh is missing"
 expect 0 "a dry run that skips a missing mesh" $prohull urdf before/robot.urdf --dry-run --skip-missing
 absent none "what is refused leaves nothing"
 expect 0 "a missing mesh is skipped" $prohull urdf before/robot.urdf -o skipped --skip-missing $small
-says out "a missing mesh is skipped" "left as it is"
+says out "a missing mesh is skipped" "left as it is, with nothing proven"
 printf '<!DOCTYPE r [<!ENTITY a "aaaa">]><robot name="&a;"/>' >bomb.urdf
 expect 3 "entities" $prohull urdf bomb.urdf --check
 says err "entities" "bomb.urdf: line 1: "

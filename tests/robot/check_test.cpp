@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "effort.h"
@@ -512,6 +513,94 @@ TEST_F(Check, BoundsHoldWhereSamplesAre) {
   }
   EXPECT_GT(leaking, 0);
   EXPECT_LT(leaking, kRounds);
+}
+
+struct KnownReach {
+  std::vector<Shape> visual, collision;
+  double truth, room;  ///< of the bounds
+};
+
+TEST_F(Check, BoundsOfTheReachHoldForCurvedForms) {
+  const Shape ball = shape(SphereForm{0.5}), other = shape(SphereForm{0.5}, translation_by({3, 0, 0})),
+              cylinder = shape(CylinderForm{0.5, 1}), capsule = shape(CapsuleForm{0.1, 0.3}),
+              prism = mesh(form_mesh(CylinderForm{0.5, 1}, Curved::Within, 200)),
+              square = mesh(meshes::make({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}));
+  const double corner = std::sqrt(0.75) - 0.5;
+  const std::vector<KnownReach> known{
+      {{ball}, {ball}, 0, 0},
+      {{ball, other}, {other, ball}, 0, 2e-3},
+      {{ball}, {shape(SphereForm{0.49})}, 0, 0},
+      {{ball}, {shape(SphereForm{0.51})}, 0.01, 1e-3},
+      {{ball}, {cube(1)}, corner, 1e-9},
+      {{ball, other}, {cube(1)}, corner, 0.01},
+      {{capsule}, {shape(CylinderForm{0.1, 0.5})}, std::hypot(0.1, 0.1) - 0.1, 1e-3},
+      {{cube(1)}, {shape(CylinderForm{0.75, 1})}, 0.25, 4e-3},
+      {{prism}, {cylinder}, 0.5 * (1 - std::cos(std::numbers::pi / 200)), 4e-3},
+      {{square}, {shape(CapsuleForm{0.25, 0.5})}, 0.5, 6e-3},
+  };
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    SCOPED_TRACE(i);
+    const LinkCheck check = checked(known[i].visual, known[i].collision);
+    EXPECT_LE(check.reach.lower, known[i].truth + 1e-12);
+    EXPECT_GE(check.reach.upper, known[i].truth - 1e-12);
+    EXPECT_LE(check.reach.upper - check.reach.lower, known[i].room);
+    EXPECT_LE(check.mean_distance, check.reach.upper);
+  }
+}
+
+// Random pieces against random pieces: the bounds hold at samples, and the farthest point is where it is said to be.
+TEST_F(Check, BoundsOfTheReachHoldWhereSamplesAre) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> any(-1, 1), size(0.3, 1.5);
+  const auto pose = [&] { return pose_of_rpy(Vec3{any(random), any(random), any(random)}, {any(random), 0, 0}); };
+  const auto piece = [&](int kind) {
+    if (kind % 4 == 0) return shape(BoxForm{{size(random), size(random), size(random)}}, pose());
+    if (kind % 4 == 1) return shape(CapsuleForm{size(random) / 2, size(random)}, pose());
+    if (kind % 4 == 2) return shape(CylinderForm{size(random) / 2, size(random)}, pose());
+    return shape(SphereForm{size(random)}, pose());
+  };
+  for (int i = 0; i < effort(16, 4); ++i) {
+    std::vector<Shape> visual{piece(i)}, collision{piece(i / 4)};
+    if (i % 3 == 0) visual.push_back(piece(i + 1));
+    if (i % 3 == 1) collision.push_back(piece(i + 1));
+    const LinkCheck check = checked(visual, collision);
+    Union all(visual), pieces(collision);
+    double most = 0;
+    for (const Shape& shape : collision)
+      for (const Vec3& p : form_mesh(shape.form, Curved::Within, 32).positions)
+        most = std::max(most, all.distance(placed(shape.origin, p)));
+    SCOPED_TRACE(i);
+    EXPECT_LE(most, check.reach.upper + 1e-12);
+    EXPECT_LE(check.reach.lower, check.reach.upper);
+    if (check.reach.lower > 0) {
+      EXPECT_GE(all.distance(check.reach.farthest), check.reach.lower - 1e-12);
+      EXPECT_LE(pieces.distance(check.reach.farthest), 1e-12);
+    }
+  }
+}
+
+TEST_F(Check, VolumesOfFormsAreExact) {
+  const auto ball = [](double r) { return 4 * std::numbers::pi / 3 * r * r * r; };
+  const double tube = std::numbers::pi * 0.75 * 0.75;
+  const LinkCheck same = checked({shape(SphereForm{0.5})}, {shape(SphereForm{0.5})});
+  EXPECT_EQ(same.visual_volume, same.collision_volume);
+  EXPECT_NEAR(same.visual_volume, ball(0.5), 1e-9);
+  EXPECT_NEAR(same.convex_volume, ball(0.5), 1e-9);
+  const LinkCheck boxed = checked({shape(SphereForm{0.5})}, {cube(1.02)});
+  EXPECT_NEAR(boxed.collision_volume / boxed.visual_volume, std::pow(1.02, 3) / ball(0.5), 1e-9);
+  EXPECT_NEAR(checked({cube(1)}, {shape(CylinderForm{0.75, 1})}).collision_volume, tube, 1e-9);
+  const Shape far = shape(CylinderForm{0.75, 1}, translation_by({5, 0, 0}));
+  EXPECT_NEAR(checked({cube(1)}, {shape(CylinderForm{0.75, 1}), far}).collision_volume, 2 * tube, 1e-9);
+}
+
+TEST_F(Check, TheMeanDistanceIsThatOfTheReach) {
+  const LinkCheck within = checked({cube(1)}, {cube(0.5)});
+  EXPECT_EQ(within.mean_distance, 0);
+  EXPECT_LT(within.reach.upper, 1e-3);
+  // Of a slab of 2 x 2 x 0.5 around the middle, half of the surface or so is outside.
+  const LinkCheck slab = checked({cube(1)}, {shape(BoxForm{{2, 2, 0.5}})});
+  EXPECT_GT(slab.mean_distance, 0.1);
+  EXPECT_LT(slab.mean_distance, slab.reach.upper);
 }
 
 // The numbers are those of docs; CGAL finds the same farthest points where it takes the collision mesh.

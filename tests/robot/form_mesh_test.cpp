@@ -2,6 +2,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "prohull/enclosure.h"
@@ -99,6 +100,19 @@ TEST(FormMesh, WithinHasAllVerticesInTheForm) {
             above = abs(z) - Rational(capsule ? capsule->length / 2 : 0);
         EXPECT_LE(x * x + y * y + (above > 0 ? above * above : Rational(0)), radius * radius);
       }
+}
+
+TEST(FormMesh, HasTheVolumeOfTheForm) {
+  const auto ball = [](double r) { return 4 * std::numbers::pi / 3 * r * r * r; };
+  const auto tube = [](double r, double length) { return std::numbers::pi * r * r * length; };
+  const std::vector<std::pair<Form, double>> kVolumes{{SphereForm{0.5}, ball(0.5)},
+                                                      {CylinderForm{0.75, 1}, tube(0.75, 1)},
+                                                      {CylinderForm{1e-3, 1e3}, tube(1e-3, 1e3)},
+                                                      {CapsuleForm{0.1, 0.7}, ball(0.1) + tube(0.1, 0.7)}};
+  for (const auto& [form, volume] : kVolumes)
+    for (const std::size_t segments : kSegments)
+      EXPECT_NEAR(signed_volume(form_mesh(form, Curved::SameVolume, segments)), volume, 1e-12 * volume);
+  EXPECT_EQ(signed_volume(form_mesh(SphereForm{0}, Curved::SameVolume)), 0);
 }
 
 TEST(FormMesh, ComesCloserWithMoreSegments) {

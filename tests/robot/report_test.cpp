@@ -146,6 +146,17 @@ TEST(ReportFacts, OpeningsAreToldWithTheDistanceFromTheTriangles) {
   EXPECT_EQ(report_json(input)["links"][0]["hulls"][0]["distance_from_triangles"]["at_most"], 0.5);
 }
 
+TEST(ReportFacts, NoPlaceIsToldWhereNoneIsKnown) {
+  const RobotFile file = robot_of({"a"});
+  ReportInput input = input_of(file);
+  input.shipped = {check_with(0, CheckVerdict::Covered)};
+  DistanceBounds& reach = input.shipped[0].reach;
+  reach = {0, 0.5, {1, 2, 3}};
+  EXPECT_TRUE(report_json(input)["links"][0]["shipped"]["distance"]["farthest"].is_null());
+  reach.lower = 0.25;
+  EXPECT_EQ(report_json(input)["links"][0]["shipped"]["distance"]["farthest"], nlohmann::json({1., 2., 3.}));
+}
+
 TEST(ReportFacts, NoRatioHasTwentyDigits) {
   EXPECT_EQ(ratio_text(1.234), "1.23 ×");
   EXPECT_EQ(ratio_text(1.6e20), "> 10000 ×");

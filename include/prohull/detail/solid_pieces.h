@@ -15,8 +15,8 @@ namespace prohull {
 /// Whether the sum of two finite numbers is not rounded.
 bool is_exact_sum(double a, double b);
 
-/// On which side of a curved surface the flat faces lie that stand for it.
-enum class Curved { Around, Within };
+/// On which side of a curved surface the flat faces lie that stand for it; or on both, with the volume that is its own.
+enum class Curved { Around, Within, SameVolume };
 
 /// A sphere, cylinder or capsule where a pose puts it: all points p for which R^T (p - t) lies in the form, computed
 /// with real numbers from the stored doubles of R and t; of a sphere R is the identity. So it is convex and closed, and
@@ -48,7 +48,8 @@ class CurvedForm {
   Distance distance(const Vec3& p) const;
 
   /// A mesh of flat faces, closed and outwards. Guaranteed, exactly: with Curved::Around it encloses the form, with
-  /// Curved::Within the form encloses it. `segments` is the number of corners around the axis, at least 8.
+  /// Curved::Within the form encloses it. With Curved::SameVolume it has the volume of the form, but for rounding.
+  /// `segments` is the number of corners around the axis, at least 8.
   TriangleMesh mesh(Curved curved, std::size_t segments) const;
 
   /// No coordinate of a point of the form, or of its pose, is greater, but for rounding.
@@ -66,7 +67,9 @@ class CurvedForm {
   bool keeps(int bound, const Vec3& p) const;
   double skew() const;
   double margin() const;
+  double volume() const;
   bool has_exact_caps() const;
+  TriangleMesh own_mesh(Curved curved, std::size_t segments) const;
 
   Kind kind_;
   double radius_, half_;  // half the length
