@@ -523,6 +523,7 @@ struct KnownReach {
 TEST_F(Check, BoundsOfTheReachHoldForCurvedForms) {
   const Shape ball = shape(SphereForm{0.5}), other = shape(SphereForm{0.5}, translation_by({3, 0, 0})),
               cylinder = shape(CylinderForm{0.5, 1}), capsule = shape(CapsuleForm{0.1, 0.3}),
+              above = shape(BoxForm{{2e-5, 2e-5, 1e-4}}, translation_by({0, 0, 0.50105})),
               prism = mesh(form_mesh(CylinderForm{0.5, 1}, Curved::Within, 200)),
               square = mesh(meshes::make({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}));
   const double corner = std::sqrt(0.75) - 0.5;
@@ -533,6 +534,7 @@ TEST_F(Check, BoundsOfTheReachHoldForCurvedForms) {
       {{ball}, {shape(SphereForm{0.51})}, 0.01, 1e-3},
       {{ball}, {cube(1)}, corner, 1e-9},
       {{ball, other}, {cube(1)}, corner, 0.01},
+      {{ball, other}, {above}, norm(Vec3{1e-5, 1e-5, 0.5011}) - 0.5, 2e-3},  // within a mesh around the ball
       {{capsule}, {shape(CylinderForm{0.1, 0.5})}, std::hypot(0.1, 0.1) - 0.1, 1e-3},
       {{cube(1)}, {shape(CylinderForm{0.75, 1})}, 0.25, 4e-3},
       {{prism}, {cylinder}, 0.5 * (1 - std::cos(std::numbers::pi / 200)), 4e-3},
