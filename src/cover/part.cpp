@@ -158,14 +158,14 @@ class ClosedSurface {
  private:
   struct Polygon {
     std::size_t end;  // of its corners
-    double times;
+    int times;
   };
   struct Across {
     Vec3 left, back;
-    double times;
+    int times;
   };
 
-  void add_below(const Plane& plane, std::span<const Vec3> polygon, double times) {
+  void add_below(const Plane& plane, std::span<const Vec3> polygon, int times) {
     const std::size_t first = kept_corners_.size();
     std::optional<Vec3> left, back;
     double height_b = plane.height(polygon[0]);

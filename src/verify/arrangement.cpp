@@ -152,11 +152,13 @@ void add_jumps(Windings& w, const Windings& jump, int times) {
     w.outside[i] += times * jump.outside[i];
     w.inside[i] += times * jump.inside[i];
   }
+  w.holders += times * jump.holders;
 }
 
 bool has_jump(const ContactPiece& piece) {
   const auto is_zero = [](int jump) { return jump == 0; };
-  return !std::ranges::all_of(piece.jump.outside, is_zero) || !std::ranges::all_of(piece.jump.inside, is_zero);
+  return piece.jump.holders != 0 || !std::ranges::all_of(piece.jump.outside, is_zero) ||
+         !std::ranges::all_of(piece.jump.inside, is_zero);
 }
 
 template <class Field>
@@ -190,6 +192,17 @@ class Segments {
       steps_.take(1);
       add_contact(h, number);
     }
+    sort_pieces();
+  }
+
+  void add_holders(std::span<const Triangle> coplanar) {
+    holders_ = coplanar;
+    for (const Triangle& h : holders_) {
+      Windings jump;
+      jump.holders = turn(axis_, h.a, h.b, h.c);
+      for (const auto& [from, to] : edges_of(h)) add_jump(corner_point(from), corner_point(to), jump);
+    }
+    find_base();
     sort_pieces();
   }
 
@@ -237,6 +250,29 @@ class Segments {
     });
     if (inner) points.insert(points.begin(), *inner);
     return points;
+  }
+
+  // By Green's theorem: seen from outside of t, parts are on the left of the edges of t, and on either side of
+  // segments.
+  void visit_parts(const Arrangement::Value& value, const Arrangement::Visit& visit) {
+    if (const int all = value(around_base()); tour_.empty()) {
+      if (all != 0) visit(t_, all);
+      return;
+    }
+    const auto see = [&](const Stretch& s, int times) {
+      if (times == 0) return;
+      const ContactPiece& piece = pieces_[s.piece];
+      const auto end = [&](const Event* e, PointId p) { return e ? about(piece, *e) : about(p); };
+      visit({t_.a, in_t(end(s.from, piece.begin)), in_t(end(s.to, piece.end))}, times);
+    };
+    visit_stretches(edges_, [&](const Stretch& s) {
+      see(s, value(orientation_ > 0 ? s.left : s.right));
+      return false;
+    });
+    visit_stretches(tour_, [&](const Stretch& s) {
+      see(s, orientation_ * (value(s.left) - value(s.right)));
+      return false;
+    });
   }
 
  private:
@@ -452,9 +488,20 @@ class Segments {
   // Windings.
 
   void find_base() {
-    base_.emplace(t_, axis_, whole_cell(t_, axis_), random_);
+    do {
+      base_.emplace(t_, axis_, whole_cell(t_, axis_), random_);
+      base_windings_.holders = 0;
+    } while (!std::ranges::all_of(holders_, [&](const Triangle& h) { return is_beside_base(h); }));
     base_point_ = point_of([&](int i) -> const Number& { return (*base_)[i]; });
     is_known_ = {};
+  }
+
+  /// False if an edge of it is on a line through the base; otherwise it is counted if it holds the base.
+  bool is_beside_base(const Triangle& holder) {
+    const std::array<int, 3> turns = base_->turns(holder);
+    const auto are_all = [&](int turn) { return turns == std::array{turn, turn, turn}; };
+    base_windings_.holders += are_all(1) || are_all(-1);
+    return std::ranges::find(turns, 0) == turns.end();
   }
 
   /// Moves the base if a ray from it meets an edge.
@@ -631,6 +678,34 @@ class Segments {
     return !is_before(s.from, 1) && !is_before(s.to, -1);
   }
 
+  // Rounded points of t.
+
+  static std::array<std::pair<Vec3, Vec3>, 3> edges_of(const Triangle& h) {
+    return {{{h.a, h.b}, {h.b, h.c}, {h.c, h.a}}};
+  }
+
+  static constexpr double kFine = 1e-14;  ///< of coordinates from the first corner on, and of stretches
+
+  Planar<double> about(PointId p) {
+    const RoughPoint& rough = rough_points_[p];
+    if (rough.error <= kFine * (std::abs(rough.u) + std::abs(rough.v))) return {rough.u, rough.v};
+    return rounded_point(p);
+  }
+
+  Planar<double> about(const ContactPiece& piece, const Event& e) {
+    const double place = e.place.error <= kFine ? e.place.value : exact_place(piece, e).rounded();
+    return way_point<double>(about(piece.begin), about(piece.end), place);
+  }
+
+  /// By its shares of two sides of t: their rounding leaves it in the plane.
+  Vec3 in_t(const Planar<double>& p) const {
+    const Planar<double> b = relative<double>(t_.b), c = relative<double>(t_.c);
+    const double area = b.u * c.v - b.v * c.u;
+    const double to_b = std::clamp((p.u * c.v - p.v * c.u) / area, 0.0, 1.0);
+    const double to_c = std::clamp((b.u * p.v - b.v * p.u) / area, 0.0, 1.0);
+    return t_.a + (t_.b - t_.a) * to_b + (t_.c - t_.a) * to_c;
+  }
+
   // Points to show.
 
   Vec3 in_space(const Planar<Rational>& p) const {
@@ -683,6 +758,7 @@ class Segments {
   Steps& steps_;
   const int orientation_;  // of t in the projection
   std::array<const Surface*, 2> surfaces_{};
+  std::span<const Triangle> holders_;
   std::deque<ArrangedPoint> points_;
   std::vector<ArrangedLine> lines_;
   std::vector<RoughPoint> rough_points_;
@@ -714,10 +790,14 @@ void Arrangement::add(std::size_t number, const Surface& surface, std::span<cons
   segments_->add(number, surface, faces);
 }
 
+void Arrangement::add_holders(std::span<const Triangle> coplanar) { segments_->add_holders(coplanar); }
+
 bool Arrangement::has_part(const Sought& sought) { return segments_->has_part(sought); }
 
 bool Arrangement::has_part_at(const ExactPoint& p, const Sought& sought) { return segments_->has_part_at(p, sought); }
 
 std::vector<Vec3> Arrangement::points_of_parts(const Sought& sought) { return segments_->points_of_parts(sought); }
+
+void Arrangement::visit_parts(const Value& value, const Visit& visit) { segments_->visit_parts(value, visit); }
 
 }  // namespace prohull::verify

@@ -46,6 +46,7 @@ class Steps {
 /// The winding numbers of up to two surfaces just outside and just inside of a triangle.
 struct Windings {
   std::array<int, 2> outside{}, inside{};
+  int holders = 0;  ///< triangles of add_holders that hold the part
 };
 
 /// How faces of up to two surfaces divide a triangle t: by the segments in which they meet its inside. Beside each part
@@ -68,6 +69,9 @@ class Arrangement {
   /// Adds surface 0 or 1, with all faces of it that meet the inside of t in segments.
   void add(std::size_t number, const Surface& surface, std::span<const Triangle> faces);
 
+  /// Adds triangles in the plane of t, with an area, whose number is to be told as Windings::holders.
+  void add_holders(std::span<const Triangle> coplanar);
+
   /// Whether windings that are sought are beside some part.
   bool has_part(const Sought& sought);
   /// The same for parts that have p, a point of t, in their closures.
@@ -75,6 +79,12 @@ class Arrangement {
   /// Points, rounded, in such parts and at their corners, the first one inside of a part; none if there is no such
   /// part. Where there are many parts, not all of them have points here.
   std::vector<Vec3> points_of_parts(const Sought& sought);
+
+  using Value = std::function<int(const Windings&)>;
+  using Visit = std::function<void(const Triangle&, int times)>;
+  /// Visits triangles within t, rounded, that overlap: each times its number, they add up to the parts, each times its
+  /// value, as sums of oriented triangles do. Which triangles, and how often, is exact.
+  void visit_parts(const Value& value, const Visit& visit);
 
  private:
   const std::unique_ptr<arranged::Segments> segments_;

@@ -49,9 +49,21 @@ Plane supporting_plane(const Triangle& t, const Vec3& normal, const std::vector<
   return plane;
 }
 
+/// Inside of a convex mesh, which the middle of its box need not be.
+Vec3 middle_of(const TriangleMesh& mesh) {
+  const Vec3 origin = bounding_box(mesh).center();
+  Vec3 sum;
+  for (const FaceId f : mesh.triangles.ids()) {
+    const Triangle t = mesh.triangle(f);
+    sum += (t.a - origin) + (t.b - origin) + (t.c - origin);
+  }
+  return origin + sum / (3 * double(mesh.face_count()));
+}
+
+/// Larger by a little: then faces of two pieces in nearly one plane are apart.
 ConvexPiece convex_piece(const TriangleMesh& mesh, const Frame& frame, double grown) {
   ConvexPiece piece;
-  const Vec3 center = bounding_box(mesh).center();
+  const Vec3 center = middle_of(mesh);
   const auto placed = [&](const Vec3& p) { return (center - frame.origin + (p - center) * (1 + grown)) / frame.size; };
   for (const FaceId f : mesh.triangles.ids()) {
     const Triangle t = mesh.triangle(f);

@@ -12,17 +12,17 @@ namespace prohull::verify {
 
 /// The volume of all points that a closed mesh winds around at least once: parts that overlap count once, and folds
 /// that are inside out not at all. Which pieces of the surface bound it is decided exactly; their sum is rounded. NaN
-/// where faces intersect so often that it would take long, in 100,000 pieces.
+/// where faces intersect so often that it would take some seconds.
 double solid_volume(const TriangleMesh& mesh, ProgressMeter& meter);
 
 /// The same, if its self_intersections are known.
 double solid_volume(const Surface& surface, const FacePairs& pairs, ProgressMeter& meter);
 
-/// A piece of the boundary of that solid, rounded, and how often it counts: less than 0 where it bounds the solid from
-/// inside, and in parts where others lie on it.
+/// A triangle, rounded, and how often it counts. The triangles of a face may overlap: with their numbers they add up to
+/// the part of the face that bounds the solid, or to less than nothing where it bounds it from inside.
 struct BoundaryPiece {
   Triangle triangle;
-  double times;
+  int times;
 };
 
 /// Nothing where solid_volume is NaN.

@@ -4,8 +4,10 @@
 #include <random>
 #include <vector>
 
+#include "effort.h"
 #include "meshes.h"
 #include "progress.h"
+#include "prohull/collide.h"
 #include "prohull/enclosure.h"
 #include "prohull/sample.h"
 #include "random.h"
@@ -87,6 +89,29 @@ TEST(SolidVolume, IsGivenUpAtOnceWherePartsMeetTooOften) {
   ProgressMeter meter([&](std::string_view, double) { return ++steps > 0; }, "measure");
   EXPECT_TRUE(std::isnan(solid_volume(mesh, meter)));
   EXPECT_LT(steps, 5000) << "one for each cell of a face";
+}
+
+/// Turned by a random rotation, which rounds it.
+TriangleMesh turned(TriangleMesh mesh, std::mt19937& random) {
+  std::normal_distribution<double> x;
+  const Pose pose = pose_of_quaternion(x(random), x(random), x(random), x(random));
+  return placed(pose, std::move(mesh));
+}
+
+// Faces that lie in one plane but for rounding cross each other anywhere. A part that lies far away tells whether the
+// boundary is closed.
+TEST(SolidVolume, OfPartsThatTouchInNearlyOnePlaneCountsOverlapsOnce) {
+  const TriangleMesh crate = box({0, 0, 0}, {4, 4, 4}), far = box({20, 7, 9}, {21, 9, 12});
+  const TriangleMesh parts[]{box({1, 1, 0}, {2, 2, 1}),  box({1, 1, -1}, {2, 2, 0}), box({1, 1, 0}, {5, 3, 1}),
+                             box({-1, 1, 0}, {5, 3, 4}), box({0, 0, 0}, {4, 4, 4}),  box({0, 0, 4}, {4, 4, 5})};
+  const double volumes[]{64, 65, 66, 80, 64, 80};
+  std::mt19937 random(test_seed());
+  ProgressMeter silent({}, "measure");
+  for (int round = 0; round < rounds(20); ++round)
+    for (int i = 0; i < 6; ++i) {
+      const TriangleMesh mesh = turned(together(together(crate, parts[i]), far), random);
+      EXPECT_NEAR(solid_volume(mesh, silent), volumes[i] + 6, 1e-11) << i << ", round " << round;
+    }
 }
 
 // Its corners are on one line but for rounding, which its normal is lost in.

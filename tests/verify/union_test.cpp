@@ -388,6 +388,16 @@ TEST(UnionReach, APieceWithoutNormalsHidesNothing) {
   EXPECT_NEAR(union_reach(Pieces{box({0, 0, 0}, {1, 1, 1}), small}, far).upper, std::sqrt(300), 0.2);
 }
 
+// The middle of its box is outside of such a piece.
+TEST(UnionVolume, OfPiecesThatAreThereTwiceCountsThemOnce) {
+  const TriangleMesh slanted = tetrahedron({0, 0, 0}, {4, 0.5, 0}, {4, 4, 0.25}, {3.5, 4, 4});
+  const double volume = std::abs(signed_volume(slanted));
+  for (const double place : {5.0, 11.0, 30.0}) {
+    const TriangleMesh piece = signed_volume(slanted) > 0 ? slanted : inside_out(slanted);
+    EXPECT_NEAR(union_volume(Pieces{piece, piece, moved(piece, {place, 3, 7})}), 2 * volume, 1e-6 * volume) << place;
+  }
+}
+
 TEST(UnionVolume, CountsOverlapsOnce) {
   const TriangleMesh cube = box({0, 0, 0}, {1, 1, 1});
   EXPECT_NEAR(union_volume(Pieces{cube}), 1, 1e-7);
