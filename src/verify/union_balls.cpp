@@ -10,6 +10,7 @@
 
 #include "geometry/box_around_ball.h"
 #include "geometry/bvh.h"
+#include "geometry/largest_coordinate.h"
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
 #include "geometry/usable_size.h"
@@ -129,7 +130,12 @@ class TriangleCutter {
   };
 
   TriangleCutter(const Triangle& t, const Balls& balls, double smallest, ProgressMeter& meter)
-      : triangle_(t), balls_(balls), near_(balls.near(box_of(t))), smallest_(smallest), meter_(meter) {}
+      : triangle_(t),
+        balls_(balls),
+        near_(balls.near(box_of(t))),
+        largest_(largest_coordinate(box_of(t))),
+        smallest_(smallest),
+        meter_(meter) {}
 
   Decision decide() {
     std::vector<std::array<Corner, 3>> parts{{corner({1, 0, 0}), corner({0, 1, 0}), corner({0, 0, 1})}};
@@ -180,8 +186,21 @@ class TriangleCutter {
     const Triangle& t = triangle_;
     Corner result{weights, t.a * weights.x + t.b * weights.y + t.c * weights.z, {}};
     for (const BallIndex i : near_)
-      if (holds(balls_[i], t, weights)) result.holders.push_back(i);
+      if (ball_holds(balls_[i], result)) result.holders.push_back(i);
     return result;
+  }
+
+  /// Decides most with doubles. With eps = 2^-53 and coordinates of at most m, the position is wrong by at most 3 eps
+  /// m, its differences (x, y, z) from the center by 3 eps m + eps |x| and so on, the sum s of their squares by 6 eps m
+  /// (|x| + |y| + |z|) + 5 eps s, and what is compared by eps (s + r^2) more. At least twice that is taken.
+  bool ball_holds(const Ball& ball, const Corner& corner) const {
+    const Vec3 d = corner.position - ball.center;
+    const double square = dot(d, d), most = ball.radius * ball.radius;
+    const double reach = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+    const double error = 0x1p-49 * (largest_ * reach + square + most) + 0x1p-1000;
+    if (most - square > error) return true;
+    if (square - most > error) return false;
+    return holds(ball, triangle_, corner.weights);
   }
 
   static std::pair<int, double> longest_side(const std::array<Corner, 3>& corners) {
@@ -202,6 +221,7 @@ class TriangleCutter {
   const Triangle triangle_;
   const Balls& balls_;
   const BallSet near_;
+  const double largest_;  // coordinate of the triangle
   const double smallest_;
   ProgressMeter& meter_;
   Corner point_;
