@@ -165,7 +165,14 @@ int run_motion(const MotionBenchOptions& options) {
                   options.faces, options.path_proof.cells, machine(), found.robots.markdown(),
                   found.decided_paths.decided, found.decided_paths.all),
       found.paths.csv());
-  return kDone;
+  publish(options.out, "motion_attack",
+          fmt::format("Random poses of pairs that are proven never to meet, and climbs from random positions to ever "
+                      "smaller distances, hulls of {} faces; and the positions at which pairs meet, by collide and by "
+                      "FCL, which knows surfaces only. {}\n\n{}\nContradictions: {}.\n",
+                      options.faces, machine(), found.attacks.markdown(), found.attack.contradictions),
+          found.attacks.csv());
+  const bool is_wrong = found.attack.contradictions > 0 || found.attack.confirmed < found.attack.witnesses;
+  return is_wrong ? kAnswerIsNo : kDone;
 }
 
 }  // namespace
