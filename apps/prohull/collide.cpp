@@ -58,7 +58,11 @@ Body read_body(const CollideOptions& options, const std::filesystem::path& path)
   return naming(path, [&]() -> Body {
     if (const auto* const levels = std::get_if<ProgressiveHull>(&read))
       return {index_of(*levels, options, path), levels->finest_level()};
-    return {CollisionIndex(std::get<TriangleMesh>(read)), FinestLevel::Input};
+    const auto& mesh = std::get<TriangleMesh>(read);
+    if (options.conservative && signed_volume(mesh) < 0)
+      throw InputError(Defect::NoVolume,
+                       "the mesh is inside out and encloses nothing, which --conservative could tell of; turn it");
+    return {CollisionIndex(mesh), FinestLevel::Input};
   });
 }
 

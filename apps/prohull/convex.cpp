@@ -270,8 +270,10 @@ std::string described_pieces(const ConvexCover& cover) {
 }
 
 std::string described_size(const ConvexCover& cover) {
-  if (!cover.covers_inside || !(cover.original_volume > 0)) return fmt::format("volume {:.4g}", cover.volume);
-  return fmt::format("{} more volume than the mesh{}", percent_text(std::max(0.0, cover.void_ratio), 2),
+  const char* const at_most = cover.volume_is_bound ? "at most " : "";
+  if (!cover.covers_inside || !(cover.original_volume > 0))
+    return fmt::format("volume {}{:.4g}", at_most, cover.volume);
+  return fmt::format("{}{} more volume than the mesh{}", at_most, percent_text(std::max(0.0, cover.void_ratio), 2),
                      cover.is_estimated ? " (estimated)" : "");
 }
 
@@ -324,11 +326,13 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
 }
 
 nlohmann::json facts_of(const ConvexPiece& piece, const std::string& name) {
+  const PieceShape shape = shape_of(piece);
+  const bool is_round = shape == PieceShape::Capsule || shape == PieceShape::Ball;
   return {{"name", name},
           {"shape", shape_name(piece)},
-          {"vertices", piece.mesh.vertex_count()},
-          {"faces", piece.mesh.face_count()},
-          {"volume", signed_volume(piece.mesh)}};
+          {"vertices", is_round ? nlohmann::json() : nlohmann::json(piece.mesh.vertex_count())},
+          {"faces", is_round ? nlohmann::json() : nlohmann::json(piece.mesh.face_count())},
+          {"volume", volume_of(piece)}};
 }
 
 nlohmann::json options_report(const ConvexOptions& options) {
@@ -358,6 +362,7 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
           {"certified", outcome.certified},
           {"covers_inside", cover.covers_inside},
           {"volume", finite_or_null(cover.volume)},
+          {"volume_is_bound", cover.volume_is_bound},
           {"original_volume", finite_or_null(cover.original_volume)},
           {"void_ratio", cover.original_volume > 0 ? finite_or_null(cover.void_ratio) : nlohmann::json()},
           {"void_is_estimated", cover.is_estimated},

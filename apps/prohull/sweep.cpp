@@ -177,7 +177,8 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
     say("{}: {}", output_name(options.out), counted(zone.pieces().size(), "convex piece"));
   else
     say("{}: {}, volume about {:.3g}", output_name(options.out), pieces(zone.sweeps[0]), zone.sweeps[0].sweep.volume);
-  say(", at most {:.4g} from what {} passes\n", rounded_up(zone.reach(), 4), is_robot ? "the robot" : "the mesh");
+  say(", at most {:.4g} from what {} passes{}\n", rounded_up(zone.reach(), 4), is_robot ? "the robot" : "the mesh",
+      zone.has_openings() ? " with openings closed" : "");
   if (zone.certified)
     say("  certified: yes, {}\n", claim_of(zone, is_robot));
   else
@@ -319,7 +320,7 @@ void add_sweep(CLI::App& app, Run& run) {
              "Largest number of convex pieces by which the mesh, or each link, is covered before it moves.");
   add_length(command, "--max-distance", options->max_distance,
              "How far slices of the motion may add to the distance of the pieces from what is passed. Less takes more "
-             "slices. The default is 2 % of the diagonal of the mesh, or of each link.");
+             "slices. The default is 2 % of the diagonal of the mesh, or of each link. Of a robot it is no per cent.");
   add_threads_option(command, options->sweep.threads, "The pieces are the same for any number.");
   add_report_option(command, options->report);
   add_motion_options(command, *options);

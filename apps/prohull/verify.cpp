@@ -61,14 +61,13 @@ bool has_failed_replay(const Verification& found) {
 }
 
 /// "part.stl with its openings closed by 2 faces encloses hull.stl"
-std::string claim_of_inner(Verification found, const std::string& original, const std::string& hull) {
-  if (found.original_closed) return claim(found, original, hull);
-  found.original_closed = true;  // with what closes it
-  return claim(
-      found,
-      original + (found.cap_faces > 0 ? fmt::format(" with its openings closed by {}", counted(found.cap_faces, "face"))
-                                      : std::string(" after repairs")),
-      hull);
+std::string claim_of_inner(Verification found, std::string original, const std::string& hull) {
+  if (found.non_finite_faces > 0) original += " without what is not finite";
+  if (!found.original_closed)
+    original += found.cap_faces > 0 ? fmt::format(" with its openings closed by {}", counted(found.cap_faces, "face"))
+                                    : std::string(" after repairs");
+  found.original_closed = true, found.non_finite_faces = 0;  // these were told
+  return claim(found, original, hull);
 }
 
 /// "yes: hull.stl encloses part.stl", or why not.
@@ -78,8 +77,11 @@ std::string verdict(const Verification& found, const SizeComparison& sizes, cons
   if (has_failed_replay(found)) return fmt::format("NO: {} proves nothing about {}: {}", hull, original, found.why_not);
   const bool base_only = !found.encloses || found.faces_beside_solid > 0;
   const std::string levels = replayed ? (base_only ? "the base mesh of " : "every level of ") + hull : hull;
-  const std::string what = inner ? claim_of_inner(found, original, levels) : claim(found, levels, original);
-  if (!found.encloses) return fmt::format("NO: {}: {}", what, found.why_not);
+  Verification of_finite = found;
+  of_finite.encloses |= found.encloses_finite;
+  const std::string what = inner ? claim_of_inner(of_finite, original, levels) : claim(of_finite, levels, original);
+  if (!found.encloses)
+    return fmt::format("NO: {}{}: {}", what, found.encloses_finite ? ", but there is more" : "", found.why_not);
   if (!found.keeps_gap)
     return fmt::format("NO: {}, but {} does not keep the gap of {:.9g}: {}", what, hull, gap, found.why_not);
   std::string how = ", exactly";

@@ -41,13 +41,18 @@ struct ConvexPiece {
   std::variant<std::monostate, OrientedBox, Capsule, Ball> primitive = {};
 };
 
+/// Of the piece as it is: of its capsule, sphere or box.
+double volume_of(const ConvexPiece& piece);
+
 struct ConvexCover {
   std::vector<ConvexPiece> pieces;
   bool certified = false;        ///< the meshes of the pieces cover, proven exactly (verify_union)
   bool covers_inside = false;    ///< what was proven: also the inside, with the openings of the input closed
   bool original_closed = false;  ///< the input bounds a solid by itself: `covers_inside` is about that
-  double volume = 0;  ///< of the union; overlaps count once. Of capsules and spheres that of polytopes around them, as
-                      ///< is `reach`
+  double volume = 0;             ///< of the union; overlaps count once
+  /// The volume is not greater: it is that of polytopes around capsules, or around spheres beside other pieces.
+  /// `reach` is always theirs.
+  bool volume_is_bound = false;
   double original_volume = 0;  ///< as EnclosingHulls::volume; 0 if it is not known
   bool is_estimated = false;   ///< `original_volume` is an estimate, from a wrap
   double void_ratio = 0;       ///< volume / original_volume - 1; infinite if the triangles have no volume

@@ -42,6 +42,8 @@ struct NearFace {
 /// What verify_hull has found. Volumes and distances are in the input's unit.
 struct Verification {
   bool encloses = false;  ///< the verdict, exact; of an inner hull: whether the original encloses it
+  /// The same of the finite triangles alone: the verdict is no for others, unless VerificationOptions::finite_only.
+  bool encloses_finite = false;
   /// How it was decided: "replay" of the vertex splits of a progressive hull, "enclosure" of one closed mesh by
   /// another, or "coverage" of every triangle of an original that is not closed.
   std::string_view proof;

@@ -56,6 +56,8 @@ py::dict common_facts_of(const Cover& cover) {
   facts["volume"] = cover.volume;
   facts["original_volume"] = cover.original_volume;
   facts["reach"] = py::make_tuple(cover.reach.lower, cover.reach.upper);
+  facts["reach_from_triangles"] = py::make_tuple(cover.reach_from_triangles.lower, cover.reach_from_triangles.upper);
+  facts["non_finite_faces"] = cover.non_finite_faces;
   facts["within_bounds"] = cover.within_bounds;
   facts["notes"] = told_notes(cover);
   facts["seconds"] = cover.seconds;

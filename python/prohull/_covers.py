@@ -81,6 +81,8 @@ class ConvexCover(CoverShown):
     volume: float  #: of the union, in cubic units; overlaps count once
     original_volume: float  #: of what lies inside of the mesh, in cubic units
     reach: tuple[float, float]  #: bounds of how far the union reaches out of the mesh, in its unit; the second is proven
+    reach_from_triangles: tuple[float, float]  #: the same without what closes openings of the mesh
+    non_finite_faces: int  #: number of triangles that were left out: a corner is not finite
     within_bounds: bool  #: whether max_distance and max_void_percent hold
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
     seconds: float
@@ -119,6 +121,8 @@ class SphereCover(CoverShown):
     volume: float  #: of the union, in cubic units; overlaps count once
     original_volume: float  #: of what lies inside of the mesh, in cubic units
     reach: tuple[float, float]  #: bounds of how far the balls reach out of the mesh, in its unit; the second is proven
+    reach_from_triangles: tuple[float, float]  #: the same without what closes openings of the mesh, as a wrap does
+    non_finite_faces: int  #: number of triangles that were left out: a corner is not finite
     within_bounds: bool  #: whether max_distance holds
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
     seconds: float

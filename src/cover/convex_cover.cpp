@@ -15,6 +15,7 @@
 #include "cover/cut_tree.h"
 #include "cover/enclosing_options.h"
 #include "cover/piece_hull.h"
+#include "cover/primitives.h"
 #include "cover/shape_choice.h"
 #include "cover/wrap_around.h"
 #include "enclose/known_void.h"
@@ -150,6 +151,20 @@ std::vector<TriangleMesh> meshes_around(const std::vector<ConvexPiece>& pieces) 
 /// The mesh of the piece is larger than what is written.
 bool is_round(const ConvexPiece& piece) {
   return std::holds_alternative<Capsule>(piece.primitive) || std::holds_alternative<Ball>(piece.primitive);
+}
+
+/// Polytopes around round pieces are larger than these, where there are others.
+bool is_known_volume(const std::vector<ConvexPiece>& pieces) {
+  return pieces.size() == 1 || std::ranges::none_of(pieces, is_round) ||
+         std::ranges::all_of(pieces, [](const ConvexPiece& p) { return std::holds_alternative<Ball>(p.primitive); });
+}
+
+double known_volume(const std::vector<ConvexPiece>& pieces, std::span<const TriangleMesh> meshes) {
+  if (pieces.size() == 1 && is_round(pieces.front())) return prohull::volume_of(pieces.front());
+  std::vector<Ball> balls;
+  for (const ConvexPiece& piece : pieces)
+    if (const auto* const ball = std::get_if<Ball>(&piece.primitive)) balls.push_back(*ball);
+  return balls.empty() ? union_volume(meshes) : union_volume(balls);
 }
 
 class Covering {
@@ -417,7 +432,8 @@ class Covering {
     const std::vector<TriangleMesh> meshes = meshes_around(pieces);
     ConvexCover cover;
     cover.pieces = std::move(pieces);
-    cover.volume = union_volume(meshes);
+    cover.volume_is_bound = !is_known_volume(cover.pieces);
+    cover.volume = cover.volume_is_bound ? union_volume(meshes) : known_volume(cover.pieces, meshes);
     cover.is_estimated = material.inside.is_estimated;
     // No estimate may say that the mesh is larger than what covers it.
     if (!cover.is_estimated || material.inside.volume <= cover.volume) cover.original_volume = material.inside.volume;
@@ -455,6 +471,12 @@ Names<PieceShape> piece_shape_names() {
                                                                     {"capsule", PieceShape::Capsule},
                                                                     {"sphere", PieceShape::Ball}};
   return kNames;
+}
+
+double volume_of(const ConvexPiece& piece) {
+  if (const auto* const capsule = std::get_if<Capsule>(&piece.primitive)) return cover::volume(*capsule);
+  if (const auto* const ball = std::get_if<Ball>(&piece.primitive)) return cover::volume(*ball);
+  return signed_volume(piece.mesh);
 }
 
 ConvexCover convex_cover(TriangleMesh triangles, const ConvexCoverOptions& options) {

@@ -284,12 +284,17 @@ void check(std::span<const RigidMotion> motions, const SweepOptions& options) {
 // they are moved.
 EnclosingPolytope polytope_around(std::vector<Vec3> points, double distance, bool float32_coordinates) {
   constexpr double kUnseen = 1e-4;  // by so much of its size a polytope may grow, so that it gets no vertices
-  constexpr double kLargestFloat32 = 1e38;
+  constexpr double kLargestFloat32 = 1e38, kSmallest = 1e-60;
   Box box;
   for (const Vec3& p : points) box.extend(p);
   const double largest = largest_coordinate(box) + distance;
   if (!(largest <= (float32_coordinates ? kLargestFloat32 : kFarthest)))
     throw InputError(Defect::NonFiniteCoordinate, "the sweep goes beyond the numbers that can be stored");
+  if (!(largest >= kSmallest))
+    throw InputError(Defect::NoVolume,
+                     fmt::format("no coordinate of what is swept is larger than {:g}, so that products of them vanish; "
+                                 "scale it",
+                                 kSmallest));
   const double rounding = rounding_of(largest, float32_coordinates), room = distance + rounding;
   TriangleMesh hull = convex_hull(fan_of(points));
   const bool is_flat = hull.face_count() == 0;

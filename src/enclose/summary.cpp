@@ -115,7 +115,8 @@ std::string certificate_of(const EnclosingHulls& made, const EnclosingHull& hull
   if (!written) return "NO: nothing was written; please report this mesh";
   const Verification found = of_file(hull.verdict, made.input);
   if (found.side == HullSide::Outer) return "yes, " + claim(found, "the file as written", "the original");
-  return fmt::format("yes, the file as written is enclosed by the original{}", caps_of(found));
+  return fmt::format("yes, the file as written is enclosed by {}the original{}",
+                     found.non_finite_faces > 0 ? "the finite triangles of " : "", caps_of(found));
 }
 
 std::string described_finest_level(FinestLevel finest_level) {

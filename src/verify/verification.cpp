@@ -156,6 +156,7 @@ class Judge {
   }
 
   void refuse_non_finite_faces() {
+    found.encloses_finite = found.encloses;
     verify::refuse_non_finite_faces(found.non_finite_faces, options_, found.encloses, found.why_not);
   }
 
