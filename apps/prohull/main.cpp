@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <new>
 
 #include "command.h"
@@ -9,6 +10,10 @@
 namespace {
 
 using namespace prohull::cli;
+
+/// Options of all commands that name a file to write.
+constexpr std::array kOutputs{"--out",  "--report", "--certificate",   "--hierarchy",    "--curve",         "--page",
+                              "--html", "--junit",  "--write-budgets", "--write-points", "--write-segments"};
 
 /// What is wrong with the name; empty if nothing is.
 std::string names_an_output(const std::string& name) {
@@ -37,8 +42,9 @@ void add_commands(CLI::App& app, Run& run) {
   add_completion(app, run);
   add_manual(app, run);
   add_help(app, run);
+  app.get_subcommand("cage")->get_option("--inner")->check(names_an_output);  // of query it names an input
   for (CLI::App* command : app.get_subcommands({})) {
-    for (const char* name : {"--out", "--report", "--certificate"})
+    for (const char* name : kOutputs)
       if (CLI::Option* const output = command->get_option_no_throw(name)) output->check(names_an_output);
     CLI::Option* const quiet = command->add_flag(
         "-q,--quiet", console().quiet, "Print no summary and no progress. Errors and files written to - still appear.");

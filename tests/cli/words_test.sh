@@ -36,6 +36,12 @@ for command in "build cube.obj -o h.obj" "convex cube.obj -o h.obj" "spheres cub
   expect 2 "no name of a certificate: $command" $prohull $command --certificate ''
   says err "no name of a certificate: $command" "the name of the output is empty; name a file"
 done
+for output in "build cube.obj -o h.obj --hierarchy" "cage cube.obj -o h.obj --inner" "motion arm.urdf path.csv --curve" \
+  "motion arm.urdf path.csv --page" "urdf arm.urdf --check --html" "urdf arm.urdf --check --junit" "urdf arm.urdf --write-budgets" \
+  "query cube.obj -o hits.csv --random 9 --write-segments" "contains cube.obj -o in.csv --random 9 --write-points"; do
+  expect 2 "no name: $output" $prohull $output ''
+  says err "no name: $output" "the name of the output is empty; name a file"
+done
 expect 2 "a robot is no file" $prohull sample arm -o arm.urdf
 says err "a robot is no file" "name the folder, as in -o arm"
 absent arm.urdf "a robot is no file"
