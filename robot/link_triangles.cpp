@@ -5,11 +5,18 @@
 
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
+#include "robot/form_measures.h"
 
 namespace prohull::robot {
 namespace {
 
 bool mirrors(const Vec3& scale) { return scale.x * scale.y * scale.z < 0; }
+
+TriangleMesh shape_triangles(const Shape& shape, const Frame& frame) {
+  if (std::holds_alternative<OtherForm>(shape.form)) return {};
+  const MeshFile* const file = shape.mesh();
+  return in_frame(file ? mesh_triangles(*file) : form_mesh(shape.form, Curved::Around), shape.origin, frame);
+}
 
 }  // namespace
 
@@ -22,6 +29,8 @@ Frame common_frame(std::span<const Shape> shapes) {
   if (first != Pose{}) frame.same_origin_as = 0;
   return frame;
 }
+
+Pose pose_in(const Frame& frame, const Shape& shape) { return shape.origin == frame.in_link ? Pose{} : shape.origin; }
 
 TriangleMesh mesh_triangles(const MeshFile& mesh) {
   if (mesh.path.empty()) throw InputError(Defect::CannotRead, mesh.why_not);
@@ -40,13 +49,25 @@ TriangleMesh in_frame(TriangleMesh mesh, const Pose& origin, const Frame& frame)
 
 TriangleMesh link_triangles(std::span<const Shape> shapes, const Frame& frame) {
   TriangleMesh triangles;
-  for (const Shape& shape : shapes) {
-    if (std::holds_alternative<OtherForm>(shape.form)) continue;
-    const MeshFile* const file = shape.mesh();
-    append(triangles,
-           in_frame(file ? mesh_triangles(*file) : form_mesh(shape.form, Curved::Around), shape.origin, frame));
-  }
+  for (const Shape& shape : shapes) append(triangles, shape_triangles(shape, frame));
   return triangles;
+}
+
+LinkGeometry link_geometry(std::span<const Shape> shapes, const Frame& frame) {
+  LinkGeometry geometry;
+  auto& [parts, around] = geometry.curved;
+  for (const Shape& shape : shapes) {
+    const TriangleMesh mesh = shape_triangles(shape, frame);
+    append(geometry.triangles, mesh);
+    if (const auto form = curved_form(shape.form, pose_in(frame, shape))) {
+      parts.curved.push_back(*form);
+      around = std::max(around, reach_at_most(mesh, *form));
+    } else {
+      append(parts.triangles, mesh);
+    }
+  }
+  if (parts.curved.empty()) parts = {};
+  return geometry;
 }
 
 }  // namespace prohull::robot

@@ -21,6 +21,9 @@ struct Frame {
 };
 Frame common_frame(std::span<const Shape> shapes);
 
+/// Where the frame of the shape is in that frame.
+Pose pose_in(const Frame& frame, const Shape& shape);
+
 /// A sphere, cylinder or capsule, where the pose puts it; none of any other form.
 std::optional<CurvedForm> curved_form(const Form& form, const Pose& pose = {});
 
@@ -35,6 +38,18 @@ TriangleMesh mesh_triangles(const MeshFile& mesh);
 
 /// All shapes that are meshes or primitives, in `frame`. Curved forms as meshes around them. OtherForm is left out.
 TriangleMesh link_triangles(std::span<const Shape> shapes, const Frame& frame);
+
+/// The geometry of a link with its curved forms themselves.
+struct CurvedParts {
+  SolidPieces parts;  ///< `triangles` of meshes and boxes, and `curved`; empty if no form is curved
+  double around = 0;  ///< how far the meshes around the curved forms reach out of them at most: proven
+};
+
+struct LinkGeometry {
+  TriangleMesh triangles;  ///< as link_triangles makes them
+  CurvedParts curved;
+};
+LinkGeometry link_geometry(std::span<const Shape> shapes, const Frame& frame);
 
 /// Moves a mesh from the frame of its shape into `frame`, not rounded if both are the same.
 TriangleMesh in_frame(TriangleMesh mesh, const Pose& origin, const Frame& frame);

@@ -16,28 +16,14 @@
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
 #include "prohull/union_verification.h"
+#include "robot/form_measures.h"
 #include "robot/side_by_side.h"
 
 namespace prohull::robot {
 namespace {
 
-/// Corners around the axis of the meshes that stand for curved forms where they are shown and their volume is measured:
-/// many forms need fewer each.
-std::size_t shown_segments(std::size_t forms) { return forms <= 8 ? 64 : 32; }
-/// The same where distances are measured.
+/// As shown_segments, where distances are measured.
 std::size_t fine_segments(std::size_t forms) { return forms <= 8 ? 128 : 32; }
-
-TriangleMesh with_forms(TriangleMesh mesh, std::span<const CurvedForm> forms, Curved curved, std::size_t segments) {
-  for (const CurvedForm& form : forms) append(mesh, form.mesh(curved, segments));
-  return mesh;
-}
-
-/// Of a mesh, the corner that is farthest from a convex form is the farthest point.
-double reach_at_most(const TriangleMesh& mesh, const CurvedForm& form) {
-  double upper = 0;
-  for (const Vec3& p : mesh.positions) upper = std::max(upper, form.distance(p).upper);
-  return upper;
-}
 
 /// How far the meshes around the forms reach out of them.
 double reach_of_meshes(std::span<const CurvedForm> forms, std::size_t segments) {
@@ -45,10 +31,6 @@ double reach_of_meshes(std::span<const CurvedForm> forms, std::size_t segments) 
   for (const CurvedForm& form : forms)
     upper = std::max(upper, reach_at_most(form.mesh(Curved::Around, segments), form));
   return upper;
-}
-
-DistanceBounds widened(const DistanceBounds& bounds, double above, double below) {
-  return {std::max(0.0, bounds.lower - below), bounds.upper + above, bounds.farthest};
 }
 
 /// Of a mesh that encloses what is measured, and of one within it.
@@ -157,7 +139,7 @@ class LinkChecker {
 
   void note(std::string sentence) { check_.notes.push_back(std::move(sentence)); }
 
-  Pose pose_of(const Shape& shape) const { return shape.origin == frame_.in_link ? Pose{} : shape.origin; }
+  Pose pose_of(const Shape& shape) const { return pose_in(frame_, shape); }
 
   void see(const Vec3& p, const Pose& pose) {
     if (!is_finite(p)) return;
@@ -287,26 +269,13 @@ class LinkChecker {
     }
   }
 
-  /// Curved forms that overlap other pieces count as meshes with their volume.
-  InsideVolume volume_of(const SolidPieces& all) const {
-    if (all.empty()) return {};
-    if (const auto balls = only_balls(all); !balls.empty()) return {union_volume(balls)};
-    InsideVolume inside = volume_inside(prepared_for_hulls(with_same_volume(all)), progress_);
-    inside.is_estimated |= !all.curved.empty() && (all.triangles.face_count() > 0 || all.curved.size() > 1);
-    return inside;
-  }
-
-  static TriangleMesh with_same_volume(const SolidPieces& all) {
-    return with_forms(all.triangles, all.curved, Curved::SameVolume, shown_segments(all.curved.size()));
-  }
-
   InsideVolume volume_of_visual(const RepairedMesh& visual) const {
-    return visual_.curved.empty() ? volume_inside(visual, progress_) : volume_of(visual_);
+    return visual_.curved.empty() ? volume_inside(visual, progress_) : volume_of(visual_, progress_);
   }
 
   void measure_volumes(const std::optional<RepairedMesh>& visual) {
     const InsideVolume inside = measured([&] { return visual ? volume_of_visual(*visual) : InsideVolume{}; });
-    const InsideVolume collision = measured([&] { return volume_of(pieces_); });
+    const InsideVolume collision = measured([&] { return volume_of(pieces_, progress_); });
     check_.collision_volume = collision.volume;
     // No estimate may say that what is covered is larger than what covers it.
     const bool is_exact = !inside.is_estimated && !collision.is_estimated;
@@ -349,9 +318,8 @@ class LinkChecker {
 
   /// From the visual geometry as a mesh, which is around its curved forms: the solid reaches farther than theirs.
   void measure_reach_from(const TriangleMesh& from, bool is_solid) {
-    check_.reach = reach_of(other_pieces(), from, is_solid);
-    const double error = reach_of_meshes(visual_.curved, shown_segments(link_.visual.size()));
-    check_.reach = widened(check_.reach, error, is_solid ? 0 : error);
+    const double around = reach_of_meshes(visual_.curved, shown_segments(link_.visual.size()));
+    check_.reach = from_forms(reach_of(other_pieces(), from, is_solid), around, is_solid);
     MeshQuery query{QueryIndex(from)};
     check_.mean_distance = mean_over(fine_mesh(pieces_, Curved::Within), [&](const Vec3& p) {
       return is_solid ? std::max(0.0, query.signed_distance(p).distance) : query.closest_point(p)->distance;

@@ -16,6 +16,7 @@
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "prohull/sphere_cover.h"
+#include "robot/form_measures.h"
 #include "robot/hulls/cache.h"
 #include "robot/hulls/verdict.h"
 #include "robot/side_by_side.h"
@@ -30,7 +31,19 @@ struct Plan {
   std::vector<Shape> hulled = {};         ///< shapes that the hull encloses
   std::vector<std::size_t> numbers = {};  ///< where each of `hulled` is among the shapes of the link
   std::uintmax_t bytes = 0;               ///< total size of the mesh files of `hulled`
+  CurvedParts curved = {};                ///< of `hulled`
   std::string key = {};                   ///< key_of its triangles
+
+  /// Of hulls of the triangles, which have meshes around curved forms.
+  Budget budget_of_triangles() const {
+    Budget narrowed = budget;
+    if (budget.max_distance > 0)
+      narrowed.max_distance = distance_left(budget, curved.around).value_or(budget.max_distance);
+    return narrowed;
+  }
+  JudgedGeometry geometry(const TriangleMesh& triangles, const RepairedMesh& input) const {
+    return {triangles, input, curved};
+  }
 };
 
 void require_links(const Robot& robot, const LinkHullOptions& options) {
@@ -147,20 +160,29 @@ EnclosingOptions enclosing_options(const Budget& budget, const LinkHullOptions& 
   return enclosing;
 }
 
-/// What `input` tells of the geometry within the judged hulls. An exact volume may be known from this run's
+double convex_volume(const JudgedGeometry& geometry) {
+  const SolidPieces& parts = geometry.curved.parts;
+  const auto of_original = [](const RepairedMesh& input) { return signed_volume(convex_hull(input.original)); };
+  return of_original(parts.empty() ? geometry.input : prepared_for_hulls(with_same_volume(parts)));
+}
+
+/// What is told of the geometry within the judged hulls. An exact volume of the triangles may be known from this run's
 /// construction.
-void describe_input(const RepairedMesh& input, LinkHulls& result, const Progress& go_on) {
-  if (!(result.sealed_volume > 0)) result.sealed_volume = sealed_volume(input, result.hulls, go_on);
+void describe_input(const JudgedGeometry& geometry, LinkHulls& result, const Progress& go_on) {
+  const RepairedMesh& input = geometry.input;
+  if (!(result.sealed_volume > 0) || !geometry.curved.parts.empty())
+    result.sealed_volume = sealed_volume(geometry, result.hulls, go_on);
   result.non_finite_faces = input.repairs.dropped_non_finite_faces;
-  result.convex_volume = signed_volume(convex_hull(input.original));
+  result.convex_volume = convex_volume(geometry);
   result.repairs = describe(input.repairs);
 }
 
 /// They return the repaired geometry.
-RepairedMesh build_hulls(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
-  const EnclosingOptions enclosing = enclosing_options(plan.budget, options, go_on);
+RepairedMesh build_hulls(const Budget& budget, const LinkHullOptions& options, LinkHulls& result,
+                         const Progress& go_on) {
+  const EnclosingOptions enclosing = enclosing_options(budget, options, go_on);
   if (enclosing.hull.float32_coordinates) check_float32_spacing(result.triangles);
-  EnclosingHulls made = enclosing_hulls(result.triangles, plan.budget.faces, enclosing);
+  EnclosingHulls made = enclosing_hulls(result.triangles, budget.faces, enclosing);
   for (const EnclosingHull& hull : made.hulls) result.hulls.push_back(link_hull(hull));
   if (!made.is_estimated) result.sealed_volume = made.volume;
   return std::move(made.input);
@@ -191,10 +213,10 @@ void take_cover(const Cover& cover, LinkHulls& result) {
 
 /// Constructs the hulls, which are not judged yet, and returns the repaired geometry.
 RepairedMesh build(const Plan& plan, const LinkHullOptions& options, LinkHulls& result, const Progress& go_on) {
-  const Budget& budget = plan.budget;
+  const Budget budget = plan.budget_of_triangles();
   switch (budget.collision) {
     case Collision::Hull:
-      return build_hulls(plan, options, result, go_on);
+      return build_hulls(budget, options, result, go_on);
     case Collision::Convex:
       take_cover(pieces_around(result.triangles, budget, options, go_on), result);
       break;
@@ -209,11 +231,12 @@ RepairedMesh build(const Plan& plan, const LinkHullOptions& options, LinkHulls& 
 bool take_proposal(std::vector<LinkHull> proposal, const Plan& plan, const LinkHullOptions& options, LinkHulls& result,
                    const Progress& go_on) {
   const RepairedMesh input = prepared_for_hulls(result.triangles);
-  auto hulls = verified(std::move(proposal), result.triangles, input, plan.budget,
+  const JudgedGeometry geometry = plan.geometry(result.triangles, input);
+  auto hulls = verified(std::move(proposal), geometry, plan.budget,
                         stores_float32(mesh_format("hull." + options.format)), go_on);
   if (!hulls) return false;
   result.hulls = *std::move(hulls);
-  describe_input(input, result, go_on);
+  describe_input(geometry, result, go_on);
   return true;
 }
 
@@ -242,8 +265,9 @@ void add_hulls(const Plan& plan, const LinkHullOptions& options, LinkHulls& resu
   if (!result.from_cache) {
     const RepairedMesh input = build(plan, options, result, go_on);
     cache.keep(plan.key, result.hulls);
-    for (LinkHull& hull : result.hulls) judge(hull, result.triangles, input, plan.budget, go_on);
-    describe_input(input, result, go_on);
+    const JudgedGeometry geometry = plan.geometry(result.triangles, input);
+    for (LinkHull& hull : result.hulls) judge(hull, geometry, plan.budget, go_on);
+    describe_input(geometry, result, go_on);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -321,10 +345,11 @@ std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& opt
     }
   }
   if (!missing.empty() && !options.skip_missing)
-    throw InputError(Defect::CannotRead,
-                     fmt::format("{}: mesh files were not found: {}; say where packages are by --package-path, or leave "
-                                 "these links as they are by --skip-missing",
-                                 robot.name, missing));
+    throw InputError(
+        Defect::CannotRead,
+        fmt::format("{}: mesh files were not found: {}; say where packages are by --package-path, or leave "
+                    "these links as they are by --skip-missing",
+                    robot.name, missing));
   // The largest first, so that none of them is left alone in the end.
   std::ranges::stable_sort(plans, std::greater(), &Plan::bytes);
   const auto names_of = [&](const auto& some) {
@@ -335,17 +360,21 @@ std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& opt
   std::vector<Plan*> all;
   for (Plan& plan : plans) all.push_back(&plan);
   side_by_side(names_of(all), options.threads, {}, [&](std::size_t i, const Progress&) {
-    LinkHulls& result = results[all[i]->link];
-    name_link_in_errors(robot.links[all[i]->link],
-                        [&] { result.triangles = link_triangles(all[i]->hulled, result.frame); });
-    all[i]->key = key_of(result.triangles, all[i]->budget, options);
+    Plan& plan = *all[i];
+    LinkHulls& result = results[plan.link];
+    name_link_in_errors(robot.links[plan.link], [&] {
+      LinkGeometry geometry = link_geometry(plan.hulled, result.frame);
+      result.triangles = std::move(geometry.triangles), plan.curved = std::move(geometry.curved);
+    });
+    plan.key = key_of(result.triangles, plan.budget_of_triangles(), options);
   });
   // Links with the same geometry, as wheels and fingers are, share their hulls.
   std::map<std::string_view, const Plan*> first;
   std::vector<const Plan*> to_build;
   const auto shares = [&](const Plan& plan) {
     const Plan& other = *first.try_emplace(plan.key, &plan).first->second;
-    return &other != &plan && results[other.link].triangles == results[plan.link].triangles;
+    return &other != &plan && results[other.link].triangles == results[plan.link].triangles &&
+           other.curved.parts.curved == plan.curved.parts.curved;
   };
   for (const Plan& plan : plans)
     if (!shares(plan)) to_build.push_back(&plan);

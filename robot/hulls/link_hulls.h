@@ -73,7 +73,7 @@ struct LinkHull {
   bool target_reached = false, within_bounds = true;
   std::string source = {};       ///< "mesh", "convex-hull" or "wrap": what a hull was built from
   double volume = 0;             ///< of the union
-  DistanceBounds distance = {};  ///< from the triangles and the caps of their openings
+  DistanceBounds distance = {};  ///< from the geometry, curved forms themselves, and the caps of its openings
   bool has_openings = false;     ///< there are such caps: the two distances may differ
   DistanceBounds distance_from_triangles = {};
   double padding = 0;  ///< proven least distance from the triangles; 0 if none was asked for
@@ -100,12 +100,12 @@ struct LinkHulls {
   std::string why;                      ///< why it was skipped, or what is not read
   Frame frame;                          ///< of the meshes among the shapes, and of `triangles` and the hulls; with
                                         ///< spheres that of the link
-  TriangleMesh triangles;               ///< of the meshes among the shapes: what the hulls enclose
+  TriangleMesh triangles;               ///< of the shapes, meshes around curved ones: what the hulls enclose
   std::size_t non_finite_faces = 0;     ///< of `triangles`: they are left out
   std::vector<std::size_t> primitives;  ///< shapes that are kept beside the hull; with spheres only spheres are
   std::vector<LinkHull> hulls;          ///< one for each number of faces; empty unless Hulled
-  double sealed_volume = 0;             ///< of what lies inside of the triangles; 0: unknown
-  double convex_volume = 0;             ///< of their convex hull
+  double sealed_volume = 0;             ///< of what lies inside of the geometry; 0: unknown
+  double convex_volume = 0;             ///< of its convex hull
   std::vector<std::string> repairs;     ///< sentences: what was repaired, which openings were closed
   double seconds = 0;
   bool from_cache = false;

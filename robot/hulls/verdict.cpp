@@ -1,5 +1,7 @@
 #include "robot/hulls/verdict.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,6 +10,7 @@
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "prohull/verification.h"
+#include "robot/form_measures.h"
 
 namespace prohull::robot {
 namespace {
@@ -27,13 +30,17 @@ void measure_distances(LinkHull& hull, const TriangleMesh& sealed, const Repaire
 
 /// A reach counts the caps of a solid only.
 template <class Parts>
-void measure_reaches(LinkHull& hull, const Parts& parts, const RepairedMesh& input, const Progress& go_on) {
+void measure_reaches(LinkHull& hull, const Parts& parts, const JudgedGeometry& geometry, const Progress& go_on) {
+  const RepairedMesh& input = geometry.input;
   measure_distances(hull, solid_of(input), input, input.closed && input.caps.face_count() > 0,
-                    [&](const TriangleMesh& from) { return union_reach(parts, from, {.progress = go_on}); });
+                    [&](const TriangleMesh& from) {
+                      const DistanceBounds reach = union_reach(parts, from, {.progress = go_on});
+                      return from_forms(reach, geometry.curved.around, is_closed(from));
+                    });
 }
 
-void judge_hull(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Budget& budget,
-                const Progress& go_on) {
+void judge_hull(LinkHull& hull, const JudgedGeometry& geometry, const Budget& budget, const Progress& go_on) {
+  const auto& [triangles, input, curved] = geometry;
   const double gap = budget.padding > 0 ? hull.padding : 0;
   const Verification found = verify_hull(hull.mesh, triangles, HullSide::Outer,
                                          {.gap = gap, .finite_only = true, .max_offenders = 0, .progress = go_on});
@@ -43,29 +50,31 @@ void judge_hull(LinkHull& hull, const TriangleMesh& triangles, const RepairedMes
   hull.self_intersections = found.self_intersections;
   TriangleMesh sealed = solid_of(input);
   if (!input.closed) append(sealed, input.caps);
-  measure_distances(hull, sealed, input, input.caps.face_count() > 0,
-                    [&](const TriangleMesh& from) { return distance_bounds(hull.mesh, from, {.progress = go_on}); });
+  measure_distances(hull, sealed, input, input.caps.face_count() > 0, [&](const TriangleMesh& from) {
+    return from_forms(distance_bounds(hull.mesh, from, {.progress = go_on}), curved.around, hull.certified);
+  });
   if (budget.max_distance > 0 && hull.within_bounds && hull.distance.upper > budget.max_distance)
     hull.notes.emplace_back("keeps the largest distance only if the openings that its wrap closed count as closed");
 }
 
-void judge_pieces(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Progress& go_on) {
+void judge_pieces(LinkHull& hull, const JudgedGeometry& geometry, const Progress& go_on) {
   const UnionVerification found =
-      verify_union(hull.pieces, triangles, {.finite_only = true, .max_offenders = 1, .progress = go_on});
+      verify_union(hull.pieces, geometry.triangles, {.finite_only = true, .max_offenders = 1, .progress = go_on});
   hull.mesh = mesh_of(hull.pieces, {});
   hull.volume = found.union_volume;
   hull.certified = found.covers;
   hull.proof = "union";
-  measure_reaches(hull, hull.pieces, input, go_on);
+  measure_reaches(hull, hull.pieces, geometry, go_on);
 }
 
-void judge_balls(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Progress& go_on) {
+void judge_balls(LinkHull& hull, const JudgedGeometry& geometry, const Progress& go_on) {
   hull.certified =
-      verify_union(hull.balls, triangles, false, {.finite_only = true, .max_offenders = 1, .progress = go_on}).covers;
+      verify_union(hull.balls, geometry.triangles, false, {.finite_only = true, .max_offenders = 1, .progress = go_on})
+          .covers;
   hull.proof = "union";
   hull.mesh = mesh_of({}, hull.balls);
   hull.volume = union_volume(hull.balls);
-  measure_reaches(hull, hull.balls, input, go_on);
+  measure_reaches(hull, hull.balls, geometry, go_on);
 }
 
 bool keeps_float32(const TriangleMesh& mesh) {
@@ -103,36 +112,47 @@ std::vector<std::size_t> targets_of(const Budget& budget) {
 
 }  // namespace
 
-void judge(LinkHull& hull, const TriangleMesh& triangles, const RepairedMesh& input, const Budget& budget,
-           const Progress& go_on) {
+std::optional<double> distance_left(const Budget& budget, double around) {
+  double left = budget.max_distance - around;
+  while (left + around > budget.max_distance) left = std::nextafter(left, 0.0);
+  return left > budget.padding ? std::optional(left) : std::nullopt;
+}
+
+void judge(LinkHull& hull, const JudgedGeometry& geometry, const Budget& budget, const Progress& go_on) {
+  if (budget.max_distance > 0 && !distance_left(budget, geometry.curved.around)) {
+    hull.within_bounds = false;
+    hull.notes.push_back(fmt::format(
+        "keeps no largest distance: the meshes around its curved shapes reach out of them by up to {:.3g} mm",
+        geometry.curved.around * 1000));
+  }
   switch (budget.collision) {
     case Collision::Hull:
-      judge_hull(hull, triangles, input, budget, go_on);
+      judge_hull(hull, geometry, budget, go_on);
       break;
     case Collision::Convex:
-      judge_pieces(hull, triangles, input, go_on);
+      judge_pieces(hull, geometry, go_on);
       break;
     case Collision::Spheres:
-      judge_balls(hull, triangles, input, go_on);
+      judge_balls(hull, geometry, go_on);
       break;
   }
   if (!hull.certified) hull.proof.clear();
 }
 
-double sealed_volume(const RepairedMesh& input, std::span<const LinkHull> hulls, const Progress& go_on) {
-  const InsideVolume inside = volume_inside(input, go_on);
+double sealed_volume(const JudgedGeometry& geometry, std::span<const LinkHull> hulls, const Progress& go_on) {
+  const SolidPieces& parts = geometry.curved.parts;
+  const InsideVolume inside = parts.empty() ? volume_inside(geometry.input, go_on) : volume_of(parts, go_on);
   const auto encloses = [&](const LinkHull& hull) { return hull.volume >= inside.volume; };
   return !inside.is_estimated || std::ranges::all_of(hulls, encloses) ? inside.volume : 0;
 }
 
-std::optional<std::vector<LinkHull>> verified(std::vector<LinkHull> proposal, const TriangleMesh& triangles,
-                                              const RepairedMesh& input, const Budget& budget, bool float32,
-                                              const Progress& go_on) {
+std::optional<std::vector<LinkHull>> verified(std::vector<LinkHull> proposal, const JudgedGeometry& geometry,
+                                              const Budget& budget, bool float32, const Progress& go_on) {
   if (!std::ranges::equal(proposal, targets_of(budget), {}, &LinkHull::target_faces)) return std::nullopt;
   for (LinkHull& hull : proposal) {
     if (!is_as_asked(hull, budget, float32)) return std::nullopt;
     try {
-      judge(hull, triangles, input, budget, go_on);
+      judge(hull, geometry, budget, go_on);
     } catch (const InputError&) {  // it bounds no solid
       return std::nullopt;
     }

@@ -1,11 +1,14 @@
 #include "robot/hulls/link_hulls.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <limits>
+#include <numbers>
 
 #include "effort.h"
 #include "io/compressing.h"
@@ -529,6 +532,126 @@ TEST_F(LinkHullsTest, WithPaddingEncloseThePrimitivesToo) {
   for (const std::size_t link : {0U, 1U, 2U}) {
     EXPECT_TRUE(made[link].hulls[0].certified);
     EXPECT_GE(made[link].hulls[0].padding, 0.02);
+  }
+}
+
+/// Links of curved forms. Corners of a hull are its farthest points from a convex form.
+class CurvedLinksTest : public LinkHullsTest {
+ protected:
+  CurvedLinksTest() { options_.budget.padding = 0.002; }
+
+  void make_links(const std::vector<std::vector<Shape>>& visual) {
+    robot_.links.clear();
+    for (std::size_t i = 0; i < visual.size(); ++i)
+      robot_.links.push_back({.name = fmt::format("link{}", i), .visual = visual[i]});
+  }
+
+  /// At corners of a hull, and at points of balls.
+  double reach_at_points(const LinkHulls& made) const {
+    TriangleMesh points = made.hulls.at(0).mesh;
+    if (!made.hulls[0].balls.empty()) points = {};
+    for (const Ball& ball : made.hulls[0].balls) append(points, CurvedForm::sphere(ball).mesh(Curved::Within, 32));
+    double reach = 0;
+    for (const Vec3& p : points.positions) {
+      double distance = std::numeric_limits<double>::infinity();
+      for (const Shape& shape : robot_.links[made.link].visual)
+        distance = std::min(distance, curved_form(shape.form, pose_in(made.frame, shape))->distance(p).lower);
+      reach = std::max(reach, distance);
+    }
+    return reach;
+  }
+
+  const Pose turned_ = pose_of_rpy({0.1, 0.2, 0.3}, {0.4, 0.5, 0.6});
+  const Shape cylinder_{.form = CylinderForm{0.5, 1}}, capsule_{.form = CapsuleForm{0.25, 0.5}, .origin = turned_},
+      ball_{.form = SphereForm{0.5}, .origin = translation_by({1, 2, 3})};
+};
+
+TEST_F(CurvedLinksTest, BoundsHoldForTheFormsThemselves) {
+  make_links({{cylinder_}, {capsule_}, {ball_}, {cylinder_, ball_}});
+  options_.budget.faces = {effort(4000, 2000)};
+  for (const LinkHulls& made : link_hulls(robot_, options_)) {
+    SCOPED_TRACE(made.link);
+    const LinkHull& hull = made.hulls.at(0);
+    EXPECT_TRUE(hull.certified);
+    const double reach = reach_at_points(made);
+    EXPECT_GE(hull.distance.upper, reach - 1e-12);
+    EXPECT_GE(hull.distance_from_triangles.upper, reach - 1e-12);
+    EXPECT_LE(hull.distance.lower, reach + 1e-12);
+    EXPECT_LE(hull.distance.upper, reach + 0.002);
+  }
+}
+
+TEST_F(CurvedLinksTest, KeepTheLargestDistanceFromTheFormsThemselves) {
+  make_links({{cylinder_}});
+  options_.budget.max_distance = 0.0035;
+  options_.cache = folder_.path() / "cache";
+  for (const bool from_cache : {false, true}) {
+    const LinkHulls made = link_hulls(robot_, options_).at(0);
+    EXPECT_EQ(made.from_cache, from_cache);
+    EXPECT_TRUE(made.hulls.at(0).within_bounds);
+    EXPECT_LE(made.hulls[0].distance.upper, 0.0035);
+    EXPECT_LE(reach_at_points(made), 0.0035);
+  }
+}
+
+/// A mesh around the cylinder reaches out of it by 1.2 mm, and the hull keeps a gap of 2 mm from the mesh.
+TEST_F(CurvedLinksTest, KeepNoDistanceThatIsLessThanThatOfTheMeshesAround) {
+  make_links({{cylinder_}});
+  options_.budget.max_distance = 0.003;
+  options_.cache = folder_.path() / "cache";
+  for (const bool from_cache : {false, true}) {
+    const LinkHulls made = link_hulls(robot_, options_).at(0);
+    EXPECT_EQ(made.from_cache, from_cache);
+    EXPECT_TRUE(made.hulls.at(0).certified);
+    EXPECT_FALSE(made.hulls[0].within_bounds);
+    ASSERT_FALSE(made.hulls[0].notes.empty());
+    EXPECT_NE(made.hulls[0].notes.back().find("curved"), std::string::npos);
+  }
+}
+
+TEST_F(CurvedLinksTest, SpheresKeepTheLargestDistanceFromTheFormsThemselves) {
+  make_links({{capsule_}});
+  options_.budget = {.collision = Collision::Spheres, .spheres = 200, .max_distance = 0.03};
+  const LinkHulls made = link_hulls(robot_, options_).at(0);
+  const LinkHull& cover = made.hulls.at(0);
+  EXPECT_TRUE(cover.certified && cover.within_bounds);
+  EXPECT_LE(cover.distance.upper, 0.03);
+  EXPECT_GE(cover.distance.upper, reach_at_points(made) - 1e-12);
+}
+
+TEST_F(CurvedLinksTest, VolumesAreThoseOfTheForms) {
+  make_links({{cylinder_}, {ball_}, {capsule_}, {ball_, {.form = BoxForm{{0.5, 0.5, 0.5}}}}});
+  const double pi = std::numbers::pi, ball = 4 * pi / 3 * std::pow(0.5, 3);
+  const std::array volumes{pi / 4, ball, 4 * pi / 3 * std::pow(0.25, 3) + pi / 32, ball + 0.125};
+  options_.cache = folder_.path() / "cache";
+  for (const bool from_cache : {false, true}) {
+    const std::vector<LinkHulls> made = link_hulls(robot_, options_);
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+      SCOPED_TRACE(i);
+      EXPECT_EQ(made[i].from_cache, from_cache);
+      EXPECT_NEAR(made[i].sealed_volume, volumes[i], 1e-9);
+      if (robot_.links[i].visual.size() > 1) continue;
+      EXPECT_NEAR(made[i].convex_volume, volumes[i], 1e-9);
+    }
+  }
+}
+
+TEST_F(CurvedLinksTest, AreNotSharedWithMeshesOfTheSameTriangles) {
+  folder_.add("prism.ply", link_triangles({&cylinder_, 1}, {}));
+  make_links({{cylinder_}, {mesh("prism.ply")}});
+  const std::vector<LinkHulls> made = link_hulls(robot_, options_);
+  ASSERT_EQ(made[0].triangles, made[1].triangles);
+  EXPECT_EQ(made[0].hulls.at(0).mesh, made[1].hulls.at(0).mesh);
+  EXPECT_NEAR(made[0].hulls[0].distance.upper - made[1].hulls[0].distance.upper, 0.0012, 1e-4);
+  EXPECT_EQ(made[0].hulls[0].distance.lower, made[1].hulls[0].distance.lower);
+  EXPECT_NEAR(made[1].sealed_volume / made[0].sealed_volume, 1.0032, 1e-3);
+}
+
+TEST_F(CurvedLinksTest, MayBeFlat) {
+  make_links({{{.form = CylinderForm{0.5, 0}}}, {{.form = CylinderForm{0, 1}}}});
+  for (const LinkHulls& made : link_hulls(robot_, options_)) {
+    EXPECT_TRUE(made.hulls.at(0).certified);
+    EXPECT_LT(made.sealed_volume, 1e-9);
   }
 }
 
