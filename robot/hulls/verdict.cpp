@@ -40,9 +40,9 @@ void measure_reaches(LinkHull& hull, const Parts& parts, const JudgedGeometry& g
 }
 
 void judge_hull(LinkHull& hull, const JudgedGeometry& geometry, const Budget& budget, const Progress& go_on) {
-  const auto& [triangles, input, curved] = geometry;
+  const RepairedMesh& input = geometry.input;
   const double gap = budget.padding > 0 ? hull.padding : 0;
-  const Verification found = verify_hull(hull.mesh, triangles, HullSide::Outer,
+  const Verification found = verify_hull(hull.mesh, geometry.triangles, HullSide::Outer,
                                          {.gap = gap, .finite_only = true, .max_offenders = 0, .progress = go_on});
   hull.certified = found.holds() && hull.padding >= budget.padding;
   hull.proof = budget.padding > 0 ? "padding" : found.proof;
@@ -51,7 +51,7 @@ void judge_hull(LinkHull& hull, const JudgedGeometry& geometry, const Budget& bu
   TriangleMesh sealed = solid_of(input);
   if (!input.closed) append(sealed, input.caps);
   measure_distances(hull, sealed, input, input.caps.face_count() > 0, [&](const TriangleMesh& from) {
-    return from_forms(distance_bounds(hull.mesh, from, {.progress = go_on}), curved.around, hull.certified);
+    return from_forms(distance_bounds(hull.mesh, from, {.progress = go_on}), geometry.curved.around, hull.certified);
   });
   if (budget.max_distance > 0 && hull.within_bounds && hull.distance.upper > budget.max_distance)
     hull.notes.emplace_back("keeps the largest distance only if the openings that its wrap closed count as closed");
