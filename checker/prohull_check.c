@@ -920,25 +920,27 @@ static int is_closed(const Mesh* m) {
   return !sum.used;
 }
 
-/* Of six times the volume of the component of triangle r, exactly. */
-static int sign_of_volume(const Mesh* m, uint32_t* parent, uint32_t r) {
+/* Of six times the volume of the component of triangle r, or of all, exactly. */
+static int sign_of_volume(const Mesh* m, uint32_t* parent, uint32_t r, int all) {
   Number normal[3], way[3], part, sum = zero;
   const Point base = points[m->t[r][0]];
   exactly = 1, spend(m->n);
   for (uint32_t i = 0; i < m->n; ++i) {
-    if (root(parent, i) != r) continue;
+    if (!all && root(parent, i) != r) continue;
     set_normal(normal, points[m->t[i][0]], base, points[m->t[i][1]], base), set_way(way, points[m->t[i][2]], base);
     dot(&part, normal, way), add(&sum, &sum, &part, 1);
   }
   return sign_of(&sum);
 }
 
-/* Turns the components of the named triangles, whose volumes must be negative. */
-static void turn_components(const Mesh* m, File* f, uint64_t count) {
+/* Turns the components of the named triangles, whose volumes must be negative; if all are named, their sum.
+   Returns whether all are. */
+static int turn_components(const Mesh* m, File* f, uint64_t count) {
   uint32_t* const parent = each_alone(m->n);
   double(*const volume)[2] = filled(m->n, sizeof *volume, 0); /* of each component, and its error */
   unsigned char* const named = filled(m->n, 1, 0);
   Map edges = {NULL, 0, 0};
+  int all = 1;
   for (size_t i = 0; i < 3 * m->n; ++i) {
     const uint32_t a = m->t[i / 3][i % 3], b = m->t[i / 3][(i + 1) % 3];
     int64_t* const first = &slot_at(&edges, a < b ? a : b, a < b ? b : a, NONE)->value;
@@ -954,10 +956,15 @@ static void turn_components(const Mesh* m, File* f, uint64_t count) {
     volume[r][0] += rounded(p, &error), volume[r][1] += 1.01 * error + 1e-15 * size_of(volume[r][0]);
     t[1] = t[2], t[2] = x;
   }
+  for (uint32_t i = 0; i < m->n; ++i) all &= named[root(parent, i)];
+  for (uint32_t i = 0, r = root(parent, 0); i < m->n && all; ++i)
+    if (named[i] && i != r)
+      volume[r][0] += volume[i][0], volume[r][1] += volume[i][1] + 1e-15 * size_of(volume[r][0]), named[i] = 0;
   for (uint32_t i = 0; i < m->n; ++i)
-    if (named[i] && !(volume[i][0] < -volume[i][1]) && sign_of_volume(m, parent, i) <= 0) /* now that it is turned */
+    if (named[i] && !(volume[i][0] < -volume[i][1]) && sign_of_volume(m, parent, i, all) <= 0) /* now that it is turned */
       end(1, "the volume of the component of triangle %u of the original is not negative", i);
   free(edges.slot), free(parent), free(volume), free(named);
+  return all;
 }
 
 static void prove_tetrahedra(Case* c) {
@@ -1348,7 +1355,7 @@ int main(int count, char** names) {
     end(1, "the certificate is for other meshes: hull and original have %lu and %lu triangles",
         COUNT(c.hull.n + c.balls), COUNT(c.original.n));
   const uint64_t turned = number(f, c.original.n + 1);
-  if (turned) turn_components(&c.original, f, turned);
+  const int all = turned && turn_components(&c.original, f, turned);
   for (unsigned seen = 1; !(c.claims && f->at == f->end);) {
     const uint64_t kind = number(f, 7);
     if (seen >> kind & 1 || (kind == 6 && seen > 1) || (kind < 6 && (c.ball != NULL) != (kind == 3)) ||
@@ -1367,7 +1374,7 @@ int main(int count, char** names) {
     if (c.claims & k & DISTANCE) printf("no point of the hull is farther than %.17g from the triangles", c.distance);
   }
   if (c.original.infinite) printf("; triangles of the original that are not finite: %lu", COUNT(c.original.infinite));
-  if (turned) printf("; components of the original that are turned: %lu", COUNT(turned));
+  if (turned) printf("; components of the original that are turned: %lu%s", COUNT(turned), all ? ", which are all" : "");
   if (c.original.scale != 1) printf("; the original is scaled by %.17g", c.original.scale);
   putchar('\n');
   return 0;

@@ -77,12 +77,13 @@ FiniteOriginal::FiniteOriginal(const TriangleMesh& mesh)
   for (const FaceId f : turned.triangles.ids())
     if (turned.triangles[f] != triangles.triangles[f]) faces.push_back(f);
   if (faces.empty()) return;
+  const bool are_all = faces.size() == turned.face_count();  // inside out as a whole, with its cavities
   for (const std::vector<FaceId>& component : components(triangles, faces)) {
     std::vector<Triangle> corners;
     for (const FaceId f : component) corners.push_back(triangles.triangle(f));
-    if (volume_sign(corners) < 0)
+    if (are_all || volume_sign(corners) < 0)
       turned_components.push_back(index(component.front()));
-    else  // a cavity of what is turned, which no checker turns
+    else  // which no checker turns
       for (const FaceId f : component) turned.triangles[f] = triangles.triangles[f];
   }
 }

@@ -101,6 +101,15 @@ class Tetrahedra(Checked):
         self.expect(NOT_PROVEN, "", [tetrahedra(added, fans)], hull, turned)
         self.expect(NOT_PROVEN, "not negative", [tetrahedra(added, fans)], hull, CUBE, turned=[7])
 
+    def test_know_what_is_inside_out_as_a_whole(self):
+        cavity = box((1, 1, 1), (3, 3, 3))
+        hollow = both((CUBE[0], [(a, c, b) for a, b, c in CUBE[1]]), cavity)
+        hull = both(WIDE, (cavity[0], [(a, c, b) for a, b, c in cavity[1]]))
+        inside = len(CUBE[1])
+        self.expect(PROVEN, "turned: 2, which are all", [surfaces()], hull, hollow, turned=[0, inside])
+        self.expect(NOT_PROVEN, "hole", [surfaces()], hull, hollow, turned=[0])
+        self.expect(NOT_PROVEN, "not negative", [surfaces()], hull, both(CUBE, (cavity[0], [(a, c, b) for a, b, c in cavity[1]])), turned=[0, inside])
+
     def test_know_turned_components_of_any_size(self):
         for scale in (2.0**-300, 2.0**300):
             hull, cube = scaled(WIDE, scale), scaled(CUBE, scale)
