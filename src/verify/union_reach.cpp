@@ -31,12 +31,11 @@ namespace {
 class Target {
  public:
   explicit Target(const TriangleMesh& original)
-      : is_closed_(is_closed(original)),
-        mesh_(is_closed_ ? verify::without_cavities(original, "original") : original),
-        faces_(mesh_) {
+      : is_closed_(is_closed(original)), mesh_(is_closed_ ? turned_outwards(original) : original), faces_(mesh_) {
     if (!is_closed_) return;
+    const TriangleMesh filled = verify::without_cavities(original, "original");
     std::vector<Triangle> triangles;
-    for (const FaceId f : mesh_.triangles.ids()) triangles.push_back(mesh_.triangle(f));
+    for (const FaceId f : filled.triangles.ids()) triangles.push_back(filled.triangle(f));
     winding_.emplace(std::move(triangles));
   }
 
