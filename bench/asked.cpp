@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "bound_trials.h"
 #include "command.h"
 #include "machine.h"
 #include "models.h"
@@ -31,6 +32,7 @@ struct AskedOptions {
   std::vector<std::string> folders{"robots", "models", "dirty"};
   std::size_t every = 1;
   double budget = 60;
+  std::vector<double> exhaustive;
   std::filesystem::path out;
 };
 
@@ -199,6 +201,46 @@ class AskedBench {
   }
 };
 
+/// Are there hulls of fewer faces than those that bounds give?
+class ExhaustiveBench {
+ public:
+  explicit ExhaustiveBench(const AskedOptions& options) : options_(options) {}
+
+  void measure(const std::string& name, const TriangleMesh& mesh) {
+    for (const double percent : options_.exhaustive) add(name, mesh, percent);
+  }
+
+  int publish_all(const std::vector<std::string>& refused) const {
+    std::string text = fmt::format("# Are there hulls of fewer faces that keep a bound?\n\n{}\n\n", machine());
+    for (const std::string& why : refused) text += fmt::format("* not read: {}\n", why);
+    publish(options_.out, "exhaustive", text + table_.markdown(), table_.csv());
+    return kDone;
+  }
+
+ private:
+  void add(const std::string& name, const TriangleMesh& mesh, double percent) {
+    const double diagonal = bounding_box(mesh).diagonal();
+    EnclosingOptions how{.bounds = {.max_distance = percent / 100 * diagonal}};
+    const Answer given = Asking(mesh, options_.budget)(kBoundedFaces, how);
+    how.hull.threads = 1, how.hull.relax_guards = true;
+    constexpr double kFinest = 1.0 / 256;  // of the diagonal
+    std::optional<BoundTrial> least;
+    for (BoundTrial& trial : bound_trials(mesh, kBoundedFaces, how, kFinest * diagonal)) {
+      fmt::print(stderr, "{}, {:g} %: {}: {}{}\n", name, percent, trial.what, trial.faces,
+                 trial.is_kept ? "" : ", missed");
+      if (trial.is_kept && (!least || trial.faces < least->faces)) least = std::move(trial);
+    }
+    const std::size_t faces = is_kept(given) ? given.hull->mesh.face_count() : 0;
+    table_.add({as_cell(name), number(percent, 2), faces > 0 ? fmt::to_string(faces) : "", number(given.seconds, 2),
+                least ? fmt::to_string(least->faces) : "", least ? as_cell(least->what) : "",
+                number(least ? least->seconds : kUnknown, 2),
+                number(least && faces > 0 ? double(faces) / double(least->faces) : kUnknown, 2)});
+  }
+
+  const AskedOptions& options_;
+  Table table_{{"mesh", "bound_percent", "faces", "seconds", "least_faces", "least", "least_seconds", "ratio"}};
+};
+
 /// Collision geometry is what others made of these meshes.
 std::vector<std::filesystem::path> meshes_of(const std::filesystem::path& data,
                                              const std::vector<std::string>& folders) {
@@ -217,8 +259,9 @@ std::vector<std::filesystem::path> meshes_of(const std::filesystem::path& data,
   return files;
 }
 
+template <class Bench>
 int run_asked(const AskedOptions& options) {
-  AskedBench bench(options);
+  Bench bench(options);
   std::vector<std::string> refused;
   std::vector<std::filesystem::path> files = options.models.files;
   if (files.empty() && !options.models.record_sample) files = meshes_of(options.data, options.folders);
@@ -254,8 +297,19 @@ void add_asked(CLI::App& app, Run& run) {
   command.add_option("--budget", options->budget, "Processor time for one hull, in seconds")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
+  command
+      .add_option("--exhaustive", options->exhaustive,
+                  "Instead: the faces with these bounds, in per cent of the diagonal, beside the least that a search "
+                  "over wraps and ways to collapse finds")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->type_name("PCT,...");
   add_out_option(command, options->out, "asked.md and asked.csv");
-  command.callback([options, &run] { run = [options] { return run_asked(*options); }; });
+  command.callback([options, &run] {
+    run = [options] {
+      return options->exhaustive.empty() ? run_asked<AskedBench>(*options) : run_asked<ExhaustiveBench>(*options);
+    };
+  });
 }
 
 }  // namespace prohull::bench

@@ -80,8 +80,9 @@ struct EnclosingHull {
   std::vector<std::string> notes;  ///< sentences for the user: why something is not as asked for, and what to look at
 
   std::size_t solid = 0;  ///< it was built from EnclosingHulls::solids[solid]
-  /// The levels, with this hull as their base mesh (before it was rounded to float32). Empty for tight hulls, and for
-  /// hulls of wraps unless EnclosingOptions::levels kept them.
+  /// The levels, with this hull as their base mesh (before it was rounded to float32). Empty for tight hulls. Empty
+  /// for hulls of wraps, and for those with further collapses within a bound of the distance, unless
+  /// EnclosingOptions::levels kept them.
   std::optional<ProgressiveHull> levels;
   RefusalCounts refusals, blocked;               ///< as in HullResult
   unsigned relaxed_guards = 0;                   ///< as in HullResult; 0 if the hull is a finer level
@@ -162,9 +163,10 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
 /// A source is left out if it cannot win: the second if the convex hull is larger than the best hull, the third if the
 /// best hull is nearly as small as the solid. With `bounds` the first is always tried, as levels, and by collapses each
 /// of which keeps HullBounds::max_distance (HullOptions::tolerances). Wraps have a spacing of half of that, or less; of
-/// two thirds, where it is below 1/200 of the diagonal: then only collapses are tried that keep it. What
-/// counts is the certificate first, then the number of faces, the bounds, the overhang (ShapeGuards::max_overhang), and
-/// the volume; a hull that intersects itself has to have less than ten elevenths of the void of one that does not.
+/// two thirds, where it is below 1/200 of the diagonal: then only collapses are tried that keep it. The best
+/// hull within such a bound is measured and moved towards the triangles, and has further collapses. What counts is the
+/// certificate first, then the number of faces, the bounds, the overhang (ShapeGuards::max_overhang), and the volume; a
+/// hull that intersects itself has to have less than ten elevenths of the void of one that does not.
 EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size_t> target_faces,
                                const EnclosingOptions& options = {});
 

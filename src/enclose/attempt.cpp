@@ -21,6 +21,8 @@ std::optional<EnclosingHull> built(const Making& making) {
       return built_tight(making);
     case Method::Searched:
       return built_searched(making);
+    case Method::Further:
+      return built_further(making);
     default:
       return built_tight_of_gap_body(making);
   }

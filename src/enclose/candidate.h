@@ -15,6 +15,7 @@ enum class Method {
   Tight,           ///< a tight hull (tight_hull.h)
   TightOfGapBody,  ///< a tight hull of a body that keeps the gap (gap_body.h)
   Searched,        ///< a hull of few faces, searched on from (few_faces.h)
+  Further,         ///< a hull that keeps the bound of the distance, with further collapses that could not break it
 };
 
 /// A hull that touches a closed mesh is tighter than one that keeps away from single triangles. But where the mesh
@@ -39,7 +40,7 @@ struct Candidate {
   std::uint64_t seed = 0;
   double within = 0;  ///< Method::Within: the distance that collapses keep
   std::size_t most_faces = std::numeric_limits<std::size_t>::max();  ///< with more, it is not better than another hull
-  std::optional<EnclosingHull> start = {};                           ///< Method::Searched: what is searched on from
+  std::optional<EnclosingHull> start = {};  ///< Method::Searched and Further: what they begin with
 };
 
 /// What came of a candidate.

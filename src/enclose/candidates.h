@@ -42,6 +42,7 @@ class Candidates {
   void plan_bounded_wraps();
   void plan_close_wraps();
   void plan_loose_wraps();
+  void plan_further();
   void plan_why_not_closer(double finest, double wanted);
   void plan_inner();
   void plan_inner_with_padding();

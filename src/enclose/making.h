@@ -52,6 +52,7 @@ TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned ma
 EnclosingHull built_of_levels(const Making& making);
 EnclosingHull built_in_steps(const Making& making);
 EnclosingHull built_within(const Making& making);
+EnclosingHull built_further(const Making& making);
 EnclosingHull built_tight(const Making& making);
 EnclosingHull built_searched(const Making& making);
 /// None if the gap's body of the solid intersects itself.

@@ -517,6 +517,19 @@ TEST(EnclosingHull, HasFewerFacesWithinABoundThanALevel) {
   EXPECT_LT(hull.mesh.face_count(), level.mesh.face_count());
 }
 
+// Where what earlier collapses used up of the bound is not measured again, these have 290 and 172 faces.
+TEST(EnclosingHull, HasFurtherCollapsesWithinABound) {
+  const TriangleMesh asteroid = make_sample("asteroid", 2000);
+  const HullBounds bounds{.max_distance = 0.03 * bounding_box(asteroid).diagonal()};
+  const auto hull_on = [&](HullSide side) {
+    return enclosing_hull(asteroid, 20, {.hull = {.side = side}, .bounds = bounds});
+  };
+  const EnclosingHull outer = hull_on(HullSide::Outer), inner = hull_on(HullSide::Inner);
+  EXPECT_TRUE(outer.certified && outer.within_bounds && inner.certified && inner.within_bounds);
+  EXPECT_LT(outer.mesh.face_count(), 220U);
+  EXPECT_LT(inner.mesh.face_count(), 165U);
+}
+
 // Levels of the convex hull keep it with 90 faces; the hull that moves on its way down, with 60.
 TEST(EnclosingHull, KeepsABoundWithAsFewFacesAsTheHullWithoutIt) {
   const EnclosingHull hull = enclosing_hull(make_sample("gyroid", 1500), 60, {.bounds = {.max_distance = 0.25}});

@@ -1,0 +1,104 @@
+#include "bound_trials.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "enclose/candidate.h"
+#include "machine.h"
+#include "parallel/arena.h"
+#include "prohull/error.h"
+
+namespace prohull::bench {
+namespace {
+
+class BoundTrials {
+ public:
+  BoundTrials(const TriangleMesh& mesh, std::size_t faces, const EnclosingOptions& options)
+      : request_(mesh, faces, options), solids_(request_), faces_(faces), distance_(options.bounds.max_distance) {}
+
+  void try_mesh() {
+    if (solids_.has_mesh()) try_solid(0, "mesh", processor_seconds());
+  }
+
+  void try_convex_hull() {
+    const double begin = processor_seconds();
+    if (const auto id = solids_.convex_hull({})) try_solid(*id, "convex hull", begin);
+  }
+
+  void try_wrap(double spacing, double flatness) {
+    const double begin = processor_seconds();
+    std::string why_not;
+    const WrapKind kind{.nodes_per_edge = 3.5, .offset = 0.3, .closing = 0, .flatness = flatness};
+    const auto id = solids_.wrap(kind, spacing * distance_, faces_, why_not);
+    if (id) try_solid(*id, fmt::format("wrap {:.2f}{}", spacing, flatness > 0 ? " flat" : ""), begin);
+  }
+
+  std::vector<BoundTrial> taken() && { return std::move(trials_); }
+
+ private:
+  void try_solid(SolidId id, const std::string& what, double begin) {
+    const bool is_mesh = solids_[id].source == Source::Mesh;
+    const Approach approach = is_mesh ? Approach::Touching : Approach::Clear;
+    if (is_mesh) take(id, {Method::Levels}, 0, what + ", level", begin);
+    take(id, {Method::Levels, true, approach}, 0, what + ", moved level", begin);
+    for (const double part : {0.7, 0.85, 1.0, 1.35, 1.75}) {
+      const std::string within = fmt::format("{}, within {:g}", what, part);
+      if (is_mesh) take(id, {Method::Within}, part, within, begin);
+      take(id, {Method::Within, true, approach}, part, within + " moved", begin);
+    }
+  }
+
+  /// Also with further collapses, if it keeps the bound. The time includes that of the solid, which began at `begin`.
+  void take(SolidId id, Recipe recipe, double part, const std::string& what, double& begin) {
+    Candidate candidate{.solid = id,
+                        .target_faces = faces_,
+                        .recipe = recipe,
+                        .bounds = request_.options.bounds,
+                        .within = part * distance_};
+    if (!add(candidate, what, begin)) return;
+    candidate.recipe = {Method::Further, true, recipe.approach};
+    candidate.start = last_->hull;
+    add(candidate, what + ", further", begin);
+  }
+
+  /// Whether it keeps the bound.
+  bool add(const Candidate& candidate, std::string what, double& begin) {
+    last_ = attempt(candidate, request_, solids_);
+    const double seconds = processor_seconds() - begin;
+    begin += seconds;
+    if (!last_) return false;
+    const EnclosingHull& hull = last_->hull;
+    trials_.push_back({std::move(what), hull.mesh.face_count(), hull.certified && hull.within_bounds, seconds});
+    return trials_.back().is_kept;
+  }
+
+  const Request request_;
+  Solids solids_;
+  const std::size_t faces_;
+  const double distance_;
+  std::vector<BoundTrial> trials_;
+  std::optional<Attempt> last_;
+};
+
+}  // namespace
+
+std::vector<BoundTrial> bound_trials(const TriangleMesh& mesh, std::size_t faces, const EnclosingOptions& options,
+                                     double finest) {
+  return arena_of(options.hull.threads).execute([&] {
+    BoundTrials trials(mesh, faces, options);
+    trials.try_mesh();
+    trials.try_convex_hull();
+    constexpr double kLargest = 2, kSmallest = 0.25, kSteps = 7;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double spacing = kLargest * std::pow(kSmallest / kLargest, i / kSteps);
+      if (spacing * options.bounds.max_distance < finest) break;
+      for (const double flatness : {0.0, 0.08}) trials.try_wrap(spacing, flatness);
+    }
+    return std::move(trials).taken();
+  });
+}
+
+}  // namespace prohull::bench
