@@ -24,8 +24,7 @@ class RegionsReader {
   std::vector<Region> read(const std::string& text) const {
     return yaml_.parse(text, [&](const YAML::Node& top) {
       if (!top.IsMap() || !top["regions"] || !top["regions"].IsSequence() || top["regions"].size() == 0)
-        yaml_.refuse(top,
-                     "expected a list of regions, as in regions: [{box: [[0, 0, 0], [10, 20, 5]], keep: true}]");
+        yaml_.refuse(top, "expected a list of regions, as in regions: [{box: [[0, 0, 0], [10, 20, 5]], keep: true}]");
       for (const auto& entry : top)
         if (entry.first.Scalar() != "regions")
           yaml_.refuse(entry.first, fmt::format("'{}' is not known; the file has regions only", entry.first.Scalar()));

@@ -45,8 +45,8 @@ struct InsideVolume {
 /// The stage of progress is "wrap". Throws InputError if the mesh is empty, not closed or not finite; Cancelled.
 InsideVolume volume_inside(const TriangleMesh& closed, const Progress& progress = {});
 
-/// Of the original if it is closed as it is, with its cavities; else of the closed mesh; or, where repairs do not do, of
-/// the triangles with caps on all openings. 0 of a single point.
+/// Of the original if it is closed as it is, with its cavities; else of the closed mesh; or, where repairs do not do,
+/// of the triangles with caps on all openings. 0 of a single point.
 InsideVolume volume_inside(const RepairedMesh& repaired, const Progress& progress = {});
 
 }  // namespace prohull

@@ -20,8 +20,8 @@ void check(const MeshPart& part, const HullOptions& options) {
   const auto require = [](bool holds, Defect defect, const char* what) {
     if (!holds) throw InputError(defect, what);
   };
-  require(options.strategy == Strategy::Lazy && options.tolerances.empty(),
-          Defect::InvalidOption, "a part is simplified by the strategy lazy, without tolerances");
+  require(options.strategy == Strategy::Lazy && options.tolerances.empty(), Defect::InvalidOption,
+          "a part is simplified by the strategy lazy, without tolerances");
   require(!part.box.is_empty(), Defect::InvalidOption, "the box of the part is empty");
   require(part.own_faces <= part.mesh.face_count(), Defect::InvalidOption, "the part has more own faces than faces");
   require(std::ranges::all_of(part.mesh.positions, is_finite), Defect::NonFiniteCoordinate,

@@ -41,7 +41,8 @@ inline std::string write(const std::string& name, const std::string& bytes) {
 /// What checker/prohull_check.c, which shares nothing with the library, says of a certificate.
 struct Checked {
   bool is_proven = false;
-  bool is_denied = false;  ///< neither: it is left undecided, for a reason that docs/certificate.md gives under "Limits"
+  bool is_denied =
+      false;  ///< neither: it is left undecided, for a reason that docs/certificate.md gives under "Limits"
   std::string line;
 };
 
@@ -50,17 +51,17 @@ inline Checked checked(const Certificate& certificate, const std::string& hull, 
                        const std::string& original) {
   const std::string name = fmt::format("{}checked_{}", testing::TempDir(), getpid());
   const std::string said = name + ".txt";
-  const int code = std::system(fmt::format("{} {} {} {} >{} 2>&1", PROHULL_CHECK,
-                                           write(name + ".phcert", certificate.bytes),
-                                           write(fmt::format("{}{}", name, suffix), hull),
-                                           write(name + "_original.off", original), said)
-                                   .c_str());
+  const int code = std::system(
+      fmt::format("{} {} {} {} >{} 2>&1", PROHULL_CHECK, write(name + ".phcert", certificate.bytes),
+                  write(fmt::format("{}{}", name, suffix), hull), write(name + "_original.off", original), said)
+          .c_str());
   std::ostringstream line;
   line << std::ifstream(said).rdbuf();
   Checked found{.is_proven = code == 0, .line = line.str()};
   found.is_denied = !found.is_proven;
   for (const std::string_view undecided : {" may be ", "has no area", "crossed too often", "take too long"})
-    if (found.line.starts_with("not proven") && found.line.find(undecided) != std::string::npos) found.is_denied = false;
+    if (found.line.starts_with("not proven") && found.line.find(undecided) != std::string::npos)
+      found.is_denied = false;
   return found;
 }
 
