@@ -22,7 +22,9 @@ Ends ends_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& number,
     const Vec3& p = mesh.positions[v];
     return std::array{p.x, p.y, p.z};
   };
-  const auto [first, last] = std::ranges::minmax(mesh.triangles[f], {}, along);
+  const auto& corners = mesh.triangles[f];
+  const VertexId first = *std::ranges::min_element(corners, {}, along);
+  const VertexId last = *std::ranges::max_element(corners, {}, along);
   return std::minmax({number[index(first)], number[index(last)]});
 }
 
