@@ -58,21 +58,21 @@ class BoundTrials {
                         .recipe = recipe,
                         .bounds = request_.options.bounds,
                         .within = part * distance_};
-    if (!add(candidate, what, begin)) return;
+    candidate.start = add(candidate, what, begin);
+    if (!candidate.start) return;
     candidate.recipe = {Method::Further, true, recipe.approach};
-    candidate.start = last_->hull;
     add(candidate, what + ", further", begin);
   }
 
-  /// Whether it keeps the bound.
-  bool add(const Candidate& candidate, std::string what, double& begin) {
-    last_ = attempt(candidate, request_, solids_);
+  /// Returns the hull if it keeps the bound.
+  std::optional<EnclosingHull> add(const Candidate& candidate, std::string what, double& begin) {
+    std::optional<Attempt> made = attempt(candidate, request_, solids_);
     const double seconds = processor_seconds() - begin;
     begin += seconds;
-    if (!last_) return false;
-    const EnclosingHull& hull = last_->hull;
-    trials_.push_back({std::move(what), hull.mesh.face_count(), hull.certified && hull.within_bounds, seconds});
-    return trials_.back().is_kept;
+    if (!made) return std::nullopt;
+    const bool is_kept = made->hull.certified && made->hull.within_bounds;
+    trials_.push_back({std::move(what), made->hull.mesh.face_count(), is_kept, seconds});
+    return is_kept ? std::optional(std::move(made->hull)) : std::nullopt;
   }
 
   const Request request_;
@@ -80,7 +80,6 @@ class BoundTrials {
   const std::size_t faces_;
   const double distance_;
   std::vector<BoundTrial> trials_;
-  std::optional<Attempt> last_;
 };
 
 }  // namespace

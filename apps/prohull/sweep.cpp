@@ -320,7 +320,8 @@ void add_sweep(CLI::App& app, Run& run) {
              "Largest number of convex pieces by which the mesh, or each link, is covered before it moves.");
   add_length(command, "--max-distance", options->max_distance,
              "How far slices of the motion may add to the distance of the pieces from what is passed. Less takes more "
-             "slices. The default is 2 % of the diagonal of the mesh, or of each link. Of a robot it is no per cent.");
+             "slices. The default is 2 % of the diagonal of the mesh, or of each link. A robot takes metres or a unit, "
+             "and no per cent.");
   add_threads_option(command, options->sweep.threads, "The pieces are the same for any number.");
   add_report_option(command, options->report);
   add_motion_options(command, *options);

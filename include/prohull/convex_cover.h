@@ -41,7 +41,7 @@ struct ConvexPiece {
   std::variant<std::monostate, OrientedBox, Capsule, Ball> primitive = {};
 };
 
-/// Of the piece as it is: of its capsule, sphere or box.
+/// The volume of the capsule, sphere or box of the piece, or of its mesh if it has none of these.
 double volume_of(const ConvexPiece& piece);
 
 struct ConvexCover {

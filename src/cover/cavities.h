@@ -13,7 +13,7 @@ namespace prohull::cover {
 
 // Covers fill the cavities of a mesh, as outer hulls do; their void is compared with the mesh as it is.
 
-/// Of the mesh with its cavities, whose volume is `inside`: of its closed mesh, which has none.
+/// The volume of the closed mesh, which has no cavities. `inside` is the volume of the mesh as it is.
 inline double fillable_volume(const RepairedMesh& input, const InsideVolume& inside, const Progress& progress) {
   return input.repairs.dropped_components > 0 ? volume_inside(input.closed->mesh, progress).volume : inside.volume;
 }

@@ -153,18 +153,19 @@ bool is_round(const ConvexPiece& piece) {
   return std::holds_alternative<Capsule>(piece.primitive) || std::holds_alternative<Ball>(piece.primitive);
 }
 
-/// Polytopes around round pieces are larger than these, where there are others.
-bool is_known_volume(const std::vector<ConvexPiece>& pieces) {
-  return pieces.size() == 1 || std::ranges::none_of(pieces, is_round) ||
-         std::ranges::all_of(pieces, [](const ConvexPiece& p) { return std::holds_alternative<Ball>(p.primitive); });
-}
+struct UnionVolume {
+  double volume;
+  bool is_bound;  ///< ConvexCover::volume_is_bound
+};
 
-double known_volume(const std::vector<ConvexPiece>& pieces, std::span<const TriangleMesh> meshes) {
-  if (pieces.size() == 1 && is_round(pieces.front())) return prohull::volume_of(pieces.front());
+UnionVolume volume_of_union(const std::vector<ConvexPiece>& pieces, std::span<const TriangleMesh> meshes_around) {
+  if (std::ranges::none_of(pieces, is_round)) return {union_volume(meshes_around), false};
+  if (pieces.size() == 1) return {prohull::volume_of(pieces.front()), false};
   std::vector<Ball> balls;
   for (const ConvexPiece& piece : pieces)
     if (const auto* const ball = std::get_if<Ball>(&piece.primitive)) balls.push_back(*ball);
-  return balls.empty() ? union_volume(meshes) : union_volume(balls);
+  if (balls.size() == pieces.size()) return {union_volume(balls), false};
+  return {union_volume(meshes_around), true};
 }
 
 class Covering {
@@ -432,8 +433,8 @@ class Covering {
     const std::vector<TriangleMesh> meshes = meshes_around(pieces);
     ConvexCover cover;
     cover.pieces = std::move(pieces);
-    cover.volume_is_bound = !is_known_volume(cover.pieces);
-    cover.volume = cover.volume_is_bound ? union_volume(meshes) : known_volume(cover.pieces, meshes);
+    const auto [volume, is_bound] = volume_of_union(cover.pieces, meshes);
+    cover.volume = volume, cover.volume_is_bound = is_bound;
     cover.is_estimated = material.inside.is_estimated;
     // No estimate may say that the mesh is larger than what covers it.
     if (!cover.is_estimated || material.inside.volume <= cover.volume) cover.original_volume = material.inside.volume;

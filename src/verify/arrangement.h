@@ -69,7 +69,8 @@ class Arrangement {
   /// Adds surface 0 or 1, with all faces of it that meet the inside of t in segments.
   void add(std::size_t number, const Surface& surface, std::span<const Triangle> faces);
 
-  /// Adds triangles in the plane of t, with an area, whose number is to be told as Windings::holders.
+  /// Adds triangles in the plane of t, with an area, whose number is to be told as Windings::holders. They must outlive
+  /// the arrangement.
   void add_holders(std::span<const Triangle> coplanar);
 
   /// Whether windings that are sought are beside some part.

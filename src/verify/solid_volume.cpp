@@ -77,7 +77,7 @@ class Boundary {
     }
     Arrangement parts(t, surface_.axis[f], random_, steps_);
     parts.add(0, surface_, crossing);
-    parts.add_holders(holders);
+    if (!holders.empty()) parts.add_holders(holders);
     parts.visit_parts([](const Windings& w) { return w.holders > 0 ? 0 : steps_out(w.outside[0], w.inside[0]); },
                       [&](const Triangle& part, int times) { add(part.a, part.b, part.c, times); });
   }

@@ -156,14 +156,12 @@ std::size_t turn_outwards(TriangleMesh& mesh, std::string_view name) {
   return turn_outwards(mesh, name, [](FaceId, Facing) {});
 }
 
-TriangleMesh without_cavities(TriangleMesh mesh, std::string_view name) {
+std::vector<FaceId> turn_outwards_and_fill(TriangleMesh& mesh, std::string_view name) {
   std::vector<FaceId> kept;
   turn_outwards(mesh, name, [&](FaceId f, Facing facing) {
     if (facing != Facing::Cavity) kept.push_back(f);
   });
-  TriangleMesh filled{std::move(mesh.positions), {}};
-  for (const FaceId f : kept) filled.triangles.push_back(mesh.triangles[f]);
-  return filled;
+  return kept;
 }
 
 }  // namespace prohull::verify

@@ -38,8 +38,8 @@ bool is_one_sheet(const TriangleMesh& mesh);
 /// Turns components as turned_outwards does, and returns how many faces changed. Throws InputError as require_usable.
 std::size_t turn_outwards(TriangleMesh& mesh, std::string_view name);
 
-/// Turned outwards, without the components that are cavities. Throws InputError as require_usable.
-TriangleMesh without_cavities(TriangleMesh mesh, std::string_view name);
+/// The same, and returns the faces of all components but cavities.
+std::vector<FaceId> turn_outwards_and_fill(TriangleMesh& mesh, std::string_view name);
 
 /// The connected components of some faces or vertices.
 class Clusters {

@@ -30,17 +30,17 @@ namespace {
 /// out.
 class Target {
  public:
-  explicit Target(const TriangleMesh& original)
-      : is_closed_(is_closed(original)), mesh_(is_closed_ ? turned_outwards(original) : original), faces_(mesh_) {
-    if (!is_closed_) return;
-    const TriangleMesh filled = verify::without_cavities(original, "original");
-    std::vector<Triangle> triangles;
-    for (const FaceId f : filled.triangles.ids()) triangles.push_back(filled.triangle(f));
-    winding_.emplace(std::move(triangles));
+  explicit Target(TriangleMesh original) : is_closed_(is_closed(original)), mesh_(std::move(original)) {
+    if (is_closed_) {
+      std::vector<Triangle> triangles;
+      for (const FaceId f : verify::turn_outwards_and_fill(mesh_, "original")) triangles.push_back(mesh_.triangle(f));
+      winding_.emplace(std::move(triangles));
+    }
+    faces_.emplace(mesh_);
   }
 
   bool is_closed_mesh() const { return is_closed_; }
-  const verify::NearestFace& faces() const { return faces_; }
+  const verify::NearestFace& faces() const { return *faces_; }
   double diagonal() const { return bounding_box(mesh_).diagonal(); }
 
   // Both are false for points on the surface, and for a few in the planes of triangles.
@@ -49,8 +49,8 @@ class Target {
 
  private:
   const bool is_closed_;
-  const TriangleMesh mesh_;
-  const verify::NearestFace faces_;
+  TriangleMesh mesh_;
+  std::optional<verify::NearestFace> faces_;
   std::optional<WindingNumber> winding_;
 };
 

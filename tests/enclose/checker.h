@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <initializer_list>
-#include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -41,8 +41,8 @@ inline std::string write(const std::string& name, const std::string& bytes) {
 /// What checker/prohull_check.c, which shares nothing with the library, says of a certificate.
 struct Checked {
   bool is_proven = false;
-  bool is_denied =
-      false;  ///< neither: it is left undecided, for a reason that docs/certificate.md gives under "Limits"
+  /// If it is neither, it is left undecided, for a reason that docs/certificate.md gives under "Limits".
+  bool is_denied = false;
   std::string line;
 };
 

@@ -546,6 +546,17 @@ class CurvedLinksTest : public LinkHullsTest {
       robot_.links.push_back({.name = fmt::format("link{}", i), .visual = visual[i]});
   }
 
+  /// The hulls of the first link, as they are built and as a second run has them.
+  std::vector<LinkHulls> built_and_from_cache() {
+    options_.cache = folder_.path() / "cache";
+    std::vector<LinkHulls> runs;
+    for (const bool from_cache : {false, true}) {
+      runs.push_back(link_hulls(robot_, options_).at(0));
+      EXPECT_EQ(runs.back().from_cache, from_cache);
+    }
+    return runs;
+  }
+
   /// At corners of a hull, and at points of balls.
   double reach_at_points(const LinkHulls& made) const {
     TriangleMesh points = made.hulls.at(0).mesh;
@@ -584,10 +595,7 @@ TEST_F(CurvedLinksTest, BoundsHoldForTheFormsThemselves) {
 TEST_F(CurvedLinksTest, KeepTheLargestDistanceFromTheFormsThemselves) {
   make_links({{cylinder_}});
   options_.budget.max_distance = 0.0035;
-  options_.cache = folder_.path() / "cache";
-  for (const bool from_cache : {false, true}) {
-    const LinkHulls made = link_hulls(robot_, options_).at(0);
-    EXPECT_EQ(made.from_cache, from_cache);
+  for (const LinkHulls& made : built_and_from_cache()) {
     EXPECT_TRUE(made.hulls.at(0).within_bounds);
     EXPECT_LE(made.hulls[0].distance.upper, 0.0035);
     EXPECT_LE(reach_at_points(made), 0.0035);
@@ -598,10 +606,7 @@ TEST_F(CurvedLinksTest, KeepTheLargestDistanceFromTheFormsThemselves) {
 TEST_F(CurvedLinksTest, KeepNoDistanceThatIsLessThanThatOfTheMeshesAround) {
   make_links({{cylinder_}});
   options_.budget.max_distance = 0.003;
-  options_.cache = folder_.path() / "cache";
-  for (const bool from_cache : {false, true}) {
-    const LinkHulls made = link_hulls(robot_, options_).at(0);
-    EXPECT_EQ(made.from_cache, from_cache);
+  for (const LinkHulls& made : built_and_from_cache()) {
     EXPECT_TRUE(made.hulls.at(0).certified);
     EXPECT_FALSE(made.hulls[0].within_bounds);
     ASSERT_FALSE(made.hulls[0].notes.empty());
