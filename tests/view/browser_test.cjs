@@ -37,7 +37,7 @@ async function opened(file, {fragment = '', width = 900, height = 640, scheme = 
     if (!request.isNavigationRequest()) page.complaints.push(`request: ${request.url()}`);
   });
   await page.goto(url + fragment);
-  await page.waitForFunction(() => document.documentElement.dataset.ready, null, {timeout: 60000});
+  await page.waitForFunction(() => document.documentElement?.dataset.ready, null, {timeout: 60000});
   return page;
 }
 

@@ -25,7 +25,7 @@ async function test(browser) {
     await picture.click();
   }
   const frame = await (await page.waitForSelector('iframe')).contentFrame();
-  await frame.waitForFunction(() => document.documentElement.dataset.ready, null, {timeout: 120000});
+  await frame.waitForFunction(() => document.documentElement?.dataset.ready, null, {timeout: 120000});
   const {colors, faces} = await frame.evaluate(async () => {
     const bitmap = await createImageBitmap(await prohullView.viewport.picture());
     const draw = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d', {willReadFrequently: true});
