@@ -10,6 +10,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "cover/cavities.h"
 #include "cover/cut_tree.h"
@@ -26,6 +27,7 @@
 #include "prohull/detail/progress_meter.h"
 #include "prohull/detail/stopwatch.h"
 #include "prohull/error.h"
+#include "prohull/mesh_report.h"
 #include "prohull/union_verification.h"
 
 namespace prohull {
@@ -186,7 +188,7 @@ class Covering {
  private:
   ConvexCover certified_cover() {
     std::optional<ConvexCover> cover;
-    if (prepared_.closed) cover = best_cover(measurable(of_closed_mesh()));
+    if (prepared_.closed) cover = cover_of_closed_mesh();
     // One convex piece holds all that lies between the triangles, too. Bounds of the void ask for more: a volume.
     if (!cover && options_.max_pieces == 1 && !options_.bounds.any() && !is_flat())
       cover = best_cover(of_convex_hull());
@@ -224,16 +226,42 @@ class Covering {
     return material;
   }
 
-  Material of_closed_mesh() const {
+  /// Collapses leave all components of a mesh, so that a hull of few faces around them is large where they overlap. A
+  /// hull of a wrap has one, but no sharp edges. Both are searched, if either is coarser than the mesh.
+  ConvexCover cover_of_closed_mesh() {
+    constexpr std::size_t kFewest = 4;  // faces of a component
+    const TriangleMesh& mesh = prepared_.closed->mesh;
+    const std::size_t components = mesh.face_count() > kSearchFaces ? inspect(mesh).components : 1;
+    std::optional<ConvexCover> cover;
+    if (kFewest * components <= kSearchFaces) cover = best_cover(measurable(of_closed_mesh(mesh)));
+    if (components > 1) {
+      const double spacing = bounding_box(mesh).diagonal() / kWrapNodes;
+      ConvexCover joined = best_cover(measurable(of_closed_mesh(wrap_around(mesh, spacing, options_.progress).mesh)));
+      if (!cover || is_better(joined, *cover)) cover = std::move(joined);
+    }
+    return std::move(*cover);
+  }
+
+  bool is_better(const ConvexCover& a, const ConvexCover& b) const {
+    const auto rank = [&](const ConvexCover& cover) {
+      return std::tuple(!cover.certified, !cover.within_bounds, options_.bounds.any() ? cover.pieces.size() : 0,
+                        cover.volume);
+    };
+    return rank(a) < rank(b);
+  }
+
+  /// `like`: in which cuts are looked for.
+  Material of_closed_mesh(const TriangleMesh& like) const {
     TriangleMesh faces = prepared_.closed->mesh;
     append(faces, prepared_.dropped);
-    Material material = of_solid(prepared_.closed->mesh, std::move(faces), inside_);
+    Material material = of_solid(prepared_.closed->mesh, std::move(faces), inside_, like);
     material.fillable = fillable_;
     return material;
   }
 
-  Material of_solid(const TriangleMesh& closed, TriangleMesh faces, InsideVolume volume) const {
-    TriangleMesh coarse = with_faces(closed, kSearchFaces), coarser = with_faces(coarse, kWideSearchFaces);
+  Material of_solid(const TriangleMesh& closed, TriangleMesh faces, InsideVolume volume,
+                    const TriangleMesh& like) const {
+    TriangleMesh coarse = with_faces(like, kSearchFaces), coarser = with_faces(coarse, kWideSearchFaces);
     return {closed, std::move(faces), std::move(coarse), std::move(coarser), volume, volume.volume};
   }
 
@@ -264,7 +292,7 @@ class Covering {
       if (nodes < kFewestWrapNodes) return of_surface();
       around = wrap_around(near, diagonal / nodes, options_.progress);
     }
-    return of_solid(around.mesh, triangles, {around.inside_volume, /*is_estimated=*/true});
+    return of_solid(around.mesh, triangles, {around.inside_volume, /*is_estimated=*/true}, around.mesh);
   }
 
   Material of_surface() const {

@@ -128,6 +128,22 @@ TEST(ConvexCover, OfSamplesIsCertifiedAndSmallerThanTheConvexHull) {
   }
 }
 
+// No hull of few faces has them all.
+TEST(ConvexCover, OfManyPartsThatOverlapCutsWhatTheyAreTogether) {
+  TriangleMesh fan;
+  constexpr int kParts = 390;
+  for (int i = 0; i < kParts; ++i) {
+    TriangleMesh part = meshes::box({0.5, -0.05, 0}, {1, 0.05, 0.2});
+    const double angle = 5.0 * i / kParts, c = std::cos(angle), s = std::sin(angle);
+    for (Vec3& p : part.positions) p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+    append(fan, part);
+  }
+  const ConvexCover cover = convex_cover(fan, {.max_pieces = 4, .threads = 1});
+  EXPECT_TRUE(cover.certified);
+  EXPECT_EQ(cover.pieces.size(), 4U);
+  EXPECT_LT(cover.volume, 0.5);  // the convex hull has 0.61
+}
+
 TEST(ConvexCover, OfMorePiecesIsSmaller) {
   const TriangleMesh mesh = meshes::torus(effort(24u, 9u), effort(10u, 5u));
   double last = std::numeric_limits<double>::infinity();
