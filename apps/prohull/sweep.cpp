@@ -15,6 +15,7 @@
 #include "robot/files/piece_files.h"
 #include "robot/motion/path_sweep.h"
 #include "robot/motion/poses.h"
+#include "robot/motion/workspace_sweep.h"
 #include "robot_summary.h"
 
 namespace prohull::cli {
@@ -32,6 +33,7 @@ struct SweepRunOptions {
   InputOptions input;
   robot::FileOptions file;
   Geometry geometry = Geometry::Collision;
+  bool workspace = false;
   SweepOptions sweep;
 };
 
@@ -114,16 +116,20 @@ std::vector<std::size_t> links_of(const Robot& robot, const std::string& names) 
 }
 
 std::vector<LinkSweep> sweeps_of_robot(const SweepRunOptions& options, SweepOptions how, double& read_seconds) {
-  if (options.joint_path.empty()) refuse("a robot needs a PATH of its joints: prohull sweep ROBOT PATH -o OUT");
+  if (options.joint_path.empty() && !options.workspace)
+    refuse("a robot needs a PATH of its joints, as in prohull sweep ROBOT PATH -o OUT, or --workspace");
   const Stopwatch reading;
   const RobotFile file = read_robot(options.in, options.file);
-  const JointPath path(file.robot, read_path_rows(read_bytes(options.joint_path), input_name(options.joint_path)));
+  std::optional<JointPath> path;
+  if (!options.workspace)
+    path.emplace(file.robot, read_path_rows(read_bytes(options.joint_path), input_name(options.joint_path)));
   read_seconds = reading.seconds();
   const Length& most = options.max_distance;
   if (most.unit == "%") refuse("--max-distance of a robot is in metres, or has a unit: 5mm");
   if (most.number > 0) how.max_distance = most.of(0);
-  std::vector<LinkSweep> sweeps =
-      sweep_links(file.robot, path, links_of(file.robot, options.links), options.geometry, how);
+  const std::vector<std::size_t> links = links_of(file.robot, options.links);
+  std::vector<LinkSweep> sweeps = path ? sweep_links(file.robot, *path, links, options.geometry, how)
+                                       : sweep_workspace(file.robot, links, options.geometry, how);
   if (sweeps.empty()) throw InputError(Defect::EmptyMesh, fmt::format("{}: no link has a shape", options.in.string()));
   say_robot(file);
   return sweeps;
@@ -152,13 +158,15 @@ bool write(const SweepRunOptions& options, const std::string& suffix, const Swep
   });
 }
 
-std::string claim_of(const SweptZone& zone, bool is_robot) {
+std::string claim_of(const SweptZone& zone, const SweepRunOptions& options) {
   const std::string what = zone.hull ? "the hull as written encloses" : "the pieces as written enclose";
-  const std::string whose = is_robot ? "the links" : "the mesh";
-  return fmt::format("{} every triangle of {}{}, at every moment of the motion", what, whose,
-                     !zone.covers_inside() ? ""
-                     : zone.has_openings() ? ", and the inside with openings closed"
-                                           : ", and the inside");
+  const std::string whose = is_robot_file(options.in) ? "the links" : "the mesh";
+  return fmt::format(
+      "{} every triangle of {}{}, {}", what, whose,
+      !zone.covers_inside() ? ""
+      : zone.has_openings() ? ", and the inside with openings closed"
+                            : ", and the inside",
+      options.workspace ? "wherever the joints are within their limits" : "at every moment of the motion");
 }
 
 void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
@@ -180,7 +188,7 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
   say(", at most {:.4g} from what {} passes{}\n", rounded_up(zone.reach(), 4), is_robot ? "the robot" : "the mesh",
       zone.has_openings() ? " with openings closed" : "");
   if (zone.certified)
-    say("  certified: yes, {}\n", claim_of(zone, is_robot));
+    say("  certified: yes, {}\n", claim_of(zone, options));
   else
     say("  certified: NO: nothing was written; please report this mesh\n");
   say("  read {:.2f} s, sweep {:.2f} s\n", zone.read_seconds, zone.seconds);
@@ -219,6 +227,7 @@ void check_options(const SweepRunOptions& options) {
   if (is_robot_file(options.in)) return;
   if (!options.joint_path.empty()) refuse("PATH is of the joints of a robot: URDF, SDF or MJCF");
   if (!options.links.empty()) refuse("--links is for robots");
+  if (options.workspace) refuse("--workspace is for robots");
 }
 
 int run_sweep(const SweepRunOptions& options) {
@@ -291,6 +300,11 @@ void add_robot_options(CLI::App& command, SweepRunOptions& options) {
   command.add_option("--links", options.links, "Links to sweep, as in link1,link2. Without it, all links are swept.")
       ->type_name("A,B")
       ->group(kRobots);
+  command
+      .add_flag("--workspace", options.workspace,
+                "In place of a PATH: with each joint anywhere within its limits, all that the robot may ever reach.")
+      ->excludes(command.get_option("path"))
+      ->group(kRobots);
   add_choice(command, "--geometry", options.geometry, geometry_names(),
              "Geometry of the links that counts. A link that has none of it counts by the other one.")
       ->group(kRobots);
@@ -329,7 +343,8 @@ void add_sweep(CLI::App& app, Run& run) {
   add_examples(command, {"prohull sweep door.stl --axis z --through 0,1,0 --angle 90 -o zone.stl",
                          "prohull sweep tool.stl --move 0,0,-50 -o zone.obj",
                          "prohull sweep tool.stl --poses path.csv --faces 500 -o zone.stl --report zone.json",
-                         "prohull sweep arm.urdf pick.csv --links link5,link6 -o zone.glb"});
+                         "prohull sweep arm.urdf pick.csv --links link5,link6 -o zone.glb",
+                         "prohull sweep arm.urdf --workspace --faces 1000 -o workspace.stl"});
   command.callback([options, &run] { run = [options] { return run_sweep(*options); }; });
 }
 

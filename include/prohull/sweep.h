@@ -39,7 +39,7 @@ struct Sweep {
   std::vector<TriangleMesh> pieces;  ///< convex polytopes: closed, outwards, no vertex outside of a face's plane
   bool covers_inside = false;        ///< what is enclosed: also the inside of the mesh, as ConvexCover says it,
   bool has_openings = false;         ///< with its openings closed, which it then has
-  double volume = 0;                 ///< of the union of the pieces, measured along 10,000 lines
+  double volume = 0;                 ///< of the union of the pieces, estimated by 200,000 points
   /// Proven: no point of the surfaces of the pieces is farther from all positions of the mesh's solid, or of its
   /// triangles if there is none.
   double reach = 0;
@@ -64,6 +64,11 @@ struct Sweep {
 /// the body turns by an angle, each vertex of a piece goes along an arc. The arc lies in the triangle of its two ends
 /// and the point where the tangents meet there. So the convex hull of these points encloses the piece all along.
 Sweep sweep(TriangleMesh mesh, std::span<const RigidMotion> motions, const SweepOptions& options = {});
+
+/// The same for the union of convex polytopes, which are what they are covered by: closed, outwards, with finite
+/// vertices.
+Sweep sweep(std::span<const TriangleMesh> polytopes, std::span<const RigidMotion> motions,
+            const SweepOptions& options = {});
 
 /// A convex polytope that encloses all points within `distance` of the convex hull of the points, which are finite and
 /// not all the same: proven, with its vertices as they are. It reaches out by at most `growth`.

@@ -16,6 +16,7 @@
 #include "robot/files/robot_file.h"
 #include "robot/motion/path_sweep.h"
 #include "robot/motion/poses.h"
+#include "robot/motion/workspace_sweep.h"
 #include "watch.h"
 
 namespace py = pybind11;
@@ -67,16 +68,28 @@ py::dict sweep_mesh(const TriangleMesh& mesh, const Motions& motions, const py::
 }
 
 /// (name of the link, facts) of each.
+py::list facts_of(std::vector<robot::LinkSweep> made) {
+  py::list sweeps;
+  for (robot::LinkSweep& link : made) sweeps.append(py::make_tuple(link.link, facts_of(std::move(link.sweep))));
+  return sweeps;
+}
+
+robot::Geometry geometry(bool visual) { return visual ? robot::Geometry::Visual : robot::Geometry::Collision; }
+
 py::list sweep_robot(const robot::RobotFile& file, robot::PathRows rows, const std::vector<std::size_t>& links,
                      bool visual, const py::object& progress, const py::dict& keywords) {
   SweepOptions options = sweep_options(Keywords(keywords));
   const robot::JointPath path(file.robot, std::move(rows));
-  std::vector<robot::LinkSweep> made = watched(progress, options, [&](const auto& how) {
-    return sweep_links(file.robot, path, links, visual ? robot::Geometry::Visual : robot::Geometry::Collision, how);
-  });
-  py::list sweeps;
-  for (robot::LinkSweep& link : made) sweeps.append(py::make_tuple(link.link, facts_of(std::move(link.sweep))));
-  return sweeps;
+  return facts_of(watched(
+      progress, options, [&](const auto& how) { return sweep_links(file.robot, path, links, geometry(visual), how); }));
+}
+
+py::list sweep_workspace(const robot::RobotFile& file, const std::vector<std::size_t>& links, bool visual,
+                         const py::object& progress, const py::dict& keywords) {
+  SweepOptions options = sweep_options(Keywords(keywords));
+  return facts_of(watched(progress, options, [&](const auto& how) {
+    return robot::sweep_workspace(file.robot, links, geometry(visual), how);
+  }));
 }
 
 }  // namespace
@@ -88,6 +101,7 @@ void bind_sweeps(py::module_& module) {
   module.def("read_motions", &read_motions);
   module.def("sweep", &sweep_mesh);
   module.def("sweep_robot", &sweep_robot);
+  module.def("sweep_workspace", &sweep_workspace);
 }
 
 }  // namespace prohull::python

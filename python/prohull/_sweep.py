@@ -32,7 +32,7 @@ class Sweep(CoverShown):
     reach: float  #: no point of the pieces' surfaces is farther than this from all positions of the mesh: proven
     cover_pieces: int  #: number of convex pieces of the mesh itself
     notes: list[str]
-    volume: float = math.nan  #: of the union, in cubic units: an estimate, along 10,000 lines; nan of links
+    volume: float = math.nan  #: of the union, in cubic units: an estimate, by 200,000 points; nan of links
 
     @property
     def mesh(self) -> Mesh:

@@ -475,14 +475,37 @@ class Robot(Shown):
         """
         check_geometry(geometry)
         rows = path_rows(self._path_joints(), joints, positions, times, velocities, accelerations)
-        numbers = {link.name: number for number, link in enumerate(self.links)}
-        swept = list(numbers) if links is None else _arrays.names("links", links)
-        if unknown := [name for name in swept if name not in numbers]:
-            raise InputError(f"links: the robot has no link {unknown[0]!r}; it has {', '.join(numbers)}")
         made = _prohull.sweep_robot(
-            self._core, rows, [numbers[name] for name in swept], geometry == "visual", progress,
+            self._core, rows, self._numbers_of(links), geometry == "visual", progress,
             sweep_keywords(pieces, max_distance, _arrays.not_negative, float32_coordinates, threads))
         return {name: sweep_of(facts) for name, facts in made}
+
+    def sweep_workspace(self, *, links: Optional[Sequence[str]] = None, geometry: Geometry = "collision",
+                        pieces: int = 16, max_distance: Optional[float] = None, float32_coordinates: bool = False,
+                        threads: int = 0, progress: Optional[Progress] = None) -> dict[str, Sweep]:
+        """Encloses all positions of links with each joint anywhere within its limits: by the name of each root.
+
+        Joints move independently, those that mimic too.
+
+        links, geometry, pieces, float32_coordinates, threads, progress: as of sweep().
+        max_distance: how far the slices of each joint's motion may add to the distance of the pieces, in metres, greater
+            than 0. None: 2 % of the diagonal of what the joint moves.
+
+        Raises InputError as sweep() does, and for a joint that has no limits, wrong ones or several freedoms, if such a
+        link is behind it.
+        """
+        check_geometry(geometry)
+        made = _prohull.sweep_workspace(
+            self._core, self._numbers_of(links), geometry == "visual", progress,
+            sweep_keywords(pieces, max_distance, _arrays.not_negative, float32_coordinates, threads))
+        return {name: sweep_of(facts) for name, facts in made}
+
+    def _numbers_of(self, links: Optional[Sequence[str]]) -> list[int]:
+        numbers = {link.name: number for number, link in enumerate(self.links)}
+        named = list(numbers) if links is None else _arrays.names("links", links)
+        if unknown := [name for name in named if name not in numbers]:
+            raise InputError(f"links: the robot has no link {unknown[0]!r}; it has {', '.join(numbers)}")
+        return [numbers[name] for name in named]
 
     def _path_joints(self) -> list[str]:
         return [joint.name for joint in self.joints

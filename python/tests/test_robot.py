@@ -348,3 +348,15 @@ def test_what_is_wrong_with_a_path_is_told(slide, tmp_path):
                 slide.check_path(positions, **options)
     with pytest.raises(KeyboardInterrupt):
         slide.check_path([[0, 1], [0, 2]], progress=lambda stage, fraction: False)
+
+
+def test_positions_of_links_are_enclosed(robot):
+    passed = robot.sweep([[0], [1]], ["turn"], links=["tool"])
+    assert list(passed) == ["tool"] and passed["tool"].covers_inside
+    ever = robot.sweep_workspace(links=["tool"], threads=1)
+    assert list(ever) == ["base"] and ever["base"].reach < 0.02
+    ball = prohull.sample("sphere", 200)
+    where = (0.1 * ball.vertices + [0, 0, 5], ball.faces)
+    assert prohull.verify_union(passed["tool"].pieces, where) and prohull.verify_union(ever["base"].pieces, where)
+    with pytest.raises(prohull.InputError, match="no link 'hand'"):
+        robot.sweep_workspace(links=["hand"])

@@ -113,16 +113,15 @@ TriangleMesh triangles_of(const Shape& shape, const std::string& link) {
   return mesh;
 }
 
-/// By one of its geometries; without faces if it has none.
-TriangleMesh triangles_of(const Link& link, Geometry which) {
+}  // namespace
+
+TriangleMesh triangles_to_sweep(const Link& link, Geometry which) {
   const Geometry other = which == Geometry::Visual ? Geometry::Collision : Geometry::Visual;
   TriangleMesh mesh;
   for (const Shape& shape : shapes(link, which).empty() ? shapes(link, other) : shapes(link, which))
     append(mesh, triangles_of(shape, link.name));
   return mesh;
 }
-
-}  // namespace
 
 std::vector<LinkSweep> sweep_links(const Robot& robot, const JointPath& path, std::span<const std::size_t> links,
                                    Geometry which, const SweepOptions& options) {
@@ -132,7 +131,7 @@ std::vector<LinkSweep> sweep_links(const Robot& robot, const JointPath& path, st
   std::vector<PieceSweep> tasks;
   std::vector<std::size_t> owners;
   for (const std::size_t link : links) {
-    TriangleMesh mesh = triangles_of(robot.links[link], which);
+    TriangleMesh mesh = triangles_to_sweep(robot.links[link], which);
     if (mesh.face_count() == 0) continue;
     const double diagonal = bounding_box(mesh).diagonal();
     ConvexCover cover = convex_cover(

@@ -138,6 +138,11 @@ TEST(Sweep, OfATranslationIsTheConvexHullOfBothEnds) {
   EXPECT_TRUE(made.covers_inside);
 }
 
+TEST(Sweep, OfALongSlantedMotionHasItsVolume) {
+  const Sweep made = sweep(meshes::box({0, 0, 0}, {1, 1, 1}), {{{.shift = {0, 1000, 1000}}}});
+  EXPECT_NEAR(made.volume, 2001, 1);
+}
+
 TEST(Sweep, OfAMotionThatStandsStillIsTheCover) {
   for (const double angle : {0., 1e-300}) {
     const RigidMotion still{.axis = {0, 1, 0}, .angle = angle};

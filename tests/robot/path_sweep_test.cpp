@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <string>
@@ -16,6 +17,7 @@
 #include "random.h"
 #include "robot/motion/kinematics.h"
 #include "robot/motion/poses.h"
+#include "robot/motion/workspace_sweep.h"
 #include "robot/transform.h"
 #include "robot_of_joints.h"
 
@@ -126,6 +128,77 @@ TEST(PathSweep, RefusesWhatTakesTooMuch) {
   const std::size_t link = 1;
   const JointPath path(robot, {.joints = {"joint0"}, .positions = {{0}, {1}}});
   EXPECT_THROW(sweep_links(robot, path, {{link}}, Geometry::Visual, {.max_distance = 1e-9}), InputError);
+}
+
+// The third joint moves link 3 together with the one before it, as joints of MJCF do, and the last one follows another.
+Robot robot_of_all_joints(const std::function<double()>& number) {
+  const auto vector = [&] { return Vec3{number(), number(), number()}; };
+  const auto unit = [&] {
+    const Vec3 v = vector();
+    return v / norm(v);
+  };
+  Joint second = limited(joint(JointType::Revolute, 2, 3, {}, unit()), 0.2, 0.9);
+  second.anchor = vector();
+  return robot_of(6, {limited(joint(JointType::Revolute, 0, 1, 2 * vector(), unit()), -1, 0.5),
+                      joint(JointType::Fixed, 1, 2, vector(), {1, 0, 0}),
+                      limited(joint(JointType::Prismatic, 2, 3, vector(), unit()), 0.3, 1), second,
+                      joint(JointType::Continuous, 3, 4, vector(), unit()),
+                      mimicking(joint(JointType::Revolute, 0, 5, vector(), unit()), 0, -1.5, 0.2)});
+}
+
+TEST(WorkspaceSweep, EnclosesAllPositionsOfARandomRobot) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const Robot robot = robot_of_all_joints([&] { return unit(random); });
+  const std::vector<std::size_t> links{0, 1, 2, 3, 4, 5};
+  const std::vector<LinkSweep> made =
+      sweep_workspace(robot, links, Geometry::Collision,
+                      {.max_pieces = 4, .max_distance = 0.6, .float32_coordinates = unit(random) < 0});
+  ASSERT_EQ(made.size(), 1U);
+  EXPECT_EQ(made[0].link, "link0");
+  EXPECT_TRUE(made[0].sweep.covers_inside);
+  EXPECT_LT(made[0].sweep.reach, 5);
+  for (int i = 0; i < 400; ++i) {
+    std::vector<double> positions;
+    for (const Joint& j : robot.joints) {
+      const double share = 0.5 + std::round(unit(random) * 1.5) / 2;  // often the ends of the limits
+      const bool is_limited = std::isfinite(j.lower) && std::isfinite(j.upper);
+      positions.push_back(is_limited ? j.lower + std::clamp(share, 0.0, 1.0) * (j.upper - j.lower) : 4 * unit(random));
+    }
+    follow(robot, positions);
+    const std::vector<Pose> poses = link_poses(robot, positions);
+    for (std::size_t link = 0; link < poses.size(); ++link) {
+      const Vec3 p{unit(random) / 2, unit(random) / 2, unit(random) < 0 ? -0.5 : 0.5};
+      ASSERT_TRUE(is_in_one(placed(poses[link], p), made[0].sweep.pieces)) << "link " << link;
+    }
+  }
+}
+
+TEST(WorkspaceSweep, OfOneJointIsAboutAsLargeAsWhatIsPassed) {
+  const Robot robot = robot_of(2, {limited(joint(JointType::Revolute, 0, 1, {0, 0, 2}, {0, 0, 1}), -9, 9)});
+  const std::size_t link = 1;
+  const Sweep made = sweep_workspace(robot, {{link}}, Geometry::Visual)[0].sweep;
+  double highest = 0;
+  for (const TriangleMesh& piece : made.pieces)
+    for (const Vec3& p : piece.positions) highest = std::max(highest, norm(Vec3{p.x, p.y, 0}));
+  EXPECT_NEAR(highest, std::sqrt(0.5), 0.05);
+  EXPECT_LT(made.reach, 0.05);
+}
+
+TEST(WorkspaceSweep, RefusesJointsWithoutBounds) {
+  const std::size_t link = 1;
+  const auto refused = [&](const Joint& joint) {
+    try {
+      sweep_workspace(robot_of(2, {joint}), {{link}}, Geometry::Visual);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused(joint(JointType::Prismatic, 0, 1, {}, {0, 0, 1})), "joint 'joint0' has no limits");
+  EXPECT_EQ(refused(joint(JointType::Floating, 0, 1, {}, {0, 0, 1})), "joint 'joint0' neither turns nor slides");
+  EXPECT_NE(refused(limited(joint(JointType::Prismatic, 0, 1, {}, {0, 0, 1}), 1, -1)), "");
+  EXPECT_NE(refused(mimicking(joint(JointType::Prismatic, 0, 1, {}, {0, 0, 1}), 0, 1, 0)), "");
 }
 
 TEST(Poses, AreReadAsQuaternionsOrMatrices) {
