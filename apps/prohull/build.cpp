@@ -15,6 +15,7 @@
 #include "prohull/error.h"
 #include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
+#include "prohull/tolerances.h"
 #include "recenter.h"
 #include "regions_file.h"
 #include "several.h"
@@ -103,15 +104,26 @@ Written write_certified(EnclosingHull hull, FinestLevel finest, const BuildOptio
   return written;
 }
 
+/// Of the faces of a region. The search for a bound may end above what the region allows, which then has a proof of its
+/// own.
+DistanceBounds distance_of_region(const TriangleMesh& faces, const TriangleMesh& hull, double allowed,
+                                  const Progress& progress) {
+  DistanceBounds bounds = distance_bounds(
+      faces, hull, {.max_cells = DistanceOptions{}.max_cells + 2 * faces.face_count(), .progress = progress});
+  if (bounds.upper > allowed &&
+      verify_tolerances(hull, faces, PerFace<double>(faces.face_count(), allowed), progress).holds)
+    bounds.upper = allowed, bounds.lower = std::min(bounds.lower, allowed);
+  return bounds;
+}
+
 void measure(BuildOutcome& outcome) {
   outcome.input_self_intersections = self_intersections_of_input(outcome.made);
   ProgressLine line;
   for (Written& written : outcome.written) {
     written.measures = measures_of(outcome.made, written.hull, std::ref(line));
-    for (const TriangleMesh& faces : outcome.regions.faces)
-      written.regions.push_back(distance_bounds(
-          faces, written.hull.mesh,
-          {.max_cells = DistanceOptions{}.max_cells + 2 * faces.face_count(), .progress = std::ref(line)}));
+    for (std::size_t i = 0; i < outcome.regions.all.size(); ++i)
+      written.regions.push_back(distance_of_region(outcome.regions.faces[i], written.hull.mesh,
+                                                   outcome.regions.all[i].max_distance, std::ref(line)));
   }
 }
 

@@ -55,6 +55,12 @@ echo 'regions: [{color: "#ff0000", spread: 10, max_distance: 0.1}]' >painted.yam
 expect 0 "a colour" $prohull build painted.ply --faces 4 --tolerance painted.yaml -o hull.ply
 says out "a colour" "1 face, at most "
 
+# --- bounds that need no search ---
+echo 'regions: [{box: [[-9, -9, -9], [9, 9, 9]], max_distance: 0.0001}]' >near.yaml
+expect 0 "what is proven is kept" $prohull build bracket.obj --faces 100 --tolerance near.yaml -o hull.obj --report near.json
+says out "what is proven is kept" "at most 0.0001 from the hull, proven; 0.0001 are allowed"
+is "what is proven is kept" awk '/"regions"/ { inside = 1 } inside && /"distance_bound"/ { exit $2 + 0 > 0.0001 }' near.json
+
 # --- what is refused ---
 # refused EXIT_CODE NAME TEXT MESSAGE [OPTIONS...]: a file of regions with that text
 refused() {
