@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "command.h"
@@ -8,6 +9,7 @@
 #include "prohull/detail/rounded.h"
 #include "prohull/detail/summary.h"
 #include "prohull/enclosing_hull.h"
+#include "prohull/enclosure.h"
 #include "prohull/error.h"
 
 namespace prohull::cli {
@@ -45,14 +47,44 @@ void print_quality(const MeshQuality& quality) {
            kSharpDihedralAngle / kDegree);
 }
 
+/// Finite also where its square is not.
+double diagonal_of(const Box& box) {
+  const Vec3 d = box.is_empty() ? Vec3{} : box.max - box.min;
+  return std::hypot(d.x, d.y, d.z);
+}
+
+/// As many digits as show each side of the box to a thousandth.
+int digits_of(const Box& box) {
+  constexpr int kUsual = 6, kAll = 17;
+  int digits = kUsual;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double largest = std::max(std::abs(box.min[axis]), std::abs(box.max[axis]));
+    const double side = box.max[axis] - box.min[axis];
+    if (side > 0) digits = std::max(digits, 3 + static_cast<int>(std::ceil(std::log10(largest / side))));
+  }
+  return std::min(digits, kAll);
+}
+
+void print_box(const Box& box) {
+  if (box.is_empty()) return;
+  const auto point = [digits = digits_of(box)](const Vec3& p) {
+    return fmt::format("({:.{}g}, {:.{}g}, {:.{}g})", p.x, digits, p.y, digits, p.z, digits);
+  };
+  say_fact("box", "{} to {}, diagonal {:.6g}", point(box.min), point(box.max), diagonal_of(box));
+}
+
+void add_box(nlohmann::json& json, const Box& box) {
+  json["box"] = nullptr, json["diagonal"] = diagonal_of(box);
+  if (!box.is_empty())
+    json["box"] = {{"min", {box.min.x, box.min.y, box.min.z}}, {"max", {box.max.x, box.max.y, box.max.z}}};
+}
+
 void print_report(const MeshReport& report) {
   const Box& box = report.box;
   say_fact("faces", "{}", grouped(report.faces));
   say_fact("vertices", "{}", grouped(report.vertices));
   say_fact("components", "{}", grouped(report.components));
-  if (!box.is_empty())
-    say_fact("box", "({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), diagonal {:.6g}", box.min.x, box.min.y,
-             box.min.z, box.max.x, box.max.y, box.max.z, box.diagonal());
+  print_box(box);
   if (report.is_closed_manifold()) {
     say_fact("surface", "closed 2-manifold");
     say_fact("genus", "{}", genus(report));
@@ -103,6 +135,11 @@ void tell_hull(const TriangleMesh& mesh, nlohmann::json& json) {
     if (!repairs.empty())
       say_fact("then", "{}, {}, genus {}, volume {:.9g}", counted(closed.faces, "face"),
                counted(closed.components, "component"), genus(closed), closed.volume);
+    const std::size_t crossings = count_self_intersections(prepared.closed->mesh);
+    json["self_intersections"] = crossings;
+    if (crossings > 0)
+      say_fact("", "or of a wrap: {} {}", counted(crossings, "pair of its faces", "pairs of its faces"),
+               crossings == 1 ? "intersects" : "intersect");
   } catch (const InputError& error) {
     json["usable"] = false;
     json["hull_from"] = nullptr;
@@ -114,6 +151,7 @@ void tell_hull(const TriangleMesh& mesh, nlohmann::json& json) {
 nlohmann::json describe_mesh(const TriangleMesh& mesh) {
   const MeshReport report = inspect(mesh);
   nlohmann::json json = facts(report);
+  add_box(json, report.box);
   print_report(report);
   if (report.is_closed_manifold()) json["genus"] = genus(report);
   stop_if_interrupted();
@@ -130,22 +168,32 @@ nlohmann::json describe_mesh(const TriangleMesh& mesh) {
   return json;
 }
 
+/// As `build` and `verify` have it: overlaps count once.
+double volume_of(const TriangleMesh& level) { return solid_volume(level).value_or(signed_volume(level)); }
+
 nlohmann::json describe_hull(const ProgressiveHull& hull) {
   const std::string side(name_of(hull_side_names(), hull.side()));
-  const double original = signed_volume(hull.original()), base = signed_volume(hull.base());
+  const TriangleMesh finest_mesh = hull.original(), base_mesh = hull.base();
+  const double original = volume_of(finest_mesh), base = volume_of(base_mesh);
   say_fact("kind", "{} progressive hull", side);
   say_fact("original", "{} faces, {} vertices, volume {:.9g}", grouped(hull.original_face_count()),
            grouped(hull.original_vertex_count()), original);
-  if (const std::string finest = described_finest_level(hull.finest_level()); !finest.empty())
-    say_fact("finest level", "{}, not the input itself", finest);
-  say_fact("coarsest", "{} faces, volume {:.9g}, void {}", grouped(hull.base_face_count()), base,
-           percent_text(base / original - 1, 3));
+  const Box box = finite_bounding_box(finest_mesh);
+  print_box(box);
+  const std::string finest = described_finest_level(hull.finest_level());
+  if (!finest.empty()) say_fact("finest level", "{}, not the input itself", finest);
+  say_fact("coarsest", "{} faces, volume {:.9g}, void {}{}", grouped(hull.base_face_count()), base,
+           percent_text(base / original - 1, 3), finest.empty() ? "" : " of the finest level");
   say_fact("splits", "{}", grouped(hull.splits().size()));
-  return {{"side", side},
-          {"finest_level", name_of(finest_level_names(), hull.finest_level())},
-          {"original", {{"faces", hull.original_face_count()}, {"volume", original}}},
-          {"base", {{"faces", hull.base_face_count()}, {"volume", base}, {"void_ratio", base / original - 1}}},
-          {"splits", hull.splits().size()}};
+  nlohmann::json json{
+      {"side", side},
+      {"finest_level", name_of(finest_level_names(), hull.finest_level())},
+      {"original",
+       {{"faces", hull.original_face_count()}, {"vertices", hull.original_vertex_count()}, {"volume", original}}},
+      {"base", {{"faces", hull.base_face_count()}, {"volume", base}, {"void_ratio", base / original - 1}}},
+      {"splits", hull.splits().size()}};
+  add_box(json, box);
+  return json;
 }
 
 int run_info(const InfoOptions& options) {

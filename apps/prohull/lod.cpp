@@ -47,9 +47,12 @@ std::string certificate_of(const LodOutcome& outcome) {
 nlohmann::json report_of(const LodOptions& options, const ProgressiveHull& hull, const LodOutcome& outcome) {
   nlohmann::json report = {
       {"path", options.out.string()},
+      {"target_faces", options.faces > 0 ? nlohmann::json(options.faces) : nlohmann::json()},
       {"faces", outcome.level.face_count()},
       {"vertices", outcome.level.vertex_count()},
       {"volume", signed_volume(outcome.level)},
+      {"finest_faces", hull.original_face_count()},
+      {"coarsest", outcome.level.face_count() == hull.base_face_count()},
       {"finest_level", name_of(finest_level_names(), hull.finest_level())},
       {"certified", outcome.certified()},
       {"seconds",

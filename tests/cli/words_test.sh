@@ -20,6 +20,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n' >sheet.obj
   awk '/^f / { print "f", $2 + 8, $3 + 8, $4 + 8 }' cube.obj
 } >nested.obj
 $prohull sample asteroid -o rock.ply --faces 500 >out
+$prohull sample asteroid -o stone.obj --faces 500 >out
 
 # --- what does not exist ---
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >triangle.obj
@@ -139,6 +140,13 @@ expect 0 "what --tight guarantees" env COLUMNS=1000 $prohull help build
 says out "what --tight guarantees" "It does not intersect itself unless the mesh does"
 says_not out "what --tight guarantees" "never intersects itself"
 
+# A closed mesh that covers some of its own faces no more, so that its hull is one of a wrap.
+$prohull sample knot -o knot.obj --faces 1500 --quiet
+awk '/^v / { for (i = 2; i <= 4; ++i) { s = (s * 16807) % 2147483647; $i += (s / 2147483647 - 0.5) * 0.4 } } { print }' s=7 knot.obj >rough.obj
+expect 0 "a hull of a wrap" $prohull build rough.obj --faces 300 -o rough.ply --hierarchy rough.phull --report rough.json
+expect 0 "a wrap may be needed" $prohull info rough.obj
+says out "a wrap may be needed" "pairs of its faces intersect"
+
 # --- levels ---
 $prohull sample sphere -o sphere.obj --faces 600 --quiet
 awk '/^v / { ++n; if (n == 1 || $4 > top) { top = $4; highest = n } } { line[NR] = $0 } END { n = 0
@@ -164,6 +172,41 @@ says out "the finest level" "certified: yes, the file as written is the finest l
 expect 0 "an inner hull" $prohull build sphere.obj --side inner --faces 100 --hierarchy inner.phull -o hull.ply
 expect 0 "an inner level" $prohull lod inner.phull --faces 300 -o level.ply
 says out "an inner level" "certified: yes, the finest level encloses the file as written"
+
+{
+  grep '^v' stone.obj
+  awk '/^v / { print "v", $2 + 0.5, $3, $4 }' stone.obj
+  grep '^f' stone.obj
+  awk -v n="$(grep -c '^v' stone.obj)" '/^f / { print "f", $2 + n, $3 + n, $4 + n }' stone.obj
+} >overlapping.obj
+expect 0 "volumes of levels" $prohull build overlapping.obj --faces 200 -o hull.ply --hierarchy overlapping.phull --report hull.json
+void=$(sed -n 's/.*, void \([0-9.]* %\).*/\1/p' out)
+expect 0 "volumes of levels" $prohull info overlapping.phull --report info.json
+says out "overlaps of levels count once" "void $void"
+says info.json "levels have a box" '"diagonal": '
+says info.json "levels have vertices" '"vertices": '
+expect 0 "volumes of a wrap" $prohull info rough.phull
+says out "volumes of a wrap" "% of the finest level"
+expect 0 "a level" $prohull lod sphere.phull --faces 1 -o level.ply --report level.json
+says level.json "which level it is" '"coarsest": true'
+says level.json "of how many faces" '"finest_faces": '
+awk '/^v / { $2 += 5400000 } { print }' stone.obj >far.obj
+expect 0 "recentered levels" $prohull build far.obj --faces 100 --recenter -o near.obj --hierarchy near.phull
+for hull in near.obj near.phull; do
+  expect 1 "recentered: $hull" $prohull verify $hull far.obj
+  says out "recentered: $hull" "if it was built with --recenter, give the --offset that the build told"
+done
+
+# --- boxes ---
+awk '/^v / { print "v", $2 + 1000000, $3 + 0.5, $4 * 1e300; next } { print }' cube.obj >box.obj
+expect 0 "a box far from the origin" $prohull info box.obj --report info.json
+says out "a box far from the origin" "(1000000, 0.5, 0) to (1000001, 1.5, 1e+300), diagonal 1e+300"
+says info.json "a box far from the origin" '"diagonal": 1e+300'
+
+# --- nothing is left ---
+printf 'v 0 0 0\nv 1 0 0\nf 1 2 2\n' >needle.obj
+expect 0 "no face with three corners" $prohull repair needle.obj -o solid.obj
+says out "no face with three corners" "bounds no solid: no face has three different corners"
 
 # --- several meshes ---
 mkdir hulls
