@@ -42,6 +42,13 @@ void note_units(const Box& hull, const Box& original, std::vector<std::string>& 
                                   what));
 }
 
+void note_place(const Box& hull, const Box& original, std::vector<std::string>& notes) {
+  note_units(hull, original, notes);
+  if (!hull.is_empty() && !original.is_empty() && !hull.overlaps(original))
+    notes.emplace_back(
+        "the hull lies beside the original: if it was built with --recenter, give the --offset that the build told");
+}
+
 /// The replay judges positions that are not finite.
 Box usable_box(const ProgressiveHull& hull) {
   Box box;
@@ -228,7 +235,7 @@ Verification verify::verify_hull(const TriangleMesh& hull, Original& original, H
   Judge judge(original, side, options, options.gap > 0 ? 5 : 4);
   Verification& found = judge.found;
   found.proof = found.has_solid ? "enclosure" : "coverage";
-  note_units(usable_box(hull, "hull"), original.facts().box, found.notes);
+  note_place(usable_box(hull, "hull"), original.facts().box, found.notes);
   KnownSolid known(hull, "hull");
   if (!judge.refuses_inverted(hull)) {
     if (found.has_solid)
@@ -253,7 +260,7 @@ Verification verify::verify_hull(const ProgressiveHull& hull, Original& original
   Judge judge(original, hull.side(), options, is_of_input ? 4 : 5);
   Verification& found = judge.found;
   found.proof = "replay";
-  note_units(prohull::usable_box(hull), original.facts().box, found.notes);
+  note_place(prohull::usable_box(hull), original.facts().box, found.notes);
   const bool is_finest = found.has_solid && is_of_input;  // the solid has to be the finest level
   const TriangleMesh finest = is_finest ? TriangleMesh{} : hull.original();
   ReplayReport replay;
