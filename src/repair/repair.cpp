@@ -21,6 +21,7 @@ constexpr std::array<std::pair<std::string_view, OpenShells>, 2> kOpenShellsName
     {{"close", OpenShells::Close}, {"keep", OpenShells::Keep}}};
 
 std::string why_not_closed(const MeshReport& report) {
+  if (report.faces == 0) return "no face has three different corners";
   std::string counts;
   for (const DefectCount& defect : defect_counts(report))
     if (defect.count > 0 && !defect.allowed)
