@@ -108,6 +108,7 @@ Written write_certified(EnclosingHull hull, FinestLevel finest, const BuildOptio
 /// own.
 DistanceBounds distance_of_region(const TriangleMesh& faces, const TriangleMesh& hull, double allowed,
                                   const Progress& progress) {
+  if (faces.face_count() == 0) return {};
   DistanceBounds bounds = distance_bounds(
       faces, hull, {.max_cells = DistanceOptions{}.max_cells + 2 * faces.face_count(), .progress = progress});
   if (bounds.upper > allowed &&

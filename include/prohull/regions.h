@@ -49,7 +49,8 @@ struct Region {
 };
 
 /// Of each face, the number of the first region that it belongs to; regions.size() if it belongs to none. Throws
-/// InputError(InvalidOption) if a region has no faces, or asks for colours or names of a mesh that has none.
+/// InputError(InvalidOption) if a region has no faces, or none that no region before it has, and if it asks for
+/// colours, names or numbers that the mesh has not.
 PerFace<std::uint32_t> regions_of_faces(const TriangleMesh& mesh, const MeshMarks& marks,
                                         const std::vector<Region>& regions);
 

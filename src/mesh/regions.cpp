@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -30,6 +31,10 @@ class Membership {
       refuse("asks for a colour, but the mesh has none; PLY files have colours of vertices or faces");
     if (std::holds_alternative<NamedGroup>(region.faces) && marks.names_of.empty())
       refuse("asks for a group, but the mesh has none; OBJ files have groups, objects and materials");
+    if (const auto* const faces = std::get_if<NumberedFaces>(&region.faces))
+      require_numbers(faces->ranges, mesh.face_count(), "face");
+    if (const auto* const vertices = std::get_if<NumberedVertices>(&region.faces))
+      require_numbers(vertices->ranges, mesh.vertex_count(), "vertex");
   }
 
   [[noreturn]] void refuse(const std::string& why) const {
@@ -40,8 +45,13 @@ class Membership {
     return std::visit([&](const auto& wanted) { return is_of(f, wanted); }, region_.faces);
   }
 
-  void require_faces(bool has_any) const {
-    if (has_any) return;
+  void require_faces(std::size_t found, std::size_t taken) const {
+    if (found > taken) return;
+    if (found > 0)
+      refuse(
+          fmt::format("the regions before it take all of its {}, because a face belongs to the first region that it "
+                      "fits: put it before them, or make them smaller",
+                      counted(found, "face")));
     if (std::holds_alternative<Box>(region_.faces))
       refuse("no face has all its corners in the box; is the box in the unit of the mesh?");
     if (const auto* const group = std::get_if<NamedGroup>(&region_.faces))
@@ -52,6 +62,12 @@ class Membership {
   }
 
  private:
+  void require_numbers(const std::vector<NumberRange>& ranges, std::size_t count, std::string_view what) const {
+    for (const NumberRange& range : ranges)
+      if (range.last >= count)
+        refuse(fmt::format("the mesh has no {} {}; its last one is {}", what, range.last, count - 1));
+  }
+
   bool all_corners(FaceId f, auto&& is_wanted) const { return std::ranges::all_of(mesh_.triangles[f], is_wanted); }
 
   bool is_of(FaceId f, const Box& box) const {
@@ -105,13 +121,16 @@ PerFace<std::uint32_t> regions_of_faces(const TriangleMesh& mesh, const MeshMark
   for (std::uint32_t r = 0; r < none; ++r) {
     check(regions[r]);
     const Membership membership(mesh, marks, regions[r]);
-    bool has_any = false;
+    std::size_t found = 0, taken = 0;
     for (const FaceId f : mesh.triangles.ids()) {
       if (!membership.has(f)) continue;
-      has_any = true;
-      if (result[f] == none) result[f] = r;
+      ++found;
+      if (result[f] == none)
+        result[f] = r;
+      else
+        ++taken;
     }
-    membership.require_faces(has_any);
+    membership.require_faces(found, taken);
   }
   return result;
 }
