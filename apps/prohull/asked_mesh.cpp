@@ -19,6 +19,7 @@ AskedMesh::AskedMesh(const std::filesystem::path& path, const InputOptions& opti
   const auto* const hull = std::get_if<ProgressiveHull>(&mesh_or_hull_);
   faces_ = hull ? hull->original_face_count() : std::get<TriangleMesh>(mesh_or_hull_).face_count();
   finest_level_ = hull ? hull->finest_level() : FinestLevel::Input;  // of a mesh file nothing has to be said
+  if (const auto* const mesh = std::get_if<TriangleMesh>(&mesh_or_hull_)) is_inside_out_ = signed_volume(*mesh) < 0;
   if (faces_ == 0)
     throw InputError(Defect::EmptyMesh, input_name(path) + ": it has no faces, so that there is nothing to ask");
 }

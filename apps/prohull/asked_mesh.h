@@ -22,6 +22,8 @@ class AskedMesh {
 
   std::size_t face_count() const { return faces_; }
   Box box() const;
+  /// Nothing is inside of a closed mesh whose volume is negative.
+  bool is_inside_out() const { return is_inside_out_; }
 
   /// The mesh or hull goes into the index. What `make` throws then names the file.
   QueryIndex index(const std::function<QueryIndex(MeshOrHull)>& make);
@@ -37,6 +39,7 @@ class AskedMesh {
   MeshOrHull mesh_or_hull_;
   std::size_t faces_;
   FinestLevel finest_level_;
+  bool is_inside_out_ = false;
 };
 
 /// Queries that are made at random.

@@ -38,6 +38,7 @@ std::vector<Pose> poses_of(const CollideOptions& options) {
 struct Body {
   CollisionIndex index;
   FinestLevel finest_level;
+  bool is_inside_out = false;  ///< closed, and wound about a negative volume: nothing is inside of it
 };
 
 TriangleMesh outer_hull(const ProgressiveHull& levels, const std::filesystem::path& path) {
@@ -62,7 +63,9 @@ Body read_body(const CollideOptions& options, const std::filesystem::path& path)
     if (options.conservative && signed_volume(mesh) < 0)
       throw InputError(Defect::NoVolume,
                        "the mesh is inside out and encloses nothing, which --conservative could tell of; turn it");
-    return {CollisionIndex(mesh), FinestLevel::Input};
+    CollisionIndex index(mesh);
+    const bool is_inside_out = index.is_solid() && signed_volume(mesh) < 0;
+    return {std::move(index), FinestLevel::Input, is_inside_out};
   });
 }
 
@@ -87,6 +90,7 @@ Answers answer(const CollideOptions& options, const Body& a, const Body& b, cons
 }
 
 std::string bounds(const Separation& s) {
+  if (s.lower == 0) return fmt::format("at most {:.17g} apart, proven", s.upper);
   return fmt::format("{:.9g} apart, proven between {:.17g} and {:.17g}", s.upper, s.lower, s.upper);
 }
 
@@ -126,6 +130,9 @@ void print_notes(const Body& body, const std::filesystem::path& path) {
   if (!body.index.is_solid())
     say("  {} is not closed: only its faces count, not what lies inside (`prohull repair` closes it)\n",
         input_name(path));
+  if (body.is_inside_out)
+    say("  {} is inside out: only its faces count, because nothing is inside of it (`prohull repair` turns it)\n",
+        input_name(path));
   if (const std::string finest = described_finest_level(body.finest_level); !finest.empty())
     say("  {} stands for {}: the finest level of the file is not the input itself\n", input_name(path), finest);
 }
@@ -134,6 +141,7 @@ nlohmann::json facts(const Body& body, const std::filesystem::path& path) {
   return {{"path", path.string()},
           {"faces", body.index.face_count()},
           {"solid", body.index.is_solid()},
+          {"inside_out", body.is_inside_out},
           {"finest_level", name_of(finest_level_names(), body.finest_level)}};
 }
 

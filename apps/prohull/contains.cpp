@@ -20,7 +20,8 @@ PointAnswers ask(const QueryIndex& index, const std::vector<Vec3>& points, const
   const double share = points.empty() ? 0 : static_cast<double>(count) / static_cast<double>(points.size());
   return {fmt::format("{} of {} inside ({:.2f} %)", grouped(count), counted(points.size(), "point"), 100 * share),
           {{"inside", count}},
-          [inside](const auto& file) { write_inside(file, inside); }};
+          [inside](const auto& file) { write_inside(file, inside); },
+          true};
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ std::vector<ClosestPoint> distances_of(const QueryIndex& index, const std::vecto
   return distances;
 }
 
-PointAnswers answers(std::vector<ClosestPoint> distances) {
+PointAnswers answers(std::vector<ClosestPoint> distances, bool is_signed) {
   PointAnswers answers{"no points", nlohmann::json::object(),
-                       [distances](const auto& file) { write_distances(file, distances); }};
+                       [distances](const auto& file) { write_distances(file, distances); }, is_signed};
   if (distances.empty()) return answers;
   const auto [least, greatest] = std::ranges::minmax(distances, {}, &ClosestPoint::distance);
   answers.summary = fmt::format("{} at distances from {:.6g} to {:.6g}", counted(distances.size(), "point"),
@@ -55,7 +55,7 @@ void add_distance(CLI::App& app, Run& run) {
     run = [options] {
       return run_points(*options, distance_outputs(),
                         [&](const QueryIndex& index, const std::vector<Vec3>& points, const BatchOptions& batch) {
-                          return answers(distances_of(index, points, batch, options->is_signed));
+                          return answers(distances_of(index, points, batch, options->is_signed), options->is_signed);
                         });
     };
   });

@@ -169,6 +169,7 @@ void Outputs::add_folder(const path& folder) {
   add_folder(folder.parent_path());
   const std::lock_guard lock(g_mutex);
   std::filesystem::create_directory(folder, error);
+  if (error == std::errc::file_exists) fail_to_write(folder, "a file has that name; name another folder");
   if (error) fail_to_write(folder, error.message());
   folders_.push_back(folder), g_folders.push_back(folder);
 }

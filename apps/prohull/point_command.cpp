@@ -71,11 +71,14 @@ int run_points(const PointOptions& options, const OutputKind& answers, const Ask
                            {"seconds", seconds.facts()},    {"input", asked.facts()}};
   if (options.random.count > 0) report["seed"] = options.random.seed;
   report.update(found.facts);
+  if (found.is_about_inside) report["input"]["inside_out"] = asked.is_inside_out();
   outputs.add_report(options.report, report);
   outputs.commit();
   asked.say_what();
   options.random.say_what("points");
   say("{}{}\n", options.out.empty() ? "" : output_name(options.out) + ": ", found.summary);
+  if (found.is_about_inside && asked.is_inside_out())
+    say("  {} is inside out: nothing is inside of it (`prohull repair` turns it)\n", input_name(options.in));
   say("  engine {}, {}: {} points per second\n", index.engine_name(), counted(threads, "thread"),
       grouped(static_cast<std::size_t>(per_second)));
   seconds.say_them();

@@ -32,6 +32,7 @@ struct PointAnswers {
   std::string summary;  ///< "3 of 10 points are inside (30.00 %)"
   nlohmann::json facts;
   std::function<void(const std::filesystem::path&)> write;
+  bool is_about_inside = false;  ///< and not of the faces alone
 };
 using AskPoints = std::function<PointAnswers(const QueryIndex&, const std::vector<Vec3>&, const BatchOptions&)>;
 

@@ -135,6 +135,10 @@ for command in render urdf lod sample; do
   says_not out "$command scales no meshes" "  --unit "
 done
 
+# --- outputs ---
+expect 3 "a file where a folder should be" $prohull build cube.obj nested.obj -o tube.obj/
+says err "a file where a folder should be" "a file has that name; name another folder"
+
 # --- self-intersections ---
 expect 0 "what --tight guarantees" env COLUMNS=1000 $prohull help build
 says out "what --tight guarantees" "It does not intersect itself unless the mesh does"
@@ -196,6 +200,23 @@ for hull in near.obj near.phull; do
   expect 1 "recentered: $hull" $prohull verify $hull far.obj
   says out "recentered: $hull" "if it was built with --recenter, give the --offset that the build told"
 done
+
+# --- inside out ---
+awk '/^f / { print "f", $2, $4, $3; next } { print }' cube.obj >inverted.obj
+printf 'v 0.4 0.4 0.4\nv 0.6 0.4 0.4\nv 0.4 0.6 0.4\nv 0.4 0.4 0.6\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >inside.obj
+for command in "collide inverted.obj inside.obj" "contains inverted.obj --random 9" "distance inverted.obj --random 9 --signed"; do
+  expect 0 "inside out: $command" $prohull $command --report inverted.json
+  says out "inside out: $command" "inverted.obj is inside out: "
+  says inverted.json "inside out: $command" '"inside_out": true'
+done
+expect 0 "distances from faces have no inside" $prohull distance inverted.obj --random 9
+says_not out "distances from faces have no inside" "inside out"
+
+# --- distances below rounding ---
+printf 'v 1.0000000000000002 0 0\nv 3 0 0\nv 2 1 0\nv 2 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >beside.obj
+expect 0 "closer than rounding tells" $prohull collide cube.obj beside.obj --distance
+says out "closer than rounding tells" "  at most "
+says_not out "closer than rounding tells" "between 0 and"
 
 # --- boxes ---
 awk '/^v / { print "v", $2 + 1000000, $3 + 0.5, $4 * 1e300; next } { print }' cube.obj >box.obj
