@@ -74,10 +74,12 @@ Size size_of(const std::string& text) {
 }
 
 std::size_t level_of(const std::string& text) {
-  std::size_t faces = MeshTable::kFinest;
-  if (text != kOriginal && !parse(text, faces))
+  if (text == kOriginal) return MeshTable::kFinest;
+  constexpr double kMost = 1e10;
+  double faces = 0;  // as other commands take it: 1e6, too
+  if (!parse(text, faces) || !(faces >= 0 && faces <= kMost) || faces != std::floor(faces))
     refuse(fmt::format("'{}' is no level; say a number of faces, or {}", text, kOriginal));
-  return faces;
+  return static_cast<std::size_t>(faces);
 }
 
 Vec3 point_of(const std::string& text) {

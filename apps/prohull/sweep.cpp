@@ -82,12 +82,13 @@ Vec3 axis_of(const std::string& text) {
 std::vector<RigidMotion> motions_of(const SweepRunOptions& options) {
   if (!options.poses.empty()) return motions_between(read_poses(read_bytes(options.poses), input_name(options.poses)));
   const double degrees = options.degrees.value_or(0);
-  if (degrees == 0 && options.move.empty())
-    refuse(options.degrees ? "with --angle 0 it does not move" : "how does it move? Say --angle, --move or --poses");
+  if (!options.degrees && options.move.empty()) refuse("how does it move? Say --angle, --move or --poses");
   RigidMotion motion{.angle = degrees * kDegree};
   if (!options.axis.empty()) motion.axis = axis_of(options.axis);
   if (!options.through.empty()) motion.through = vector_of(options.through, "point");
   if (!options.move.empty()) motion.shift = vector_of(options.move, "vector");
+  if (degrees == 0 && motion.shift == Vec3{})
+    refuse(fmt::format("with {} it does not move", options.move.empty() ? "--angle 0" : "--move " + options.move));
   return {motion};
 }
 

@@ -548,6 +548,7 @@ expect 2 "no colour" $prohull render rock.ply -o wrong.png --color mauve
 says err "no colour" "orange"
 expect 2 "no background" $prohull render rock.ply -o wrong.png --background none
 expect 2 "no level" $prohull render rock.phull -o wrong.png --faces many
+expect 0 "a number of faces with an exponent" $prohull render rock.phull -o level.png --faces 1e9 --size 64x64
 expect 2 "levels of a mesh" $prohull render rock.ply -o wrong.png --faces 100
 expect 2 "two zooms, three panels" $prohull render rock.ply rock.ply rock.ply -o wrong.png --zoom 1 --zoom 2
 says err "two zooms, three panels" "--zoom is given 2 times"

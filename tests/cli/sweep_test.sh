@@ -63,6 +63,8 @@ expect 2 "no motion" $sweep -o no.stl
 says err "no motion" "how does it move?"
 expect 2 "no turn" $sweep --angle 0 -o no.stl
 says err "no turn" "with --angle 0 it does not move"
+expect 2 "no shift" $sweep --move 0,0,0 -o no.stl
+says err "no shift" "with --move 0,0,0 it does not move"
 expect 2 "an axis without length" $sweep --axis 0,0,0 --angle 5 -o no.stl
 expect 2 "no number" $sweep --axis nan,0,0 --angle 5 -o no.stl
 expect 2 "poses and an angle" $sweep --poses poses.csv --angle 5 -o no.stl
