@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs what readers can copy: snippets.py ROOT PROHULL [--write] [PAGE...]
 
-Of README.md, CONTRIBUTING.md and all pages below docs/, or of the given ones, each in an empty folder of its own that holds `part.stl`:
+Of README.md, CONTRIBUTING.md and all pages below docs/, or of the given ones, each in an empty folder of its own:
 
     console   lines that begin with "$ " are run by sh, one after the other; the lines below are what each prints
     python    run as one program for each page, between the commands
@@ -176,7 +176,6 @@ def check(page, write):
         os.chdir(folder)
         os.environ["XDG_CACHE_HOME"] = f"{folder}/.cache"
         try:
-            run("prohull sample bracket --faces 3000 -o part.stl")
             page.check()
             if page.stale and not write:
                 raise Wrong("shows numbers that are others now; --write renews them\n" + "\n".join(page.stale))
