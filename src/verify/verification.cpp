@@ -76,8 +76,10 @@ class Judge {
     if (stand_in_) found.cap_faces = stand_in_->caps;
     found.has_solid = original.has_solid();
     if (!is_outer() && !found.has_solid)
-      throw InputError(Defect::OpenEdge,
-                       "the original is not closed: it has no inside that could enclose an inner hull");
+      throw InputError(
+          Defect::OpenEdge,
+          "the original is not closed: it has no inside that could enclose an inner hull; `prohull repair` "
+          "closes it, and --open-shells close closes its openings");
     found.every_triangle = !options.solid_only || !found.has_solid;
   }
 

@@ -97,6 +97,8 @@ expect 0 "a shell" $prohull build bucket.obj --faces 500 --open-shells keep -o s
 expect 0 "a shell covers the triangles" $prohull verify shell.obj bucket.obj
 expect 1 "a shell has the inside outside" $prohull verify shell.obj bucket.obj --open-shells close
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >leaf.obj
+expect 3 "an inner hull of an open mesh" $prohull verify inner.obj bucket.obj --side inner
+says err "an inner hull of an open mesh" '`prohull repair` closes it'
 expect 3 "nothing closes a leaf" $prohull verify cube.obj leaf.obj --side inner --open-shells close
 
 # --- numbers that nobody can read ---
