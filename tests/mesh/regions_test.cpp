@@ -46,7 +46,9 @@ TEST(Regions, OfNumbersHaveTheseFacesOrTheFacesBetweenTheseVertices) {
   EXPECT_EQ(count_of(NumberedFaces{{{0, 2}, {7, 7}}}), 4u);
   EXPECT_EQ(count_of(NumberedVertices{{{4, 7}}}), 2u) << "the top";
   EXPECT_EQ(count_of(NumberedVertices{{{0, 7}}}), kCubeFaces);
-  expect_refused(NumberedFaces{{{12, 99}}}, {}, "it has no faces");
+  expect_refused(NumberedFaces{{}}, {}, "it has no faces");
+  expect_refused(NumberedFaces{{{3, 3}, {7, 12}}}, {}, "the mesh has no face 12; its last one is 11");
+  expect_refused(NumberedVertices{{{0, 8}}}, {}, "the mesh has no vertex 8; its last one is 7");
 }
 
 TEST(Regions, OfAColorHaveTheFacesPaintedInItOrBetweenPaintedVertices) {
