@@ -39,6 +39,12 @@ std::string solid_name(const ToldHull& told, const Solid& solid) {
   return solid.source == Source::Mesh && is_changed ? "the repaired mesh" : source_of(solid);
 }
 
+/// A closed mesh has none: wraps close passages between its parts.
+const char* openings_of(const ToldHull& told) {
+  const RepairedMesh& input = told.made.input;
+  return input.closed && input.caps.face_count() == 0 ? "passages that the wrap closed" : "its openings";
+}
+
 std::string described_self_intersections(const ToldHull& told) {
   const std::size_t input = told.input_self_intersections, own = told.hull.self_intersections;
   const Solid& first = told.made.solids.front();  // what was looked at, if it is of the mesh
@@ -91,9 +97,9 @@ std::string described_void(const EnclosingHulls& made, const EnclosingHull& hull
   return text_of_void(hull.void_ratio) + (made.is_estimated ? " (estimated)" : "");
 }
 
-std::string text_of_openings(bool has_openings, const DistanceBounds& from_triangles) {
+std::string text_of_openings(bool has_openings, const DistanceBounds& from_triangles, const char* openings) {
   if (!has_openings) return "";
-  return fmt::format("; its openings count as closed, and from its triangles alone it is at most {:.4g}",
+  return fmt::format("; {} count as closed, and from its triangles alone it is at most {:.4g}", openings,
                      rounded_up(from_triangles.upper, 4));
 }
 
@@ -181,7 +187,7 @@ std::string line_of_hull(const std::string& name, const ToldHull& told) {
                      counted(hull.mesh.face_count(), "face", "faces"),
                      hull.source == Source::Mesh ? "" : fmt::format(", of {}", source_of(told.solid())),
                      described_void(told.made, hull), rounded_up(told.measures.to_solid.upper, 4),
-                     text_of_openings(told.measures.has_openings, told.measures.to_triangles));
+                     text_of_openings(told.measures.has_openings, told.measures.to_triangles, openings_of(told)));
 }
 
 std::vector<std::string> lines_of_shape(const ToldHull& told) {

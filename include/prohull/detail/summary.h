@@ -20,8 +20,10 @@ std::string text_of_void(double void_ratio);
 /// The same of a hull that was made; where its volume is only estimated, it says so.
 std::string described_void(const EnclosingHulls& made, const EnclosingHull& hull);
 
-/// Behind a distance that counts from the mesh: that its openings are closed, and how far the triangles alone are.
-std::string text_of_openings(bool has_openings, const DistanceBounds& from_triangles);
+/// Behind a distance that counts from the mesh: that its openings, or what else, are closed, and how far the triangles
+/// alone are.
+std::string text_of_openings(bool has_openings, const DistanceBounds& from_triangles,
+                             const char* openings = "its openings");
 
 /// Whether both have the very same triangles in the same order: a file that was read again, or a repaired mesh, may
 /// have its vertices numbered anew.
