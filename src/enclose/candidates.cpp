@@ -37,6 +37,7 @@ std::optional<Candidate> Candidates::next(const Ranking& ranking, Solids& solids
   std::optional<Candidate> next = last_ ? follow_up(ranking, solids) : std::nullopt;
   while (!next && next_step_ < steps_.size()) next = steps_[next_step_++](ranking, solids);
   if (next) next->bounds = bounds_, next->seed = seed_;
+  if (next && ranking.is_as_asked()) next->most_faces = std::max(target_faces_, ranking.best().hull.mesh.face_count());
   return last_ = next;
 }
 
@@ -209,17 +210,15 @@ bool Candidates::is_worth_a_search(const EnclosingHull& hull) const {
 // With bounds, no tight hull of a wrap was better than its levels, of 8 robots' parts and of soups; with padding, too,
 // one of 77,000 faces that missed them took 12 s and was no nearer.
 void Candidates::plan_tight() {
-  const auto tight = [this](SolidId id, const Ranking& ranking, const Solids& solids) {
+  const auto tight = [this](SolidId id, const Solids& solids) {
     const bool may_have_body = request_.is_padded() && !bounds_.any() && solids[id].source != Source::ConvexHull;
-    Candidate candidate{
+    return Candidate{
         .solid = id, .target_faces = target_faces_, .recipe = {may_have_body ? Method::TightOfGapBody : Method::Tight}};
-    if (ranking.is_as_asked()) candidate.most_faces = std::max(target_faces_, ranking.best().hull.mesh.face_count());
-    return candidate;
   };
   steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
     if (!is_worth_the_mesh(solids)) return std::nullopt;
     const bool is_of_mesh = ranking.best().hull.source == Source::Mesh;  // with its folds, or without
-    return tight(is_of_mesh ? ranking.best().hull.solid : 0, ranking, solids);
+    return tight(is_of_mesh ? ranking.best().hull.solid : 0, solids);
   });
   steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
     if (!ranking.has_certified()) return std::nullopt;
@@ -234,7 +233,7 @@ void Candidates::plan_tight() {
     if ((!request_.is_padded() && is_worth_the_mesh(solids)) ||
         (has_levels_that_moved && (!request_.is_padded() || !best.within_bounds)))
       return std::nullopt;
-    return tight(best.solid, ranking, solids);
+    return tight(best.solid, solids);
   });
 }
 

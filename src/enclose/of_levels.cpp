@@ -64,23 +64,32 @@ EnclosingHull built_of_levels(const Making& making) {
   return hull;
 }
 
-// Moved before it has come down to its faces, too, a hull is up to 1 % smaller.
+// Moved before it has come down to its faces, too, a hull is up to 1 % smaller. One that is stuck with too many faces
+// to be better than another hull does not move any more.
 EnclosingHull built_in_steps(const Making& making) {
-  constexpr std::pair<double, unsigned> kSteps[]{{1.5, 2}, {1, kRoundsAtTheEnd}};
+  struct Step {
+    double faces;  ///< of those asked for
+    unsigned rounds;
+    double stuck;  ///< with more, in Candidate::most_faces
+  };
+  constexpr Step kSteps[]{{1.5, 2, 4}, {1, kRoundsAtTheEnd, 1}};
   const double target = double(making.candidate.target_faces);
   EnclosingHull hull;
   hull.mesh = making.solid().mesh;
-  for (const auto& [faces, rounds] : kSteps) {
+  for (const auto& [faces, rounds, stuck] : kSteps) {
     if (!(signed_volume(hull.mesh) > 0)) break;  // an inner hull may vanish
     HullOptions options = making.hull_options();
     options.target_faces = std::size_t(std::llround(faces * target));
     options.guards.max_overhang = overhang_left(bounding_box(hull.mesh), bounding_box(making.request.input.original),
                                                 making.options().hull.guards.max_overhang);
     HullResult result = build_hull(hull.mesh, options);
-    hull.mesh = placed(result.hull.base(), making, rounds);
+    hull.mesh = result.hull.base();
+    const bool is_stuck = double(hull.mesh.face_count()) > stuck * double(making.candidate.most_faces);
+    if (!is_stuck) hull.mesh = placed(hull.mesh, making, rounds);
     hull.target_reached = result.stopped == Stopped::TargetReached;
     hull.refusals += result.refusals, hull.blocked = result.blocked;
     hull.relaxed_guards = std::max(hull.relaxed_guards, result.relaxed_guards);
+    if (is_stuck) break;
   }
   return hull;
 }

@@ -98,7 +98,8 @@ void Candidates::plan_other_wraps() {
   for (const double coarser : {1.1, 1.21, 1.33})
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       if (!are_wraps_stuck(ranking)) return std::nullopt;
-      const auto id = wrap(kOther, coarser * spacing_for(kOther), solids);
+      const double spacing = std::max(spacing_for(kOther), finest_worth_its_faces(solids));
+      const auto id = wrap(kOther, coarser * spacing, solids);
       return id ? std::optional(of(*id, solids)) : std::nullopt;
     });
 }

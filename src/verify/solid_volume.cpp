@@ -39,11 +39,22 @@ class Boundary {
     for (const std::vector<FaceIndex>& meets : meets_) segments += meets.size() * meets.size();
     if (segments > kMostSteps) throw OutOfSteps();
     add_free_faces();
+    std::size_t seen = 0;
     for (FaceIndex f = 0; f < meets_.size(); ++f)
-      if (!meets_[f].empty()) add_parts(f);
+      if (!meets_[f].empty()) {
+        add_parts(f);
+        seen += meets_[f].size() * meets_[f].size();
+        if (are_too_many(double(seen), double(segments))) throw OutOfSteps();
+      }
   }
 
  private:
+  /// Steps go with segments, about: of 10,000 overlapping icosahedra 1.35 to 1.36 each, from the first faces on.
+  bool are_too_many(double seen, double segments) const {
+    constexpr double kEnough = 0.05 * kMostSteps, kFarTooMany = 1.25 * kMostSteps;
+    return seen > kEnough && double(steps_.taken()) * segments > kFarTooMany * seen;
+  }
+
   /// Faces that meet no others are joined where an edge has two of them and no third.
   void add_free_faces() {
     Clusters clusters(meets_.size());
