@@ -35,8 +35,15 @@ struct FurtherTrial {
   double excess;  ///< HullBounds::excess: above 1, it breaks a bound
 };
 
-FurtherTrial try_further(const TriangleMesh& hull, double distance, const Making& making) {
-  const TriangleMesh start = placed(hull, making);
+/// The hull, moved towards the triangles if it keeps the bounds then, too: between vertices, it may come farther from
+/// them. Large ones stay: moving takes most of the time.
+TriangleMesh start_of(const TriangleMesh& hull, const Making& making) {
+  if (!is_small(hull.face_count())) return hull;
+  TriangleMesh moved = placed(hull, making);
+  return excess_of(moved, making) <= 1 ? moved : hull;
+}
+
+FurtherTrial try_further(const TriangleMesh& start, double distance, const Making& making) {
   HullOptions how = making.hull_options();
   how.tolerances.assign(start.face_count(), distance);
   how.deviations = distances_from(making.to_cover(), start);
@@ -47,8 +54,9 @@ FurtherTrial try_further(const TriangleMesh& hull, double distance, const Making
   const double excess = excess_of(base, making);
   FurtherTrial trial{std::move(result), std::move(base), excess};
   if (trial.excess > 1 && is_worth_moving(trial.mesh.face_count(), trial.excess)) {
-    trial.mesh = placed(trial.mesh, making);
-    trial.excess = excess_of(trial.mesh, making);
+    TriangleMesh moved = placed(trial.mesh, making);
+    if (const double nearer = excess_of(moved, making); nearer < trial.excess)
+      trial.mesh = std::move(moved), trial.excess = nearer;
   }
   return trial;
 }
@@ -84,14 +92,16 @@ EnclosingHull built_further(const Making& making) {
   constexpr double kNearer = 0.85;
   EnclosingHull hull = *making.candidate.start;
   hull.levels.reset();
+  TriangleMesh start = start_of(hull.mesh, making);
   double distance = making.bounds().max_distance, fewer = 0;
   for (int round = 0; round < kMostRounds && fewer <= kFewer; ++round) {
-    FurtherTrial trial = try_further(hull.mesh, distance, making);
+    FurtherTrial trial = try_further(start, distance, making);
     fewer = double(trial.mesh.face_count()) / double(hull.mesh.face_count());
     if (trial.excess > 1) {
       distance *= std::min(kNearer, 1 / trial.excess);
     } else if (fewer < 1) {
       hull.mesh = std::move(trial.mesh);
+      if (fewer <= kFewer && round + 1 < kMostRounds) start = start_of(hull.mesh, making);
       hull.refusals += trial.result.refusals, hull.blocked = trial.result.blocked;
       hull.relaxed_guards = std::max(hull.relaxed_guards, trial.result.relaxed_guards);
     }
