@@ -43,7 +43,7 @@ class CageMaker {
   }
 
  private:
-  EnclosingHulls build(HullSide side, Repair repair, std::size_t faces) const;
+  EnclosingHulls build(HullSide side, Repair repair, std::size_t faces, double padding) const;
   EnclosingHulls outer_hull(std::size_t faces) const;
   EnclosingHulls inner_hull(std::size_t faces) const;
   EnclosingHulls hull(HullSide side, std::size_t faces) const;
@@ -61,25 +61,27 @@ class CageMaker {
 };
 
 EnclosingHulls CageMaker::outer_hull(std::size_t faces) const {
-  EnclosingHulls made = build(HullSide::Outer, Repair::Auto, faces);
+  EnclosingHulls made = build(HullSide::Outer, Repair::Auto, faces, cage_.gap);
   if (made.hulls[0].self_intersections == 0) return made;
   // As where faces have passed through each other in a narrow gap.
-  EnclosingHulls wrapped = build(HullSide::Outer, Repair::Wrap, faces);
+  EnclosingHulls wrapped = build(HullSide::Outer, Repair::Wrap, faces, cage_.gap);
   return wrapped.hulls[0].self_intersections == 0 ? wrapped : made;
 }
 
 // Where the hull cannot move inwards, one with fewer faces may: of a teapot, one of 100 where those of 200 and more
-// touch themselves.
+// touch themselves. Of boxes that overlap, only one that keeps the gap from the beginning lies inside.
 EnclosingHulls CageMaker::inner_hull(std::size_t faces) const {
   for (const std::size_t fewer : {faces, faces / 2, faces / 4, faces / 8}) {
-    EnclosingHulls made = build(HullSide::Inner, Repair::Auto, std::max<std::size_t>(fewer, 4));
+    EnclosingHulls made = build(HullSide::Inner, Repair::Auto, std::max<std::size_t>(fewer, 4), 0);
     made.hulls[0].target_faces = faces;
     if (move_inwards(made)) return made;
   }
+  EnclosingHulls made = build(HullSide::Inner, Repair::Auto, faces, cage_.gap);
+  if (accept(made, HullSide::Inner, TriangleMesh(made.hulls[0].mesh))) return made;
   throw InputError(
       Defect::NoCertificate,
-      fmt::format("no inner hull of at most {} faces was found that lies strictly inside of the mesh: mend "
-                  "it where it intersects itself, use a smaller gap, or leave out the inner hull",
+      fmt::format("no inner hull of at most {} faces was found that lies strictly inside of the mesh: use another "
+                  "gap, mend the mesh where it intersects itself, or leave out the inner hull",
                   faces));
 }
 
@@ -111,7 +113,7 @@ EnclosingHulls CageMaker::even_hull(HullSide side, std::size_t faces) const {
   return std::move(*best);
 }
 
-EnclosingHulls CageMaker::build(HullSide side, Repair repair, std::size_t faces) const {
+EnclosingHulls CageMaker::build(HullSide side, Repair repair, std::size_t faces, double padding) const {
   EnclosingOptions how;
   how.hull.side = side;
   how.hull.relax_guards = true;
@@ -120,7 +122,7 @@ EnclosingHulls CageMaker::build(HullSide side, Repair repair, std::size_t faces)
   how.tight = options_.tight;
   how.repair = repair;
   how.progress = options_.progress;
-  if (side == HullSide::Outer) how.padding = cage_.gap;
+  how.padding = padding;
   return enclosing_hulls(triangles_, {&faces, 1}, how);
 }
 

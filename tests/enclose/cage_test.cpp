@@ -59,6 +59,16 @@ TEST(Cage, HullsOfSamplesAreDisjointAndKeepTheGap) {
 }
 
 // The hulls of 200 faces and 100 touch themselves.
+TEST(Cage, OfBoxesThatOverlapHasAnInnerHull) {
+  TriangleMesh both = meshes::box({0, 0, 0}, {2, 2, 2});
+  append(both, meshes::box({1, 1, 1}, {3, 3, 3}));
+  const Cage cage = build_cage(both, {.outer_faces = 60, .inner_faces = 60, .gap = 0.1});
+  ASSERT_TRUE(cage.inner);
+  EXPECT_TRUE(cage.inner->hull().certified);
+  EXPECT_TRUE(cage.inner->keeps_gap);
+  EXPECT_TRUE(cage.inner->is_disjoint);
+}
+
 TEST(Cage, TakesFewerFacesWhereTheInnerHullNeedsThat) {
   TriangleMesh mesh = make_sample("sphere", 400);
   append(mesh, make_sample("torus", 600));
