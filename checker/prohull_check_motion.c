@@ -427,12 +427,33 @@ static void find_chain(size_t x, size_t y) {
   spend(frame_count + 100 * hinge_count);
 }
 
+/* Cuts the limits of a freedom to where those that follow it are within theirs, rounded outwards. */
+static void cut_limits(size_t freedom, double* low, double* high) {
+  *low = frames[freedom].low, *high = frames[freedom].high;
+  for (size_t j = 0; j < frame_count; ++j) {
+    double ends[2] = {frames[j].low, frames[j].high};
+    size_t at = j;
+    for (int steps = 0; steps < 100 && at < frame_count && frames[at].master != NONE; at = frames[at].master, ++steps) {
+      const double factor = frames[at].factor, offset = frames[at].offset;
+      if (factor == 0) break;
+      const double from = nextafter(ends[0] - offset, -INFINITY) / factor,
+                   to = nextafter(ends[1] - offset, INFINITY) / factor;
+      ends[0] = nextafter(factor < 0 ? to : from, -INFINITY), ends[1] = nextafter(factor < 0 ? from : to, INFINITY);
+    }
+    if (j == freedom || at != freedom) continue;
+    if (ends[0] > *low) *low = ends[0];
+    if (ends[1] < *high) *high = ends[1];
+  }
+}
+
 /* Whether all positions of a freedom are like one of these: within the limits, or a whole turn. */
 static int suffices(size_t freedom, double low, double high) {
   const Frame* const f = frames + freedom;
-  spend(100 * hinge_count);
+  double least, most;
+  spend(100 * (hinge_count + frame_count));
   if (f->master != NONE || !(low <= high)) return 0;
-  if (low <= f->low && f->high <= high) return 1;
+  cut_limits(freedom, &least, &most);
+  if (low <= least && most <= high) return 1;
   for (size_t h = 0; h < hinge_count; ++h) {
     int whole = 1;
     if (frames[hinges[h].frame].kind == FIXED || leader_of(hinges[h].frame, &whole) != freedom) continue;

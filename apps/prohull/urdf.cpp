@@ -12,6 +12,7 @@
 #include "robot/hulls/certificates.h"
 #include "robot/hulls/write_robot.h"
 #include "robot/motion/bodies.h"
+#include "robot/motion/joint_limits.h"
 #include "robot/motion/motion.h"
 #include "robot/motion/planner_files.h"
 #include "robot/report/report.h"
@@ -278,6 +279,7 @@ int run_urdf(UrdfOptions options) {
     read_budgets(read_bytes(options.budgets), input_name(options.budgets), file.robot, options.hulls);
   if (!options.check) check_sizes(options, file.robot), check_budgets(file.robot, options.hulls);
   say_robot(file);
+  for (const std::string& note : cut_notes(file.robot)) say("  {}\n", note);
   if (!options.write_budgets.empty()) return run_write_budgets(options, file);
   if (options.check) return run_check(options, file);
   if (options.dry_run) return say_plan(file, options.hulls) ? kDone : kBadInput;

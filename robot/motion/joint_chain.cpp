@@ -25,7 +25,6 @@ namespace {
 // count by their arms of b and move the first of them first, then each arm is the one in the middle of all ranges. The
 // distance of the links changes by no more than the sum over the joints.
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSmall = 0x1p-44;  // above what a few operations on doubles lose, relative to the largest number
 
 Vec3 turned(const Pose& pose, const Vec3& v) { return placed({pose.rotation, {}}, v); }
@@ -78,8 +77,6 @@ JointRange one_turn(const JointRange& limits) {
 }
 
 }  // namespace
-
-double JointRange::middle() const { return std::midpoint(lower, upper); }
 
 std::size_t root_of(const Robot& robot, std::size_t link) {
   const std::vector<std::size_t> above = joints_above(robot, link);
@@ -151,14 +148,19 @@ bool JointChain::is_periodic(std::size_t freedom) const {
 }
 
 void JointChain::find_ranges(const Robot& robot) {
+  const std::vector<JointRange> allowed = allowed_ranges(robot);
   for (std::size_t f = 0; f < freedoms_.size(); ++f) {
     const Joint& joint = robot.joints[freedoms_[f]];
     if (!(joint.lower <= joint.upper))
       throw InputError(
           Defect::InvalidOption,
           fmt::format("joint '{}' has a lower limit above its upper one, or one that is no number", joint.name));
-    JointRange range{joint.lower, joint.upper};
-    if (joint.type == JointType::Continuous) range = {-kInfinity, kInfinity};
+    JointRange range = allowed[freedoms_[f]];
+    if (range.is_empty()) {
+      obstacle_ = fmt::format(
+          "there is no position of joint '{}' at which the joints that follow it are within their limits", joint.name);
+      return;
+    }
     if (turns(joint) && is_periodic(f)) range = one_turn(range);
     if (!(std::max(std::abs(range.lower), std::abs(range.upper)) <= kFarthestLimit)) {
       obstacle_ = fmt::format("joint '{}' has no limits", joint.name);

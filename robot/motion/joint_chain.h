@@ -6,15 +6,9 @@
 #include <vector>
 
 #include "robot/model.h"
+#include "robot/motion/joint_limits.h"
 
 namespace prohull::robot {
-
-/// Positions of a joint.
-struct JointRange {
-  double lower = 0, upper = 0;
-
-  double middle() const;
-};
 
 /// Positions of a joint: all that are within `half` of the middle.
 struct JointReach {
@@ -24,7 +18,8 @@ struct JointReach {
 /// The link that no joint holds, on which this one hangs.
 std::size_t root_of(const Robot& robot, std::size_t link);
 
-/// What moves two links against each other: the joints between them, and the positions that these can have. Throws
+/// What moves two links against each other: the joints between them, and the positions that these can have: those at
+/// which the joints that follow them are within their limits, too. Throws
 /// InputError(InvalidOption) if the lower limit of such a joint is above its upper one, or is no number.
 class JointChain {
  public:

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "robot/motion/joint_limits.h"
 #include "robot/transform.h"
 
 namespace prohull::robot {
@@ -70,9 +71,10 @@ std::vector<Pose> link_poses(const Robot& robot, std::span<const double> positio
 
 std::vector<double> rest_positions(const Robot& robot) {
   std::vector<double> positions;
-  for (const Joint& joint : robot.joints) {
-    const bool allowed = joint.lower <= 0 && 0 <= joint.upper;
-    positions.push_back(allowed ? 0 : std::midpoint(joint.lower, joint.upper));
+  const std::vector<JointRange> allowed = allowed_ranges(robot);
+  for (std::size_t j = 0; j < allowed.size(); ++j) {
+    const JointRange range = allowed[j].is_empty() ? own_limits(robot.joints[j]) : allowed[j];
+    positions.push_back(range.contains(0) ? 0 : range.middle());
     if (!std::isfinite(positions.back())) positions.back() = 0;
   }
   return positions;

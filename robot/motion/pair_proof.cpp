@@ -43,6 +43,9 @@ class PairSearch {
         most_cells_(options.cells),
         record_(options.keep_trees, chain_.freedoms().size()) {
     result_.a = pair.first, result_.b = pair.second;
+    for (std::size_t j = 0; j < robot.joints.size(); ++j)
+      if (robot.joints[j].mimic && std::ranges::count(chain_.freedoms(), leader_of(robot, j).joint) > 0)
+        followers_.push_back(j);
   }
 
   PairProof run(ProgressMeter& meter) {
@@ -97,7 +100,7 @@ class PairSearch {
     const double margin = record_.is_kept() ? chain_.rounding() : 0;
     if (cell.distance <= motion.change + margin) {
       const Closest closest = closest_parts(a_, b_, motion.pose, just_above(motion.change + 2 * margin));
-      if (closest.separation.collide()) return meets_at(cell, motion.pose, closest);
+      if (closest.separation.collide() && is_within_limits(cell)) return meets_at(cell, motion.pose, closest);
       cell.distance = closest.separation.lower;
     }
     if (cell.distance > motion.change) {
@@ -160,22 +163,37 @@ class PairSearch {
   bool is_closer(Cell& cell, double distance) {
     const Pose pose = chain_.motion(cell.box).pose;
     const Closest closest = closest_parts(a_, b_, pose, distance);
-    if (closest.separation.collide()) meets_at(cell, pose, closest);
+    if (closest.separation.collide() && is_within_limits(cell)) meets_at(cell, pose, closest);
     cell.distance = closest.separation.lower;
     return cell.distance < distance;
   }
 
+  /// Of all joints, where the freedoms are in the middle.
+  std::vector<double> positions_in(const Cell& cell) const {
+    std::vector<double> positions = rest_positions(robot_);
+    for (std::size_t f = 0; f < cell.box.size(); ++f) positions[chain_.freedoms()[f]] = cell.box[f].middle();
+    follow(robot_, positions);
+    return positions;
+  }
+
+  /// The ranges of the freedoms are rounded outwards where others follow.
+  bool is_within_limits(const Cell& cell) const {
+    const std::vector<double> positions = positions_in(cell);
+    return std::ranges::all_of(followers_, [&](std::size_t j) {
+      return !moves(robot_.joints[j]) || own_limits(robot_.joints[j]).contains(positions[j]);
+    });
+  }
+
   void meets_at(const Cell& cell, const Pose& pose, const Closest& closest) {
     result_.verdict = cell.box.empty() ? PairVerdict::Always : PairVerdict::Meets;
-    result_.positions = rest_positions(robot_);
-    for (std::size_t f = 0; f < cell.box.size(); ++f) result_.positions[chain_.freedoms()[f]] = cell.box[f].middle();
-    follow(robot_, result_.positions);
+    result_.positions = positions_in(cell);
     result_.faces = first_faces(a_, b_, pose, closest);
   }
 
   const Robot& robot_;
   const ProofBody &a_, &b_;
   const JointChain chain_;
+  std::vector<std::size_t> followers_;  // joints that follow the freedoms
   const std::size_t most_cells_;
   std::priority_queue<Cell, std::vector<Cell>, IsLater> open_;
   std::size_t steps_left_ = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "robot/motion/joint_limits.h"
 #include "robot/motion/kinematics.h"
 
 namespace prohull::robot {
@@ -56,15 +57,25 @@ double random_position(const Joint& joint, double unit) {
   return 0;
 }
 
+/// The joint with these limits.
+Joint within(Joint joint, const JointRange& allowed) {
+  if (allowed.is_empty()) return joint;
+  const bool has_limits = std::isfinite(allowed.lower) || std::isfinite(allowed.upper);
+  if (joint.type == JointType::Continuous && has_limits) joint.type = JointType::Revolute;
+  joint.lower = allowed.lower, joint.upper = allowed.upper;
+  return joint;
+}
+
 /// Whether random positions reach all that the joint can do, apart from what it follows.
-bool moves_as_it_can(const Joint& joint) {
+bool moves_as_it_can(const Joint& joint, const JointRange& allowed) {
+  if (allowed.is_empty()) return false;
   switch (joint.type) {
     case JointType::Fixed:
     case JointType::Revolute:
     case JointType::Continuous:
       return true;
     case JointType::Prismatic:
-      return joint.mimic || is_limited_slide(joint);
+      return joint.mimic || is_limited_slide(within(joint, allowed));
     case JointType::Ball:
     case JointType::Planar:
     case JointType::Floating:
@@ -79,11 +90,12 @@ std::vector<bool> sampled_joints(const Robot& robot) {
   // Chains may be long, as in `follow`.
   std::vector<bool> sampled(robot.joints.size()), is_known(robot.joints.size());
   std::vector<std::size_t> chain;
+  const std::vector<JointRange> allowed = allowed_ranges(robot);
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     std::size_t end = j;
     for (; !is_known[end]; end = robot.joints[end].mimic->joint) {
       is_known[end] = true;
-      sampled[end] = moves_as_it_can(robot.joints[end]);
+      sampled[end] = moves_as_it_can(robot.joints[end], allowed[end]);
       chain.push_back(end);
       if (!robot.joints[end].mimic) break;
     }
@@ -96,8 +108,9 @@ std::vector<bool> sampled_joints(const Robot& robot) {
 
 std::vector<double> random_positions(const Robot& robot, std::uint64_t seed, std::uint64_t number) {
   std::vector<double> positions(robot.joints.size());
+  const std::vector<JointRange> allowed = allowed_ranges(robot);
   for (std::size_t j = 0; j < positions.size(); ++j)
-    positions[j] = random_position(robot.joints[j], unit_random(seed, number, j));
+    positions[j] = random_position(within(robot.joints[j], allowed[j]), unit_random(seed, number, j));
   follow(robot, positions);
   return positions;
 }

@@ -66,6 +66,14 @@ class Pairs(Checked):
         parts = hinge(-1, 1)
         self.expect(NOT_PROVEN, "nothing says where", *parts[:-1], pair(0, 1, [], "."))
 
+    def test_are_about_positions_at_which_followers_are_within_their_limits(self):
+        for factor, limits in ((10, (-5, 11)), (-10, (-11, 5))):
+            follower = joint("slides", 0, (0, 0, 0), Y, *limits, mimic=(1, factor, 0))
+            for upper, code in ((1.1000001, PROVEN), (1.09, NOT_PROVEN)):
+                lever = joint("turns", 0, (2, 0, 0), Z, -1, 1.2)
+                self.expect(code, "" if code == PROVEN else "not all positions", root(), lever, follower, body(0, WALL), body(1, LEVER),
+                            pair(0, 1, [(1, -0.6, upper)], full_tree(9)))
+
     def test_know_that_a_turn_is_all(self):
         short = box((0, -0.1, -1), (1.5, 0.1, 1))
         for turn, code in ((6.2831853072, PROVEN), (6.28, NOT_PROVEN)):

@@ -108,14 +108,41 @@ TEST(PairProof, ScalesWhatMimics) {
   const std::vector<TriangleMesh> links{meshes::box({0, 5, 0}, {1, 6, 1}), meshes::box({0, 0, 0}, {1, 1, 1}),
                                         meshes::box({0, 0, 0}, {1, 1, 1})};
   for (const double travel : {0.999999, 1.0001}) {
-    const Robot robot =
-        robot_of(3, {limited(joint(JointType::Prismatic, 0, 1, {0, 0, 0}, kAlongX), -0.5, travel),
-                     mimicking(limited(joint(JointType::Prismatic, 0, 2, {4.5, 0, 0}, kAlongX), 0, 0), 0, -2, -0.5)});
+    const Robot robot = robot_of(3, {limited(joint(JointType::Prismatic, 0, 1, {0, 0, 0}, kAlongX), -0.5, travel),
+                                     mimicking(joint(JointType::Prismatic, 0, 2, {4.5, 0, 0}, kAlongX), 0, -2, -0.5)});
     const PairProof proof = proof_of(robot, links, 1, 2);
     EXPECT_EQ(proof.verdict, travel < 1 ? PairVerdict::Never : PairVerdict::Meets);
     EXPECT_LE(proof.cells, 200U) << "one freedom, not two";
     if (travel > 1) expect_witness(robot, links, proof);
   }
+}
+
+TEST(PairProof, IsAboutPositionsAtWhichWhatFollowsIsWithinItsLimits) {
+  const std::vector<TriangleMesh> links{meshes::box({0, 0, 0}, {1, 1, 1}), meshes::box({0, 0, 0}, {1, 1, 1}), {}};
+  for (const double limit : {0.999999, 1.0001}) {
+    for (const double multiplier : {10., -10.}) {
+      const Joint follower = mimicking(limited(joint(JointType::Prismatic, 0, 2, {}, kAlongX),
+                                               multiplier < 0 ? -10 * limit : -3, multiplier < 0 ? 3 : 10 * limit),
+                                       0, multiplier, 0);
+      const Robot robot =
+          robot_of(3, {limited(joint(JointType::Prismatic, 0, 1, {2, 0, 0}, -kAlongX), -1, 9), follower});
+      const PairProof proof = proof_of(robot, links, 0, 1);
+      EXPECT_EQ(proof.verdict, limit < 1 ? PairVerdict::Never : PairVerdict::Meets) << proof.why;
+      if (limit < 1) continue;
+      expect_witness(robot, links, proof);
+      EXPECT_LE(std::abs(proof.positions[1]), 10 * limit);
+    }
+  }
+}
+
+TEST(PairProof, IsOpenWhereNoPositionIsWithinAllLimits) {
+  const std::vector<TriangleMesh> links{meshes::box({0, 0, 0}, {1, 1, 1}), meshes::box({0, 0, 0}, {1, 1, 1}), {}};
+  const Robot robot = robot_of(3, {limited(joint(JointType::Prismatic, 0, 1, {2, 0, 0}, -kAlongX), -1, 1),
+                                   mimicking(limited(joint(JointType::Prismatic, 0, 2, {}, kAlongX), 3, 4), 0, 2, 0)});
+  const PairProof proof = proof_of(robot, links, 0, 1);
+  EXPECT_EQ(proof.verdict, PairVerdict::Open);
+  EXPECT_EQ(proof.why,
+            "there is no position of joint 'joint0' at which the joints that follow it are within their limits");
 }
 
 TEST(PairProof, TakesOneTurnOfJointsThatTurnFurther) {
@@ -244,6 +271,8 @@ class Random {
       if (made.mimic && (joints[made.mimic->joint].type == JointType::Fixed ||
                          joints[made.mimic->joint].type == JointType::Continuous))
         made.mimic.reset();
+    for (Joint& made : joints)  // and nothing may cut them to none
+      if (made.mimic) made.lower = -kEver, made.upper = kEver;
     return robot_of(links, std::move(joints));
   }
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "robot/model.h"
+
+namespace prohull::robot {
+
+/// Positions of a joint; none if the lower one is above the upper one.
+struct JointRange {
+  double lower = 0, upper = 0;
+
+  double middle() const;
+  bool is_empty() const { return lower > upper; }
+  bool contains(double position) const { return lower <= position && position <= upper; }
+};
+
+/// Those that the joint's own limits allow, which a continuous joint does not have.
+JointRange own_limits(const Joint& joint);
+
+/// All positions of the joint that is followed at which the one that follows is in the range, rounded outwards.
+JointRange followed_range(const JointRange& range, const Mimic& mimic);
+
+/// What moves a joint: itself, or what it follows in the end.
+struct Leader {
+  std::size_t joint = 0;
+  JointRange range;  ///< all positions of it at which the other one is within its own limits, rounded outwards
+};
+Leader leader_of(const Robot& robot, std::size_t joint);
+
+/// Of each joint, all positions at which it and the joints that follow it are within their limits; rounded outwards
+/// where others follow.
+std::vector<JointRange> allowed_ranges(const Robot& robot);
+
+/// A sentence about each joint that has fewer positions because others follow it: planners may not hold these to their
+/// limits.
+std::vector<std::string> cut_notes(const Robot& robot);
+
+}  // namespace prohull::robot
