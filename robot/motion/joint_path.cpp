@@ -84,6 +84,21 @@ JointRange joined(const JointRange& a, const JointRange& b) {
   return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
 }
 
+/// Positions of a leader at which the joint is within its limits.
+struct Bound {
+  std::size_t joint = 0;
+  Leader leader;
+};
+
+/// Those on the path in its order, then what follows or rests.
+std::vector<Bound> bounds_of(const Robot& moved, const JointPath& path) {
+  std::vector<Bound> bounds;
+  for (const std::size_t joint : path.joints()) bounds.push_back({joint, leader_of(moved, joint)});
+  for (std::size_t j = 0; j < moved.joints.size(); ++j)
+    if (moves(moved.joints[j]) && !path.number_of(j)) bounds.push_back({j, leader_of(moved, j)});
+  return bounds;
+}
+
 std::string names_of(const Robot& robot) {
   std::vector<std::string> names;
   for (const Joint& joint : robot.joints)
@@ -260,18 +275,29 @@ std::vector<JointRange> JointPath::ranges() const {
 }
 
 std::optional<BeyondLimits> first_beyond_limits(const Robot& robot, const JointPath& path) {
+  const Robot moved = moved_by(robot, path);
+  const std::vector<Bound> bounds = bounds_of(moved, path);
+  const auto found = [&](double place, std::size_t joint) {
+    std::vector<double> positions = path.positions_at(place);
+    follow(moved, positions);
+    return BeyondLimits{place, joint, positions[joint]};
+  };
+  const std::vector<double> rest = path.positions_at(0);
+  for (const Bound& bound : bounds)
+    if (!path.number_of(bound.leader.joint) && !bound.leader.range.contains(rest[bound.leader.joint]))
+      return found(0, bound.joint);
   const std::vector<std::vector<double>>& rows = path.rows().positions;
   for (std::size_t row = 0; row < rows.size(); ++row)
     for (const bool is_behind : {false, true})
-      for (std::size_t k = 0; k < path.joints().size(); ++k) {
-        const Joint& joint = robot.joints[path.joints()[k]];
-        if (joint.type == JointType::Continuous) continue;
+      for (const Bound& bound : bounds) {
+        const auto k = path.number_of(bound.leader.joint);
+        if (!k) continue;
         std::optional<double> place;
         if (is_behind)
-          place = path.place_outside(k, row, {joint.lower, joint.upper});
-        else if (!(joint.lower <= rows[row][k] && rows[row][k] <= joint.upper))
+          place = path.place_outside(*k, row, bound.leader.range);
+        else if (!bound.leader.range.contains(rows[row][*k]))
           place = static_cast<double>(row);
-        if (place) return BeyondLimits{*place, path.joints()[k], path.reach(k, *place, *place).middle};
+        if (place) return found(*place, bound.joint);
       }
   return {};
 }

@@ -98,8 +98,8 @@ struct BeyondLimits {
   std::size_t row() const { return static_cast<std::size_t>(place); }  ///< the last one that is not behind it
   bool is_in_row() const { return place == static_cast<double>(row()); }
 };
-/// One that is in the first row or between the first two rows where there is one; between rows, by more than rounding.
-/// Joints that mimic others are not looked at, unless the path names them.
+/// One that is in the first row or between the first two rows where there is one; between rows, by more than rounding,
+/// and so are joints that the path does not name, which follow others or rest.
 std::optional<BeyondLimits> first_beyond_limits(const Robot& robot, const JointPath& path);
 
 /// The robot in which no joint has a motion that the path does not say: joints that the path names do not mimic others,

@@ -553,6 +553,22 @@ TEST(JointPath, TellsTheFirstPositionBeyondLimits) {
   EXPECT_EQ(beyond->position, -1.25);
 }
 
+TEST(JointPath, TellsPositionsBeyondLimitsOfJointsThatFollow) {
+  const Robot robot =
+      robot_of(3, {limited(joint(JointType::Prismatic, 0, 1, {}, kAlongX), -1, 1),
+                   mimicking(limited(joint(JointType::Prismatic, 1, 2, {}, kAlongX), -5, 0.5), 0, 10, 0)});
+  const auto beyond = [&](std::vector<std::string> joints, std::vector<std::vector<double>> positions) {
+    return first_beyond_limits(robot, JointPath(robot, {.joints = joints, .positions = positions}));
+  };
+  EXPECT_FALSE(beyond({"joint0"}, {{-0.5}, {0.05}}));
+  EXPECT_FALSE(beyond({"joint0", "joint1"}, {{0.9, 0}, {-0.9, 0.5}})) << "it does not follow";
+  const auto found = beyond({"joint0"}, {{0}, {0.9}});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->place, 1);
+  EXPECT_EQ(found->joint, 1U);
+  EXPECT_EQ(found->position, 9);
+}
+
 TEST(JointPath, TellsPositionsBeyondLimitsBetweenRows) {
   const Robot robot = robot_of(2, {limited(joint(JointType::Revolute, 0, 1, {}, kAlongX), -1, 1)});
   const auto beyond = [&](std::vector<std::vector<double>> velocities) {
