@@ -64,7 +64,9 @@ class PairSearch {
       meter.go_on();
       halve(cell);
     }
-    if (result_.verdict == PairVerdict::Open) set_never();
+    if (result_.verdict != PairVerdict::Open) return result_;
+    if (touches_) return stopped(kTouchesMesh);
+    set_never();
     return result_;
   }
 
@@ -100,8 +102,8 @@ class PairSearch {
     const double margin = record_.is_kept() ? chain_.rounding() : 0;
     if (cell.distance <= motion.change + margin) {
       const Closest closest = closest_parts(a_, b_, motion.pose, just_above(motion.change + 2 * margin));
-      if (closest.separation.collide() && is_within_limits(cell)) return meets_at(cell, motion.pose, closest);
       cell.distance = closest.separation.lower;
+      if (closest.separation.collide() && look_within(cell, motion, closest)) return;
     }
     if (cell.distance > motion.change) {
       result_.proven_free += cell.share;
@@ -113,6 +115,21 @@ class PairSearch {
     cell.may_be_smaller = widest != motion.parts.end() && *widest > chain_.rounding();
     open_.push(std::move(cell));
   }
+
+  /// Where meshes around the bodies meet. Returns whether nothing more is to be found in the cell.
+  bool look_within(Cell& cell, const JointChain::Motion& motion, const Closest& around) {
+    const Closest closest = is_curved() ? closest_within(a_, b_, motion.pose, just_above(motion.change)) : around;
+    if (closest.separation.collide() && is_within_limits(cell)) {
+      meets_at(cell, motion.pose, around);
+      return true;
+    }
+    cell.distance = closest.separation.lower;
+    const bool touches = is_curved() && cell.distance > motion.change;
+    touches_ |= touches;
+    return touches;
+  }
+
+  bool is_curved() const { return !a_.within.empty() || !b_.within.empty(); }
 
   /// A place where the links are close without meeting can use up all cells, as those of small distance come first.
   /// Positions at which they meet are then found from the cells that are left, the largest first.
@@ -162,8 +179,8 @@ class PairSearch {
   /// Whether the distance in the cell, which is set, is less. Says so if the links meet there.
   bool is_closer(Cell& cell, double distance) {
     const Pose pose = chain_.motion(cell.box).pose;
-    const Closest closest = closest_parts(a_, b_, pose, distance);
-    if (closest.separation.collide() && is_within_limits(cell)) meets_at(cell, pose, closest);
+    const Closest closest = closest_within(a_, b_, pose, distance);
+    if (closest.separation.collide() && is_within_limits(cell)) meets_at(cell, pose, closest_parts(a_, b_, pose));
     cell.distance = closest.separation.lower;
     return cell.distance < distance;
   }
@@ -197,6 +214,7 @@ class PairSearch {
   const std::size_t most_cells_;
   std::priority_queue<Cell, std::vector<Cell>, IsLater> open_;
   std::size_t steps_left_ = 0;
+  bool touches_ = false;  // somewhere it is the mesh around a curved shape that meets, and nowhere near the shape
   CellRecord record_;
   PairProof result_;
 };

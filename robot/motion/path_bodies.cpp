@@ -17,7 +17,14 @@ namespace {
 /// The closed shapes of a body, and its others.
 struct Shapes {
   TriangleMesh closed, open;
-  bool were_inside_out = false;
+  TriangleMesh within;  // as closed, but within curved shapes
+  bool are_curved = false, were_inside_out = false;
+
+  /// What stands for a curved shape.
+  void add(const TriangleMesh& around, const TriangleMesh& inside) {
+    append(closed, around), append(within, inside);
+    are_curved = true;
+  }
 
   void add(TriangleMesh mesh) {
     mesh = with_finite_faces(std::move(mesh));
@@ -25,14 +32,16 @@ struct Shapes {
     if (!is_closed(mesh)) return append(open, mesh);
     const TriangleMesh outwards = turned_outwards(mesh);
     were_inside_out |= outwards.triangles != mesh.triangles;
-    append(closed, outwards);
+    append(closed, outwards), append(within, outwards);
   }
 
   std::optional<ProofBody> shape() const {
-    std::vector<TriangleMesh> meshes;
+    std::vector<TriangleMesh> meshes, meshes_within;
     for (const TriangleMesh* const mesh : {&closed, &open})
       if (mesh->face_count() > 0) meshes.push_back(*mesh);
-    return meshes.empty() ? std::nullopt : std::optional<ProofBody>(std::span(meshes));
+    for (const TriangleMesh* const mesh : {&within, &open})
+      if (are_curved && mesh->face_count() > 0) meshes_within.push_back(*mesh);
+    return meshes.empty() ? std::nullopt : std::optional<ProofBody>(std::in_place, meshes, meshes_within);
   }
 
   void give(PathBody& body) const {
@@ -85,7 +94,10 @@ PathBody link_body(const Robot& robot, std::size_t link, Geometry which) {
     TriangleMesh mesh = link_triangles({&shape, 1}, {});
     if (shape.mesh() && mesh.face_count() == 0) body.unread = "a mesh of it has no triangles";
     if (!has_finite_faces(mesh)) body.unread = "a mesh of it has corners that are not finite";
-    all.add(std::move(mesh));
+    if (curved_form(shape.form))
+      all.add(mesh, placed(shape.origin, form_mesh(shape.form, Curved::Within)));
+    else
+      all.add(std::move(mesh));
   }
   all.give(body);
   if (const auto& only = shapes(robot.links[link], which); only.size() == 1 && only[0].mesh())

@@ -80,7 +80,9 @@ class PathSearch {
       else
         done_.push_back(piece);
     }
-    result_.why = open_.empty() ? "rounding hides whether they touch" : "the number of cells is used up";
+    result_.why = !open_.empty() ? "the number of cells is used up"
+                  : touches_     ? kTouchesMesh
+                                 : "rounding hides whether they touch";
     for (; !open_.empty(); open_.pop()) done_.push_back(open_.top());
     return with_verdict(std::move(done_));
   }
@@ -103,12 +105,23 @@ class PathSearch {
   /// Looks at a single place.
   bool meets_at(double place) {
     const Pose pose = motion(place, place).pose;
-    if (distance_of_balls(pose) > options_.gap) return false;
-    const Closest found = closest(pose, just_above(options_.gap));
-    if (found.separation.upper > options_.gap) return false;
-    take_witness(place, pose, found);
+    return distance_of_balls(pose) <= options_.gap && meets_at(place, pose, closest(pose, just_above(options_.gap)));
+  }
+
+  /// Also if only what lies within the bodies tells. `around` is of the meshes around them, which tell where they meet.
+  bool meets_at(double place, const Pose& pose, const Closest& around) {
+    if (around.separation.upper > options_.gap) return false;
+    if (is_curved() && within(pose, options_.gap).separation.upper > options_.gap) return false;
+    take_witness(place, pose, around);
     return true;
   }
+
+  /// Of what lies within the bodies.
+  Closest within(const Pose& pose, double limit) const {
+    return closest_within(*a_.shape, *b_.shape, pose, just_above(limit));
+  }
+
+  bool is_curved() const { return !a_.shape->within.empty() || !b_.shape->within.empty(); }
 
   void take_witness(double place, const Pose& pose, const Closest& found) {
     end_ = place;
@@ -139,10 +152,10 @@ class PathSearch {
       piece.distance = std::max(piece.distance, found.separation.lower);
       rounding = std::max(rounding, std::min(found.separation.upper, limit) - found.separation.lower);
       const double middle = middle_place(begin, end);
-      if (found.separation.upper <= options_.gap && middle < end_) {
-        take_witness(middle, motion.pose, found);
+      if (middle < end_ && meets_at(middle, motion.pose, found))
         piece.end = middle;
-      }
+      else if (is_curved() && found.separation.upper <= options_.gap)
+        rounding = std::max(rounding, doubt_of_mesh(motion));
     }
     piece.is_free = piece.distance > piece.change + options_.gap;
     if (is_done(piece)) {
@@ -156,6 +169,16 @@ class PathSearch {
       open_.push(piece);
     else
       done_.push_back(piece);
+  }
+
+  /// Where meshes around curved shapes meet: parts of the motion that are not greater are not looked at. There the
+  /// shapes may touch, though what lies within them does not.
+  double doubt_of_mesh(const JointChain::Motion& motion) {
+    constexpr double kShare = 0.0625;
+    const double apart = within(motion.pose, options_.gap + motion.change / kShare).separation.lower - options_.gap;
+    if (!(motion.change <= kShare * apart)) return 0;
+    touches_ = true;
+    return motion.change;
   }
 
   /// By how much a checker may see a distance otherwise, if it has to.
@@ -200,6 +223,7 @@ class PathSearch {
   std::priority_queue<Piece, std::vector<Piece>, IsLessUrgent> open_;
   std::vector<Piece> done_;
   CellRecord record_;
+  bool touches_ = false;  // somewhere it is the mesh around a curved shape that meets
   PathPairProof result_;
 };
 

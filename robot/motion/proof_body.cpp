@@ -13,7 +13,30 @@
 
 namespace prohull::robot {
 
-ProofBody::ProofBody(std::span<const TriangleMesh> meshes) {
+namespace {
+
+Closest closest_of(std::span<const CollisionIndex> a, std::span<const CollisionIndex> b, const Pose& pose,
+                   double limit) {
+  Closest closest;
+  closest.separation.lower = closest.separation.upper = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const Separation separation =
+          prohull::separation(a[i], {}, b[j], pose, std::min(limit, closest.separation.upper));
+      const double lower = std::min(closest.separation.lower, separation.lower);
+      if (separation.upper < closest.separation.upper) closest = {i, j, separation};
+      closest.separation.lower = lower;
+      if (separation.collide()) return closest;
+    }
+  return closest;
+}
+
+std::span<const CollisionIndex> within(const ProofBody& body) { return body.within.empty() ? body.parts : body.within; }
+
+}  // namespace
+
+ProofBody::ProofBody(std::span<const TriangleMesh> meshes, std::span<const TriangleMesh> meshes_within)
+    : within(meshes_within.begin(), meshes_within.end()) {
   TriangleMesh all;
   for (const TriangleMesh& mesh : meshes) parts.emplace_back(mesh), append(all, mesh);
   const TriangleMesh convex = convex_hull(all);
@@ -26,18 +49,11 @@ ProofBody::ProofBody(std::span<const TriangleMesh> meshes) {
 }
 
 Closest closest_parts(const ProofBody& a, const ProofBody& b, const Pose& pose, double limit) {
-  Closest closest;
-  closest.separation.lower = closest.separation.upper = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < a.parts.size(); ++i)
-    for (std::size_t j = 0; j < b.parts.size(); ++j) {
-      const Separation separation =
-          prohull::separation(a.parts[i], {}, b.parts[j], pose, std::min(limit, closest.separation.upper));
-      const double lower = std::min(closest.separation.lower, separation.lower);
-      if (separation.upper < closest.separation.upper) closest = {i, j, separation};
-      closest.separation.lower = lower;
-      if (separation.collide()) return closest;
-    }
-  return closest;
+  return closest_of(a.parts, b.parts, pose, limit);
+}
+
+Closest closest_within(const ProofBody& a, const ProofBody& b, const Pose& pose, double limit) {
+  return closest_of(within(a), within(b), pose, limit);
 }
 
 FacePair first_faces(const ProofBody& a, const ProofBody& b, const Pose& pose, const Closest& closest) {

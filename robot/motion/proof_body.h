@@ -17,11 +17,13 @@ namespace prohull::robot {
 /// A body as proofs about motion see it.
 struct ProofBody {
   explicit ProofBody(const TriangleMesh& mesh) : ProofBody(std::span(&mesh, 1)) {}
-  explicit ProofBody(std::span<const TriangleMesh> meshes);
+  /// Where the meshes lie around curved shapes, `within` are meshes that these enclose.
+  explicit ProofBody(std::span<const TriangleMesh> meshes, std::span<const TriangleMesh> within = {});
 
-  std::vector<CollisionIndex> parts;  ///< of each mesh
-  std::vector<Vec3> corners;          ///< their convex hull encloses the body
-  Ball ball;                          ///< around them, but for rounding
+  std::vector<CollisionIndex> parts;   ///< of each mesh: they enclose the body
+  std::vector<CollisionIndex> within;  ///< the body encloses them; empty if the parts are the body
+  std::vector<Vec3> corners;           ///< their convex hull encloses the body
+  Ball ball;                           ///< around them, but for rounding
 };
 
 /// The closest parts of two bodies, and bounds of their distance, which is that of the bodies, as `separation` has them
@@ -32,6 +34,13 @@ struct Closest {
 };
 Closest closest_parts(const ProofBody& a, const ProofBody& b, const Pose& pose,
                       double limit = std::numeric_limits<double>::infinity());
+
+/// The same of what lies within the bodies: it is not less than their distance.
+Closest closest_within(const ProofBody& a, const ProofBody& b, const Pose& pose,
+                       double limit = std::numeric_limits<double>::infinity());
+
+/// Why it stays open whether bodies meet.
+inline constexpr const char* kTouchesMesh = "one touches the mesh around a curved shape";
 
 /// The limit that tells whether bodies are farther apart than this. It is no denormal number: where a library has the
 /// processor take these for 0, no pair of faces would be below the limit.

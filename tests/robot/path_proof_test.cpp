@@ -395,6 +395,39 @@ TEST(PathBodies, HaveClosedAndOpenParts) {
           "two bodies are called 'link2'"));
 }
 
+/// Two spheres of radius 1, or one and a box, that come up to `apart`.
+TEST(PathBodies, MeetWhereCurvedShapesDo) {
+  Robot robot = robot_of(2, {joint(JointType::Prismatic, 0, 1, {3, 0, 0}, kAlongX)});
+  robot.links[1].visual = {{SphereForm{1}}};
+  for (const bool is_box : {false, true}) {
+    if (!is_box) robot.links[0].visual = {{SphereForm{1}}};
+    if (is_box) robot.links[0].visual = {{BoxForm{{2, 2, 2}}}};
+    const PathBodies made = path_bodies(robot, Geometry::Visual);
+    const std::vector<BodyPair> pairs{{0, 1}};
+    for (const auto& [apart, verdict] : {std::pair(0.01, PathVerdict::Free), std::pair(1e-5, PathVerdict::Open),
+                                         std::pair(-0.01, PathVerdict::Meets)}) {
+      const JointPath path(robot, {.joints = {"joint0"}, .positions = {{0}, {-1 + apart}}});
+      const PathPairProof found = prove_paths(robot, std::span(&path, 1), made.bodies, pairs)[0].pairs[0];
+      EXPECT_EQ(found.verdict, verdict) << apart << found.why;
+      if (verdict == PathVerdict::Open) {
+        EXPECT_EQ(found.why, "one touches the mesh around a curved shape");
+      }
+      if (verdict == PathVerdict::Meets) {
+        EXPECT_LE(3 + found.positions[0], 2);
+      }
+      EXPECT_GT(found.begin, 0.98);
+      EXPECT_LT(found.cells, 1000U);
+      robot.joints[0].lower = -1 + apart, robot.joints[0].upper = 1;
+      const std::vector<std::optional<ProofBody>> links{made.bodies[0].shape, made.bodies[1].shape};
+      const PairProof pair = prove_pairs(robot, links, pairs)[0];
+      EXPECT_EQ(name_of(pair.verdict), verdict == PathVerdict::Free ? "never" : name_of(verdict)) << apart << pair.why;
+      if (!pair.positions.empty()) {
+        EXPECT_LE(3 + pair.positions[0], 2);
+      }
+    }
+  }
+}
+
 TEST(PathBodies, AreComparedAcrossSeveralJointsThatMove) {
   Robot robot =
       robot_of(4, {joint(JointType::Prismatic, 0, 1, {}, kAlongX), joint(JointType::Prismatic, 1, 2, {}, kAlongZ),
