@@ -280,11 +280,11 @@ Names<Collision> collision_names() {
   return kNames;
 }
 
-TriangleMesh mesh_of(std::span<const TriangleMesh> pieces, std::span<const Ball> balls) {
+TriangleMesh mesh_of(std::span<const TriangleMesh> pieces, std::span<const Ball> balls, Curved curved) {
   constexpr std::size_t kSegments = 24;  // the mesh is up to 1.8 % larger than the ball
   TriangleMesh mesh;
   for (const TriangleMesh& piece : pieces) append(mesh, piece);
-  for (const Ball& ball : balls) append(mesh, CurvedForm::sphere(ball).mesh(Curved::Around, kSegments));
+  for (const Ball& ball : balls) append(mesh, CurvedForm::sphere(ball).mesh(curved, kSegments));
   return mesh;
 }
 

@@ -81,8 +81,8 @@ struct LinkHull {
   std::vector<std::string> notes = {};
 };
 
-/// All pieces in one mesh, with a mesh around each ball.
-TriangleMesh mesh_of(std::span<const TriangleMesh> pieces, std::span<const Ball> balls);
+/// All pieces in one mesh, with a mesh around each ball, or within it.
+TriangleMesh mesh_of(std::span<const TriangleMesh> pieces, std::span<const Ball> balls, Curved curved = Curved::Around);
 
 enum class LinkStatus {
   Hulled,      ///< it has hulls

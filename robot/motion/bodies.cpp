@@ -11,15 +11,42 @@ namespace prohull::robot {
 namespace {
 
 /// With the primitives that are kept; none if the hull is not certified.
-TriangleMesh hull_in_link(const Robot& robot, const LinkHulls& link, Geometry from, std::size_t set) {
+TriangleMesh hull_in_link(const Robot& robot, const LinkHulls& link, Geometry from, std::size_t set,
+                          Curved curved = Curved::Around) {
   const bool is_hulled = link.status == LinkStatus::Hulled;
   if (is_hulled && !link.hulls[set].certified) return {};
-  TriangleMesh hull = is_hulled ? placed(link.frame.in_link, link.hulls[set].mesh) : TriangleMesh();
+  TriangleMesh hull;
+  if (is_hulled && curved == Curved::Within && !link.hulls[set].balls.empty())
+    hull = placed(link.frame.in_link, mesh_of({}, link.hulls[set].balls, curved));
+  else if (is_hulled)
+    hull = placed(link.frame.in_link, link.hulls[set].mesh);
   for (const std::size_t i : link.primitives) {
     const Shape& shape = shapes(robot.links[link.link], from)[i];
-    append(hull, placed(shape.origin, form_mesh(shape.form, Curved::Around)));
+    append(hull, placed(shape.origin, form_mesh(shape.form, curved)));
   }
   return hull;
+}
+
+bool is_curved(const Shape& shape) { return curved_form(shape.form).has_value(); }
+
+/// Empty if no shape is curved.
+TriangleMesh visual_within(const Robot& robot, const LinkHulls& link, Geometry from) {
+  const std::vector<Shape>& all = shapes(robot.links[link.link], from);
+  const bool is_read = link.status == LinkStatus::Hulled || link.status == LinkStatus::Primitives;
+  if (!is_read || std::ranges::none_of(all, is_curved)) return {};
+  TriangleMesh mesh;
+  for (const Shape& shape : all)
+    append(mesh, is_curved(shape) ? placed(shape.origin, form_mesh(shape.form, Curved::Within))
+                                  : link_triangles({&shape, 1}, {}));
+  return mesh;
+}
+
+/// Empty if nothing in the hull is curved.
+TriangleMesh hull_within(const Robot& robot, const LinkHulls& link, Geometry from, std::size_t set) {
+  const std::vector<Shape>& all = shapes(robot.links[link.link], from);
+  const bool has_balls = link.status == LinkStatus::Hulled && !link.hulls[set].balls.empty();
+  if (!has_balls && std::ranges::none_of(link.primitives, [&](std::size_t i) { return is_curved(all[i]); })) return {};
+  return hull_in_link(robot, link, from, set, Curved::Within);
 }
 
 }  // namespace
@@ -36,6 +63,8 @@ Bodies bodies_of(const Robot& robot, std::span<const LinkHulls> links, Geometry 
     bodies.convex.push_back(convex_hull(visual));
     bodies.visual.push_back(std::move(visual));
     bodies.hull.push_back(hull_in_link(robot, link, from, set));
+    bodies.visual_within.push_back(visual_within(robot, link, from));
+    bodies.hull_within.push_back(hull_within(robot, link, from, set));
   }
   return bodies;
 }

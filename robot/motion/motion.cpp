@@ -224,8 +224,17 @@ PairKind kind_of(PairVerdict verdict, PairKind sampled) {
   }
 }
 
+/// None where the link has no curved shapes.
+std::optional<TriangleMesh> mesh_within(const std::vector<TriangleMesh>& meshes, std::size_t link) {
+  if (link >= meshes.size() || meshes[link].face_count() == 0) return {};
+  return with_finite_faces(meshes[link]);
+}
+
 bool visual_meets(const Robot& robot, const Bodies& bodies, const PairProof& proof) {
-  const TriangleMesh a = with_finite_faces(bodies.visual[proof.a]), b = with_finite_faces(bodies.visual[proof.b]);
+  const auto mesh_of = [&](std::size_t link) {
+    return with_finite_faces(mesh_within(bodies.visual_within, link).value_or(bodies.visual[link]));
+  };
+  const TriangleMesh a = mesh_of(proof.a), b = mesh_of(proof.b);
   if (a.face_count() == 0 || b.face_count() == 0) return false;
   const std::vector<Pose> poses = link_poses(robot, proof.positions);
   return collide(CollisionIndex(a), poses[proof.a], CollisionIndex(b), poses[proof.b]);
@@ -275,8 +284,14 @@ void add_proofs(const Robot& robot, const Bodies& bodies, const ProofOptions& op
     if (pair.kind == PairKind::Adjacent || !has_hull(pair.a) || !has_hull(pair.b)) continue;
     asked.push_back(&pair), links.emplace_back(pair.a, pair.b);
   }
-  std::vector<TriangleMesh> hulls;
-  for (const TriangleMesh& hull : bodies.hull) hulls.push_back(with_finite_faces(hull));
+  std::vector<std::optional<ProofBody>> hulls(bodies.hull.size());
+  for (const auto& [a, b] : links)
+    for (const std::size_t link : {a, b}) {
+      if (hulls[link]) continue;
+      const TriangleMesh hull = with_finite_faces(bodies.hull[link]);
+      const std::optional<TriangleMesh> within = mesh_within(bodies.hull_within, link);
+      hulls[link].emplace(std::span(&hull, 1), std::span(within ? &*within : nullptr, within ? 1 : 0));
+    }
   const std::vector<PairProof> proofs = prove_pairs(robot, hulls, links, options);
   for (std::size_t i = 0; i < asked.size(); ++i) {
     MotionPair& pair = *asked[i];

@@ -24,6 +24,9 @@ struct Bodies {
   std::vector<TriangleMesh> visual;  ///< what is really there
   std::vector<TriangleMesh> hull;    ///< our hulls with the primitives that are kept
   std::vector<TriangleMesh> convex;  ///< the convex hulls
+  /// Within curved shapes, around which the others are; empty where a link has no curved shapes. They decide whether
+  /// links meet at a witness.
+  std::vector<TriangleMesh> visual_within = {}, hull_within = {};
 };
 
 struct MotionOptions {

@@ -12,6 +12,9 @@
 #include "prohull/convex_hull.h"
 #include "prohull/error.h"
 #include "random.h"
+#include "robot/files/robot_file.h"
+#include "robot/hulls/link_hulls.h"
+#include "robot/motion/bodies.h"
 #include "robot/motion/joint_chain.h"
 #include "robot/motion/kinematics.h"
 #include "robot/motion/motion.h"
@@ -488,6 +491,25 @@ TEST(AddProofs, SetsKindsAndRowsOfTheSrdf) {
         R"(<disable_collisions link1="link0" link2="link2" reason="Never"/>  <!-- proven: their hulls meet nowhere)";
     EXPECT_EQ(srdf_of(robot, motion).find(row) != std::string::npos, is_short);
   }
+}
+
+// Cylinders of radius 1 beside each other, around which meshes meet where they do not.
+TEST(AddProofs, TakesPrimitivesThatAreKeptAsTheyAre) {
+  const RobotFile file = read_robot(R"(<robot name="r"><link name="base"/>
+    <link name="a"><visual><geometry><cylinder radius="1" length="1"/></geometry></visual></link><link name="m"/>
+    <link name="b"><visual><geometry><cylinder radius="1" length="1"/></geometry></visual></link>
+    <joint name="f" type="fixed"><parent link="base"/><child link="a"/></joint>
+    <joint name="t" type="revolute"><axis xyz="0 0 1"/><parent link="base"/><child link="m"/>
+      <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+    <joint name="p" type="fixed"><origin xyz="2.0005 0 0"/><parent link="m"/><child link="b"/></joint></robot>)",
+                                    "r.urdf");
+  const std::vector<LinkHulls> hulls = link_hulls(file.robot, {});
+  const Bodies bodies = bodies_of(file.robot, hulls, Geometry::Visual);
+  MotionResult motion = check_motion(file.robot, bodies, {.configurations = 3});
+  add_proofs(file.robot, bodies, {}, motion);
+  ASSERT_EQ(motion.pairs.size(), 1U);
+  EXPECT_EQ(name_of(motion.pairs[0].proof->verdict), "open") << motion.pairs[0].proof->why;
+  EXPECT_FALSE(motion.pairs[0].visual_meets_at_witness);
 }
 
 }  // namespace
