@@ -55,13 +55,21 @@ std::vector<WorldMesh> read_world(const PathOptions& options) {
   return world;
 }
 
-std::vector<std::pair<std::string, std::string>> ignored_names(const PathOptions& options) {
+/// Names may have commas: of all places to split, the first with a body on either side counts.
+std::pair<std::string, std::string> split_at_comma(const std::string& pair, const std::vector<PathBody>& bodies) {
+  const auto at = [&](std::size_t comma) { return std::pair(pair.substr(0, comma), pair.substr(comma + 1)); };
+  const auto is_body = [&](const std::string& name) { return std::ranges::count(bodies, name, &PathBody::name) > 0; };
+  const std::size_t first = pair.find(',');
+  if (first == pair.npos) refuse(fmt::format("--ignore {}: expected two names with a comma between them", pair));
+  for (std::size_t comma = first; comma != pair.npos; comma = pair.find(',', comma + 1))
+    if (const auto names = at(comma); is_body(names.first) && is_body(names.second)) return names;
+  return at(first);
+}
+
+std::vector<std::pair<std::string, std::string>> ignored_names(const PathOptions& options,
+                                                               const std::vector<PathBody>& bodies) {
   std::vector<std::pair<std::string, std::string>> names;
-  for (const std::string& pair : options.ignored) {
-    const std::size_t comma = pair.find(',');
-    if (comma == pair.npos) refuse(fmt::format("--ignore {}: expected two names with a comma between them", pair));
-    names.emplace_back(pair.substr(0, comma), pair.substr(comma + 1));
-  }
+  for (const std::string& pair : options.ignored) names.push_back(split_at_comma(pair, bodies));
   return names;
 }
 
@@ -78,7 +86,8 @@ Decision read_all(const PathOptions& options, const RobotFile& file) {
   decision.made = path_bodies(file.robot, options.geometry, decision.world, std::ref(line));
   if (!options.srdf.empty())
     decision.disabled = disabled_pairs(file.robot, read_bytes(options.srdf), input_name(options.srdf));
-  decision.pairs = pairs_on_path(file.robot, decision.made.bodies, decision.disabled, ignored_names(options));
+  decision.pairs =
+      pairs_on_path(file.robot, decision.made.bodies, decision.disabled, ignored_names(options, decision.made.bodies));
   decision.left_out = without(pairs_on_path(file.robot, decision.made.bodies), decision.pairs);
   if (decision.pairs.empty()) refuse("there is no pair of bodies that could meet: all are adjacent, or ignored");
   for (const path& rows : options.paths)
@@ -86,10 +95,23 @@ Decision read_all(const PathOptions& options, const RobotFile& file) {
   return decision;
 }
 
-std::string text_of_time(const JointPath& path, double time) {
-  return path.rows().times.empty() ? fmt::format("row {:.6g}", time) : fmt::format("{:.6g} s", time);
+/// As it is.
+std::string time_text(const JointPath& path, double time) {
+  return path.rows().times.empty() ? fmt::format("row {}", time) : fmt::format("{} s", time);
 }
-std::string time_text(const JointPath& path, double place) { return text_of_time(path, path.time_at(place)); }
+
+/// Six digits of what a time differs from the first or the last one by.
+int digits_of_times(const JointPath& path) {
+  constexpr int kDigits = 6, kMost = std::numeric_limits<double>::max_digits10;
+  const double first = path.time_at(0), last = path.time_at(path.length());
+  const double more = std::log10(std::max(std::abs(first), std::abs(last)) / (last - first));
+  return more > 0 ? std::min(kMost, kDigits + static_cast<int>(std::ceil(std::min(more, 20.)))) : kDigits;
+}
+
+/// Rounded down.
+std::string until_text(const JointPath& path, double place) {
+  return time_text(path, rounded_down(path.time_at(place), digits_of_times(path)));
+}
 
 std::string pair_name(const Decision& decision, const PathPairProof& pair) {
   return fmt::format("{} and {}", decision.name(pair.a), decision.name(pair.b));
@@ -107,6 +129,10 @@ std::string exceptions_text(const Decision& decision) {
   return fmt::format(", but for {} that may touch ({})", counted(all.size(), "pair"), fmt::join(names, ", "));
 }
 
+std::string why_text(const PathPairProof& pair) {
+  return pair.why == kCellsUsedUp ? pair.why + ", which --cells makes larger" : pair.why;
+}
+
 double least_of(const PathProof& proof) { return std::ranges::min(proof.curve, {}, &DistanceBound::distance).distance; }
 
 std::string verdict_text(const PathOptions& options, const Decision& decision, std::size_t p) {
@@ -122,15 +148,19 @@ std::string verdict_text(const PathOptions& options, const Decision& decision, s
       text += fmt::format("; at least {:.4g} mm apart", rounded_down(1000 * least_of(proof), 4));
     return text;
   }
-  const std::string until = proof.free_until() > 0
-                                ? fmt::format("; proven free before {}",
-                                              text_of_time(path, rounded_down(path.time_at(proof.free_until()), 6)))
-                                : "";
+  const double free_until = proof.free_until();
+  const std::string until = free_until > 0 ? fmt::format("; proven free before {}", until_text(path, free_until)) : "";
   if (first->verdict == PathVerdict::Open)
-    return fmt::format("OPEN from {} to {}: {}: {}{}", time_text(path, first->begin), time_text(path, first->end),
-                       pair_name(decision, *first), first->why, until);
-  return fmt::format("{} at {}: {}{}", options.proof.gap > 0 ? fmt::format("CLOSER THAN {}", options.gap) : "MEETS",
-                     time_text(path, first->end), pair_name(decision, *first), until);
+    return fmt::format("OPEN from {} to {}: {}: {}{}", until_text(path, first->begin),
+                       time_text(path, rounded_up(path.time_at(first->end), digits_of_times(path))),
+                       pair_name(decision, *first), why_text(*first), until);
+  const PathPairProof& earliest = *std::ranges::min_element(proof.pairs, {}, &PathPairProof::begin);
+  const std::string undecided = earliest.begin < first->end && !earliest.why.empty()
+                                    ? fmt::format("; undecided {}: {}: {}", until.empty() ? "before" : "between",
+                                                  pair_name(decision, earliest), why_text(earliest))
+                                    : "";
+  return fmt::format("{} at {}: {}{}{}", options.proof.gap > 0 ? fmt::format("CLOSER THAN {}", options.gap) : "MEETS",
+                     time_text(path, path.time_at(first->end)), pair_name(decision, *first), until, undecided);
 }
 
 /// "joint1 0.5, joint2 -1", of the joints that move freely
@@ -194,8 +224,8 @@ void say_path(const PathOptions& options, const Decision& decision, std::size_t 
     if (path.rows().times.empty()) say("  rows count from 0, as the path has no times\n");
     if (!first->positions.empty()) say("  there: {}\n", positions_text(robot, first->positions));
     if (first->nothing_moves)
-      say("  no joint moves them against each other; if they may touch, add --ignore {},{}\n", decision.name(first->a),
-          decision.name(first->b));
+      say("  the path does not move them against each other; if they may touch, add --ignore {},{}\n",
+          decision.name(first->a), decision.name(first->b));
     say_others(options, proof);
   }
   if (const std::string text = beyond_text(robot, path); !text.empty()) say("  {}\n", text);
@@ -352,6 +382,7 @@ int run_motion(PathOptions options) {
   outputs.commit();
   say_robot(file);
   for (const std::string& note : decision.made.notes) say("  {}\n", note);
+  if (!options.world.empty()) say("{}", frame_text(file, "--world"));
   bool all = true;
   for (std::size_t p = 0; p < decision.paths.size(); ++p)
     say_path(options, decision, p), all &= is_as_asked(decision, p);
@@ -397,7 +428,8 @@ void add_motion(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(
       "motion",
       "Decides whether a robot is free all along a path: proven at every moment, not sampled. Otherwise it finds the "
-      "first moment at which two links, or a link and the world, meet. The exit code is 0 if all paths are free and "
+      "first moment at which two links, or a link and the world, meet, as closely as --cells allows, and says before "
+      "which moment the path is proven free. The exit code is 0 if all paths are free and "
       "within the limits of the joints, and 1 if one is not.");
   command
       .add_option("in", options->in,

@@ -8,6 +8,7 @@
 
 #include "console.h"
 #include "prohull/detail/rounded.h"
+#include "robot/motion/joint_chain.h"
 #include "robot/report/report_facts.h"
 
 namespace prohull::cli {
@@ -119,9 +120,9 @@ std::string motion_text(const MotionResult& motion, std::string_view covers, boo
   const PairVerdicts verdicts = verdicts_of(motion);
   std::string srdf;
   if (verdicts.all() > 0)
-    srdf +=
-        fmt::format("  {} that no joint connects: {} proven never to meet, {} always, {} meet somewhere, {} open\n",
-                    counted(verdicts.all(), "pair"), verdicts.never, verdicts.always, verdicts.meets, verdicts.open);
+    srdf += fmt::format("  {} not adjacent: {} proven never to meet, {} always, {} meet somewhere, {} open\n",
+                        counted(verdicts.all(), "pair that is", "pairs that are"), verdicts.never, verdicts.always,
+                        verdicts.meets, verdicts.open);
   srdf += fmt::format("  SRDF: {}", counted(adjacent, "adjacent pair"));
   if (const std::size_t proven = verdicts.never + verdicts.always; proven > 0)
     srdf += fmt::format(", {}", counted(proven, "proven pair"));
@@ -245,6 +246,14 @@ std::string left_text(std::span<const LinkHulls> links) {
 
 bool is_certified(const LinkHulls& link) { return std::ranges::all_of(link.hulls, &LinkHull::certified); }
 
+std::string frame_text(const RobotFile& file, std::string_view what) {
+  const Robot& robot = file.robot;
+  if (file.format == RobotFormat::Urdf || robot.links.empty()) return "";
+  const std::string& root = robot.links[root_of(robot, 0)].name;
+  if (root == "world") return "";
+  return fmt::format("  {} is in the frame of link '{}', wherever the file places that in its model\n", what, root);
+}
+
 void say_robot(const RobotFile& file) {
   const Robot& robot = file.robot;
   say("{}: {}, {}, {}\n", file.path.string(), robot.name, counted(robot.links.size(), "link"),
@@ -301,10 +310,13 @@ void say_disabled(const Robot& robot, const std::string& file, std::span<const D
     const auto is = [&](PairVerdict verdict) {
       return check.collision.verdict == verdict || check.visual.verdict == verdict;
     };
-    if (!is(PairVerdict::Meets) && !is(PairVerdict::Open) && !is(PairVerdict::Unknown)) continue;
+    const bool has_wrong_reason = check.has_refuted_reason();
+    if (!is(PairVerdict::Meets) && !is(PairVerdict::Open) && !is(PairVerdict::Unknown) && !has_wrong_reason) continue;
     say("  line {}, {} and {}{}: {}{}\n", check.row.line, check.row.link1, check.row.link2,
         check.row.reason.empty() ? "" : fmt::format(", \"{}\"", check.row.reason),
-        check.is_refuted() ? "REFUTED: " : "", verdict_text(check, robot));
+        check.is_refuted() ? "REFUTED: " : "",
+        has_wrong_reason ? "the reason is refuted, as they never meet, and the row does no harm"
+                         : verdict_text(check, robot));
   }
   const auto refuted = std::ranges::count_if(checks, &DisabledCheck::is_refuted);
   say("{}: {}: {} adjacent, {} never meet, {} always, {} meet, {} open; {}\n", file,

@@ -14,6 +14,9 @@ namespace prohull::cli {
 // What `prohull urdf` tells its user. Lengths are told in millimetres.
 
 /// What was read.
+/// A line about the frame of what `what` has, where that is not the one which the file calls its own; or nothing.
+std::string frame_text(const robot::RobotFile& file, std::string_view what);
+
 void say_robot(const robot::RobotFile& file);
 
 /// What a run would do with each link. Returns whether all meshes that it needs are there.

@@ -133,6 +133,7 @@ std::vector<LinkSweep> sweeps_of_robot(const SweepRunOptions& options, SweepOpti
                                        : sweep_workspace(file.robot, links, options.geometry, how);
   if (sweeps.empty()) throw InputError(Defect::EmptyMesh, fmt::format("{}: no link has a shape", options.in.string()));
   say_robot(file);
+  say("{}", frame_text(file, "the zone"));
   return sweeps;
 }
 

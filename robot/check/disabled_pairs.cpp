@@ -69,6 +69,13 @@ bool DisabledCheck::is_refuted() const {
          (collision.verdict == PairVerdict::Meets || visual.verdict == PairVerdict::Meets);
 }
 
+bool DisabledCheck::has_refuted_reason() const {
+  const auto never = [](const PairProof& proof) {
+    return proof.verdict == PairVerdict::Never || proof.verdict == PairVerdict::NoGeometry;
+  };
+  return row.reason == "Always" && never(collision) && never(visual);
+}
+
 std::vector<DisabledCheck> check_disabled_pairs(const Robot& robot, std::span<const DisabledRow> rows,
                                                 const ProofOptions& options) {
   const std::vector<PairProof> collision = findings_by(robot, rows, Geometry::Collision, options);

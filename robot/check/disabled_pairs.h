@@ -20,6 +20,8 @@ struct DisabledCheck {
   /// Whether the row disables a pair that meets somewhere, by one of the geometries, and its reason does not say so.
   /// The reasons "Adjacent", "Always", "Default" and "User" allow for it, as MoveIt's assistant writes them.
   bool is_refuted() const;
+  /// Whether the reason is "Always", and the pair never meets.
+  bool has_refuted_reason() const;
 };
 
 /// Decides each row, in their order. The result is the same for any number of threads. Throws as prove_pairs.

@@ -174,7 +174,7 @@ void JointChain::find_ranges(const Robot& robot) {
 // pose in doubles differs from that of a rotation, in norm, by what its origin differs, and by a few operations. A
 // wrong pose moves all beyond it by its error times the extent.
 void JointChain::find_rounding() {
-  constexpr double kLargestPosition = 1e6;
+  constexpr double kLargestPosition = 1e6 * (1 + kSmall);  // of paths, with their rounding
   extent_ = largest_norm(points_of_a_) + largest_norm(points_of_b_);
   double error = kSmall;
   for (const Hinge& hinge : hinges_) {
@@ -185,7 +185,7 @@ void JointChain::find_rounding() {
     double farthest = std::max(std::abs(ranges_[hinge.freedom].lower), std::abs(ranges_[hinge.freedom].upper));
     for (const Mimic& mimic : hinge.follows) farthest = std::abs(mimic.multiplier) * farthest + std::abs(mimic.offset);
     if (!(farthest <= kLargestPosition)) {
-      obstacle_ = fmt::format("joint '{}' follows another one too far", joint.name);
+      obstacle_ = fmt::format("joint '{}' goes beyond 1e6", joint.name);
       return;
     }
     if (slides(joint)) extent_ += farthest;

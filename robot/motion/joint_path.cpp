@@ -206,6 +206,13 @@ double JointPath::time_at(double place) const {
   return std::lerp(rows_.times[row], rows_.times[row + 1], place - static_cast<double>(row));
 }
 
+double JointPath::rounding_of_times(double place) const {
+  const auto segment = static_cast<std::size_t>(place);
+  if (segment + 1 >= rows_.times.size()) return 0;
+  const double from = rows_.times[segment], to = rows_.times[segment + 1];
+  return 0x1p-50 * std::max(std::abs(from), std::abs(to)) / (to - from);
+}
+
 std::vector<double> JointPath::positions_at(double place) const {
   std::vector<double> positions = rest_;
   for (std::size_t k = 0; k < joints_.size(); ++k) positions[joints_[k]] = reach(k, place, place).middle;
@@ -221,7 +228,9 @@ JointReach JointPath::reach(std::size_t k, double begin, double end) const {
   JointReach reach{is_row ? rows_.positions[row][k] : blossom(curve(row), fraction(middle, row), 0, 0), 0};
   if (begin == end) return reach;
   const auto first = static_cast<std::size_t>(begin), last = static_cast<std::size_t>(std::ceil(end));
-  const JointRange range = last == first + 1 ? range_of(curve(first), fraction(begin, first), fraction(end, first))
+  const double rounding = last == first + 1 ? rounding_of_times(begin) : 0;
+  const JointRange range = last == first + 1 ? range_of(curve(first), std::max(fraction(begin, first) - rounding, 0.0),
+                                                        std::min(fraction(end, first) + rounding, 1.0))
                                              : this->range(k, first, last);
   reach.half = std::max({range.upper - reach.middle, reach.middle - range.lower, 0.0}) * (1 + 0x1p-50);
   return reach;

@@ -42,12 +42,14 @@ class JointPath {
   const PathRows& rows() const { return rows_; }
   double length() const { return static_cast<double>(rows_.positions.size() - 1); }  ///< the last place
   double time_at(double place) const;
+  /// How far the place of which time_at is the time, rounded, is at most from one that lies behind the same row.
+  double rounding_of_times(double place) const;
 
   /// Of all joints of the robot, but for those that mimic: others than joints() are at their rest_positions.
   std::vector<double> positions_at(double place) const;
 
   /// The position of joints()[k] halfway between two places that have no row between them or are rows themselves, and
-  /// how far it is from there at most between the two. Rounding is part of `half`.
+  /// how far it is from there at most between the two. Rounding is part of `half`, also that of time_at the two.
   JointReach reach(std::size_t k, double begin, double end) const;
 
   /// A place between a row and the next at which joints()[k] is outside of the limits by more than rounding. None if

@@ -20,10 +20,20 @@ std::string_view trimmed(std::string_view text) {
   return first == text.npos ? "" : text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
+/// Outside of quotes.
+std::size_t find_outside(std::string_view line, char separator) {
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') is_quoted = !is_quoted;
+    if (line[i] == separator && !is_quoted) return i;
+  }
+  return line.npos;
+}
+
 std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
   for (;;) {
-    const std::size_t end = line.find(separator);
+    const std::size_t end = find_outside(line, separator);
     cells.push_back(trimmed(line.substr(0, end)));
     if (end == line.npos) return cells;
     line.remove_prefix(end + 1);
@@ -43,7 +53,9 @@ class CsvReader {
   PathRows read(std::string_view text) {
     for (std::size_t line = 1; !text.empty(); ++line) {
       const std::size_t end = std::min(text.find('\n'), text.size());
-      if (const std::string_view row = text.substr(0, end); !trimmed(row).empty()) take(row, line);
+      const std::string_view row = text.substr(0, end);
+      const bool is_comment = columns_.empty() && trimmed(row).starts_with('#');
+      if (!trimmed(row).empty() && !is_comment) take(row, line);
       text.remove_prefix(std::min(end + 1, text.size()));
     }
     return std::move(rows_);
@@ -63,7 +75,7 @@ class CsvReader {
 
   void take_names(std::string_view row, std::size_t line) {
     for (const char separator : {',', ';', '\t'})
-      if (row.find(separator) != row.npos) {
+      if (find_outside(row, separator) != row.npos) {
         separator_ = separator;
         break;
       }

@@ -102,13 +102,14 @@ PairVerdicts verdicts_of(const MotionResult& motion);
 /// The pairs that are adjacent, or in collision always, proven or as sampled.
 std::vector<LinkPair> pairs_always_together(const MotionResult& motion);
 
-/// A <disable_collisions> element of an SRDF file.
+/// A <disable_collisions> element of an SRDF file; or what <disable_default_collisions> says of a pair, with that as
+/// the reason: of its link and each other one with geometry, but for those that <enable_collisions> names.
 struct DisabledRow {
   std::string link1, link2, reason;  ///< as the file has them
   std::optional<LinkPair> links;     ///< none if the robot does not have them, or they are the same one
   std::size_t line = 0;
 };
-/// All of them in their order. Throws as disabled_pairs.
+/// All of them in their order, those by default last. Throws as disabled_pairs.
 std::vector<DisabledRow> disabled_rows(const Robot& robot, std::string srdf, std::string file);
 
 /// The pairs that an SRDF file disables, sorted. Names that the robot does not have are left out. `file` stands in

@@ -15,6 +15,7 @@ namespace prohull::robot {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr const char* kRounding = "rounding hides whether they touch";
 
 /// A piece of the path, and what is known there.
 struct Piece {
@@ -80,9 +81,7 @@ class PathSearch {
       else
         done_.push_back(piece);
     }
-    result_.why = !open_.empty() ? "the number of cells is used up"
-                  : touches_     ? kTouchesMesh
-                                 : "rounding hides whether they touch";
+    result_.why = !open_.empty() ? kCellsUsedUp : touches_ ? kTouchesMesh : kRounding;
     for (; !open_.empty(); open_.pop()) done_.push_back(open_.top());
     return with_verdict(std::move(done_));
   }
@@ -163,7 +162,7 @@ class PathSearch {
       return done_.push_back(piece);
     }
     const double middle = middle_place(piece.begin, piece.end);
-    piece.may_be_smaller = piece.begin < middle && middle < piece.end &&
+    piece.may_be_smaller = piece.begin < middle && middle < piece.end && end - begin > path_.rounding_of_times(begin) &&
                            std::ranges::any_of(motion.parts, [&](double part) { return part > rounding; });
     if (piece.begin < piece.end)
       open_.push(piece);
@@ -205,7 +204,8 @@ class PathSearch {
       if (undecided->upper == piece.begin) undecided->upper = piece.end;
     }
     if (undecided && result_.verdict == PathVerdict::Free) result_.verdict = PathVerdict::Open;
-    if (result_.verdict != PathVerdict::Open) result_.why.clear();
+    const bool is_open = result_.verdict == PathVerdict::Open;
+    if (!undecided || (!is_open && result_.why == kRounding)) result_.why.clear();
     if (result_.verdict == PathVerdict::Free) result_.tree = record_.tree();
     const bool meets = result_.verdict == PathVerdict::Meets;
     result_.begin = undecided ? undecided->lower : end_;

@@ -28,11 +28,15 @@ struct DistanceBound {
   std::size_t pair = 0;  ///< of PathProof::curve: which of its pairs
 };
 
+/// A PathPairProof::why.
+inline constexpr const char* kCellsUsedUp = "the number of cells is used up";
+
 /// What is known of two bodies. Places are those of JointPath.
 struct PathPairProof {
   std::size_t a = 0, b = 0;  ///< bodies, as asked for
   PathVerdict verdict = PathVerdict::Free;
-  std::string why = {};  ///< of Open: a clause without a full stop
+  /// A clause without a full stop: of Open, and of Meets where the budget does not tell whether they do before.
+  std::string why = {};
   /// Where they may meet first: before `begin` they do not, which is proven. If they meet, they do at `end`; if it is
   /// open, they are apart for a while behind `end`. Both are the path's end if they are free.
   double begin = 0, end = 0;

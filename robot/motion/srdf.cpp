@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "robot/files/xml.h"
@@ -28,6 +29,35 @@ std::optional<std::size_t> link_called(const Robot& robot, const std::string& na
   return static_cast<std::size_t>(found - robot.links.begin());
 }
 
+DisabledRow row_of(const Robot& robot, std::string link1, std::string link2, std::string reason, std::size_t line) {
+  DisabledRow row{std::move(link1), std::move(link2), std::move(reason), {}, line};
+  const auto a = link_called(robot, row.link1), b = link_called(robot, row.link2);
+  if (a && b && a != b) row.links = std::minmax(*a, *b);
+  return row;
+}
+
+/// Of links all pairs of which are disabled, but for those that are enabled. A pair that has a row of its own keeps it.
+void add_default_rows(const Robot& robot, const XmlDocument& document, std::vector<DisabledRow>& rows) {
+  constexpr const char* kDefault = "disable_default_collisions";
+  std::set<LinkPair> others;
+  for (const DisabledRow& row : rows)
+    if (row.links) others.insert(*row.links);
+  for (const XmlElement* const element : document.root().children_called("enable_collisions")) {
+    const DisabledRow row =
+        row_of(robot, document.required(*element, "link1"), document.required(*element, "link2"), "", element->line);
+    if (row.links) others.insert(*row.links);
+  }
+  for (const XmlElement* const element : document.root().children_called(kDefault)) {
+    const std::string& name = document.required(*element, "link");
+    if (!link_called(robot, name)) rows.push_back(row_of(robot, name, "all others", kDefault, element->line));
+    for (const Link& link : robot.links) {
+      DisabledRow row = row_of(robot, name, link.name, kDefault, element->line);
+      const bool has_geometry = !link.visual.empty() || !link.collision.empty();
+      if (has_geometry && row.links && others.insert(*row.links).second) rows.push_back(std::move(row));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<LinkPair> pairs_always_together(const MotionResult& motion) {
@@ -44,15 +74,10 @@ std::vector<DisabledRow> disabled_rows(const Robot& robot, std::string srdf, std
   std::vector<DisabledRow> rows;
   for (const XmlElement* const element : document.root().children_called("disable_collisions")) {
     const std::string* const reason = element->attribute("reason");
-    DisabledRow row{document.required(*element, "link1"),
-                    document.required(*element, "link2"),
-                    reason ? *reason : "",
-                    {},
-                    element->line};
-    const auto a = link_called(robot, row.link1), b = link_called(robot, row.link2);
-    if (a && b && a != b) row.links = std::minmax(*a, *b);
-    rows.push_back(std::move(row));
+    rows.push_back(row_of(robot, document.required(*element, "link1"), document.required(*element, "link2"),
+                          reason ? *reason : "", element->line));
   }
+  add_default_rows(robot, document, rows);
   return rows;
 }
 

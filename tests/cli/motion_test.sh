@@ -39,7 +39,12 @@ says out "where it meets" "there: up 0, slide 0, turn 0"
 says meets.json "report: meets" '"verdict": "meets"'
 says meets.json "report: witness" '"witness": {'
 expect 1 "a cubic meets where straight lines would not" $motion cubic.json
-says out "a cubic" "cubic.json: MEETS at 0.42265 s"
+says out "a cubic" "cubic.json: MEETS at 0.4226497"
+printf 'time,slide\n1700000000,1\n1700000002,-1\n' >epoch.csv
+expect 1 "seconds since 1970" $motion epoch.csv
+says out "seconds since 1970" "MEETS at 1700000001 s: base and cart; proven free before 1700000000.99999"
+expect 1 "an earlier contact is undecided" $motion meets.csv --cells 3
+says out "an earlier contact is undecided" "undecided before: base and cart: the number of cells is used up, which --cells makes larger"
 expect 1 "several paths" $motion free.csv meets.csv cubic.json --threads 1
 says out "several paths" "free.csv: free all along"
 says out "several paths" "cubic.json: MEETS"

@@ -76,6 +76,31 @@ TEST(DisabledPairs, AreRefutedWhereTheyMeetUnlessTheirReasonAllowsForIt) {
   EXPECT_TRUE(checks[7].is_refuted());
 }
 
+TEST(DisabledPairs, AreThoseByDefaultToo) {
+  const RobotFile file = robot_with_reach("1");
+  const std::string srdf =
+      "<robot name=\"r\"><disable_default_collisions link=\"a\"/>" + row("a", "d", "User") +
+      "<enable_collisions link1=\"c\" link2=\"a\"/><disable_default_collisions link=\"x\"/></robot>";
+  const std::vector<DisabledRow> rows = disabled_rows(file.robot, srdf, "r.srdf");
+  std::vector<std::string> pairs;
+  for (const DisabledRow& r : rows) pairs.push_back(r.link1 + " " + r.link2 + " " + r.reason);
+  EXPECT_EQ(pairs,
+            (std::vector<std::string>{"a d User", "a b disable_default_collisions", "a e disable_default_collisions",
+                                      "x all others disable_default_collisions"}));
+  EXPECT_EQ(disabled_pairs(file.robot, srdf, "r.srdf"), (std::vector<LinkPair>{{0, 1}, {0, 3}, {0, 4}}));
+}
+
+TEST(DisabledPairs, TellAReasonThatIsRefuted) {
+  for (const auto& [reach, is_wrong] : {std::pair("1", true), std::pair("2.75", false)}) {
+    const RobotFile file = robot_with_reach(reach);
+    const std::string srdf = "<robot name=\"r\">" + row("a", "d", "Always") + row("a", "d", "Never") + "</robot>";
+    const auto checks = check_disabled_pairs(file.robot, disabled_rows(file.robot, srdf, "r.srdf"));
+    EXPECT_EQ(checks[0].has_refuted_reason(), is_wrong);
+    EXPECT_FALSE(checks[0].is_refuted());
+    EXPECT_FALSE(checks[1].has_refuted_reason());
+  }
+}
+
 TEST(DisabledPairs, AreInReports) {
   const RobotFile file = robot_with_reach("2.75");
   ReportInput input{.file = file, .hulls = {}, .shipped = {}, .motion = {}, .allow = 0, .seconds = 0, .version = "1"};

@@ -573,6 +573,50 @@ TEST(PathFile, ReadsOrRefusesAnyMutant) {
   EXPECT_LT(taken, 3000U);
 }
 
+// Between seconds since 1970, doubles are 2.4e-7 apart.
+TEST(JointPath, ReachesWhatRoundedTimesEnclose) {
+  const Robot robot = robot_of(2, {joint(JointType::Prismatic, 0, 1, {}, kAlongX)});
+  const JointPath path(robot, {.joints = {"joint0"}, .times = {1700000000.1, 1700000000.4}, .positions = {{0}, {-1}}});
+  for (double begin = 0.125; begin < 0.9; begin += 0.0625) {
+    const double end = begin + 0x1p-10;
+    const JointReach reach = path.reach(0, begin, end);
+    for (const double place : {begin, end}) {
+      const double position = -(path.time_at(place) - 1700000000.1) / (1700000000.4 - 1700000000.1);
+      EXPECT_LE(std::abs(position - reach.middle), reach.half) << place;
+    }
+  }
+}
+
+TEST(PathProof, TakesPositionsUpToTheLargest) {
+  const Robot robot = robot_of(
+      3, {joint(JointType::Prismatic, 0, 1, {}, kAlongX), joint(JointType::Prismatic, 1, 2, {1, 0, 0}, kAlongX)});
+  const std::vector<BodyPair> pairs{{0, 2}};
+  const JointPath path(robot, {.joints = {"joint1"}, .positions = {{5}, {1e6}}});
+  const PathBodies made = path_bodies(robot, Geometry::Visual);
+  EXPECT_EQ(prove_paths(robot, std::span(&path, 1), made.bodies, pairs)[0].pairs[0].why, "");
+}
+
+TEST(PathProof, TellsWhyAnEarlierContactIsUndecided) {
+  const Robot robot = robot_of(2, {joint(JointType::Prismatic, 0, 1, {3, 0, 0}, kAlongX)});
+  const JointPath path(robot, {.joints = {"joint0"}, .positions = {{0}, {-3}, {-1.9}, {0}}});
+  const PathBodies made = path_bodies(robot, Geometry::Visual);
+  const std::vector<BodyPair> pairs{{0, 1}};
+  const auto found = [&](std::size_t cells) {
+    return prove_paths(robot, std::span(&path, 1), made.bodies, pairs, {.cells = cells})[0].pairs[0];
+  };
+  EXPECT_EQ(found(3).verdict, PathVerdict::Meets);
+  EXPECT_EQ(found(3).why, kCellsUsedUp);
+  EXPECT_EQ(found(1000).verdict, PathVerdict::Meets);
+  EXPECT_EQ(found(1000).why, "");
+}
+
+TEST(PathFile, ReadsQuotedNamesAndComments) {
+  const PathRows rows = read_path_rows("# of a planner\n\"j,0\",time\n1,0\n\"2\",1\n", "a.csv");
+  EXPECT_EQ(rows.joints, std::vector<std::string>{"j,0"});
+  EXPECT_EQ(rows.positions, (std::vector<std::vector<double>>{{1}, {2}}));
+  EXPECT_EQ(read_path_rows("\"a,b\";c\n1;2\n", "a.csv").joints, (std::vector<std::string>{"a,b", "c"}));
+}
+
 TEST(JointPath, TellsTheFirstPositionBeyondLimits) {
   const Robot robot = robot_of(3, {limited(joint(JointType::Revolute, 0, 1, {}, kAlongX), -1, 1),
                                    joint(JointType::Continuous, 1, 2, {}, kAlongX)});
