@@ -364,11 +364,8 @@ class MjcfWriter {
                        fmt::format("{}: MuJoCo reads paths, but no URIs such as {}", document_.file(), hull));
     refuse_fromto();
     std::string name = unique(body.name + "_hull", mesh_names_);
-    const fs::path file = fs::absolute(folder_ / hull).lexically_normal();
-    const fs::path from = (folder_ / model_.compiler().mesh_folder).lexically_normal();
-    const fs::path relative = file.lexically_relative(from);
-    assets_.push_back(fmt::format("<mesh name=\"{}\" file=\"{}\"{}/>", xml_escaped(name),
-                                  xml_escaped((relative.empty() ? file : relative).generic_string()), plain_mesh()));
+    assets_.push_back(
+        fmt::format("<mesh name=\"{}\" file=\"{}\"{}/>", xml_escaped(name), xml_escaped(hull), plain_mesh()));
     return name;
   }
 
@@ -414,40 +411,51 @@ class MjcfWriter {
 
   // Files
 
-  struct MovedFile {
-    const XmlElement* asset = nullptr;
-    std::string key, said, moved;
+  struct NamedFile {
+    const XmlElement* element = nullptr;
+    std::string key, path;  ///< the path as seen from the new file
+    bool is_moved = false;
   };
 
+  /// A file in the folder of the new one, or that has moved, needs a path that MuJoCo takes as it is. It puts what
+  /// meshdir says before ".." as text, and the new folder does not have the folders of the old one.
   void rewrite_files() {
-    std::vector<MovedFile> files;
+    std::vector<NamedFile> files;
+    collect_files(document_.root(), files);
+    if (assets_.empty() && std::ranges::none_of(files, &NamedFile::is_moved)) return;
     for (const XmlElement* section : document_.root().children)
-      if (section->name == "asset")
-        for (const XmlElement* asset : section->children) add_files(*asset, files);
-    // Hulls and files that were moved have paths, which MuJoCo must not strip.
-    const bool needs_paths = !assets_.empty() || std::ranges::any_of(files, [&](const MovedFile& file) {
-      return file.moved != model_.file_name(file.said);
-    });
-    if (needs_paths) keep_paths();
-    for (const MovedFile& file : files)
-      if (file.moved != (needs_paths ? file.said : model_.file_name(file.said)))
-        edits_.push_back({value_span(document_, *file.asset, file.key), xml_escaped(file.moved)});
+      if (section->name == "compiler") take_paths_as_they_are(*section);
+    for (const NamedFile& file : files)
+      if (file.path != *file.element->attribute(file.key))
+        edits_.push_back({value_span(document_, *file.element, file.key), xml_escaped(file.path)});
   }
 
-  void keep_paths() {
-    for (const XmlElement* section : document_.root().children)
-      if (section->name == "compiler" && section->attribute("strippath")) set(*section, "strippath", "false");
+  void take_paths_as_they_are(const XmlElement& compiler) {
+    if (compiler.attribute("strippath")) set(compiler, "strippath", "false");
+    for (const std::string_view key : {"assetdir", "meshdir", "texturedir"})
+      if (compiler.attribute(key)) edits_.push_back({attribute_span(document_, compiler, key), ""});
   }
 
-  void add_files(const XmlElement& asset, std::vector<MovedFile>& files) const {
-    const fs::path place = asset.name == "model"     ? fs::path()
-                           : asset.name == "texture" ? model_.compiler().texture_folder
-                                                     : model_.compiler().mesh_folder;
-    for (const auto& [key, value] : asset.attributes) {
-      if (!key.starts_with("file")) continue;
-      const MeshFile found = packages_.find(model_.file_name(value), {1, 1, 1}, place);
-      if (!found.path.empty()) files.push_back({&asset, key, value, packages_.uri_from(folder_ / place, found)});
+  void collect_files(const XmlElement& parent, std::vector<NamedFile>& files) const {
+    constexpr std::array<std::string_view, 6> kWithFiles{"mesh", "hfield", "skin", "flexcomp", "texture", "model"};
+    for (const XmlElement* element : parent.children) {
+      if (std::ranges::find(kWithFiles, element->name) != kWithFiles.end())
+        for (const auto& [key, value] : element->attributes)
+          if (key.starts_with("file")) files.push_back(named_file(*element, key, value));
+      collect_files(*element, files);
     }
+  }
+
+  NamedFile named_file(const XmlElement& element, const std::string& key, const std::string& said) const {
+    if (said.find("://") != said.npos) return {&element, key, said};
+    const fs::path place = element.name == "model"     ? fs::path()
+                           : element.name == "texture" ? model_.compiler().texture_folder
+                                                       : model_.compiler().mesh_folder;
+    const std::string old = (place / model_.file_name(said)).generic_string();
+    MeshFile found = packages_.find(old, {1, 1, 1});
+    if (found.path.empty()) found.path = file_.path.parent_path() / old;  // it may come later
+    const std::string now = packages_.uri_from(folder_, found);
+    return {&element, key, now, now != old};
   }
 
   const RobotFile& file_;

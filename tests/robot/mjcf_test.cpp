@@ -346,10 +346,10 @@ TEST(MjcfWithCollisions, TheHullTakesThePlaceOfTheFirstGeomThatCollides) {
       "    </body>\r\n  </worldbody>\r\n"
       "  <contact><pair geom1=\"d\" geom2=\"c\"/></contact>\r\n</mujoco>\r\n";
   const std::string expected =
-      "<!-- head -->\r\n<mujoco model=\"m\">\r\n  <compiler meshdir=\"assets\"/>\r\n"
+      "<!-- head -->\r\n<mujoco model=\"m\">\r\n  <compiler/>\r\n"
       "  <default><mesh scale=\"0.001 0.001 0.001\"/></default>\r\n"
-      "  <asset>\r\n    <mesh name=\"part\" file=\"part.stl\"/>\r\n"
-      "    <mesh name=\"a_hull\" file=\"../meshes/500/a.stl\" scale=\"1 1 1\"/>\r\n  </asset>\r\n"
+      "  <asset>\r\n    <mesh name=\"part\" file=\"assets/part.stl\"/>\r\n"
+      "    <mesh name=\"a_hull\" file=\"meshes/500/a.stl\" scale=\"1 1 1\"/>\r\n  </asset>\r\n"
       "  <worldbody>\r\n    <body name=\"a\">\r\n"
       "      <geom type=\"mesh\" mesh=\"part\" contype=\"0\" conaffinity=\"0\" pos=\"1 2 3\" euler=\"0 0 90\"/>\r\n"
       "      <geom name=\"c\" friction=\"0.5\" type=\"mesh\" mesh=\"a_hull\" pos=\"1 2 3\" euler=\"0 0 90\"/>\r\n"
@@ -519,7 +519,8 @@ TEST(MjcfWithCollisions, RelativePathsStillFindTheirFiles) {
     const Link link = read(result, folder / "out" / "arm.xml").robot.links[0];
     EXPECT_EQ(link.visual.at(0).mesh()->path, folder / "in" / "assets" / "part.stl") << result;
     EXPECT_EQ(link.collision.at(0).mesh()->path, folder / "out" / "meshes" / "500" / "a.stl") << result;
-    EXPECT_NE(result.find("<texture file='../../in/assets/wood.png'/>"), std::string::npos) << result;
+    EXPECT_NE(result.find("<texture file='../in/assets/wood.png'/>"), std::string::npos) << result;
+    EXPECT_EQ(result.find("dir="), std::string::npos) << result;  // MuJoCo would open out/assets/../../in/assets
   }
   std::filesystem::remove_all(folder);
 }

@@ -111,5 +111,35 @@ TEST_F(InMujoco, RobotsLoadWithWhateverCoversTheirLinks) {
   }
 }
 
+/// A picture of one pixel, in MuJoCo's own format.
+void write_texture(const fs::path& path) {
+  const std::array<int, 2> size{1, 1};
+  std::ofstream stream(path, std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(size.data()), sizeof size).write("\xff\xff\xff", 3);
+}
+
+TEST_F(InMujoco, ModelsWithFoldersOfAssetsLoad) {
+  fs::create_directories(folder_ / "in/as s");
+  write_mesh(folder_ / "in/as s/part.stl", make_sample("bracket", 300));
+  write_texture(folder_ / "in/as s/skin.bin");
+  for (const std::string compiler :
+       {"meshdir='as s' texturedir='as s'", "strippath='true' meshdir='as s' texturedir='as s'"}) {
+    std::ofstream(folder_ / "in/arm.xml")
+        << "<mujoco><compiler " << compiler << "/><asset><mesh name='part' file='part.stl'/>"
+        << "<texture name='skin' type='2d' file='skin.bin'/></asset><worldbody><body name='a'><inertial pos='0 0 0' "
+           "mass='1' "
+        << "diaginertia='1 1 1'/><freejoint/><geom type='mesh' mesh='part' contype='0' conaffinity='0'/>"
+        << "<geom type='box' size='.1 .1 .1'/></body></worldbody></mujoco>";
+    EXPECT_TRUE(load(folder_ / "in/arm.xml"));
+    for (const std::string out : {"new", "in/new"}) {
+      prohull("urdf in/arm.xml --faces 60 --configurations 0 --prove 0 --no-pictures -o " + out);
+      if (const Model model = load(folder_.path() / out / "arm.xml")) {
+        EXPECT_EQ(model->nmesh, 2);
+        EXPECT_EQ(model->ntex, 1);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace prohull::robot
