@@ -171,10 +171,11 @@ BuildOutcome build_and_write(BuildOptions options) {
   if (!is_standard_stream(options.in)) require_memory(options.in, kHullBytesPerFace);
   Stopwatch reading;
   MeshMarks marks;
+  FileUnit file_unit;
   TriangleMesh mesh =
-      read_input(options.in, options.input, NonFinite::Keep, options.tolerance.empty() ? nullptr : &marks);
+      read_input(options.in, options.input, NonFinite::Keep, options.tolerance.empty() ? nullptr : &marks, &file_unit);
   outcome.read_seconds = reading.seconds();
-  const MeshUnit unit(mesh, options.in, options.input);
+  const MeshUnit unit(mesh, options.in, options.input, file_unit);
   set_lengths(options, unit);
   if (options.recenter) outcome.offset = recentering_offset(mesh);
   if (!options.tolerance.empty()) set_regions(options, outcome, mesh, marks, unit);

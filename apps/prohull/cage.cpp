@@ -174,8 +174,9 @@ int run_cage(CageRunOptions options) {
   else if (options.cage.inner_faces == 0)
     options.cage.inner_faces = options.cage.outer_faces;
   const Stopwatch building;
-  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
-  options.cage.gap = MeshUnit(mesh, options.in, options.input).number_of(options.gap, "--gap");
+  FileUnit unit;
+  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep, nullptr, &unit);
+  options.cage.gap = MeshUnit(mesh, options.in, options.input, unit).number_of(options.gap, "--gap");
   CertifiedOriginal original;
   if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
   const Cage cage = cage_of(std::move(mesh), options);

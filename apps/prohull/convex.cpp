@@ -390,13 +390,14 @@ int run_convex(ConvexOptions options) {
   if (options.max_void_percent > 0) options.cover.bounds.max_void_ratio = options.max_void_percent / 100;
   Outcome outcome;
   const Stopwatch reading;
-  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
+  FileUnit unit;
+  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep, nullptr, &unit);
   outcome.read_seconds = reading.seconds();
   outcome.input = inspect(mesh);
   outcome.diagonal = finite_bounding_box(mesh).diagonal();
   if (options.max_distance.number > 0)
     options.cover.bounds.max_distance =
-        MeshUnit(mesh, options.in, options.input).number_of(options.max_distance, "--max-distance");
+        MeshUnit(mesh, options.in, options.input, unit).number_of(options.max_distance, "--max-distance");
   CertifiedOriginal original;
   if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
   outcome.cover = naming(options.in, options.cover,

@@ -25,33 +25,36 @@ std::filesystem::path known_as(const std::filesystem::path& path, const InputOpt
   return options.format.empty() ? "standard input" : "standard input." + options.format;
 }
 
-// A reader of COLLADA makes metres of its coordinates.
-bool carries_its_unit(const std::filesystem::path& path) {
-  const std::string suffix = mesh_suffix(path);
-  return suffix == ".dae" || suffix == ".zae";
+/// "in"; "of 1e-06 m" if --unit has none of that length.
+std::string name_of_unit(double metres) {
+  for (const auto& [name, length] : length_units())
+    if (length == metres) return std::string(name);
+  return fmt::format("of {:g} m", metres);
 }
 
-// By its standard, glTF is in metres; files that are not are read with --unit.
-bool is_in_metres(const std::filesystem::path& path) {
-  const std::string suffix = mesh_suffix(path);
-  return suffix == ".glb" || suffix == ".gltf" || carries_its_unit(path);
-}
-
-ReadOptions read_options(const std::filesystem::path& name, const InputOptions& options, NonFinite non_finite,
-                         MeshMarks* marks, const Progress& progress) {
-  if (options.unit > 0 && carries_its_unit(name))
+/// A file that says its unit is not in another one. glTF files often are not in the metres of their standard.
+void check_unit(const FileUnit& file, const InputOptions& options, const std::filesystem::path& name) {
+  if (options.unit > 0 && file.is_said && file.metres > 0 && options.unit != file.metres)
     throw InputError(Defect::InvalidOption,
-                     fmt::format("{}: --unit is for files that do not say their unit; COLLADA says it, and is read in "
-                                 "metres; leave --unit out, or use --scale",
-                                 name.string()));
-  return {.non_finite = non_finite, .scale = options.factor(), .marks = marks, .progress = progress};
+                     fmt::format("{}: --unit is for files that do not say their unit; this one says it, and is read in "
+                                 "the unit {}; leave --unit out, or use --scale",
+                                 name.string(), name_of_unit(file.metres)));
 }
 
 TriangleMesh mesh_in(std::string_view content, const std::filesystem::path& path, const InputOptions& options,
-                     NonFinite non_finite, MeshMarks* marks = nullptr) {
+                     NonFinite non_finite, MeshMarks* marks = nullptr, FileUnit* unit = nullptr) {
   const std::filesystem::path name = known_as(path, options);
   ProgressLine line;
-  return read_mesh(content, name, read_options(name, options, non_finite, marks, std::ref(line)));
+  FileUnit of_file;
+  TriangleMesh mesh = read_mesh(content, name,
+                                {.non_finite = non_finite,
+                                 .scale = options.factor(),
+                                 .marks = marks,
+                                 .unit = &of_file,
+                                 .progress = std::ref(line)});
+  check_unit(of_file, options, name);
+  if (unit) *unit = of_file;
+  return mesh;
 }
 
 std::vector<std::string> input_formats() {
@@ -114,20 +117,23 @@ std::string mesh_suffix(const std::filesystem::path& path) {
   return text == ".gz" ? mesh_suffix(path.stem()) : text;
 }
 
-MeshUnit::MeshUnit(const TriangleMesh& mesh, const std::filesystem::path& path, const InputOptions& options)
+MeshUnit::MeshUnit(const TriangleMesh& mesh, const std::filesystem::path& path, const InputOptions& options,
+                   const FileUnit& file)
     : name_(input_name(path)),
       diagonal_(finite_bounding_box(mesh).diagonal()),
       scale_(options.scale),
-      is_metre_(options.unit > 0 || (options.scale == 1 && is_in_metres(known_as(path, options)))) {}
+      metres_(options.unit > 0     ? 1
+              : options.scale == 1 ? file.metres
+                                   : 0) {}
 
 double MeshUnit::number_of(const Length& length, const std::string& what) const {
-  if (length.needs_metres() && !is_metre_)
+  if (length.needs_metres() && metres_ == 0)
     throw InputError(
         Defect::InvalidOption,
         fmt::format("{} {:g}{}: {}, or say a number in the mesh's unit", what, length.number, length.unit,
                     scale_ != 1 ? "with --scale, the unit of " + name_ + " is not known; use --unit instead"
                                 : name_ + " does not say its unit; add --unit mm (lengths are then in metres)"));
-  return length.of(diagonal_);
+  return length.needs_metres() ? length.of(diagonal_) / metres_ : length.of(diagonal_);
 }
 
 bool is_sphere_file(const std::filesystem::path& path) {
@@ -156,8 +162,8 @@ std::string read_bytes(const std::filesystem::path& path) {
 }
 
 TriangleMesh read_input(const std::filesystem::path& path, const InputOptions& options, NonFinite non_finite,
-                        MeshMarks* marks) {
-  return mesh_in(read_bytes(path), path, options, non_finite, marks);
+                        MeshMarks* marks, FileUnit* unit) {
+  return mesh_in(read_bytes(path), path, options, non_finite, marks, unit);
 }
 
 MeshOrHull read_mesh_or_hull(const std::filesystem::path& path, const InputOptions& options, NonFinite non_finite) {

@@ -49,7 +49,9 @@ bool is_sphere_file(const std::filesystem::path& path);
 /// What lengths of options are in numbers: in the unit of a mesh, as it was read.
 class MeshUnit {
  public:
-  MeshUnit(const TriangleMesh& mesh, const std::filesystem::path& path, const InputOptions& options);
+  /// `file` is what read_input says of its unit.
+  MeshUnit(const TriangleMesh& mesh, const std::filesystem::path& path, const InputOptions& options,
+           const FileUnit& file);
 
   /// Throws InputError(InvalidOption) that calls the length `what`, if it has a unit, but the mesh's is not known.
   double number_of(const Length& length, const std::string& what) const;
@@ -57,7 +59,7 @@ class MeshUnit {
  private:
   std::string name_;
   double diagonal_, scale_;
-  bool is_metre_;
+  double metres_;  ///< of the unit; 0: not known
 };
 
 /// The bytes of a file, or of standard input for "-". Throws InputError(CannotRead).
@@ -65,7 +67,8 @@ std::string read_bytes(const std::filesystem::path& path);
 
 /// read_mesh of a file, or of standard input for "-"; ended by Ctrl-C.
 TriangleMesh read_input(const std::filesystem::path& path, const InputOptions& options = {},
-                        NonFinite non_finite = NonFinite::Refuse, MeshMarks* marks = nullptr);
+                        NonFinite non_finite = NonFinite::Refuse, MeshMarks* marks = nullptr,
+                        FileUnit* unit = nullptr);
 
 /// What a mesh or .phull file holds; it is read once, so that it may be a pipe.
 using MeshOrHull = std::variant<TriangleMesh, ProgressiveHull>;

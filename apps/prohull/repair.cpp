@@ -86,9 +86,10 @@ int run_repair(RepairRunOptions options) {
   options.solid.float32_coordinates = stores_float32(mesh_format("solid" + suffix));
   RepairOutcome outcome;
   const Stopwatch reading;
-  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
+  FileUnit unit;
+  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep, nullptr, &unit);
   outcome.read_seconds = reading.seconds();
-  options.solid.spacing = MeshUnit(mesh, options.in, options.input).number_of(options.spacing, "--spacing");
+  options.solid.spacing = MeshUnit(mesh, options.in, options.input, unit).number_of(options.spacing, "--spacing");
   const Stopwatch repairing;
   outcome.solid = naming(options.in, options.solid,
                          [&](const ClosedSolidOptions& how) { return closed_solid(std::move(mesh), how); });

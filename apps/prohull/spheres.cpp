@@ -139,12 +139,13 @@ int run_spheres(SpheresOptions options) {
   const std::string suffix = check_options(options);
   Outcome outcome;
   const Stopwatch reading;
-  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep);
+  FileUnit unit;
+  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep, nullptr, &unit);
   outcome.read_seconds = reading.seconds();
   outcome.faces = mesh.face_count(), outcome.diagonal = finite_bounding_box(mesh).diagonal();
   if (options.max_distance.number > 0)
     options.cover.max_distance =
-        MeshUnit(mesh, options.in, options.input).number_of(options.max_distance, "--max-distance");
+        MeshUnit(mesh, options.in, options.input, unit).number_of(options.max_distance, "--max-distance");
   CertifiedOriginal original;
   if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
   outcome.cover = naming(options.in, options.cover,

@@ -95,10 +95,12 @@ std::vector<RigidMotion> motions_of(const SweepRunOptions& options) {
 LinkSweep sweep_of_mesh(const SweepRunOptions& options, SweepOptions how, double& read_seconds) {
   const std::vector<RigidMotion> motions = motions_of(options);
   const Stopwatch reading;
-  TriangleMesh mesh = read_input(options.in, options.input);
+  FileUnit unit;
+  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Refuse, nullptr, &unit);
   read_seconds = reading.seconds();
   if (options.max_distance.number > 0)
-    how.max_distance = MeshUnit(mesh, options.in, options.input).number_of(options.max_distance, "--max-distance");
+    how.max_distance =
+        MeshUnit(mesh, options.in, options.input, unit).number_of(options.max_distance, "--max-distance");
   return naming(options.in, [&] { return LinkSweep{"", sweep(std::move(mesh), motions, how)}; });
 }
 

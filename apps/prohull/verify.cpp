@@ -175,9 +175,11 @@ int run_verify(const VerifyOptions& options) {
   const Vec3 offset{numbers[0], numbers[1], numbers[2]};
   const Stopwatch reading;
   const MeshOrHull hull = read_mesh_or_hull(options.hull, options.hull_input);
-  const TriangleMesh original = minus(read_input(options.original, options.original_input, NonFinite::Keep), offset);
+  FileUnit unit;
+  const TriangleMesh original =
+      minus(read_input(options.original, options.original_input, NonFinite::Keep, nullptr, &unit), offset);
   const double read_seconds = reading.seconds();
-  const double gap = MeshUnit(original, options.original, options.original_input).number_of(options.gap, "--gap");
+  const double gap = MeshUnit(original, options.original, options.original_input, unit).number_of(options.gap, "--gap");
   const Box original_box = finite_bounding_box(original);
   stop_if_interrupted();
   const Stopwatch verifying;

@@ -36,12 +36,19 @@ enum class NonFinite {
   Keep,    ///< for callers that drop their faces (repaired_mesh does); files that assimp reads are refused even so
 };
 
+/// The unit of the coordinates of a file, as they are read with a scale of 1.
+struct FileUnit {
+  double metres = 0;     ///< its length; 0 if neither the file nor its format says it
+  bool is_said = false;  ///< whether the file says it (COLLADA, 3MF, AMF); glTF files are in metres by their standard
+};
+
 struct ReadOptions {
   NonFinite non_finite = NonFinite::Refuse;
   double scale = 1;  ///< every coordinate is multiplied by this number (length_units() has those of units) and
                      ///< rounded to double; greater than 0
   MeshMarks* marks = nullptr;  ///< where to put what PLY and OBJ files say of vertices and faces beside the geometry
   std::vector<DividedFace>* divided = nullptr;  ///< where to put polygons of PLY, OBJ and OFF files that are no fans
+  FileUnit* unit = nullptr;                     ///< where to put the unit of the file
   Progress progress = {};                       ///< stage "read"
 };
 

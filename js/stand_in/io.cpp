@@ -4,6 +4,7 @@
 
 #include "io/file.h"
 #include "io/file_content.h"
+#include "io/file_unit.h"
 #include "io/imported_mesh.h"
 #include "prohull/error.h"
 #include "prohull/hull_file.h"
@@ -35,6 +36,8 @@ std::optional<FileContent> decompressed(std::string_view bytes, const std::files
 }
 
 bool is_hull_content(std::string_view content) { return content.starts_with("\x89PHULL\r\n"); }
+
+FileUnit unit_of_file(std::string_view, const std::filesystem::path&) { return {}; }
 
 bool is_imported(const std::filesystem::path&) { return false; }
 

@@ -4,6 +4,7 @@
 #include <archive_entry.h>
 #include <fmt/format.h>
 #define ZLIB_CONST  // inputs are const
+#include <locale.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -78,6 +79,25 @@ class Inflater {
   std::size_t left_ = 0;
 };
 
+/// While it lives, libarchive gives names in UTF-8. It converts them to the charset of the locale, and drops those that
+/// this lacks: in the locale of a program that sets none, all but ASCII.
+class Utf8Locale {
+ public:
+  Utf8Locale() : locale_(newlocale(LC_CTYPE_MASK, "C.UTF-8", locale_t{})) {
+    if (locale_ != locale_t{}) former_ = uselocale(locale_);
+  }
+  Utf8Locale(const Utf8Locale&) = delete;
+  Utf8Locale& operator=(const Utf8Locale&) = delete;
+  ~Utf8Locale() {
+    if (locale_ == locale_t{}) return;
+    uselocale(former_);
+    freelocale(locale_);
+  }
+
+ private:
+  locale_t locale_, former_{};
+};
+
 class ZipReader {
  public:
   ZipReader(std::string_view compressed, const std::filesystem::path& name)
@@ -116,6 +136,7 @@ class ZipReader {
     fail_to_decompress(name_, reason ? reason : "the archive is damaged");
   }
 
+  const Utf8Locale names_;
   std::string_view compressed_;
   const std::filesystem::path& name_;
   std::unique_ptr<archive, decltype(&archive_read_free)> archive_;
@@ -129,7 +150,10 @@ bool is_mesh(const std::filesystem::path& member) {
 FileContent only_mesh(std::string_view bytes, const std::filesystem::path& name) {
   std::vector<std::string> meshes = zip_members(bytes, name);
   std::erase_if(meshes, [](const std::string& member) { return !is_mesh(member); });
-  if (meshes.empty()) fail_to_decompress(name, "it has no .ply, .obj, .off, .stl or .glb file, nor another mesh");
+  if (meshes.empty())
+    fail_to_decompress(name,
+                       "it has no .ply, .obj, .off, .stl or .glb file, nor another mesh; name a 3MF "
+                       "file .3mf, or say so by --in-format in a pipe");
   if (meshes.size() > 1)
     fail_to_decompress(
         name, fmt::format("it has more than one mesh, {} and {}; extract the one you mean", meshes[0], meshes[1]));

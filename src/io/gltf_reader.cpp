@@ -426,9 +426,14 @@ class GltfReader {
   Elements elements(std::size_t number, const char* type, const std::string& where) const {
     const Json& accessor = item("accessors", number, where);
     if (value(accessor, "type") != type) fail_in(where, fmt::format("its type is not {}", type));
-    if (!accessor.contains("bufferView")) fail_in(where, "it has no bufferView, that is, no data");
-    return elements_in(accessor, component_type(accessor, where), std::string_view(type) == "VEC3" ? 3 : 1,
-                       required_count(accessor, "count", where), is_normalized(accessor), where);
+    const ComponentType component = component_type(accessor, where);
+    const std::size_t components = std::string_view(type) == "VEC3" ? 3 : 1;
+    const std::size_t count_of_all = required_count(accessor, "count", where);
+    if (accessor.contains("bufferView"))
+      return elements_in(accessor, component, components, count_of_all, is_normalized(accessor), where);
+    if (!accessor.contains("sparse")) fail_in(where, "it has no bufferView, that is, no data");
+    static constexpr std::array<char, 3 * sizeof(float)> kZero{};  // 3.6.2.3: each element is this one
+    return {{kZero.data(), kZero.size()}, count_of_all, 0, components, component, false};
   }
 
   /// What `object`, an accessor or a part of a sparse one, points to, which is checked to be there.
@@ -488,11 +493,24 @@ class GltfReader {
     if (!std::filesystem::is_regular_file(path, error))  // a pipe or a device may have no end
       throw InputError(
           Defect::CannotRead,
-          fmt::format("{}: {}: there is no regular file {}, which holds its data; put it there, or export as GLB",
-                      file_, where, path.string()));
+          fmt::format("{}: {}: {}, or export as GLB", file_, where,
+                      is_in_archive() ? fmt::format("{} holds its data, and of an archive only one file is "
+                                                    "read; extract all of it",
+                                                    in_quotes(uri))
+                                      : fmt::format("there is no regular file {}, which holds its data; "
+                                                    "put it there",
+                                                    path.string())));
     std::string bytes = read_file(path);
     content_size_ += bytes.size();
     return bytes;
+  }
+
+  /// The name is then "archive.zip/part.gltf".
+  bool is_in_archive() const {
+    std::error_code error;
+    std::filesystem::path folder = std::filesystem::path(file_).parent_path();
+    while (folder.has_relative_path() && !std::filesystem::exists(folder, error)) folder = folder.parent_path();
+    return std::filesystem::is_regular_file(folder, error);
   }
 
   static std::string without_percents(std::string_view uri) {

@@ -12,6 +12,7 @@
 #include "io/extension.h"
 #include "io/file.h"
 #include "io/file_content.h"
+#include "io/file_unit.h"
 #include "io/imported_mesh.h"
 #include "io/mesh_readers.h"
 #include "io/mesh_writers.h"
@@ -68,8 +69,14 @@ const FormatTraits* format_of_magic(std::string_view content) {
   return nullptr;
 }
 
+/// Only a binary file has a byte of zeros in its header.
+bool is_text(std::string_view content) { return content.substr(0, 1024).find('\0') == content.npos; }
+
 const FormatTraits& format_of(std::string_view content, const std::filesystem::path& name) {
-  const auto *const named = named_format(name), *const found = format_of_magic(content);
+  const FormatTraits* const named = named_format(name);
+  const FormatTraits* found = format_of_magic(content);
+  if (named == &traits(MeshFormat::Stl) && !found && is_text(content) && is_obj_keyword(first_word(content)))
+    found = &traits(MeshFormat::Obj);
   if (named && found && named->read != found->read)
     fail(name.string(), {Place::Unit::Line, 1},
          fmt::format("the name says {}, but the content is {}; name it {}, or say so by --in-format in a pipe",
@@ -86,13 +93,26 @@ const FormatTraits& format_of(std::string_view content, const std::filesystem::p
   if (content.empty()) throw InputError(Defect::UnknownFormat, fmt::format("{}: it is empty", name.string()));
   throw InputError(Defect::UnknownFormat,
                    fmt::format("{}: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another "
-                               "file that is read",
+                               "file that is read; give it the suffix of its format, or name that by --in-format in a "
+                               "pipe",
                                name.string()));
 }
 
+/// Texts of old systems end their lines with CR alone; others are left as they are.
+std::optional<std::string> with_line_feeds(std::string_view content) {
+  if (content.find('\n') != content.npos || content.find('\r') == content.npos) return {};
+  if (content.find('\0') != content.npos || is_binary_stl(content)) return {};
+  std::string text(content);
+  std::ranges::replace(text, '\r', '\n');
+  return text;
+}
+
 TriangleMesh read_plain(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {
+  if (options.unit) *options.unit = unit_of_file(content, name);
   if (is_imported(name)) return imported_mesh(content, name.string(), import_limits(content.size()), options.progress);
-  return format_of(content, name).read(content, name.string(), options);
+  const std::optional<std::string> text = with_line_feeds(content);
+  const std::string_view lines = text ? *text : content;
+  return format_of(lines, name).read(lines, name.string(), options);
 }
 
 TriangleMesh read_unscaled(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {

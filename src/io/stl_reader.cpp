@@ -89,14 +89,31 @@ class AsciiStlReader {
     scanner_.next_line();
     expect("solid");
     do {
-      scanner_.skip_rest_of_line();  // the name
+      const bool is_on_one_line = name_precedes_facet();
+      if (is_on_one_line) read_facet();
       read_solid();
-      scanner_.skip_rest_of_line();
+      skip_name(is_on_one_line);
     } while (is_word(scanner_.word_of_any_line(), "solid"));
     return soup_.finish();
   }
 
  private:
+  /// Goes on to the end of the line, or behind the word "facet" if a facet begins on it.
+  bool name_precedes_facet() {
+    for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word()) {
+      if (!is_word(word, "facet")) continue;
+      TextScanner next = scanner_;
+      if (is_word(next.word(), "normal")) return true;
+    }
+    return false;
+  }
+
+  /// Of an end; another solid may follow on the line.
+  void skip_name(bool is_on_one_line) {
+    if (!is_on_one_line) return scanner_.skip_rest_of_line();
+    for (TextScanner next = scanner_; !scanner_.at_line_end() && !is_word(next.word(), "solid");) scanner_ = next;
+  }
+
   void read_solid() {
     while (true) {
       const std::string_view word = scanner_.word_of_any_line();

@@ -32,7 +32,7 @@ class Inspector {
     look_at_faces();
     look_at_edges();
     look_at_vertices();
-    report_.box = bounding_box(mesh_);
+    report_.box = finite_bounding_box(mesh_);
     report_.volume = signed_volume(mesh_);
     return report_;
   }

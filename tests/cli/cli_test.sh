@@ -76,6 +76,8 @@ expect 0 "a distance in centimetres" $prohull spheres mm.obj --unit mm --max-dis
 expect 0 "glTF is in metres" $prohull build inner.obj -o small.glb --faces 100
 expect 0 "glTF is in metres" $prohull cage small.glb --gap 1mm -o small.obj --report small.json
 says small.json "glTF is in metres" '"gap": 0.001'
+expect 0 "GLB of a pipe is in metres" sh -c "$prohull cage - --gap 1mm -o small2.obj --report small.json <small.glb"
+says small.json "GLB of a pipe is in metres" '"gap": 0.001'
 for no_unit in "build rock.ply -o x.ply" "cage rock.ply -o x.ply" "verify rock.ply rock.ply"; do
   expect 2 "no unit: $no_unit" $prohull $no_unit --gap 1mm
   says err "no unit: $no_unit" "--gap 1mm: rock.ply does not say its unit; add --unit mm (lengths are then in metres), or"

@@ -47,9 +47,37 @@ TEST(Zip, IsReadIfItHasOneMesh) {
                  "a.zip/a.off: line 3: the file ends before vertex 1 of 3; it is truncated or its count is wrong");
 }
 
+TEST(Zip, MayHaveNamesThatAreNoAscii) {
+  std::string bytes = zipped({{"u.off", kOff}});
+  for (const std::size_t at : {bytes.find("u.off"), bytes.rfind("u.off")}) bytes[at] = '\xFC';  // as old archives say
+  EXPECT_EQ(read_mesh(bytes, "a.zip").face_count(), 1u);
+  bytes = zipped({{"uu.off", kOff}});
+  for (const std::size_t at : {bytes.find("uu.off"), bytes.rfind("uu.off")}) bytes.replace(at, 2, "\xC3\xBC");
+  bytes[7] |= 8, bytes[bytes.find("PK\x01\x02") + 9] |= 8;  // names are in UTF-8
+  EXPECT_EQ(read_mesh(bytes, "a.zip").face_count(), 1u);
+}
+
+TEST(Zip, WithTheDataOfAGltfFileIsAnError) {
+  const TemporaryFolder folder;
+  const std::string json = R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "a.bin"}]})";
+  write_file(folder / "a.zip", zipped({{"part/a.gltf", json}, {"part/a.bin", std::string(36, '\0')}}));
+  try {
+    read_mesh(folder / "a.zip");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("of an archive only one file is read; extract all of it"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Zip, WithoutOrWithSeveralMeshesIsAnError) {
   expect_refused(zipped({{"readme.txt", "hello"}}), "a.zip",
-                 "a.zip: cannot decompress: it has no .ply, .obj, .off, .stl or .glb file, nor another mesh");
+                 "a.zip: cannot decompress: it has no .ply, .obj, .off, .stl or .glb file, nor another mesh; name "
+                 "a 3MF file .3mf, or say so by --in-format in a pipe");
   expect_refused(zipped({{"a.off", kOff}, {"b.ply", kOff}}), "a.zip",
                  "a.zip: cannot decompress: it has more than one mesh, a.off and b.ply; extract the one you mean");
 }

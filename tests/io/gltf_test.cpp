@@ -131,6 +131,21 @@ TEST(Gltf, PrimitivesOfAMeshMayShareTheirPositions) {
   EXPECT_EQ(mesh.face_count(), 8u);
 }
 
+TEST(Gltf, PositionsWithSparseValuesAloneAreZeroElsewhere) {
+  Json json = tetrahedron_json();
+  json["accessors"][0].erase("bufferView");
+  expect_document_refused(json, "accessors 0: it has no bufferView, that is, no data");
+  std::string bytes = tetrahedron_bytes();
+  json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", 1}});
+  bytes += '\2';
+  json["buffers"][0] = {{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}};
+  json["accessors"][0]["sparse"] =
+      Json::parse(R"({"count": 1, "indices": {"bufferView": 2, "componentType": 5121}, "values": {"bufferView": 0}})");
+  const TriangleMesh mesh = read(json);
+  for (const VertexId v : mesh.positions.ids())
+    EXPECT_EQ(mesh.positions[v], index(v) == 2 ? tetrahedron().positions[VertexId(0)] : Vec3{}) << index(v);
+}
+
 TEST(Gltf, ReadsQuantizedInterleavedAndSparsePositions) {
   Json json = tetrahedron_json();
   json["extensionsRequired"] = {"KHR_mesh_quantization"};

@@ -43,7 +43,8 @@ TEST(MeshFormat, IsToldByTheContentIfTheNameHasNone) {
   EXPECT_EQ(read_mesh("solid\nendsolid\n", "part"), TriangleMesh());
   expect_refused(
       "hello", "part",
-      "part: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another file that is read",
+      "part: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another file that is read; "
+      "give it the suffix of its format, or name that by --in-format in a pipe",
       Defect::UnknownFormat);
   expect_refused("", "standard input", "standard input: it is empty", Defect::UnknownFormat);
 }

@@ -45,6 +45,24 @@ TEST(Stl, ReadsAsciiOfAnyCaseAndSpacing) {
       "endfacet\nendsolid\n");
 }
 
+TEST(Stl, ReadsAsciiOnOneLineOrWithOtherLineEnds) {
+  std::string line = "solid a facet of steel\n" + kFacet + "endsolid a";
+  std::ranges::replace(line, '\n', '\r');
+  expect_one_triangle(line);
+  std::ranges::replace(line, '\r', ' ');
+  expect_one_triangle(line);
+  EXPECT_EQ(read_mesh(line + " " + line, "a.stl").face_count(), 2u);
+}
+
+TEST(Stl, KnowsAnObjFileByItsContent) {
+  std::string obj = "# a part\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  obj.resize(200, ' ');
+  expect_refused(
+      obj, "a.stl",
+      "a.stl: line 1: the name says STL, but the content is OBJ; name it .obj, or say so by --in-format in a "
+      "pipe");
+}
+
 TEST(Stl, JoinsSeveralSolids) {
   const TriangleMesh mesh =
       read_mesh("solid a\n" + kFacet + "endsolid a\nsolid b\n" + kFacet + "endsolid\nsolid\nendsolid", "a.stl");
