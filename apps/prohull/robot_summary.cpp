@@ -186,6 +186,16 @@ std::string cover_of(const Budget& budget) {
 
 bool is_missing(const Shape& shape) { return shape.mesh() && shape.mesh()->path.empty(); }
 
+/// Why a mesh file of a link cannot be read; empty if all can.
+std::string why_not_read(std::span<const Shape> all) {
+  for (const Shape& shape : all) try {
+      if (const MeshFile* const mesh = shape.mesh()) mesh_triangles(*mesh);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  return "";
+}
+
 /// What a run would do with a link.
 struct Plan {
   std::string text;
@@ -202,6 +212,7 @@ Plan plan_of(const Link& link, const LinkHullOptions& options) {
   if (has(is_missing) && options.skip_missing) return {"left as it is"};
   if (has(is_missing)) return {"an error, as its mesh is missing", false};
   if (!has([&](const Shape& shape) { return is_covered(shape, budget); })) return {"primitives, kept"};
+  if (const std::string why = why_not_read(all); !why.empty()) return {"an error: " + why, false};
   std::string text = cover_of(budget);
   if (budget.max_distance > 0) text += fmt::format(", within {}", millimetres(budget.max_distance));
   if (budget.padding > 0) text += fmt::format(", with a gap of {}", millimetres(budget.padding));

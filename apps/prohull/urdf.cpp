@@ -417,8 +417,9 @@ void add_urdf(CLI::App& app, Run& run) {
   CLI::Option* const out =
       command
           .add_option("-o,--out", options->out,
-                      "Folder for the robot and its hulls. It is made if it is not there. A folder with files that "
-                      "this command has not written is refused.")
+                      "Folder for the robot and its hulls. It is made if it is not there. A folder that has files but "
+                      "no report.json of an earlier run is refused, and a file that no run has written is not "
+                      "overwritten.")
           ->type_name("DIR");
   add_robot_file_options(command, options->file);
   add_choice(
@@ -434,6 +435,7 @@ void add_urdf(CLI::App& app, Run& run) {
   command
       .add_option("--package", options->package,
                   "Make the folder a ROS package of this name: with package.xml, and hulls named by package:// URIs.")
+      ->check([](const std::string& name) { return name.empty() ? std::string("--package needs a name") : ""; })
       ->type_name("NAME");
   command.add_flag("--tight", options->hulls.tight, "Build tight hulls: least volume, but some 4 times as slow.");
   command.add_flag(

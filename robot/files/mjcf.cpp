@@ -24,7 +24,7 @@ class MjcfReader {
     file_.robot.name = name ? *name : "MuJoCo Model";
     file_.notes = model_.notes();
     for (const MjcfBody& body : model_.bodies()) add_link(body);
-    if (file_.robot.links.empty()) document_.refuse(document_.root(), "the model has no <body>");
+    if (file_.robot.links.empty()) refuse_without_bodies();
     for (std::size_t body = 0; body < model_.bodies().size(); ++body) add_joints(body);
     for (const XmlElement* section : document_.root().children)
       if (section->name == "equality")
@@ -41,6 +41,13 @@ class MjcfReader {
   }
 
  private:
+  [[noreturn]] void refuse_without_bodies() const {
+    std::string why = "the model has no <body>";
+    for (const std::string& note : model_.notes())
+      if (note.find("neither is what it makes") != note.npos) why += "; " + note;
+    document_.refuse(document_.root(), why);
+  }
+
   void note(std::string sentence) { file_.notes.push_back(std::move(sentence)); }
 
   // Links

@@ -32,9 +32,14 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, error);
 }
 
-/// Absolute and without "..", but with the links that it goes through. A folder loses its slash at the end.
+/// Absolute and without "..", but with the links that it goes through, unless ".." stands behind one: then it is where
+/// the link leads. A folder loses its slash at the end.
 fs::path tidied(const fs::path& path) {
-  fs::path tidy = fs::absolute(path).lexically_normal();
+  const fs::path absolute = fs::absolute(path);
+  fs::path tidy = absolute.lexically_normal();
+  std::error_code error;
+  if (std::ranges::find(absolute, "..") != absolute.end() && !fs::equivalent(absolute, tidy, error))
+    if (fs::path canonical = fs::weakly_canonical(absolute, error); !error) tidy = std::move(canonical);
   return tidy.has_filename() || !tidy.has_relative_path() ? tidy : tidy.parent_path();
 }
 

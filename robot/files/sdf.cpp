@@ -42,6 +42,7 @@ class SdfReader {
     if (file_.robot.links.empty())
       document_.refuse(model_, "the model has no <link>; what it includes from other files is not read");
     add_joints();
+    note_includes_beside();
     note_includes(model_);
     file_.format = RobotFormat::Sdf;
     file_.path = document_.file();
@@ -59,11 +60,23 @@ class SdfReader {
     note(fmt::format("the file has {} models; only the first one, '{}', is read", models.size(), name ? *name : ""));
   }
 
+  /// In the file, or a world of it.
+  void note_includes_beside() {
+    const auto note_all = [&](const XmlElement& parent) {
+      for (const XmlElement* include : parent.children_called("include")) note_include(*include);
+    };
+    note_all(document_.root());
+    for (const XmlElement* world : document_.root().children_called("world")) note_all(*world);
+  }
+
+  void note_include(const XmlElement& element) {
+    note(fmt::format("line {} includes '{}', which is not read", element.line, sdf_text(element, "uri")));
+  }
+
   void note_includes(const XmlElement& model) {
     for (const XmlElement* child : model.children) {
       if (child->name == "model") note_includes(*child);
-      if (child->name == "include")
-        note(fmt::format("line {} includes '{}', which is not read", child->line, sdf_text(*child, "uri")));
+      if (child->name == "include") note_include(*child);
     }
   }
 

@@ -138,7 +138,11 @@ std::string trimmed(std::string text) {
 
 }  // namespace
 
-bool is_xacro(const XmlDocument& document) { return has_macro(document.root()); }
+/// The manifest of a package and a launch file have substitutions of their own.
+bool is_xacro(const XmlDocument& document) {
+  const std::string& root = document.root().name;
+  return root != "package" && root != "launch" && has_macro(document.root());
+}
 
 void refuse_xacro(const std::filesystem::path& file) {
   throw InputError(Defect::UnknownFormat,

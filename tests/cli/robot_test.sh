@@ -207,6 +207,7 @@ expect 0 "a distance" $urdf -o near --faces 20 --max-distance 0.1mm --configurat
 says near/report.json "a distance is kept" '"within_bounds": true'
 expect 2 "a file as folder" $urdf -o budgets.yaml
 expect 2 "a name of a package" $urdf -o none --package "My Robot"
+expect 2 "a package without a name" $urdf -o none --package ''
 expect 3 "no robot" $prohull urdf nowhere.urdf -o none
 rm before/meshes/knot.ply
 expect 3 "a missing mesh" $prohull urdf before/robot.urdf -o none
@@ -214,6 +215,11 @@ says err "a missing mesh" "--skip-missing"
 says err "a missing mesh" "knot.ply"
 expect 3 "a dry run with a missing mesh" $prohull urdf before/robot.urdf --dry-run
 says out "a dry run with a missing mesh" "an error, as its mesh is missing"
+printf '<robot name="r"><link name="a"><visual><geometry><mesh filename="a.msh"/></geometry></visual></link></robot>' >msh.urdf
+printf 'no mesh' >a.msh
+expect 3 "a dry run with a mesh that is not read" $prohull urdf msh.urdf --dry-run
+says out "a dry run with a mesh that is not read" "a.msh: an error: "
+rm msh.urdf a.msh
 expect 0 "a dry run that skips a missing mesh" $prohull urdf before/robot.urdf --dry-run --skip-missing
 absent none "what is refused leaves nothing"
 expect 0 "a missing mesh is skipped" $prohull urdf before/robot.urdf -o skipped --skip-missing $small

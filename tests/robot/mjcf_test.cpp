@@ -54,6 +54,15 @@ TEST(Mjcf, ReadsShapesFromHalfLengths) {
   EXPECT_EQ(std::get<OtherForm>(shape_of("<geom type='box' mesh='part'/>", kMesh).form).what, "box fitted to a mesh");
 }
 
+TEST(Mjcf, SaysWhatMayMakeTheBodiesOfAModelWithout) {
+  EXPECT_NE(message_of("<mujoco><worldbody>\n<replicate count='3'><body><geom size='1'/></body></replicate>"
+                       "</worldbody></mujoco>")
+                .find("the model has no <body>; line 2: <replicate> is not read, and neither is what it makes"),
+            std::string::npos);
+  const std::string bare = message_of("<mujoco><worldbody/></mujoco>");
+  EXPECT_TRUE(bare.ends_with("the model has no <body>")) << bare;
+}
+
 TEST(Mjcf, ReadsFromto) {
   const Shape capsule = shape_of("<geom type='capsule' size='0.1' fromto='1 0 0  4 0 4'/>");
   EXPECT_EQ(std::get<CapsuleForm>(capsule.form).length, 5);

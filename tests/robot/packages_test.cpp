@@ -51,6 +51,16 @@ TEST_F(PackagesTest, FindsPathsBesideTheRobot) {
   expect_not_found("..", "is a folder");
 }
 
+TEST_F(PackagesTest, GoesUpFromWhereASymbolicLinkLeads) {
+  const fs::path there = file("far/away/a.stl");
+  fs::create_directories(folder_.path() / "far/away/deep");
+  fs::create_directories(robot_.parent_path());
+  fs::create_directory_symlink(folder_.path() / "far/away/deep", robot_.parent_path() / "link");
+  file("ws/src/arm_description/urdf/b.stl");
+  expect_found("link/../a.stl", fs::canonical(there));
+  expect_not_found("link/../b.stl", "there is no file");
+}
+
 TEST_F(PackagesTest, DecodesPercentSigns) {
   const fs::path blank = file("ws/src/arm_description/urdf/a b.stl"),
                  literal = file("ws/src/arm_description/urdf/a%41");

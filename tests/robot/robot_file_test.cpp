@@ -91,6 +91,11 @@ TEST_F(ReadRobot, RunsXacro) {
   EXPECT_EQ(read_robot(file("attribute.urdf", "<robot name='${x}'><link name='a'/></robot>")).robot.name, "x");
 }
 
+TEST_F(ReadRobot, APackageIsNoXacro) {
+  expect_refused(file("package.xml", "<package><export><gazebo_ros path='${prefix}/..'/></export></package>"),
+                 Defect::UnknownFormat, "no robot: its root is <package>");
+}
+
 TEST_F(ReadRobot, PassesOnWhatXacroSays) {
   const fs::path path = file("arm.xacro", kXacro);
   const Variable program("PATH", path_with_xacro("echo 'Undefined substitution argument ur_type' >&2; exit 2"));

@@ -227,9 +227,10 @@ TEST(Sdf, ReadsTheFirstModelOfAWorldAndSaysSo) {
       "<sdf version='1.9'><world name='w'><include><uri>model://sun</uri></include><model name='m'><link name='a'/>"
       "<include><uri>model://hand</uri></include></model><model name='n'><link name='b'/></model></world></sdf>");
   EXPECT_EQ(file.robot.links[0].name, "a");
-  ASSERT_EQ(file.notes.size(), 2U);
+  ASSERT_EQ(file.notes.size(), 3U);
   EXPECT_NE(file.notes[0].find("2 models"), std::string::npos);
-  EXPECT_NE(file.notes[1].find("model://hand"), std::string::npos);
+  EXPECT_EQ(file.notes[1], "line 1 includes 'model://sun', which is not read");
+  EXPECT_NE(file.notes[2].find("model://hand"), std::string::npos);
 }
 
 TEST(Sdf, RefusesWithTheLine) {
