@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <span>
 
 #include "prohull/detail/base64.h"
 #include "prohull/error.h"
@@ -17,19 +19,15 @@ namespace prohull::robot {
 namespace {
 
 constexpr const char* kDash = "–";
+constexpr int kWide = 880, kHigh = 660;  // of the picture of the robot
 constexpr std::string_view kGrey = "#d9d6d1", kBlue = "#7db4ea", kOrange = "#f09a4e", kRed = "#d4483b";  // of pictures
 
 // ---------------------------------------------------------------------------------------------------------------------
 // Pictures
 
-struct CardPictures {
-  std::vector<std::string> hulls;  // one for each hull; empty where there is none
-  std::string shipped;
-};
-
 struct PagePictures {
   std::string robot;
-  std::vector<CardPictures> cards;  // one for each link
+  std::vector<std::vector<std::string>> cards;  // those of pictures_of_card, for each link
 };
 
 TriangleMesh in_link(const LinkHulls& hulls, const TriangleMesh& mesh) {
@@ -86,50 +84,24 @@ std::vector<Picture> pictures_of_card(const ReportInput& input, std::size_t link
   return pictures;
 }
 
-/// Draws in `steps` steps and tells how many of them are done.
-class Drawing {
- public:
-  Drawing(std::size_t steps, const Progress& progress) : steps_(steps), progress_(progress) {}
-
-  std::vector<std::string> step(const std::vector<Picture>& pictures, PictureOptions options) {
-    if (progress_) options.progress = [this](std::string_view, double fraction) { return tell(fraction); };
-    std::vector<std::string> files = draw_pictures(pictures, options);
-    if (!tell(1)) throw Cancelled();
-    ++done_;
-    return files;
-  }
-
- private:
-  bool tell(double fraction) const {
-    return !progress_ || progress_("draw", (static_cast<double>(done_) + fraction) / static_cast<double>(steps_));
-  }
-
-  std::size_t steps_, done_ = 0;
-  const Progress& progress_;
-};
-
 PagePictures drawn_pictures(const ReportInput& input, const PageOptions& options) {
-  constexpr int kWide = 880, kHigh = 660;
-  PagePictures result;
-  result.cards.resize(input.file.robot.links.size());
-  if (!options.pictures) return result;
-  Drawing drawing(1 + result.cards.size(), options.progress);
-  result.robot =
-      drawing
-          .step({picture_of_robot(input)},
-                {.width = kWide, .height = kHigh, .lines = false, .threads = options.threads, .cache = options.cache})
-          .front();
-  for (std::size_t i = 0; i < result.cards.size(); ++i) {
-    std::vector<std::string> files =
-        drawing.step(pictures_of_card(input, i), {.threads = options.threads, .cache = options.cache});
-    const LinkHulls* const hulls = hulls_of(input, i);
-    if (files.size() > (hulls ? hulls->hulls.size() : 0)) {
-      result.cards[i].shipped = std::move(files.back());
-      files.pop_back();
-    }
-    result.cards[i].hulls = std::move(files);
-  }
-  return result;
+  PagePictures drawn{{}, std::vector<std::vector<std::string>>(input.file.robot.links.size())};
+  if (!options.pictures) return drawn;
+  std::size_t done = 0;
+  const auto tell = [&, steps = static_cast<double>(1 + drawn.cards.size())](double fraction) {
+    return !options.progress || options.progress("draw", (static_cast<double>(done) + fraction) / steps);
+  };
+  const auto draw = [&](const std::vector<Picture>& pictures, PictureOptions how) {
+    how.threads = options.threads, how.cache = options.cache;
+    if (options.progress) how.progress = [&](std::string_view, double fraction) { return tell(fraction); };
+    std::vector<std::string> files = draw_pictures(pictures, how);
+    if (!tell(1)) throw Cancelled();
+    ++done;
+    return files;
+  };
+  drawn.robot = draw({picture_of_robot(input)}, {.width = kWide, .height = kHigh, .lines = false}).front();
+  for (std::size_t i = 0; i < drawn.cards.size(); ++i) drawn.cards[i] = draw(pictures_of_card(input, i), {});
+  return drawn;
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -161,9 +133,8 @@ struct Cell {
 
 std::string row(const std::string& head, const std::vector<Cell>& cells) {
   std::string text = fmt::format("<tr><th scope=\"row\">{}</th>", head);
-  for (const Cell& cell : cells)
-    text += cell.kind.empty() ? fmt::format("<td>{}</td>", cell.text)
-                              : fmt::format("<td class=\"{}\">{}</td>", cell.kind, cell.text);
+  for (const auto& [shown, kind] : cells)
+    text += fmt::format("<td{}>{}</td>", kind.empty() ? "" : fmt::format(" class=\"{}\"", kind), shown);
   return text + "</tr>\n";
 }
 
@@ -179,7 +150,7 @@ std::string name_of_link(const ReportInput& input, std::size_t link) {
   return html_escaped(input.file.robot.links[link].name);
 }
 
-/// Of a link without any geometry there is nothing more to say than the table does.
+/// A link without any geometry has none: the table says all that is known of it.
 bool has_card(const ReportInput& input, std::size_t link) {
   const LinkHulls* const hulls = hulls_of(input, link);
   const LinkCheck* const check = check_of(input, link);
@@ -276,7 +247,7 @@ std::string legend(const ReportInput& input) {
 std::string overview(const ReportInput& input, const std::string& png) {
   const std::string picture =
       figure(png, fmt::format("The robot {} inside of its collision geometry", html_escaped(input.file.robot.name)),
-             legend(input), {.width = 880, .height = 660});
+             legend(input), {.width = kWide, .height = kHigh});
   return fmt::format("<div class=\"overview{}\">\n{}<div class=\"tiles\">\n{}</div>\n</div>\n",
                      picture.empty() ? " plain" : "",
                      picture.empty() ? "" : fmt::format("<div class=\"card\">{}</div>\n", picture), tiles(input));
@@ -352,28 +323,32 @@ std::vector<Cell> hull_cells(const LinkHulls* hulls) {
           length_text(hull->distance.upper, Rounded::Up)};
 }
 
-void append_cells(std::vector<Cell>& cells, std::vector<Cell> more) {
-  std::ranges::move(more, std::back_inserter(cells));
+std::vector<Cell> check_cells(const LinkCheck* check, double allow) {
+  if (!check) return {};
+  return {verdict(*check, allow), sticks_out(*check), ratio_text(ratio(check->collision_volume, check->visual_volume))};
 }
 
 std::string links_table(const ReportInput& input) {
+  const auto both = [](auto first, auto second) {
+    std::ranges::move(second, std::back_inserter(first));
+    return first;
+  };
   std::vector<std::string> heads{"Link"};
-  const bool has_hulls = cover_words(input.hulls) == "hulls";
+  const bool is_hull = cover_words(input.hulls) == "hulls";
   if (!input.hulls.empty())
-    for (const char* head : {has_hulls ? "Hull" : "Cover", "Faces before", has_hulls ? "Faces after" : "Covered by",
-                             "Volume&nbsp;/ original", "Volume&nbsp;/ convex&nbsp;hull", "Distance at&nbsp;most"})
-      heads.emplace_back(head);
+    heads = {"Link",
+             is_hull ? "Hull" : "Cover",
+             "Faces before",
+             is_hull ? "Faces after" : "Covered by",
+             "Volume&nbsp;/ original",
+             "Volume&nbsp;/ convex&nbsp;hull",
+             "Distance at&nbsp;most"};
   if (!input.shipped.empty())
-    for (const char* head : {"Shipped", "Sticks out by", "Shipped volume&nbsp;/ original"}) heads.emplace_back(head);
+    heads = both(heads, std::vector<std::string>{"Shipped", "Sticks out by", "Shipped volume&nbsp;/ original"});
   std::string rows;
-  for (std::size_t i = 0; i < input.file.robot.links.size(); ++i) {
-    std::vector<Cell> cells;
-    if (!input.hulls.empty()) append_cells(cells, hull_cells(hulls_of(input, i)));
-    if (const LinkCheck* const check = check_of(input, i))
-      append_cells(cells, {verdict(*check, input.allow), sticks_out(*check),
-                           ratio_text(ratio(check->collision_volume, check->visual_volume))});
-    rows += row(link_to(input, i), cells);
-  }
+  for (std::size_t i = 0; i < input.file.robot.links.size(); ++i)
+    rows += row(link_to(input, i), both(input.hulls.empty() ? std::vector<Cell>() : hull_cells(hulls_of(input, i)),
+                                        check_cells(check_of(input, i), input.allow)));
   return fmt::format("<section>\n<h2>Links</h2>\n<div class=\"card list\">\n{}</div>\n</section>\n",
                      table("", heads, rows));
 }
@@ -386,107 +361,94 @@ std::string built_from(const LinkHull& hull) {
   return html_escaped(hull.source);
 }
 
-/// The facts about a link: a column for each hull, and one for what was shipped.
-class FactsTable {
- public:
-  FactsTable(const LinkHulls* hulls, const LinkCheck* check, double allow)
-      : hulls_(hulls), check_(check && was_measured(*check) ? check : nullptr), allow_(allow) {}
-
-  std::string text() const {
-    std::vector<std::string> heads{""};
-    if (hulls_)
-      for (const LinkHull& hull : hulls_->hulls)
-        heads.push_back(hulls_->collision != Collision::Hull ? "Cover"
-                        : hulls_->hulls.size() == 1          ? "Hull"
-                                                             : fmt::format("Hull of {}", grouped(hull.target_faces)));
-    if (check_) heads.emplace_back("Shipped");
-    return heads.size() == 1 ? "" : fmt::format("<div class=\"facts\">{}</div>\n", table("", heads, rows()));
-  }
-
- private:
-  template <class OfHull, class OfCheck>
-  std::string line(const std::string& head, OfHull of_hull, OfCheck of_check) const {
-    std::vector<Cell> cells;
-    if (hulls_)
-      for (const LinkHull& hull : hulls_->hulls) cells.emplace_back(of_hull(hull));
-    if (check_) cells.emplace_back(of_check(*check_));
-    return row(head, cells);
-  }
-
-  std::string rows() const {
-    using Hull = const LinkHull&;
-    using Check = const LinkCheck&;
-    const auto unknown = [](const auto&) { return kDash; };
-    std::string text = line("Encloses the geometry", certificate, [&](Check c) { return verdict(c, allow_); });
-    if (check_)
-      text += line(
-          "Geometry sticks out by", [](Hull h) { return h.certified ? "0 mm" : "?"; }, sticks_out);
-    const auto faces = [](std::size_t count, const std::string& parts) {
-      return parts.empty() ? grouped(count) : fmt::format("{} in {}", grouped(count), parts);
-    };
-    const auto size = [&](Hull h) {
-      if (hulls_->collision != Collision::Hull && h.pieces.empty()) return size_text(h);
-      return faces(h.mesh.face_count(), h.pieces.empty() ? "" : size_text(h));
-    };
-    text += line("Faces", size,
-                 [&](Check c) { return faces(c.collision_faces, c.pieces > 1 ? counted(c.pieces, "piece") : ""); });
-    text += line(
-        "Volume / original", [&](Hull h) { return ratio_text(ratio(h.volume, hulls_->sealed_volume)); },
-        [](Check c) { return ratio_text(ratio(c.collision_volume, c.visual_volume)); });
-    text += line(
-        "Volume / convex hull", [&](Hull h) { return ratio_text(ratio(h.volume, hulls_->convex_volume)); },
-        [](Check c) { return ratio_text(ratio(c.collision_volume, c.convex_volume)); });
-    text += line(
-        "Greatest distance from the geometry", [](Hull h) { return range_text(h.distance.lower, h.distance.upper); },
-        [](Check c) { return range_text(c.reach.lower, c.reach.upper); });
-    if (hulls_ && std::ranges::any_of(hulls_->hulls, &LinkHull::has_openings))
-      text += line(
-          "The same, from its triangles alone",
-          [](Hull h) { return range_text(h.distance_from_triangles.lower, h.distance_from_triangles.upper); }, unknown);
-    if (check_)
-      text += line("Mean distance from the geometry", unknown, [](Check c) { return length_text(c.mean_distance); });
-    if (!hulls_ || hulls_->hulls.empty()) return text;
-    if (std::ranges::any_of(hulls_->hulls, [](Hull h) { return h.padding > 0; }))
-      text += line(
-          "Padding, proven", [](Hull h) { return "at least " + length_text(h.padding, Rounded::Down); }, unknown);
-    text += line(
-        "Proof", [](Hull h) { return h.proof.empty() ? kDash : html_escaped(h.proof); }, unknown);
-    return text + line("Built from", built_from, unknown);
-  }
-
-  const LinkHulls* hulls_;
-  const LinkCheck* check_;
-  double allow_;
-};
-
-std::string pictures(const ReportInput& input, std::size_t link, const CardPictures& drawn) {
-  const std::string name = name_of_link(input, link);
-  std::string figures;
-  for (std::size_t k = 0; k < drawn.hulls.size(); ++k) {
-    const LinkHull& hull = hulls_of(input, link)->hulls[k];
-    const bool is_hull = hulls_of(input, link)->collision == Collision::Hull;
-    figures += figure(drawn.hulls[k],
-                      fmt::format("{} inside of {} {}", name, is_hull ? "its translucent hull with" : "its translucent",
-                                  size_text(hull)),
-                      chip(kBlue, fmt::format("{}{}", is_hull ? "Hull, " : "", size_text(hull))), {});
-  }
-  if (!drawn.shipped.empty()) {
-    const LinkCheck& check = *check_of(input, link);
-    const bool leaks = check.sticks_out_at_least > 0;
-    figures += figure(drawn.shipped,
-                      fmt::format("{} and its shipped collision geometry, translucent{}", name,
-                                  leaks ? "; a red ball marks where the link sticks out farthest" : ""),
-                      fmt::format("<span class=\"legend\">{}{}</span>",
-                                  chip(kOrange, fmt::format("Shipped, {}", counted(check.collision_faces, "face"))),
-                                  leaks ? chip(kRed, "sticks out farthest") : ""),
-                      {});
-  }
-  return figures.empty() ? "" : fmt::format("<div class=\"pictures\">\n{}</div>\n", figures);
+std::string count_in(std::size_t faces, const std::string& parts) {
+  return parts.empty() ? grouped(faces) : fmt::format("{} in {}", grouped(faces), parts);
 }
 
-std::size_t count_pictures(const CardPictures& drawn) {
-  const auto missing = static_cast<std::size_t>(std::ranges::count(drawn.hulls, ""));
-  return drawn.hulls.size() - missing + (drawn.shipped.empty() ? 0 : 1);
+std::string faces_of(const LinkHull& hull, Collision collision) {
+  if (collision != Collision::Hull && hull.pieces.empty()) return size_text(hull);
+  return count_in(hull.mesh.face_count(), hull.pieces.empty() ? "" : size_text(hull));
+}
+
+std::string head_of(const LinkHull& hull, const LinkHulls& link) {
+  if (link.collision != Collision::Hull) return "Cover";
+  return link.hulls.size() == 1 ? "Hull" : fmt::format("Hull of {}", grouped(hull.target_faces));
+}
+
+/// The facts about a link: a column for each hull, and one for what was shipped.
+std::string facts_table(const LinkHulls* link, const LinkCheck* check, double allow) {
+  using Hull = const LinkHull&;
+  using Check = const LinkCheck&;
+  if (check && !was_measured(*check)) check = nullptr;
+  const std::span<const LinkHull> hulls = link ? std::span(link->hulls) : std::span<const LinkHull>();
+  if (hulls.empty() && !check) return {};
+  std::vector<std::string> heads{""};
+  for (Hull hull : hulls) heads.push_back(head_of(hull, *link));
+  if (check) heads.emplace_back("Shipped");
+  std::string rows;
+  const auto line = [&](bool is_shown, const char* head, auto of_hull, auto of_check) {
+    std::vector<Cell> cells;
+    for (Hull hull : hulls) cells.emplace_back(of_hull(hull));
+    if (check) cells.emplace_back(of_check(*check));
+    if (is_shown) rows += row(head, cells);
+  };
+  const bool has_hulls = !hulls.empty(), is_padded = std::ranges::any_of(hulls, [](Hull h) { return h.padding > 0; });
+  const auto unknown = [](const auto&) { return kDash; };
+  const auto range = [](const DistanceBounds& bounds) { return range_text(bounds.lower, bounds.upper); };
+  line(true, "Encloses the geometry", certificate, [&](Check c) { return verdict(c, allow); });
+  line(
+      check, "Geometry sticks out by", [](Hull h) { return h.certified ? "0 mm" : "?"; }, sticks_out);
+  line(
+      true, "Faces", [&](Hull h) { return faces_of(h, link->collision); },
+      [](Check c) { return count_in(c.collision_faces, c.pieces > 1 ? counted(c.pieces, "piece") : ""); });
+  line(
+      true, "Volume / original", [&](Hull h) { return ratio_text(ratio(h.volume, link->sealed_volume)); },
+      [](Check c) { return ratio_text(ratio(c.collision_volume, c.visual_volume)); });
+  line(
+      true, "Volume / convex hull", [&](Hull h) { return ratio_text(ratio(h.volume, link->convex_volume)); },
+      [](Check c) { return ratio_text(ratio(c.collision_volume, c.convex_volume)); });
+  line(
+      true, "Greatest distance from the geometry", [&](Hull h) { return range(h.distance); },
+      [&](Check c) { return range(c.reach); });
+  line(
+      std::ranges::any_of(hulls, &LinkHull::has_openings), "The same, from its triangles alone",
+      [&](Hull h) { return range(h.distance_from_triangles); }, unknown);
+  line(check, "Mean distance from the geometry", unknown, [](Check c) { return length_text(c.mean_distance); });
+  line(
+      is_padded, "Padding, proven", [](Hull h) { return "at least " + length_text(h.padding, Rounded::Down); },
+      unknown);
+  line(
+      has_hulls, "Proof", [](Hull h) { return h.proof.empty() ? kDash : html_escaped(h.proof); }, unknown);
+  line(has_hulls, "Built from", built_from, unknown);
+  return fmt::format("<div class=\"facts\">{}</div>\n", table("", heads, rows));
+}
+
+std::string hull_figure(const std::string& png, const std::string& name, const LinkHull& hull, bool is_hull) {
+  const std::string size = size_text(hull);
+  return figure(png, fmt::format("{} inside of its translucent {}{}", name, is_hull ? "hull with " : "", size),
+                chip(kBlue, (is_hull ? "Hull, " : "") + size), {});
+}
+
+std::string shipped_figure(const std::string& png, const std::string& name, const LinkCheck& check) {
+  const bool leaks = check.sticks_out_at_least > 0;
+  return figure(png,
+                fmt::format("{} and its shipped collision geometry, translucent{}", name,
+                            leaks ? "; a red ball marks where the link sticks out farthest" : ""),
+                fmt::format("<span class=\"legend\">{}{}</span>",
+                            chip(kOrange, fmt::format("Shipped, {}", counted(check.collision_faces, "face"))),
+                            leaks ? chip(kRed, "sticks out farthest") : ""),
+                {});
+}
+
+std::string pictures(const ReportInput& input, std::size_t link, const std::vector<std::string>& drawn) {
+  const std::string name = name_of_link(input, link);
+  const LinkHulls* const made = hulls_of(input, link);
+  const std::size_t hulls = made ? made->hulls.size() : 0;
+  std::string figures;
+  for (std::size_t k = 0; k < drawn.size(); ++k)
+    figures += k < hulls ? hull_figure(drawn[k], name, made->hulls[k], made->collision == Collision::Hull)
+                         : shipped_figure(drawn[k], name, *check_of(input, link));
+  return figures.empty() ? "" : fmt::format("<div class=\"pictures\">\n{}</div>\n", figures);
 }
 
 std::vector<std::string> notes_of(const LinkHulls* hulls, const LinkCheck* check) {
@@ -528,7 +490,7 @@ std::string badge(const ReportInput& input, std::size_t link) {
   return fmt::format("<span class=\"badge {}\">{}</span>", cell.kind, cell.text);
 }
 
-std::string card(const ReportInput& input, std::size_t link, const CardPictures& drawn) {
+std::string card(const ReportInput& input, std::size_t link, const std::vector<std::string>& drawn) {
   const LinkHulls* const hulls = hulls_of(input, link);
   const LinkCheck* const check = check_of(input, link);
   if (!has_card(input, link)) return {};
@@ -538,8 +500,10 @@ std::string card(const ReportInput& input, std::size_t link, const CardPictures&
   if (hulls && !hulls->why.empty()) text += fmt::format("<p>{}</p>\n", html_escaped(hulls->why));
   if (check && !was_measured(*check) && check->verdict != CheckVerdict::NoVisual)
     text += fmt::format("<p>The shipped collision geometry {}.</p>\n", verdict_text(*check));
-  text += fmt::format("<div class=\"body{}\">\n{}{}</div>\n", count_pictures(drawn) == 1 ? " one" : "",
-                      pictures(input, link, drawn), FactsTable(hulls, check, input.allow).text());
+  text +=
+      fmt::format("<div class=\"body{}\">\n{}{}</div>\n",
+                  std::ranges::count_if(drawn, [](const std::string& png) { return !png.empty(); }) == 1 ? " one" : "",
+                  pictures(input, link, drawn), facts_table(hulls, check, input.allow));
   if (hulls) text += list("Repairs", hulls->repairs);
   text += list("Notes", notes_of(hulls, check));
   return text + "</article>\n";
@@ -649,57 +613,48 @@ std::string disabled_section(const ReportInput& input) {
 // The end of the page
 
 struct Word {
+  bool is_shown;
   std::string_view word, meaning;
 };
 
 std::string words(const ReportInput& input) {
-  std::vector<Word> shown;
-  if (!input.hulls.empty())
-    shown = {{"Hull", "A closed mesh of few faces around the geometry of a link."},
-             {"Cover", "Convex pieces, or spheres, that cover the geometry of a link together."},
-             {"Certified",
-              "An exact test, which shares no code with the construction, has shown that no point of the "
-              "geometry lies outside of the hull, or of the cover. There is no tolerance."},
-             {"Proof",
-              "How that was shown: <i>enclosure</i> compares two closed meshes, <i>coverage</i> shows that the hull "
-              "covers each triangle, <i>padding</i> that it "
-              "keeps its distance besides, and <i>union</i> that convex pieces or spheres cover each triangle "
-              "together."},
-             {"Repair",
-              "A change of the geometry before a hull was built, such as a cap on an opening. The hull "
-              "encloses the triangles of the file all the same."}};
-  shown.push_back({"Volume / original",
-                   "The volume of the hull or cover by that of the sealed original: the geometry of the "
-                   "file with its openings closed. What it is above 1 is the void."});
-  shown.push_back({"Void",
-                   "The space between a hull and the geometry within it. The less there is, the fewer false "
-                   "collisions."});
-  shown.push_back({"Volume / convex hull",
-                   "The volume by that of the smallest convex body around the geometry, which "
-                   "is a common collision mesh."});
-  shown.push_back(
-      {"Greatest distance",
-       "How far the collision geometry reaches out of the geometry of the link. What lies inside of the link counts as "
-       "0. The bounds are proven. Openings count as closed: what closes them is no part of the file, and "
-       "the distance from the triangles alone is told, too. If the geometry bounds no solid, distances are those from "
-       "its triangles."});
-  if (!input.shipped.empty()) {
-    shown.push_back({"Mean distance",
-                     "The mean of the same distances over the surface of the collision geometry, estimated from "
-                     "samples."});
-    shown.push_back({"Shipped", "The collision geometry that came with the file of the robot."});
-    shown.push_back({"Leaks",
-                     "Some point of the visual geometry lies outside of the collision geometry: exactly "
-                     "there, a collision is not noticed."});
-  }
-  if (input.motion) {
-    shown.push_back({"False collision", "Two hulls collide, but the visual geometry within them does not."});
-    shown.push_back({"Missed collision",
-                     "The visual geometry collides, but the hulls do not. Certified hulls miss "
-                     "none."});
-  }
+  const bool hulls = !input.hulls.empty(), shipped = !input.shipped.empty(), moved = input.motion.has_value();
   std::string text;
-  for (const Word& word : shown) text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", word.word, word.meaning);
+  for (const auto& [is_shown, word, meaning] : std::initializer_list<Word>{
+           {hulls, "Hull", "A closed mesh of few faces around the geometry of a link."},
+           {hulls, "Cover", "Convex pieces, or spheres, that cover the geometry of a link together."},
+           {hulls, "Certified",
+            "An exact test, which shares no code with the construction, has shown that no point of the geometry lies "
+            "outside of the hull, or of the cover. There is no tolerance."},
+           {hulls, "Proof",
+            "How that was shown: <i>enclosure</i> compares two closed meshes, <i>coverage</i> shows that the hull "
+            "covers each triangle, <i>padding</i> that it keeps its distance besides, and <i>union</i> that convex "
+            "pieces or spheres cover each triangle together."},
+           {hulls, "Repair",
+            "A change of the geometry before a hull was built, such as a cap on an opening. The hull encloses the "
+            "triangles of the file all the same."},
+           {true, "Volume / original",
+            "The volume of the hull or cover by that of the sealed original: the geometry of the file with its "
+            "openings closed. What it is above 1 is the void."},
+           {true, "Void",
+            "The space between a hull and the geometry within it. The less there is, the fewer false collisions."},
+           {true, "Volume / convex hull",
+            "The volume by that of the smallest convex body around the geometry, which is a common collision mesh."},
+           {true, "Greatest distance",
+            "How far the collision geometry reaches out of the geometry of the link. What lies inside of the link "
+            "counts as 0. The bounds are proven. Openings count as closed: what closes them is no part of the file, "
+            "and the distance from the triangles alone is told, too. If the geometry bounds no solid, distances are "
+            "those from its triangles."},
+           {shipped, "Mean distance",
+            "The mean of the same distances over the surface of the collision geometry, estimated from samples."},
+           {shipped, "Shipped", "The collision geometry that came with the file of the robot."},
+           {shipped, "Leaks",
+            "Some point of the visual geometry lies outside of the collision geometry: exactly there, a collision is "
+            "not noticed."},
+           {moved, "False collision", "Two hulls collide, but the visual geometry within them does not."},
+           {moved, "Missed collision",
+            "The visual geometry collides, but the hulls do not. Certified hulls miss none."}})
+    if (is_shown) text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", word, meaning);
   return fmt::format("<section>\n<h2>Words</h2>\n<div class=\"card\"><dl class=\"words\">\n{}</dl></div>\n</section>\n",
                      text);
 }
