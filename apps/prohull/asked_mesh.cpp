@@ -51,11 +51,9 @@ void AskedMesh::say_what() const {
 
 void add_engine_option(CLI::App& command, std::string& engine, std::span<const std::string_view> engines) {
   const std::vector<std::string> words(engines.begin(), engines.end());
-  command
-      .add_option("--engine", engine,
-                  "How the answers are found; docs/queries.md explains each. auto is the fastest that is exact.")
+  add_value(command, "--engine", engine, CLI::detail::join(words, "|"),
+            "How the answers are found; docs/queries.md explains each. auto is the fastest that is exact.")
       ->transform(one_of("--engine", words))
-      ->type_name(CLI::detail::join(words, "|"))
       ->capture_default_str();
 }
 
@@ -84,11 +82,9 @@ void add_random_queries(CLI::App& command, CLI::App& group, RandomQueries& rando
   add_number(command, "--seed", random.seed, kSeed,
              fmt::format("Number that the random {0} depend on. The same seed gives the same {0}.", noun))
       ->needs(count);
-  command
-      .add_option(fmt::format("--write-{}", noun), random.file,
-                  fmt::format("File for the random {}, .npy or .csv.", noun))
-      ->needs(count)
-      ->type_name("FILE");
+  add_value(command, fmt::format("--write-{}", noun), random.file, "FILE",
+            fmt::format("File for the random {}, .npy or .csv.", noun))
+      ->needs(count);
 }
 
 }  // namespace prohull::cli

@@ -35,10 +35,9 @@ std::filesystem::path path_for(const std::filesystem::path& pattern, std::size_t
 
 void require_faces_in_name(const BuildOptions& options, const std::filesystem::path& file) {
   if (options.faces.size() > 1 && !file.empty() && file.string().find(kFacesInName) == std::string::npos)
-    refuse(
-        fmt::format("{}: several hulls need several names; put {{faces}} where the number of faces goes, as in "
-                    "hull_{{faces}}.stl",
-                    file.string()));
+    refuse(fmt::format(
+        "{}: several hulls need several names; put {{faces}} where the number of faces goes, as in hull_{{faces}}.stl",
+        file.string()));
 }
 
 /// What the names of the outputs end in; refuses options that contradict each other.
@@ -258,10 +257,9 @@ int run_build(const BuildOptions& options) {
 
 void add_guards(CLI::App& command, BuildOptions& options) {
   HullOptions& hull = options.enclosing.hull;
-  command.add_flag(
-      "!--keep-guards", hull.relax_guards,
-      "Keep the limits of the shape that follow. Otherwise they are relaxed in four steps where the number of "
-      "faces cannot be reached.");
+  command.add_flag("!--keep-guards", hull.relax_guards,
+                   "Keep the limits of the shape that follow. Otherwise they are relaxed in four steps where the "
+                   "number of faces cannot be reached.");
   add_number(command, "--max-valence", hull.guards.max_valence, {3, 1e6},
              "Largest valence of a new vertex. The valence of a vertex is the number of faces around it.");
   add_number(command, "--min-compactness-ratio", hull.guards.min_compactness_ratio, {0, 1},
@@ -281,15 +279,13 @@ void add_guards(CLI::App& command, BuildOptions& options) {
 }
 
 void add_bounds(CLI::App& command, BuildOptions& options) {
-  add_length(
-      command, "--max-distance", options.max_distance,
-      "Largest allowed distance of any point of the hull from the mesh. What closes openings of the mesh counts "
-      "as mesh. The hull has the fewest faces, at least --faces, with which one was found that provably keeps it; "
-      "the exit code is 1 if none was found. With --tight, some ten hulls are built to find it.");
-  add_optional_number(
-      command, "--max-void", options.max_void_percent, kPositive,
-      "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, caps on "
-      "its openings included (an inner hull: how much less).")
+  add_length(command, "--max-distance", options.max_distance,
+             "Largest allowed distance of any point of the hull from the mesh. What closes openings of the mesh counts "
+             "as mesh. The hull has the fewest faces, at least --faces, with which one was found that provably keeps "
+             "it; the exit code is 1 if none was found. With --tight, some ten hulls are built to find it.");
+  add_optional_number(command, "--max-void", options.max_void_percent, kPositive,
+                      "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, "
+                      "caps on its openings included (an inner hull: how much less).")
       ->type_name("PERCENT");
 }
 
@@ -322,13 +318,12 @@ void add_build(CLI::App& app, Run& run) {
   add_mesh_inputs(command, options->meshes, options->input, "Mesh to build a hull of.");
   CLI::Option* const recenter = command.add_flag(
       "--recenter", options->recenter,
-      "Subtract a round offset near the middle of the mesh from all coordinates, where the mesh is far "
-      "from the origin. STL and GLB files keep too few digits there. The offset stands in the summary and "
-      "in the report; add it to place the hull, and give it to `prohull verify --offset`.");
-  add_mesh_output_options(
-      command, options->out, options->out_format,
-      "the hull, in whose name {faces} becomes the number of faces asked for, and {name} that of the "
-      "mesh's file; or a folder, whose name ends in /");
+      "Subtract a round offset near the middle of the mesh from all coordinates, where the mesh is far from the "
+      "origin. STL and GLB files keep too few digits there. The offset stands in the summary and in the report; add it "
+      "to place the hull, and give it to `prohull verify --offset`.");
+  add_mesh_output_options(command, options->out, options->out_format,
+                          "the hull, in whose name {faces} becomes the number of faces asked for, and {name} that of "
+                          "the mesh's file; or a folder, whose name ends in /");
   add_number(
       command, "--faces", options->faces, {4, 1e9},
       "Number of faces that the hull should have, at least 4. Several numbers, as in 1000,100, make a hull each.")
@@ -344,32 +339,29 @@ void add_build(CLI::App& app, Run& run) {
       "Also move vertices towards the mesh between collapses. Such a hull has the least void, but takes some 4 times "
       "as long to build: 1.5 to 14 times at 100 faces. It does not intersect itself unless the mesh does, as it is or "
       "with its openings closed; the summary counts the pairs of faces.");
-  CLI::Option* const gap = add_length(
-      command, "--gap", options->gap,
-      "Least distance between hull and mesh. It is proven. All points within this distance of the mesh are inside of "
-      "an outer hull. An inner hull leaves out what is thinner than two gaps. --max-distance must be greater. Use "
-      "--tight for the least void.");
+  CLI::Option* const gap =
+      add_length(command, "--gap", options->gap,
+                 "Least distance between hull and mesh. It is proven. All points within this distance of the mesh are "
+                 "inside of an outer hull. An inner hull leaves out what is thinner than two gaps. --max-distance must "
+                 "be greater. Use --tight for the least void.");
   CLI::Option* const tolerance =
-      command
-          .add_option(
-              "--tolerance", options->tolerance,
-              "YAML file of regions of the mesh: for each a box, color, group, or numbers of faces or vertices, and "
-              "how far its faces may be from the hull, or that they are kept as they are. See "
-              "docs/guides/regions.md.")
+      add_value(
+          command, "--tolerance", options->tolerance, "FILE",
+          "YAML file of regions of the mesh: for each a box, color, group, or numbers of faces or vertices, and how "
+          "far its faces may be from the hull, or that they are kept as they are. See docs/guides/regions.md.")
           ->excludes(tight)
-          ->excludes(gap)
-          ->type_name("FILE");
-  add_choice(command, "--mirror", hull.mirror, axis_names(),
-             "Build a symmetric hull: it is exactly its own mirror image in the plane through the middle of the "
-             "bounding box that is perpendicular to this axis. The mesh must be symmetric too, bit for bit. See "
-             "docs/guides/symmetry.md.")
+          ->excludes(gap);
+  add_choice(
+      command, "--mirror", hull.mirror, axis_names(),
+      "Build a symmetric hull: it is exactly its own mirror image in the plane through the middle of the bounding box "
+      "that is perpendicular to this axis. The mesh must be symmetric too, bit for bit. See docs/guides/symmetry.md.")
       ->excludes(tight)
       ->excludes(gap)
       ->excludes(tolerance);
   add_choice(command, "--repair", enclosing.repair, repair_names(),
              "What to do with a mesh that is not clean. auto repairs it, builds hulls of the mesh, of its convex hull "
-             "and of a wrap, a new closed surface around it, and takes the best; none refuses what is not closed; "
-             "wrap does without the mesh itself.");
+             "and of a wrap, a new closed surface around it, and takes the best; none refuses what is not closed; wrap "
+             "does without the mesh itself.");
   add_choice(command, "--open-shells", enclosing.open_shells, open_shells_names(),
              "What to do with openings. close gives them caps, so that what they lead into is inside; keep encloses "
              "the triangles only, as those of a thin shell. A leaf or a bedsheet always stays a sheet.");
@@ -381,20 +373,16 @@ void add_build(CLI::App& app, Run& run) {
   add_choice(command, "--strategy", hull.strategy, strategy_names(),
              "Order in which edges collapse. lazy is the tightest and fastest; paper1 and paper2 are those of Platis "
              "and Theoharis (2003).");
-  command
-      .add_option(
-          "--hierarchy", options->hierarchy,
-          "Also write all levels between hull and mesh to this file, for lod, verify, query and render. The hull is "
-          "then the coarsest of these levels: collapses alone make it, and with few faces it may be much larger "
-          "than without this option.")
+  add_value(command, "--hierarchy", options->hierarchy, "H.phull",
+            "Also write all levels between hull and mesh to this file, for lod, verify, query and render. The hull is "
+            "then the coarsest of these levels: collapses alone make it, and with few faces it may be much larger than "
+            "without this option.")
       ->excludes(tight)
-      ->excludes(gap)
-      ->type_name("H.phull");
+      ->excludes(gap);
   add_certificate_option(command, options->certificate, "the hull")->excludes(recenter);
-  add_choice(
-      command, "--self-intersections", hull.self_intersections, self_intersections_names(),
-      "Whether collapses may make an outer hull intersect itself, which is faster. by-strategy allows it for the "
-      "strategies paper1 and paper2 only.");
+  add_choice(command, "--self-intersections", hull.self_intersections, self_intersections_names(),
+             "Whether collapses may make an outer hull intersect itself, which is faster. by-strategy allows it for "
+             "the strategies paper1 and paper2 only.");
   add_number(command, "--best-of", enclosing.best_of, {1, 1e6},
              "Build this many hulls, with a seed each, and keep the one of least void.");
   add_number(command, "--seed", hull.seed, kSeed,

@@ -220,8 +220,7 @@ void add_cage(CLI::App& app, Run& run) {
   add_mesh_input(command, options->in, options->input, "Mesh to build a cage of.");
   add_mesh_output_options(command, options->out, options->out_format, "the outer hull");
   CLI::Option* const inner =
-      command.add_option("--inner", options->inner, "Also build an inner hull, and write it to this file.")
-          ->type_name("FILE");
+      add_value(command, "--inner", options->inner, "FILE", "Also build an inner hull, and write it to this file.");
   add_certificate_option(command, options->certificate,
                          "the outer hull (with --inner, of both: {side} in the name becomes outer and inner)");
   add_number(command, "--faces", cage.outer_faces, {4, 1e9}, "Number of faces that a hull should have, at least 4.");

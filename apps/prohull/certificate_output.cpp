@@ -26,12 +26,10 @@ std::filesystem::path unpacked(const std::filesystem::path& path) { return is_pa
 }  // namespace
 
 CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& file, const std::string& what) {
-  return command
-      .add_option("--certificate", file,
-                  "Also write a certificate: a file with which prohull_check, a program of one C file that shares "
-                  "nothing with this one, decides again from the bytes of " +
-                      what + " and of the original what is proven (docs/certificate.md).")
-      ->type_name("FILE");
+  return add_value(command, "--certificate", file, "FILE",
+                   "Also write a certificate: a file with which prohull_check, a program of one C file that shares "
+                   "nothing with this one, decides again from the bytes of " +
+                       what + " and of the original what is proven (docs/certificate.md).");
 }
 
 void check_certified_original(const std::filesystem::path& certificate, const std::filesystem::path& original) {
@@ -39,12 +37,12 @@ void check_certified_original(const std::filesystem::path& certificate, const st
   constexpr std::array<std::string_view, 4> kChecked{".stl", ".obj", ".ply", ".off"};
   if (is_standard_stream(original))
     refuse(
-        "--certificate: the original comes from standard input, but it has to be a file that can be checked; save "
-        "it and name the file");
+        "--certificate: the original comes from standard input, but it has to be a file that can be checked; save it "
+        "and name the file");
   if (std::ranges::find(kChecked, lower_suffix(unpacked(original))) == kChecked.end())
     refuse(
-        fmt::format("--certificate: {}: prohull_check reads .stl, .obj, .ply and .off files only; save the mesh as "
-                    "one of these, and name that file as the original",
+        fmt::format("--certificate: {}: prohull_check reads .stl, .obj, .ply and .off files only; save the mesh as one "
+                    "of these, and name that file as the original",
                     original.string()));
 }
 

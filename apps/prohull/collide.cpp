@@ -195,30 +195,21 @@ void add_collide(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(
       "collide",
       "Decides exactly whether two meshes have a point in common, and exits with code 1 if they do. Touching counts, "
-      "and "
-      "so does a closed mesh that is wholly inside of another one. B may be moved and turned, also to many poses.");
-  command.add_option("a", options->a, std::string("Mesh or .phull file. ") + kMeshFiles)->required()->type_name("A");
-  command.add_option("b", options->b, "Mesh or .phull file, which the poses move.")->required()->type_name("B");
+      "and so does a closed mesh that is wholly inside of another one. B may be moved and turned, also to many poses.");
+  add_value(command, "a", options->a, "A", std::string("Mesh or .phull file. ") + kMeshFiles)->required();
+  add_value(command, "b", options->b, "B", "Mesh or .phull file, which the poses move.")->required();
   add_format_option(command, options->input);
   add_unit_options(command, options->input, "both meshes");
   CLI::Option* const pose =
-      command
-          .add_option(
-              "--pose", options->pose,
-              "Pose of B: seven numbers x,y,z,qw,qx,qy,qz, a translation and a quaternion; or twelve, the upper "
-              "three rows of a matrix of 4 x 4. Without this option B stays where it is.")
-          ->type_name("NUMBERS");
-  command
-      .add_option("--poses", options->poses,
-                  "File of poses of B, one a row, .npy, .npz or .csv. An .npy array may also have the shape (n, 4, 4).")
-      ->excludes(pose)
-      ->type_name("FILE");
-  CLI::Option* const out =
-      command
-          .add_option("-o,--out", options->out,
-                      "File for the pairs of faces that meet, .npz or .csv: pose, face_a, face_b. With - they go to "
-                      "standard output.")
-          ->type_name("PAIRS");
+      add_value(command, "--pose", options->pose, "NUMBERS",
+                "Pose of B: seven numbers x,y,z,qw,qx,qy,qz, a translation and a quaternion; or twelve, the upper "
+                "three rows of a matrix of 4 x 4. Without this option B stays where it is.");
+  add_value(command, "--poses", options->poses, "FILE",
+            "File of poses of B, one a row, .npy, .npz or .csv. An .npy array may also have the shape (n, 4, 4).")
+      ->excludes(pose);
+  CLI::Option* const out = add_value(
+      command, "-o,--out", options->out, "PAIRS",
+      "File for the pairs of faces that meet, .npz or .csv: pose, face_a, face_b. With - they go to standard output.");
   add_out_format_option(command, options->out_format, pair_outputs());
   CLI::Option* const distance = command.add_flag("--distance", options->distance,
                                                  "Also find the least distance of each pose, with proven bounds.");

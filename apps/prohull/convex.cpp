@@ -433,20 +433,16 @@ void add_convex(CLI::App& app, Run& run) {
       "triangle, and the inside too where the mesh is a solid. Any triangles will do. The files that were written are "
       "read again, and what they hold is certified by exact arithmetic.");
   add_mesh_input(command, options->in, options->input, "Mesh to cover.");
-  command
-      .add_option("-o,--out", options->out,
-                  "File for the pieces. .obj and .glb hold all of them, each with a name. For .stl, .ply and .off each "
-                  "piece has a file: OUT_01.stl and so on. .urdf and .xml (MJCF) become a file of one link or body "
-                  "with all pieces, to be copied into a robot, with STL files beside it. With - it goes to standard "
-                  "output.")
-      ->required()
-      ->type_name("PIECES");
+  add_value(command, "-o,--out", options->out, "PIECES",
+            "File for the pieces. .obj and .glb hold all of them, each with a name. For .stl, .ply and .off each piece "
+            "has a file: OUT_01.stl and so on. .urdf and .xml (MJCF) become a file of one link or body with all "
+            "pieces, to be copied into a robot, with STL files beside it. With - it goes to standard output.")
+      ->required();
   add_out_format_option(command, options->out_format, piece_outputs());
-  add_choice(
-      command, "--for", options->engine, engine_names(),
-      "Engine that takes the pieces: keeps its limits of vertices and polygons, which are counted in the files as "
-      "written, refuses formats that it does not read, and names pieces as it knows them. Coordinates stay "
-      "those of the mesh (docs/guides/covers.md).");
+  add_choice(command, "--for", options->engine, engine_names(),
+             "Engine that takes the pieces: keeps its limits of vertices and polygons, which are counted in the files "
+             "as written, refuses formats that it does not read, and names pieces as it knows them. Coordinates stay "
+             "those of the mesh (docs/guides/covers.md).");
   add_certificate_option(command, options->certificate, "the pieces");
   add_number(command, "--pieces", cover.max_pieces, {1, 1000},
              "Largest number of pieces. With 1, the file of the piece has the name OUT, without a number.");
@@ -454,10 +450,9 @@ void add_convex(CLI::App& app, Run& run) {
   add_length(command, "--max-distance", options->max_distance,
              "Largest allowed distance of any point of the pieces from the mesh. What closes openings of the mesh "
              "counts as mesh. With such a bound there are as few pieces as are found to keep it.");
-  add_optional_number(
-      command, "--max-void", options->max_void_percent, kPositive,
-      "Largest allowed void, in per cent. The void is how much more volume the pieces have together than the "
-      "mesh. With such a bound there are as few pieces as are found to keep it.")
+  add_optional_number(command, "--max-void", options->max_void_percent, kPositive,
+                      "Largest allowed void, in per cent. The void is how much more volume the pieces have together "
+                      "than the mesh. With such a bound there are as few pieces as are found to keep it.")
       ->type_name("PERCENT");
   add_choice(command, "--shape", cover.shape, piece_shape_names(),
              "Shape of the pieces. With a bound, a piece has this shape only where the bound allows it, and is a "

@@ -66,7 +66,7 @@ std::vector<std::string> input_formats() {
 /// One path, or several.
 template <class In>
 void add_input(CLI::App& command, In& in, InputOptions& options, const std::string& what) {
-  command.add_option("in", in, what)->required()->type_name("IN");
+  add_value(command, "in", in, "IN", what)->required();
   add_format_option(command, options);
   add_unit_options(command, options, "the mesh");
 }
@@ -74,12 +74,10 @@ void add_input(CLI::App& command, In& in, InputOptions& options, const std::stri
 }  // namespace
 
 void add_format_option(CLI::App& command, InputOptions& options) {
-  command
-      .add_option("--in-format", options.format,
-                  "Format of a mesh that comes from standard input (-): ply, stl, dae or any other suffix of a format "
-                  "that is read. Without this option its content tells.")
-      ->transform(one_of("--in-format", input_formats()))
-      ->type_name("FORMAT");
+  add_value(command, "--in-format", options.format, "FORMAT",
+            "Format of a mesh that comes from standard input (-): ply, stl, dae or any other suffix of a format that "
+            "is read. Without this option its content tells.")
+      ->transform(one_of("--in-format", input_formats()));
 }
 
 void add_unit_options(CLI::App& command, InputOptions& options, const std::string& what) {
@@ -170,10 +168,11 @@ MeshOrHull read_mesh_or_hull(const std::filesystem::path& path, const InputOptio
   const std::string content = read_bytes(path);
   if (!is_hull_content(content)) return mesh_in(content, path, options, non_finite);
   if (options.factor() != 1)
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("{}: --scale and --unit are for mesh files; a .phull file has the coordinates that it "
-                                 "was built with",
-                                 input_name(path)));
+    throw InputError(
+        Defect::InvalidOption,
+        fmt::format(
+            "{}: --scale and --unit are for mesh files; a .phull file has the coordinates that it was built with",
+            input_name(path)));
   return load_hull(content, known_as(path, options));
 }
 

@@ -114,12 +114,10 @@ void add_lod(CLI::App& app, Run& run) {
       "what was made of it, which is then said. Where the finest level folds over itself, as that of an input with "
       "openings or overlapping parts may, a level can leave some of its faces uncovered. Each level is compared with "
       "the finest one as it is written, and the summary says whether it encloses it.");
-  command
-      .add_option("in", options->in,
-                  "File with all levels of a hull, which `prohull build --hierarchy` wrote. With - it is "
-                  "read from standard input.")
-      ->required()
-      ->type_name("H.phull");
+  add_value(
+      command, "in", options->in, "H.phull",
+      "File with all levels of a hull, which `prohull build --hierarchy` wrote. With - it is read from standard input.")
+      ->required();
   add_mesh_output_options(command, options->out, options->out_format, "the level");
   add_optional_number(
       command, "--faces", options->faces, {0, 1e10},

@@ -396,25 +396,21 @@ int run_motion(PathOptions options) {
 
 void add_world(CLI::App& command, PathOptions& options) {
   constexpr const char* kWhat = "What may meet what";
-  command
-      .add_option("--world", options.world,
-                  std::string("Mesh that stands still in the frame of the robot's root, in metres unless --unit says "
-                              "otherwise; may be given several times. It is called by the name of its file without "
-                              "the suffix. ") +
-                      kMeshFiles)
+  add_value(
+      command, "--world", options.world, "MESH",
+      std::string("Mesh that stands still in the frame of the robot's root, in metres unless --unit says otherwise; "
+                  "may be given several times. It is called by the name of its file without the suffix. ") +
+          kMeshFiles)
       ->allow_extra_args(false)
-      ->type_name("MESH")
       ->group(kWhat);
   add_unit_options(command, options.input, "the meshes of the world");
-  command
-      .add_option("--ignore", options.ignored,
-                  "Two bodies that may touch, links or meshes of the world, as in base_link,table; may be given "
-                  "several times.")
+  add_value(
+      command, "--ignore", options.ignored, "A,B",
+      "Two bodies that may touch, links or meshes of the world, as in base_link,table; may be given several times.")
       ->allow_extra_args(false)
-      ->type_name("A,B")
       ->group(kWhat);
-  command.add_option("--srdf", options.srdf, "SRDF file, the disabled pairs of links of which are not checked.")
-      ->type_name("FILE.srdf")
+  add_value(command, "--srdf", options.srdf, "FILE.srdf",
+            "SRDF file, the disabled pairs of links of which are not checked.")
       ->group(kWhat);
   add_choice(command, "--geometry", options.geometry, geometry_names(),
              "Geometry of the links that counts. A link that has none of it counts by the other one.")
@@ -431,42 +427,30 @@ void add_motion(CLI::App& app, Run& run) {
       "first moment at which two links, or a link and the world, meet, as closely as --cells allows, and says before "
       "which moment the path is proven free. The exit code is 0 if all paths are free and "
       "within the limits of the joints, and 1 if one is not.");
-  command
-      .add_option("in", options->in,
-                  "Robot: URDF, SDF or MJCF. A .xacro file is expanded by the program xacro, if that is installed.")
-      ->required()
-      ->type_name("ROBOT");
-  command
-      .add_option("paths", options->paths,
-                  "Paths of joint positions: CSV files with the names of joints in the first line, and time if there "
-                  "is one; or JSON files, such as a JointTrajectory of ROS (docs/guides/motion.md). With - the file "
-                  "is read from standard input.")
-      ->required()
-      ->type_name("PATH");
+  add_value(command, "in", options->in, "ROBOT",
+            "Robot: URDF, SDF or MJCF. A .xacro file is expanded by the program xacro, if that is installed.")
+      ->required();
+  add_value(command, "paths", options->paths, "PATH",
+            "Paths of joint positions: CSV files with the names of joints in the first line, and time if there is one; "
+            "or JSON files, such as a JointTrajectory of ROS (docs/guides/motion.md). With - the file is read from "
+            "standard input.")
+      ->required();
   add_robot_file_options(command, options->file);
-  command
-      .add_option("--gap", options->gap,
-                  "How far bodies have to be apart at least, in metres or with a unit: 5mm. Closer counts as meeting.")
-      ->type_name("LENGTH");
+  add_value(command, "--gap", options->gap, "LENGTH",
+            "How far bodies have to be apart at least, in metres or with a unit: 5mm. Closer counts as meeting.");
   add_number(command, "--cells", options->proof.cells, {2, 1e9},
              "Largest number of pieces into which a path is divided for each pair of bodies. What is not decided then "
              "is open.");
-  command
-      .add_option("--curve", options->curve,
-                  "CSV file for the least distance over time: between begin and end, all pairs are at least that far "
-                  "apart, which is proven. The bounds are no less than 0.6 of the distance, as far as --cells allows.")
-      ->type_name("FILE.csv");
-  command
-      .add_option("--page", options->page,
-                  "Page of HTML that shows the robot on its path, with a slider of time and the curve of --curve, as "
-                  "`prohull view` shows robots.")
-      ->type_name("FILE.html");
-  command
-      .add_option("--certificate", options->certificate,
-                  "File with which prohull_check_motion, a program of one C file that shares nothing with this one, "
-                  "decides again that pairs of bodies are free all along (docs/certificate.md). Pairs that are not are "
-                  "left out of it.")
-      ->type_name("FILE.phmotion");
+  add_value(command, "--curve", options->curve, "FILE.csv",
+            "CSV file for the least distance over time: between begin and end, all pairs are at least that far apart, "
+            "which is proven. The bounds are no less than 0.6 of the distance, as far as --cells allows.");
+  add_value(command, "--page", options->page, "FILE.html",
+            "Page of HTML that shows the robot on its path, with a slider of time and the curve of --curve, as "
+            "`prohull view` shows robots.");
+  add_value(
+      command, "--certificate", options->certificate, "FILE.phmotion",
+      "File with which prohull_check_motion, a program of one C file that shares nothing with this one, decides again "
+      "that pairs of bodies are free all along (docs/certificate.md). Pairs that are not are left out of it.");
   add_threads_option(command, options->proof.threads, "The result is the same for any number.");
   add_report_option(command, options->report);
   add_world(command, *options);

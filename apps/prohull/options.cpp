@@ -134,18 +134,14 @@ void add_threads_option(CLI::App& command, unsigned& threads, const std::string&
 }
 
 void add_report_option(CLI::App& command, std::filesystem::path& path) {
-  command
-      .add_option("--report", path,
-                  "Also write the facts of the summary to this file, as JSON. With - they go to standard output.")
-      ->type_name("FILE.json");
+  add_value(command, "--report", path, "FILE.json",
+            "Also write the facts of the summary to this file, as JSON. With - they go to standard output.");
 }
 
 void add_package_path_option(CLI::App& command, std::vector<std::filesystem::path>& folders) {
-  command
-      .add_option("--package-path", folders,
-                  "Folder in which packages of package:// are looked for. May be given several times.")
-      ->allow_extra_args(false)
-      ->type_name("DIR");
+  add_value(command, "--package-path", folders, "DIR",
+            "Folder in which packages of package:// are looked for. May be given several times.")
+      ->allow_extra_args(false);
 }
 
 void add_examples(CLI::App& command, const std::vector<std::string>& examples) {

@@ -37,6 +37,13 @@ CLI::Validator one_of(const std::string& name, const std::vector<std::string>& w
 /// "--out" of "-o,--out"; "SHELL" of "shell"
 std::string main_name(const std::string& names);
 
+/// An option or a positional argument, whose value --help calls `type`.
+template <class Value>
+CLI::Option* add_value(CLI::App& command, const std::string& names, Value& value, const std::string& type,
+                       const std::string& description) {
+  return command.add_option(names, value, description)->type_name(type);
+}
+
 /// Values of which each is a number, such as std::size_t or std::vector<double>; without a default.
 template <class Values>
 CLI::Option* add_optional_number(CLI::App& command, const std::string& names, Values& values, const Range& range,

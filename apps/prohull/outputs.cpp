@@ -268,22 +268,18 @@ void check_files(const std::vector<path>& inputs, const std::vector<path>& outpu
 OutputKind mesh_outputs() { return {"meshes", written_mesh_extensions()}; }
 
 void add_mesh_output_options(CLI::App& command, path& out, std::string& format, const std::string& what) {
-  command
-      .add_option(
-          "-o,--out", out,
-          fmt::format("File for {}. Its name ends in {}, which tells the format. With - it goes to standard output.",
-                      what, alternatives(mesh_outputs().suffixes)))
-      ->required()
-      ->type_name("OUT");
+  add_value(command, "-o,--out", out, "OUT",
+            fmt::format("File for {}. Its name ends in {}, which tells the format. With - it goes to standard output.",
+                        what, alternatives(mesh_outputs().suffixes)))
+      ->required();
   add_out_format_option(command, format, mesh_outputs());
 }
 
 CLI::Option* add_out_format_option(CLI::App& command, std::string& format, const OutputKind& kind) {
   const std::vector<std::string> formats = formats_of(kind);
-  return command
-      .add_option("--out-format", format, "Format of the output, where its name does not tell it: the name - does not.")
-      ->transform(one_of("--out-format", formats))
-      ->type_name(CLI::detail::join(formats, "|"));
+  return add_value(command, "--out-format", format, CLI::detail::join(formats, "|"),
+                   "Format of the output, where its name does not tell it: the name - does not.")
+      ->transform(one_of("--out-format", formats));
 }
 
 void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }

@@ -21,16 +21,14 @@ std::vector<Vec3> make_points(const PointOptions& options, const AskedMesh& aske
 
 void add_point_options(CLI::App& command, PointOptions& options, const OutputKind& answers) {
   add_mesh_input(command, options.in, options.input, "Mesh or .phull file to ask.");
-  command
-      .add_option("-o,--out", options.out,
-                  fmt::format("File for {}, .npz or .csv. With - they go to standard output. Without this option only "
-                              "the summary is printed.",
-                              answers.what))
-      ->type_name("FILE");
+  add_value(command, "-o,--out", options.out, "FILE",
+            fmt::format("File for {}, .npz or .csv. With - they go to standard output. Without this option only the "
+                        "summary is printed.",
+                        answers.what));
   add_out_format_option(command, options.out_format, answers);
   CLI::App& points = *command.add_option_group(
       "Points", "One of these is required. Files are .npy, .npz or .csv, and - is standard input");
-  points.add_option("--points", options.points, "File of points, one a row: x,y,z.")->type_name("FILE");
+  add_value(points, "--points", options.points, "FILE", "File of points, one a row: x,y,z.");
   add_random_queries(command, points, options.random, "points",
                      "They are spread evenly over the bounding box of the mesh.");
   points.require_option(1);

@@ -214,15 +214,12 @@ int run_query(const QueryOptions& options) {
 void add_queries(CLI::App& command, QueryOptions& options) {
   CLI::App& queries = *command.add_option_group(
       "Queries", "One of these is required. Files are .npy, .npz or .csv, and - is standard input");
-  queries.add_option("--segments", options.segments, "File of segments, one a row: x0,y0,z0,x1,y1,z1.")
-      ->type_name("FILE");
-  queries.add_option("--rays", options.rays, "File of rays, one a row: the origin and the direction, x,y,z,dx,dy,dz.")
-      ->type_name("FILE");
+  add_value(queries, "--segments", options.segments, "FILE", "File of segments, one a row: x0,y0,z0,x1,y1,z1.");
+  add_value(queries, "--rays", options.rays, "FILE",
+            "File of rays, one a row: the origin and the direction, x,y,z,dx,dy,dz.");
   CLI::Option* const triangles =
-      queries
-          .add_option("--triangles", options.triangles,
-                      "File of triangles, one a row: the three corners. They are answered by the faces that they meet.")
-          ->type_name("FILE");
+      add_value(queries, "--triangles", options.triangles, "FILE",
+                "File of triangles, one a row: the three corners. They are answered by the faces that they meet.");
   add_random_queries(command, queries, options.random, "segments",
                      "Each goes from one side to another of a box twice as large as that of the mesh.");
   queries.require_option(1);
@@ -235,31 +232,24 @@ void add_queries(CLI::App& command, QueryOptions& options) {
 
 void add_query(CLI::App& app, Run& run) {
   const auto options = std::make_shared<QueryOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "query",
-      "Finds where segments, rays or triangles meet a mesh, exactly. The mesh need not be closed, and nothing slips "
-      "through at its edges and vertices.");
+  CLI::App& command = *app.add_subcommand("query",
+                                          "Finds where segments, rays or triangles meet a mesh, exactly. The mesh need "
+                                          "not be closed, and nothing slips through at its edges and vertices.");
   add_mesh_input(command, options->in, options->input, "Mesh or .phull file to ask.");
-  command
-      .add_option("-o,--out", options->out,
-                  "File for the hits, .npz or .csv. With - they go to standard output. Without this option only the "
-                  "summary is printed.")
-      ->type_name("HITS");
+  add_value(command, "-o,--out", options->out, "HITS",
+            "File for the hits, .npz or .csv. With - they go to standard output. Without this option only the summary "
+            "is printed.");
   add_out_format_option(command, options->out_format, hit_outputs());
   add_queries(command, *options);
   add_engine_option(command, options->engine, all_engine_names());
-  CLI::Option* const inner =
-      command
-          .add_option("--inner", options->inner,
-                      "Hierarchy of inner hulls of the same mesh, where IN is one of outer hulls. The engines walk and "
-                      "filter use both.")
-          ->type_name("INNER.phull");
+  CLI::Option* const inner = add_value(command, "--inner", options->inner, "INNER.phull",
+                                       "Hierarchy of inner hulls of the same mesh, where IN is one of outer hulls. The "
+                                       "engines walk and filter use both.");
   command
-      .add_flag(
-          "--conservative", options->conservative,
-          "Ask the coarsest hull of a .phull file in place of the mesh. An outer hull misses no hit, but may report "
-          "hits that are none; an inner hull reports no hit that is none, but may miss hits. This holds for rays, "
-          "and for segments with an end outside. Hits are on faces of that hull.")
+      .add_flag("--conservative", options->conservative,
+                "Ask the coarsest hull of a .phull file in place of the mesh. An outer hull misses no hit, but may "
+                "report hits that are none; an inner hull reports no hit that is none, but may miss hits. This holds "
+                "for rays, and for segments with an end outside. Hits are on faces of that hull.")
       ->excludes(inner);
   add_threads_option(command, options->threads, "The answers are the same for any number.");
   add_report_option(command, options->report);

@@ -207,8 +207,8 @@ class Planner {
     const auto is_asked = [&](const auto& names) { return for_panel(names, plans_.size()).value_or("none") != kNone; };
     if (options_.refine || is_asked(options_.over) || is_asked(options_.split))
       refuse(
-          fmt::format("{}: a robot is drawn within its own collision geometry; leave out --refine, and say --over "
-                      "none or --split none of its panel",
+          fmt::format("{}: a robot is drawn within its own collision geometry; leave out --refine, and say --over none "
+                      "or --split none of its panel",
                       path.string()));
     const robot::Robot robot = robot::read_robot(path, options_.robots).robot;
     TriangleMesh visual = robot_mesh(robot, robot::Geometry::Visual, path);
@@ -380,44 +380,33 @@ constexpr const char* kForPanels = " Given once, for all panels, or once for eac
 
 void add_content_options(CLI::App& command, RenderOptions& options) {
   constexpr const char* kContent = "What is drawn";
-  command
-      .add_option("--faces", options.faces,
-                  "Levels of .phull files to draw, each in a panel: numbers of faces, or original for the original "
-                  "mesh. Without this option the coarsest level is drawn.")
+  add_value(command, "--faces", options.faces, "N[,N...]",
+            "Levels of .phull files to draw, each in a panel: numbers of faces, or original for the original mesh. "
+            "Without this option the coarsest level is drawn.")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->type_name("N[,N...]")
       ->group(kContent);
-  command
-      .add_option("--over", options.over,
-                  std::string("Draw IN translucent over this mesh or robot, or over its own original mesh, if that is "
-                              "original and IN is a .phull file; none draws it over nothing.") +
-                      kForPanels)
+  add_value(command, "--over", options.over, "MESH",
+            std::string("Draw IN translucent over this mesh or robot, or over its own original mesh, if that is "
+                        "original and IN is a .phull file; none draws it over nothing.") +
+                kForPanels)
       ->allow_extra_args(false)
-      ->type_name("MESH")
       ->group(kContent);
-  command
-      .add_option(
-          "--split", options.split,
-          std::string("Draw IN in the left half of its panel and this mesh in the right half. original and none "
-                      "mean the same as with --over.") +
-              kForPanels)
+  add_value(command, "--split", options.split, "MESH",
+            std::string("Draw IN in the left half of its panel and this mesh in the right half. original and none mean "
+                        "the same as with --over.") +
+                kForPanels)
       ->allow_extra_args(false)
-      ->type_name("MESH")
       ->group(kContent);
-  command
-      .add_option("--explode", options.explosions,
-                  std::string("Draw each part of IN in a colour of its own, and move it away from the middle by this "
-                              "factor, 0 to 100; 0 moves nothing, and none draws one mesh of one colour. Parts are "
-                              "what shared vertices connect, such as the pieces of `prohull convex`.") +
-                      kForPanels)
+  add_value(command, "--explode", options.explosions, "FACTOR",
+            std::string("Draw each part of IN in a colour of its own, and move it away from the middle by this factor, "
+                        "0 to 100; 0 moves nothing, and none draws one mesh of one colour. Parts are what shared "
+                        "vertices connect, such as the pieces of `prohull convex`.") +
+                kForPanels)
       ->allow_extra_args(false)
-      ->type_name("FACTOR")
       ->group(kContent);
-  command
-      .add_option("--segment", options.segment,
-                  "Draw this segment, and a mark where it crosses IN, or the mesh that IN is drawn over.")
-      ->type_name("X,Y,Z,X,Y,Z")
+  add_value(command, "--segment", options.segment, "X,Y,Z,X,Y,Z",
+            "Draw this segment, and a mark where it crosses IN, or the mesh that IN is drawn over.")
       ->group(kContent);
   command
       .add_flag("--refine", options.refine,
@@ -435,20 +424,17 @@ void add_look_options(CLI::App& command, RenderOptions& options) {
       ->default_str("1")
       ->type_name("WIDTH")
       ->group(kLook);
-  add_optional_number(
-      command, "--crease", options.crease_degrees, {0, 180},
-      "Faces look smooth where their directions differ by less than this angle, 0 to 180 degrees. Without this "
-      "option it is "
-      "40 for meshes of 10,000 faces or more, and 0 for others.")
+  add_optional_number(command, "--crease", options.crease_degrees, {0, 180},
+                      "Faces look smooth where their directions differ by less than this angle, 0 to 180 degrees. "
+                      "Without this option it is 40 for meshes of 10,000 faces or more, and 0 for others.")
       ->type_name("DEGREES")
       ->group(kLook);
-  command
-      .add_option("--color", options.colors,
-                  fmt::format("Colour of IN: #rrggbb, {}.{} Without this option hulls are blue, and other meshes have "
-                              "the colour of clay.",
-                              render::color_names(), kForPanels))
+  add_value(
+      command, "--color", options.colors, "COLOR",
+      fmt::format(
+          "Colour of IN: #rrggbb, {}.{} Without this option hulls are blue, and other meshes have the colour of clay.",
+          render::color_names(), kForPanels))
       ->allow_extra_args(false)
-      ->type_name("COLOR")
       ->group(kLook);
   add_number(command, "--opacity", options.look.opacity, {0, 1},
              "Opacity of IN where it is drawn --over a mesh, 0 to 1.")
@@ -456,9 +442,8 @@ void add_look_options(CLI::App& command, RenderOptions& options) {
       ->group(kLook);
   command.add_flag("--ground", options.look.ground, "Draw a ground below the meshes, on which shadows fall.")
       ->group(kLook);
-  command.add_option("--background", options.background, "Colour of the background, or transparent.")
+  add_value(command, "--background", options.background, "COLOR", "Colour of the background, or transparent.")
       ->capture_default_str()
-      ->type_name("COLOR")
       ->group(kLook);
 }
 
@@ -481,12 +466,10 @@ void add_view_options(CLI::App& command, RenderOptions& options) {
       ->default_str("1")
       ->type_name("FACTOR")
       ->group(kView);
-  command
-      .add_option(
-          "--center", options.centers,
-          std::string("Point that is in the middle of the picture, or none for the middle of the meshes.") + kForPanels)
+  add_value(
+      command, "--center", options.centers, "X,Y,Z",
+      std::string("Point that is in the middle of the picture, or none for the middle of the meshes.") + kForPanels)
       ->allow_extra_args(false)
-      ->type_name("X,Y,Z")
       ->group(kView);
   add_number(command, "--fov", options.field_of_view_degrees, {1, 120},
              "Angle that the camera sees across the shorter side of a panel, in degrees, 1 to 120.")
@@ -500,22 +483,17 @@ void add_render(CLI::App& app, Run& run) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App& command = *app.add_subcommand(
       "render", "Draws meshes, hulls and robots as a PNG picture. Each of them has a panel of its own, side by side.");
-  command
-      .add_option("in", options->in,
-                  std::string("Meshes, .phull files, robots (.urdf, .xacro, .sdf, .mjcf, .xml) or spheres (.yaml) to "
-                              "draw. Robots are drawn within their collision geometry, and spheres --over a mesh or "
-                              "a robot. ") +
-                      kMeshFiles)
-      ->required()
-      ->type_name("IN");
-  command.add_option("-o,--out", options->out, "File for the picture, .png. With - it goes to standard output.")
-      ->required()
-      ->type_name("OUT.png");
+  add_value(command, "in", options->in, "IN",
+            std::string("Meshes, .phull files, robots (.urdf, .xacro, .sdf, .mjcf, .xml) or spheres (.yaml) to draw. "
+                        "Robots are drawn within their collision geometry, and spheres --over a mesh or a robot. ") +
+                kMeshFiles)
+      ->required();
+  add_value(command, "-o,--out", options->out, "OUT.png",
+            "File for the picture, .png. With - it goes to standard output.")
+      ->required();
   add_format_option(command, options->input);
   add_package_path_option(command, options->robots.package_paths);
-  command.add_option("--size", options->size, "Size of the picture, in pixels.")
-      ->capture_default_str()
-      ->type_name("WIDTHxHEIGHT");
+  add_value(command, "--size", options->size, "WIDTHxHEIGHT", "Size of the picture, in pixels.")->capture_default_str();
   add_number(command, "--samples", options->samples, {1, 256},
              "Number of samples in each pixel, 1 to 256. More of them make smoother edges.");
   command.add_flag("--palette", options->palette,

@@ -50,8 +50,7 @@ int make_mesh(const SampleOptions& options) {
 void check_robot_options(const SampleOptions& options) {
   if (options.has_faces)
     throw InputError(Defect::InvalidOption,
-                     fmt::format("--faces is for meshes; the robot {} has meshes of its own sizes; "
-                                 "leave --faces out",
+                     fmt::format("--faces is for meshes; the robot {} has meshes of its own sizes; leave --faces out",
                                  options.name));
   if (is_standard_stream(options.out) || !options.out_format.empty())
     throw InputError(
@@ -60,10 +59,11 @@ void check_robot_options(const SampleOptions& options) {
                     options.name));
   const std::vector<std::string> meshes = read_mesh_extensions();
   if (robot::is_robot_file(options.out) || std::ranges::find(meshes, options.out.extension().string()) != meshes.end())
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("{}: the robot {} is a folder of files, and this is the name of a file; name the "
-                                 "folder, as in -o {}",
-                                 options.out.string(), options.name, options.out.stem().string()));
+    throw InputError(
+        Defect::InvalidOption,
+        fmt::format(
+            "{}: the robot {} is a folder of files, and this is the name of a file; name the folder, as in -o {}",
+            options.out.string(), options.name, options.out.stem().string()));
 }
 
 /// Throws InputError(CannotWrite) for what is there, unless it is an empty folder. The current one is refused too: the
@@ -128,20 +128,15 @@ void add_sample(CLI::App& app, Run& run) {
   };
   for (const SampleInfo& sample : samples()) add(meshes, sample.name, sample.description);
   for (const robot::SampleRobotInfo& sample : robot::sample_robots()) add(robots, sample.name, sample.description);
-  command
-      .add_option("name", options->name,
-                  "The mesh to make:" + meshes + "\nor the robot, a URDF file and its meshes:" + robots)
+  add_value(command, "name", options->name, CLI::detail::join(words, "|"),
+            "The mesh to make:" + meshes + "\nor the robot, a URDF file and its meshes:" + robots)
       ->required()
-      ->transform(one_of("NAME", words))
-      ->type_name(CLI::detail::join(words, "|"));
-  command
-      .add_option(
-          "-o,--out", options->out,
-          fmt::format("File for the mesh. Its name ends in {}, which tells the format. With - it goes to standard "
-                      "output. For a robot: a new folder.",
-                      alternatives(mesh_outputs().suffixes)))
-      ->required()
-      ->type_name("OUT");
+      ->transform(one_of("NAME", words));
+  add_value(command, "-o,--out", options->out, "OUT",
+            fmt::format("File for the mesh. Its name ends in {}, which tells the format. With - it goes to standard "
+                        "output. For a robot: a new folder.",
+                        alternatives(mesh_outputs().suffixes)))
+      ->required();
   add_out_format_option(command, options->out_format, mesh_outputs());
   const CLI::Option* const faces =
       add_number(command, "--faces", options->faces, {4, 1e9},

@@ -171,13 +171,10 @@ void add_spheres(CLI::App& app, Run& run) {
       "Covers a mesh by spheres, for planners that take nothing else. Every triangle is covered, which is proven "
       "exactly, and the spheres reach out of the mesh as little as their number allows.");
   add_mesh_input(command, options->in, options->input, "Mesh to cover.");
-  command
-      .add_option(
-          "-o,--out", options->out,
-          "File for the spheres. Its name tells the format: .yaml or .yml for cuRobo, .urdf, .xml for MuJoCo, or "
-          ".json. With - it goes to standard output.")
-      ->required()
-      ->type_name("OUT");
+  add_value(command, "-o,--out", options->out, "OUT",
+            "File for the spheres. Its name tells the format: .yaml or .yml for cuRobo, .urdf, .xml for MuJoCo, or "
+            ".json. With - it goes to standard output.")
+      ->required();
   add_out_format_option(command, options->out_format, sphere_outputs());
   add_certificate_option(command, options->certificate, "the spheres");
   constexpr double kMostSpheres = 100'000;
@@ -187,8 +184,8 @@ void add_spheres(CLI::App& app, Run& run) {
              "counts as mesh. As few spheres as are found to keep it are taken, at most --count. The exit code is 1 if "
              "they do not keep it.");
   command.add_flag("--fill", options->cover.fill, "Cover the inside of the mesh too, not only its surface.");
-  command.add_option("--link", options->link, "Name of the link in the output. The default is the mesh's file name.")
-      ->type_name("NAME");
+  add_value(command, "--link", options->link, "NAME",
+            "Name of the link in the output. The default is the mesh's file name.");
   add_threads_option(command, options->cover.threads, "The spheres are the same for any number.");
   add_report_option(command, options->report);
   add_examples(command,

@@ -264,45 +264,34 @@ int run_sweep(const SweepRunOptions& options) {
 
 void add_motion_options(CLI::App& command, SweepRunOptions& options) {
   constexpr const char* kHow = "How a mesh moves";
-  command
-      .add_option("--axis", options.axis,
-                  "Direction of the axis about which the mesh turns: x, y, z or X,Y,Z. The default is z.")
-      ->type_name("AXIS")
+  add_value(command, "--axis", options.axis, "AXIS",
+            "Direction of the axis about which the mesh turns: x, y, z or X,Y,Z. The default is z.")
       ->group(kHow);
-  command
-      .add_option("--through", options.through,
-                  "A point of the axis at the beginning, in the unit of the mesh as it is read. The default is the "
-                  "origin, 0,0,0.")
-      ->type_name("X,Y,Z")
+  add_value(
+      command, "--through", options.through, "X,Y,Z",
+      "A point of the axis at the beginning, in the unit of the mesh as it is read. The default is the origin, 0,0,0.")
       ->group(kHow);
   add_optional_number(command, "--angle", options.degrees, {-1e7, 1e7},
                       "Angle by which the mesh turns, in degrees, counter-clockwise if one looks against the axis.")
       ->type_name("DEGREES")
       ->group(kHow);
-  CLI::Option* const move =
-      command
-          .add_option("--move", options.move,
-                      "Move the mesh straight by this vector, in the unit of the mesh as it is read, after --scale and "
-                      "--unit. With --angle it turns meanwhile, as a screw does.")
-          ->type_name("X,Y,Z")
-          ->group(kHow);
-  CLI::Option* const poses =
-      command
-          .add_option(
-              "--poses", options.poses,
-              "File with a pose in each line: x, y, z and the quaternion w, x, y, z, or the 12 or 16 numbers of "
-              "a matrix. From one pose to the next the origin goes straight, and the mesh turns about one axis "
-              "the shorter way round.")
-          ->type_name("FILE.csv")
-          ->group(kHow);
+  CLI::Option* const move = add_value(command, "--move", options.move, "X,Y,Z",
+                                      "Move the mesh straight by this vector, in the unit of the mesh as it is read, "
+                                      "after --scale and --unit. With --angle it turns meanwhile, as a screw does.")
+                                ->group(kHow);
+  CLI::Option* const poses = add_value(command, "--poses", options.poses, "FILE.csv",
+                                       "File with a pose in each line: x, y, z and the quaternion w, x, y, z, or the "
+                                       "12 or 16 numbers of a matrix. From one pose to the next the origin goes "
+                                       "straight, and the mesh turns about one axis the shorter way round.")
+                                 ->group(kHow);
   for (const char* const name : {"--axis", "--through", "--angle"}) poses->excludes(command.get_option(name));
   poses->excludes(move);
 }
 
 void add_robot_options(CLI::App& command, SweepRunOptions& options) {
   constexpr const char* kRobots = "Robots";
-  command.add_option("--links", options.links, "Links to sweep, as in link1,link2. Without it, all links are swept.")
-      ->type_name("A,B")
+  add_value(command, "--links", options.links, "A,B",
+            "Links to sweep, as in link1,link2. Without it, all links are swept.")
       ->group(kRobots);
   command
       .add_flag("--workspace", options.workspace,
@@ -319,21 +308,18 @@ void add_robot_options(CLI::App& command, SweepRunOptions& options) {
 
 void add_sweep(CLI::App& app, Run& run) {
   const auto options = std::make_shared<SweepRunOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "sweep",
-      "Encloses all positions of a mesh along a motion, or of a robot along a path: the swept volume, as a zone to "
-      "keep "
-      "free. It is proven for every moment, not sampled. The result is a union of convex pieces, or with --faces one "
-      "closed mesh around them.");
+  CLI::App& command =
+      *app.add_subcommand("sweep",
+                          "Encloses all positions of a mesh along a motion, or of a robot along a path: the swept "
+                          "volume, as a zone to keep free. It is proven for every moment, not sampled. The result is a "
+                          "union of convex pieces, or with --faces one closed mesh around them.");
   add_mesh_input(command, options->in, options->input, "Mesh to move, or a robot: URDF, SDF or MJCF.");
-  command
-      .add_option("path", options->joint_path,
-                  "Of a robot, the path of its joints: CSV or JSON, as `prohull motion` reads it.")
-      ->type_name("PATH");
+  add_value(command, "path", options->joint_path, "PATH",
+            "Of a robot, the path of its joints: CSV or JSON, as `prohull motion` reads it.");
   add_mesh_output_options(command, options->out, options->out_format, "the zone");
-  add_optional_number(command, "--faces", options->faces, {4, 1e10},
-                      "Write one closed mesh of at most this number of faces, which encloses all pieces, in place of "
-                      "the pieces.");
+  add_optional_number(
+      command, "--faces", options->faces, {4, 1e10},
+      "Write one closed mesh of at most this number of faces, which encloses all pieces, in place of the pieces.");
   add_number(command, "--pieces", options->sweep.max_pieces, {1, 1000},
              "Largest number of convex pieces by which the mesh, or each link, is covered before it moves.");
   add_length(command, "--max-distance", options->max_distance,

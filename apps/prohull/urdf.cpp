@@ -313,68 +313,51 @@ void add_sizes(CLI::App& command, UrdfOptions& options, const char* group) {
 CLI::Option* add_budgets(CLI::App& command, UrdfOptions& options) {
   constexpr const char* kBudgets = "Budgets";
   add_sizes(command, options, kBudgets);
-  command
-      .add_option(
-          "--max-distance", options.max_distance,
-          "Largest allowed distance of any point of a hull from the geometry, in metres or with a unit: 2mm. "
-          "Hulls then have the fewest faces found to keep it, but at least --faces. Convex pieces and spheres are "
-          "then as few as are found to keep it, but at most --pieces and --spheres. It must be greater than --gap. The "
-          "exit code is 1 if a hull cannot keep it.")
-      ->type_name("LENGTH")
+  add_value(command, "--max-distance", options.max_distance, "LENGTH",
+            "Largest allowed distance of any point of a hull from the geometry, in metres or with a unit: 2mm. Hulls "
+            "then have the fewest faces found to keep it, but at least --faces. Convex pieces and spheres are then as "
+            "few as are found to keep it, but at most --pieces and --spheres. It must be greater than --gap. The exit "
+            "code is 1 if a hull cannot keep it.")
       ->group(kBudgets);
-  command
-      .add_option("--gap", options.gap,
-                  "Least distance that the hulls keep from the geometry, in metres or with a unit: 5mm. Not for convex "
-                  "pieces and spheres.")
-      ->type_name("LENGTH")
+  add_value(command, "--gap", options.gap, "LENGTH",
+            "Least distance that the hulls keep from the geometry, in metres or with a unit: 5mm. Not for convex "
+            "pieces and spheres.")
       ->group(kBudgets);
-  command
-      .add_option("--budgets", options.budgets,
-                  "YAML file with collision, faces, pieces, vertices, spheres, max_distance, gap and skip for each "
-                  "link; see --write-budgets.")
-      ->type_name("FILE.yaml")
+  add_value(command, "--budgets", options.budgets, "FILE.yaml",
+            "YAML file with collision, faces, pieces, vertices, spheres, max_distance, gap and skip for each link; see "
+            "--write-budgets.")
       ->group(kBudgets);
-  return command
-      .add_option("--write-budgets", options.write_budgets,
-                  "Write a file for --budgets with all links of the robot, as a start, and do nothing else.")
-      ->type_name("FILE.yaml")
+  return add_value(command, "--write-budgets", options.write_budgets, "FILE.yaml",
+                   "Write a file for --budgets with all links of the robot, as a start, and do nothing else.")
       ->group(kBudgets);
 }
 
 /// Returns --check.
 CLI::Option* add_check(CLI::App& command, UrdfOptions& options) {
   constexpr const char* kCheck = "Check what the robot ships with";
-  CLI::Option* const check =
-      command
-          .add_flag("--check", options.check,
-                    "Decide for each link whether its own collision geometry covers its visual geometry, exactly. "
-                    "Nothing is built. The exit code is 1 if a link leaks.")
-          ->group(kCheck);
-  command
-      .add_option("--allow", options.allow,
-                  "How far the visual geometry may stick out, in metres or with a unit: 0.5mm.")
+  CLI::Option* const check = command
+                                 .add_flag("--check", options.check,
+                                           "Decide for each link whether its own collision geometry covers its visual "
+                                           "geometry, exactly. Nothing is built. The exit code is 1 if a link leaks.")
+                                 ->group(kCheck);
+  add_value(command, "--allow", options.allow, "LENGTH",
+            "How far the visual geometry may stick out, in metres or with a unit: 0.5mm.")
       ->needs(check)
-      ->type_name("LENGTH")
       ->group(kCheck);
-  command
-      .add_option("--srdf", options.srdf,
-                  "Also decide for each pair of links that this SRDF file disables: proven never to meet, or where the "
-                  "two meet. The exit code is 1 if a pair meets, unless its reason is Adjacent, Always, Default or "
-                  "User.")
+  add_value(command, "--srdf", options.srdf, "FILE.srdf",
+            "Also decide for each pair of links that this SRDF file disables: proven never to meet, or where the two "
+            "meet. The exit code is 1 if a pair meets, unless its reason is Adjacent, Always, Default or User.")
       ->needs(check)
-      ->type_name("FILE.srdf")
       ->group(kCheck);
-  command.add_option("--junit", options.junit, "Also write the verdicts as JUnit XML, which CI services show.")
+  add_value(command, "--junit", options.junit, "FILE.xml",
+            "Also write the verdicts as JUnit XML, which CI services show.")
       ->needs(check)
-      ->type_name("FILE.xml")
       ->group(kCheck);
-  command.add_option("--html", options.html, "Also write a page with pictures.")
+  add_value(command, "--html", options.html, "FILE.html", "Also write a page with pictures.")
       ->needs(check)
-      ->type_name("FILE.html")
       ->group(kCheck);
-  command.add_option("--report", options.report, "Also write what was found as JSON.")
+  add_value(command, "--report", options.report, "FILE.json", "Also write what was found as JSON.")
       ->needs(check)
-      ->type_name("FILE.json")
       ->group(kCheck);
   return check;
 }
@@ -406,58 +389,45 @@ void add_urdf(CLI::App& app, Run& run) {
       "urdf",
       "Gives every link of a robot certified collision geometry. Reads URDF, SDF and MJCF, and writes a copy of the "
       "robot with its meshes, a report with pictures, and an SRDF of the links that joints connect or that provably "
-      "never meet. With --check, it "
-      "decides whether the collision geometry that the robot ships with covers the robot. The exit code is 1 if a "
-      "link is not covered, unless --skip-missing or its budget says to leave it as it is.");
-  command
-      .add_option("in", options->in,
-                  "Robot: URDF, SDF or MJCF. A .xacro file is expanded by the program xacro, if that is installed.")
-      ->required()
-      ->type_name("ROBOT");
+      "never meet. With --check, it decides whether the collision geometry that the robot ships with covers the robot. "
+      "The exit code is 1 if a link is not covered, unless --skip-missing or its budget says to leave it as it is.");
+  add_value(command, "in", options->in, "ROBOT",
+            "Robot: URDF, SDF or MJCF. A .xacro file is expanded by the program xacro, if that is installed.")
+      ->required();
   CLI::Option* const out =
-      command
-          .add_option("-o,--out", options->out,
-                      "Folder for the robot and its hulls. It is made if it is not there. A folder that has files but "
-                      "no report.json of an earlier run is refused, and a file that no run has written is not "
-                      "overwritten.")
-          ->type_name("DIR");
+      add_value(command, "-o,--out", options->out, "DIR",
+                "Folder for the robot and its hulls. It is made if it is not there. A folder that has "
+                "files but no report.json of an earlier run is refused, and a file that no run "
+                "has written is not overwritten.");
   add_robot_file_options(command, options->file);
   add_choice(
       command, "--collision", options->hulls.budget.collision, collision_names(),
       "What covers each link: one hull, which may be concave; convex pieces, for engines that take only these; or "
-      "spheres, for planners that take only these. Spheres also go into ROBOT_spheres.yaml, as cuRobo reads "
-      "them.");
+      "spheres, for planners that take only these. Spheres also go into ROBOT_spheres.yaml, as cuRobo reads them.");
   add_choice(command, "--from", options->hulls.from, geometry_names(), "Geometry of each link that the hulls enclose.");
-  command.add_option("--format", options->hulls.format, "Format of the hulls.")
+  add_value(command, "--format", options->hulls.format, "stl|obj|glb", "Format of the hulls.")
       ->transform(one_of("--format", {"stl", "obj", "glb"}))
-      ->type_name("stl|obj|glb")
       ->capture_default_str();
-  command
-      .add_option("--package", options->package,
-                  "Make the folder a ROS package of this name: with package.xml, and hulls named by package:// URIs.")
-      ->check([](const std::string& name) { return name.empty() ? std::string("--package needs a name") : ""; })
-      ->type_name("NAME");
+  add_value(command, "--package", options->package, "NAME",
+            "Make the folder a ROS package of this name: with package.xml, and hulls named by package:// URIs.")
+      ->check([](const std::string& name) { return name.empty() ? std::string("--package needs a name") : ""; });
   command.add_flag("--tight", options->hulls.tight, "Build tight hulls: least volume, but some 4 times as slow.");
-  command.add_flag(
-      "--skip-missing", options->hulls.skip_missing,
-      "Leave links whose mesh files are not found as they are: nothing is proven of them, and the exit code "
-      "does not tell. Otherwise missing files are an error.");
-  CLI::Option* const certificate = command.add_flag(
-      "--certificate", options->certificate,
-      "Also write a certificate beside each hull, or the pieces or spheres of a link: a file with which prohull_check, "
-      "a program of one C file that shares nothing with this one, decides again what is proven "
-      "(docs/certificate.md). It is about the mesh file that the robot names, or else about a copy of the link's "
-      "triangles in the folder, which report.json names. ROBOT.phmotion is the certificate of the pairs of links that "
-      "never meet, for prohull_check_motion.");
+  command.add_flag("--skip-missing", options->hulls.skip_missing,
+                   "Leave links whose mesh files are not found as they are: nothing is proven of them, and the exit "
+                   "code does not tell. Otherwise missing files are an error.");
+  CLI::Option* const certificate =
+      command.add_flag("--certificate", options->certificate,
+                       "Also write a certificate beside each hull, or the pieces or spheres of a link: a file with "
+                       "which prohull_check, a program of one C file that shares nothing with this one, decides again "
+                       "what is proven (docs/certificate.md). It is about the mesh file that the robot names, or else "
+                       "about a copy of the link's triangles in the folder, which report.json names. ROBOT.phmotion is "
+                       "the certificate of the pairs of links that never meet, for prohull_check_motion.");
   CLI::Option* const dry_run =
       command.add_flag("--dry-run", options->dry_run, "Say what would be done with each link, and write nothing.");
   command.add_flag("--no-pictures", options->no_pictures,
                    "Write the report without pictures, and no view.html, which is faster.");
-  command
-      .add_option(
-          "--cache", options->cache,
-          "Folder that keeps hulls for the next run. Otherwise this is prohull in the user's folder for caches.")
-      ->type_name("DIR");
+  add_value(command, "--cache", options->cache, "DIR",
+            "Folder that keeps hulls for the next run. Otherwise this is prohull in the user's folder for caches.");
   command.add_flag("--no-cache", options->no_cache, "Build all hulls anew, and keep none.");
   add_threads_option(command, options->threads, "The result is the same for any number.");
   CLI::Option* const write_budgets = add_budgets(command, *options);

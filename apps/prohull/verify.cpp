@@ -211,53 +211,42 @@ nlohmann::json facts(const std::vector<Offender>& worst) {
 
 void add_verify(CLI::App& app, Run& run) {
   const auto options = std::make_shared<VerifyOptions>();
-  CLI::App& command = *app.add_subcommand("verify",
-                                          "Decides exactly whether a hull encloses a mesh, and exits with code 1 if it "
-                                          "does not. It shares no code with the "
-                                          "construction of hulls. Two mesh files are compared; a .phull file is a "
-                                          "proof, which is replayed. The solid of the "
-                                          "mesh must be enclosed, and every triangle covered. Of a mesh that is not "
-                                          "closed, only the latter is asked, unless --open-shells closes it. A hull "
-                                          "whose faces look inwards is refused.\n"
-                                          "With --union it is decided whether convex pieces together, or spheres "
-                                          "together, cover a mesh.");
-  command
-      .add_option("hull", options->hull,
-                  std::string("Mesh or .phull file; with --union a file of pieces. ") + kMeshFiles)
-      ->required()
-      ->type_name("HULL");
-  command.add_option("original", options->original, "Mesh that the hull should enclose, in any of these formats.")
-      ->required()
-      ->type_name("ORIGINAL");
-  command.add_option("more", options->more, "With --union: more files of pieces. The last file is ORIGINAL.")
-      ->type_name("MORE");
+  CLI::App& command = *app.add_subcommand(
+      "verify",
+      "Decides exactly whether a hull encloses a mesh, and exits with code 1 if it does not. It shares no code with "
+      "the construction of hulls. Two mesh files are compared; a .phull file is a proof, which is replayed. The solid "
+      "of the mesh must be enclosed, and every triangle covered. Of a mesh that is not closed, only the latter is "
+      "asked, unless --open-shells closes it. A hull whose faces look inwards is refused.\n"
+      "With --union it is decided whether convex pieces together, or spheres together, cover a mesh.");
+  add_value(command, "hull", options->hull, "HULL",
+            std::string("Mesh or .phull file; with --union a file of pieces. ") + kMeshFiles)
+      ->required();
+  add_value(command, "original", options->original, "ORIGINAL",
+            "Mesh that the hull should enclose, in any of these formats.")
+      ->required();
+  add_value(command, "more", options->more, "MORE", "With --union: more files of pieces. The last file is ORIGINAL.");
   CLI::Option* const is_union = command.add_flag(
       "--union", options->is_union,
-      "Decide whether the union of pieces covers every triangle of ORIGINAL and, if that is closed, its "
-      "inside. Pieces may touch and overlap. Each connected component of a mesh file is a piece; STL "
-      "joins those that share corners. Of a robot (.urdf, .sdf, .xml) the pieces are the collision geometry of a link: "
-      "meshes, boxes and spheres. A .yaml file of collision spheres, as cuRobo reads it, and the .json file of "
-      "`prohull spheres` hold spheres.");
-  command
-      .add_option("--link", options->link,
-                  "With --union: the link whose pieces are meant, where a robot or a file of spheres has several.")
-      ->type_name("NAME");
+      "Decide whether the union of pieces covers every triangle of ORIGINAL and, if that is closed, its inside. Pieces "
+      "may touch and overlap. Each connected component of a mesh file is a piece; STL joins those that share corners. "
+      "Of a robot (.urdf, .sdf, .xml) the pieces are the collision geometry of a link: meshes, boxes and spheres. A "
+      ".yaml file of collision spheres, as cuRobo reads it, and the .json file of `prohull spheres` hold spheres.");
+  add_value(command, "--link", options->link, "NAME",
+            "With --union: the link whose pieces are meant, where a robot or a file of spheres has several.");
   command.add_flag("--inside", options->inside,
                    "With --union and spheres: the inside of ORIGINAL must be covered too, not only its triangles.");
   add_format_option(command, options->original_input);
   add_unit_options(command, options->original_input, "ORIGINAL (the same as `prohull build` was given for it)");
-  command
-      .add_option("--offset", options->offset,
-                  "Subtract these three numbers from the coordinates of ORIGINAL, after --unit or --scale: the offset "
-                  "that `prohull build --recenter` has told.")
-      ->type_name("X,Y,Z");
+  add_value(command, "--offset", options->offset, "X,Y,Z",
+            "Subtract these three numbers from the coordinates of ORIGINAL, after --unit or --scale: the offset that "
+            "`prohull build --recenter` has told.");
   add_choice(command, "--side", options->side, hull_side_names(),
              "Side on which the hull lies. With inner it is decided whether ORIGINAL encloses HULL. A .phull file "
              "knows its side.");
-  add_choice(command, "--open-shells", options->open_shells, open_shells_names(),
-             "What to do with openings of ORIGINAL. close gives them caps, as `prohull build` does, so that what they "
-             "lead into must be enclosed too, and so that an inner hull has an inside to lie in; keep asks for the "
-             "triangles only.")
+  add_choice(
+      command, "--open-shells", options->open_shells, open_shells_names(),
+      "What to do with openings of ORIGINAL. close gives them caps, as `prohull build` does, so that what they lead "
+      "into must be enclosed too, and so that an inner hull has an inside to lie in; keep asks for the triangles only.")
       ->excludes(is_union);
   command.add_flag("--solid-only", options->solid_only,
                    "Ask only for the solid that a closed mesh bounds. Triangles of folds and of parts that are inside "
@@ -265,11 +254,10 @@ void add_verify(CLI::App& app, Run& run) {
   command.add_flag("--finite-only", options->finite_only,
                    "Leave out triangles of ORIGINAL with a coordinate that is NaN or infinite. Without this option the "
                    "answer is no if there are any.");
-  command.add_flag(
-      "--any-scale", options->any_scale,
-      "Also say yes where the outer one of the two is 9 times as large as the other or more, along each axis (20 "
-      "times, if the hull has fewer than 12 faces or is an inner one). Without this option the exit code is then 1: "
-      "their units seem to differ.");
+  command.add_flag("--any-scale", options->any_scale,
+                   "Also say yes where the outer one of the two is 9 times as large as the other or more, along each "
+                   "axis (20 times, if the hull has fewer than 12 faces or is an inner one). Without this option the "
+                   "exit code is then 1: their units seem to differ.");
   add_length(command, "--gap", options->gap,
              "Also decide whether the hull keeps this distance from ORIGINAL everywhere, at least. Not for .phull "
              "files, whose levels touch.",

@@ -129,29 +129,23 @@ int run_view(const ViewOptions& options) {
 
 void add_view(CLI::App& app, Run& run) {
   const auto options = std::make_shared<ViewOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "view",
-      "Writes a page of HTML that shows hulls in any browser, in three dimensions. The page is one file. It needs no "
-      "network, so that it can be mailed and archived. Verdicts and counts on it are exact, and distances are proven "
-      "bounds.");
-  command
-      .add_option(
-          "in", options->in,
-          std::string(
-              "Hulls, meshes or robots to show. Of a .phull file a slider shows all levels; of a robot "
-              "(.urdf, .xacro, .sdf, .mjcf, .xml), sliders move the joints, and links that collide are lit: pairs "
-              "that the .srdf file beside it disables may touch. ") +
-              kMeshFiles)
-      ->required()
-      ->type_name("IN");
-  command.add_option("-o,--out", options->out, "File for the page, .html. With - it goes to standard output.")
-      ->required()
-      ->type_name("OUT.html");
-  command
-      .add_option("--original", options->original,
-                  "Mesh that each IN is a hull of. The page then tells whether it encloses that mesh, how far it is "
-                  "from it and where. Without this option, a .phull file is compared with its own finest level.")
-      ->type_name("M");
+  CLI::App& command =
+      *app.add_subcommand("view",
+                          "Writes a page of HTML that shows hulls in any browser, in three dimensions. The page is one "
+                          "file. It needs no network, so that it can be mailed and archived. Verdicts and counts on it "
+                          "are exact, and distances are proven bounds.");
+  add_value(command, "in", options->in, "IN",
+            std::string("Hulls, meshes or robots to show. Of a .phull file a slider shows all levels; of a robot "
+                        "(.urdf, .xacro, .sdf, .mjcf, .xml), sliders move the joints, and links that collide are lit: "
+                        "pairs that the .srdf file beside it disables may touch. ") +
+                kMeshFiles)
+      ->required();
+  add_value(command, "-o,--out", options->out, "OUT.html",
+            "File for the page, .html. With - it goes to standard output.")
+      ->required();
+  add_value(command, "--original", options->original, "M",
+            "Mesh that each IN is a hull of. The page then tells whether it encloses that mesh, how far it is from it "
+            "and where. Without this option, a .phull file is compared with its own finest level.");
   add_format_option(command, options->input);
   add_package_path_option(command, options->robots.package_paths);
   add_unit_options(command, options->original_input, "M (the same as `prohull build` was given for it)");
