@@ -34,7 +34,8 @@ struct ViewAxes {
 /// A pinhole.
 class Camera {
  public:
-  /// As near to all points as a picture of width x height pixels allows; sees all of them if the view does not zoom.
+  /// A camera as near to all points as a picture of width x height pixels allows. It sees all of them if the view does
+  /// not zoom.
   Camera(const View& view, std::span<const Vec3> points, int width, int height);
 
   /// The direction advances by 1 in depth.

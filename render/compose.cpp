@@ -80,7 +80,7 @@ TriangleMesh line(const Segment& segment, const std::vector<double>& missed, dou
   return mesh;
 }
 
-/// As large in every picture, however near.
+/// The marks have the same size in every picture, however near the camera is.
 std::vector<Surface> marks(const MarkedSegment& marked, const Placement& placed, double zoom) {
   const double rod_radius = 0.003 / zoom, ball_radius = 0.012 / zoom;
   const Segment segment{placed(marked.segment.a), placed(marked.segment.b)};

@@ -35,7 +35,7 @@ class Image {
 /// The content of a PNG file: every pixel as it is, without an alpha channel if all are opaque.
 std::string encode_png(const Image& image);
 
-/// The same with at most 256 colours, each near to those it stands for: less than half as large.
+/// A PNG file with at most 256 colours, each near to those it stands for. It is less than half as large.
 std::string encode_small_png(const Image& image);
 
 }  // namespace prohull::render

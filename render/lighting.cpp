@@ -16,7 +16,7 @@ constexpr double kGlossSharpness = 30;
 
 Vec3 normalized(const Vec3& v) { return v / norm(v); }
 
-/// Of the unit disk, areas kept.
+/// Maps the unit square to the unit disk; areas keep their ratios.
 Point2 on_disk(const Point2& at) {
   const double radius = std::sqrt(at.x), angle = 2 * std::numbers::pi * at.y;
   return {radius * std::cos(angle), radius * std::sin(angle)};

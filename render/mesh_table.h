@@ -25,7 +25,7 @@ class MeshTable {
   explicit MeshTable(Reader read_file) : read_file_(std::move(read_file)) {}
 
   bool is_hull(const std::filesystem::path& path);
-  /// Of a .phull file.
+  /// The hull in a .phull file.
   const ProgressiveHull& hull(const std::filesystem::path& path);
 
   /// A mesh file, or the finest level of at most `faces` faces of a .phull file; returns its place in meshes().

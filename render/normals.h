@@ -6,7 +6,7 @@
 
 namespace prohull::render {
 
-/// Of length 1; zero for a face without area.
+/// The normal of length 1; zero for a face without area.
 Vec3 face_normal(const Triangle& triangle);
 
 using CornerNormals = PerFace<std::array<Vec3, 3>>;

@@ -49,7 +49,7 @@ std::vector<CountedColor> counted_colors(const Image& image) {
   return colors;
 }
 
-/// Those above the mean leave the group; neither part is empty, for the colours differ.
+/// The colours above the mean, which leave the group. Neither part is empty, for the colours differ.
 Group part(Group& group) {
   const std::size_t k = group.channel;
   const auto middle =

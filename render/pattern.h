@@ -13,10 +13,10 @@ class Pattern {
   explicit Pattern(int samples) : samples_(samples) {}
   int samples() const { return samples_; }
 
-  /// Of sample i in its pixel, in [0, 1) x [0, 1).
+  /// The place of sample i in its pixel, in [0, 1) x [0, 1).
   Point2 in_pixel(int i) const { return hammersley(i, samples_); }
-  /// Of sample i of pixel (x, y), in [0, 1) x [0, 1): those of a pixel are spread evenly, and those of a block fill the
-  /// gaps between them.
+  /// The place of sample i of pixel (x, y), in [0, 1) x [0, 1). The samples of a pixel are spread evenly, and those of
+  /// a block fill the gaps between them.
   Point2 in_block(int x, int y, int i) const {
     const Point2 coarse = hammersley(i, samples_), fine = hammersley(order(x, y), kBlock * kBlock);
     const double across = coarse.x + (fine.x - 0.5) / samples_, up = coarse.y + (fine.y - 0.5) / samples_;

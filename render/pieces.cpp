@@ -9,7 +9,7 @@
 namespace prohull::render {
 namespace {
 
-/// Of each vertex the number of its part; numbers grow with the first face of a part.
+/// The number of the part that each vertex is of; numbers grow with the first face of a part.
 class Parts {
  public:
   explicit Parts(const TriangleMesh& mesh) : sets_(mesh.vertex_count()), numbers_(mesh.vertex_count(), kNone) {
@@ -40,7 +40,7 @@ std::vector<Box> boxes_of(const TriangleMesh& mesh, Parts& parts) {
 }  // namespace
 
 Rgb piece_color(std::size_t i) {
-  // Of Okabe and Ito (2008), without black; then lighter, then darker.
+  // The colours of Okabe and Ito (2008), without black; then lighter, then darker.
   static const std::array<Rgb, 7> kColors{*parse_color("#56b4e9"), *parse_color("#e69f00"), *parse_color("#009e73"),
                                           *parse_color("#f0e442"), *parse_color("#0072b2"), *parse_color("#d55e00"),
                                           *parse_color("#cc79a7")};

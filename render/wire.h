@@ -13,7 +13,7 @@ double line_coverage(const std::array<Point2, 3>& corners, const Point2& point, 
 /// In [0, 1]: where the sides of faces are only a few line widths long, there would be lines only, and they fade away.
 double line_visibility(double side, double width);
 
-/// Of an isosceles right-angled triangle of the same area.
+/// The legs of an isosceles right-angled triangle of the same area.
 double side_of(const std::array<Point2, 3>& corners);
 
 }  // namespace prohull::render

@@ -23,7 +23,7 @@ TriangleMesh with_forms(TriangleMesh mesh, std::span<const CurvedForm> forms, Cu
 /// The triangles of the pieces, and meshes with the volumes of their curved forms.
 TriangleMesh with_same_volume(const SolidPieces& all);
 
-/// Of what lies inside of the triangles and of the curved forms. Of forms alone it is exact if they are balls, or one
+/// The volume inside of the triangles and of the curved forms. For forms alone it is exact if they are balls, or one
 /// form. Curved forms that overlap other pieces count as meshes with their volume. Throws as volume_inside does.
 InsideVolume volume_of(const SolidPieces& all, const Progress& progress = {});
 

@@ -39,7 +39,7 @@ class Replay {
     for (const Corner c : corners_of_[v]) sum += volume_at(c, center);
     return sum;
   }
-  /// The same of the two faces that came last.
+  /// Six times the signed volume between the two faces that came last and `center`.
   double volume_of_newest(const Vec3& center) const {
     const Corner end = static_cast<Corner>(vertices_.size());
     return volume_at(end - 6, center) + volume_at(end - 3, center);

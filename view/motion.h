@@ -13,7 +13,7 @@ namespace prohull::view {
 ShownMotion shown_motion(const robot::JointPath& path, const robot::PathProof& proof,
                          std::span<const robot::PathBody> bodies);
 
-/// As web/src/act/motion.js reads it.
+/// The motion as web/src/act/motion.js reads it.
 nlohmann::json motion_facts(const ShownMotion& motion);
 
 }  // namespace prohull::view

@@ -17,7 +17,7 @@ using Balls = std::vector<Ball>;
 
 /// A robot along a path: where its joints are at moments, between which a page draws them on straight lines.
 struct ShownMotion {
-  /// Of a time at least this distance apart, proven: all pairs of bodies, of which `pair` names the nearest.
+  /// All pairs of bodies are at least this distance apart from `begin` to `end`, proven; `pair` names the nearest.
   struct Bound {
     double begin = 0, end = 0, distance = 0;
     std::string pair;

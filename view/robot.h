@@ -13,7 +13,7 @@ nlohmann::json joint_facts(const robot::Robot& robot);
 /// The pairs of links that the page does not compare, and whether a file says so: "disabled" and "disabled_by_file".
 nlohmann::json disabled_facts(const ShownRobot& shown, unsigned threads);
 
-/// Of the whole robot, as it is drawn: at rest, or all along its motion.
+/// The box of the whole robot as it is drawn: at rest, or all along its motion.
 Box drawn_box(const ShownRobot& shown);
 
 }  // namespace prohull::view

@@ -6,6 +6,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "prohull/detail/finite.h"
 #include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
@@ -23,26 +24,10 @@ namespace {
 
 using nlohmann::json;
 
-bool is_finite(const Triangle& t) {
-  return prohull::is_finite(t.a) && prohull::is_finite(t.b) && prohull::is_finite(t.c);
-}
-
-/// The mesh without faces that are not finite and without vertices that no face uses.
 TriangleMesh drawable(const TriangleMesh& mesh, const std::string& name) {
-  constexpr VertexId kUnused{0xffffffff};
-  PerVertex<VertexId> renumbered(mesh.vertex_count(), kUnused);
-  TriangleMesh result;
-  for (const FaceId f : mesh.triangles.ids()) {
-    if (!is_finite(mesh.triangle(f))) continue;
-    std::array<VertexId, 3> face = mesh.triangles[f];
-    for (VertexId& v : face) {
-      if (renumbered[v] == kUnused) renumbered[v] = result.positions.push_back(mesh.positions[v]);
-      v = renumbered[v];
-    }
-    result.triangles.push_back(face);
-  }
-  if (result.face_count() == 0) throw InputError(Defect::EmptyMesh, name + ": it has no finite face to show");
-  return result;
+  TriangleMesh finite = finite_part(mesh);
+  if (finite.face_count() == 0) throw InputError(Defect::EmptyMesh, name + ": it has no finite face to show");
+  return finite;
 }
 
 TriangleMesh all_of(const Pieces& pieces) {
@@ -267,7 +252,7 @@ class Writer {
     }
   }
 
-  /// Of faces that the original does not have, if there are any.
+  /// How far faces that the original does not have reach out of it, if there are any.
   json reach_of(const TriangleMesh& faces, const Reference& reference) const {
     if (faces.face_count() > 0) return distance_facts(faces, reference.mesh, options_);
     const Vec3 anywhere = reference.mesh.triangle(FaceId{0}).a;

@@ -15,7 +15,7 @@ struct Scene {
   std::string facts_as_text() const { return facts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace); }
 };
 
-/// Of a page(). Throws InputError as that does.
+/// The scene of a page(). Throws InputError as that does.
 Scene scene_of(const std::vector<Shown>& shown, const std::optional<Original>& original, const PageOptions& options);
 
 }  // namespace prohull::view

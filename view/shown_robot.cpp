@@ -13,7 +13,7 @@ void tell(const Progress& progress, std::size_t done, std::size_t all) {
   if (progress && !progress("read", static_cast<double>(done) / static_cast<double>(all))) throw Cancelled();
 }
 
-/// Those whose meshes were found.
+/// The shapes whose meshes were found.
 std::vector<Shape> found(const std::vector<Shape>& shapes) {
   std::vector<Shape> result;
   for (const Shape& shape : shapes)

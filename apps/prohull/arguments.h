@@ -28,13 +28,13 @@ struct Command {
   std::vector<std::string> footer;  ///< lines
 };
 
-/// Of all its arguments that are not positional.
+/// The names of all arguments that are not positional.
 std::vector<std::string> option_names(const Command& command);
 
 /// The description, and behind it what else there is to say: "Required." "The default is 4." "Not with --tight."
 std::string explained(const Argument& argument);
 
-/// Without its full stop, for lists.
+/// The first sentence without its full stop, for lists.
 std::string first_sentence(const std::string& description);
 
 /// One of the commands, or the program itself without them.

@@ -27,7 +27,7 @@ class AskedMesh {
 
   /// The mesh or hull goes into the index. What `make` throws then names the file.
   QueryIndex index(const std::function<QueryIndex(MeshOrHull)>& make);
-  /// As index_called (paper/engines.h).
+  /// The index of the engine with this name, which index_called (paper/engines.h) makes.
   QueryIndex index(std::string_view engine);
 
   nlohmann::json facts() const;

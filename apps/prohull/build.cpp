@@ -205,8 +205,8 @@ int exit_code(const BuildOptions& options, const BuildOutcome& outcome) {
   return !all_certified || !all_within_bounds || (options.strict && !is_as_asked(outcome)) ? kAnswerIsNo : kDone;
 }
 
-/// With the names of what is written for this mesh. In a folder, hulls have the format of their meshes if it is
-/// written.
+/// The options with the names of what is written for this mesh. A hull that goes into a folder has the format of its
+/// mesh, if hulls are written in that format.
 BuildOptions for_mesh(BuildOptions options, const std::filesystem::path& in) {
   const std::vector<std::string> formats = mesh_outputs().suffixes;
   const bool is_written = std::ranges::find(formats, mesh_suffix(in)) != formats.end();

@@ -161,7 +161,7 @@ std::string repair_of(const BuildOutcome& outcome) {
                                                           : "none";
 }
 
-/// Of all hulls, each once.
+/// The notes of all hulls, each once.
 std::vector<std::string> notes_of(const BuildOutcome& outcome) {
   std::vector<std::string> notes;
   for (const Written& written : outcome.written)

@@ -17,7 +17,8 @@ CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& fi
 /// Before any work, if there is to be a certificate: throws InputError(InvalidOption) for an original that
 /// prohull_check does not read.
 void check_certified_original(const std::filesystem::path& certificate, const std::filesystem::path& original);
-/// The same for an output whose name ends in `suffix`, if that is none of `checkable`.
+/// Before any work, if there is to be a certificate: throws InputError(InvalidOption) for an output whose name ends in
+/// `suffix`, if that is none of `checkable`.
 void check_certified_output(const std::filesystem::path& certificate, const std::string& suffix,
                             const std::vector<std::string>& checkable = {".stl", ".obj", ".ply", ".off"});
 

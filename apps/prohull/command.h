@@ -28,7 +28,7 @@ constexpr const char* kWhatItIs = "progressive hulls of triangle meshes";
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// That there are pages, and that this is a name of one. Throws InputError.
+/// Throws InputError if the program makes no pages, or if `out` is no name of a page.
 void require_page(const std::filesystem::path& out);
 
 nlohmann::json facts(const MeshReport& report);

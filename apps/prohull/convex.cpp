@@ -72,7 +72,7 @@ std::string suffix_of(const ConvexOptions& options) {
   return suffix;
 }
 
-/// As the mesh or the output is called, around which an engine has its prefix and suffix.
+/// The names of the pieces: that of the mesh or of the output, with a number, between the engine's prefix and suffix.
 std::vector<std::string> names_of(const ConvexOptions& options, const std::string& stem) {
   const EngineRules rules = options.engine ? *options.engine.value() : EngineRules{};
   const bool from_mesh = rules.named_as_mesh && !is_standard_stream(options.in);
@@ -132,7 +132,7 @@ class PieceFiles {
     return largest;
   }
 
-  /// Those of these pieces that hold meshes, in the order of the pieces.
+  /// The files of these pieces that hold meshes, in the order of the pieces.
   std::vector<path> meshes(const std::vector<ConvexPiece>& pieces) const {
     std::vector<path> files = written(pieces);
     if (is_robot()) files.erase(files.begin());

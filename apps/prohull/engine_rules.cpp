@@ -23,7 +23,8 @@ const EngineRules kUnity{.suffixes = {".obj"}, .polygons = 255};
 const EngineRules kUnreal{.suffixes = {".glb", ".obj"}, .prefix = "UCX_", .named_as_mesh = true};
 // https://docs.godotengine.org/en/stable/tutorials/assets_pipeline/importing_3d_scenes/node_type_customization.html
 const EngineRules kGodot{.suffixes = {".glb"}, .suffix = "-convcolonly"};
-// Its importer of URDF makes a convex hull of each STL file of a collision element, and of each object of an OBJ file.
+// Bullet's importer of URDF makes a convex hull of each STL file of a collision element, and of each object of an OBJ
+// file.
 const EngineRules kBullet{.suffixes = {".urdf", ".obj"}};
 // Tests load it: tests/robot/mujoco_test.cpp.
 const EngineRules kMujoco{.suffixes = {".xml"}};

@@ -30,7 +30,7 @@ Names<const EngineRules*> engine_names();
 /// The sizes of pieces whose triangles follow each other in `mesh`: `faces` says how many each has.
 PieceSize largest_piece(const TriangleMesh& mesh, const std::vector<std::size_t>& faces);
 
-/// With which every convex piece is within the limits.
+/// The largest number of vertices with which every convex piece is within the limits.
 std::size_t most_vertices(const EngineRules& rules);
 
 bool is_within(const PieceSize& size, const EngineRules& rules);

@@ -44,8 +44,8 @@ std::string filled(std::string_view words, std::size_t width, std::size_t indent
   return text + std::string(indent, ' ') + line + "\n";
 }
 
-/// The same of a text of several lines. Those that begin with blanks are of a list, "  name   what it is", and stay in
-/// columns.
+/// Fills each line of the text as filled() does. Lines that begin with blanks are a list, "  name   what it is", whose
+/// columns stay.
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
   std::istringstream in(text);
   std::string result;
@@ -153,7 +153,7 @@ std::string unknown(const CLI::App& app, const std::string& argument) {
   return fmt::format("'{}' is one argument too many for {}", argument, command.name);
 }
 
-/// The same of the program itself.
+/// What arguments that stand before any command were to be.
 std::string unknown_before_command(const CLI::App& app, const std::vector<std::string>& arguments) {
   const auto word = std::ranges::find_if_not(arguments, is_option);
   if (word != arguments.end())

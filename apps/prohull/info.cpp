@@ -25,7 +25,7 @@ void say_fact(const char* name, fmt::format_string<Values...> text, Values&&... 
   say("  {:<14} {}\n", name, fmt::format(text, std::forward<Values>(values)...));
 }
 
-// Of all components together; of a closed manifold.
+// The genus of all components together; the mesh is a closed manifold.
 long genus(const MeshReport& report) { return static_cast<long>(report.components) - report.euler_characteristic / 2; }
 
 void print_defects(const MeshReport& report) {

@@ -34,7 +34,7 @@ void add_unit_options(CLI::App& command, InputOptions& options, const std::strin
 
 /// The argument IN, a mesh that is used as `purpose` says, with all of these options.
 void add_mesh_input(CLI::App& command, std::filesystem::path& in, InputOptions& options, const std::string& purpose);
-/// The same for one or several meshes, and folders of them.
+/// The argument IN with all of these options, for one or several meshes, and folders of them.
 void add_mesh_inputs(CLI::App& command, std::vector<std::filesystem::path>& in, InputOptions& options,
                      const std::string& purpose);
 
@@ -77,7 +77,7 @@ MeshOrHull read_mesh_or_hull(const std::filesystem::path& path, const InputOptio
 
 ProgressiveHull read_hull(const std::filesystem::path& path);
 
-/// As messages name it: "-" is "standard input".
+/// The name of an input in messages: that of "-" is "standard input".
 std::string input_name(const std::filesystem::path& path);
 
 /// work(); what InputError it throws then names the file.

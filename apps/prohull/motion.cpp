@@ -172,7 +172,7 @@ std::string positions_text(const Robot& robot, std::span<const double> positions
   return text;
 }
 
-/// Of the joints that the path does not name, that no other joint moves.
+/// Where the joints rest that the path does not name and that no other joint moves.
 std::string rest_text(const Robot& robot, const JointPath& path) {
   std::vector<std::string> names;
   const std::vector<double> positions = path.positions_at(0);
@@ -194,7 +194,7 @@ void say_others(const PathOptions& options, const PathProof& proof) {
         options.proof.gap > 0 ? "are closer" : "meet", open);
 }
 
-/// Of numbers, so that the position is told from both limits.
+/// How many digits tell the position from both limits.
 int digits_apart(double position, const Joint& joint) {
   constexpr int kFewest = 6, kMost = std::numeric_limits<double>::max_digits10;
   int digits = kFewest;
@@ -203,7 +203,7 @@ int digits_apart(double position, const Joint& joint) {
   return digits;
 }
 
-/// Of a path that leaves the limits of a joint.
+/// Where the path leaves the limits of a joint; empty if it does not.
 std::string beyond_text(const Robot& robot, const JointPath& path) {
   const auto beyond = first_beyond_limits(robot, path);
   if (!beyond) return "";
@@ -295,7 +295,7 @@ nlohmann::json report_of(const PathOptions& options, const Decision& decision, d
           {"seconds", seconds}};
 }
 
-/// With quotes, if it needs them.
+/// The text as a cell of a CSV file: with quotes, if it needs them.
 std::string as_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string quoted = "\"";

@@ -71,7 +71,7 @@ path resolved(path file) {
   return error ? file : canonical;
 }
 
-/// The same for all names of a file, hard links included. Standard input and output may be one terminal.
+/// A text that is the same for all names of a file, hard links included. Standard input and output may be one terminal.
 std::string identity(const path& file) {
   struct stat status {};
   if (stat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode))
@@ -102,7 +102,7 @@ void remove_all_of(const path& temporary) {
       std::filesystem::remove_all(entry.path(), ignored);
 }
 
-/// Those that are empty, the deepest first.
+/// Removes the folders that are empty. The deepest come last.
 void remove_folders(const std::vector<path>& folders) {
   std::error_code ignored;
   for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) std::filesystem::remove(*folder, ignored);

@@ -79,7 +79,7 @@ CLI::Option* add_out_format_option(CLI::App& command, std::string& format, const
 /// Throws InputError(InvalidOption).
 [[noreturn]] void refuse(const std::string& what);
 
-/// As messages name it: "-" is "standard output".
+/// The name of an output in messages: that of "-" is "standard output".
 std::string output_name(const std::filesystem::path& path);
 
 /// What the name ends in, ".stl"; where it says nothing, as "-" does, `format` tells ("stl"). Throws

@@ -102,7 +102,7 @@ Segment segment_of(const std::string& text) {
   return segment;
 }
 
-/// Of options that are given once, for all panels, or once for each.
+/// The value for panel `i` of an option that is given once, for all panels, or once for each.
 template <class Value>
 std::optional<Value> for_panel(const std::vector<Value>& values, std::size_t i) {
   if (values.empty()) return std::nullopt;
@@ -280,7 +280,7 @@ class Planner {
     return table_.add(*name == kOriginal ? of : std::filesystem::path(*name), MeshTable::kFinest);
   }
 
-  /// Its visual geometry at rest; nothing if it has none.
+  /// The visual geometry of the robot at rest; nothing if it has none.
   std::optional<std::size_t> robot_as_shown(const std::filesystem::path& path) const {
     TriangleMesh visual = robot_mesh(robot::read_robot(path, options_.robots).robot, robot::Geometry::Visual, path);
     if (visual.face_count() == 0) return std::nullopt;

@@ -181,7 +181,7 @@ void write_certificates(const UrdfOptions& options, ReportInput& facts, std::spa
   facts.certificates = std::move(made.certificates);
 }
 
-/// Of the pairs that never meet.
+/// Writes the certificate of the pairs that never meet.
 void write_motion_certificate(ReportInput& facts, const RobotFiles& files, RobotFolder& folder) {
   std::vector<PairProof> proofs;
   for (const MotionPair& pair : facts.motion->pairs)

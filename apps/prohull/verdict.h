@@ -25,15 +25,15 @@ class SizeComparison {
  private:
   HullSide side_;
   double limit_;
-  /// Of the boxes, outer to inner, along the axis where it is least: a spike makes a box larger along one or two of
-  /// them, another unit along all. NaN if the inner one is a point.
+  /// How large the outer box is by the inner one, along the axis where that is least: a spike makes a box larger along
+  /// one or two axes, another unit along all. NaN if the inner box is a point.
   double ratio_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What `lod` says behind "certified: " of a level as it is written, which was compared with the finest one.
 std::string certificate_of_level(const Verification& found);
 
-/// As reports have them: what was proven, against what.
+/// What was proven, against what, as reports have it.
 nlohmann::json facts(const Verification& found);
 nlohmann::json facts(const DistanceBounds& bounds);  ///< `farthest` is null where no point is known to be away
 nlohmann::json facts(const Folds& folds);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "command.h"
+#include "prohull/detail/finite.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
@@ -31,25 +32,13 @@ DistanceBounds reach_of(const Union& all, const TriangleMesh& original) {
   return all.balls.empty() ? union_reach(all.pieces, original, how) : union_reach(all.balls, original, how);
 }
 
-TriangleMesh finite_part(const TriangleMesh& mesh) {
-  TriangleMesh result;
-  for (const FaceId f : mesh.triangles.ids()) {
-    const Triangle t = mesh.triangle(f);
-    if (is_finite(t.a) && is_finite(t.b) && is_finite(t.c)) result.triangles.push_back(mesh.triangles[f]);
-  }
-  result.positions = mesh.positions;
-  for (Vec3& p : result.positions)
-    if (!is_finite(p)) p = {};
-  return result;
-}
-
 bool asks_inside(const Union& all, const VerifyOptions& options, const UnionVerification& found) {
   return found.original_closed && (all.balls.empty() || options.inside || options.solid_only);
 }
 
 bool is_undecided(const UnionVerification& found) { return found.faces_undecided > 0 || found.inside_undecided; }
 
-/// As many as a ball needs, of balls.
+/// The faces of the pieces. Balls count as the finest meshes.
 std::size_t face_count(const Union& all) {
   std::size_t faces = all.balls.empty() ? 0 : std::numeric_limits<std::size_t>::max();
   for (const TriangleMesh& piece : all.pieces) faces += piece.face_count();

@@ -28,7 +28,7 @@ struct VerifyOptions {
 /// "(1, 2, 3)"
 std::string text_of_point(const Vec3& p);
 
-/// As reports have them.
+/// The offenders as reports have them.
 nlohmann::json facts(const std::vector<Offender>& worst);
 
 /// Returns the exit code.

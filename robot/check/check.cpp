@@ -10,6 +10,7 @@
 
 #include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
+#include "prohull/detail/finite.h"
 #include "prohull/detail/solid_pieces.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/enclosure.h"
@@ -22,7 +23,7 @@
 namespace prohull::robot {
 namespace {
 
-/// As shown_segments, where distances are measured.
+/// Segments of the meshes that stand for so many curved forms where distances are measured.
 std::size_t fine_segments(std::size_t forms) { return forms <= 8 ? 128 : 32; }
 
 /// How far the meshes around the forms reach out of them.
@@ -33,7 +34,7 @@ double reach_of_meshes(std::span<const CurvedForm> forms, std::size_t segments) 
   return upper;
 }
 
-/// Of a mesh that encloses what is measured, and of one within it.
+/// How far something reaches out of the form that lies within the mesh `around`, and encloses the mesh `within`.
 DistanceBounds reach_out_of(const CurvedForm& form, const TriangleMesh& around, const TriangleMesh& within) {
   DistanceBounds reach{0, reach_at_most(around, form), {}};
   for (const Vec3& p : within.positions)
@@ -75,15 +76,13 @@ double mean_over(const TriangleMesh& surface, Distance distance) {
 
 std::string millimetres(double metres) { return fmt::format("{:.3g} mm", metres * 1000); }
 
-/// Without the faces that have a corner which is not finite. Returns how many there were.
+/// Drops the faces that have a corner which is not finite. Returns how many there were.
 std::size_t drop_non_finite(TriangleMesh& mesh) {
-  PerFace<std::array<VertexId, 3>> finite;
-  for (const auto& t : mesh.triangles)
-    if (std::all_of(t.begin(), t.end(), [&](VertexId v) { return is_finite(mesh.positions[v]); })) finite.push_back(t);
+  const std::size_t given = mesh.face_count();
+  mesh = with_finite_faces(std::move(mesh));
   for (Vec3& p : mesh.positions)
     if (!is_finite(p)) p = {};
-  std::swap(mesh.triangles, finite);
-  return finite.size() - mesh.triangles.size();
+  return given - mesh.face_count();
 }
 
 /// One link. Everything is in the common frame of its shapes, if they have one, so that nothing is rounded.

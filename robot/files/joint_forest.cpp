@@ -19,7 +19,7 @@ struct Edge {
   std::size_t parent = 0, child = 0;
 };
 
-/// The same joint with parent and child exchanged.
+/// The joint with parent and child exchanged.
 Joint turned(Joint joint) {
   const Pose rotation{joint.origin.rotation, {}};
   joint.anchor = placed(joint.origin, joint.anchor);

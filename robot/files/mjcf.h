@@ -14,10 +14,10 @@ namespace prohull::robot {
 /// joints that follow others in a straight line. Included files are part of the document: with_included_files.
 RobotFile read_mjcf(const XmlDocument& document, const Packages& packages);
 
-/// As with_collisions. The hull of a body takes the place, the name and the contact parameters of its first geom that
-/// collides; the others that collide are removed, and what named them names the hull. Where these geoms are the visual
-/// geometry as well, they stay and stop colliding. MuJoCo collides with the convex hull of a mesh: that encloses the
-/// mesh, so the robot stays covered, but it is fatter than the hull that was certified. Throws
+/// What with_collisions does for MJCF. The hull of a body takes the place, the name and the contact parameters of its
+/// first geom that collides; the others that collide are removed, and what named them names the hull. Where these geoms
+/// are the visual geometry as well, they stay and stop colliding. MuJoCo collides with the convex hull of a mesh: that
+/// encloses the mesh, so the robot stays covered, but it is fatter than the hull that was certified. Throws
 /// InputError(InvalidOption) for a hull that MuJoCo cannot read: neither .stl nor .obj, or with a URI.
 std::string mjcf_with_collisions(const RobotFile& file, const XmlDocument& document,
                                  std::span<const NewCollision> collisions, const std::filesystem::path& folder);

@@ -28,7 +28,7 @@ class Packages {
   /// Throws InputError(CannotRead) for a file that FileOptions::no_outside_files refuses, wherever symbolic links lead.
   MeshFile find(std::string uri, const Vec3& scale, const std::filesystem::path& folder = {}) const;
 
-  /// Likewise the file of a part of the robot's description, whose own files are found in this way, too.
+  /// Finds the file of a part of the robot's description in this way, and the files that it names.
   MeshFile find_description(std::string uri, const std::filesystem::path& folder = {}) const;
 
   /// The URI that a robot in `folder` has to name in place of `uri` to find the same file. A relative path that finds

@@ -123,7 +123,7 @@ class MjcfPieces {
   }
 
  private:
-  /// As mjcf_write.cpp adds a geom to a body that has none to collide.
+  /// The attributes are those of geoms that mjcf_write.cpp adds to a body that has none to collide.
   void add_geom(const std::string& name, const std::string& form) {
     geoms_ += fmt::format("      <geom name=\"{}\" contype=\"1\" conaffinity=\"1\" group=\"3\" mass=\"0\" {}/>\n", name,
                           form);

@@ -48,7 +48,7 @@ struct RobotFile {
 /// is not found is no error here: MeshFile::why_not. CannotRead for what FileOptions::no_outside_files refuses.
 RobotFile read_robot(const std::filesystem::path& path, const FileOptions& options = {});
 
-/// The same of text. `path` stands in messages, and relative mesh files are looked for beside it.
+/// The robot that `text` describes. `path` stands in messages, and relative mesh files are looked for beside it.
 RobotFile read_robot(std::string text, const std::filesystem::path& path, const FileOptions& options = {});
 
 /// What takes the place of all collision elements of a link.

@@ -23,7 +23,7 @@ std::optional<SdfFrame::Kind> kind_of(const XmlElement& element) {
   return std::nullopt;
 }
 
-/// Of old files: SDF reserves the name, and joints that name it as parent are fixed to the world.
+/// Old files have such a link: SDF reserves the name, and joints that name it as parent are fixed to the world.
 bool stands_for_world(const XmlElement& link) {
   const std::string* const name = link.attribute("name");
   return name && *name == "world" && !link.child("visual") && !link.child("collision");

@@ -129,7 +129,7 @@ class UrdfReader {
     return element.name == "cylinder" ? Form(CylinderForm{radius, length}) : Form(CapsuleForm{radius, length});
   }
 
-  /// As simulators and viewers, which show nothing there.
+  /// A form without extent. Simulators and viewers show nothing there, either.
   static OtherForm flat(const XmlElement& element) { return {fmt::format("{} of size 0 or less", element.name)}; }
 
   MeshFile mesh(const XmlElement& element) const {

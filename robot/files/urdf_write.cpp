@@ -174,7 +174,7 @@ class UrdfWriter {
     for (std::size_t i = 0; i < elements.size(); ++i) relocate(shapes(robot_.links[link], which)[i], *elements[i]);
   }
 
-  /// Of all materials, which stand beside the links and in their visual elements.
+  /// Relocates the textures of all materials, which stand beside the links and in their visual elements.
   void relocate_textures() {
     relocate_textures_in(document_.root());
     for (const XmlElement* link : links_)

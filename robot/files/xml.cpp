@@ -102,7 +102,7 @@ class Reader {
     if (open_.size() >= kMostDepth) return stop(fmt::format("elements are nested more than {} deep", kMostDepth));
     XmlElement& element = elements_.emplace_back();
     element.name = name;
-    // Without those that a DTD adds: they do not stand in the text.
+    // Attributes that a DTD adds are left out: they do not stand in the text.
     for (const XML_Char** end = attributes + XML_GetSpecifiedAttributeCount(parser_.get()); attributes != end;
          attributes += 2)
       element.attributes.emplace_back(attributes[0], attributes[1]);
@@ -113,7 +113,7 @@ class Reader {
   }
 
   void end() {
-    // Of <name/> the event of the end has no bytes of its own.
+    // The event for the end of <name/> has no bytes of its own.
     open_.back()->whole.end = std::max(open_.back()->whole.end, event().end);
     open_.pop_back();
   }

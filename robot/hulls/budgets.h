@@ -21,7 +21,7 @@ namespace prohull::robot {
 /// link that the robot does not have.
 void read_budgets(std::string_view text, const std::string& name, const Robot& robot, LinkHullOptions& options);
 
-/// Such a file with every link of the robot, as a start.
+/// A file of budgets with every link of the robot, as a start.
 std::string budgets_text(const Robot& robot, const LinkHullOptions& options);
 
 /// "2mm" as metres. Throws InputError(InvalidOption) that calls it `what`.

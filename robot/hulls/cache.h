@@ -54,7 +54,7 @@ class HullCache {
   /// removed, and what earlier runs have left unfinished.
   void keep(std::string_view key, std::span<const LinkHull> hulls) const;
 
-  /// The same of a picture: the content of a PNG file.
+  /// The picture that is kept by this key: the content of a PNG file.
   std::optional<std::string> find_picture(std::string_view key) const { return find_content(key, kPictureSuffix); }
   void keep_picture(std::string_view key, const std::string& png) const { keep_content(key, kPictureSuffix, png); }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "prohull/certificate.h"
+#include "prohull/detail/finite.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "robot/files/sphere_file.h"
@@ -42,13 +43,9 @@ const MeshFile* original_file(const Link& link, const LinkHulls& made, const Lin
 }
 
 TriangleMesh finite_triangles(const TriangleMesh& mesh) {
-  TriangleMesh finite;
-  finite.positions = mesh.positions;
+  TriangleMesh finite = with_finite_faces(mesh);
   for (Vec3& p : finite.positions)
     if (!is_finite(p)) p = {};
-  for (const auto& corners : mesh.triangles)
-    if (std::ranges::all_of(corners, [&](VertexId v) { return is_finite(mesh.positions[v]); }))
-      finite.triangles.push_back(corners);
   return finite;
 }
 

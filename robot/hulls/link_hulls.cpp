@@ -34,7 +34,7 @@ struct Plan {
   CurvedParts curved = {};                ///< of `hulled`
   std::string key = {};                   ///< key_of its triangles
 
-  /// Of hulls of the triangles, which have meshes around curved forms.
+  /// The budget of hulls of the triangles, which have meshes around curved forms.
   Budget budget_of_triangles() const {
     Budget narrowed = budget;
     if (budget.max_distance > 0)
@@ -240,7 +240,7 @@ bool take_proposal(std::vector<LinkHull> proposal, const Plan& plan, const LinkH
   return true;
 }
 
-/// Those of a link with the same triangles and budget.
+/// Takes the hulls of a link with the same triangles and budget.
 void share_hulls(const LinkHulls& of, LinkHulls& result) {
   result.hulls = of.hulls, result.repairs = of.repairs;
   result.non_finite_faces = of.non_finite_faces;

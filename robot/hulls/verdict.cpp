@@ -15,7 +15,7 @@
 namespace prohull::robot {
 namespace {
 
-/// Or the triangles, if they bound none.
+/// The solid, or the triangles if they bound none.
 const TriangleMesh& solid_of(const RepairedMesh& input) { return input.closed ? input.closed->mesh : input.original; }
 
 /// `sealed` are the triangles with what closes their openings; `distance_from` measures from one of the two.

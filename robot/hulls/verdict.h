@@ -32,7 +32,7 @@ std::optional<double> distance_left(const Budget& budget, double around);
 /// Cancelled.
 void judge(LinkHull& hull, const JudgedGeometry& geometry, const Budget& budget, const Progress& go_on);
 
-/// Of what lies inside of the repaired geometry and of curved forms, in cubic metres: LinkHulls::sealed_volume. 0 if
+/// LinkHulls::sealed_volume: the volume inside of the repaired geometry and of curved forms, in cubic metres. 0 if
 /// nothing does, or if it can only be estimated and the estimate is larger than one of the judged hulls. Throws
 /// Cancelled.
 double sealed_volume(const JudgedGeometry& geometry, std::span<const LinkHull> hulls, const Progress& go_on);

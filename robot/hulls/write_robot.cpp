@@ -155,7 +155,7 @@ class RobotSet {
         if (!has_ball(written.links[collision.link], ball)) fail_to_write(target);
   }
 
-  /// Those of the cover, and spheres that are kept.
+  /// Adds the balls of the cover, and spheres that are kept.
   void add_balls(const NewCollision& collision) {
     const Link& link = file_.robot.links[collision.link];
     LinkBalls all{link.name, collision.balls};

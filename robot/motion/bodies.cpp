@@ -4,13 +4,14 @@
 #include <utility>
 
 #include "prohull/convex_hull.h"
+#include "prohull/detail/finite.h"
 #include "robot/motion/proof_body.h"
 
 namespace prohull::robot {
 
 namespace {
 
-/// With the primitives that are kept; none if the hull is not certified.
+/// The hull with the primitives that are kept; empty if it is not certified.
 TriangleMesh hull_in_link(const Robot& robot, const LinkHulls& link, Geometry from, std::size_t set,
                           Curved curved = Curved::Around) {
   const bool is_hulled = link.status == LinkStatus::Hulled;

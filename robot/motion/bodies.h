@@ -18,7 +18,7 @@ namespace prohull::robot {
 /// collision elements, as output_files does.
 Bodies bodies_of(const Robot& robot, std::span<const LinkHulls> links, Geometry from, std::size_t set = 0);
 
-/// The same hulls of set 0, for a certificate in the folder of the robot: as the files of output_files, where one file
+/// The hulls of set 0, for a certificate in the folder of the robot: as the files of output_files, where one file
 /// has all of a hull.
 std::vector<std::optional<CertifiedBody>> certified_bodies(const Robot& robot, std::span<const LinkHulls> links,
                                                            std::span<const HullFiles> hulls, Geometry from);

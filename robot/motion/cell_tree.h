@@ -14,14 +14,14 @@ inline constexpr std::uint8_t kLeaf = 255;
 /// follow each other.
 class CellRecord {
  public:
-  /// With more freedoms than a tree can name, no tree is kept.
+  /// Keeps no tree if there are more freedoms than a tree can name.
   CellRecord(bool is_asked, std::size_t freedoms) : is_kept_(is_asked && freedoms < kLeaf) {}
 
   bool is_kept() const { return is_kept_; }
   void halve(std::size_t cell, std::size_t freedom, std::size_t first_half);
   /// Keeps no tree: a cell is proven so barely that a checker may see it otherwise.
   void give_up() { is_kept_ = false; }
-  /// Of cell 0, where all cells that were not halved are proven. Empty if no tree is kept.
+  /// The tree below cell 0, where all cells that were not halved are proven. Empty if no tree is kept.
   CellTree tree() const;
 
  private:

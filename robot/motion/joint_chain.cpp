@@ -58,7 +58,7 @@ double largest_norm(std::span<const Vec3> points) {
   return largest;
 }
 
-/// Of a line, the direction of which has length 1.
+/// The largest distance of the points from a line, the direction of which has length 1.
 double largest_distance(std::span<const Vec3> points, const Vec3& on_line, const Vec3& direction) {
   double largest = 0;
   for (const Vec3& p : points) {

@@ -27,7 +27,7 @@ class JointChain {
   JointChain(const Robot& robot, std::size_t a, std::size_t b, std::vector<Vec3> points_of_a,
              std::vector<Vec3> points_of_b);
 
-  /// The same for positions of the joints in these ranges, one of each joint of the robot, whatever its limits are.
+  /// The positions of the joints are in these ranges, one of each joint of the robot, whatever its limits are.
   JointChain(const Robot& robot, std::size_t a, std::size_t b, std::vector<Vec3> points_of_a,
              std::vector<Vec3> points_of_b, std::span<const JointRange> ranges);
 
@@ -75,7 +75,7 @@ class JointChain {
   };
   static constexpr auto kNone = static_cast<std::size_t>(-1);
 
-  /// Of a joint, in the frame of a, with all freedoms in the middle.
+  /// The axis of a joint, in the frame of a, with all freedoms in the middle.
   struct Axis {
     Vec3 point, direction;
     double half = 0;   // how far the joint moves from the middle

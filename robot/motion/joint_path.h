@@ -45,7 +45,8 @@ class JointPath {
   /// How far the place of which time_at is the time, rounded, is at most from one that lies behind the same row.
   double rounding_of_times(double place) const;
 
-  /// Of all joints of the robot, but for those that mimic: others than joints() are at their rest_positions.
+  /// The positions of all joints of the robot, but for those that mimic. Others than joints() are at their
+  /// rest_positions.
   std::vector<double> positions_at(double place) const;
 
   /// The position of joints()[k] halfway between two places that have no row between them or are rows themselves, and

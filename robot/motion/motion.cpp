@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "prohull/detail/finite.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/detail/shapes.h"
 #include "prohull/error.h"
@@ -130,7 +131,7 @@ class Motion {
 
   bool have_hulls(const MotionPair& pair) const { return bodies_[pair.a]->has_hull && bodies_[pair.b]->has_hull; }
 
-  /// Of the pairs whose bounding spheres meet.
+  /// The checks of the pairs whose bounding spheres meet.
   std::vector<Check> checks_in(std::size_t configuration) const {
     const std::vector<Pose> poses = link_poses(robot_, random_positions(robot_, options_.seed, configuration));
     std::vector<Check> checks;
@@ -152,7 +153,7 @@ class Motion {
     return contacts;
   }
 
-  /// Those whose time is measured.
+  /// The checks whose time is measured.
   std::vector<Check> first_checks(ProgressMeter& meter) const {
     constexpr std::size_t kChecks = 1000;
     std::vector<Check> first;

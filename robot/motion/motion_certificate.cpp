@@ -47,7 +47,7 @@ std::string text_of(const CellTree& tree) {
 /// Writes frames: those of links on which others hang, then one of each joint, then those of bodies.
 class Writer {
  public:
-  /// With `rest`, which has a position of each joint, no joint is anywhere else.
+  /// If `rest` is given, it has a position of each joint, and no joint is anywhere else.
   explicit Writer(Robot robot, std::span<const double> rest = {})
       : robot_(std::move(robot)), of_link_(robot_.links.size(), kNone) {
     for (const Joint& joint : robot_.joints) of_link_[joint.child] = 0;

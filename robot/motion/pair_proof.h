@@ -25,7 +25,7 @@ enum class PairVerdict {
   Always,  ///< no joint moves them against each other, and they meet
   Meets,   ///< they meet at PairProof::positions, exactly for the rounded vertices there
   Open,    ///< neither was found; PairProof::why says why
-  // Of rows of SRDF files only, without a proof:
+  // Only rows of SRDF files have these verdicts, which are no proofs:
   Unknown,     ///< the robot has no link of one of the names
   Adjacent,    ///< a joint connects them, or fixed joints do
   NoGeometry,  ///< one of them has none, so that they never meet
@@ -41,8 +41,8 @@ struct PairProof {
   std::size_t cells = 0;               ///< of the joints' positions that were looked at
   std::vector<double> positions = {};  ///< of Always and Meets: of all joints of the robot, within their limits
   FacePair faces = {};                 ///< two faces that meet there; 0 and 0 where one link is inside of the other
-  /// Of Never, if ProofOptions::keep_trees: the joints that move freely, the positions that are looked at of each, and
-  /// what became of the cells.
+  /// Known of Never, if ProofOptions::keep_trees: the joints that move freely, the positions that are looked at of
+  /// each, and what became of the cells.
   std::vector<std::size_t> freedoms = {};
   std::vector<JointRange> ranges = {};
   CellTree tree = {};
@@ -69,7 +69,7 @@ struct ProofOptions {
 /// rotations closest to their matrices; what doubles lose on the way is bounded, and part of the change.
 std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const TriangleMesh> links,
                                    std::span<const LinkPair> pairs, const ProofOptions& options = {});
-/// The same of bodies; those that the pairs name have to be there.
+/// Decides it for bodies, which may have several parts. Those that the pairs name have to be there.
 std::vector<PairProof> prove_pairs(const Robot& robot, std::span<const std::optional<ProofBody>> links,
                                    std::span<const LinkPair> pairs, const ProofOptions& options = {});
 

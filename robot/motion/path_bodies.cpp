@@ -6,6 +6,7 @@
 #include <array>
 #include <set>
 
+#include "prohull/detail/finite.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "robot/link_triangles.h"

@@ -19,7 +19,7 @@ namespace prohull::robot {
 struct PathBody {
   std::string name;
   std::optional<std::size_t> link;  ///< none: of the world
-  /// Its parts are its closed shapes, which are one solid, and its others, which are faces alone.
+  /// The parts are the body's closed shapes, which are one solid, and its others, which are faces alone.
   std::optional<ProofBody> shape = {};
   std::string unread = {};      ///< why nothing can be proven about it; empty if all of it was read
   bool was_inside_out = false;  ///< a closed mesh of it, or a component of one, was turned

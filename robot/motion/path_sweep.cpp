@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "prohull/convex_cover.h"
+#include "prohull/detail/finite.h"
 #include "prohull/error.h"
 #include "robot/link_triangles.h"
 #include "robot/motion/joint_chain.h"

@@ -21,7 +21,7 @@ struct PlannerRobot {
 /// same doubles. Throws InputError(InvalidOption) for names that are not UTF-8.
 std::string curobo_file(const PlannerRobot& planned);
 
-/// The same as an Extended Robot Description, XRDF 1.0, as Isaac's cuMotion reads it.
+/// The configuration as an Extended Robot Description, XRDF 1.0, as Isaac's cuMotion reads it.
 std::string xrdf_file(const PlannerRobot& planned);
 
 }  // namespace prohull::robot

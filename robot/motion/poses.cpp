@@ -32,7 +32,7 @@ bool names_columns(std::string_view row) {
   return row.find_first_of("+-.0123456789") != 0 && row.find_first_of("xyzw") != row.npos;
 }
 
-/// Of the columns that the names tell.
+/// Refuses names of columns that put the w of the quaternion last.
 void check_order(std::string_view names, const std::string& file) {
   const auto w = names.rfind('w'), z = names.rfind('z');
   if (w != names.npos && z != names.npos && w > z)

@@ -65,17 +65,6 @@ double distance_of_balls(const ProofBody& a, const ProofBody& b, const Pose& pos
   return norm(placed(pose, b.ball.center) - a.ball.center) - a.ball.radius - b.ball.radius - rounding;
 }
 
-TriangleMesh with_finite_faces(TriangleMesh mesh) {
-  const auto is_broken = [&](const std::array<VertexId, 3>& corners) {
-    return std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return !is_finite(mesh.positions[v]); });
-  };
-  PerFace<std::array<VertexId, 3>> kept;
-  for (const auto& corners : mesh.triangles)
-    if (!is_broken(corners)) kept.push_back(corners);
-  mesh.triangles = std::move(kept);
-  return mesh;
-}
-
 void in_parallel(std::size_t count, unsigned threads, ProgressMeter& meter,
                  const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> done = 0;

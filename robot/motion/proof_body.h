@@ -55,8 +55,6 @@ FacePair first_faces(const ProofBody& a, const ProofBody& b, const Pose& pose, c
 /// The least distance of the balls, `b` being where the pose puts it, less `rounding`.
 double distance_of_balls(const ProofBody& a, const ProofBody& b, const Pose& pose, double rounding);
 
-TriangleMesh with_finite_faces(TriangleMesh mesh);
-
 /// Calls work(i) once for each number below `count`, on up to `threads` threads (0: one for each core), and tells the
 /// meter how many are done. Throws what `work` throws, and Cancelled.
 void in_parallel(std::size_t count, unsigned threads, ProgressMeter& meter,

@@ -3,6 +3,7 @@
 #include <memory>
 #include <numbers>
 
+#include "prohull/detail/finite.h"
 #include "prohull/error.h"
 #include "render/draw.h"
 #include "render/marks.h"
@@ -14,23 +15,6 @@ namespace {
 using render::Rgb;
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-/// The finite triangles, and the vertices that they use.
-TriangleMesh drawable(const TriangleMesh& mesh) {
-  TriangleMesh result;
-  PerVertex<std::optional<VertexId>> place(mesh.vertex_count());
-  for (const auto& corners : mesh.triangles) {
-    std::array<VertexId, 3> kept{};
-    if (!std::ranges::all_of(corners, [&](VertexId v) { return is_finite(mesh.positions[v]); })) continue;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      auto& known = place[corners[k]];
-      if (!known) known = result.positions.push_back(mesh.positions[corners[k]]);
-      kept[k] = *known;
-    }
-    result.triangles.push_back(kept);
-  }
-  return result;
-}
 
 /// Where all pictures of a thing are drawn: its box, the side from which it is seen, and the camera.
 class Stage {
@@ -105,13 +89,13 @@ std::string drawn(const Picture& picture, const Stage& stage, const PictureOptio
 std::vector<Picture> drawable(std::span<const Picture> pictures) {
   std::vector<Picture> result;
   for (const Picture& p : pictures) {
-    result.push_back({drawable(p.inside), drawable(p.around), p.shell, p.marked});
+    result.push_back({finite_part(p.inside), finite_part(p.around), p.shell, p.marked});
     if (p.marked && !is_finite(*p.marked)) result.back().marked.reset();
   }
   return result;
 }
 
-/// That of one of several pictures.
+/// The progress of one of several pictures.
 Progress part_of(const Progress& progress, std::size_t picture, std::size_t count) {
   if (!progress) return {};
   return [&progress, picture, count](std::string_view, double fraction) {

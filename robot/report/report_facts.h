@@ -30,7 +30,7 @@ std::string ratio_text(std::optional<double> ratio);       ///< "1.06 Ã—", or "â
 std::optional<double> ratio(double value, double of);      ///< none unless both are positive and finite
 std::optional<double> median(std::vector<double> values);  ///< none without values
 
-/// Of a link; nullptr if there is none.
+/// The hulls of a link, its check, and its first hull; nullptr if there is none.
 const LinkHulls* hulls_of(const ReportInput& input, std::size_t link);
 const LinkCheck* check_of(const ReportInput& input, std::size_t link);
 const LinkHull* first_hull(const LinkHulls& hulls);

@@ -7,6 +7,7 @@
 
 #include "geometry/orientation.h"
 #include "mesh/closed.h"
+#include "prohull/detail/finite.h"
 #include "prohull/enclosure.h"
 #include "verify/surface.h"
 
@@ -15,14 +16,6 @@ namespace {
 
 constexpr std::string_view kMagic("\x89PHCER\r\n", 8);
 constexpr std::uint64_t kVersion = 1;
-
-TriangleMesh finite_triangles(const TriangleMesh& mesh) {
-  TriangleMesh finite{mesh.positions, {}};
-  for (const auto& corners : mesh.triangles)
-    if (std::ranges::all_of(corners, [&](VertexId v) { return is_finite(mesh.positions[v]); }))
-      finite.triangles.push_back(corners);
-  return finite;
-}
 
 /// Groups of faces that common edges connect.
 std::vector<std::vector<FaceId>> components(const TriangleMesh& mesh, const std::vector<FaceId>& faces) {
@@ -70,7 +63,7 @@ void add_faces(const CertifiedOriginal& original, const FiniteOriginal& finite, 
 }  // namespace
 
 FiniteOriginal::FiniteOriginal(const TriangleMesh& mesh)
-    : triangles(finite_triangles(mesh)), is_closed(prohull::is_closed(triangles)) {
+    : triangles(with_finite_faces(mesh)), is_closed(prohull::is_closed(triangles)) {
   if (!is_closed) return;
   turned = turned_outwards(triangles);
   std::vector<FaceId> faces;

@@ -1,5 +1,12 @@
 #include "prohull/triangle_mesh.h"
 
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "prohull/detail/finite.h"
+
 namespace prohull {
 
 void append(TriangleMesh& mesh, const TriangleMesh& part) {
@@ -22,6 +29,30 @@ Box finite_bounding_box(const TriangleMesh& mesh) {
     if (const Triangle t = mesh.triangle(f); is_finite(t.a) && is_finite(t.b) && is_finite(t.c))
       for (const Vec3& p : {t.a, t.b, t.c}) box.extend(p);
   return box;
+}
+
+TriangleMesh with_finite_faces(TriangleMesh mesh) {
+  PerFace<std::array<VertexId, 3>> kept;
+  kept.reserve(mesh.face_count());
+  for (const auto& corners : mesh.triangles)
+    if (std::ranges::all_of(corners, [&](VertexId v) { return is_finite(mesh.positions[v]); })) kept.push_back(corners);
+  mesh.triangles = std::move(kept);
+  return mesh;
+}
+
+TriangleMesh finite_part(const TriangleMesh& mesh) {
+  const TriangleMesh finite = with_finite_faces(mesh);
+  PerVertex<std::optional<VertexId>> renumbered(mesh.vertex_count());
+  TriangleMesh part;
+  for (std::array<VertexId, 3> corners : finite.triangles) {
+    for (VertexId& v : corners) {
+      std::optional<VertexId>& known = renumbered[v];
+      if (!known) known = part.positions.push_back(mesh.positions[v]);
+      v = *known;
+    }
+    part.triangles.push_back(corners);
+  }
+  return part;
 }
 
 double signed_volume(const TriangleMesh& mesh) {

@@ -22,7 +22,7 @@ export class LevelControl {
     hull.body.update(hull.levels.faces);
   }
 
-  /** Of all progressive hulls: the finest level of at most so many faces. */
+  /** Shows the finest level of at most so many faces of all progressive hulls. */
   setFaces(faces) {
     if (this.hulls.length === 0) return;
     this.view.rays.end();
@@ -75,7 +75,7 @@ export class LevelControl {
     const {base_faces: base, original_faces: finest} = this.view.active;
     return Math.round(base * (finest / base) ** share);
   }
-  /** Of the level that is wanted. */
+  /** The place of the level that is wanted, between 0, the base, and 1, the finest. */
   share() {
     const {base_faces: base, original_faces: finest, levels} = this.view.active;
     const wanted = base + 2 * levels.levelOf(this.view.state.faces ?? base);

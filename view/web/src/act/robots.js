@@ -24,7 +24,7 @@ export class RobotControl {
     });
   }
 
-  /** Of all robots: the joints of that name. */
+  /** Moves the joints of that name of all robots. */
   set(name, position) {
     for (const {robot} of this.shown)
       robot.joints.forEach((joint, i) => { if (joint.name === name) robot.positions[i] = position; });

@@ -103,7 +103,7 @@ export class Levels {
 
   get finestFaces() { return this.baseFaces + 2 * this.count; }
   get faces() { return this.baseFaces + 2 * this.level; }
-  /** Of the true level that is nearest to what is drawn. */
+  /** The faces of the true level that is nearest to what is drawn. */
   get shownFaces() { return this.baseFaces + 2 * this.shown; }
 
   /** The finest level of at most so many faces, or the base mesh: a number of splits. */

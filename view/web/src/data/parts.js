@@ -2,7 +2,7 @@
 
 import {rgb} from '../picture/materials.js';
 
-// Of Okabe and Ito (2008), without black; then lighter, then darker.
+// The colours of Okabe and Ito (2008), without black; then lighter, then darker.
 const COLORS = ['#56b4e9', '#e69f00', '#009e73', '#f0e442', '#0072b2', '#d55e00', '#cc79a7'].map(rgb);
 const MOST = 1000;
 

@@ -22,7 +22,7 @@ export class Robot {
     this.positions = joints.map((joint) => joint.rest);
   }
 
-  /** Those that a slider moves. */
+  /** The joints that a slider moves. */
   get free() {
     return this.joints.map((joint, i) => ({...joint, i})).filter(({motion, mimic}) => motion !== 'none' && !mimic);
   }

@@ -18,7 +18,7 @@ export class Space {
     this.half = most.map((m, k) => (m - least[k]) / 2 / STEPS);
   }
 
-  /** Of steps of the grid, x, y, z in turn. */
+  /** Where points are drawn that are given as steps of the grid, x, y, z in turn. */
   drawn(steps) {
     const points = new Float32Array(steps.length);
     for (let i = 0; i < steps.length; ++i) points[i] = steps[i] / STEPS - this.middle[i % 3];
@@ -27,15 +27,15 @@ export class Space {
 
   lengths(steps) { return Float32Array.from(steps, (x) => x / STEPS); }
 
-  /** Of a point in the unit of the meshes. */
+  /** Where a point in the unit of the meshes is drawn. */
   at(point) {
     return point.map((x, k) => x / this.side - this.origin[k] / this.side - this.middle[k]);
   }
 
-  /** Of a point in the unit of the meshes, as steps of the grid. */
+  /** A point in the unit of the meshes, as steps of the grid. */
   steps(point) { return point.map((x, k) => (x - this.origin[k]) / this.side * STEPS); }
 
-  /** In the unit of the meshes. */
+  /** The point in the unit of the meshes that is drawn there. */
   point(drawn) {
     return drawn.map((x, k) => (x + this.middle[k]) * this.side + this.origin[k]);
   }

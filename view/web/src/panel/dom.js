@@ -25,7 +25,7 @@ export const byId = (id) => document.getElementById(id);
 export const grouped = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, ',');
 export const counted = (count, one, many) => `${grouped(count)} ${count === 1 ? one : many}`;
 
-/** With four digits that count. */
+/** The number with four digits that count. */
 export function short(number, digits = 4) {
   if (number === 0 || !Number.isFinite(number)) return String(number);
   const text = number.toPrecision(digits);

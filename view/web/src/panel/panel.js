@@ -18,7 +18,7 @@ export function swatch(color, striped) {
   return element;
 }
 
-/** Of a mesh alone. */
+/** The verdict of a mesh that is compared with nothing. */
 function verdictOfMesh({watertight, defects, first_defect: first}, alone) {
   if (watertight) return ['good', '✓', 'Watertight', alone];
   const counts = defects.map(({what, count}) => `${grouped(count)} ${what}`).join(', ');

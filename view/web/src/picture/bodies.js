@@ -7,7 +7,7 @@ import {Bodies, Body} from './body.js';
 
 const CLAY = '#e0b48c', BLUE = '#6aa9e6';
 const MORE = [BLUE, '#009e73', '#cc79a7', '#f0e442', '#0072b2', '#e69f00', '#56b4e9', '#999999'];
-// Of surfaces that touch, the outer one is seen.
+// Where surfaces touch, the outer one is seen.
 const DEPTH = {outer: 1, original: 3, inner: 5};
 
 const isInner = (hull) => hull.side === 'inner' || hull.verification?.side === 'inner';
@@ -54,7 +54,7 @@ class Maker {
       divided: hull.heat && !levels ? dividedMesh(hull.mesh, hull.heat, this.bytes) : null});
   }
 
-  /** Its visual geometry in its collision geometry. */
+  /** Adds the robot's visual geometry, and its collision geometry around it. */
   addRobot(hull, color) {
     const {space, viewport} = this.view;
     const bodiesOf = (which, how) => {

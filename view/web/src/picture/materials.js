@@ -87,7 +87,7 @@ export const showsParts = {value: false};
 const material = (fragmentShader, uniforms, options) =>
     new THREE.ShaderMaterial({vertexShader: VERTEX, fragmentShader, uniforms: {plane, explosion, showsParts, ...uniforms}, ...options});
 
-/** Of surfaces that touch, the one with less `depth` is seen. */
+/** Where surfaces touch, the one with less `depth` is seen. */
 export function surfaceMaterial(color, depth) {
   return material(SURFACE, {color: {value: new THREE.Color(...color)}, opacity: {value: 1}, showsHeat: {value: false},
     heatFactor: {value: 1}}, {
@@ -103,7 +103,7 @@ export function edgeMaterial() {
       {transparent: true, depthWrite: false});
 }
 
-/** Of lines that are seen through everything. */
+/** Lines that are seen through everything. */
 export function defectMaterial() {
   return material(FLAT, {color: {value: new THREE.Color(...rgb('#c2185b'))}, opacity: {value: 1}}, {transparent: true, depthTest: false});
 }

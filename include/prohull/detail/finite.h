@@ -1,0 +1,13 @@
+#pragma once
+
+#include "prohull/triangle_mesh.h"
+
+namespace prohull {
+
+/// The mesh without the faces that have a corner which is not finite. All vertices stay.
+TriangleMesh with_finite_faces(TriangleMesh mesh);
+
+/// The faces whose corners are all finite, and the vertices that they use, in the order of their first use.
+TriangleMesh finite_part(const TriangleMesh& mesh);
+
+}  // namespace prohull
