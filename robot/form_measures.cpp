@@ -1,7 +1,6 @@
 #include "robot/form_measures.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "prohull/enclosing_hull.h"
 #include "prohull/union_verification.h"

@@ -9,7 +9,6 @@
 #include "command.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/detail/rounded.h"
-#include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "verdict.h"
 

@@ -1,7 +1,5 @@
 #include "command.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 namespace prohull::cli {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <optional>
 #include <set>
 #include <span>
@@ -14,7 +13,6 @@
 #include "command.h"
 #include "engine_rules.h"
 #include "prohull/convex_cover.h"
-#include "prohull/detail/float32_hull.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"

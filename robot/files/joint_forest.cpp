@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "robot/transform.h"

@@ -13,7 +13,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <string_view>
 #include <system_error>
 #include <thread>
 

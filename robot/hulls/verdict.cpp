@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "prohull/closed_solid.h"
 #include "prohull/error.h"

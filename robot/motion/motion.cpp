@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <optional>
 
 #include "prohull/detail/finite.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/detail/shapes.h"
-#include "prohull/error.h"
 #include "robot/motion/joint_paths.h"
 #include "robot/motion/proof_body.h"
 #include "robot/transform.h"

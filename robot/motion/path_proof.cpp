@@ -1,7 +1,6 @@
 #include "robot/motion/path_proof.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <queue>

@@ -4,10 +4,8 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <limits>
-#include <utility>
 
 #include "prohull/convex_hull.h"
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 #include <initializer_list>
 #include <span>
 
@@ -274,21 +274,13 @@ Cell certificate(const LinkHull& hull) {
 
 Cell verdict(const LinkCheck& check, double allow) {
   const bool good = passes(check, allow);
-  switch (check.verdict) {
-    case CheckVerdict::Covered:
-      return {"✓ covered", "good"};
-    case CheckVerdict::Leaks:
-      return good ? Cell("✓ leaks as allowed", "good") : Cell("✕ leaks", "bad");
-    case CheckVerdict::Undecided:
-      return good ? Cell("✓ touches", "good") : Cell("! undecided", "look");
-    case CheckVerdict::NoCollision:
-      return {"✕ none", "bad"};
-    case CheckVerdict::NoVisual:
-      return "no visual";
-    case CheckVerdict::Missing:
-      return {"✕ not checked", "bad"};
-  }
-  return "";
+  const Cell cells[]{{"✓ covered", "good"},
+                     good ? Cell("✓ leaks as allowed", "good") : Cell("✕ leaks", "bad"),
+                     good ? Cell("✓ touches", "good") : Cell("! undecided", "look"),
+                     {"✕ none", "bad"},
+                     {"no visual"},
+                     {"✕ not checked", "bad"}};
+  return cells[static_cast<std::size_t>(check.verdict)];
 }
 
 std::string sticks_out(const LinkCheck& check) {
@@ -297,19 +289,8 @@ std::string sticks_out(const LinkCheck& check) {
 }
 
 std::string words_for(LinkStatus status) {
-  switch (status) {
-    case LinkStatus::Hulled:
-      return "";
-    case LinkStatus::Primitives:
-      return "keeps its primitives";
-    case LinkStatus::Skipped:
-      return "skipped";
-    case LinkStatus::Unread:
-      return "not read";
-    case LinkStatus::Empty:
-      return "no geometry";
-  }
-  return {};
+  constexpr const char* kWords[]{"", "keeps its primitives", "skipped", "not read", "no geometry"};
+  return kWords[static_cast<std::size_t>(status)];
 }
 
 std::vector<Cell> hull_cells(const LinkHulls* hulls) {
@@ -375,51 +356,56 @@ std::string head_of(const LinkHull& hull, const LinkHulls& link) {
   return link.hulls.size() == 1 ? "Hull" : fmt::format("Hull of {}", grouped(hull.target_faces));
 }
 
-/// The facts about a link: a column for each hull, and one for what was shipped.
-std::string facts_table(const LinkHulls* link, const LinkCheck* check, double allow) {
+/// A fact about hulls, and about what was shipped.
+struct Fact {
+  bool is_shown;
+  const char* head;
+  std::function<Cell(const LinkHull&)> of_hull;
+  std::function<Cell(const LinkCheck&)> of_check;
+};
+
+std::vector<Fact> facts(const LinkHulls* link, std::span<const LinkHull> hulls, bool has_check, double allow) {
   using Hull = const LinkHull&;
   using Check = const LinkCheck&;
+  const bool has_hulls = !hulls.empty(), is_padded = std::ranges::any_of(hulls, [](Hull h) { return h.padding > 0; });
+  const auto unknown = [](const auto&) { return kDash; };
+  const auto range = [](const DistanceBounds& bounds) { return range_text(bounds.lower, bounds.upper); };
+  const auto times = [](double volume, double of) { return ratio_text(ratio(volume, of)); };
+  return {{true, "Encloses the geometry", certificate, [=](Check c) { return verdict(c, allow); }},
+          {has_check, "Geometry sticks out by", [](Hull h) { return h.certified ? "0 mm" : "?"; }, sticks_out},
+          {true, "Faces", [=](Hull h) { return faces_of(h, link->collision); },
+           [](Check c) { return count_in(c.collision_faces, c.pieces > 1 ? counted(c.pieces, "piece") : ""); }},
+          {true, "Volume / original", [=](Hull h) { return times(h.volume, link->sealed_volume); },
+           [=](Check c) { return times(c.collision_volume, c.visual_volume); }},
+          {true, "Volume / convex hull", [=](Hull h) { return times(h.volume, link->convex_volume); },
+           [=](Check c) { return times(c.collision_volume, c.convex_volume); }},
+          {true, "Greatest distance from the geometry", [=](Hull h) { return range(h.distance); },
+           [=](Check c) { return range(c.reach); }},
+          {std::ranges::any_of(hulls, &LinkHull::has_openings), "The same, from its triangles alone",
+           [=](Hull h) { return range(h.distance_from_triangles); }, unknown},
+          {has_check, "Mean distance from the geometry", unknown, [](Check c) { return length_text(c.mean_distance); }},
+          {is_padded, "Padding, proven", [](Hull h) { return "at least " + length_text(h.padding, Rounded::Down); },
+           unknown},
+          {has_hulls, "Proof", [](Hull h) { return h.proof.empty() ? kDash : html_escaped(h.proof); }, unknown},
+          {has_hulls, "Built from", built_from, unknown}};
+}
+
+/// The facts about a link: a column for each hull, and one for what was shipped.
+std::string facts_table(const LinkHulls* link, const LinkCheck* check, double allow) {
   if (check && !was_measured(*check)) check = nullptr;
   const std::span<const LinkHull> hulls = link ? std::span(link->hulls) : std::span<const LinkHull>();
   if (hulls.empty() && !check) return {};
   std::vector<std::string> heads{""};
-  for (Hull hull : hulls) heads.push_back(head_of(hull, *link));
+  for (const LinkHull& hull : hulls) heads.push_back(head_of(hull, *link));
   if (check) heads.emplace_back("Shipped");
   std::string rows;
-  const auto line = [&](bool is_shown, const char* head, auto of_hull, auto of_check) {
+  for (const Fact& fact : facts(link, hulls, check, allow)) {
+    if (!fact.is_shown) continue;
     std::vector<Cell> cells;
-    for (Hull hull : hulls) cells.emplace_back(of_hull(hull));
-    if (check) cells.emplace_back(of_check(*check));
-    if (is_shown) rows += row(head, cells);
-  };
-  const bool has_hulls = !hulls.empty(), is_padded = std::ranges::any_of(hulls, [](Hull h) { return h.padding > 0; });
-  const auto unknown = [](const auto&) { return kDash; };
-  const auto range = [](const DistanceBounds& bounds) { return range_text(bounds.lower, bounds.upper); };
-  line(true, "Encloses the geometry", certificate, [&](Check c) { return verdict(c, allow); });
-  line(
-      check, "Geometry sticks out by", [](Hull h) { return h.certified ? "0 mm" : "?"; }, sticks_out);
-  line(
-      true, "Faces", [&](Hull h) { return faces_of(h, link->collision); },
-      [](Check c) { return count_in(c.collision_faces, c.pieces > 1 ? counted(c.pieces, "piece") : ""); });
-  line(
-      true, "Volume / original", [&](Hull h) { return ratio_text(ratio(h.volume, link->sealed_volume)); },
-      [](Check c) { return ratio_text(ratio(c.collision_volume, c.visual_volume)); });
-  line(
-      true, "Volume / convex hull", [&](Hull h) { return ratio_text(ratio(h.volume, link->convex_volume)); },
-      [](Check c) { return ratio_text(ratio(c.collision_volume, c.convex_volume)); });
-  line(
-      true, "Greatest distance from the geometry", [&](Hull h) { return range(h.distance); },
-      [&](Check c) { return range(c.reach); });
-  line(
-      std::ranges::any_of(hulls, &LinkHull::has_openings), "The same, from its triangles alone",
-      [&](Hull h) { return range(h.distance_from_triangles); }, unknown);
-  line(check, "Mean distance from the geometry", unknown, [](Check c) { return length_text(c.mean_distance); });
-  line(
-      is_padded, "Padding, proven", [](Hull h) { return "at least " + length_text(h.padding, Rounded::Down); },
-      unknown);
-  line(
-      has_hulls, "Proof", [](Hull h) { return h.proof.empty() ? kDash : html_escaped(h.proof); }, unknown);
-  line(has_hulls, "Built from", built_from, unknown);
+    for (const LinkHull& hull : hulls) cells.push_back(fact.of_hull(hull));
+    if (check) cells.push_back(fact.of_check(*check));
+    rows += row(fact.head, cells);
+  }
   return fmt::format("<div class=\"facts\">{}</div>\n", table("", heads, rows));
 }
 

@@ -1,7 +1,6 @@
 #include "certificate/finite_original.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string_view>
 
