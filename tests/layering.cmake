@@ -16,7 +16,7 @@ endmacro()
 room(base      OWNS detail/rounded error detail/names detail/stopwatch detail/text progress)
 room(geometry  OWNS geometry detail/shapes                                                     MAY base)
 room(parallel  OWNS detail/progress_meter detail/threads                         MAY base)
-room(mesh      OWNS detail/disjoint_sets detail/ids length triangle_mesh detail/vertex_split mesh_report detail/mesh_quality detail/mesh_marks regions detail/symmetry MAY geometry base)
+room(mesh      OWNS detail/disjoint_sets detail/finite detail/ids length triangle_mesh detail/vertex_split mesh_report detail/mesh_quality detail/mesh_marks regions detail/symmetry MAY geometry base)
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
 room(query     OWNS mesh_query                                                       MAY hull mesh geometry parallel base)
 room(io        OWNS detail/base64 detail/memory mesh_io detail/missing_file hull_file detail/query_io                            MAY hull mesh geometry parallel base

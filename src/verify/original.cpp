@@ -2,16 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "geometry/usable_size.h"
 #include "mesh/closed.h"
-#include "prohull/detail/finite.h"
 #include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 #include "verify/surface.h"
 
 namespace prohull::verify {
+namespace {
+
+std::size_t drop_non_finite_faces(TriangleMesh& mesh) {
+  const std::size_t before = mesh.face_count();
+  PerFace<std::array<VertexId, 3>> finite;
+  finite.reserve(before);
+  for (const auto& corners : mesh.triangles)
+    if (std::ranges::all_of(corners, [&](VertexId v) { return is_finite(mesh.positions[v]); }))
+      finite.push_back(corners);
+  mesh.triangles = std::move(finite);
+  return before - mesh.face_count();
+}
+
+}  // namespace
 
 Box usable_box(const TriangleMesh& mesh, std::string_view name) {
   require_usable(mesh, name);
@@ -24,9 +39,7 @@ Box usable_box(const TriangleMesh& mesh, std::string_view name) {
 
 PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& notes) {
   PreparedOriginal result;
-  const std::size_t given = mesh.face_count();
-  mesh = with_finite_faces(std::move(mesh));
-  result.non_finite_faces = given - mesh.face_count();
+  result.non_finite_faces = drop_non_finite_faces(mesh);
   if (const std::size_t dropped = result.non_finite_faces)
     notes.push_back(fmt::format("{} of the original {} not finite and {} left out", counted(dropped, "face"),
                                 dropped == 1 ? "is" : "are", dropped == 1 ? "is" : "are"));
