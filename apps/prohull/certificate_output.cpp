@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "console.h"
+#include "options.h"
 
 namespace prohull::cli {
 namespace {
