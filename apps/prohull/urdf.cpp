@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
+#include <string>
 
 #include "command.h"
 #include "prohull/error.h"
@@ -222,6 +224,19 @@ bool is_as_asked(const LinkHulls& link) {
          std::ranges::all_of(link.hulls, &LinkHull::within_bounds);
 }
 
+/// What a package needs beside its folder.
+std::string outside_text(const UrdfOptions& options, const Robot& robot) {
+  std::set<std::string> outside;
+  if (!options.package.empty())
+    for (const Link& link : robot.links)
+      for (const Shape& shape : link.visual)
+        if (const MeshFile* const mesh = shape.mesh(); mesh && !mesh->uri.starts_with("package://"))
+          outside.insert(mesh->uri);
+  if (outside.empty()) return "";
+  return fmt::format("  the package refers to {} of the visual geometry outside of its folder, such as {}\n",
+                     counted(outside.size(), "mesh file"), *outside.begin());
+}
+
 int run_build(const UrdfOptions& options, const RobotFile& file) {
   const Stopwatch watch;
   if (options.sampled_pairs && options.motion.configurations == 0)
@@ -257,7 +272,8 @@ int run_build(const UrdfOptions& options, const RobotFile& file) {
   const bool is_done = is_covered && (!facts.motion || facts.motion->missed() == 0);
   write_report(options, facts, files, folder);
   folder.commit(report_json(facts), key, is_done ? kDone : kAnswerIsNo);
-  say("{}  {:.1f} s\n", robot_summary(options.out, facts, options.sampled_pairs), watch.seconds());
+  say("{}{}  {:.1f} s\n", robot_summary(options.out, facts, options.sampled_pairs), outside_text(options, file.robot),
+      watch.seconds());
   return is_done ? kDone : kAnswerIsNo;
 }
 

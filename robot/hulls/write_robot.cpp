@@ -50,14 +50,31 @@ bool is_package_name(const std::string& name) {
   return std::islower(static_cast<unsigned char>(name[0])) && std::ranges::all_of(name, is_known);
 }
 
-std::string package_xml(const std::string& package, const std::string& robot) {
+/// Those that meshes of the robot are in.
+std::set<std::string> packages_of(const Robot& robot) {
+  constexpr std::string_view kScheme = "package://";
+  std::set<std::string> packages;
+  for (const Link& link : robot.links)
+    for (const auto* const shapes : {&link.visual, &link.collision})
+      for (const Shape& shape : *shapes)
+        if (const MeshFile* const mesh = shape.mesh(); mesh && mesh->uri.starts_with(kScheme))
+          packages.insert(mesh->uri.substr(kScheme.size(), mesh->uri.find('/', kScheme.size()) - kScheme.size()));
+  return packages;
+}
+
+std::string package_xml(const std::string& package, const Robot& robot) {
+  std::set<std::string> others = packages_of(robot);
+  others.erase(package);
+  std::string depends;
+  for (const std::string& other : others)
+    depends += fmt::format("  <exec_depend>{}</exec_depend>\n", xml_escaped(other));
   return fmt::format(
       "<?xml version=\"1.0\"?>\n<package format=\"3\">\n  <name>{}</name>\n  <version>0.1.0</version>\n"
       "  <description>{} with certified collision meshes</description>\n"
       "  <maintainer email=\"maintainer@example.com\">maintainer</maintainer>\n  <license>see the original</license>\n"
-      "  <buildtool_depend>ament_cmake</buildtool_depend>\n"
+      "  <buildtool_depend>ament_cmake</buildtool_depend>\n{}"
       "  <export>\n    <build_type>ament_cmake</build_type>\n  </export>\n</package>\n",
-      package, xml_escaped(robot));
+      package, xml_escaped(robot.name), depends);
 }
 
 /// Installs what is in the folder, as description packages of ROS 2 do.
@@ -222,7 +239,7 @@ RobotFiles output_files(const RobotFile& file, std::span<const LinkHulls> links,
     robot.add_to(all, folder);
   }
   if (!options.package.empty()) {
-    all.files.push_back(text_file("package.xml", package_xml(options.package, file.robot.name)));
+    all.files.push_back(text_file("package.xml", package_xml(options.package, file.robot)));
     all.files.push_back(text_file("CMakeLists.txt", package_cmake(options.package)));
   }
   return all;
