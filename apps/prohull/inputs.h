@@ -67,8 +67,7 @@ std::string read_bytes(const std::filesystem::path& path);
 
 /// read_mesh of a file, or of standard input for "-"; ended by Ctrl-C.
 TriangleMesh read_input(const std::filesystem::path& path, const InputOptions& options = {},
-                        NonFinite non_finite = NonFinite::Refuse, MeshMarks* marks = nullptr,
-                        FileUnit* unit = nullptr);
+                        NonFinite non_finite = NonFinite::Refuse, MeshMarks* marks = nullptr, FileUnit* unit = nullptr);
 
 /// What a mesh or .phull file holds; it is read once, so that it may be a pipe.
 using MeshOrHull = std::variant<TriangleMesh, ProgressiveHull>;

@@ -24,8 +24,8 @@ struct MeshReport {
   std::size_t misoriented_edges = 0;      ///< edges with two faces that disagree about the outside
   std::size_t non_manifold_vertices = 0;  ///< vertices whose faces are more than one disk or fan
   long euler_characteristic = 0;          ///< vertices - edges + faces
-  Box box;  ///< of the triangles that are finite
-  double volume = 0;                        ///< signed; it has a meaning for closed meshes only
+  Box box;                                ///< of the triangles that are finite
+  double volume = 0;                      ///< signed; it has a meaning for closed meshes only
   Defect worst_defect = Defect::EmptyMesh;  ///< the worst kind of defect; only if first_defect is not empty
   std::string first_defect;                 ///< where that defect occurs first; empty if there is none
 
