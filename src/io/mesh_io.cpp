@@ -103,7 +103,7 @@ std::optional<std::string> with_line_feeds(std::string_view content) {
   if (content.find('\n') != content.npos || content.find('\r') == content.npos) return {};
   if (content.find('\0') != content.npos || is_binary_stl(content)) return {};
   std::string text(content);
-  std::ranges::replace(text, '\r', '\n');
+  std::replace(text.begin(), text.end(), '\r', '\n');
   return text;
 }
 
