@@ -12,33 +12,34 @@
 #include "prohull/distance.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/error.h"
-#include "robot/motion/joint_chain.h"
+#include "robot/motion/joint_limits.h"
 #include "robot/motion/kinematics.h"
 #include "robot/motion/sampling.h"
 
 namespace prohull::robot {
 namespace {
 
-/// Of a joint by itself, whatever moves it.
-JointRange range_of(const Robot& robot, std::size_t number, std::size_t followed = 0) {
+/// The positions that a joint can have, rounded outwards. `allowed` are allowed_ranges of the robot.
+JointRange range_of(const Robot& robot, std::span<const JointRange> allowed, std::size_t number,
+                    std::size_t followed = 0) {
   const Joint& joint = robot.joints[number];
   const auto refuse = [&](const char* what) {
     throw InputError(Defect::InvalidOption, fmt::format("joint '{}' {}", joint.name, what));
   };
-  JointRange range{joint.lower, joint.upper};
+  JointRange range = allowed[number];
   if (joint.mimic && followed > robot.joints.size()) refuse("follows itself");
   if (joint.mimic) {
-    const JointRange other = range_of(robot, joint.mimic->joint, followed + 1);
+    const JointRange other = range_of(robot, allowed, joint.mimic->joint, followed + 1);
     const auto [lower, upper] =
         std::minmax({joint.mimic->multiplier * other.lower, joint.mimic->multiplier * other.upper});
     const double rounding = 0x1p-50 * (std::abs(lower) + std::abs(upper) + std::abs(joint.mimic->offset));
-    range = {lower + joint.mimic->offset - rounding, upper + joint.mimic->offset + rounding};
+    range = {std::max(range.lower, lower + joint.mimic->offset - rounding),
+             std::min(range.upper, upper + joint.mimic->offset + rounding)};
   }
   constexpr double kHalfTurn = std::numbers::pi * (1 + 0x1p-40);
   if (!moves(joint)) refuse("neither turns nor slides");
-  if (!(range.lower <= range.upper)) refuse("has a lower limit above its upper one, or one that is no number");
-  if (turns(joint) && (joint.type == JointType::Continuous || !(range.upper - range.lower < 2 * kHalfTurn)))
-    return {-kHalfTurn, kHalfTurn};
+  if (!(range.lower <= range.upper)) refuse("has no position within its limits and those of the joints that follow it");
+  if (turns(joint) && !(range.upper - range.lower < 2 * kHalfTurn)) return {-kHalfTurn, kHalfTurn};
   if (!(std::max(std::abs(range.lower), std::abs(range.upper)) <= kFarthestLimit)) refuse("has no limits");
   return range;
 }
@@ -52,7 +53,7 @@ struct Zone {
 class Workspace {
  public:
   Workspace(const Robot& robot, std::span<const std::size_t> links, Geometry which, const SweepOptions& options)
-      : robot_(robot), links_(links), which_(which), options_(options) {}
+      : robot_(robot), allowed_(allowed_ranges(robot)), links_(links), which_(which), options_(options) {}
 
   std::vector<LinkSweep> run() {
     std::vector<LinkSweep> sweeps;
@@ -101,7 +102,7 @@ class Workspace {
   Zone moved(std::size_t number, Zone zone) const {
     const Joint& joint = robot_.joints[number];
     if (joint.type == JointType::Fixed) return placed_by(joint.origin, joint.anchor, std::move(zone));
-    const JointRange range = range_of(robot_, number);
+    const JointRange range = range_of(robot_, allowed_, number);
     zone = of_few_pieces(std::move(zone));
     Joint itself = joint;
     itself.origin = {};
@@ -162,6 +163,7 @@ class Workspace {
   }
 
   const Robot& robot_;
+  const std::vector<JointRange> allowed_;
   const std::span<const std::size_t> links_;
   const Geometry which_;
   const SweepOptions& options_;

@@ -13,8 +13,8 @@ namespace prohull::robot {
 /// in Robot::links. SweepOptions::max_distance is for each joint, in metres; 0: 2 % of the diagonal of what it moves.
 /// For the rest, as sweep_links.
 ///
-/// Guaranteed: as of `sweep`, for the robot that the file describes, in real numbers. Joints move independently, those
-/// that mimic too.
+/// Guaranteed: as of `sweep`, for the robot that the file describes, in real numbers, at all positions at which each
+/// joint is within its limits. Joints move independently, those that mimic too.
 ///
 /// Throws InputError: as sweep_links; InvalidOption for a joint that has no limits, wrong ones, or several freedoms, if
 /// such a link is behind it. Throws Cancelled.
