@@ -8,6 +8,7 @@
 #include "command.h"
 #include "prohull/error.h"
 #include "robot/check/check.h"
+#include "robot/files/packages.h"
 #include "robot/files/robot_file.h"
 #include "robot/hulls/budgets.h"
 #include "robot/hulls/cache.h"
@@ -230,8 +231,8 @@ std::string outside_text(const UrdfOptions& options, const Robot& robot) {
   if (!options.package.empty())
     for (const Link& link : robot.links)
       for (const Shape& shape : link.visual)
-        if (const MeshFile* const mesh = shape.mesh(); mesh && !mesh->uri.starts_with("package://"))
-          outside.insert(mesh->uri);
+        if (const MeshFile* const mesh = shape.mesh(); mesh && !mesh->path.empty() && package_of(mesh->uri).empty())
+          outside.insert(mesh->path.string());
   if (outside.empty()) return "";
   return fmt::format("  the package refers to {} of the visual geometry outside of its folder, such as {}\n",
                      counted(outside.size(), "mesh file"), *outside.begin());

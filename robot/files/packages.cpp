@@ -204,6 +204,11 @@ std::string_view scheme_of(std::string_view uri) {
 
 }  // namespace
 
+std::string_view package_of(std::string_view uri) {
+  constexpr std::string_view kScheme = "package://";
+  return uri.starts_with(kScheme) ? uri.substr(kScheme.size(), uri.find('/', kScheme.size()) - kScheme.size()) : "";
+}
+
 Packages::Packages(const fs::path& robot, const FileOptions& options)
     : folder_(tidied(robot).parent_path()), prefixes_(paths_of_environment("AMENT_PREFIX_PATH")) {
   for (const fs::path& path : options.package_paths) package_paths_.push_back(tidied(path));

@@ -12,6 +12,9 @@
 namespace prohull::robot {
 
 /// Where the files are that a robot names. Remembers where packages are: an object serves one thread at a time.
+/// "arm" of "package://arm/link.stl"; "" of what is no such URI.
+std::string_view package_of(std::string_view uri);
+
 class Packages {
  public:
   /// `robot` is the path of the robot's file.

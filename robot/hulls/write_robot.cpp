@@ -14,6 +14,7 @@
 #include "prohull/detail/summary.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
+#include "robot/files/packages.h"
 #include "robot/files/sphere_file.h"
 #include "robot/files/xml.h"
 
@@ -50,15 +51,14 @@ bool is_package_name(const std::string& name) {
   return std::islower(static_cast<unsigned char>(name[0])) && std::ranges::all_of(name, is_known);
 }
 
-/// Those that meshes of the robot are in.
+/// The packages that meshes of the robot are in.
 std::set<std::string> packages_of(const Robot& robot) {
-  constexpr std::string_view kScheme = "package://";
   std::set<std::string> packages;
   for (const Link& link : robot.links)
     for (const auto* const shapes : {&link.visual, &link.collision})
       for (const Shape& shape : *shapes)
-        if (const MeshFile* const mesh = shape.mesh(); mesh && mesh->uri.starts_with(kScheme))
-          packages.insert(mesh->uri.substr(kScheme.size(), mesh->uri.find('/', kScheme.size()) - kScheme.size()));
+        if (const MeshFile* const mesh = shape.mesh()) packages.emplace(package_of(mesh->uri));
+  packages.erase("");
   return packages;
 }
 
