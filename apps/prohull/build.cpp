@@ -102,8 +102,8 @@ Written write_certified(EnclosingHull hull, FinestLevel finest, const BuildOptio
   return written;
 }
 
-/// Of the faces of a region. The search for a bound may end above what the region allows, which then has a proof of its
-/// own.
+/// How far the faces of a region are from the hull. The search for a bound may end above what the region allows, which
+/// then has a proof of its own.
 DistanceBounds distance_of_region(const TriangleMesh& faces, const TriangleMesh& hull, double allowed,
                                   const Progress& progress) {
   if (faces.face_count() == 0) return {};

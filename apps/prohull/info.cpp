@@ -53,7 +53,7 @@ double diagonal_of(const Box& box) {
   return std::hypot(d.x, d.y, d.z);
 }
 
-/// As many digits as show each side of the box to a thousandth.
+/// How many digits show each side of the box to a thousandth.
 int digits_of(const Box& box) {
   constexpr int kUsual = 6, kAll = 17;
   int digits = kUsual;
@@ -168,7 +168,7 @@ nlohmann::json describe_mesh(const TriangleMesh& mesh) {
   return json;
 }
 
-/// As `build` and `verify` have it: overlaps count once.
+/// The volume that `build` and `verify` give, too: overlaps count once.
 double volume_of(const TriangleMesh& level) { return solid_volume(level).value_or(signed_volume(level)); }
 
 nlohmann::json describe_hull(const ProgressiveHull& hull) {

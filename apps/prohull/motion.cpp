@@ -94,7 +94,7 @@ Decision read_all(const PathOptions& options, const RobotFile& file) {
   return decision;
 }
 
-/// As it is.
+/// The time is exact: it has as many digits as tell it from all others.
 std::string time_text(const JointPath& path, double time) {
   return path.rows().times.empty() ? fmt::format("row {}", time) : fmt::format("{} s", time);
 }

@@ -65,8 +65,8 @@ struct Sweep {
 /// and the point where the tangents meet there. So the convex hull of these points encloses the piece all along.
 Sweep sweep(TriangleMesh mesh, std::span<const RigidMotion> motions, const SweepOptions& options = {});
 
-/// The same for the union of convex polytopes, which are what they are covered by: closed, outwards, with finite
-/// vertices.
+/// Encloses all positions of the union of convex polytopes, which are closed, look outwards and have finite vertices:
+/// as above, but without a cover. Throws EmptyMesh if there is none.
 Sweep sweep(std::span<const TriangleMesh> polytopes, std::span<const RigidMotion> motions,
             const SweepOptions& options = {});
 

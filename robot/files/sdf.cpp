@@ -59,7 +59,7 @@ class SdfReader {
     note(fmt::format("the file has {} models; only the first one, '{}', is read", models.size(), name ? *name : ""));
   }
 
-  /// In the file, or a world of it.
+  /// Includes that stand beside the model: in the file, or in a world of it.
   void note_includes_beside() {
     const auto note_all = [&](const XmlElement& parent) {
       for (const XmlElement* include : parent.children_called("include")) note_include(*include);

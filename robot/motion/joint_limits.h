@@ -17,7 +17,7 @@ struct JointRange {
   bool contains(double position) const { return lower <= position && position <= upper; }
 };
 
-/// Those that the joint's own limits allow, which a continuous joint does not have.
+/// The positions that the joint's own limits allow. A continuous joint has no limits.
 JointRange own_limits(const Joint& joint);
 
 /// All positions of the joint that is followed at which the one that follows is in the range, rounded outwards.
@@ -30,8 +30,8 @@ struct Leader {
 };
 Leader leader_of(const Robot& robot, std::size_t joint);
 
-/// Of each joint, all positions at which it and the joints that follow it are within their limits; rounded outwards
-/// where others follow.
+/// The result has, for each joint, all positions at which it and the joints that follow it are within their limits;
+/// rounded outwards where others follow.
 std::vector<JointRange> allowed_ranges(const Robot& robot);
 
 /// A sentence about each joint that has fewer positions because others follow it: planners may not hold these to their

@@ -90,7 +90,7 @@ struct Bound {
   Leader leader;
 };
 
-/// Those on the path in its order, then what follows or rests.
+/// The bounds of the joints on the path come first, in its order; then those of joints that follow or rest.
 std::vector<Bound> bounds_of(const Robot& moved, const JointPath& path) {
   std::vector<Bound> bounds;
   for (const std::size_t joint : path.joints()) bounds.push_back({joint, leader_of(moved, joint)});

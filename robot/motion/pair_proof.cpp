@@ -185,7 +185,7 @@ class PairSearch {
     return cell.distance < distance;
   }
 
-  /// Of all joints, where the freedoms are in the middle.
+  /// The positions of all joints where the freedoms are in the middle of the cell.
   std::vector<double> positions_in(const Cell& cell) const {
     std::vector<double> positions = rest_positions(robot_);
     for (std::size_t f = 0; f < cell.box.size(); ++f) positions[chain_.freedoms()[f]] = cell.box[f].middle();

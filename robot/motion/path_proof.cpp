@@ -106,7 +106,7 @@ class PathSearch {
     return distance_of_balls(pose) <= options_.gap && meets_at(place, pose, closest(pose, just_above(options_.gap)));
   }
 
-  /// Also if only what lies within the bodies tells. `around` is of the meshes around them, which tell where they meet.
+  /// Bodies meet where the meshes within them do. `around` is of the meshes around them, which tell the faces.
   bool meets_at(double place, const Pose& pose, const Closest& around) {
     if (around.separation.upper > options_.gap) return false;
     if (is_curved() && within(pose, options_.gap).separation.upper > options_.gap) return false;
@@ -114,7 +114,7 @@ class PathSearch {
     return true;
   }
 
-  /// Of what lies within the bodies.
+  /// The closest faces of the meshes that lie within the bodies.
   Closest within(const Pose& pose, double limit) const {
     return closest_within(*a_.shape, *b_.shape, pose, just_above(limit));
   }

@@ -33,8 +33,8 @@ struct LinkSweep {
 std::vector<LinkSweep> sweep_links(const Robot& robot, const JointPath& path, std::span<const std::size_t> links,
                                    Geometry which, const SweepOptions& options = {});
 
-/// Of the geometry of a link, or of the other one where it does not have it; without faces if it has neither. Throws
-/// InputError as sweep_links.
+/// The triangles of this geometry of a link, or of the other one where it does not have this; no faces if it has
+/// neither. Throws InputError as sweep_links.
 TriangleMesh triangles_to_sweep(const Link& link, Geometry which);
 
 }  // namespace prohull::robot

@@ -35,7 +35,7 @@ struct Closest {
 Closest closest_parts(const ProofBody& a, const ProofBody& b, const Pose& pose,
                       double limit = std::numeric_limits<double>::infinity());
 
-/// The same of what lies within the bodies: it is not less than their distance.
+/// What is closest of the meshes within the bodies. Its distance is not less than that of the bodies.
 Closest closest_within(const ProofBody& a, const ProofBody& b, const Pose& pose,
                        double limit = std::numeric_limits<double>::infinity());
 

@@ -36,7 +36,8 @@ DisabledRow row_of(const Robot& robot, std::string link1, std::string link2, std
   return row;
 }
 
-/// Of links all pairs of which are disabled, but for those that are enabled. A pair that has a row of its own keeps it.
+/// Adds rows of links all pairs of which are disabled, but for pairs that are enabled. A pair that has a row of its own
+/// keeps it.
 void add_default_rows(const Robot& robot, const XmlDocument& document, std::vector<DisabledRow>& rows) {
   constexpr const char* kDefault = "disable_default_collisions";
   std::set<LinkPair> others;

@@ -221,8 +221,8 @@ class SampledPolytope {
   double volume_ = 0;
 };
 
-/// Of the union of convex polytopes: the volume of each, as far as points in it are in none before. The exact clipping
-/// of union_volume takes minutes where so many overlap.
+/// The volume of a union of convex polytopes: that of each counts as far as points in it are in none before. The exact
+/// clipping of union_volume takes minutes where so many overlap.
 double volume_by_points(std::span<const TriangleMesh> pieces) {
   constexpr std::size_t kPoints = 200'000, kFewest = 32;  // of all pieces, and of each
   const std::vector<SampledPolytope> polytopes(pieces.begin(), pieces.end());

@@ -108,7 +108,7 @@ class AsciiStlReader {
     return false;
   }
 
-  /// Of an end; another solid may follow on the line.
+  /// Skips the name behind "endsolid". Another solid may follow on its line.
   void skip_name(bool is_on_one_line) {
     if (!is_on_one_line) return scanner_.skip_rest_of_line();
     for (TextScanner next = scanner_; !scanner_.at_line_end() && !is_word(next.word(), "solid");) scanner_ = next;
