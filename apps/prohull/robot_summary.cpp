@@ -278,7 +278,6 @@ bool say_plan(const RobotFile& file, const LinkHullOptions& options) {
     say("  {}: {}: {}\n", link.name, described(shapes(link, options.from)), plan.text);
     is_possible &= plan.is_possible;
   }
-  say("nothing was written: --dry-run\n");
   return is_possible;
 }
 

@@ -2,17 +2,19 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
+#include <map>
 #include <set>
 #include <string>
 
 #include "command.h"
 #include "prohull/error.h"
 #include "robot/check/check.h"
-#include "robot/files/packages.h"
 #include "robot/files/robot_file.h"
 #include "robot/hulls/budgets.h"
 #include "robot/hulls/cache.h"
 #include "robot/hulls/certificates.h"
+#include "robot/hulls/package_files.h"
 #include "robot/hulls/write_robot.h"
 #include "robot/motion/bodies.h"
 #include "robot/motion/joint_limits.h"
@@ -174,12 +176,11 @@ std::string view_page(const UrdfOptions& options, const ReportInput& facts, cons
                     {.unit = "m", .version = PROHULL_VERSION, .threads = options.threads, .progress = progress});
 }
 
-void write_certificates(const UrdfOptions& options, ReportInput& facts, std::span<const HullFiles> hulls,
-                        RobotFolder& folder) {
+void write_certificates(const UrdfOptions& options, ReportInput& facts, const RobotFiles& files, RobotFolder& folder) {
   ProgressLine line;
   LinkHullOptions how = options.hulls;
   how.progress = std::ref(line);
-  LinkCertificates made = link_certificates(facts.file.robot, facts.hulls, hulls, folder.get(), how);
+  LinkCertificates made = link_certificates(facts.file.robot, facts.hulls, files, folder.get(), how);
   for (const OutputFile& file : made.files) folder.add(file.path, file.write);
   facts.certificates = std::move(made.certificates);
 }
@@ -225,17 +226,46 @@ bool is_as_asked(const LinkHulls& link) {
          std::ranges::all_of(link.hulls, &LinkHull::within_bounds);
 }
 
-/// What a package needs beside its folder.
-std::string outside_text(const UrdfOptions& options, const Robot& robot) {
-  std::set<std::string> outside;
-  if (!options.package.empty())
-    for (const Link& link : robot.links)
-      for (const Shape& shape : link.visual)
-        if (const MeshFile* const mesh = shape.mesh(); mesh && !mesh->path.empty() && package_of(mesh->uri).empty())
-          outside.insert(mesh->path.string());
-  if (outside.empty()) return "";
-  return fmt::format("  the package refers to {} of the visual geometry outside of its folder, such as {}\n",
-                     counted(outside.size(), "mesh file"), *outside.begin());
+/// What a package has of the robot's files, and what it needs beside its folder.
+std::string package_text(const std::map<path, path>& copies, const std::set<std::string>& left) {
+  std::set<path> made;
+  for (const auto& [source, copy] : copies) made.insert(copy);
+  std::string text = fmt::format("  copies for the package: {} that the robot names\n", counted(made.size(), "file"));
+  constexpr std::size_t kMostTold = 5;
+  const auto end = std::next(left.begin(), static_cast<std::ptrdiff_t>(std::min(left.size(), kMostTold)));
+  if (!left.empty())
+    text += fmt::format("  not copied, and named as before: {}{}\n", fmt::join(left.begin(), end, ", "),
+                        left.size() > kMostTold ? fmt::format(", and {} more", left.size() - kMostTold) : "");
+  return text;
+}
+
+WriteOptions write_options(const UrdfOptions& options) {
+  return {.faces = options.hulls.budget.faces,
+          .from = options.hulls.from,
+          .format = options.hulls.format,
+          .package = options.package};
+}
+
+/// Says what would be copied, if all links that may get hulls get them.
+void say_package_plan(const UrdfOptions& options, const RobotFile& file) {
+  if (options.package.empty()) return;
+  std::vector<NewCollision> hulls;
+  for (std::size_t i = 0; i < file.robot.links.size(); ++i) {
+    const Link& link = file.robot.links[i];
+    if (!options.hulls.budget_of(link.name).skip && !shapes(link, options.hulls.from).empty())
+      hulls.push_back({.link = i, .from = options.hulls.from, .hulls = {"hull"}});
+  }
+  PackageFiles package(file, options.package);
+  with_collisions(file, hulls, options.out, [&](const std::string& uri) { return package.uri_of(uri); });
+  say("{}", package_text(package.copies(), package.left()));
+}
+
+int run_dry(const UrdfOptions& options, const RobotFile& file) {
+  check_options(file, write_options(options));
+  const bool is_possible = say_plan(file, options.hulls);
+  say_package_plan(options, file);
+  say("nothing was written: --dry-run\n");
+  return is_possible ? kDone : kBadInput;
 }
 
 int run_build(const UrdfOptions& options, const RobotFile& file) {
@@ -245,10 +275,7 @@ int run_build(const UrdfOptions& options, const RobotFile& file) {
   if (options.out.empty())
     refuse("say by -o which folder the robot goes to; or use --check, --dry-run or --write-budgets");
   RobotFolder folder(options.out);
-  const WriteOptions how{.faces = options.hulls.budget.faces,
-                         .from = options.hulls.from,
-                         .format = options.hulls.format,
-                         .package = options.package};
+  const WriteOptions how = write_options(options);
   check_options(file, how);
   if (options.certificate) check_certified_format(how.format);
   ReportInput facts{.file = file,
@@ -266,15 +293,15 @@ int run_build(const UrdfOptions& options, const RobotFile& file) {
         robot_summary(options.out, facts, options.sampled_pairs), options.out.string());
     return is_covered ? *earlier : kAnswerIsNo;
   }
-  if (options.certificate) write_certificates(options, facts, files.hulls, folder);
+  if (options.certificate) write_certificates(options, facts, files, folder);
   look_at_the_rest(options, facts);
   if (options.certificate && facts.motion) write_motion_certificate(facts, files, folder);
   facts.seconds = watch.seconds();
   const bool is_done = is_covered && (!facts.motion || facts.motion->missed() == 0);
   write_report(options, facts, files, folder);
   folder.commit(report_json(facts), key, is_done ? kDone : kAnswerIsNo);
-  say("{}{}  {:.1f} s\n", robot_summary(options.out, facts, options.sampled_pairs), outside_text(options, file.robot),
-      watch.seconds());
+  say("{}{}  {:.1f} s\n", robot_summary(options.out, facts, options.sampled_pairs),
+      options.package.empty() ? "" : package_text(files.copies, files.left), watch.seconds());
   return is_done ? kDone : kAnswerIsNo;
 }
 
@@ -299,7 +326,7 @@ int run_urdf(UrdfOptions options) {
   for (const std::string& note : cut_notes(file.robot)) say("  {}\n", note);
   if (!options.write_budgets.empty()) return run_write_budgets(options, file);
   if (options.check) return run_check(options, file);
-  if (options.dry_run) return say_plan(file, options.hulls) ? kDone : kBadInput;
+  if (options.dry_run) return run_dry(options, file);
   return run_build(options, file);
 }
 
@@ -426,7 +453,9 @@ void add_urdf(CLI::App& app, Run& run) {
       ->transform(one_of("--format", {"stl", "obj", "glb"}))
       ->capture_default_str();
   add_value(command, "--package", options->package, "NAME",
-            "Make the folder a ROS package of this name: with package.xml, and hulls named by package:// URIs.")
+            "Make the folder a ROS package of this name, which alone is the robot: with package.xml, copies of the "
+            "meshes, textures and other files that the robot names, and package:// URIs. What is not found stays as it "
+            "is, and the summary names it.")
       ->check([](const std::string& name) { return name.empty() ? std::string("--package needs a name") : ""; });
   command.add_flag("--tight", options->hulls.tight, "Build tight hulls: least volume, but some 4 times as slow.");
   command.add_flag("--skip-missing", options->hulls.skip_missing,

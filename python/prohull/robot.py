@@ -263,7 +263,7 @@ class Hulls(Shown):
         """Writes a robot whose collision elements name the hulls, with the hulls beside it. Returns the paths.
 
         folder: is made if it is not there. Each file appears whole or not at all.
-        package: make the folder a ROS package of this name.
+        package: make the folder a ROS package of this name, with copies of the files that the robot names.
 
         Raises InputError if the folder is that of the robot itself, and for a name that ROS does not take.
         """

@@ -20,6 +20,7 @@ RobotFile read_mjcf(const XmlDocument& document, const Packages& packages);
 /// encloses the mesh, so the robot stays covered, but it is fatter than the hull that was certified. Throws
 /// InputError(InvalidOption) for a hull that MuJoCo cannot read: neither .stl nor .obj, or with a URI.
 std::string mjcf_with_collisions(const RobotFile& file, const XmlDocument& document,
-                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder);
+                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder,
+                                 const NewUri& new_uri = {});
 
 }  // namespace prohull::robot

@@ -472,7 +472,8 @@ class MjcfWriter {
 }  // namespace
 
 std::string mjcf_with_collisions(const RobotFile& file, const XmlDocument& document,
-                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder) {
+                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder,
+                                 const NewUri& /*new_uri*/) {
   return MjcfWriter(file, document, folder).write(collisions);
 }
 

@@ -63,11 +63,7 @@ std::string declared_name(const fs::path& folder) {
   try {
     const XmlDocument document({std::istreambuf_iterator<char>(stream), {}}, path.string());
     const XmlElement* const name = document.root().child("name");
-    if (!name) return "";
-    const std::size_t begin = name->content.find_first_not_of(" \t\r\n");
-    return begin == std::string::npos
-               ? ""
-               : name->content.substr(begin, name->content.find_last_not_of(" \t\r\n") + 1 - begin);
+    return name ? name->text() : "";
   } catch (const InputError&) {
     return "";
   }

@@ -29,7 +29,8 @@ struct Format {
   RobotFormat format;
   std::string_view root;
   RobotFile (*read)(const XmlDocument&, const Packages&);
-  std::string (*with_collisions)(const RobotFile&, const XmlDocument&, std::span<const NewCollision>, const fs::path&);
+  std::string (*with_collisions)(const RobotFile&, const XmlDocument&, std::span<const NewCollision>, const fs::path&,
+                                 const NewUri&);
 };
 constexpr std::array<Format, 3> kFormats{{{RobotFormat::Urdf, "robot", read_urdf, urdf_with_collisions},
                                           {RobotFormat::Sdf, "sdf", read_sdf, sdf_with_collisions},
@@ -105,7 +106,7 @@ RobotFile read_document(const XmlDocument& document, const fs::path& path, const
   if (format->format == RobotFormat::Mjcf && includes_files(document.root()))
     return read_document(with_included_files(document, packages, read_text), path, options);
   RobotFile file = format->read(document, packages);
-  file.format = format->format, file.path = path, file.text = document.text();
+  file.format = format->format, file.path = path, file.options = options, file.text = document.text();
   return file;
 }
 
@@ -142,10 +143,11 @@ RobotFile read_robot(std::string text, const fs::path& path, const FileOptions& 
   return read_document(document, path, options);
 }
 
-std::string with_collisions(const RobotFile& file, std::span<const NewCollision> collisions, const fs::path& folder) {
+std::string with_collisions(const RobotFile& file, std::span<const NewCollision> collisions, const fs::path& folder,
+                            const NewUri& new_uri) {
   const XmlDocument document(file.text, file.path.string());
   const auto* const format = std::ranges::find(kFormats, file.format, &Format::format);
-  return format->with_collisions(file, document, collisions, folder);
+  return format->with_collisions(file, document, collisions, folder, new_uri);
 }
 
 }  // namespace prohull::robot

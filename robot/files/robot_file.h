@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,6 +39,7 @@ struct RobotFile {
   std::filesystem::path path;
   std::string text;  ///< of the file, with those that MJCF includes; of xacro what the program xacro made of it
   std::vector<std::string> notes;  ///< sentences for the user: what was not read
+  FileOptions options = {};        ///< with which it was read
 };
 
 /// Reads URDF, SDF or MJCF; the content tells which. A .xacro file is expanded by the program xacro.
@@ -63,11 +65,15 @@ struct NewCollision {
   std::vector<std::size_t> kept = {};  ///< shapes that become collision elements as they are
 };
 
+/// The URI by which a new robot names the file of a URI in the old one.
+using NewUri = std::function<std::string(const std::string&)>;
+
 /// The text with new collision elements; `collisions` names no link twice. Every byte outside of the collision elements
 /// of these links stays as it is, except that URIs of mesh and texture files which only resolve beside the old file
-/// become paths that resolve from `folder`, where the text is going to be written. Throws InputError(Malformed) if what
-/// is new has letters beyond ASCII, and the document declares an encoding other than UTF-8.
+/// become paths that resolve from `folder`, where the text is going to be written. With `new_uri`, which MJCF does not
+/// heed, every URI that stays becomes what it says. Throws InputError(Malformed) if what is new has letters beyond
+/// ASCII, and the document declares an encoding other than UTF-8.
 std::string with_collisions(const RobotFile& file, std::span<const NewCollision> collisions,
-                            const std::filesystem::path& folder);
+                            const std::filesystem::path& folder, const NewUri& new_uri = {});
 
 }  // namespace prohull::robot

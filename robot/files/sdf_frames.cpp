@@ -9,12 +9,6 @@
 namespace prohull::robot {
 namespace {
 
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == text.npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
-}
-
 std::optional<SdfFrame::Kind> kind_of(const XmlElement& element) {
   if (element.name == "link") return SdfFrame::Kind::Link;
   if (element.name == "joint") return SdfFrame::Kind::Joint;
@@ -35,7 +29,7 @@ bool is_true_or_1(const std::string* value) { return value && (*value == "true" 
 
 std::string sdf_text(const XmlElement& element, std::string_view child) {
   const XmlElement* const found = element.child(child);
-  return found ? trimmed(found->content) : "";
+  return found ? found->text() : "";
 }
 
 double sdf_number(const XmlDocument& document, const XmlElement& element) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "robot/files/named_files.h"
 #include "robot/files/sdf.h"
 #include "robot/files/sdf_frames.h"
 #include "robot/files/sdf_model.h"
@@ -19,35 +20,21 @@ struct Piece {
 
 class SdfWriter {
  public:
-  SdfWriter(const RobotFile& file, const XmlDocument& document, const std::filesystem::path& folder)
+  SdfWriter(const RobotFile& file, const XmlDocument& document, const std::filesystem::path& folder,
+            const NewUri& new_uri)
       : file_(file),
         document_(document),
-        folder_(folder),
-        packages_(file.path, {}),
+        files_(file, document, folder, new_uri),
         links_(sdf_links(document)),
-        line_end_(line_end(document)) {
-    rewrite_uris(document.root());
-  }
+        line_end_(line_end(document)) {}
 
   std::string write(std::span<const NewCollision> collisions) {
     for (const NewCollision& collision : collisions) replace(collision);
-    for (XmlEdit& edit : outside_of(uris_, edits_)) edits_.push_back(std::move(edit));
+    files_.add_to(edits_);
     return edited_text(document_, std::move(edits_));
   }
 
  private:
-  /// Every mesh of the document, also those of models that are not read.
-  void rewrite_uris(const XmlElement& element) {
-    for (const XmlElement* child : element.children) rewrite_uris(*child);
-    const XmlElement* const uri = element.name == "mesh" ? element.child("uri") : nullptr;
-    if (!uri || uri->is_empty_tag()) return;
-    const MeshFile mesh = packages_.find(sdf_text(element, "uri"), {1, 1, 1});
-    if (mesh.path.empty()) return;
-    const std::string moved = packages_.uri_from(folder_, mesh);
-    if (moved == mesh.uri) return;
-    uris_.push_back({{uri->start_tag.end, end_tag_begin(document_, *uri)}, xml_escaped(moved)});
-  }
-
   void replace(const NewCollision& collision) {
     const auto known = links_.find(file_.robot.links[collision.link].name);
     if (known == links_.end()) return;  // the world
@@ -109,7 +96,7 @@ class SdfWriter {
   }
 
   Piece kept_piece(const XmlElement& shape) const {
-    return {pose_of(shape), edited_part(document_, shape.child("geometry")->whole, uris_)};
+    return {pose_of(shape), files_.part(shape.child("geometry")->whole)};
   }
 
   void write_pieces(const XmlElement& link, const std::vector<const XmlElement*>& old, std::vector<Piece> pieces,
@@ -168,19 +155,18 @@ class SdfWriter {
 
   const RobotFile& file_;
   const XmlDocument& document_;
-  const std::filesystem::path& folder_;
-  const Packages packages_;
+  const RenamedFiles files_;
   const std::map<std::string, const XmlElement*> links_;
   const std::string line_end_;
-  std::vector<XmlEdit> uris_;  // in the order of the text
   std::vector<XmlEdit> edits_;
 };
 
 }  // namespace
 
 std::string sdf_with_collisions(const RobotFile& file, const XmlDocument& document,
-                                std::span<const NewCollision> collisions, const std::filesystem::path& folder) {
-  return SdfWriter(file, document, folder).write(collisions);
+                                std::span<const NewCollision> collisions, const std::filesystem::path& folder,
+                                const NewUri& new_uri) {
+  return SdfWriter(file, document, folder, new_uri).write(collisions);
 }
 
 }  // namespace prohull::robot

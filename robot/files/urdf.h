@@ -10,6 +10,7 @@ namespace prohull::robot {
 RobotFile read_urdf(const XmlDocument& document, const Packages& packages);
 
 std::string urdf_with_collisions(const RobotFile& file, const XmlDocument& document,
-                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder);
+                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder,
+                                 const NewUri& new_uri = {});
 
 }  // namespace prohull::robot

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "prohull/error.h"
+#include "robot/files/named_files.h"
 #include "robot/files/urdf.h"
 #include "robot/files/xml_lines.h"
 
@@ -24,25 +25,17 @@ struct Piece {
 
 class UrdfWriter {
  public:
-  UrdfWriter(const RobotFile& file, const XmlDocument& document, std::filesystem::path folder)
+  UrdfWriter(const RobotFile& file, const XmlDocument& document, const std::filesystem::path& folder,
+             const NewUri& new_uri)
       : robot_(file.robot),
         document_(document),
-        packages_(file.path, {}),
-        folder_(std::move(folder)),
+        files_(file, document, folder, new_uri),
         links_(document.root().children_called("link")),
         newline_(line_end(document)) {}
 
   std::string write(std::span<const NewCollision> collisions) {
-    std::vector<bool> is_replaced(links_.size());
-    for (const NewCollision& collision : collisions) {
-      replace(collision);
-      is_replaced[collision.link] = true;
-    }
-    for (std::size_t link = 0; link < links_.size(); ++link) {
-      relocate_all(link, Geometry::Visual);
-      if (!is_replaced[link]) relocate_all(link, Geometry::Collision);
-    }
-    relocate_textures();
+    for (const NewCollision& collision : collisions) replace(collision);
+    files_.add_to(edits_);
     return edited_text(document_, std::move(edits_));
   }
 
@@ -60,12 +53,8 @@ class UrdfWriter {
   /// Kept collision elements stay where they are; the first new one takes the place of the first other one.
   void replace_among(const NewCollision& collision, const Elements& old) {
     Elements others;
-    for (std::size_t i = 0; i < old.size(); ++i) {
-      if (std::ranges::find(collision.kept, i) == collision.kept.end())
-        others.push_back(old[i]);
-      else
-        relocate(robot_.links[collision.link].collision[i], *old[i]);
-    }
+    for (std::size_t i = 0; i < old.size(); ++i)
+      if (std::ranges::find(collision.kept, i) == collision.kept.end()) others.push_back(old[i]);
     write_pieces(collision.link, new_pieces(collision), others);
   }
 
@@ -86,13 +75,7 @@ class UrdfWriter {
 
   Piece copied(std::size_t link, Geometry from, std::size_t shape) const {
     const XmlElement& element = *element_of(link, from, shape);
-    const Span geometry = element.child("geometry")->whole;
-    std::string bytes(document_[geometry]);
-    if (auto edit = relocation(shapes(robot_.links[link], from)[shape], element)) {
-      edit->replaced.begin -= geometry.begin, edit->replaced.end -= geometry.begin;
-      bytes = with_edits(bytes, {*std::move(edit)});
-    }
-    return {origin_of(element), "", std::move(bytes)};
+    return {origin_of(element), "", files_.part(element.child("geometry")->whole)};
   }
 
   const XmlElement* element_of(std::size_t link, Geometry from, std::size_t shape) const {
@@ -155,47 +138,9 @@ class UrdfWriter {
 
   void remove(const XmlElement& element) { edits_.push_back({lines_of(document_, element), ""}); }
 
-  // Relative paths
-
-  std::optional<XmlEdit> relocation(const Shape& shape, const XmlElement& element) const {
-    if (!shape.mesh()) return std::nullopt;
-    std::string uri = packages_.uri_from(folder_, *shape.mesh());
-    if (uri == shape.mesh()->uri) return std::nullopt;
-    const XmlElement& mesh = *element.child("geometry")->children.front();
-    return XmlEdit{value_span(document_, mesh, "filename"), xml_escaped(uri)};
-  }
-
-  void relocate(const Shape& shape, const XmlElement& element) {
-    if (auto edit = relocation(shape, element)) edits_.push_back(*std::move(edit));
-  }
-
-  void relocate_all(std::size_t link, Geometry which) {
-    const Elements elements = links_[link]->children_called(tag_of(which));
-    for (std::size_t i = 0; i < elements.size(); ++i) relocate(shapes(robot_.links[link], which)[i], *elements[i]);
-  }
-
-  /// Relocates the textures of all materials, which stand beside the links and in their visual elements.
-  void relocate_textures() {
-    relocate_textures_in(document_.root());
-    for (const XmlElement* link : links_)
-      for (const XmlElement* visual : link->children_called("visual")) relocate_textures_in(*visual);
-  }
-
-  void relocate_textures_in(const XmlElement& parent) {
-    for (const XmlElement* material : parent.children_called("material"))
-      for (const XmlElement* texture : material->children_called("texture"))
-        if (const std::string* const uri = texture->attribute("filename")) relocate_texture(*texture, *uri);
-  }
-
-  void relocate_texture(const XmlElement& texture, const std::string& uri) {
-    std::string moved = packages_.uri_from(folder_, packages_.find(uri, {1, 1, 1}));
-    if (moved != uri) edits_.push_back({value_span(document_, texture, "filename"), xml_escaped(moved)});
-  }
-
   const Robot& robot_;
   const XmlDocument& document_;
-  Packages packages_;
-  std::filesystem::path folder_;
+  RenamedFiles files_;
   Elements links_;
   std::string newline_;
   std::vector<XmlEdit> edits_;
@@ -204,8 +149,9 @@ class UrdfWriter {
 }  // namespace
 
 std::string urdf_with_collisions(const RobotFile& file, const XmlDocument& document,
-                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder) {
-  return UrdfWriter(file, document, folder).write(collisions);
+                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder,
+                                 const NewUri& new_uri) {
+  return UrdfWriter(file, document, folder, new_uri).write(collisions);
 }
 
 }  // namespace prohull::robot

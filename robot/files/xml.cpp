@@ -143,6 +143,11 @@ const XmlElement* XmlElement::child(std::string_view tag) const {
   return nullptr;
 }
 
+std::string XmlElement::text() const {
+  const std::size_t begin = content.find_first_not_of(kBlanks);
+  return begin == content.npos ? "" : content.substr(begin, content.find_last_not_of(kBlanks) + 1 - begin);
+}
+
 std::vector<const XmlElement*> XmlElement::children_called(std::string_view tag) const {
   std::vector<const XmlElement*> called;
   std::ranges::copy_if(children, std::back_inserter(called), [&](const XmlElement* each) { return each->name == tag; });

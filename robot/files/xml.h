@@ -30,6 +30,7 @@ struct XmlElement {
   const std::string* attribute(std::string_view key) const;         ///< nullptr if there is none
   const XmlElement* child(std::string_view tag) const;              ///< the first one, nullptr if there is none
   std::vector<const XmlElement*> children_called(std::string_view tag) const;
+  std::string text() const;  ///< the content without the blanks around it
 };
 
 /// Where a part of a text comes from that was put together from several files.

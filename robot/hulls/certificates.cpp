@@ -58,6 +58,12 @@ Certificate certificate_of(const LinkHull& hull, const CertifiedOriginal& origin
       {.gap = claimed_gap(budget.padding, hull.padding), .distance = claimed_distance(asked, hull.distance.upper)});
 }
 
+/// Where the robot has a mesh file that it names, from its folder.
+path named_file(const path& source, const RobotFiles& files, const path& folder) {
+  const auto copy = files.copies.find(source);
+  return copy != files.copies.end() ? copy->second : std::filesystem::proximate(source, folder);
+}
+
 path with_suffix(const path& stem, const char* suffix) { return stem.generic_string() + suffix; }
 
 }  // namespace
@@ -68,9 +74,9 @@ void check_certified_format(const std::string& format) {
                      fmt::format("--certificate: prohull_check reads no .{} files; choose stl or obj", format));
 }
 
-LinkCertificates link_certificates(const Robot& robot, std::span<const LinkHulls> links,
-                                   std::span<const HullFiles> hulls, const path& folder,
-                                   const LinkHullOptions& options) {
+LinkCertificates link_certificates(const Robot& robot, std::span<const LinkHulls> links, const RobotFiles& written,
+                                   const path& folder, const LinkHullOptions& options) {
+  const std::vector<HullFiles>& hulls = written.hulls;
   std::vector<std::string> names, bytes(hulls.size());
   LinkCertificates made;
   made.certificates.resize(hulls.size());
@@ -82,7 +88,7 @@ LinkCertificates link_certificates(const Robot& robot, std::span<const LinkHulls
     LinkCertificate& certificate = made.certificates[i];
     certificate = {.link = hulls[i].link, .set = hulls[i].set, .hull = hulls[i].meshes};
     certificate.is_of_robot = file;
-    certificate.original = file ? std::filesystem::proximate(file->path, folder)
+    certificate.original = file ? named_file(file->path, written, folder)
                                 : path("meshes") / "original" / with_suffix(hulls[i].stem.filename(), ".ply");
     CertifiedOriginal original{of_link.triangles, file ? file->scale.x : 1};
     if (file) read_mesh(file->path, {.non_finite = NonFinite::Keep, .divided = &original.divided});

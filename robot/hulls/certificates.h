@@ -30,15 +30,14 @@ struct LinkCertificates {
 /// Throws InputError(InvalidOption) if the hulls are to be files that a checker does not read.
 void check_certified_format(const std::string& format);
 
-/// Certificates of hulls that output_files names. Each is about the mesh file of its link, if that is a single one that
-/// a checker reads, is scaled by the same positive number along all axes, and has the frame of the hull. All others are
-/// about meshes/original/LINK.ply, which is among the files: the finite triangles of the link, as they were read,
-/// scaled and moved. Nothing but this program says that these are those of the robot. Spheres become
-/// meshes/collision/LINK.yaml, with the numbers that the robot has.
+/// Certificates of the hulls of output_files. Each is about the mesh file of its link, or its copy in the package, if
+/// that is a single one that a checker reads, is scaled by the same positive number along all axes, and has the frame
+/// of the hull. All others are about meshes/original/LINK.ply, which is among the files: the finite triangles of the
+/// link, as they were read, scaled and moved. Nothing but this program says that these are those of the robot. Spheres
+/// become meshes/collision/LINK.yaml, with the numbers that the robot has.
 ///
 /// `links` must outlive the result. Throws Cancelled.
-LinkCertificates link_certificates(const Robot& robot, std::span<const LinkHulls> links,
-                                   std::span<const HullFiles> hulls, const std::filesystem::path& folder,
-                                   const LinkHullOptions& options);
+LinkCertificates link_certificates(const Robot& robot, std::span<const LinkHulls> links, const RobotFiles& written,
+                                   const std::filesystem::path& folder, const LinkHullOptions& options);
 
 }  // namespace prohull::robot

@@ -51,20 +51,11 @@ bool is_package_name(const std::string& name) {
   return std::islower(static_cast<unsigned char>(name[0])) && std::ranges::all_of(name, is_known);
 }
 
-/// The packages that meshes of the robot are in.
-std::set<std::string> packages_of(const Robot& robot) {
-  std::set<std::string> packages;
-  for (const Link& link : robot.links)
-    for (const auto* const shapes : {&link.visual, &link.collision})
-      for (const Shape& shape : *shapes)
-        if (const MeshFile* const mesh = shape.mesh()) packages.emplace(package_of(mesh->uri));
-  packages.erase("");
-  return packages;
-}
-
-std::string package_xml(const std::string& package, const Robot& robot) {
-  std::set<std::string> others = packages_of(robot);
-  others.erase(package);
+/// `left`: what the robot names outside of the package.
+std::string package_xml(const std::string& package, const Robot& robot, const std::set<std::string>& left) {
+  std::set<std::string> others;
+  for (const std::string& uri : left) others.emplace(package_of(uri));
+  others.erase(""), others.erase(package);
   std::string depends;
   for (const std::string& other : others)
     depends += fmt::format("  <exec_depend>{}</exec_depend>\n", xml_escaped(other));
@@ -85,37 +76,15 @@ std::string package_cmake(const std::string& package) {
       package);
 }
 
-/// Names of files for links, distinct also where upper and lower case are the same. File systems take 255 bytes, which
-/// leaves room for what is added.
-class FileNames {
- public:
-  std::string of(const std::string& link) {
-    std::string name;
-    for (const char c : link)
-      name += std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.' ? c : '_';
-    if (name.empty() || name[0] == '.') name.insert(0, 1, '_');
-    if (name.size() > kLongest) name.resize(kLongest);
-    std::string distinct = name;
-    for (int i = 2; !taken_.insert(lower(distinct)).second; ++i) distinct = fmt::format("{}_{}", name, i);
-    return distinct;
-  }
-
- private:
-  static constexpr std::size_t kLongest = 100;
-
-  static std::string lower(std::string name) {
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
-    return name;
-  }
-
-  std::set<std::string> taken_;
-};
-
 /// The robot with one set of hulls.
 class RobotSet {
  public:
-  RobotSet(const RobotFile& file, const WriteOptions& options, std::size_t set, std::string suffix)
-      : file_(file), options_(options), set_(set), suffix_(std::move(suffix)) {}
+  RobotSet(const RobotFile& file, const WriteOptions& options, std::size_t set, NewUri new_uri)
+      : file_(file),
+        options_(options),
+        set_(set),
+        suffix_(set == 0 ? "" : fmt::format("_{}", options.faces[set])),
+        new_uri_(std::move(new_uri)) {}
 
   void add(const LinkHulls& link) {
     NewCollision collision;
@@ -134,7 +103,7 @@ class RobotSet {
 
   void add_to(RobotFiles& all, const path& folder) {
     const path name = fmt::format("{}{}{}", robot_stem(file_), suffix_, extension());
-    std::string text = with_collisions(file_, collisions_, folder);
+    std::string text = with_collisions(file_, collisions_, folder, new_uri_);
     require_balls(text, folder / name);
     files_.push_back(text_file(name, std::move(text)));
     if (!balls_.empty()) files_.push_back(text_file(robot_stem(file_) + "_spheres.yaml", sphere_file(balls_)));
@@ -193,6 +162,7 @@ class RobotSet {
   const WriteOptions& options_;
   const std::size_t set_;
   const std::string suffix_;
+  const NewUri new_uri_;
   FileNames names_;
   std::vector<NewCollision> collisions_;
   std::vector<LinkBalls> balls_;
@@ -233,15 +203,19 @@ RobotFiles output_files(const RobotFile& file, std::span<const LinkHulls> links,
                         const WriteOptions& options) {
   check_options(file, options);
   RobotFiles all;
+  PackageFiles package(file, options.package);
+  NewUri new_uri;
+  if (!options.package.empty()) new_uri = [&](const std::string& uri) { return package.uri_of(uri); };
   for (std::size_t set = 0; set < options.faces.size(); ++set) {
-    RobotSet robot(file, options, set, set == 0 ? "" : fmt::format("_{}", options.faces[set]));
+    RobotSet robot(file, options, set, new_uri);
     for (const LinkHulls& link : links) robot.add(link);
     robot.add_to(all, folder);
   }
-  if (!options.package.empty()) {
-    all.files.push_back(text_file("package.xml", package_xml(options.package, file.robot)));
-    all.files.push_back(text_file("CMakeLists.txt", package_cmake(options.package)));
-  }
+  if (options.package.empty()) return all;
+  all.copies = package.copies(), all.left = package.left();
+  all.files.insert(all.files.end(), package.files().begin(), package.files().end());
+  all.files.push_back(text_file("package.xml", package_xml(options.package, file.robot, all.left)));
+  all.files.push_back(text_file("CMakeLists.txt", package_cmake(options.package)));
   return all;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,14 +10,9 @@
 #include "robot/files/robot_file.h"
 #include "robot/files/sphere_file.h"
 #include "robot/hulls/link_hulls.h"
+#include "robot/hulls/package_files.h"
 
 namespace prohull::robot {
-
-/// A file of the robot that is written.
-struct OutputFile {
-  std::filesystem::path path;  ///< relative to the folder of the robot
-  std::function<void(const std::filesystem::path&)> write;
-};
 
 /// The files of a certified hull; of spheres there are none.
 struct HullFiles {
@@ -29,17 +25,19 @@ struct HullFiles {
 
 struct RobotFiles {
   std::vector<OutputFile> files;
-  std::vector<HullFiles> hulls;  ///< which of them are those of hulls
-  std::filesystem::path robot;   ///< the robot with the first number of faces
-  std::vector<LinkBalls> balls;  ///< its spheres, as ROBOT_spheres.yaml has them
+  std::vector<HullFiles> hulls;                                   ///< which of them are those of hulls
+  std::filesystem::path robot;                                    ///< the robot with the first number of faces
+  std::vector<LinkBalls> balls;                                   ///< its spheres, as ROBOT_spheres.yaml has them
+  std::map<std::filesystem::path, std::filesystem::path> copies;  ///< as PackageFiles::copies
+  std::set<std::string> left;                                     ///< as PackageFiles::left
 };
 
 struct WriteOptions {
   std::vector<std::size_t> faces{500};  ///< Budget::faces of the robot; each set of hulls is named by one
   Geometry from = Geometry::Visual;     ///< as LinkHullOptions::from
   std::string format = "stl";           ///< as LinkHullOptions::format
-  /// The package that the new files make up, with a package.xml; URIs of hulls begin with package://PACKAGE/. Empty:
-  /// no package, and URIs are relative paths.
+  /// The package that the new files make up, with a package.xml and copies of what the robot names; URIs begin with
+  /// package://PACKAGE/. Empty: no package, and URIs are relative paths.
   std::string package;
 };
 
