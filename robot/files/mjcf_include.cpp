@@ -8,18 +8,12 @@
 #include <vector>
 
 #include "prohull/error.h"
-#include "robot/files/xml_lines.h"
+#include "robot/files/merged_text.h"
 
 namespace fs = std::filesystem;
 
 namespace prohull::robot {
 namespace {
-
-/// What stands between the tags of an element.
-Span inside_of(const XmlDocument& document, const XmlElement& element) {
-  if (element.is_empty_tag()) return {element.whole.end, element.whole.end};
-  return {element.start_tag.end, end_tag_begin(document, element)};
-}
 
 class Merger {
  public:
@@ -30,16 +24,16 @@ class Merger {
   void append(const XmlDocument& document, const Span& part, const fs::path& folder) {
     std::size_t at = part.begin;
     for (const XmlElement* element : includes(document.root(), part)) {
-      append_text(document, {at, element->whole.begin});
+      merged_.add(document, {at, element->whole.begin});
       append_file(document, *element, folder);
       at = element->whole.end;
     }
-    append_text(document, {at, part.end});
+    merged_.add(document, {at, part.end});
   }
 
   XmlDocument merged(const XmlDocument& document) {
     append(document, {0, document.text().size()}, "");
-    return {std::move(text_), document.file(), std::move(sources_)};
+    return std::move(merged_).document(document.file());
   }
 
  private:
@@ -54,13 +48,6 @@ class Merger {
         std::ranges::copy(includes(*child, part), std::back_inserter(found));
     }
     return found;
-  }
-
-  void append_text(const XmlDocument& document, const Span& part) {
-    const std::string_view before = document[{0, part.begin}];
-    const auto lines = static_cast<std::size_t>(std::ranges::count(before, '\n'));
-    sources_.push_back({text_.size(), document.file(), 1 + lines});
-    text_ += document[part];
   }
 
   void append_file(const XmlDocument& document, const XmlElement& element, const fs::path& folder) {
@@ -81,18 +68,10 @@ class Merger {
     append(other, inside_of(other, other.root()), (folder / name).parent_path());
   }
 
-  static bool has_encoding_of(const XmlDocument& a, const XmlDocument& b) {
-    const auto is_plain = [](const XmlDocument& document) {
-      return std::ranges::all_of(document.text(), [](unsigned char c) { return c < 0x80; });
-    };
-    return a.encoding() == b.encoding() || (is_plain(a) && is_plain(b)) || (is_utf8(a) && is_utf8(b));
-  }
-
   const Packages& packages_;
   const std::function<std::string(const fs::path&)>& read_;
   std::set<fs::path> included_;
-  std::string text_;
-  std::vector<TextSource> sources_;
+  MergedText merged_;
 };
 
 }  // namespace

@@ -184,7 +184,8 @@ std::string why_not_at(const fs::path& path) {
                          : fmt::format("there is no file {}", path.string());
 }
 
-/// "/home/robot/x" of "file:///home/robot/x", "file://localhost/home/robot/x" and "file:/home/robot/x".
+/// "/home/robot/x" of "file:///home/robot/x", "file://localhost/home/robot/x" and "file:/home/robot/x"; "x" of
+/// "file:x".
 std::optional<std::string_view> path_of_file_uri(std::string_view rest) {
   if (rest.starts_with("//localhost/")) rest.remove_prefix(std::string_view("//localhost").size());
   if (rest.starts_with("//") && !rest.starts_with("///")) return std::nullopt;
@@ -194,8 +195,14 @@ std::optional<std::string_view> path_of_file_uri(std::string_view rest) {
 /// "package" of "package://arm/link.stl"; "" of a path.
 std::string_view scheme_of(std::string_view uri) {
   const std::size_t end = uri.find("://");
-  if (end == uri.npos) return uri.starts_with("file:/") ? "file" : "";
+  if (end == uri.npos) return uri.starts_with("file:") ? "file" : "";
   return uri.substr(0, end).find('/') == uri.npos ? uri.substr(0, end) : "";
+}
+
+/// The path that a URI names without a package.
+std::optional<std::string_view> path_of(std::string_view uri, std::string_view scheme) {
+  if (scheme == "file") return path_of_file_uri(uri.substr(5));
+  return scheme.empty() ? std::optional(uri) : std::nullopt;
 }
 
 }  // namespace
@@ -208,7 +215,8 @@ std::string_view package_of(std::string_view uri) {
 Packages::Packages(const fs::path& robot, const FileOptions& options)
     : folder_(tidied(robot).parent_path()), prefixes_(paths_of_environment("AMENT_PREFIX_PATH")) {
   for (const fs::path& path : options.package_paths) package_paths_.push_back(tidied(path));
-  for (const char* variable : {"ROS_PACKAGE_PATH", "GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH"})
+  for (const char* variable :
+       {"ROS_PACKAGE_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "SDF_PATH"})
     std::ranges::move(paths_of_environment(variable), std::back_inserter(environment_paths_));
   if (!options.no_outside_files) return;
   inside_.push_back(package_around(folder_));
@@ -290,7 +298,7 @@ MeshFile Packages::found(std::string uri, const Vec3& scale, const fs::path& fol
     find_in_package(text.substr(scheme.size() + 3), scheme, mesh);
     return mesh;
   }
-  const auto path = scheme == "file" ? path_of_file_uri(text.substr(5)) : text;
+  const auto path = path_of(text, scheme);
   if (scheme == "http" || scheme == "https")
     mesh.why_not = "files are not fetched from the net; download it and name the copy";
   else if (!scheme.empty() && scheme != "file")
@@ -315,7 +323,8 @@ fs::path found_from(const fs::path& folder, const std::string& uri) {
 
 std::string Packages::uri_from(const fs::path& folder, const MeshFile& mesh) const {
   const std::string_view scheme = scheme_of(mesh.uri);
-  const bool is_relative = scheme.empty() && !fs::path(mesh.uri).is_absolute();
+  const auto path = path_of(mesh.uri, scheme);
+  const bool is_relative = path && !fs::path(*path).is_absolute();
   const bool is_of_model = scheme == "model" && package_paths_.empty();
   if (mesh.path.empty() || (!is_relative && !is_of_model)) return mesh.uri;
   std::error_code error;

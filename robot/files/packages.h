@@ -21,14 +21,15 @@ class Packages {
   Packages(const std::filesystem::path& robot, const FileOptions& options);
 
   /// Fills `path`, or `why_not`, of a mesh from its `uri`: package://NAME/..., model://NAME/..., file:///..., or a path
-  /// that is relative to `folder`, which is relative to the robot's file. %20 may stand for a blank, and so on.
+  /// that is relative to `folder`, which is relative to the robot's file; "file:" may stand before it. %20 may stand
+  /// for a blank, and so on.
   ///
   /// A package is a folder that is called NAME, or whose package.xml says <name>NAME</name>. It is looked for, in this
   /// order: at each package path, in it, and one level deeper; among the folders above the robot's file and their
-  /// neighbours; likewise at the folders of ROS_PACKAGE_PATH, GZ_SIM_RESOURCE_PATH and GAZEBO_MODEL_PATH; in share/ of
-  /// the folders of AMENT_PREFIX_PATH. Of several folders, the first one counts that has the file. A file outside of
-  /// the package that the URI names (by "..") is not found.
-  /// Throws InputError(CannotRead) for a file that FileOptions::no_outside_files refuses, wherever symbolic links lead.
+  /// neighbours; likewise at the folders of ROS_PACKAGE_PATH, GZ_SIM_RESOURCE_PATH, IGN_GAZEBO_RESOURCE_PATH,
+  /// GAZEBO_MODEL_PATH and SDF_PATH; in share/ of the folders of AMENT_PREFIX_PATH. Of several folders, the first one
+  /// counts that has the file. A file outside of the package that the URI names (by "..") is not found. Throws
+  /// InputError(CannotRead) for a file that FileOptions::no_outside_files refuses, wherever symbolic links lead.
   MeshFile find(std::string uri, const Vec3& scale, const std::filesystem::path& folder = {}) const;
 
   /// Finds the file of a part of the robot's description in this way, and the files that it names.

@@ -14,6 +14,7 @@
 #include "robot/files/mjcf_include.h"
 #include "robot/files/packages.h"
 #include "robot/files/sdf.h"
+#include "robot/files/sdf_include.h"
 #include "robot/files/urdf.h"
 #include "robot/files/xacro.h"
 #include "robot/files/xml.h"
@@ -25,16 +26,20 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 29;
 
+using ReadText = std::function<std::string(const fs::path&)>;
+
 struct Format {
   RobotFormat format;
   std::string_view root;
   RobotFile (*read)(const XmlDocument&, const Packages&);
+  XmlDocument (*merged)(const XmlDocument&, const Packages&, const ReadText&);  ///< with what it includes
   std::string (*with_collisions)(const RobotFile&, const XmlDocument&, std::span<const NewCollision>, const fs::path&,
                                  const NewUri&);
 };
-constexpr std::array<Format, 3> kFormats{{{RobotFormat::Urdf, "robot", read_urdf, urdf_with_collisions},
-                                          {RobotFormat::Sdf, "sdf", read_sdf, sdf_with_collisions},
-                                          {RobotFormat::Mjcf, "mujoco", read_mjcf, mjcf_with_collisions}}};
+constexpr std::array<Format, 3> kFormats{
+    {{RobotFormat::Urdf, "robot", read_urdf, nullptr, urdf_with_collisions},
+     {RobotFormat::Sdf, "sdf", read_sdf, with_included_models, sdf_with_collisions},
+     {RobotFormat::Mjcf, "mujoco", read_mjcf, with_included_files, mjcf_with_collisions}}};
 
 [[noreturn]] void refuse(Defect defect, const fs::path& path, const std::string& why) {
   throw InputError(defect, fmt::format("{}: {}", path.string(), why));
@@ -103,11 +108,13 @@ RobotFile read_document(const XmlDocument& document, const fs::path& path, const
     refuse(Defect::UnknownFormat, path,
            fmt::format("no robot: its root is <{}>; that of URDF is <robot>, of SDF <sdf>, of MJCF <mujoco>", root));
   const Packages packages(path, options);
-  if (format->format == RobotFormat::Mjcf && includes_files(document.root()))
-    return read_document(with_included_files(document, packages, read_text), path, options);
-  RobotFile file = format->read(document, packages);
-  file.format = format->format, file.path = path, file.options = options, file.text = document.text();
-  return file;
+  const auto read = [&](const XmlDocument& whole) {
+    RobotFile file = format->read(whole, packages);
+    file.format = format->format, file.path = path, file.options = options, file.text = whole.text();
+    return file;
+  };
+  return format->merged && includes_files(document.root()) ? read(format->merged(document, packages, read_text))
+                                                           : read(document);
 }
 
 }  // namespace

@@ -34,12 +34,12 @@ struct FileOptions {
 
 /// A robot, and the text that it was read from.
 struct RobotFile {
-  Robot robot;
+  Robot robot = {};
   RobotFormat format = RobotFormat::Urdf;
-  std::filesystem::path path;
-  std::string text;  ///< of the file, with those that MJCF includes; of xacro what the program xacro made of it
-  std::vector<std::string> notes;  ///< sentences for the user: what was not read
-  FileOptions options = {};        ///< with which it was read
+  std::filesystem::path path = {};
+  std::string text = {};  ///< of the file, with those that MJCF includes; of xacro what the program xacro made of it
+  std::vector<std::string> notes = {};  ///< sentences for the user: what was not read
+  FileOptions options = {};             ///< with which it was read
 };
 
 /// Reads URDF, SDF or MJCF; the content tells which. A .xacro file is expanded by the program xacro.

@@ -10,6 +10,7 @@
 
 #include "robot/files/joint_forest.h"
 #include "robot/files/sdf_frames.h"
+#include "robot/files/sdf_include.h"
 #include "robot/files/sdf_model.h"
 #include "robot/files/xml_values.h"
 
@@ -18,28 +19,16 @@ namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-/// "1.10" as 1010, so that versions compare as numbers; 0 if there is none.
-int version_of(const XmlElement& root) {
-  int major = 0, minor = 0;
-  const std::string* const text = root.attribute("version");
-  return text && std::sscanf(text->c_str(), "%4d.%4d", &major, &minor) == 2 ? 1000 * major + minor : 0;
-}
-
 class SdfReader {
  public:
   SdfReader(const XmlDocument& document, const Packages& packages)
-      : document_(document),
-        packages_(packages),
-        model_(sdf_model(document)),
-        frames_(document, model_),
-        version_(version_of(document.root())) {}
+      : document_(document), packages_(packages), model_(sdf_model(document)), frames_(document, model_) {}
 
   RobotFile read() {
     note_models();
     if (const std::string* name = model_.attribute("name")) file_.robot.name = *name;
     for (std::size_t frame = 0; frame < frames_.all().size(); ++frame) add_link(frame);
-    if (file_.robot.links.empty())
-      document_.refuse(model_, "the model has no <link>; what it includes from other files is not read");
+    if (file_.robot.links.empty()) refuse_without_links();
     add_joints();
     note_includes_beside();
     note_includes(model_);
@@ -59,6 +48,13 @@ class SdfReader {
     note(fmt::format("the file has {} models; only the first one, '{}', is read", models.size(), name ? *name : ""));
   }
 
+  [[noreturn]] void refuse_without_links() {
+    file_.notes.clear();
+    note_includes(model_);
+    document_.refuse(model_, fmt::format("the model has no <link>{}{}", file_.notes.empty() ? "" : "; ",
+                                         fmt::join(file_.notes, "; ")));
+  }
+
   /// Includes that stand beside the model: in the file, or in a world of it.
   void note_includes_beside() {
     const auto note_all = [&](const XmlElement& parent) {
@@ -69,7 +65,9 @@ class SdfReader {
   }
 
   void note_include(const XmlElement& element) {
-    note(fmt::format("line {} includes '{}', which is not read", element.line, sdf_text(element, "uri")));
+    const std::string why = included_model(element, packages_).why_not;
+    note(fmt::format("line {} includes '{}', which is not read{}{}", element.line, sdf_text(element, "uri"),
+                     why.empty() ? "" : ": ", why));
   }
 
   void note_includes(const XmlElement& model) {
@@ -238,8 +236,8 @@ class SdfReader {
     const std::string* const expressed = xyz ? xyz->attribute("expressed_in") : nullptr;
     if (expressed && !expressed->empty()) return frames_.all()[frames_.find(frame.scope, *expressed, *xyz)];
     const std::string in_model = sdf_text(axis, "use_parent_model_frame");
-    const bool is_old = version_ != 0 && version_ < 1005;  // then the axis is in the frame of the model
-    if (is_old || in_model == "true" || in_model == "True" || in_model == "TRUE" || in_model == "1")
+    if (sdf_axes_are_old(document_.root()) || in_model == "true" || in_model == "True" || in_model == "TRUE" ||
+        in_model == "1")
       return frames_.all()[frames_.find(frame.scope, "__model__", axis)];
     return frame;
   }
@@ -290,7 +288,6 @@ class SdfReader {
   const Packages& packages_;
   const XmlElement& model_;
   SdfFrames frames_;
-  int version_;
   RobotFile file_;
   std::vector<std::size_t> link_of_frame_;
   std::vector<Pose> in_world_;  // of each link: its pose in the model
@@ -317,6 +314,17 @@ void collect_links(const XmlElement& model, const std::string& prefix,
 
 }  // namespace
 
+int sdf_version(const XmlElement& root) {
+  int major = 0, minor = 0;
+  const std::string* const text = root.attribute("version");
+  return text && std::sscanf(text->c_str(), "%4d.%4d", &major, &minor) == 2 ? 1000 * major + minor : 0;
+}
+
+bool sdf_axes_are_old(const XmlElement& root) {
+  const int version = sdf_version(root);
+  return version != 0 && version < 1005;
+}
+
 std::vector<const XmlElement*> sdf_models(const XmlDocument& document) {
   std::vector<const XmlElement*> models;
   collect_models(document.root(), models);
@@ -325,7 +333,7 @@ std::vector<const XmlElement*> sdf_models(const XmlDocument& document) {
 
 const XmlElement& sdf_model(const XmlDocument& document) {
   const std::vector<const XmlElement*> models = sdf_models(document);
-  if (models.empty()) document.refuse(document.root(), "<sdf> has no <model>; what it includes is not read");
+  if (models.empty()) document.refuse(document.root(), "<sdf> has no <model>");
   return *models[0];
 }
 

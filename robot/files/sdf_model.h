@@ -8,6 +8,12 @@
 
 namespace prohull::robot {
 
+/// "1.10" as 1010, so that versions compare as numbers; 0 if there is none.
+int sdf_version(const XmlElement& root);
+
+/// Whether axes of joints are in the frame of the model, as before SDF 1.5.
+bool sdf_axes_are_old(const XmlElement& root);
+
 /// The models of a document, in its worlds too.
 std::vector<const XmlElement*> sdf_models(const XmlDocument& document);
 

@@ -183,4 +183,12 @@ expect 0 "SDF alone" $prohull urdf box_safe/box.sdf --check
 says box_safe/box.sdf "an image of SDF" "<albedo_map>package://box_safe/meshes/visual/its_image.png</albedo_map>"
 says box_safe/meshes/visual/box.gltf "a buffer" '"my_buffer.bin"'
 says box_safe/meshes/visual/outer.glb "an image of GLB" '"its_image.png"'
+
+mkdir -p models/hand models/arm && printf 'skin' >models/hand/skin.png && dae models/hand/hand.dae skin.png
+echo '<sdf version="1.9"><model name="hand"><link name="palm"><visual name="v"><geometry><mesh><uri>hand.dae</uri></mesh></geometry></visual></link></model></sdf>' >models/hand/model.sdf
+echo '<sdf version="1.9"><model name="arm"><include><uri>model://hand</uri></include></model></sdf>' >models/arm/arm.sdf
+expect 0 "SDF that includes" $prohull urdf models/arm/arm.sdf -o hand_safe --package hand_safe $small
+rm -r models
+is "what is included is copied" grep -q skin hand_safe/meshes/visual/skin.png
+expect 0 "it stands alone" $prohull urdf hand_safe/arm.sdf --check --no-outside-files
 count_checks

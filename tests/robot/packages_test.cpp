@@ -200,6 +200,8 @@ TEST_F(PackagesTest, RelatesPathsToAnotherFolder) {
             "package://arm_description/urdf/meshes/a.stl");
   EXPECT_EQ(uri_from(out, robot_.parent_path() / "meshes/a.stl"), robot_.parent_path() / "meshes/a.stl");
   EXPECT_EQ(uri_from(out, "meshes/none.stl"), "meshes/none.stl");
+  EXPECT_EQ(uri_from(out, "file:meshes/a.stl"), "../urdf/meshes/a.stl");
+  EXPECT_EQ(uri_from(robot_.parent_path(), "file:meshes/a.stl"), "file:meshes/a.stl");
   file("ws/src/arm_description/out/meshes/a.stl");  // another file of this name
   EXPECT_EQ(uri_from(out, "meshes/a.stl"), "../urdf/meshes/a.stl");
 }

@@ -108,5 +108,36 @@ TEST(SdfPeer, ReadsWhatIsWritten) {
     expect_near(Peer::pose_of(link.CollisionByIndex(i)->SemanticPose(), "arm"), visual, kTolerance);
 }
 
+TEST(SdfPeer, AgreesAboutWhatIsIncluded) {
+  const TemporaryFolder folder;
+  write_file(
+      folder / "arm/arm.sdf",
+      "<sdf version='1.9'><model name='arm'><link name='base'/><frame name='wrist'><pose>0 1 0 1 0 0</pose></frame>"
+      "<include><uri>model://hand</uri><name>left</name><pose relative_to='wrist'>1 2 3 0.1 0.2 0.3</pose>"
+      "<placement_frame>tip</placement_frame></include><include><uri>model://hand</uri></include></model></sdf>");
+  write_file(folder / "hand/model.config", "<model><name>hand</name><sdf version='1.9'>hand.sdf</sdf></model>");
+  write_file(
+      folder / "hand/hand.sdf",
+      "<sdf version='1.9'><model name='hand'><pose>5 5 5 1 0 0</pose><link name='palm'><pose>0 0 1 0 0.5 0</pose>"
+      "</link><link name='tip'><pose>3 0 0 0 0 0.7</pose></link></model></sdf>");
+  const Robot robot = read_robot(folder / "arm/arm.sdf").robot;
+  sdf::ParserConfig config;
+  config.AddURIPath("model://", folder.path().string());
+  sdf::Root root;
+  for (const sdf::Error& error : root.Load((folder / "arm/arm.sdf").string(), config)) ADD_FAILURE() << error.Message();
+  ASSERT_EQ(robot.joints.size(), 5U);  // that hang the links on the world
+  for (const Joint& joint : robot.joints) {
+    const std::string& name = robot.links[joint.child].name;
+    const std::size_t colons = name.find("::");
+    if (colons == name.npos) continue;
+    const sdf::Model& hand = *root.Model()->ModelByName(name.substr(0, colons));
+    const sdf::Link& link = *hand.LinkByName(name.substr(colons + 2));
+    expect_near(
+        joint.origin,
+        composed(Peer::pose_of(hand.SemanticPose(), "__model__"), Peer::pose_of(link.SemanticPose(), "__model__")),
+        kTolerance);
+  }
+}
+
 }  // namespace
 }  // namespace prohull::robot

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -229,8 +230,119 @@ TEST(Sdf, ReadsTheFirstModelOfAWorldAndSaysSo) {
   EXPECT_EQ(file.robot.links[0].name, "a");
   ASSERT_EQ(file.notes.size(), 3U);
   EXPECT_NE(file.notes[0].find("2 models"), std::string::npos);
-  EXPECT_EQ(file.notes[1], "line 1 includes 'model://sun', which is not read");
+  EXPECT_TRUE(has(file.notes[1], "line 1 includes 'model://sun', which is not read: there is no package sun in"))
+      << file.notes[1];
   EXPECT_NE(file.notes[2].find("model://hand"), std::string::npos);
+}
+
+class SdfIncludes : public testing::Test {
+ protected:
+  SdfIncludes() {
+    write_file(folder_ / "arm/arm.sdf",
+               "<sdf version='1.9'><model name='arm'>\n<link name='base'/>\n"
+               "<include><uri>model://hand</uri><name>left</name><pose>1 0 0 0 0 0</pose></include>\n"
+               "<include><uri>../hand/model-1_9.sdf</uri></include>\n"
+               "<joint name='j' type='fixed'><parent>base</parent><child>left::tip::end</child></joint>\n"
+               "</model></sdf>");
+    write_file(folder_ / "arm/meshes/a.stl");
+    write_file(folder_ / "hand/model.config",
+               "<model><sdf version='1.9'>model-1_9.sdf</sdf><sdf version='1.4'>model-1_4.sdf</sdf></model>");
+    write_file(folder_ / "hand/model-1_9.sdf",
+               "<sdf version='1.9'>\n<model name='hand'><pose>5 5 5 0 0 0</pose>\n<link name='palm'>\n"
+               "<visual name='v'><geometry><mesh><uri>meshes/a.stl</uri></mesh></geometry></visual></link>\n"
+               "<include><uri>parts/tip</uri><pose>0 1 0 0 0 0</pose></include></model></sdf>");
+    write_tip("<link name='end'><visual name='v'><geometry><mesh><uri>b.stl</uri></mesh></geometry></visual></link>");
+    write_file(folder_ / "hand/parts/tip/b.stl");
+  }
+
+  void write_tip(const std::string& content) const {
+    write_file(folder_ / "hand/parts/tip/model.sdf",
+               "<sdf version='1.9'>\n<model name='tip'>" + content + "</model></sdf>");
+  }
+  RobotFile read_arm(const FileOptions& options = {}) const { return read_robot(folder_ / "arm/arm.sdf", options); }
+  std::string refusal(const std::string& tip) const {
+    write_tip(tip);
+    return refusal_of([&] { read_arm(); });
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(SdfIncludes, StandInThePlaceOfTheElement) {
+  const RobotFile file = read_arm();
+  std::vector<std::string> names;
+  for (const Link& link : file.robot.links) names.push_back(link.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"base", "left::palm", "left::tip::end", "hand::palm", "hand::tip::end",
+                                             "world"}));
+  EXPECT_TRUE(file.notes.empty()) << file.notes[0];
+  EXPECT_EQ(file.robot.links[2].line, 2U) << "of its own file";
+  const auto joint = std::ranges::find(file.robot.joints, "j", &Joint::name);
+  ASSERT_NE(joint, file.robot.joints.end());
+  expect_near(joint->origin.translation, {1, 1, 0});
+  EXPECT_TRUE(file.robot.links[1].visual.at(0).mesh()->path.empty()) << "not the file of this name beside the arm";
+  EXPECT_EQ(file.robot.links[2].visual.at(0).mesh()->path, folder_ / "hand/parts/tip/b.stl");
+  const std::string written = with_collisions(file, {{{.link = 4, .hulls = {kHull}}}}, folder_ / "new/place");
+  EXPECT_FALSE(has(written, "include")) << written;
+  write_file(folder_ / "new/place/arm.sdf", written);
+  const Robot again = read_robot(folder_ / "new/place/arm.sdf").robot;
+  EXPECT_EQ(again.links.at(4).collision.size(), 1U);
+  EXPECT_EQ(again.links.at(4).visual.at(0).mesh()->path, folder_ / "hand/parts/tip/b.stl");
+}
+
+TEST_F(SdfIncludes, AreTheModelsOfAWorldWithoutOthers) {
+  const std::string worlds = "<sdf version='1.9'><world name='w'><include><uri>model://sun</uri></include>";
+  write_file(folder_ / "arm/arm.sdf", worlds + "<include><uri>model://hand</uri></include></world></sdf>");
+  const RobotFile file = read_arm();
+  EXPECT_EQ(file.robot.name, "hand");
+  ASSERT_EQ(file.notes.size(), 1U);
+  EXPECT_TRUE(has(file.notes[0], "line 1 includes 'model://sun', which is not read: there is no package sun"));
+  write_file(folder_ / "arm/arm.sdf", worlds + "</world></sdf>");
+  EXPECT_TRUE(has(refusal("<link name='end'/>"), "line 1: <include> names 'model://sun', there is no package sun"));
+}
+
+TEST_F(SdfIncludes, AreFoundInFoldersOfModels) {
+  std::filesystem::rename(folder_ / "hand", folder_ / "hands");
+  std::filesystem::create_directories(folder_ / "models");
+  std::filesystem::rename(folder_ / "hands", folder_ / "models/hand");
+  write_file(folder_ / "arm/arm.sdf",
+             "<sdf version='1.9'><model name='m'><include><uri>model://hand</uri></include></model></sdf>");
+  const std::string models = (folder_ / "models").string();
+  EXPECT_TRUE(has(refusal_of([&] { read_arm(); }), "there is no package hand"));
+  EXPECT_EQ(read_arm({.package_paths = {models}}).robot.links.size(), 3U);
+  for (const char* name : {"GAZEBO_MODEL_PATH", "SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH"}) {
+    const Variable variable(name, models);
+    EXPECT_EQ(read_arm().robot.links.size(), 3U) << name;
+  }
+}
+
+TEST_F(SdfIncludes, ThatCannotBeTakenAreRefusedOrNoted) {
+  EXPECT_TRUE(has(refusal("<include><uri>model://hand</uri></include>"),
+                  "model.sdf: line 2: <include> names 'model://hand', which includes itself"));
+  EXPECT_TRUE(has(refusal("<include><uri>../../../arm/arm.sdf</uri></include>"), "which includes itself"));
+  EXPECT_TRUE(has(refusal("<link>"), "model.sdf: line 2: no XML"));
+  write_file(folder_ / "hand/parts/tip/other.sdf", "<robot/>");
+  EXPECT_TRUE(has(refusal("<include><uri>other.sdf</uri></include>"), "whose root is <robot>, not <sdf>"));
+  write_file(folder_ / "hand/parts/tip/other.sdf", "<sdf version='1.4'><model name='o'><link name='o'/></model></sdf>");
+  write_tip(
+      "<link name='end'/><include><uri>other.sdf</uri></include><include merge='true'><uri>x</uri></include>"
+      "<include><pose>0 0 0 0 0 0</pose></include>");
+  EXPECT_EQ(read_arm().notes.size(), 6U);
+  EXPECT_EQ(read_arm().robot.links.size(), 6U);
+  EXPECT_TRUE(has(refusal_of([&] { read_arm({.package_paths = {}, .no_outside_files = true}); }, Defect::CannotRead),
+                  "--no-outside-files"));
+}
+
+TEST_F(SdfIncludes, AreBounded) {
+  const auto twice = [](int next) {
+    const std::string name = std::to_string(next);
+    return "<sdf version='1.9'><model name='m'><link name='l'/><include><uri>" + name +
+           ".sdf</uri><name>a</name></include>"
+           "<include><uri>" +
+           name + ".sdf</uri><name>b</name></include></model></sdf>";
+  };
+  write_file(folder_ / "arm/arm.sdf", twice(0));
+  for (int i = 0; i < 40; ++i) write_file(folder_ / "arm" / (std::to_string(i) + ".sdf"), twice(i + 1));
+  EXPECT_TRUE(has(refusal_of([&] { read_arm(); }), "more than 10,000 models"));
 }
 
 TEST(Sdf, RefusesWithTheLine) {
