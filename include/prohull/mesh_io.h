@@ -56,8 +56,8 @@ struct ReadOptions {
 /// memory than there is is refused before it is read (memory.h).
 ///
 /// Formats: PLY (ascii, binary little and big endian; triangle strips), OBJ, OFF, STL (ascii, binary), glTF 2.0 (.glb,
-/// .gltf). Each may be gzipped, or alone in a zip archive. The file name tells the format; if it does not, the content
-/// does. A name that contradicts the content is an error.
+/// .gltf), MSH of MuJoCo. Each may be gzipped, or alone in a zip archive. The file name tells the format; if it does
+/// not, the content does. A name that contradicts the content is an error.
 ///
 /// Guaranteed: coordinates keep their bits, as doubles. The memory that is used is bounded by the size of the content,
 /// not by what headers claim. Compressed content, and meshes that a scene places many times, may grow 200 times, beyond

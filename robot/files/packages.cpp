@@ -140,7 +140,7 @@ bool stands_alone(const fs::path& mesh) {
   std::string name = mesh.filename().string();
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
-  constexpr std::array<std::string_view, 6> kAlone{".stl", ".obj", ".ply", ".off", ".glb", ".dae"};
+  constexpr std::array<std::string_view, 7> kAlone{".stl", ".obj", ".ply", ".off", ".glb", ".dae", ".msh"};
   return std::ranges::any_of(kAlone, [&](std::string_view suffix) { return name.ends_with(suffix); });
 }
 

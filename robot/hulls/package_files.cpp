@@ -26,8 +26,8 @@ bool is_image(std::string_view suffix) {
 
 /// Whether a file of the robot is one to be shown.
 bool is_shown(const fs::path& file) {
-  constexpr std::array<std::string_view, 11> kMeshes{".stl", ".obj", ".ply", ".off", ".dae", ".gltf",
-                                                     ".glb", ".3mf", ".fbx", ".gz",  ".mesh"};
+  constexpr std::array<std::string_view, 12> kMeshes{".msh",  ".stl", ".obj", ".ply", ".off", ".dae",
+                                                     ".gltf", ".glb", ".3mf", ".fbx", ".gz",  ".mesh"};
   const std::string suffix = lower_suffix(file);
   return is_image(suffix) || std::ranges::find(kMeshes, suffix) != kMeshes.end();
 }

@@ -101,11 +101,13 @@ Counts counts_of_ply(const std::string& beginning, std::size_t size) {
 }
 
 Counts counts_of(const std::filesystem::path& file, std::size_t size) {
-  constexpr std::size_t kStlHeader = 84, kStlTriangle = 50, kAsciiStlTriangle = 300, kTextTriangle = 120;
+  constexpr std::size_t kStlHeader = 84, kStlTriangle = 50, kAsciiStlTriangle = 300, kTextTriangle = 120,
+                        kMshTriangle = 18;
   const std::string extension = lower_case_extension(file);
   const std::string beginning = beginning_of(file);
   const auto closed = [](std::size_t faces) { return Counts{faces / 2, faces}; };
   if (extension == ".obj" || extension == ".off") return closed(size / kTextTriangle);
+  if (extension == ".msh") return closed(size / kMshTriangle);
   if (extension == ".stl" && size > kStlHeader)
     return closed(is_ascii_stl(beginning) ? size / kAsciiStlTriangle : (size - kStlHeader) / kStlTriangle);
   try {

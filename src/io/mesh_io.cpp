@@ -34,13 +34,14 @@ struct FormatTraits {
   std::string (*content_of_several)(std::span<const TriangleMesh> meshes, std::span<const std::string> names);
 };
 
-constexpr std::array<FormatTraits, 6> kFormats = {{
+constexpr std::array<FormatTraits, 7> kFormats = {{
     {".ply", "PLY", read_ply, MeshFormat::Ply, ply_content, nullptr},
     {".obj", "OBJ", read_obj, MeshFormat::Obj, obj_content, obj_content},
     {".off", "OFF", read_off, MeshFormat::Off, off_content, nullptr},
     {".stl", "STL", read_stl, MeshFormat::Stl, stl_content, nullptr},
     {".glb", "GLB", read_gltf, MeshFormat::Glb, glb_content, glb_content},
     {".gltf", "glTF", read_gltf, {}, nullptr, nullptr},
+    {".msh", "MSH", read_msh, {}, nullptr, nullptr},
 }};
 
 const FormatTraits& traits(MeshFormat format) {

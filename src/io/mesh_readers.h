@@ -15,6 +15,8 @@ TriangleMesh read_ply(std::string_view content, const std::string& file, const R
 TriangleMesh read_obj(std::string_view content, const std::string& file, const ReadOptions& options);
 TriangleMesh read_off(std::string_view content, const std::string& file, const ReadOptions& options);
 TriangleMesh read_stl(std::string_view content, const std::string& file, const ReadOptions& options);
+/// MuJoCo's binary MSH.
+TriangleMesh read_msh(std::string_view content, const std::string& file, const ReadOptions& options);
 /// glTF or GLB; `file` is also where the files are that it names.
 TriangleMesh read_gltf(std::string_view content, const std::string& file, const ReadOptions& options);
 

@@ -5,8 +5,8 @@
 
 #include "fuzzing.h"
 
-constexpr std::array<const char*, 8> kNames = {"fuzz.ply", "fuzz.obj", "fuzz.off",  "fuzz.stl",
-                                               "fuzz.zip", "fuzz",     "fuzz.gltf", "fuzz.glb"};
+constexpr std::array<const char*, 9> kNames = {"fuzz.ply", "fuzz.obj",  "fuzz.off", "fuzz.stl", "fuzz.zip",
+                                               "fuzz",     "fuzz.gltf", "fuzz.glb", "fuzz.msh"};
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > 0)

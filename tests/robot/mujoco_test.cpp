@@ -141,5 +141,26 @@ TEST_F(InMujoco, ModelsWithFoldersOfAssetsLoad) {
   }
 }
 
+TEST_F(InMujoco, MshFilesAreReadAsMujocoReadsThem) {
+  const TriangleMesh part = make_sample("bracket", 200);
+  std::string bytes;
+  const auto add = [&](auto value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof(value)); };
+  for (const std::size_t count : {part.vertex_count(), std::size_t{0}, std::size_t{0}, part.face_count()})
+    add(std::int32_t(count));
+  for (const Vec3& p : part.positions)
+    for (int axis = 0; axis < 3; ++axis) add(float(p[axis]));
+  for (const auto& corners : part.triangles)
+    for (const VertexId corner : corners) add(std::int32_t(corner));
+  write_bytes(folder_ / "part.msh", bytes);
+  write_bytes(folder_ / "arm.xml",
+              "<mujoco><asset><mesh name='m' file='part.msh'/></asset><worldbody><body name='b'>"
+              "<geom type='mesh' mesh='m'/></body></worldbody></mujoco>");
+  prohull("urdf arm.xml -o made --faces 50 --no-pictures");
+  const Model model = load(folder_ / "made/arm.xml");
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->mesh_facenum[0], int(part.face_count()));
+  EXPECT_EQ(read_mesh(folder_ / "part.msh").face_count(), part.face_count());
+}
+
 }  // namespace
 }  // namespace prohull::robot
