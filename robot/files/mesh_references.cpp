@@ -143,7 +143,7 @@ std::size_t end_of_string(std::string_view json, std::size_t begin) {
   return std::min(at + 1, json.size());
 }
 
-/// Values of "uri", but for data that the file holds itself. `begin` is where the text begins in the file.
+/// Values of "uri". `begin` is where the text begins in the file.
 std::vector<FileReference> references_in_json(std::string_view json, std::size_t begin, const FindFile& find) {
   std::vector<FileReference> found;
   bool is_uri = false;  // the last string was this key
@@ -152,7 +152,7 @@ std::vector<FileReference> references_in_json(std::string_view json, std::size_t
     const std::string_view token = json.substr(at, end - at);
     const std::size_t next = json.find_first_not_of(" \t\r\n", end);
     const bool is_key = next != json.npos && json[next] == ':';
-    if (is_uri && !is_key && !token.starts_with("\"data:")) {
+    if (is_uri && !is_key) {
       const nlohmann::json value = nlohmann::json::parse(token, nullptr, false);
       if (value.is_string())
         found.push_back({{begin + at, begin + end}, value.get<std::string>(), find(value.get<std::string>())});

@@ -137,7 +137,8 @@ std::vector<XmlEdit> PackageFiles::edits_of(const fs::path& source) {
   std::vector<std::string> names;
   for (const FileReference& reference : references) {
     const bool is_here = !reference.file.empty();
-    if (!is_here) left_.insert(fmt::format("{} of {}", reference.name, source.filename().string()));
+    if (!is_here && !reference.name.starts_with("data:"))
+      left_.insert(fmt::format("{} of {}", reference.name, source.filename().string()));
     names.push_back(is_here ? copy_of(reference.file).filename().string() : reference.name);
   }
   return renamed(source, references, names);

@@ -151,6 +151,25 @@ sed -i 's|</robot>|<gazebo><uri>b.dae</uri></gazebo>&|' stranger/s.urdf
 expect 0 "a file that is broken" $prohull urdf stranger/s.urdf -o s --package s $small
 says out "a file that is broken" "what b.dae names"
 
+# --- other ways to name a file ---
+mkdir -p forms/sub && printf 'one' >"forms/two  words.png" && printf 'two' >forms/sub/wood.png
+dae forms/new.dae '<ref>two%20%20words.png</ref>'
+sed -i 's/version="1.4.1"/version="1.5.0"/' forms/new.dae
+obj forms/two.obj "one file.mtl"
+obj forms/three.obj "one.mtl   other.mtl"
+printf 'newmtl m\nmap_Kd sub\\wood.png\n' >"forms/one file.mtl"
+printf 'newmtl m\r\nMAP_KD -o 1 two  words.png \r\n' >forms/one.mtl
+printf 'newmtl n\n  norm sub/wood.png' >forms/other.mtl
+echo "<robot name=\"f\">$(link base new.dae)$(link two two.obj)$(link three three.obj)</robot>" >forms/f.urdf
+expect 0 "other ways to name a file" $prohull urdf forms/f.urdf -o f --package f $small
+says_not out "all files are found" "not copied"
+says f/meshes/visual/new.dae "COLLADA 1.5" "<init_from><ref>two__words.png</ref></init_from>"
+says f/meshes/visual/two.obj "a name with a blank" "mtllib one_file.mtl"
+says f/meshes/visual/three.obj "two names" "mtllib one.mtl   other.mtl"
+says f/meshes/visual/one_file.mtl "a path of Windows" "map_Kd wood.png"
+is "an option, and the end of a line" grep -q "^MAP_KD -o 1 two__words.png .$" f/meshes/visual/one.mtl
+says f/meshes/visual/other.mtl "the end of a file" "  norm wood.png"
+
 # --- SDF, and glTF with a buffer and an image ---
 mkdir gltf && printf 'blue' >"gltf/its image.png"
 $prohull sample box --faces 12 -o gltf/box.glb >/dev/null
