@@ -551,71 +551,184 @@ static Pose middle_pose(double* reach, Axis* axes) {
     reach[h] = 0;
     if (f->kind != FIXED) find_reach(hinges[h].frame, &position, &reach[h]);
     Pose step = joint_pose(f, position);
-    if (hinges[h].climbs && f->kind == TURNS) axes[h] = axis_at(&p, f);
+    if (hinges[h].climbs && f->kind != FIXED) axes[h] = axis_at(&p, f);
     if (hinges[h].climbs) step = inverse(&step);
     p = composed(&p, &step);
-    if (!hinges[h].climbs && f->kind == TURNS) axes[h] = axis_at(&p, f);
+    if (!hinges[h].climbs && f->kind != FIXED) axes[h] = axis_at(&p, f);
   }
   return p;
 }
 
-/* How much the distance changes at most, from the middle to anywhere within the reaches. The first hinges count by
-   their arms of a, the others by those of b, and how many do is free. */
-static double change_of(const Body* a, const Body* b, Pose* p) {
-  static Axis* axes;
-  static double *reach, *rest; /* rest: of a hinge and those behind it */
-  axes = resized(axes, hinge_count, sizeof *axes), reach = resized(reach, hinge_count, sizeof *reach);
-  rest = resized(rest, hinge_count + 1, sizeof *rest), rest[hinge_count] = 0, spend(10 * hinge_count);
-  *p = middle_pose(reach, axes);
-  const Pose back = inverse(p);
-  for (size_t h = hinge_count; h-- > 0;) {
-    const Frame* const f = frames + hinges[h].frame;
-    double arm = f->kind == SLIDES ? length(f->axis) : 0;
-    if (f->kind == TURNS && reach[h] > 0) {
-      const Axis of_b = moved_axis(&back, axes + h);
-      reach[h] = reach[h] < 2 ? reach[h] : 2, arm = arm_of(b, &of_b); /* a chord is at most a diameter */
-    }
-    rest[h] = rest[h + 1] + reach[h] * arm;
-  }
-  double least = rest[0], first = 0;
-  for (size_t h = 0; h < hinge_count; ++h) {
-    const Frame* const f = frames + hinges[h].frame;
-    if (reach[h] > 0) first += reach[h] * (f->kind == SLIDES ? length(f->axis) : arm_of(a, axes + h));
-    if (first >= least) break;
-    least = first + rest[h + 1] < least ? first + rest[h + 1] : least;
-  }
-  return least * (1 + ROUND * (double)(1 + hinge_count));
-}
+/* A joint that moves a body, as far as `reach` either way, seen from the body; and how far points may be from the axis,
+   more or less than it seems. */
+typedef struct {
+  double point[3], way[3], reach, blur;
+  int turns;
+  size_t freedom;
+} Move;
 
 typedef struct {
   const Body *a, *b;
   Pose p, back;        /* of b in the frame of a, and of a in that of b */
   double least, doubt; /* bodies have to be farther apart; what rounding may do to that */
-  double n[3];         /* the direction that told the last two triangles apart */
+  double main[2][3];   /* directions between two triangles that are near, and between the middles of the bodies */
+  double n[3];         /* the direction, of length 1, that told the last two triangles or boxes apart */
+  Move* moves[2];      /* of a and of b: the joint that is closest to the body comes first */
+  size_t count[2];
 } Sight;
 
-static int boxes_apart(const Pose* p, const Box* a, const Box* b, double least) {
-  double c[3], sum = 0;
+static void add_move(Sight* s, int which, const Axis* axis, size_t frame, double reach, double turn) {
+  const Frame* const f = frames + frame;
+  const Body* const b = which ? s->b : s->a;
+  Move* const m = s->moves[which] + s->count[which]++;
+  memcpy(m->point, axis->point, sizeof m->point), memcpy(m->way, axis->way, sizeof m->way);
+  m->turns = f->kind == TURNS, m->reach = m->turns ? reach : reach * length(f->axis);
+  while (frames[frame].master != NONE) frame = frames[frame].master;
+  m->freedom = frames[frame].freedom;
+  m->blur = axis->point_doubt + (axis->way_doubt + turn + 4 * ROUND) * (b->radius + length(axis->point));
+}
+
+/* Finds the pose in the middle, and what moves the bodies from there. The first hinges count as moving a, the others b,
+   and how many do is free: here, such that a body that is stiff moves least. */
+static void find_moves(Sight* s) {
+  static Axis* axes;
+  static double *reach, *rest; /* rest: of a hinge and those behind it */
+  axes = resized(axes, hinge_count, sizeof *axes), reach = resized(reach, hinge_count, sizeof *reach);
+  rest = resized(rest, hinge_count + 1, sizeof *rest), rest[hinge_count] = 0, spend(10 * hinge_count);
+  for (int i = 0; i < 2; ++i)
+    s->moves[i] = resized(s->moves[i], hinge_count, sizeof *s->moves[i]), s->count[i] = 0;
+  s->p = middle_pose(reach, axes), s->back = inverse(&s->p);
+  for (size_t h = hinge_count; h-- > 0;) {
+    const Frame* const f = frames + hinges[h].frame;
+    double arm = f->kind == SLIDES ? length(f->axis) : 0;
+    if (f->kind == TURNS && reach[h] > 0) {
+      const Axis of_b = moved_axis(&s->back, axes + h);
+      arm = arm_of(s->b, &of_b);
+    }
+    rest[h] = rest[h + 1] + reach[h] * arm;
+  }
+  double least = rest[0], first = 0;
+  size_t of_a = 0;
+  for (size_t h = 0; h < hinge_count && first < least; ++h) {
+    const Frame* const f = frames + hinges[h].frame;
+    if (reach[h] > 0) first += reach[h] * (f->kind == SLIDES ? length(f->axis) : arm_of(s->a, axes + h));
+    if (first + rest[h + 1] < least) least = first + rest[h + 1], of_a = h + 1;
+  }
+  for (size_t h = 0; h < of_a; ++h)
+    if (reach[h] > 0) add_move(s, 0, axes + h, hinges[h].frame, reach[h], 0);
+  for (size_t h = hinge_count; h-- > of_a;) {
+    if (!(reach[h] > 0)) continue;
+    const Axis of_b = moved_axis(&s->back, axes + h);
+    add_move(s, 1, &of_b, hinges[h].frame, reach[h], s->p.turn);
+  }
+}
+
+/* How far points of body `which` move that are within `radius` of x: any way, and along a direction, that part which is
+   of second order. The second derivative of where a point is by two joints is at most the derivative by the one that is
+   closer to the body if the other turns, and 0 otherwise. */
+static void find_drift(const Sight* s, int which, const double* x, double radius, double* any_way, double* bend) {
+  double moved = 0, way[3], across[3];
+  *any_way = *bend = 0;
+  for (size_t i = 0; i < s->count[which]; ++i) {
+    const Move* const m = s->moves[which] + i;
+    double derivative = 1;
+    if (m->turns) {
+      subtract(way, x, m->point), cross(across, way, m->way);
+      const double arm = length(across) + radius + m->blur;
+      *any_way += (m->reach < 2 ? m->reach : 2) * arm; /* a chord is at most a diameter */
+      derivative = arm + moved, *bend += m->reach * (moved + m->reach * derivative / 2);
+    } else {
+      *any_way += m->reach;
+    }
+    moved += m->reach * derivative;
+  }
+  *any_way *= 1 + 1000 * ROUND, *bend *= 1 + 1000 * ROUND;
+}
+
+/* The part of first order along n, which is seen from the body, of the points whose coordinates are within `half`. */
+static double straight(const Sight* s, int which, const double* n, const double* x, const double* half) {
+  double sum = 0, way[3], lever[3];
+  for (size_t i = 0; i < s->count[which]; ++i) {
+    const Move* const m = s->moves[which] + i;
+    if (!m->turns) {
+      sum += m->reach * (fabs(dot(n, m->way)) + m->blur);
+      continue;
+    }
+    cross(lever, m->way, n), subtract(way, x, m->point);
+    double spread = m->blur;
+    for (int k = 0; k < 3 && half; ++k) spread += half[k] * fabs(lever[k]);
+    sum += m->reach * (fabs(dot(way, lever)) + spread);
+  }
+  return sum * (1 + 1000 * ROUND);
+}
+
+/* Sets n, and what it is as seen from b. */
+static int set_direction(Sight* s, const double* way, double* of_b) {
+  const double size = length(way);
+  if (!(size > 1e-100 && size < 1e100)) return 0;
+  for (int k = 0; k < 3; ++k) s->n[k] = way[k] / size;
+  place(of_b, &s->back, s->n, 1);
+  return 1;
+}
+
+static void find_gaps(double gaps[3], const Pose* p, const Box* a, const Box* b) {
+  double c[3];
   place(c, p, b->center, 0);
   for (int k = 0; k < 3; ++k) {
     const double *r = p->r[k], half = fabs(r[0]) * b->half[0] + fabs(r[1]) * b->half[1] + fabs(r[2]) * b->half[2];
-    const double gap = fabs(c[k] - a->center[k]) - a->half[k] - half;
-    sum += gap > 0 ? gap * gap : 0;
+    const double from = c[k] - a->center[k], gap = fabs(from) - a->half[k] - half;
+    gaps[k] = gap > 0 ? (from > 0 ? gap : -gap) : 0;
   }
-  return sqrt(sum) > least;
 }
 
-/* Whether two planes across n, farther apart than `least`, have the triangles on either side. */
-static int is_slab(const double n[3], double a[3][3], double b[3][3], double least) {
-  const double size = dot(n, n);
-  double low[2], high[2];
-  if (!(size > 1e-200 && size < 1e200)) return 0;
-  for (int i = 0; i < 2; ++i) {
-    double(*const t)[3] = i ? b : a;
-    const double x = dot(n, t[0]), y = dot(n, t[1]), z = dot(n, t[2]);
-    low[i] = x < y ? x : y, high[i] = larger(x, y), low[i] = low[i] < z ? low[i] : z, high[i] = larger(high[i], z);
+/* Whether what is in the boxes stays apart along a direction. */
+static int is_gap(Sight* s, const double* way, const Box* a, const Box* b, double least) {
+  double c[3], of_b[3];
+  if (!set_direction(s, way, of_b)) return 0;
+  place(c, &s->p, b->center, 0), subtract(c, c, a->center);
+  double gap = fabs(dot(s->n, c));
+  for (int k = 0; k < 3; ++k) gap -= fabs(s->n[k]) * a->half[k] + fabs(of_b[k]) * b->half[k];
+  return gap > least && gap - straight(s, 0, s->n, a->center, a->half) - straight(s, 1, of_b, b->center, b->half) > least;
+}
+
+static int boxes_apart(Sight* s, const Box* a, const Box* b) {
+  double gaps[3], others[3], any_a, any_b, bend_a, bend_b, way[3], old[3];
+  const double least = s->least + s->doubt;
+  find_drift(s, 0, a->center, length(a->half), &any_a, &bend_a);
+  find_drift(s, 1, b->center, length(b->half), &any_b, &bend_b);
+  find_gaps(gaps, &s->p, a, b), find_gaps(others, &s->back, b, a);
+  if (larger(length(gaps), length(others)) > least + any_a + any_b) return 1;
+  const double bent = least + bend_a + bend_b;
+  memcpy(old, s->n, sizeof old);
+  if (is_gap(s, s->main[0], a, b, bent) || is_gap(s, s->main[1], a, b, bent) || is_gap(s, old, a, b, bent)) return 1;
+  place(way, &s->p, others, 1);
+  if (is_gap(s, length(gaps) > length(others) ? gaps : way, a, b, bent)) return 1;
+  memcpy(s->n, old, sizeof old);
+  return 0;
+}
+
+/* Two triangles, and what of the drift of their corners does not hang on a direction. */
+typedef struct {
+  double (*a)[3], (*b)[3], (*of_b)[3]; /* of_b: seen from b */
+  double bend[2][3], any_way;
+} Two;
+
+/* Whether two planes across the way, farther apart than they have to be, stay between the triangles. */
+static int is_slab(Sight* s, const double* way, const Two* two) {
+  double n[3], ends[2] = {-INFINITY, -INFINITY}, begins[2] = {INFINITY, INFINITY}, low[2] = {INFINITY, INFINITY},
+               high[2] = {-INFINITY, -INFINITY};
+  if (!set_direction(s, way, n)) return 0;
+  for (int i = 0; i < 6; ++i) {
+    const int which = i / 3, k = i % 3;
+    const double x = dot(s->n, which ? two->b[k] : two->a[k]);
+    const double drift =
+        straight(s, which, which ? n : s->n, which ? two->of_b[k] : two->a[k], NULL) + two->bend[which][k];
+    low[which] = x < low[which] ? x : low[which], high[which] = larger(high[which], x);
+    begins[which] = x - drift < begins[which] ? x - drift : begins[which], ends[which] = larger(ends[which], x + drift);
   }
-  return larger(low[1] - high[0], low[0] - high[1]) > least * sqrt(size);
+  const double least = s->least + s->doubt;
+  return larger(low[1] - high[0], low[0] - high[1]) > least + two->any_way ||
+         larger(begins[1] - ends[0], begins[0] - ends[1]) > least;
 }
 
 /* The way to x from the point of t that is about nearest to it. */
@@ -638,30 +751,64 @@ static void find_way(double way[3], const double* x, double t[3][3]) {
 
 /* Tries planes across the last direction, ways from a corner to the other triangle, products of edges, and normals. */
 static int triangles_apart(Sight* s, double a[3][3], double of_b[3][3]) {
-  const double least = s->least + s->doubt;
-  double b[3][3], e[3], f[3];
+  double b[3][3], e[3], f[3], way[3], any[2] = {0, 0};
+  Two two = {a, b, of_b, {{0}}, 0};
+  for (int i = 0; i < 6; ++i) {
+    double any_way;
+    find_drift(s, i / 3, i < 3 ? a[i] : of_b[i - 3], 0, &any_way, &two.bend[i / 3][i % 3]);
+    any[i / 3] = larger(any[i / 3], any_way);
+  }
+  two.any_way = any[0] + any[1];
   for (int k = 0; k < 3; ++k) place(b[k], &s->p, of_b[k], 0);
-  if (is_slab(s->n, a, b, least)) return 1;
+  memcpy(way, s->n, sizeof way);
+  if (is_slab(s, s->main[0], &two) || is_slab(s, s->main[1], &two) || is_slab(s, way, &two)) return 1;
   for (int i = 0; i < 17; ++i) {
     double(*const u)[3] = i < 3 || i == 15 ? a : b, (*const v)[3] = i < 3 ? b : a;
     if (i < 6) {
-      find_way(s->n, u[i % 3], v);
+      find_way(way, u[i % 3], v);
     } else {
       const int j = i < 15 ? (i - 6) / 3 : 0, k = i < 15 ? i % 3 : 1;
       double(*const w)[3] = i < 15 ? a : u;
-      subtract(e, u[(k + 1) % 3], u[k]), subtract(f, w[(j + 1) % 3], w[j]), cross(s->n, e, f);
+      subtract(e, u[(k + 1) % 3], u[k]), subtract(f, w[(j + 1) % 3], w[j]), cross(way, e, f);
     }
-    if (is_slab(s->n, a, b, least)) return 1;
+    if (is_slab(s, way, &two)) return 1;
   }
   return 0;
+}
+
+static double box_distance(const Sight* s, size_t i, size_t j) {
+  double gaps[3], others[3], c[3];
+  find_gaps(gaps, &s->p, s->a->box + i, s->b->box + j), find_gaps(others, &s->back, s->b->box + j, s->a->box + i);
+  place(c, &s->p, s->b->box[j].center, 0), subtract(c, c, s->a->box[i].center);
+  return larger(length(gaps), length(others)) + 1e-6 * length(c);
+}
+
+/* Goes down to two triangles that are near, and takes the way between them; and the one between the middles. */
+static void find_main(Sight* s) {
+  size_t i = 1, first = 0, n = s->a->n, j = 1, other = 0, m = s->b->n;
+  while (n > 1 || m > 1) {
+    if (m == 1 || (n > 1 && length(s->a->box[i].half) > length(s->b->box[j].half))) {
+      const int is_second = box_distance(s, 2 * i + 1, j) < box_distance(s, 2 * i, j);
+      i = 2 * i + (size_t)is_second, first += is_second ? n / 2 : 0, n = is_second ? n - n / 2 : n / 2;
+    } else {
+      const int is_second = box_distance(s, i, 2 * j + 1) < box_distance(s, i, 2 * j);
+      j = 2 * j + (size_t)is_second, other += is_second ? m / 2 : 0, m = is_second ? m - m / 2 : m / 2;
+    }
+  }
+  double b[3][3], way[3], best = INFINITY;
+  for (int k = 0; k < 3; ++k) place(b[k], &s->p, s->b->t[other].p[k], 0);
+  for (int k = 0; k < 6; ++k) {
+    find_way(way, k < 3 ? s->a->t[first].p[k] : b[k - 3], k < 3 ? b : s->a->t[first].p);
+    if (length(way) < best) best = length(way), memcpy(s->main[0], way, sizeof way);
+  }
+  place(way, &s->p, s->b->box[1].center, 0), subtract(s->main[1], way, s->a->box[1].center);
 }
 
 /* Whether the triangles of two nodes are farther apart than they have to be. */
 static int are_apart(Sight* s, size_t i, size_t first, size_t n, size_t j, size_t other, size_t m) {
   const Box *const a = s->a->box + i, *const b = s->b->box + j;
-  const double least = s->least + s->doubt;
   spend(1);
-  if (boxes_apart(&s->p, a, b, least) || boxes_apart(&s->back, b, a, least)) return 1;
+  if (boxes_apart(s, a, b)) return 1;
   if (n == 1 && m == 1) return spend(10), triangles_apart(s, s->a->t[first].p, s->b->t[other].p);
   if (m == 1 || (n > 1 && length(a->half) > length(b->half)))
     return are_apart(s, 2 * i, first, n / 2, j, other, m) &&
@@ -725,19 +872,56 @@ static Sight sight;
 static size_t cells;
 static double gap;
 
-/* Proves that two bodies are apart while all freedoms stay within their reaches. */
-static void prove_cell(void) {
+/* Whether it is proven that two bodies are apart while all freedoms stay within their reaches. */
+static int is_cell_free(void) {
   Sight* const s = &sight;
-  const int is_first = cells++ == 0;
+  const int is_first = cells == 0;
   spend(50);
-  s->least = change_of(s->a, s->b, &s->p) + gap, s->back = inverse(&s->p);
+  find_moves(s), find_main(s);
+  s->least = gap;
   s->doubt = larger(doubt_of(&s->p, s->b->radius) + ROUND * s->a->radius,
                     doubt_of(&s->back, s->a->radius) + ROUND * s->b->radius);
   if (is_first) s->least += s->doubt; /* so that points that are placed have not passed through the other surface */
-  if (!are_apart(s, 1, 0, s->a->n, 1, 0, s->b->n))
-    end(1, "%s and %s may be too close in cell %lu of their tree", s->a->name, s->b->name, COUNT(cells));
+  if (!are_apart(s, 1, 0, s->a->n, 1, 0, s->b->n)) return 0;
+  ++cells;
   if (is_first && !(is_beside(s->a, s->b, &s->back) && is_beside(s->b, s->a, &s->p)))
     end(1, "one of %s and %s may be inside of the other", s->a->name, s->b->name);
+  return 1;
+}
+
+static void give_up(void) {
+  end(1, "%s and %s may be too close in cell %lu of their tree", sight.a->name, sight.b->name, COUNT(cells + 1));
+}
+
+/* What is proven barely may be seen otherwise here: then in parts. */
+enum { MOST_HALVINGS = 10 };
+
+/* The freedom that moves the middles of the bodies most. */
+static size_t widest_freedom(void) {
+  double most = -1, parts[26] = {0}, way[3], across[3];
+  size_t widest = 0;
+  for (int which = 0; which < 2; ++which)
+    for (size_t i = 0; i < sight.count[which]; ++i) {
+      const Move* const m = sight.moves[which] + i;
+      const Box* const box = (which ? sight.b : sight.a)->box + 1;
+      subtract(way, box->center, m->point), cross(across, way, m->way);
+      if (m->freedom >= 26) continue;
+      parts[m->freedom] += m->reach * (m->turns ? length(across) + length(box->half) : 1);
+      if (parts[m->freedom] > most) most = parts[m->freedom], widest = m->freedom;
+    }
+  return widest;
+}
+
+static void prove_box(int halvings) {
+  for (size_t i = 0; i < freedom_count; ++i)
+    middles[i] = lows[i] / 2 + highs[i] / 2,
+    halves[i] = larger(highs[i] - middles[i], middles[i] - lows[i]) * (1 + ROUND);
+  if (is_cell_free()) return;
+  if (halvings == 0 || freedom_count == 0) give_up();
+  const size_t f = widest_freedom();
+  const double low = lows[f], high = highs[f], middle = low / 2 + high / 2;
+  highs[f] = middle, prove_box(halvings - 1), highs[f] = high;
+  lows[f] = middle, prove_box(halvings - 1), lows[f] = low;
 }
 
 /* The next node of a tree: the number of the freedom that is halved, or NONE. */
@@ -753,10 +937,7 @@ static size_t next_node(int depth, size_t freedoms) {
 static void prove_positions(int depth) {
   const size_t f = next_node(depth, freedom_count);
   if (f == NONE) {
-    for (size_t i = 0; i < freedom_count; ++i)
-      middles[i] = lows[i] / 2 + highs[i] / 2,
-      halves[i] = larger(highs[i] - middles[i], middles[i] - lows[i]) * (1 + ROUND);
-    prove_cell();
+    prove_box(MOST_HALVINGS);
     return;
   }
   const double low = lows[f], high = highs[f], middle = low / 2 + high / 2;
@@ -842,11 +1023,23 @@ static void find_path_reach(size_t k, double begin, double middle, double stop) 
   }
 }
 
+static double middle_of(double begin, double stop) {
+  const double row = floor((begin + stop) / 2);
+  return begin < row && row < stop ? row : (begin + stop) / 2;
+}
+
+static void prove_leaf(double begin, double stop, int halvings) {
+  const double middle = middle_of(begin, stop);
+  for (size_t k = 0; k < path_joints; ++k) find_path_reach(k, begin, middle, stop);
+  if (is_cell_free()) return;
+  if (halvings == 0 || !(begin < middle && middle < stop)) give_up();
+  prove_leaf(begin, middle, halvings - 1), prove_leaf(middle, stop, halvings - 1);
+}
+
 static void prove_piece(double begin, double stop, int depth) {
-  const double row = floor((begin + stop) / 2), middle = begin < row && row < stop ? row : (begin + stop) / 2;
+  const double middle = middle_of(begin, stop);
   if (next_node(depth, 1) == NONE) {
-    for (size_t k = 0; k < path_joints; ++k) find_path_reach(k, begin, middle, stop);
-    prove_cell();
+    prove_leaf(begin, stop, MOST_HALVINGS);
     return;
   }
   if (!(begin <= middle && middle <= stop)) end(1, "a piece is too small to be halved");

@@ -193,13 +193,49 @@ void JointChain::find_rounding() {
   rounding_ = error * extent_;
 }
 
-JointChain::Motion JointChain::motion(std::span<const JointRange> box) const {
+namespace {
+
+std::vector<JointReach> reaches_of(std::span<const JointRange> box) {
   std::vector<JointReach> reaches;
   for (const JointRange& range : box) {
     const double middle = range.middle();
     reaches.push_back({middle, std::max(range.upper - middle, middle - range.lower)});
   }
-  return motion(reaches);
+  return reaches;
+}
+
+}  // namespace
+
+JointChain::Motion JointChain::motion(std::span<const JointRange> box) const { return motion(reaches_of(box)); }
+
+std::vector<double> JointChain::parts_at(const NearFaces& faces, std::span<const JointRange> box) const {
+  const std::vector<JointReach> reaches = reaches_of(box);
+  const Motion motion = this->motion(reaches, {&faces.point_a, 1}, std::span(&faces.point_b, 1));
+  const double length = norm(faces.way);
+  if (!(length > 0)) return motion.parts;
+  const Vec3 way_a = faces.way * (1 / length), way_b = turned(inverse(motion.pose), way_a);
+  std::vector<double> parts(freedoms_.size());
+  const auto add = [&](const Drift& drift, const Vec3& point, const Vec3& way, std::size_t first, int step) {
+    double moved = 0;
+    std::size_t h = first;
+    for (const JointMove& move : drift.moves) {
+      while (hinges_[h].freedom == kNone) h += std::size_t(step);
+      double& part = parts[hinges_[h].freedom];
+      h += std::size_t(step);
+      if (!move.turns) {
+        part += move.reach * std::abs(dot(move.direction, way)), moved += move.reach;
+        continue;
+      }
+      const Vec3 from = point - move.point;
+      const double arm = norm(cross(from, move.direction));
+      part += move.reach * (std::abs(dot(from, cross(move.direction, way))) + moved + move.reach * arm / 2);
+      moved += move.reach * arm;
+    }
+  };
+  add(motion.of_a, faces.point_a, way_a, 0, 1);
+  add(motion.of_b, faces.point_b, way_b, hinges_.size() - 1, -1);
+  for (std::size_t f = 0; f < parts.size(); ++f) parts[f] = std::min(parts[f], motion.parts[f]);
+  return parts;
 }
 
 /// Returns the pose of b in the frame of a.
@@ -263,36 +299,50 @@ JointChain::Travel JointChain::travel(std::span<const JointReach> reaches, std::
 }
 
 JointChain::Motion JointChain::motion(std::span<const JointReach> reaches) const {
+  return motion(reaches, points_of_a_, points_of_b_);
+}
+
+/// The points are in the frames of a and of b.
+JointChain::Motion JointChain::motion(std::span<const JointReach> reaches, std::span<const Vec3> of_a,
+                                      std::span<const Vec3> of_b) const {
   std::vector<Axis> axes;
   Motion motion;
   motion.pose = set_axes(reaches, axes);
   const Pose back = inverse(motion.pose);
   std::vector<double> by_a(hinges_.size()), by_b(hinges_.size());  // what each joint changes, by the arms of a and b
+  std::vector<JointMove> moves_a(hinges_.size()), moves_b(hinges_.size());
   for (std::size_t h = 0; h < hinges_.size(); ++h) {
     const Axis& axis = axes[h];
     if (hinges_[h].freedom == kNone) continue;
     by_a[h] = by_b[h] = axis.half;
-    if (!turns(*hinges_[h].joint)) continue;
+    const bool is_turning = turns(*hinges_[h].joint);
+    moves_a[h] = {axis.point, axis.direction, axis.half, is_turning};
+    moves_b[h] = {placed(back, axis.point), turned(back, axis.direction), axis.half, is_turning};
+    if (!is_turning) continue;
     const double angle = std::min(axis.half, 2.0);
-    by_a[h] = angle * (largest_distance(points_of_a_, axis.point, axis.direction) + slack());
-    by_b[h] =
-        angle * (largest_distance(points_of_b_, placed(back, axis.point), turned(back, axis.direction)) + slack());
+    by_a[h] = angle * (largest_distance(of_a, moves_a[h].point, moves_a[h].direction) + slack());
+    by_b[h] = angle * (largest_distance(of_b, moves_b[h].point, moves_b[h].direction) + slack());
   }
   double change = std::accumulate(by_b.begin(), by_b.end(), 0.0);
   motion.change = change;
-  std::size_t of_a = 0;  // how many joints count by their arms of a
+  std::size_t count_by_a = 0;  // how many joints count by their arms of a
   for (std::size_t h = 0; h < hinges_.size(); ++h) {
     change += by_a[h] - by_b[h];
-    if (change < motion.change) motion.change = change, of_a = h + 1;
+    if (change < motion.change) motion.change = change, count_by_a = h + 1;
   }
   motion.parts.resize(freedoms_.size());
   motion.change = rounding_;
   for (std::size_t h = 0; h < hinges_.size(); ++h) {
     if (hinges_[h].freedom == kNone) continue;
-    const double part = (h < of_a ? by_a[h] : by_b[h]) * (1 + kSmall);
+    const bool counts_by_a = h < count_by_a;
+    const double part = (counts_by_a ? by_a[h] : by_b[h]) * (1 + kSmall);
     motion.parts[hinges_[h].freedom] += part;
     motion.change += part;
+    (counts_by_a ? motion.of_a : motion.of_b).moves.push_back(counts_by_a ? moves_a[h] : moves_b[h]);
   }
+  std::ranges::reverse(motion.of_b.moves);
+  motion.of_a.blur = motion.of_b.blur = slack();
+  motion.of_b.rounding = rounding_;
   return motion;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "prohull/detail/drift.h"
 #include "robot/model.h"
 #include "robot/motion/joint_limits.h"
 
@@ -47,9 +48,13 @@ class JointChain {
     /// Proven: from the distance at `pose`, that anywhere in the ranges differs by at most this. It is the sum of the
     /// parts and of what rounding does.
     double change = 0;
+    /// Proven: from where they are at `pose`, points of a and of b come nearer by no more than what they drift.
+    Drift of_a, of_b;
   };
   Motion motion(std::span<const JointRange> box) const;
   Motion motion(std::span<const JointReach> reaches) const;
+  /// By how much each freedom can change the distance of two faces, about.
+  std::vector<double> parts_at(const NearFaces& faces, std::span<const JointRange> box) const;
 
   /// What happens while the freedoms go along a line in the space of their positions, each within its reach, and are
   /// off that line by no more than `strays`.
@@ -82,6 +87,7 @@ class JointChain {
     double scale = 1;  // by how much more than its freedom
   };
   Pose set_axes(std::span<const JointReach> reaches, std::vector<Axis>& axes) const;
+  Motion motion(std::span<const JointReach> reaches, std::span<const Vec3> of_a, std::span<const Vec3> of_b) const;
   double slack() const;
   void find_hinges(const Robot& robot, std::size_t a, std::size_t b);
   void add_hinge(const Robot& robot, std::size_t joint, bool climbs);

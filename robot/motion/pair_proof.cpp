@@ -21,6 +21,7 @@ struct Cell {
   std::size_t number = 0;       // in the order in which they were made
   std::size_t widest = 0;       // the freedom that can change the distance most
   bool may_be_smaller = false;  // otherwise rounding decides, and it stays open
+  std::optional<NearParts> near = {};  // in the middle, or in that of a larger cell
 };
 
 struct IsLater {
@@ -31,6 +32,9 @@ struct IsLater {
 
 /// Where the cells are used up, there is one step downhill for so many of them.
 constexpr std::size_t kCellsForAStep = 8;
+
+/// Cells in which so many pairs of leaves are looked at count as two.
+constexpr std::size_t kLeafPairsOfACell = 64;
 
 class PairSearch {
  public:
@@ -55,7 +59,7 @@ class PairSearch {
     look_at({.box = {ranges.begin(), ranges.end()}});
     while (result_.verdict == PairVerdict::Open && !open_.empty()) {
       const Cell cell = open_.top();
-      if (result_.cells + 2 > most_cells_) {
+      if (work_ + 2 > most_cells_) {
         look_downhill(meter);
         return result_.verdict == PairVerdict::Open ? stopped("the number of cells is used up") : result_;
       }
@@ -96,23 +100,28 @@ class PairSearch {
   }
 
   void look_at(Cell cell) {
-    cell.number = result_.cells++;
+    cell.number = result_.cells++, ++work_;
     const JointChain::Motion motion = chain_.motion(cell.box);
     cell.distance = distance_of_balls(a_, b_, motion.pose, chain_.rounding());
     const double margin = record_.is_kept() ? chain_.rounding() : 0;
-    if (cell.distance <= motion.change + margin) {
-      const Closest closest = closest_parts(a_, b_, motion.pose, just_above(motion.change + 2 * margin));
-      cell.distance = closest.separation.lower;
-      if (closest.separation.collide() && look_within(cell, motion, closest)) return;
-    }
-    if (cell.distance > motion.change) {
+    if (cell.distance > motion.change + margin) {
       result_.proven_free += cell.share;
-      if (cell.distance <= motion.change + margin) record_.give_up();
       return;
     }
-    const auto widest = std::ranges::max_element(motion.parts);
-    cell.widest = static_cast<std::size_t>(widest - motion.parts.begin());
-    cell.may_be_smaller = widest != motion.parts.end() && *widest > chain_.rounding();
+    std::size_t leaf_pairs = 0;
+    const bool is_free = stay_apart(a_, b_, motion, margin, cell.near, leaf_pairs);
+    work_ += leaf_pairs / kLeafPairsOfACell;
+    if (is_free) {
+      result_.proven_free += cell.share;
+      return;
+    }
+    const Closest closest = closest_parts(a_, b_, motion.pose, just_above(chain_.rounding()));
+    cell.distance = norm(cell.near->faces.way);
+    if (closest.separation.collide() && look_within(cell, motion, closest)) return;
+    const std::vector<double> parts = chain_.parts_at(cell.near->faces, cell.box);
+    const auto widest = std::ranges::max_element(parts);
+    cell.widest = static_cast<std::size_t>(widest - parts.begin());
+    cell.may_be_smaller = widest != parts.end() && *widest > chain_.rounding();
     open_.push(std::move(cell));
   }
 
@@ -213,6 +222,7 @@ class PairSearch {
   std::vector<std::size_t> followers_;  // joints that follow the freedoms
   const std::size_t most_cells_;
   std::priority_queue<Cell, std::vector<Cell>, IsLater> open_;
+  std::size_t work_ = 0;  // in cells
   std::size_t steps_left_ = 0;
   bool touches_ = false;  // somewhere it is the mesh around a curved shape that meets, and nowhere near the shape
   CellRecord record_;

@@ -144,7 +144,12 @@ class PathSearch {
     double rounding = chain_.rounding();
     piece.change = motion.change;
     piece.distance = distance_of_balls(motion.pose);
-    if (options_.distances || !(piece.distance > piece.change + options_.gap + margin())) {
+    const bool is_apart = piece.distance > piece.change + options_.gap + margin();
+    if (!options_.distances && !is_apart && stays_apart(motion)) {
+      piece.distance = piece.change + options_.gap, piece.is_free = true;
+      return done_.push_back(piece);
+    }
+    if (options_.distances || !is_apart) {
       const double limit = options_.distances ? kInfinity : just_above(motion.change + options_.gap + 2 * margin());
       const Closest found = closest(motion.pose, limit);
       piece.distance = std::max(piece.distance, found.separation.lower);
@@ -167,6 +172,11 @@ class PathSearch {
       open_.push(piece);
     else
       done_.push_back(piece);
+  }
+
+  /// More than the gap, in all of the motion.
+  bool stays_apart(const JointChain::Motion& motion) {
+    return stay_apart(*a_.shape, *b_.shape, motion, options_.gap + margin(), near_, work_);
   }
 
   /// Where meshes around curved shapes meet: parts of the motion that are not greater are not looked at. There the
@@ -222,6 +232,8 @@ class PathSearch {
   std::priority_queue<Piece, std::vector<Piece>, IsLessUrgent> open_;
   std::vector<Piece> done_;
   CellRecord record_;
+  std::optional<NearParts> near_;  // in the piece that was looked at last
+  std::size_t work_ = 0;
   bool touches_ = false;  // somewhere it is the mesh around a curved shape that meets
   PathPairProof result_;
 };

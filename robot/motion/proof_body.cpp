@@ -54,6 +54,39 @@ Closest closest_within(const ProofBody& a, const ProofBody& b, const Pose& pose,
   return closest_of(within(a), within(b), pose, limit);
 }
 
+namespace {
+
+/// A plane across the way between faces that were near, or between the balls, may do for all.
+bool has_plane_between(const ProofBody& a, const ProofBody& b, const JointChain::Motion& motion, double gap,
+                       const std::optional<NearParts>& near) {
+  std::vector<Vec3> ways{placed(motion.pose, b.ball.center) - a.ball.center};
+  if (near) ways.insert(ways.begin(), {placed(motion.pose, near->faces.point_b) - near->faces.point_a, near->faces.way});
+  return std::ranges::any_of(ways, [&](const Vec3& way) {
+    return stay_apart_along(way, a.corners, motion.of_a, b.corners, motion.pose, motion.of_b, gap);
+  });
+}
+
+}  // namespace
+
+bool stay_apart(const ProofBody& a, const ProofBody& b, const JointChain::Motion& motion, double gap,
+                std::optional<NearParts>& near, std::size_t& leaf_pairs) {
+  if (has_plane_between(a, b, motion, gap, near)) return true;
+  const auto are_near = [&](std::size_t i, std::size_t j, const NearFaces* first) {
+    const auto faces =
+        may_come_near(a.parts[i], {}, motion.of_a, b.parts[j], motion.pose, motion.of_b, gap, first, leaf_pairs);
+    if (faces) near = {i, j, *faces};
+    return faces.has_value();
+  };
+  const std::optional<NearParts> before = near;
+  if (before && are_near(before->part_a, before->part_b, &before->faces)) return false;
+  for (std::size_t i = 0; i < a.parts.size(); ++i)
+    for (std::size_t j = 0; j < b.parts.size(); ++j) {
+      const bool is_done = before && i == before->part_a && j == before->part_b;
+      if (!is_done && are_near(i, j, nullptr)) return false;
+    }
+  return true;
+}
+
 FacePair first_faces(const ProofBody& a, const ProofBody& b, const Pose& pose, const Closest& closest) {
   const std::vector<FacePair> faces = intersecting_faces(a.parts[closest.part_a], {}, b.parts[closest.part_b], pose);
   return faces.empty() ? FacePair{} : faces.front();

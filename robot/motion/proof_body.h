@@ -5,12 +5,15 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "prohull/collide.h"
+#include "prohull/detail/drift.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/detail/shapes.h"
+#include "robot/motion/joint_chain.h"
 
 namespace prohull::robot {
 
@@ -38,6 +41,18 @@ Closest closest_parts(const ProofBody& a, const ProofBody& b, const Pose& pose,
 /// What is closest of the meshes within the bodies. Its distance is not less than that of the bodies.
 Closest closest_within(const ProofBody& a, const ProofBody& b, const Pose& pose,
                        double limit = std::numeric_limits<double>::infinity());
+
+/// Faces of parts of two bodies that may come near each other.
+struct NearParts {
+  std::size_t part_a = 0, part_b = 0;
+  NearFaces faces;
+};
+
+/// Whether two bodies stay farther apart than `gap` while they drift. Proven if true. Otherwise `near` are faces that
+/// may come nearer. What it was before, of a similar motion, is where they are looked for first. To `leaf_pairs` is
+/// added how much was looked at, as by `may_come_near`.
+bool stay_apart(const ProofBody& a, const ProofBody& b, const JointChain::Motion& motion, double gap,
+                std::optional<NearParts>& near, std::size_t& leaf_pairs);
 
 /// Why it stays open whether bodies meet.
 inline constexpr const char* kTouchesMesh = "one touches the mesh around a curved shape";

@@ -65,6 +65,30 @@ class BoxPair {
                   static_cast<float>(own.z / length), 0};
   }
 
+  /// The shortest way from the box a to a box around b with the axes of a, of length 1; or the other way round.
+  Float4 direction_between(const ObbNode& a, const ObbNode& b) const {
+    const View view(*this, a, b);
+    const Float4 gaps = view.gaps_along_a(), gaps_b = view.gaps_along_b();
+    float best_a = 0, best_b = 0;
+    for (int i = 0; i < 3; ++i) best_a = std::max(best_a, gaps[i]), best_b = std::max(best_b, gaps_b[i]);
+    if (best_a <= 0 && best_b <= 0) return Float4{};
+    Float4 v{};
+    const Float4 ax = load(a.axes), ay = load(a.axes + 3), az = load(a.axes + 6);
+    if (best_a >= best_b) {
+      for (int i = 0; i < 3; ++i)
+        if (gaps[i] > 0) v += Float4{ax[i], ay[i], az[i], 0} * both4(std::copysign(gaps[i], view.d[i]));
+    } else {
+      const Float4 d_b = both4(view.d[0]) * view.m[0] + both4(view.d[1]) * view.m[1] + both4(view.d[2]) * view.m[2];
+      Float4 in_a{};  // along the axes of a
+      for (int j = 0; j < 3; ++j)
+        if (gaps_b[j] > 0) in_a += Float4{view.m[0][j], view.m[1][j], view.m[2][j], 0} * both4(std::copysign(gaps_b[j], d_b[j]));
+      for (int i = 0; i < 3; ++i) v += Float4{ax[i], ay[i], az[i], 0} * both4(in_a[i]);
+    }
+    const Float4 square = v * v;
+    const float length = std::sqrt(square[0] + square[1] + square[2]);
+    return length > 0 ? v * both4(1 / length) : Float4{};
+  }
+
   /// A lower bound of the distance between points in the boxes, in the input's unit. It is good if `direction` is that
   /// of the shortest way from a to b; it holds for any.
   double distance_bound(const ObbNode& a, const ObbNode& b, Float4 direction) const {
@@ -84,6 +108,15 @@ class BoxPair {
     const double gap = std::max(0.0f, along - slack_[0]);
     const double squared = std::max({length(view.gaps_along_a()), length(view.gaps_along_b()), gap * gap});
     return std::sqrt(squared) / unit_ * (1 - relative_error_);
+  }
+
+  /// A lower bound of how far apart the boxes are along a direction, which need not be that of any way.
+  double gap_along(const ObbNode& a, const ObbNode& b, Float4 direction) const {
+    const Float4 ax = load(a.axes), ay = load(a.axes + 3), az = load(a.axes + 6);
+    const float gap = View(*this, a, b).gap_along(ax * both4(direction[0]) + ay * both4(direction[1]) +
+                                                  az * both4(direction[2])) -
+                      slack_[0];
+    return gap / unit_ * (1 - std::copysign(relative_error_, gap));
   }
 
   bool is_larger(const ObbNode& a, const ObbNode& b) const {

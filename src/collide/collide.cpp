@@ -20,10 +20,6 @@
 
 namespace prohull {
 
-struct CollisionAccess {
-  static const CollisionMesh& of(const CollisionIndex& index) { return *index.mesh_; }
-};
-
 namespace {
 
 /// A lower bound of the distance between two triangles: that of the boxes around them, less what it was rounded up.
@@ -113,7 +109,7 @@ class Scene {
       return false;
     };
     if (visit_near_leaves(a_.tree, b_.tree, boxes_, result.upper, direction,
-                          [&](const ObbNode& in_a, const ObbNode& in_b) { return visit_pairs(in_a, in_b, measure); }))
+                          [&](const ObbNode& in_a, const ObbNode& in_b) { return visit_pairs(a_, pose_a_, in_a, b_, pose_b_, in_b, measure); }))
       return std::nullopt;
     if (result.upper == limit) result.upper = std::numeric_limits<double>::infinity();
     return result;
@@ -128,23 +124,9 @@ class Scene {
   /// visit(i, j) for the triangles of two leaves that have a point in common, until it returns true.
   template <class Visit>
   bool visit_touching(const ObbNode& in_a, const ObbNode& in_b, Visit visit) const {
-    return visit_pairs(in_a, in_b, [&](std::size_t i, const Triangle& s, std::size_t j, const Triangle& t) {
+    return visit_pairs(a_, pose_a_, in_a, b_, pose_b_, in_b, [&](std::size_t i, const Triangle& s, std::size_t j, const Triangle& t) {
       return are_near(s, t) && visit(i, j);
     });
-  }
-
-  /// visit(i, triangle i of a, j, triangle j of b) for all pairs of two leaves, until it returns true.
-  template <class Visit>
-  bool visit_pairs(const ObbNode& in_a, const ObbNode& in_b, Visit visit) const {
-    const std::size_t count_a = a_.tree.items_of(in_a).size(), count_b = b_.tree.items_of(in_b).size();
-    Triangle placed_b[ObbTree::kLeafSize];
-    for (std::size_t j = 0; j < count_b; ++j) placed_b[j] = at_pose(pose_b_, b_.triangle(in_b.first() + j));
-    for (std::size_t i = 0; i < count_a; ++i) {
-      const Triangle placed_a = at_pose(pose_a_, a_.triangle(in_a.first() + i));
-      for (std::size_t j = 0; j < count_b; ++j)
-        if (visit(in_a.first() + i, placed_a, in_b.first() + j, placed_b[j])) return true;
-    }
-    return false;
   }
 
   /// Whether they have a point in common, or may be within the margin.
@@ -153,12 +135,8 @@ class Scene {
     return box_distance(s, t) <= margin_ && triangle_distance(s, t).lower <= margin_;
   }
 
-  /// For surfaces that do not meet. Then each component of one surface lies inside of the other solid as a whole, or
-  /// outside of it. If none lies inside, the solids have no point in common: the boundary of what they had in common
-  /// would lie on one of the surfaces, inside of the other solid.
-  bool one_is_inside() const {
-    return b_.contains_component(pose_b_, a_, pose_a_) || a_.contains_component(pose_a_, b_, pose_b_);
-  }
+  /// For surfaces that do not meet.
+  bool one_is_inside() const { return prohull::one_is_inside(a_, pose_a_, b_, pose_b_); }
 
   const CollisionMesh &a_, &b_;
   const Pose &pose_a_, &pose_b_;

@@ -88,4 +88,34 @@ bool visit_near_leaves(const ObbTree& a, const ObbTree& b, const BoxPair& pair, 
   return false;
 }
 
+/// measure(leaf of a, leaf of b) for the pairs of leaves of which bound(nodes) is at most `gap`, near ones first, until
+/// it returns true. Returns whether it did. What is in a pair has no lower bound than the pair.
+template <class Bound, class Measure>
+bool visit_leaves_below(const ObbTree& a, const ObbTree& b, const BoxPair& pair, double gap, Bound bound,
+                        Measure measure) {
+  struct Bounded {
+    NodePair nodes;
+    double bound;
+  };
+  const auto bounded = [&](NodePair nodes) { return Bounded{nodes, bound(a.boxes()[nodes.a], b.boxes()[nodes.b])}; };
+  Bounded stack[2 * ObbTree::kMaxDepth + 2];
+  std::uint32_t size = 0;
+  stack[size++] = bounded({0, 0});
+  while (size > 0) {
+    const NodePair at = stack[--size].nodes;
+    if (stack[size].bound > gap) continue;
+    const ObbNode &in_a = a.boxes()[at.a], &in_b = b.boxes()[at.b];
+    if (in_a.is_leaf() && in_b.is_leaf()) {
+      if (measure(in_a, in_b)) return true;
+      continue;
+    }
+    const auto [first, second] = split(a, b, pair, at);
+    const Bounded one = bounded(first), other = bounded(second);
+    const bool one_is_nearer = one.bound <= other.bound;
+    stack[size++] = one_is_nearer ? other : one;
+    stack[size++] = one_is_nearer ? one : other;
+  }
+  return false;
+}
+
 }  // namespace prohull
