@@ -19,7 +19,6 @@ AskedMesh::AskedMesh(const std::filesystem::path& path, const InputOptions& opti
   const auto* const hull = std::get_if<ProgressiveHull>(&mesh_or_hull_);
   faces_ = hull ? hull->original_face_count() : std::get<TriangleMesh>(mesh_or_hull_).face_count();
   finest_level_ = hull ? hull->finest_level() : FinestLevel::Input;  // of a mesh file nothing has to be said
-  if (const auto* const mesh = std::get_if<TriangleMesh>(&mesh_or_hull_)) is_inside_out_ = signed_volume(*mesh) < 0;
   if (faces_ == 0)
     throw InputError(Defect::EmptyMesh, input_name(path) + ": it has no faces, so that there is nothing to ask");
 }
@@ -27,6 +26,11 @@ AskedMesh::AskedMesh(const std::filesystem::path& path, const InputOptions& opti
 Box AskedMesh::box() const {
   const auto* const mesh = std::get_if<TriangleMesh>(&mesh_or_hull_);
   return bounding_box(mesh ? *mesh : std::get<ProgressiveHull>(mesh_or_hull_).original());
+}
+
+InsideOut AskedMesh::inside_out() const {
+  const auto* const mesh = std::get_if<TriangleMesh>(&mesh_or_hull_);
+  return naming(path_, [&] { return mesh && is_closed(*mesh) ? inside_out_parts(*mesh) : InsideOut{}; });
 }
 
 QueryIndex AskedMesh::index(const std::function<QueryIndex(MeshOrHull)>& make) {

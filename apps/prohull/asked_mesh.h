@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "inputs.h"
+#include "prohull/detail/inside_out.h"
 #include "prohull/mesh_query.h"
 
 namespace prohull::cli {
@@ -22,8 +23,8 @@ class AskedMesh {
 
   std::size_t face_count() const { return faces_; }
   Box box() const;
-  /// Nothing is inside of a closed mesh whose volume is negative.
-  bool is_inside_out() const { return is_inside_out_; }
+  /// The same of a mesh that is not closed: nothing. Not once index has been called.
+  InsideOut inside_out() const;
 
   /// The mesh or hull goes into the index. What `make` throws then names the file.
   QueryIndex index(const std::function<QueryIndex(MeshOrHull)>& make);
@@ -39,7 +40,6 @@ class AskedMesh {
   MeshOrHull mesh_or_hull_;
   std::size_t faces_;
   FinestLevel finest_level_;
-  bool is_inside_out_ = false;
 };
 
 /// Queries that are made at random.

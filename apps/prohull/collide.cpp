@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "prohull/detail/inside_out.h"
 #include "prohull/detail/query_io.h"
 #include "prohull/detail/summary.h"
 #include "prohull/error.h"
@@ -38,7 +39,7 @@ std::vector<Pose> poses_of(const CollideOptions& options) {
 struct Body {
   CollisionIndex index;
   FinestLevel finest_level;
-  bool is_inside_out = false;  ///< closed, and wound about a negative volume: nothing is inside of it
+  InsideOut inside_out = {};  ///< if it is closed: nothing is inside of these components
 };
 
 TriangleMesh outer_hull(const ProgressiveHull& levels, const std::filesystem::path& path) {
@@ -60,12 +61,12 @@ Body read_body(const CollideOptions& options, const std::filesystem::path& path)
     if (const auto* const levels = std::get_if<ProgressiveHull>(&read))
       return {index_of(*levels, options, path), levels->finest_level()};
     const auto& mesh = std::get<TriangleMesh>(read);
-    if (options.conservative && signed_volume(mesh) < 0)
-      throw InputError(Defect::NoVolume,
-                       "the mesh is inside out and encloses nothing, which --conservative could tell of; turn it");
     CollisionIndex index(mesh);
-    const bool is_inside_out = index.is_solid() && signed_volume(mesh) < 0;
-    return {std::move(index), FinestLevel::Input, is_inside_out};
+    const InsideOut inside_out = index.is_solid() ? inside_out_parts(mesh) : InsideOut{};
+    if (options.conservative && inside_out.parts > 0)
+      throw InputError(Defect::NoVolume, described(inside_out, "the mesh") +
+                                             " and encloses nothing, which --conservative could tell of; turn it");
+    return {std::move(index), FinestLevel::Input, inside_out};
   });
 }
 
@@ -130,9 +131,9 @@ void print_notes(const Body& body, const std::filesystem::path& path) {
   if (!body.index.is_solid())
     say("  {} is not closed: only its faces count, not what lies inside (`prohull repair` closes it)\n",
         input_name(path));
-  if (body.is_inside_out)
-    say("  {} is inside out: only its faces count, because nothing is inside of it (`prohull repair` turns it)\n",
-        input_name(path));
+  if (body.inside_out.parts > 0)
+    say("  {}: only its faces count, because nothing is inside of it (`prohull repair` turns it)\n",
+        described(body.inside_out, input_name(path)));
   if (const std::string finest = described_finest_level(body.finest_level); !finest.empty())
     say("  {} stands for {}: the finest level of the file is not the input itself\n", input_name(path), finest);
 }
@@ -141,7 +142,7 @@ nlohmann::json facts(const Body& body, const std::filesystem::path& path) {
   return {{"path", path.string()},
           {"faces", body.index.face_count()},
           {"solid", body.index.is_solid()},
-          {"inside_out", body.is_inside_out},
+          {"inside_out", body.inside_out.parts > 0},
           {"finest_level", name_of(finest_level_names(), body.finest_level)}};
 }
 

@@ -20,14 +20,14 @@ PointAnswers ask(const QueryIndex& index, const std::vector<Vec3>& points, const
   const double share = points.empty() ? 0 : static_cast<double>(count) / static_cast<double>(points.size());
   return {fmt::format("{} of {} inside ({:.2f} %)", grouped(count), counted(points.size(), "point"), 100 * share),
           {{"inside", count}},
-          [inside](const auto& file) { write_inside(file, inside); },
-          true};
+          [inside](const auto& file) { write_inside(file, inside); }};
 }
 
 }  // namespace
 
 void add_contains(CLI::App& app, Run& run) {
   const auto options = std::make_shared<PointOptions>();
+  options->is_about_inside = true;
   CLI::App& command = *app.add_subcommand("contains",
                                           "Decides which points are inside of a mesh, exactly. The mesh must be "
                                           "closed. A point is inside if the mesh winds "

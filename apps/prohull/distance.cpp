@@ -1,17 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "command.h"
 #include "point_command.h"
 #include "prohull/detail/query_io.h"
+#include "prohull/detail/rounded.h"
 
 namespace prohull::cli {
 namespace {
-
-struct DistanceOptions : PointOptions {
-  bool is_signed = false;
-};
 
 const OutputKind& distance_outputs() {
   static const OutputKind kind{"the distances", {".npz", ".csv"}};
@@ -28,13 +26,22 @@ std::vector<ClosestPoint> distances_of(const QueryIndex& index, const std::vecto
   return distances;
 }
 
-PointAnswers answers(std::vector<ClosestPoint> distances, bool is_signed) {
+/// With its bounds where they tell less than the digits do, as beyond 1e150.
+std::string text_of(const ClosestPoint& closest) {
+  constexpr double kDigits = 1e-6;
+  const bool is_known = closest.upper - closest.lower <= kDigits * std::abs(closest.distance);
+  return is_known ? fmt::format("{:.6g}", closest.distance)
+                  : fmt::format("{:.6g} (between {:.3g} and {:.3g})", closest.distance, rounded_down(closest.lower, 3),
+                                rounded_up(closest.upper, 3));
+}
+
+PointAnswers answers(std::vector<ClosestPoint> distances) {
   PointAnswers answers{"no points", nlohmann::json::object(),
-                       [distances](const auto& file) { write_distances(file, distances); }, is_signed};
+                       [distances](const auto& file) { write_distances(file, distances); }};
   if (distances.empty()) return answers;
   const auto [least, greatest] = std::ranges::minmax(distances, {}, &ClosestPoint::distance);
-  answers.summary = fmt::format("{} at distances from {:.6g} to {:.6g}", counted(distances.size(), "point"),
-                                least.distance, greatest.distance);
+  answers.summary = fmt::format("{} at distances from {} to {}", counted(distances.size(), "point"), text_of(least),
+                                text_of(greatest));
   answers.facts = {{"least_distance", least.distance}, {"greatest_distance", greatest.distance}};
   return answers;
 }
@@ -42,11 +49,11 @@ PointAnswers answers(std::vector<ClosestPoint> distances, bool is_signed) {
 }  // namespace
 
 void add_distance(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<DistanceOptions>();
+  const auto options = std::make_shared<PointOptions>();
   CLI::App& command = *app.add_subcommand(
       "distance", "Finds how far points are from a mesh, with proven bounds, and the closest point of the mesh.");
   add_point_options(command, *options, distance_outputs());
-  command.add_flag("--signed", options->is_signed,
+  command.add_flag("--signed", options->is_about_inside,
                    "Make the distances of points that are inside negative. The mesh must be closed.");
   add_examples(command,
                {"prohull distance horse.ply --random 1e5", "prohull distance scan.stl --points p.npy -o distances.npz",
@@ -55,7 +62,7 @@ void add_distance(CLI::App& app, Run& run) {
     run = [options] {
       return run_points(*options, distance_outputs(),
                         [&](const QueryIndex& index, const std::vector<Vec3>& points, const BatchOptions& batch) {
-                          return answers(distances_of(index, points, batch, options->is_signed), options->is_signed);
+                          return answers(distances_of(index, points, batch, options->is_about_inside));
                         });
     };
   });

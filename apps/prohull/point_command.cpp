@@ -49,6 +49,7 @@ int run_points(const PointOptions& options, const OutputKind& answers, const Ask
   seconds.read = reading.seconds();
   stop_if_interrupted();
   const Stopwatch indexing;
+  const InsideOut inside_out = options.is_about_inside ? asked.inside_out() : InsideOut{};
   const QueryIndex index = asked.index(options.engine);
   seconds.index = indexing.seconds();
   stop_if_interrupted();
@@ -69,14 +70,14 @@ int run_points(const PointOptions& options, const OutputKind& answers, const Ask
                            {"seconds", seconds.facts()},    {"input", asked.facts()}};
   if (options.random.count > 0) report["seed"] = options.random.seed;
   report.update(found.facts);
-  if (found.is_about_inside) report["input"]["inside_out"] = asked.is_inside_out();
+  if (options.is_about_inside) report["input"]["inside_out"] = inside_out.parts > 0;
   outputs.add_report(options.report, report);
   outputs.commit();
   asked.say_what();
   options.random.say_what("points");
   say("{}{}\n", options.out.empty() ? "" : output_name(options.out) + ": ", found.summary);
-  if (found.is_about_inside && asked.is_inside_out())
-    say("  {} is inside out: nothing is inside of it (`prohull repair` turns it)\n", input_name(options.in));
+  if (inside_out.parts > 0)
+    say("  {}: nothing is inside of it (`prohull repair` turns it)\n", described(inside_out, input_name(options.in)));
   say("  engine {}, {}: {} points per second\n", index.engine_name(), counted(threads, "thread"),
       grouped(static_cast<std::size_t>(per_second)));
   seconds.say_them();

@@ -23,6 +23,7 @@ struct PointOptions {
   RandomQueries random;
   std::string engine = "auto";
   unsigned threads = 0;
+  bool is_about_inside = false;  ///< and not of the faces alone
 };
 
 /// `answers` are what -o takes, "the answers".
@@ -32,7 +33,6 @@ struct PointAnswers {
   std::string summary;  ///< "3 of 10 points are inside (30.00 %)"
   nlohmann::json facts;
   std::function<void(const std::filesystem::path&)> write;
-  bool is_about_inside = false;  ///< and not of the faces alone
 };
 using AskPoints = std::function<PointAnswers(const QueryIndex&, const std::vector<Vec3>&, const BatchOptions&)>;
 

@@ -75,7 +75,7 @@ struct Verification {
   std::size_t faces_beside_solid = 0;
   std::size_t self_intersections = 0;     ///< pairs of faces of the hull that intersect; of a progressive hull its base
   std::size_t inverted_hull_faces = 0;    ///< faces of the hull, or of components of it, that is inside out
-  std::size_t turned_original_faces = 0;  ///< faces of the original that look inwards and count as turned
+  std::size_t turned_original_faces = 0;  ///< faces of the original that count as turned
   /// Of the solid that the hull bounds: parts that overlap count once. Its boundary is decided exactly, the sum is
   /// rounded. NaN if a replay fails, and where faces intersect so often that it would take long.
   double hull_volume = std::numeric_limits<double>::quiet_NaN();

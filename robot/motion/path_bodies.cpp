@@ -7,6 +7,7 @@
 #include <set>
 
 #include "prohull/detail/finite.h"
+#include "prohull/detail/inside_out.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "robot/link_triangles.h"
@@ -15,11 +16,19 @@
 namespace prohull::robot {
 namespace {
 
+/// Cavities, and components that cross others, are turned with the whole mesh.
+std::string described_as_turned(const TriangleMesh& mesh, const TriangleMesh& outwards, const std::string& name) {
+  const auto is_turned = [&](FaceId f) { return mesh.triangles[f] != outwards.triangles[f]; };
+  const bool is_whole = std::ranges::all_of(mesh.triangles.ids(), is_turned);
+  return is_whole ? name + " is inside out" : described(inside_out_parts(mesh), name);
+}
+
 /// The closed shapes of a body, and its others.
 struct Shapes {
   TriangleMesh closed, open;
   TriangleMesh within;  // as closed, but within curved shapes
-  bool are_curved = false, were_inside_out = false;
+  bool are_curved = false;
+  std::string turned;
 
   /// What stands for a curved shape.
   void add(const TriangleMesh& around, const TriangleMesh& inside) {
@@ -27,12 +36,12 @@ struct Shapes {
     are_curved = true;
   }
 
-  void add(TriangleMesh mesh) {
+  void add(TriangleMesh mesh, const std::string& name) {
     mesh = with_finite_faces(std::move(mesh));
     if (mesh.face_count() == 0) return;
     if (!is_closed(mesh)) return append(open, mesh);
     const TriangleMesh outwards = turned_outwards(mesh);
-    were_inside_out |= outwards.triangles != mesh.triangles;
+    if (outwards.triangles != mesh.triangles) turned = described_as_turned(mesh, outwards, name);
     append(closed, outwards), append(within, outwards);
   }
 
@@ -47,7 +56,7 @@ struct Shapes {
 
   void give(PathBody& body) const {
     body.shape = shape();
-    body.was_inside_out = were_inside_out;
+    body.turned = turned;
     body.triangles = closed;
     append(body.triangles, open);
   }
@@ -74,9 +83,7 @@ std::size_t body_called(std::span<const PathBody> bodies, const std::string& nam
 }
 
 std::string turned_note(const PathBody& body) {
-  return body.was_inside_out
-             ? fmt::format("{} is inside out: it was turned, so that its inside counts as solid", body.name)
-             : "";
+  return body.turned.empty() ? "" : body.turned + ": it was turned, so that its inside counts as solid";
 }
 
 std::string open_note(const PathBody& body) {
@@ -89,6 +96,8 @@ std::string open_note(const PathBody& body) {
 PathBody link_body(const Robot& robot, std::size_t link, Geometry which) {
   PathBody body{robot.links[link].name, link};
   Shapes all;
+  const bool is_one = shapes(robot.links[link], which).size() == 1;
+  const std::string name = is_one ? body.name : "a mesh of " + body.name;
   for (const Shape& shape : shapes(robot.links[link], which)) {
     if (const auto* const other = std::get_if<OtherForm>(&shape.form))
       body.unread = fmt::format("its geometry of type {} is not read", other->what);
@@ -98,7 +107,7 @@ PathBody link_body(const Robot& robot, std::size_t link, Geometry which) {
     if (curved_form(shape.form))
       all.add(mesh, placed(shape.origin, form_mesh(shape.form, Curved::Within)));
     else
-      all.add(std::move(mesh));
+      all.add(std::move(mesh), name);
   }
   all.give(body);
   if (const auto& only = shapes(robot.links[link], which); only.size() == 1 && only[0].mesh())
@@ -108,7 +117,7 @@ PathBody link_body(const Robot& robot, std::size_t link, Geometry which) {
 
 PathBody path_body(std::string name, std::optional<std::size_t> link, const TriangleMesh& mesh) {
   Shapes all;
-  all.add(mesh);
+  all.add(mesh, name);
   PathBody body{std::move(name), link};
   all.give(body);
   return body;

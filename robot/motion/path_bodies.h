@@ -22,7 +22,7 @@ struct PathBody {
   /// The parts are the body's closed shapes, which are one solid, and its others, which are faces alone.
   std::optional<ProofBody> shape = {};
   std::string unread = {};      ///< why nothing can be proven about it; empty if all of it was read
-  bool was_inside_out = false;  ///< a closed mesh of it, or a component of one, was turned
+  std::string turned = {};      ///< "arm is inside out": what was turned of a closed mesh of it
   TriangleMesh triangles = {};  ///< of all parts
   /// A mesh file that has all of it but for where its frame is in that of the link; empty if there is none.
   std::filesystem::path file = {};

@@ -77,6 +77,7 @@ Orientation orientation(const TriangleOfFace& triangle, std::span<const std::uin
   Orientation result;
   result.components.assign(components, Facing::Outwards);
   result.turn_all = volume_sign(component.size(), triangle) < 0;
+  result.inside_out.assign(components, result.turn_all);
   if (components < 2) return result;
 
   std::vector<std::vector<Triangle>> parts(components);
@@ -88,14 +89,19 @@ Orientation orientation(const TriangleOfFace& triangle, std::span<const std::uin
   std::vector<std::size_t> negative;
   std::vector<Triangle> positive;
   for (std::size_t c = 0; c < components; ++c) {
-    if (volume_sign(parts[c]) < 0)
+    const int sign = volume_sign(parts[c]);
+    result.inside_out[c] = result.turn_all && sign > 0;
+    if (sign < 0)
       negative.push_back(c);
     else
       positive.insert(positive.end(), parts[c].begin(), parts[c].end());
   }
   if (negative.empty()) return result;
   const Solid solid(std::move(positive));
-  for (const std::size_t c : negative) result.components[c] = facing_of_negative(parts[c], solid);
+  for (const std::size_t c : negative) {
+    result.components[c] = facing_of_negative(parts[c], solid);
+    result.inside_out[c] = !result.turn_all && result.components[c] != Facing::Cavity;
+  }
   return result;
 }
 

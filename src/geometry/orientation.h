@@ -29,6 +29,7 @@ enum class Facing : std::uint8_t {
 struct Orientation {
   bool turn_all = false;  ///< the mesh as a whole is inside out: the volumes of its components add up to less than 0
   std::vector<Facing> components;  ///< how each faces once that is done
+  std::vector<bool> inside_out;    ///< of each, as given: its volume is negative, and it is no cavity
 };
 
 /// `component` has the number, below `components`, of the component of each face. Exact, but for faces of negative

@@ -316,9 +316,10 @@ void turn_outwards(TriangleMesh& mesh, std::size_t components, Repairs& repairs)
     if (own == Facing::Unclear)
       throw InputError(
           Defect::InconsistentOrientation,
-          fmt::format("the component of face {} is inside out, and crosses or repeats others: turn it, or make it a "
+          fmt::format("the component of face {} {}, and crosses or repeats others: turn it, or make it a "
                       "cavity of one of them",
-                      index(f)));
+                      index(f),
+                      facing.turn_all ? "looks outwards, while the mesh as a whole is inside out" : "is inside out"));
     if (facing.turn_all == (own == Facing::InsideOut)) continue;
     std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
     ++repairs.turned_faces;

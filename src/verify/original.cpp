@@ -46,10 +46,15 @@ PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& 
   result.box = usable_box(mesh, "original");
   result.closed = is_closed(mesh);
   if (!result.closed) return result;
-  result.turned_faces = turn_outwards(mesh, "original");
-  if (const std::size_t count = result.turned_faces)
-    notes.push_back(fmt::format("{} of the original {} inwards and {} as turned", counted(count, "face"),
-                                count == 1 ? "looks" : "look", count == 1 ? "counts" : "count"));
+  const Turned turned = turn_outwards(mesh, "original");
+  result.turned_faces = turned.faces;
+  if (turned.inwards < turned.faces)
+    notes.push_back(
+        fmt::format("{} of the original count as turned, as its volume is negative: {} of these look inwards",
+                    counted(turned.faces, "face"), grouped(turned.inwards)));
+  else if (turned.faces > 0)
+    notes.push_back(fmt::format("{} of the original {} inwards and {} as turned", counted(turned.faces, "face"),
+                                turned.faces == 1 ? "looks" : "look", turned.faces == 1 ? "counts" : "count"));
   return result;
 }
 

@@ -17,7 +17,7 @@ namespace prohull::verify {
 struct PreparedOriginal {
   Box box;
   bool closed = false;
-  std::size_t turned_faces = 0;      ///< that looked inwards
+  std::size_t turned_faces = 0;      ///< to look outwards
   std::size_t non_finite_faces = 0;  ///< that were left out
 };
 

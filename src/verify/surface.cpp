@@ -1,5 +1,7 @@
 #include "verify/surface.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <span>
@@ -8,6 +10,8 @@
 #include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
 #include "mesh/closed.h"
+#include "prohull/detail/inside_out.h"
+#include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 
 namespace prohull::verify {
@@ -106,19 +110,21 @@ std::pair<std::vector<std::uint32_t>, std::uint32_t> components(const TriangleMe
 
 /// Tells of each face how it faced.
 template <class See>
-std::size_t turn_outwards(TriangleMesh& mesh, std::string_view name, const See& see) {
+Turned turn_outwards(TriangleMesh& mesh, std::string_view name, const See& see) {
   require_usable(mesh, name);
   const auto [component, count] = components(mesh);
   const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
   const Orientation facing = orientation(triangle, component, count);
-  std::size_t turned = 0;
+  Turned turned;
   for (const FaceId f : mesh.triangles.ids()) {
     auto& t = mesh.triangles[f];
     const Facing own = facing.components[component[index(f)]];
     see(f, own);
     if (facing.turn_all == (own == Facing::InsideOut)) continue;
     std::swap(t[1], t[2]);
-    turned += t[1] != t[2];
+    if (t[1] == t[2]) continue;
+    ++turned.faces;
+    turned.inwards += facing.inside_out[component[index(f)]] ? 1 : 0;
   }
   return turned;
 }
@@ -152,7 +158,7 @@ bool is_one_sheet(const TriangleMesh& mesh) {
   return true;
 }
 
-std::size_t turn_outwards(TriangleMesh& mesh, std::string_view name) {
+Turned turn_outwards(TriangleMesh& mesh, std::string_view name) {
   return turn_outwards(mesh, name, [](FaceId, Facing) {});
 }
 
@@ -167,6 +173,27 @@ std::vector<FaceId> turn_outwards_and_fill(TriangleMesh& mesh, std::string_view 
 }  // namespace prohull::verify
 
 namespace prohull {
+
+InsideOut inside_out_parts(const TriangleMesh& mesh) {
+  InsideOut found;
+  const auto [component, count] = verify::components(mesh);
+  const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
+  const std::vector<bool> inside_out = orientation(triangle, component, count).inside_out;
+  found.parts = static_cast<std::size_t>(std::ranges::count(inside_out, true));
+  found.is_all = found.parts > 0 && found.parts == inside_out.size();
+  const auto first = std::ranges::find_if(component, [&](std::uint32_t c) { return inside_out[c]; });
+  if (found.parts > 0) found.first = FaceId(static_cast<std::uint32_t>(first - component.begin()));
+  return found;
+}
+
+std::string described(const InsideOut& found, const std::string& name) {
+  if (found.parts == 0) return "";
+  if (found.is_all) return name + " is inside out";
+  const std::string others = found.parts == 1 ? ""
+                                              : fmt::format(", as {} {}", found.parts == 2 ? "is" : "are",
+                                                            counted(found.parts - 1, "other", "others"));
+  return fmt::format("the component of face {} of {} is inside out{}", index(found.first), name, others);
+}
 
 TriangleMesh turned_outwards(TriangleMesh mesh) {
   verify::turn_outwards(mesh, "original");

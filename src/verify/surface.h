@@ -35,8 +35,13 @@ struct Surface {
 /// directions. Requires what require_usable does.
 bool is_one_sheet(const TriangleMesh& mesh);
 
-/// Turns components as turned_outwards does, and returns how many faces changed. Throws InputError as require_usable.
-std::size_t turn_outwards(TriangleMesh& mesh, std::string_view name);
+struct Turned {
+  std::size_t faces = 0;    ///< that changed
+  std::size_t inwards = 0;  ///< of these, of components that are inside out: cavities turn with what they are in
+};
+
+/// Turns components as turned_outwards does. Throws InputError as require_usable.
+Turned turn_outwards(TriangleMesh& mesh, std::string_view name);
 
 /// The same, and returns the faces of all components but cavities.
 std::vector<FaceId> turn_outwards_and_fill(TriangleMesh& mesh, std::string_view name);

@@ -99,11 +99,15 @@ class Judge {
   bool refuses_inverted(const TriangleMesh& hull) {
     require_closed(hull, "hull");
     TriangleMesh turned = hull;
-    found.inverted_hull_faces = verify::turn_outwards(turned, "hull");
-    if (found.inverted_hull_faces == 0) return false;
+    const auto [faces, inwards] = verify::turn_outwards(turned, "hull");
+    found.inverted_hull_faces = faces;
+    if (faces == 0) return false;
     found.encloses = false;
     found.why_not =
-        found.inverted_hull_faces == hull.face_count()
+        inwards < faces
+            ? "the hull is inside out as a whole: its volume is negative; turn it (trimesh: mesh.invert()) if that is "
+              "meant"
+        : faces == hull.face_count()
             ? "all faces of the hull look inwards; turn it (trimesh: mesh.invert()) if that is meant"
             : fmt::format(
                   "{} of the hull {} inwards, in whole components; turn these (trimesh: "

@@ -162,6 +162,15 @@ expect 3 "a world that is not there" $motion free.csv --world nowhere.stl
 sed -n 's/^4 \(.*\) \(.*\) \(.*\) \(.*\)$/4 \4 \3 \2 \1/p; /^4 /!p' table.off >room.off
 expect 1 "a mesh of the world that is inside out is turned" $motion free.csv --world room.off --unit mm
 says out "what was turned is said" "room is inside out: it was turned, so that its inside counts as solid"
+{
+  printf 'OFF\n16 12 0\n'
+  sed -n '3,10p' table.off
+  sed -n '3,10p' table.off | awk '{ print $1 + 1e5, $2, $3 }'
+  grep '^4 ' table.off
+  grep '^4 ' room.off | awk '{ print 4, $2 + 8, $3 + 8, $4 + 8, $5 + 8 }'
+} >half.off
+expect 1 "a component of the world that is inside out" $motion free.csv --world half.off --unit mm
+says out "which component was turned" "the component of face 12 of half is inside out: it was turned, so that its inside counts as solid"
 expect 1 "a table whose faces look outwards" $motion free.csv $world
 is "what was not turned is not said to be" sh -c '! grep -q "inside out" out'
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string_view>
 
 #include "meshes.h"
 #include "prohull/error.h"
@@ -128,6 +129,12 @@ TEST(ClosedMesh, RefusesAComponentThatIsInsideOutAndCrossesAnother) {
                                   box({-0.25, -0.25, -1.5}, {0.25, 0.25, 1.5})})
     EXPECT_THROW(closed_mesh(together(cube, inside_out(bar))), InputError);
   EXPECT_THROW(closed_mesh(together(cube, inside_out(cube))), InputError) << "it repeats the other";
+  try {
+    closed_mesh(together(cube, inside_out(box({-0.5, -0.5, -9}, {0.5, 0.5, 9}))));
+    FAIL() << "the bar is larger than the cube";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string_view(error.what()).starts_with("the component of face 0 looks outwards")) << error.what();
+  }
 }
 
 /// Squares about the z axis, from the highest to the lowest, joined to a closed mesh.

@@ -11,6 +11,7 @@
 #include "geometry/triangle_predicates.h"
 #include "meshes.h"
 #include "progress.h"
+#include "prohull/detail/inside_out.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
 #include "prohull/sample.h"
@@ -288,6 +289,24 @@ TEST(VerifyHull, TurnsMeshesThatAreInsideOutAndSaysSo) {
   EXPECT_EQ(found.turned_original_faces, 12u);
   EXPECT_EQ(found.inverted_hull_faces, 0u);
   EXPECT_TRUE(says(found, "12 faces of the original look inwards"));
+}
+
+TEST(InsideOutParts, AreComponentsOfNegativeVolumeThatAreNoCavities) {
+  const TriangleMesh cube = box({-1, -1, -1}, {1, 1, 1}), cavity = inside_out(scaled(cube, 0.5));
+  const TriangleMesh beside = inside_out(moved(scaled(cube, 2), {9, 0, 0}));
+  EXPECT_EQ(described(inside_out_parts(cube), "it"), "");
+  EXPECT_EQ(described(inside_out_parts(together(cube, cavity)), "it"), "");
+  EXPECT_EQ(described(inside_out_parts(inside_out(cube)), "it"), "it is inside out");
+  EXPECT_EQ(described(inside_out_parts(together(cube, beside)), "it"), "the component of face 12 of it is inside out");
+  const InsideOut hollow = inside_out_parts(inside_out(together(cube, cavity)));
+  EXPECT_EQ(hollow.parts, 1u);
+  EXPECT_FALSE(hollow.is_all);
+  EXPECT_EQ(described(inside_out_parts(together(together(cube, beside), moved(beside, {0, 9, 0}))), "it"),
+            "the component of face 12 of it is inside out, as is 1 other");
+  const TriangleMesh bar = inside_out(box({-0.5, -0.5, -9}, {0.5, 0.5, 9}));  // larger than the cube, and crosses it
+  EXPECT_EQ(described(inside_out_parts(together(cube, bar)), "it"), "the component of face 12 of it is inside out");
+  EXPECT_TRUE(says(verify_hull(kLarge, together(cube, bar)),
+                   "24 faces of the original count as turned, as its volume is negative: 12 of these look inwards"));
 }
 
 TEST(VerifyHull, RefusesAHullThatIsInsideOut) {
