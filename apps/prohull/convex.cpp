@@ -383,6 +383,7 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
 int run_convex(ConvexOptions options) {
   const PieceFiles files(options);
   options.cover.float32_coordinates = files.has_float32();
+  options.cover.boxes_as_meshes = !files.is_robot();
   if (options.engine)
     options.cover.max_vertices = std::min(options.cover.max_vertices, most_vertices(*options.engine.value()));
   if (options.max_void_percent > 0) options.cover.bounds.max_void_ratio = options.max_void_percent / 100;

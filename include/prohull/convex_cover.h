@@ -29,6 +29,7 @@ struct ConvexCoverOptions {
   /// With any other shape than Polytope, pieces take that shape where `bounds` allow it: all, if there are none.
   PieceShape shape = PieceShape::Polytope;
   bool float32_coordinates = false;  ///< of the vertices of the pieces, as in HullOptions
+  bool boxes_as_meshes = true;       ///< false: boxes themselves are written, and their meshes need no float32
   unsigned threads = 0;              ///< 0: one for each core; the cover is the same for any number
   Progress progress = {};            ///< stages of enclosing_hulls, then "cut", "fit" and "verify"
 };

@@ -176,7 +176,8 @@ class Covering {
       : options_(options),
         prepared_(prepared_for_hulls(std::move(triangles), enclosing_options(options.threads, options.progress))),
         hull_(convex_hull(prepared_.original)),
-        inside_(prepared_.closed ? volume_inside(prepared_, options.progress) : InsideVolume()),
+        inside_(prepared_.closed || is_closed(prepared_.original) ? volume_inside(prepared_, options.progress)
+                                                                  : InsideVolume()),
         fillable_(prepared_.closed ? fillable_volume(prepared_, inside_, options.progress) : 0) {}
 
   ConvexCover run() {
@@ -292,7 +293,9 @@ class Covering {
       if (nodes < kFewestWrapNodes) return of_surface();
       around = wrap_around(near, diagonal / nodes, options_.progress);
     }
-    return of_solid(around.mesh, triangles, {around.inside_volume, /*is_estimated=*/true}, around.mesh);
+    const bool is_known = inside_.volume > 0 && !inside_.is_estimated;
+    const InsideVolume inside = is_known ? inside_ : InsideVolume{around.inside_volume, /*is_estimated=*/true};
+    return of_solid(around.mesh, triangles, inside, around.mesh);
   }
 
   Material of_surface() const {
@@ -405,8 +408,9 @@ class Covering {
   }
 
   ConvexCover in_shape(const ConvexCover& polytopes, const Material& material) const {
+    const bool has_float32_boxes = options_.float32_coordinates && options_.boxes_as_meshes;
     std::vector<ConvexPiece> all = polytopes.pieces;
-    for (ConvexPiece& piece : all) take_shape(piece, options_.shape, options_.float32_coordinates);
+    for (ConvexPiece& piece : all) take_shape(piece, options_.shape, has_float32_boxes);
     ConvexCover cover = certified(all, material);
     if (cover.within_bounds) return cover;
     std::vector<std::size_t> by_growth(all.size());
