@@ -174,7 +174,7 @@ bool CageMaker::accept(EnclosingHulls& made, HullSide side, TriangleMesh mesh) c
 // is kept. False if there is none at all.
 bool CageMaker::move_inwards(EnclosingHulls& made) const {
   constexpr int kMostAttempts = 4;
-  constexpr double kLeast = 1e-3;  // of the gap
+  constexpr double kLeast = 1e-6;  // of the gap
   const TriangleMesh before = turned(made.hulls[0].mesh);
   bool found = false;
   for (double aim = kHair * cage_.gap; !found && aim > kLeast * cage_.gap; aim /= 4) {
