@@ -173,14 +173,21 @@ std::string claim_of(const SweptZone& zone, const SweepRunOptions& options) {
       options.workspace ? "wherever the joints are within their limits" : "at every moment of the motion");
 }
 
+/// "arm", or in a workspace "arm, hand in the frame of base"
+std::string whose(const LinkSweep& sweep) {
+  if (sweep.links.empty()) return sweep.link;
+  return fmt::format("{} in the frame of {}", fmt::join(sweep.links, ", "), sweep.link);
+}
+
 void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
   const bool is_robot = is_robot_file(options.in);
   const auto pieces = [](const LinkSweep& link) { return counted(link.sweep.pieces.size(), "convex piece"); };
   for (const LinkSweep& link : zone.sweeps) {
     for (const std::string& note : link.sweep.notes) say("  {}{}\n", link.link.empty() ? "" : link.link + ": ", note);
     if (is_robot)
-      say("  {}: {}, at most {:.4g} mm from what it passes\n", link.link, pieces(link),
-          rounded_up(1e3 * link.sweep.reach, 4));
+      say("  {}: {}, at most {:.4g} mm from what {} pass{}\n", whose(link), pieces(link),
+          rounded_up(1e3 * link.sweep.reach, 4), link.links.size() > 1 ? "they" : "it",
+          link.links.size() > 1 ? "" : "es");
   }
   if (zone.hull)
     say("{}: hull of {}, volume {:.4g}", output_name(options.out), counted(zone.hull->mesh.face_count(), "face"),
@@ -201,7 +208,9 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
 nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) {
   nlohmann::json sweeps = nlohmann::json::array();
   for (const LinkSweep& link : zone.sweeps)
-    sweeps.push_back({{"link", link.link.empty() ? nlohmann::json() : nlohmann::json(link.link)},
+    sweeps.push_back({{"link", link.link.empty() || !link.links.empty() ? nlohmann::json() : nlohmann::json(link.link)},
+                      {"links", link.links},
+                      {"frame", link.links.empty() ? nlohmann::json() : nlohmann::json(link.link)},
                       {"pieces", link.sweep.pieces.size()},
                       {"cover_pieces", link.sweep.cover_pieces},
                       {"covers_inside", link.sweep.covers_inside},

@@ -12,8 +12,9 @@ namespace prohull::robot {
 
 /// What encloses all positions of a link on a path, in the frame of the root that it hangs on.
 struct LinkSweep {
-  std::string link;
-  Sweep sweep;  ///< its volume is not measured
+  std::string link;                     ///< its name, or that of the root if these are all links of a workspace
+  Sweep sweep;                          ///< its volume is not measured
+  std::vector<std::string> links = {};  ///< of a workspace: whose pieces they are
 };
 
 /// Encloses all positions of links along a path, by convex pieces, as `sweep` does it for a mesh. `links` are numbers

@@ -61,7 +61,7 @@ class Workspace {
       if (std::ranges::any_of(robot_.joints, [&](const Joint& joint) { return joint.child == link; })) continue;
       LinkSweep made{robot_.links[link].name, {}};
       made.sweep.covers_inside = true;
-      Zone zone = zone_of(link, made.sweep);
+      Zone zone = zone_of(link, made);
       if (zone.pieces.empty()) continue;
       made.sweep.pieces = std::move(zone.pieces), made.sweep.reach = zone.reach * (1 + 0x1p-40);
       sweeps.push_back(std::move(made));
@@ -70,7 +70,7 @@ class Workspace {
   }
 
  private:
-  Zone zone_of(std::size_t link, Sweep& said) const {
+  Zone zone_of(std::size_t link, LinkSweep& said) const {
     Zone zone;
     if (std::ranges::find(links_, link) != links_.end()) add_link(link, zone, said);
     for (std::size_t first = 0; first < robot_.joints.size(); ++first) {
@@ -87,9 +87,11 @@ class Workspace {
     return zone;
   }
 
-  void add_link(std::size_t link, Zone& zone, Sweep& said) const {
+  void add_link(std::size_t link, Zone& zone, LinkSweep& made) const {
     TriangleMesh mesh = triangles_to_sweep(robot_.links[link], which_);
     if (mesh.face_count() == 0) return;
+    made.links.push_back(robot_.links[link].name);
+    Sweep& said = made.sweep;
     ConvexCover cover = covered(std::move(mesh));
     said.covers_inside = said.covers_inside && cover.covers_inside;
     said.has_openings = said.has_openings || cover.has_openings;

@@ -89,14 +89,19 @@ says out "a robot" "certified: yes, the pieces as written enclose every triangle
 says arm.json "each link" '"link": "bar"'
 expect 0 "a robot at the beginning" $prohull verify arm.stl bar.off
 expect 0 "one link" $prohull sweep arm.urdf turn.csv --links bar --faces 200 -o bar.glb
+sed 's|<link name="base">.*|<link name="base"/>|' arm.urdf >bare.urdf
 expect 0 "a workspace" $prohull sweep arm.urdf --workspace -o workspace.stl
 says out "a workspace" "and the inside, wherever the joints are within their limits"
+says out "whose the pieces are" "base, bar in the frame of base: "
+expect 0 "a root without a shape" $prohull sweep bare.urdf --workspace -o bare.stl --report bare.json
+says out "a root without a shape" "  bar in the frame of base: "
+says bare.json "a root without a shape" '"frame": "base"'
+says bare.json "a root without a shape" '"link": null'
 expect 0 "a robot in its workspace" $prohull verify workspace.stl bar.off
 expect 2 "a workspace and a path" $prohull sweep arm.urdf turn.csv --workspace -o no.stl
 expect 2 "the workspace of a mesh" $prohull sweep bar.off --angle 5 --workspace -o no.stl
 expect 2 "no such link" $prohull sweep arm.urdf turn.csv --links elbow -o no.stl
 says err "no such link" "the robot has no link 'elbow'"
-sed 's|<link name="base">.*|<link name="base"/>|' arm.urdf >bare.urdf
 expect 2 "a link without a shape" $prohull sweep bare.urdf turn.csv --links base,bar -o no.stl
 says err "a link without a shape" "--links: 'base' has no shape"
 expect 2 "a robot without a path" $prohull sweep arm.urdf -o no.stl
