@@ -56,7 +56,8 @@ std::string size_of(const LinkHull& hull) {
 
 void add_hulls(Table& table, const Link& link, const LinkHulls& made) {
   for (const LinkHull& hull : made.hulls)
-    table.add({link.name, grouped(made.triangles.face_count()), size_of(hull), ratio(hull.volume, made.sealed_volume),
+    table.add({link.name, grouped(made.triangles.face_count()), size_of(hull),
+               (made.is_estimated && made.sealed_volume > 0 ? "~ " : "") + ratio(hull.volume, made.sealed_volume),
                ratio(hull.volume, made.convex_volume), at_most(hull.distance.upper), hull.certified ? "yes" : "NO"});
   if (made.status == LinkStatus::Primitives) table.add({link.name, "primitives, kept"});
   if (!made.why.empty()) table.add({link.name, "left as it is"});
@@ -81,6 +82,10 @@ std::string hulls_text(const ReportInput& facts) {
   table.add({"link", "faces", has_hulls ? "hull" : "cover", "/ part", "/ convex", "reach", "certified"});
   for (const LinkHulls& made : facts.hulls) add_hulls(table, facts.file.robot.links[made.link], made);
   std::string text = table.text();
+  if (std::ranges::any_of(facts.hulls, [](const LinkHulls& made) {
+        return made.is_estimated && !made.hulls.empty() && made.sealed_volume > 0;
+      }))
+    text += "  ~: the volume of the part is estimated, by a wrap\n";
   for (const LinkHulls& made : facts.hulls) {
     const std::string& name = facts.file.robot.links[made.link].name;
     if (!made.why.empty()) text += fmt::format("  {}: left as it is: {}\n", name, made.why);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -160,7 +161,11 @@ EnclosingOptions enclosing_options(const Budget& budget, const LinkHullOptions& 
 
 double convex_volume(const JudgedGeometry& geometry) {
   const SolidPieces& parts = geometry.curved.parts;
-  const auto of_original = [](const RepairedMesh& input) { return signed_volume(convex_hull(input.original)); };
+  const auto of_original = [](const RepairedMesh& input) {
+    constexpr double kFlat = 1e-4;  // of the diagonal, as in convex_cover.cpp
+    const double volume = signed_volume(convex_hull(input.original));
+    return std::cbrt(volume) < kFlat * bounding_box(input.original).diagonal() ? 0 : volume;
+  };
   return of_original(parts.empty() ? geometry.input : prepared_for_hulls(with_same_volume(parts)));
 }
 
@@ -168,8 +173,10 @@ double convex_volume(const JudgedGeometry& geometry) {
 /// construction.
 void describe_input(const JudgedGeometry& geometry, LinkHulls& result, const Progress& go_on) {
   const RepairedMesh& input = geometry.input;
-  if (!(result.sealed_volume > 0) || !geometry.curved.parts.empty())
-    result.sealed_volume = sealed_volume(geometry, result.hulls, go_on);
+  if (!(result.sealed_volume > 0) || !geometry.curved.parts.empty()) {
+    const InsideVolume sealed = sealed_volume(geometry, result.hulls, go_on);
+    result.sealed_volume = sealed.volume, result.is_estimated = sealed.is_estimated;
+  }
   result.non_finite_faces = input.repairs.dropped_non_finite_faces;
   result.convex_volume = convex_volume(geometry);
   result.repairs = describe(input.repairs);
@@ -242,7 +249,8 @@ bool take_proposal(std::vector<LinkHull> proposal, const Plan& plan, const LinkH
 void share_hulls(const LinkHulls& of, LinkHulls& result) {
   result.hulls = of.hulls, result.repairs = of.repairs;
   result.non_finite_faces = of.non_finite_faces;
-  result.sealed_volume = of.sealed_volume, result.convex_volume = of.convex_volume;
+  result.sealed_volume = of.sealed_volume, result.is_estimated = of.is_estimated;
+  result.convex_volume = of.convex_volume;
   result.from_cache = of.from_cache;
 }
 

@@ -105,7 +105,8 @@ struct LinkHulls {
   std::vector<std::size_t> primitives;  ///< shapes that are kept beside the hull; with spheres only spheres are
   std::vector<LinkHull> hulls;          ///< one for each number of faces; empty unless Hulled
   double sealed_volume = 0;             ///< of what lies inside of the geometry; 0: unknown
-  double convex_volume = 0;             ///< of its convex hull
+  bool is_estimated = false;            ///< `sealed_volume` is an estimate, from a wrap
+  double convex_volume = 0;             ///< of its convex hull; 0 of what is flat
   std::vector<std::string> repairs;     ///< sentences: what was repaired, which openings were closed
   double seconds = 0;
   bool from_cache = false;

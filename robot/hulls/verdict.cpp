@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "prohull/closed_solid.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "prohull/verification.h"
@@ -138,11 +137,12 @@ void judge(LinkHull& hull, const JudgedGeometry& geometry, const Budget& budget,
   if (!hull.certified) hull.proof.clear();
 }
 
-double sealed_volume(const JudgedGeometry& geometry, std::span<const LinkHull> hulls, const Progress& go_on) {
+InsideVolume sealed_volume(const JudgedGeometry& geometry, std::span<const LinkHull> hulls, const Progress& go_on) {
   const SolidPieces& parts = geometry.curved.parts;
   const InsideVolume inside = parts.empty() ? volume_inside(geometry.input, go_on) : volume_of(parts, go_on);
   const auto encloses = [&](const LinkHull& hull) { return hull.volume >= inside.volume; };
-  return !inside.is_estimated || std::ranges::all_of(hulls, encloses) ? inside.volume : 0;
+  const bool may_be = !inside.is_estimated || std::ranges::all_of(hulls, encloses);
+  return {may_be ? inside.volume : 0, inside.is_estimated};
 }
 
 std::optional<std::vector<LinkHull>> verified(std::vector<LinkHull> proposal, const JudgedGeometry& geometry,

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "prohull/closed_solid.h"
 #include "prohull/progress.h"
 #include "prohull/repair.h"
 #include "robot/hulls/link_hulls.h"
@@ -32,10 +33,10 @@ std::optional<double> distance_left(const Budget& budget, double around);
 /// Cancelled.
 void judge(LinkHull& hull, const JudgedGeometry& geometry, const Budget& budget, const Progress& go_on);
 
-/// LinkHulls::sealed_volume: the volume inside of the repaired geometry and of curved forms, in cubic metres. 0 if
-/// nothing does, or if it can only be estimated and the estimate is larger than one of the judged hulls. Throws
-/// Cancelled.
-double sealed_volume(const JudgedGeometry& geometry, std::span<const LinkHull> hulls, const Progress& go_on);
+/// LinkHulls::sealed_volume and is_estimated: the volume inside of the repaired geometry and of curved forms, in cubic
+/// metres. 0 if nothing does, or if it can only be estimated and the estimate is larger than one of the judged hulls.
+/// Throws Cancelled.
+InsideVolume sealed_volume(const JudgedGeometry& geometry, std::span<const LinkHull> hulls, const Progress& go_on);
 
 /// What is left of a proposal: all hulls, judged; nullopt if one of them is not as the budget asks, is not certified,
 /// or is not within the bounds that its construction claims. `float32` says that files keep coordinates in single

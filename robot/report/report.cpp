@@ -65,6 +65,7 @@ void add_hulls(const LinkHulls& link, std::span<const LinkCertificate> certifica
   facts["faces"] = link.triangles.face_count();
   facts["non_finite_faces"] = link.non_finite_faces;
   facts["sealed_volume"] = number(link.sealed_volume);
+  facts["sealed_volume_is_estimated"] = link.is_estimated;
   facts["convex_volume"] = number(link.convex_volume);
   facts["kept_primitives"] = link.primitives.size();
   facts["repairs"] = texts(link.repairs);

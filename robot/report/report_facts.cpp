@@ -53,7 +53,8 @@ void mark_hull(std::size_t link, const LinkHulls& link_hulls, const LinkHull& hu
     add(Severity::Look, fmt::format("has more faces than the {} asked for.", grouped(hull.target_faces)));
   if (!hull.within_bounds) add(Severity::Look, "does not keep the bound of the distance.");
   if (const auto fat = ratio(hull.volume, link_hulls.sealed_volume); is_hull(hull) && fat && *fat > kFat)
-    add(Severity::Look, fmt::format("has {} the volume of the original.", ratio_text(fat)));
+    add(Severity::Look, fmt::format("has {} the {}volume of the original.", ratio_text(fat),
+                                    link_hulls.is_estimated ? "estimated " : ""));
   if (hull.self_intersections > 0)
     add(Severity::Look,
         fmt::format("intersects itself: {}.", counted(hull.self_intersections, "pair of faces", "pairs of faces")));

@@ -293,13 +293,18 @@ std::string words_for(LinkStatus status) {
   return kWords[static_cast<std::size_t>(status)];
 }
 
+std::string part_ratio_text(const LinkHull& hull, const LinkHulls& link) {
+  const auto part = ratio(hull.volume, link.sealed_volume);
+  return (part && link.is_estimated ? "~ " : "") + ratio_text(part);
+}
+
 std::vector<Cell> hull_cells(const LinkHulls* hulls) {
   const LinkHull* const hull = hulls ? first_hull(*hulls) : nullptr;
   if (!hull) return {hulls ? words_for(hulls->status) : kDash, "", "", "", "", ""};
   return {is_certified(*hulls) ? Cell("✓ certified", "good") : Cell("✕ not certified", "bad"),
           grouped(hulls->triangles.face_count()),
           hulls->collision == Collision::Hull ? grouped(hull->mesh.face_count()) : size_text(*hull),
-          ratio_text(ratio(hull->volume, hulls->sealed_volume)),
+          part_ratio_text(*hull, *hulls),
           ratio_text(ratio(hull->volume, hulls->convex_volume)),
           length_text(hull->distance.upper, Rounded::Up)};
 }
@@ -375,7 +380,7 @@ std::vector<Fact> facts(const LinkHulls* link, std::span<const LinkHull> hulls, 
           {has_check, "Geometry sticks out by", [](Hull h) { return h.certified ? "0 mm" : "?"; }, sticks_out},
           {true, "Faces", [=](Hull h) { return faces_of(h, link->collision); },
            [](Check c) { return count_in(c.collision_faces, c.pieces > 1 ? counted(c.pieces, "piece") : ""); }},
-          {true, "Volume / original", [=](Hull h) { return times(h.volume, link->sealed_volume); },
+          {true, "Volume / original", [=](Hull h) { return part_ratio_text(h, *link); },
            [=](Check c) { return times(c.collision_volume, c.visual_volume); }},
           {true, "Volume / convex hull", [=](Hull h) { return times(h.volume, link->convex_volume); },
            [=](Check c) { return times(c.collision_volume, c.convex_volume); }},
