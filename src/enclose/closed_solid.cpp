@@ -5,6 +5,7 @@
 #include "enclose/folds.h"
 #include "enclose/known_void.h"
 #include "geometry/float32.h"
+#include "prohull/detail/finite.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/detail/openings.h"
 #include "prohull/enclosure.h"
@@ -33,9 +34,7 @@ TriangleMesh wrap_of(const RepairedMesh& input, double spacing, const ClosedSoli
   return closed_mesh(std::move(made.mesh)).mesh;
 }
 
-}  // namespace
-
-ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& options) {
+ClosedSolid solid_of(TriangleMesh triangles, const ClosedSolidOptions& options) {
   ClosedSolid solid;
   solid.input = repaired_mesh(std::move(triangles), options.repair);
   if (solid.input.closed) {
@@ -58,6 +57,14 @@ ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& optio
                            : finite_bounding_box(solid.input.original).diagonal() / kSpacingsPerDiagonal;
   solid.mesh = wrap_of(solid.input, solid.wrap_spacing, options);
   judge(solid, options);
+  return solid;
+}
+
+}  // namespace
+
+ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& options) {
+  ClosedSolid solid = solid_of(std::move(triangles), options);
+  solid.mesh = without_unused_vertices(std::move(solid.mesh));
   return solid;
 }
 

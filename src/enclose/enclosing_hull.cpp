@@ -73,7 +73,10 @@ EnclosingHulls best_hulls(Request request, std::span<const std::size_t> target_f
   made.repair_seconds = solids.repair_seconds();
   made.solids = solids.taken();
   made.input = std::move(request.input);
-  for (EnclosingHull& hull : made.hulls) hull.void_ratio = known_void(made, hull);
+  for (EnclosingHull& hull : made.hulls) {
+    hull.void_ratio = known_void(made, hull);
+    hull.mesh = without_unused_vertices(std::move(hull.mesh));
+  }
   return made;
 }
 

@@ -176,8 +176,8 @@ EnclosingHull Ranking::winner() {
   if (solid.largest_door > 0)
     notes_.add(fmt::format("{}openings up to about {:.4g} across count as closed",
                            is_closed(request_.input.original) ? "" : "the mesh is not closed: ", solid.largest_door));
-  if (solid.source == Source::Wrap && !request_.input.closed && volume() == 0)
-    notes_.add("the triangles enclose no space: the hull is a sheet around them");
+  if (solid.source == Source::Wrap && !request_.input.closed && volume() == 0 && !(hull.verdict.original_volume > 0))
+    notes_.add("no space was found inside of the triangles: the hull is a sheet around them");
   hull.notes = notes_.all();
   return hull;
 }

@@ -197,9 +197,10 @@ std::vector<std::string> lines_of_shape(const ToldHull& told) {
   const TriangleMesh& solid = told.solid().mesh;
   if (hull.mesh.face_count() == solid.face_count() && hull.mesh.face_count() <= hull.target_faces) {
     const std::string name = solid_name(told, told.solid());
-    lines.push_back(
-        fmt::format("{} has no more faces than were asked for: the hull is {}", name,
-                    hull.source == Source::Mesh && hull.mesh == solid ? name + " itself" : "simplified no further"));
+    lines.push_back(fmt::format("{} has no more faces than were asked for: the hull is {}", name,
+                                hull.source == Source::Mesh && has_triangles_of(hull.mesh, solid)
+                                    ? name + " itself"
+                                    : "simplified no further"));
   }
   return lines;
 }

@@ -40,6 +40,21 @@ TriangleMesh with_finite_faces(TriangleMesh mesh) {
   return mesh;
 }
 
+TriangleMesh without_unused_vertices(TriangleMesh mesh) {
+  constexpr std::uint32_t kUnused = 0xffffffff;
+  PerVertex<std::uint32_t> number(mesh.vertex_count(), kUnused);
+  for (const auto& corners : mesh.triangles)
+    for (const VertexId v : corners) number[v] = 0;
+  PerVertex<Vec3> used;
+  for (const VertexId v : mesh.positions.ids())
+    if (number[v] != kUnused) number[v] = index(used.push_back(mesh.positions[v]));
+  if (used.size() == mesh.positions.size()) return mesh;
+  for (auto& corners : mesh.triangles)
+    for (VertexId& v : corners) v = VertexId(number[v]);
+  mesh.positions = std::move(used);
+  return mesh;
+}
+
 TriangleMesh finite_part(const TriangleMesh& mesh) {
   const TriangleMesh finite = with_finite_faces(mesh);
   PerVertex<std::optional<VertexId>> renumbered(mesh.vertex_count());

@@ -213,6 +213,61 @@ for command in "collide inverted.obj inside.obj" "contains inverted.obj --random
 done
 expect 0 "distances from faces have no inside" $prohull distance inverted.obj --random 9
 says_not out "distances from faces have no inside" "inside out"
+# Beside an outward cube: together they have no volume, or less than none.
+for size in 1 1.2; do
+  {
+    grep '^v' cube.obj
+    awk -v size=$size '/^v / { print "v", 2 + size * $2, $3, $4 }' cube.obj
+    grep '^f' cube.obj
+    awk '/^f / { print "f", $2 + 8, $4 + 8, $3 + 8 }' cube.obj
+  } >parts.obj
+  expect 1 "one part inside out" $prohull collide parts.obj inside.obj --report parts.json
+  says out "one part inside out" "the component of face 12 of parts.obj is inside out: "
+  says parts.json "one part inside out" '"inside_out": true'
+  for command in "contains parts.obj --random 99" "distance parts.obj --random 99 --signed"; do
+    expect 0 "one part inside out: $command" $prohull $command
+    says out "one part inside out: $command" "the component of face 12 of parts.obj is inside out: nothing is inside of it"
+  done
+  expect 3 "one part inside out, conservatively" $prohull collide parts.obj inside.obj --conservative
+  says err "one part inside out, conservatively" "the component of face 12 of the mesh is inside out"
+done
+expect 1 "no part inside out" $prohull collide nested.obj inside.obj
+says_not out "no part inside out" "inside out"
+
+# --- a part that crosses another one inside out ---
+for height in 0.04 0.06; do
+  {
+    awk '/^v / { print "v", 0.05 * $2, $3, $4 }' cube.obj
+    awk -v height=$height '/^v / { print "v", 0.02 + $2, $3, 0.5 + height * $4 }' cube.obj
+    grep '^f' cube.obj
+    awk '/^f / { print "f", $2 + 8, $4 + 8, $3 + 8 }' cube.obj
+  } >crossed.obj
+  expect 0 "a solid that is crossed" $prohull build crossed.obj --faces 100 -o hull.ply
+  says out "a solid that is crossed" ", void "
+  says_not out "a solid that is crossed" "no space"
+  expect 0 "pieces of a solid that is crossed" $prohull convex crossed.obj --pieces 2 -o pieces.obj
+  said=$(sed -n 's/^.* \([0-9.]*\) % more volume than the mesh.*$/\1/p' out)
+  says_not out "pieces of a solid that is crossed" "estimated"
+  expect 0 "pieces of a solid that is crossed" $prohull verify pieces.obj crossed.obj --union
+  is "one void of pieces and verify" awk -v said="$said" '/void/ { d = $(NF - 1) - said; near = d * d < 0.0002 } END { exit !near }' out
+done
+expect 0 "as a whole inside out" $prohull verify hull.ply crossed.obj
+says out "as a whole inside out" "24 faces of the original count as turned, as its volume is negative: 12 of these look inwards"
+says_not out "as a whole inside out" "24 faces of the original look inwards"
+
+# --- vertices that no face uses ---
+expect 0 "a cube without what is not finite" $prohull repair nan.obj -o finite.obj
+is "a solid has no vertices that no face uses" test "$(grep -c '^v' finite.obj)" -eq 8
+expect 0 "a hull of it" $prohull build nan.obj --faces 12 -o finite.obj
+is "a hull has no vertices that no face uses" test "$(grep -c '^v' finite.obj)" -eq 8
+
+# --- distances far below the size of the mesh ---
+awk '/^v / { print "v", 1e300 * $2, 1e300 * $3, 1e300 * $4; next } { print }' cube.obj >huge.obj
+printf -- '-2.5,0.5,0.5\n' >near.csv
+expect 0 "bounds that tell nothing" $prohull distance huge.obj --points near.csv
+says out "bounds that tell nothing" "from 0 (between 0 and "
+expect 0 "bounds as good as the digits" $prohull distance cube.obj --points near.csv
+says out "bounds as good as the digits" "1 point at distances from 2.5 to 2.5"
 
 # --- distances below rounding ---
 printf 'v 1.0000000000000002 0 0\nv 3 0 0\nv 2 1 0\nv 2 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >beside.obj
@@ -296,6 +351,24 @@ EOF
 expect 1 "a mesh that is missing" $prohull urdf --check robot.urdf
 says out "a mesh that is missing" "NO: 1 of 1 link is not checked"
 says_not out "a mesh that is missing" "makes collision meshes"
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' >flat.obj
+cat >robot.urdf <<'EOF'
+<robot name="r">
+  <link name="a"><visual><origin rpy="0.3 0.1 0.2"/><geometry><mesh filename="flat.obj"/></geometry></visual></link>
+  <link name="b"><visual><geometry><mesh filename="tube.obj"/></geometry></visual></link>
+  <link name="c"><visual><geometry><mesh filename="soup.obj"/></geometry></visual></link>
+  <joint name="ab" type="fixed"><parent link="a"/><child link="b"/></joint>
+  <joint name="bc" type="fixed"><parent link="b"/><child link="c"/></joint>
+</robot>
+EOF
+awk '/^v / { v[++n] = $0 } /^f / { for (i = 2; i < 5; ++i) print v[$i]; print "f -3 -2 -1" }' tube.obj |
+  awk '/^v / { print "v", $2 + 0.01 * (NR % 7), $3, $4; next } { print }' >soup.obj
+expect 0 "a robot of loose triangles" $prohull urdf robot.urdf --faces 40 -o robot
+is "a flat link is no share of its convex hull" awk '$1 == "a" && $5 == "-" { found = 1 } END { exit !found }' out
+says out "an estimated part" "~: the volume of the part is estimated"
+is "an estimated part" awk '$1 == "c" && $4 == "~" { found = 1 } END { exit !found }' out
+is "a part that is closed by caps is not estimated" awk '$1 == "b" && $4 != "~" { found = 1 } END { exit !found }' out
+says robot/report.json "an estimated part" '"sealed_volume_is_estimated": true'
 
 # --- numbers of things ---
 expect 0 "one point" $prohull contains cube.obj --random 1

@@ -10,4 +10,7 @@ TriangleMesh with_finite_faces(TriangleMesh mesh);
 /// The faces whose corners are all finite, and the vertices that they use, in the order of their first use.
 TriangleMesh finite_part(const TriangleMesh& mesh);
 
+/// The mesh without the vertices that no face uses; the others stay in their order.
+TriangleMesh without_unused_vertices(TriangleMesh mesh);
+
 }  // namespace prohull
