@@ -18,8 +18,8 @@ namespace {
 
 /// Cavities, and components that cross others, are turned with the whole mesh.
 std::string described_as_turned(const TriangleMesh& mesh, const TriangleMesh& outwards, const std::string& name) {
-  const auto is_turned = [&](FaceId f) { return mesh.triangles[f] != outwards.triangles[f]; };
-  const bool is_whole = std::ranges::all_of(mesh.triangles.ids(), is_turned);
+  bool is_whole = true;
+  for (const FaceId f : mesh.triangles.ids()) is_whole = is_whole && mesh.triangles[f] != outwards.triangles[f];
   return is_whole ? name + " is inside out" : described(inside_out_parts(mesh), name);
 }
 
