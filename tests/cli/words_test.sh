@@ -361,8 +361,16 @@ cat >robot.urdf <<'EOF'
   <joint name="bc" type="fixed"><parent link="b"/><child link="c"/></joint>
 </robot>
 EOF
-awk '/^v / { v[++n] = $0 } /^f / { for (i = 2; i < 5; ++i) print v[$i]; print "f -3 -2 -1" }' tube.obj |
-  awk '/^v / { print "v", $2 + 0.01 * (NR % 7), $3, $4; next } { print }' >soup.obj
+while read -r corners; do
+  printf 'v %s %s %s\nv %s %s %s\nv %s %s %s\nf -3 -2 -1\n' $corners
+done >soup.obj <<'EOF'
+0.54 0.42 0.69 0.20 0.88 0.03 0.67 0.42 0.56
+0.14 0.20 0.80 0.97 0.31 0.69 0.88 0.89 0.09
+0.69 0.83 0.02 0.75 0.99 0.75 0.28 0.79 0.10
+0.45 0.91 0.29 0.29 0.13 0.02 0.68 0.21 0.27
+0.41 0.05 0.54 0.66 0.51 0.94 0.59 0.90 0.14
+0.14 0.81 0.40 0.17 0.93 0.35 0.75 0.73 0.88
+EOF
 expect 0 "a robot of loose triangles" $prohull urdf robot.urdf --faces 40 -o robot
 is "a flat link is no share of its convex hull" awk '$1 == "a" && $5 == "-" { found = 1 } END { exit !found }' out
 says out "an estimated part" "~: the volume of the part is estimated"
