@@ -44,6 +44,10 @@ std::span<const std::string_view> hull_engine_names() {
   return all_engine_names().first(all_engine_names().size() - kdop_names().size());
 }
 
+bool may_miss_hits(std::string_view engine, bool with_inner) {
+  return engine == kPaperRefinement || (engine == kWalk && !with_inner);
+}
+
 QueryIndex index_called(std::string_view engine, TriangleMesh mesh) {
   if (refines(engine) || engine == kWalk)
     throw InputError(Defect::InvalidOption, "this engine needs a progressive hull, which a mesh is not");

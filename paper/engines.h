@@ -13,7 +13,7 @@ namespace prohull {
 // paper-refinement: P&T 3.2.1 as published, for a hull: splits the corners of the hull faces that the query meets. Of a
 // segment or ray that starts outside of an outer base hull it finds the first crossing into the solid always. It may
 // miss crossings further in, where the query passes below the hull (P&T Figure 5), and sheets without thickness. Hulls
-// that are kept from query to query are finer, and may miss less.
+// that are kept from query to query are finer, and may miss less. It cannot tell what is inside, and refuses that.
 //
 // walk: follows the line through the void between base hull and mesh, tetrahedron by tetrahedron, of an outer hull, or
 // of an outer and an inner one. With both it finds every crossing. With the outer hull alone it finds those from which
@@ -39,6 +39,8 @@ struct RefinementOptions {
 std::span<const std::string_view> hull_engine_names();
 /// Those, and the trees of k-DOPs.
 std::span<const std::string_view> all_engine_names();
+/// Whether the engine may miss hits of segments and rays, as written above. `with_inner`: it has an inner hull, too.
+bool may_miss_hits(std::string_view engine, bool with_inner = false);
 
 // An index that asks the engine with one of these names. They throw as the constructors of QueryIndex do:
 // InputError(InvalidOption) for a name or an option that is none of these, and for an engine that needs a hull, another

@@ -11,6 +11,7 @@
 #include "paper/box_line.h"
 #include "paper/line_sieve.h"
 #include "paper/refined_hull.h"
+#include "prohull/error.h"
 
 namespace prohull {
 namespace {
@@ -191,6 +192,14 @@ class RefinementWorker final : public QueryWorker {
 
   void collect(const DirectedLine& line, HitCollector& hits) override { answer(LineProbe(line, shared_.frame), hits); }
   void collect(const Triangle& triangle, FaceCollector& faces) override { answer(TriangleProbe(triangle), faces); }
+
+  int winding(const TriangleMesh& mesh, const DirectedLine& line) override {
+    if (shared_.refine == Refine::WhereFacesMeet)
+      throw InputError(Defect::InvalidOption,
+                       "the engine paper-refinement may miss crossings, so that it cannot tell what is inside; take "
+                       "another one, such as auto");
+    return QueryWorker::winding(mesh, line);
+  }
 
   void forget() override {
     hull_.roll_back();

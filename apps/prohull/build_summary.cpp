@@ -115,6 +115,12 @@ nlohmann::json regions_report(const BuildOutcome& outcome, const Written& writte
   return regions;
 }
 
+std::string_view why_stopped(const EnclosingHull& hull) {
+  return hull.mesh.face_count() <= hull.target_faces ? "target_reached"
+         : hull.target_reached                       ? "bounds_reached"
+                                                     : "no_legal_collapse";
+}
+
 nlohmann::json facts_of_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
   const EnclosingHull& hull = written.hull;
   return {{"path", written.path.string()},
@@ -140,7 +146,7 @@ nlohmann::json facts_of_hull(const BuildOptions& options, const BuildOutcome& ou
           {"verdict", facts(of_file(hull.verdict, outcome.made.input))},
           {"padding", hull.padding},
           {"relaxed_guards", hull.relaxed_guards},
-          {"stopped", hull.target_reached ? "target_reached" : "no_legal_collapse"},
+          {"stopped", why_stopped(hull)},
           {"within_bounds", hull.within_bounds},
           {"excess", finite_or_null(hull.excess)},
           {"refusals", facts_of(hull.refusals)},

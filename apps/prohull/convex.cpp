@@ -292,9 +292,10 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
   say("{}: {}, {}\n", input_name(options.in), counted(outcome.input.faces, "face"),
       counted(outcome.input.components, "component"));
   for (const std::string& note : cover.notes) say("  {}\n", note);
-  say("{}: {}, {}, at most {:.4g} from the mesh ({} % of its diagonal){}\n", output_name(options.out),
+  say("{}: {}, {}, at most {:.4g} from the mesh ({} % of its diagonal){}{}\n", output_name(options.out),
       described_pieces(cover), described_size(cover), rounded_up(cover.reach.upper, 4),
       with_decimals_up(100 * cover.reach.upper / outcome.diagonal, 2),
+      cover.fills_cavities ? " with cavities filled" : "",
       text_of_openings(cover.has_openings, cover.reach_from_triangles));
   if (outcome.certified)
     say("  certified: yes, the pieces as written cover every {}triangle of the original{}\n",

@@ -23,6 +23,12 @@ TriangleMesh level_of(const ProgressiveHull& hull, const LodOptions& options, co
       hull.level(options.mirror ? symmetric_faces(hull, *options.mirror, options.faces) : options.faces);
   if (stores_float32(mesh_format("mesh" + suffix)) && level.face_count() < hull.original_face_count())
     level = with_float32_coordinates(level, hull.side()).mesh;
+  if (options.mirror && !inspect_symmetry(level, *options.mirror).is_symmetric())
+    throw InputError(
+        Defect::InvalidOption,
+        fmt::format("{}: the file keeps float32 coordinates, and rounded to them the level is not symmetric "
+                    "any more; build the hull with an .stl or .glb file as output, or write .ply, .obj or .off",
+                    output_name(options.out)));
   return level;
 }
 

@@ -111,6 +111,12 @@ void say_conservative(HullSide side, const QueryIndex& index) {
 
 bool counts_tests(std::string_view engine) { return engine.ends_with("refinement"); }
 
+/// Triangles are decided by the walk's tree over the mesh.
+bool may_miss(const QueryOptions& options) {
+  return may_miss_hits(options.engine, !options.inner.empty()) &&
+         (options.triangles.empty() || counts_tests(options.engine));
+}
+
 /// What has come of the queries, whatever their kind.
 struct Outcome {
   std::string_view noun;
@@ -144,6 +150,9 @@ void print_summary(const QueryOptions& options, const Outcome& outcome) {
   if (counts_tests(options.engine))
     say("  {:.1f} faces tested and {:.1f} vertices split per {}\n", outcome.per_query(outcome.counts.tests),
         outcome.per_query(outcome.counts.splits), outcome.noun);
+  if (may_miss(options))
+    say("  {} may be missing: the engine {} does not find all of them; auto does\n", faces ? "faces met" : "hits",
+        outcome.engine);
   outcome.seconds.say_them();
 }
 
@@ -158,6 +167,7 @@ nlohmann::json report_of(const QueryOptions& options, const Outcome& outcome) {
                          {"seconds", outcome.seconds.facts()}};
   if (outcome.noun != "triangle") json["mode"] = name_of(hit_mode_names(), options.mode);
   if (options.random.count > 0) json["seed"] = options.random.seed;
+  json["may_miss_hits"] = may_miss(options);
   if (counts_tests(options.engine)) json["tests"] = outcome.counts.tests, json["splits"] = outcome.counts.splits;
   return json;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -59,6 +60,15 @@ struct SweptZone {
   }
   bool has_openings() const {
     return std::ranges::any_of(sweeps, [](const LinkSweep& link) { return link.sweep.has_openings; });
+  }
+  bool fills_cavities() const {
+    return std::ranges::any_of(sweeps, [](const LinkSweep& link) { return link.sweep.fills_cavities; });
+  }
+  /// " with openings closed"; empty if all is as in the mesh.
+  std::string changes() const {
+    return !has_openings()    ? fills_cavities() ? " with cavities filled" : ""
+           : fills_cavities() ? " with openings closed and cavities filled"
+                              : " with openings closed";
   }
 };
 
@@ -166,10 +176,7 @@ std::string claim_of(const SweptZone& zone, const SweepRunOptions& options) {
   const std::string what = zone.hull ? "the hull as written encloses" : "the pieces as written enclose";
   const std::string whose = is_robot_file(options.in) ? "the links" : "the mesh";
   return fmt::format(
-      "{} every triangle of {}{}, {}", what, whose,
-      !zone.covers_inside() ? ""
-      : zone.has_openings() ? ", and the inside with openings closed"
-                            : ", and the inside",
+      "{} every triangle of {}{}, {}", what, whose, zone.covers_inside() ? ", and the inside" + zone.changes() : "",
       options.workspace ? "wherever the joints are within their limits" : "at every moment of the motion");
 }
 
@@ -191,13 +198,13 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
   }
   if (zone.hull)
     say("{}: hull of {}, volume {:.4g}", output_name(options.out), counted(zone.hull->mesh.face_count(), "face"),
-        signed_volume(zone.hull->mesh));
+        volume_of(*zone.hull));
   else if (is_robot)
     say("{}: {}", output_name(options.out), counted(zone.pieces().size(), "convex piece"));
   else
     say("{}: {}, volume about {:.3g}", output_name(options.out), pieces(zone.sweeps[0]), zone.sweeps[0].sweep.volume);
   say(", at most {:.4g} from what {} passes{}\n", rounded_up(zone.reach(), 4), is_robot ? "the robot" : "the mesh",
-      zone.has_openings() ? " with openings closed" : "");
+      zone.changes());
   if (zone.certified)
     say("  certified: yes, {}\n", claim_of(zone, options));
   else
@@ -215,10 +222,11 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
                       {"cover_pieces", link.sweep.cover_pieces},
                       {"covers_inside", link.sweep.covers_inside},
                       {"has_openings", link.sweep.has_openings},
+                      {"fills_cavities", link.sweep.fills_cavities},
                       {"reach", link.sweep.reach},
                       {"notes", link.sweep.notes}});
   const bool has_volume = zone.hull || !is_robot_file(options.in);
-  const double volume = zone.hull ? signed_volume(zone.hull->mesh) : zone.sweeps[0].sweep.volume;
+  const double volume = zone.hull ? volume_of(*zone.hull) : zone.sweeps[0].sweep.volume;
   return {{"input", {{"path", options.in.string()}}},
           {"path", options.out.string()},
           {"pieces", zone.pieces().size()},
@@ -226,7 +234,7 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
           {"certified", zone.certified},
           {"reach", zone.reach()},
           {"volume", has_volume ? nlohmann::json(volume) : nlohmann::json()},
-          {"volume_is_estimated", !zone.hull},
+          {"volume_is_estimated", !zone.hull || std::isnan(zone.hull->verdict.hull_volume)},
           {"sweeps", sweeps},
           {"seconds", {{"read", zone.read_seconds}, {"sweep", zone.seconds}}}};
 }

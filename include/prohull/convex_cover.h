@@ -62,6 +62,7 @@ struct ConvexCover {
   DistanceBounds reach;
   DistanceBounds reach_from_triangles;  ///< the same without what closes openings
   bool has_openings = false;            ///< the input has openings that count as closed: the two may differ
+  bool fills_cavities = false;          ///< the input has cavities, which count as filled: the reach is not from them
   std::size_t non_finite_faces = 0;     ///< faces of the input that were left out: a corner is not finite
   bool within_bounds = true;
   std::vector<std::string> notes;  ///< sentences for the user

@@ -39,6 +39,7 @@ struct Sweep {
   std::vector<TriangleMesh> pieces;  ///< convex polytopes: closed, outwards, no vertex outside of a face's plane
   bool covers_inside = false;        ///< what is enclosed: also the inside of the mesh, as ConvexCover says it,
   bool has_openings = false;         ///< with its openings closed, which it then has
+  bool fills_cavities = false;       ///< and with its cavities filled
   double volume = 0;                 ///< of the union of the pieces, estimated by 200,000 points
   /// Proven: no point of the surfaces of the pieces is farther from all positions of the mesh's solid, or of its
   /// triangles if there is none.

@@ -33,6 +33,7 @@ py::dict facts_of(Sweep sweep) {
   facts["pieces"] = pieces;
   facts["covers_inside"] = sweep.covers_inside;
   facts["has_openings"] = sweep.has_openings;
+  facts["fills_cavities"] = sweep.fills_cavities;
   facts["reach"] = sweep.reach;
   facts["cover_pieces"] = sweep.cover_pieces;
   facts["notes"] = sweep.notes;

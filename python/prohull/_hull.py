@@ -53,11 +53,10 @@ class Hull(Mesh):
     _bounds: tuple[Any, ...]  # mesh and volume that they are about, max_distance, max_void_ratio
     _gap_asked: float
     _mirror: Optional[Axis] = None  # that build() was asked for
-    _volume_inside: float  # that void is measured against
+    _volume_inside: Optional[float]  # that void is measured against; None: that of the original
     _open_shells: OpenShells
     _replay_suffices: bool  # whether a level that encloses the solid of the original covers every triangle of it
-    _solid_volume: Optional[float]  # computed when it is asked for, and so are the next
-    _distance: Optional[float]
+    _distance: Optional[float]  # computed when it is asked for, and so are the next
     _self_intersections: Optional[int]
     _verdict: "Optional[Verification]"
 
@@ -70,14 +69,14 @@ class Hull(Mesh):
                        _bounds=facts.pop("bounds", ()), _gap_asked=facts.pop("gap_asked", 0.0),
                        _mirror=facts.pop("mirror", None), _open_shells=facts.pop("open_shells", "keep"),
                        _replay_suffices=facts.pop("replay_suffices"),
-                       _volume_inside=facts.pop("volume_inside", original.volume))
+                       _volume_inside=facts.pop("volume_inside", None))
         return cls._with(facts.pop("mesh"), side=side, **private, **facts)
 
     @classmethod
     def _with(cls, core: _prohull.Mesh, **attributes: Any) -> "Hull":
         hull = cls.__new__(cls)
         hull._set(core)
-        hull._solid_volume = hull._distance = hull._self_intersections = hull._verdict = None
+        hull._distance = hull._self_intersections = hull._verdict = None
         hull.__dict__.update(attributes)
         return hull
 
@@ -205,11 +204,8 @@ class Hull(Mesh):
         Negative for inner hulls. Where the volume of the mesh is only estimated, `notes` says so. nan if nothing is known
         of it, as of a mesh that encloses no space.
         """
-        if not self._volume_inside:
-            return math.nan
-        if self._solid_volume is None:
-            self._solid_volume = _prohull.solid_volume(self._core)
-        return self._solid_volume / self._volume_inside - 1
+        inside = self._original._volume_of_solid() if self._volume_inside is None else self._volume_inside
+        return self._volume_of_solid() / inside - 1 if inside else math.nan
 
     @property
     def distance_bound(self) -> float:

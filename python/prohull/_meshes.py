@@ -125,7 +125,8 @@ class Mesh(Shown):
     def _set(self, core: _prohull.Mesh, levels: Optional[_prohull.Levels] = None) -> None:
         self._core = core
         self._query_levels = levels  # of which this is the original mesh
-        self._is_closed: Optional[bool] = None
+        self._is_closed: Optional[bool] = None  # computed when it is asked for, and so is the next
+        self._solid_volume: Optional[float] = None
         self._indices: dict[Any, _prohull.Index] = {}
 
     @classmethod
@@ -181,6 +182,12 @@ class Mesh(Shown):
         """The signed volume, in cubic units. Of a closed mesh that does not overlap itself it is the volume inside; overlaps
         count several times. Negative if the mesh is inside out."""
         return self._core.volume
+
+    def _volume_of_solid(self) -> float:
+        """Overlaps count once."""
+        if self._solid_volume is None:
+            self._solid_volume = _prohull.solid_volume(self._core)
+        return self._solid_volume
 
     @property
     def is_closed(self) -> bool:
@@ -267,7 +274,8 @@ class Mesh(Shown):
 
         points: (n, 3), which gives (n,); or a single point, (3,), which gives True or False.
 
-        A point on the surface may count as inside or as outside. Raises InputError if the mesh is not closed.
+        A point on the surface may count as inside or as outside. Raises InputError if the mesh is not closed, and for
+        the engine "paper-refinement", which may miss crossings.
         """
         is_one = np.shape(points) == (3,)
         inside = self._index(engine).contains(_arrays.points(points), threads, progress)
@@ -286,7 +294,7 @@ class Mesh(Shown):
                         progress: Optional[Progress] = None) -> ClosestPoints:
         """closest(), with distances and bounds that are negative where contains() has the point inside.
 
-        points: as of closest(). Raises InputError if the mesh is not closed.
+        points: as of closest(). Raises InputError as contains() does.
         """
         return ClosestPoints(*self._index(engine).signed_distances(_arrays.points(points), threads, progress))
 

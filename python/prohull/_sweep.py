@@ -29,6 +29,7 @@ class Sweep(CoverShown):
     pieces: list[Mesh]  #: convex polytopes, which overlap
     covers_inside: bool  #: whether all positions of the inside are enclosed too; else those of the triangles
     has_openings: bool  #: whether the mesh has openings, which count as closed where covers_inside is True
+    fills_cavities: bool  #: whether the mesh has cavities, which count as filled where covers_inside is True
     reach: float  #: no point of the pieces' surfaces is farther than this from all positions of the mesh: proven
     cover_pieces: int  #: number of convex pieces of the mesh itself
     notes: list[str]

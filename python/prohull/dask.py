@@ -209,7 +209,7 @@ def build_partitioned(client: "distributed.Client", mesh: MeshLike, target_faces
     told.add(1)
     return hull._as(hull._core, certified=bool(proof), proof=proof, repairs=[], build_seconds=built - start,
                     verify_seconds=time.perf_counter() - built, _given=given._core, _original=given, _levels=None,
-                    _covered=None, _volume_inside=given.volume, _replay_suffices=False)
+                    _covered=None, _volume_inside=None, _replay_suffices=False)
 
 
 @overload

@@ -279,6 +279,17 @@ def test_files(tmp_path, pony, hull):
     assert np.array_equal(hull.vertices, hull.vertices.astype(np.float32)) and hull.with_float32_coordinates() is hull
 
 
+def test_overlaps_of_a_loaded_hull_count_once(tmp_path):
+    cube = prohull.sample("box", 12)
+    shift = 0.5 * np.ptp(cube.vertices[:, 0]) * np.array([1, 0, 0])
+    two = (np.vstack([cube.vertices, cube.vertices + shift]), np.vstack([cube.faces, cube.faces + len(cube.vertices)]))
+    hull = prohull.build(two, len(two[1]), levels=True)
+    hull.save(tmp_path / "two.phull")
+    loaded = prohull.load(tmp_path / "two.phull")
+    for made in (loaded, loaded.level(len(two[1])), pickle.loads(pickle.dumps(loaded))):
+        assert made.void_ratio == hull.void_ratio == 0 and "void 0 %" in repr(made)
+
+
 def test_verify_names_offenders(pony):
     smaller = prohull.Mesh(0.9 * pony.vertices, pony.faces)
     report = prohull.verify(smaller, pony)

@@ -64,6 +64,8 @@ def test_refinement_options(hull, rays):
     for engine in (prohull.Refinement(paper=True), "paper-refinement"):
         found = hull.original.first_hit(*rays, engine=engine)
         assert outside.sum() > 100 and np.array_equal(found.face[outside], expected.face[outside])
+        with pytest.raises(prohull.InputError, match="cannot tell what is inside"):
+            hull.original.contains(hull.original.vertices.mean(0), engine=engine)
     with pytest.raises(prohull.InputError):
         hull.original.first_hit(*rays, engine=prohull.Refinement(queries_per_roll_back=0))
     with pytest.raises(prohull.InputError, match="original"):

@@ -145,6 +145,7 @@ std::vector<LinkSweep> sweep_links(const Robot& robot, const JointPath& path, st
     }
     LinkSweep& made = sweeps.emplace_back(LinkSweep{robot.links[link].name, {}});
     made.sweep.covers_inside = cover.covers_inside, made.sweep.has_openings = cover.has_openings;
+    made.sweep.fills_cavities = cover.fills_cavities;
     made.sweep.reach = cover.reach.upper;
     made.sweep.cover_pieces = cover.pieces.size();
     made.sweep.notes = std::move(cover.notes);

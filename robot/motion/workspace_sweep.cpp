@@ -95,6 +95,7 @@ class Workspace {
     ConvexCover cover = covered(std::move(mesh));
     said.covers_inside = said.covers_inside && cover.covers_inside;
     said.has_openings = said.has_openings || cover.has_openings;
+    said.fills_cavities = said.fills_cavities || cover.fills_cavities;
     said.cover_pieces += cover.pieces.size();
     for (const std::string& note : cover.notes) said.notes.push_back(robot_.links[link].name + ": " + note);
     take(cover, zone);

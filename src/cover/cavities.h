@@ -18,11 +18,13 @@ inline double fillable_volume(const RepairedMesh& input, const InsideVolume& ins
   return input.repairs.dropped_components > 0 ? volume_inside(input.closed->mesh, progress).volume : inside.volume;
 }
 
-inline void add_note_of_cavities(double volume, double fillable, std::vector<std::string>& notes) {
+/// Whether there are cavities.
+inline bool add_note_of_cavities(double volume, double fillable, std::vector<std::string>& notes) {
   constexpr double kSame = 1 + 1e-6;
-  if (volume > 0 && fillable > kSame * volume)
-    notes.push_back(fmt::format("cavities of the mesh count as filled: with them it has {} more volume",
-                                percent_text(fillable / volume - 1, 2)));
+  if (!(volume > 0 && fillable > kSame * volume)) return false;
+  notes.push_back(fmt::format("cavities of the mesh count as filled: with them it has {} more volume",
+                              percent_text(fillable / volume - 1, 2)));
+  return true;
 }
 
 }  // namespace prohull::cover

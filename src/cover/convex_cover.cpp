@@ -182,7 +182,7 @@ class Covering {
 
   ConvexCover run() {
     ConvexCover cover = certified_cover();
-    add_note_of_cavities(inside_.volume, fillable_, cover.notes);
+    cover.fills_cavities = add_note_of_cavities(inside_.volume, fillable_, cover.notes);
     return cover;
   }
 

@@ -367,6 +367,7 @@ Sweep sweep(TriangleMesh mesh, std::span<const RigidMotion> motions, const Sweep
   for (ConvexPiece& piece : cover.pieces) polytopes.push_back(std::move(piece.mesh));
   Sweep result = sweep(polytopes, motions, how);
   result.covers_inside = cover.covers_inside, result.has_openings = cover.has_openings;
+  result.fills_cavities = cover.fills_cavities;
   result.notes = std::move(cover.notes);
   if (cover.non_finite_faces > 0)
     result.notes.push_back(

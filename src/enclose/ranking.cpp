@@ -119,6 +119,10 @@ double Ranking::slack() const {
   return best_volume() / least - 1;
 }
 
+std::string Ranking::none_within_bounds(SolidId solid) const {
+  return fmt::format("no hull of {} was found within the bounds", described(solids_[solid], request_.input.repairs));
+}
+
 void Ranking::note_why_not(const EnclosingHull& hull) {
   const std::string source = described(solids_[hull.solid], request_.input.repairs);
   if (!hull.certified)
@@ -130,7 +134,7 @@ void Ranking::note_why_not(const EnclosingHull& hull) {
         : request_.is_outer() ? "does not cover every triangle" + place_of(hull.verdict)
                               : "is not proven to lie inside of the mesh"));
   else if (!hull.within_bounds)
-    notes_.add(fmt::format("no hull of {} was found within the bounds", source));
+    notes_.add(none_within_bounds(hull.solid));
   else if (!hull.target_reached)
     notes_.add(fmt::format("no legal collapse of {} is left at {} faces: of its edges, {}", source,
                            grouped(hull.mesh.face_count()), describe_refusals(hull.blocked)));
@@ -167,6 +171,7 @@ EnclosingHull Ranking::winner() {
   if (!has_certified()) refuse();
   EnclosingHull hull = std::move(*this).taken()->hull;
   const Solid& solid = solids_[hull.solid];
+  if (hull.within_bounds) notes_.remove(none_within_bounds(hull.solid));  // of an attempt before
   if (solid.folds.faces > 0)
     notes_.add(describe(solid.folds) +
                ": the hull is built from the mesh with other faces around them, which cover them");

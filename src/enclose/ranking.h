@@ -14,6 +14,7 @@ namespace prohull {
 class Notes {
  public:
   void add(std::string text);
+  void remove(const std::string& text) { std::erase(notes_, text); }
   const std::vector<std::string>& all() const { return notes_; }
 
  private:
@@ -58,6 +59,7 @@ class Ranking {
   bool is_as_asked(const EnclosingHull& hull) const;
   bool is_better(const EnclosingHull& a, const EnclosingHull& b) const;
   double weighed_size(const EnclosingHull& hull) const;
+  std::string none_within_bounds(SolidId solid) const;
   void note_why_not(const EnclosingHull& hull);
   [[noreturn]] void refuse();
 

@@ -45,7 +45,9 @@ void MeshBuilder::add_vertex(const Vec3& position, Place place) {
 void MeshBuilder::refuse_non_finite(const Vec3& position, std::string_view subject, Place place) const {
   if (non_finite_ == NonFinite::Keep) return;
   const int axis = !std::isfinite(position.x) ? 0 : !std::isfinite(position.y) ? 1 : 2;
-  fail(file_, place, fmt::format("{} has {} = {}; coordinates must be finite", subject, "xyz"[axis], position[axis]),
+  fail(file_, place,
+       fmt::format("{} has {} = {}; coordinates must be finite; `prohull repair` drops such triangles", subject,
+                   "xyz"[axis], position[axis]),
        Defect::NonFiniteCoordinate);
 }
 

@@ -378,6 +378,19 @@ for engine in walk filter auto; do
   expect 0 "two hulls, $engine" $prohull query rock.phull --inner inner.phull --segments random.npy --mode all -o again.csv --engine $engine
   same "two hulls, $engine" random.csv again.csv
 done
+for engine in walk paper-refinement; do
+  expect 0 "missed hits: $engine" $prohull query rock.phull --segments random.npy --engine $engine --report missed.json
+  says out "missed hits: $engine" "hits may be missing: the engine $engine does not find all of them; auto does"
+  says missed.json "missed hits: $engine" '"may_miss_hits": true'
+done
+printf '0,0,0,1,0,0,0,1,0\n' >tool.csv
+expect 0 "no face is missed by a tree" $prohull query rock.phull --triangles tool.csv --engine walk
+says_not out "no face is missed by a tree" "may be missing"
+expect 0 "points of the walk" $prohull contains rock.phull --random 99 --engine walk
+for asked in contains "distance --signed"; do
+  expect 2 "paper-refinement: $asked" $prohull $asked rock.phull --random 99 --engine paper-refinement
+  says err "paper-refinement: $asked" "it cannot tell what is inside; take another one, such as auto"
+done
 expect 0 "an outer hull, asked alone" $prohull query rock.phull --random 2000 --conservative --report conservative.json
 says out "an outer hull, asked alone" "none that hits the mesh is missed"
 grep -q '"side": "outer"' conservative.json || fail "the report of --conservative has no side"
@@ -528,6 +541,11 @@ expect 2 "no number" $prohull build rock.ply --faces many -o x.ply
 says err "no number" "--faces must be a whole number, not 'many'"
 expect 2 "half a face" $prohull build rock.ply --faces 100.5 -o x.ply
 says err "half a face" "--faces must be a whole number, not 100.5"
+$prohull sample bracket --faces 500 -o bracket.ply >/dev/null
+expect 0 "bounds ask for more faces" $prohull build bracket.ply --faces 50 --max-distance 0.001 -o x.ply --report x.json
+says_not out "bounds ask for more faces" "no hull of the mesh itself"
+says x.json "bounds ask for more faces" '"within_bounds": true'
+says x.json "bounds ask for more faces" '"stopped": "bounds_reached"'
 expect 2 "no distance" $prohull build rock.ply --max-distance 0 -o x.ply
 says err "no distance" "--max-distance must be greater than 0, not 0"
 expect 2 "too many degrees" $prohull build rock.ply --max-normal-deviation 91 -o x.ply

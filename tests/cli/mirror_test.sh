@@ -52,6 +52,11 @@ for faces in 300 302 304 306 308 310 312 314; do
   [ "$(asymmetric_vertices level.obj)" -eq 0 ] || asymmetric=$((asymmetric + 1))
 done
 [ $asymmetric -gt 0 ] || fail "--mirror of lod made no difference"
+expect 2 "symmetric: rounded" $prohull lod hull.phull --faces 300 --mirror x -o level.stl
+says err "symmetric: rounded" "level.stl: the file keeps float32 coordinates, and rounded to them the level is not symmetric"
+absent level.stl "symmetric: rounded"
+expect 0 "symmetric: float32 levels" $prohull build torus.obj --faces 300 --mirror x -o hull.stl --hierarchy float32.phull
+expect 0 "symmetric: a float32 level" $prohull lod float32.phull --faces 310 --mirror x -o level.stl
 expect 0 "symmetric: inner" $prohull build torus.obj --faces 300 --side inner --mirror x -o inner.obj
 symmetric inner.obj "an inner hull"
 expect 0 "symmetric: the inner hull is enclosed" $prohull verify inner.obj torus.obj --side inner

@@ -113,5 +113,32 @@ printf '%s\n' OFF '8 10 0' '0 0 0' '1 0 0' '1 1 0' '0 1 0' '0 0 1' '1 0 1' '1 1 
   '3 0 5 4' '3 1 2 6' '3 1 6 5' '3 2 3 7' '3 2 7 6' '3 3 0 4' '3 3 4 7' >bucket.off
 expect 0 "an open mesh" $prohull sweep bucket.off --angle 30 -o bucket.obj
 says out "an open mesh" "and the inside with openings closed, at every moment"
+sed -n '3,10p' bucket.off | awk '{ print 3 * $1 - 1, 3 * $2 - 1, 3 * $3 - 1 }' >far_corners
+{
+  printf 'OFF\n16 24 0\n'
+  sed -n '3,10p' bucket.off && cat far_corners
+  sed -n '11,$p' bucket.off && printf '3 4 5 6\n3 4 6 7\n'
+} | awk 'NF == 4 { print $1, $2, $4, $3; print $1, $2 + 8, $3 + 8, $4 + 8; next } 1' >hollow.off
+expect 0 "a mesh with a cavity" $prohull sweep hollow.off --move 0.1,0,0 -o hollow.obj --report hollow.json
+says out "a mesh with a cavity" "from what the mesh passes with cavities filled"
+says hollow.json "a mesh with a cavity" '"fills_cavities": true'
+expect 0 "pieces of a mesh with a cavity" $prohull convex hollow.off -o hollow.obj
+says out "pieces of a mesh with a cavity" "of its diagonal) with cavities filled"
+
+# --- a hull whose parts overlap ---
+cat >crossed.urdf <<'URDF'
+<robot name="crossed">
+  <link name="base"><collision><origin rpy="0.3 0.2 0.1"/><geometry><box size="1 1 1"/></geometry></collision></link>
+  <link name="slide"><collision><origin xyz="0 0.5 0" rpy="0 0.7 0"/><geometry><box size="1 1 1"/></geometry></collision></link>
+  <joint name="move" type="prismatic"><parent link="base"/><child link="slide"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="2" effort="1" velocity="1"/></joint>
+</robot>
+URDF
+printf 'move\n0.5\n1.25\n' >crossed.csv
+expect 0 "parts that overlap" $prohull sweep crossed.urdf crossed.csv --faces 40 -o crossed.ply --report crossed.json
+expect 0 "parts that overlap, verified" $prohull verify crossed.ply crossed.ply
+says_not out "parts that overlap" "intersects itself in 0 pairs"
+says out "overlaps count once" "hull: volume 2.82815683"
+says crossed.json "overlaps count once" '"volume": 2.82815683'
 
 count_checks

@@ -75,10 +75,14 @@ TEST(Obj, RefusesWhatIsNotANumber) {
 }
 
 TEST(Obj, RefusesNonFiniteCoordinates) {
-  expect_refused("v 0 0 0\n\nv 0 nan 0\n", "a.obj", "a.obj: line 3: vertex 2 has y = nan; coordinates must be finite",
-                 Defect::NonFiniteCoordinate);
-  expect_refused("v 0 0 -inf\n", "a.obj", "a.obj: line 1: vertex 1 has z = -inf; coordinates must be finite",
-                 Defect::NonFiniteCoordinate);
+  expect_refused(
+      "v 0 0 0\n\nv 0 nan 0\n", "a.obj",
+      "a.obj: line 3: vertex 2 has y = nan; coordinates must be finite; `prohull repair` drops such triangles",
+      Defect::NonFiniteCoordinate);
+  expect_refused(
+      "v 0 0 -inf\n", "a.obj",
+      "a.obj: line 1: vertex 1 has z = -inf; coordinates must be finite; `prohull repair` drops such triangles",
+      Defect::NonFiniteCoordinate);
 }
 
 TEST(Obj, KeepsNonFiniteCoordinatesIfAsked) {

@@ -55,8 +55,10 @@ TEST(Off, RefusesBadIndicesAndCoordinates) {
                  "a.off: line 6: the face has vertex 3, but the file has 3 vertices, counted from 0");
   expect_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "a.off",
                  "a.off: line 6: the face has vertex -1; vertices count from 0");
-  expect_refused("OFF\n3 1 0\n0 0 0\n1 inf 0\n", "a.off",
-                 "a.off: line 4: vertex 1 has y = inf; coordinates must be finite", Defect::NonFiniteCoordinate);
+  expect_refused(
+      "OFF\n3 1 0\n0 0 0\n1 inf 0\n", "a.off",
+      "a.off: line 4: vertex 1 has y = inf; coordinates must be finite; `prohull repair` drops such triangles",
+      Defect::NonFiniteCoordinate);
   expect_refused("OFF\n3 1 0\n0 0\n1 0 0\n", "a.off", "a.off: line 3: the line ends where a coordinate was expected");
 }
 

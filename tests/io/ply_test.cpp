@@ -165,13 +165,16 @@ TEST(Ply, RefusesBadIndicesAndCoordinates) {
                  "a.ply: line 13: the face has vertex 3, but the file has 3 vertices, counted from 0");
   expect_refused(header("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -2\n", "a.ply",
                  "a.ply: line 13: the face has vertex -2; vertices count from 0");
-  expect_refused(header("ascii", 3, 1) + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "a.ply",
-                 "a.ply: line 11: vertex 1 has y = nan; coordinates must be finite", Defect::NonFiniteCoordinate);
+  expect_refused(
+      header("ascii", 3, 1) + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "a.ply",
+      "a.ply: line 11: vertex 1 has y = nan; coordinates must be finite; `prohull repair` drops such triangles",
+      Defect::NonFiniteCoordinate);
   std::string content = header("binary_little_endian", 3, 1);
   const std::string place = "a.ply: byte " + std::to_string(content.size() + 12);
   content += binary_body(std::endian::little);
   content.replace(content.size() - 13 - 24 + 8, 4, std::string("\0\0\x80\x7f", 4));
-  expect_refused(content, "a.ply", place + ": vertex 1 has z = inf; coordinates must be finite",
+  expect_refused(content, "a.ply",
+                 place + ": vertex 1 has z = inf; coordinates must be finite; `prohull repair` drops such triangles",
                  Defect::NonFiniteCoordinate);
 }
 

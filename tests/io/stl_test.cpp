@@ -104,10 +104,13 @@ TEST(Stl, RefusesATruncatedOrMalformedAsciiFile) {
 TEST(Stl, RefusesNonFiniteCoordinates) {
   const float infinity = std::numeric_limits<float>::infinity();
   expect_refused(binary_stl("", 2, {kOne, {0, 0, 0, 1, infinity, 0, 0, 1, 0}}), "a.stl",
-                 "a.stl: byte 134: corner 2 of triangle 2 has y = inf; coordinates must be finite",
+                 "a.stl: byte 134: corner 2 of triangle 2 has y = inf; coordinates must be finite; `prohull repair` "
+                 "drops such triangles",
                  Defect::NonFiniteCoordinate);
   expect_refused("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 nan\nvertex 0 1 0\nendloop\nendfacet",
-                 "a.stl", "a.stl: line 2: corner 2 of triangle 1 has z = nan; coordinates must be finite",
+                 "a.stl",
+                 "a.stl: line 2: corner 2 of triangle 1 has z = nan; coordinates must be finite; `prohull repair` "
+                 "drops such triangles",
                  Defect::NonFiniteCoordinate);
 }
 

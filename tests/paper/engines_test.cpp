@@ -31,5 +31,14 @@ TEST(Engines, ThatRefineAnswerPointsAsTheTreeDoes) {
   }
 }
 
+TEST(Engines, ThatMissCrossingsRefuseToTellWhatIsInside) {
+  const ProgressiveHull hull = build_hull(meshes::sphere(2), {.target_faces = 40}).hull;
+  MeshQuery published{index_called("paper-refinement", hull)}, walk{index_called("walk", hull)};
+  EXPECT_THROW(published.contains({0, 0, 0}), InputError);
+  EXPECT_THROW(published.signed_distance({0, 0, 0}), InputError);
+  EXPECT_EQ(published.closest_point({0, 0, 2})->face, walk.closest_point({0, 0, 2})->face);
+  EXPECT_TRUE(walk.contains({0, 0, 0}));  // the tree over the mesh tells
+}
+
 }  // namespace
 }  // namespace prohull
