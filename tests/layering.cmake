@@ -31,7 +31,7 @@ room(verify    OWNS enclosure verification union_verification detail/replay dist
                                                                                      prohull/detail/vertex_split
                                                                                      prohull/progressive_hull
                                                                                      prohull/mesh_query prohull/collide)
-room(sample    OWNS sample detail/random_segments                                       MAY mesh geometry base)
+room(sample    OWNS sample detail/random_segments                                       MAY mesh geometry base prohull/detail/memory)
 room(wrap      OWNS convex_hull wrap                                                         MAY mesh geometry parallel base)
 room(enclose   OWNS cage closed_solid detail/closed_original detail/summary enclosing_hull                                          MAY construct repair verify wrap hull mesh
                                                                                      geometry parallel base prohull/collide

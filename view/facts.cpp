@@ -1,5 +1,6 @@
 #include "view/facts.h"
 
+#include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
 #include "prohull/union_verification.h"
@@ -68,6 +69,13 @@ DistanceOptions distance_options(const PageOptions& options) {
   return {.relative_gap = 0.02, .max_cells = 300'000, .progress = options.progress};
 }
 
+/// Overlaps count once; null if that takes too long. Of a mesh that is inside out, its signed volume.
+nlohmann::json volume_of(const TriangleMesh& mesh, double signed_volume) {
+  if (signed_volume < 0) return signed_volume;
+  const auto inside = solid_volume(mesh);
+  return inside ? nlohmann::json(*inside) : nlohmann::json();
+}
+
 nlohmann::json facts_of(const DistanceBounds& bounds) {
   return {{"lower", bounds.lower}, {"upper", bounds.upper}, {"farthest", facts_of(bounds.farthest)}};
 }
@@ -106,7 +114,7 @@ nlohmann::json mesh_facts(const TriangleMesh& mesh) {
       {"vertices", report.vertices},
       {"components", report.components},
       {"watertight", report.is_watertight()},
-      {"volume", report.is_watertight() ? nlohmann::json(report.volume) : nlohmann::json()},
+      {"volume", report.is_watertight() ? volume_of(mesh, report.volume) : nlohmann::json()},
       {"size",
        {report.box.max.x - report.box.min.x, report.box.max.y - report.box.min.y, report.box.max.z - report.box.min.z}},
       {"defects", defects},

@@ -89,6 +89,8 @@ void print_input(const CageRunOptions& options, const Cage& cage) {
   say("{}: {}, {}\n", input_name(options.in), counted(input.found.faces, "face"),
       counted(input.found.components, "component"));
   for (const std::string& repair : describe(input.repairs)) say("  {}\n", repair);
+  if (cage.inner && input.repairs.dropped_components > 0)
+    say("  that is for the outer hull alone: the inner hull stays out of cavities, which lie inside of others\n");
   if (!input.closed) say("  bounds no solid: {}\n", input.obstacle);
   for (const std::string& note : cage.notes) say("  {}\n", note);
 }

@@ -50,6 +50,7 @@ PointAnswers answers(std::vector<ClosestPoint> distances) {
 
 void add_distance(CLI::App& app, Run& run) {
   const auto options = std::make_shared<PointOptions>();
+  options->bytes_per_point = 220;
   CLI::App& command = *app.add_subcommand(
       "distance", "Finds how far points are from a mesh, with proven bounds, and the closest point of the mesh.");
   add_point_options(command, *options, distance_outputs());

@@ -227,8 +227,9 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
   if (chosen.empty() && before_command.empty()) return help_of(*app);
   const std::string what =
       before_command.empty() ? what_is_wrong(*chosen.front(), error) : unknown_before_command(*app, before_command);
-  return fmt::format("prohull: {}\n`prohull help{}` shows {}, with examples.\n", one_line(what),
-                     chosen.empty() ? "" : " " + chosen.front()->get_name(), chosen.empty() ? "commands" : "options");
+  return fmt::format("prohull: {}\n`prohull help{}` shows {}.\n", one_line(what),
+                     chosen.empty() ? "" : " " + chosen.front()->get_name(),
+                     chosen.empty() ? "all commands" : "options, with examples");
 }
 
 void add_help(CLI::App& app, Run& run) {

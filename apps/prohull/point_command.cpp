@@ -5,6 +5,7 @@
 #include "asked_mesh.h"
 #include "command.h"
 #include "paper/engines.h"
+#include "prohull/detail/memory.h"
 #include "prohull/detail/query_io.h"
 #include "prohull/detail/random_segments.h"
 #include "prohull/error.h"
@@ -13,7 +14,10 @@ namespace prohull::cli {
 namespace {
 
 std::vector<Vec3> make_points(const PointOptions& options, const AskedMesh& asked) {
-  if (options.points.empty()) return random_points(asked.box(), options.random.count, options.random.seed);
+  if (options.points.empty()) {
+    require_available(options.random.count, "random points", options.bytes_per_point);
+    return random_points(asked.box(), options.random.count, options.random.seed);
+  }
   return read_points(read_bytes(options.points), input_name(options.points));
 }
 

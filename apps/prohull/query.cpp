@@ -5,6 +5,7 @@
 #include "asked_mesh.h"
 #include "command.h"
 #include "paper/engines.h"
+#include "prohull/detail/memory.h"
 #include "prohull/detail/query_io.h"
 #include "prohull/detail/random_segments.h"
 #include "prohull/error.h"
@@ -75,6 +76,8 @@ Queries make_queries(const QueryOptions& options, const AskedMesh& asked) {
   if (!options.segments.empty()) return read_segments(read_bytes(options.segments), name(options.segments));
   if (!options.rays.empty()) return read_rays(read_bytes(options.rays), name(options.rays));
   if (!options.triangles.empty()) return read_triangles(read_bytes(options.triangles), name(options.triangles));
+  constexpr double kBytesPerSegment = 90;  // measured, with few hits
+  require_available(options.random.count, "random segments", kBytesPerSegment);
   return random_segments(asked.box(), options.random.count, options.random.seed);
 }
 

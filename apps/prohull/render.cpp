@@ -144,6 +144,8 @@ class Planner {
     for (const auto& [path, level] : shown) add(path, level);
   }
   const std::vector<PanelPlan>& plans() const { return plans_; }
+  /// Of levels that are coarser than any of the file.
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   void require_fit(std::size_t panels) {
@@ -184,6 +186,9 @@ class Planner {
       add_refined(path, level, plan);
     } else {
       plan.shown = table_.add(path, level);
+      if (const std::size_t faces = table_.meshes()[plan.shown].face_count(); level > 0 && faces > level)
+        notes_.push_back(fmt::format("{}: no level has {} faces or fewer; the coarsest one, of {}, is drawn",
+                                     input_name(path), grouped(level), grouped(faces)));
       if (!options_.segment.empty()) plan.segment = crossings(plan.inside.value_or(plan.shown));
     }
     add(std::move(plan), plan.inside || plan.right || level != MeshTable::kFinest);
@@ -289,6 +294,7 @@ class Planner {
   const RenderOptions& options_;
   MeshTable& table_;
   std::vector<PanelPlan> plans_;
+  std::vector<std::string> notes_;
 };
 
 render::Look look_of(const RenderOptions& options) {
@@ -349,7 +355,8 @@ int run_render(const RenderOptions& options) {
   if (options.background != kTransparent) color_of(options.background);
 
   MeshTable table([&](const std::filesystem::path& path) { return read_mesh_or_hull(path, options.input); });
-  const std::vector<PanelPlan> plans = Planner(options, table).plans();
+  const Planner planner(options, table);
+  const std::vector<PanelPlan>& plans = planner.plans();
   if (static_cast<std::size_t>(size.width) < plans.size())
     refuse(fmt::format("{} panels do not fit into {} pixels", plans.size(), size.width));
   const double read_seconds = watch.seconds();
@@ -369,6 +376,7 @@ int run_render(const RenderOptions& options) {
   outputs.commit();
   say("{}: {} x {}, {} faces, {:.1f} s\n", output_name(options.out), size.width, size.height, face_counts(plans, table),
       watch.seconds());
+  for (const std::string& note : planner.notes()) say("  {}\n", note);
   say_more("  {} bytes; read {:.2f} s, draw {:.2f} s, write {:.2f} s\n", grouped(png.size()), read_seconds,
            draw_seconds, watch.seconds() - read_seconds - draw_seconds);
   return kDone;

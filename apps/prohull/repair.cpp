@@ -46,9 +46,9 @@ void print_summary(const RepairRunOptions& options, const RepairOutcome& outcome
   if (solid.folds.faces > 0)
     say("  {}: the faces around them were replaced by others, which cover them\n", describe(solid.folds));
   if (outcome.is_wrap())
-    say("  it is another solid than the mesh: a wrap with a spacing of {0:.4g}, about a third of that farther out, "
-        "which "
-        "closes openings narrower than about twice that (--spacing)\n",
+    say("  it is another solid than the mesh: a wrap with a spacing of {0:.4g}, about a third of that farther out "
+        "(around sheets about half, in places more than all of it), which closes openings narrower than about twice "
+        "that (--spacing)\n",
         solid.wrap_spacing);
   if (outcome.certified)
     say("  certified: yes, {}\n", claim(of_file(solid.verdict, solid.input), "the file as written", "the original"));

@@ -122,6 +122,7 @@ int run_view(const ViewOptions& options) {
   outputs.commit();
   say("{}: {:.1f} MB, which any browser opens, {:.2f} s\n", output_name(options.out),
       static_cast<double>(page.size()) * 1e-6, making.seconds());
+  say_more("  {} bytes, with {}\n", grouped(page.size()), counted(options.in.size(), "object"));
   return kDone;
 }
 

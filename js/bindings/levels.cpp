@@ -32,7 +32,7 @@ std::vector<std::uint32_t> indices_of(const val& array, const std::string& name)
   std::vector<std::uint32_t> result;
   for (const double number : numbers_of(array, name)) {
     if (!(number >= 0 && number <= 0xffffffff && number == static_cast<double>(static_cast<std::uint32_t>(number))))
-      throw InputError(Defect::Malformed, name + ": expected whole numbers of 32 bits");
+      throw InputError(Defect::Malformed, name + ": expected whole numbers from 0 to 4294967295");
     result.push_back(static_cast<std::uint32_t>(number));
   }
   return result;

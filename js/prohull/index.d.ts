@@ -183,7 +183,8 @@ export function repair(
     float32Coordinates?: boolean}): Promise<Repaired>;
 /** What a mesh is, and what is wrong with it. */
 export function inspect(mesh: MeshLike, running?: Running): Promise<Inspection>;
-/** Reads STL, OBJ, PLY, OFF or GLB, plain or gzipped; the name tells the format. */
+/** Reads STL, OBJ, PLY, OFF or GLB, plain or gzipped. Such a suffix of the name tells the format; of any other name, the
+ * content does. */
 export function read(bytes: ArrayBuffer | Uint8Array, name: string, running?: Running): Promise<Mesh>;
 /** The bytes of a file of that name: .stl, .obj, .ply, .off or .glb. */
 export function write(mesh: MeshLike, name: string): Promise<Uint8Array>;

@@ -134,6 +134,15 @@ std::optional<std::size_t> available_memory(const std::filesystem::path& root) {
 
 std::optional<std::size_t> available_memory() { return available_memory("/"); }
 
+void require_available(std::size_t count, std::string_view what, double bytes_each) {
+  const auto available = available_memory();
+  const double need = bytes_each * static_cast<double>(count);
+  if (!available || need <= static_cast<double>(*available)) return;
+  throw InputError(Defect::InvalidOption,
+                   fmt::format("{} {} need about {} of memory, but {} are available; ask for fewer", grouped(count),
+                               what, in_units(static_cast<std::size_t>(need)), in_units(*available)));
+}
+
 MemoryNeed memory_need(const std::filesystem::path& mesh_file, double work_per_face) {
   MemoryNeed need;
   need.file = std::filesystem::file_size(mesh_file);

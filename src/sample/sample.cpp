@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "prohull/detail/memory.h"
 #include "prohull/error.h"
 #include "sample/generators.h"
 
@@ -15,6 +16,7 @@ namespace {
 struct Sample {
   SampleInfo info;
   TriangleMesh (*make)(std::size_t faces);
+  double bytes_per_face = 48;  ///< of memory that it takes, measured
 };
 
 constexpr std::array kSamples{
@@ -24,8 +26,8 @@ constexpr std::array kSamples{
     Sample{{"asteroid", "rough, cratered rock", 0}, make_asteroid},
     Sample{{"box", "box with a square through-hole: planar faces only", 1}, make_box},
     Sample{{"bracket", "machined angle bracket: sharp edges, counterbored holes, a slot", 5}, make_bracket},
-    Sample{{"gyroid", "ball of gyroid walls: high genus, hollow all through", 26}, make_gyroid},
-    Sample{{"pony", "toy horse: smooth body, thin limbs", 0}, make_pony},
+    Sample{{"gyroid", "ball of gyroid walls: high genus, hollow all through", 26}, make_gyroid, 130},
+    Sample{{"pony", "toy horse: smooth body, thin limbs", 0}, make_pony, 130},
 };
 
 constexpr auto kInfos = [] {
@@ -55,6 +57,7 @@ TriangleMesh make_sample(std::string_view name, std::size_t faces) {
   if (faces < kFewestFaces || faces > kMostFaces)
     throw InputError(Defect::InvalidOption, fmt::format("sample {}: {} faces asked for, expected {} to {}", name, faces,
                                                         kFewestFaces, kMostFaces));
+  require_available(faces, "faces", sample->bytes_per_face);
   return sample->make(faces);
 }
 

@@ -292,6 +292,9 @@ cmp -s over1.png over2.png || fail "the same picture by any number of threads"
 expect 0 "levels side by side" $prohull render rock.phull --faces original,2000 --size 200x100 -o levels.png
 says out "levels side by side" " + 2,000 faces"
 is_png levels.png "levels side by side" 000000c8 00000064
+says_not out "levels side by side" "coarsest"
+expect 0 "coarser than all levels" $prohull render rock.phull --faces 4 --size 200x100 -o coarse.png
+says out "coarser than all levels" "rock.phull: no level has 4 faces or fewer; the coarsest one, of "
 expect 0 "a palette" $prohull render rock.phull --faces original,2000 --size 200x100 --palette -o small.png
 is_png small.png "a palette" 000000c8 00000064
 checks=$((checks + 1))

@@ -269,6 +269,18 @@ says out "bounds that tell nothing" "from 0 (between 0 and "
 expect 0 "bounds as good as the digits" $prohull distance cube.obj --points near.csv
 says out "bounds as good as the digits" "1 point at distances from 2.5 to 2.5"
 
+expect 2 "an unknown command" $prohull frobnicate
+says err "an unknown command" "\`prohull help\` shows all commands."
+for asked in "contains cube.obj --random 1e9" "sample sphere --faces 1e9 -o x.ply"; do
+  [ "$(awk '/MemAvailable/ { print $2 > 40e6 }' /proc/meminfo)" = 1 ] && break # this computer has room for it
+  expect 2 "memory: $asked" $prohull $asked
+  says err "memory: $asked" "1,000,000,000 "
+  says err "memory: $asked" "GB are available; ask for fewer"
+done
+printf 'v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n' >nan.obj
+expect 3 "not finite" $prohull contains nan.obj --random 9
+says err "not finite" "coordinates must be finite; \`prohull repair\` drops such triangles"
+
 # --- distances below rounding ---
 printf 'v 1.0000000000000002 0 0\nv 3 0 0\nv 2 1 0\nv 2 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >beside.obj
 expect 0 "closer than rounding tells" $prohull collide cube.obj beside.obj --distance

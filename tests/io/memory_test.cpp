@@ -105,6 +105,19 @@ TEST(MemoryNeed, IsRefusedWithTheSumBeforeTheFileIsRead) {
   }
 }
 
+TEST(MemoryNeed, OfWhatIsAskedForIsRefusedBeforeItIsMade) {
+  EXPECT_NO_THROW(require_available(1000, "faces", 1));
+  if (!available_memory() || *available_memory() > 40e9) GTEST_SKIP() << "this computer has room for it";
+  try {
+    require_available(1'000'000'000, "faces", 48);
+    FAIL() << "it would be made";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.defect(), Defect::InvalidOption);
+    EXPECT_TRUE(std::string_view(error.what()).starts_with("1,000,000,000 faces need about 48.0 GB of memory, but "))
+        << error.what();
+  }
+}
+
 TEST(MemoryNeed, OfWhatIsNoFileIsLeftToTheReader) { EXPECT_NO_THROW(require_memory("/no/such/mesh.ply")); }
 
 }  // namespace

@@ -3,12 +3,16 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 namespace prohull {
 
 /// How many bytes of memory this process can still get: what the system says is available, or less where a control
 /// group allows less, as in a container. Nothing where the system does not say it.
 std::optional<std::size_t> available_memory();
+
+/// Throws InputError(InvalidOption) if there is less memory than what is asked for, "1,000 faces", needs.
+void require_available(std::size_t count, std::string_view what, double bytes_each);
 
 /// What reading a mesh file, and working with the mesh, takes at least.
 struct MemoryNeed {
