@@ -102,4 +102,8 @@ bool holds_several_meshes(MeshFormat format);
 void write_meshes(const std::filesystem::path& path, std::span<const TriangleMesh> meshes,
                   std::span<const std::string> names);
 
+/// The bytes that write_meshes writes to a file of that name. Throws as it does.
+std::string meshes_content(const std::filesystem::path& name, std::span<const TriangleMesh> meshes,
+                           std::span<const std::string> names);
+
 }  // namespace prohull

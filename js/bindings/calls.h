@@ -13,7 +13,7 @@ namespace prohull::js {
 
 /// progress(stage, fraction); the work is stopped where that returns false.
 inline Progress progress_of(const val& progress) {
-  if (progress.isUndefined()) return {};
+  if (progress.isUndefined() || progress.isNull()) return {};
   return
       [progress](std::string_view stage, double fraction) { return !progress(std::string(stage), fraction).isFalse(); };
 }

@@ -10,6 +10,16 @@ val array_of_ids(const std::vector<Id>& ids) {
   return array_of(reinterpret_cast<const std::uint32_t*>(ids.data()), ids.size());
 }
 
+/// `name` is for messages.
+std::vector<std::uint32_t> indices_of(const val& array, const std::string& name) {
+  std::vector<std::uint32_t> result;
+  for (const double number : numbers_of(array, name)) {
+    check_whole(number, name, 0);
+    result.push_back(static_cast<std::uint32_t>(number));
+  }
+  return result;
+}
+
 }  // namespace
 
 val object_of_levels(const ProgressiveHull& hull) {
@@ -28,19 +38,7 @@ val object_of_levels(const ProgressiveHull& hull) {
   return object;
 }
 
-std::vector<std::uint32_t> indices_of(const val& array, const std::string& name) {
-  std::vector<std::uint32_t> result;
-  for (const double number : numbers_of(array, name)) {
-    if (!(number >= 0 && number <= 0xffffffff && number == static_cast<double>(static_cast<std::uint32_t>(number))))
-      throw InputError(Defect::Malformed, name + ": expected whole numbers from 0 to 4294967295");
-    result.push_back(static_cast<std::uint32_t>(number));
-  }
-  return result;
-}
-
 ProgressiveHull levels_of(const val& levels) {
-  if (levels.isUndefined() || levels.isNull())
-    throw InputError(Defect::InvalidOption, "levels: there are none; build with levels: true");
   HullSide side = HullSide::Outer;
   std::size_t vertices = 0;
   const Given given(levels);

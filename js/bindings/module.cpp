@@ -65,7 +65,10 @@ val build(const val& mesh, const val& targets, const val& given, const val& prog
       return enclosing_options(named);
     });
     std::vector<std::size_t> faces;
-    for (const std::uint32_t target : indices_of(targets, "targetFaces")) faces.push_back(target);
+    for (const double target : numbers_of(targets, "targetFaces")) {
+      check_whole(target, "targetFaces", 4);
+      faces.push_back(static_cast<std::size_t>(target));
+    }
     const EnclosingHulls made = enclosing_hulls(mesh_of(mesh, "mesh"), faces, options);
     val hulls = val::array();
     for (const EnclosingHull& hull : made.hulls) {
@@ -87,8 +90,7 @@ val level(const val& levels, double faces, const val& given) {
     if (!(faces >= 0)) throw InputError(Defect::InvalidOption, "faces: expected a number, at least 0");
     const ProgressiveHull hull = levels_of(levels);
     TriangleMesh found = hull.level(static_cast<std::size_t>(std::min<double>(faces, 0xffffffff)));
-    if (float32 && found.face_count() < hull.original_face_count())
-      found = with_float32_coordinates(found, hull.side()).mesh;
+    if (float32) found = with_float32_coordinates(found, hull.side()).mesh;
     return object_of_mesh(found);
   });
 }
@@ -249,6 +251,7 @@ val inspect_mesh(const val& mesh) {
     object.set("firstDefect", report.first_defect);
     for (const DefectCount& defect : defect_counts(report))
       if (defect.count > 0) defects.set(std::string(defect.description), defect.count);
+    if (report.is_closed_manifold() && report.volume < 0) defects.set("mesh inside out", 1);
     object.set("defects", defects);
     return object;
   });

@@ -10,6 +10,7 @@
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_report.h"
 #include "prohull/sample.h"
+#include "robot/files/sphere_file.h"
 #include "view/robot.h"
 #include "view/scene.h"
 
@@ -71,6 +72,26 @@ val scene(const val& hull, const val& original, const val& given, const val& pro
   });
 }
 
+val object_of_file(std::string_view content) {
+  val object = val::object();
+  object.set("bytes", array_of(reinterpret_cast<const unsigned char*>(content.data()), content.size()));
+  return object;
+}
+
+/// As `prohull convex` writes them to one file.
+val write_several(const val& meshes, const val& names, const std::string& file) {
+  return guarded([&] {
+    std::vector<TriangleMesh> all;
+    for (const val& mesh : emscripten::vecFromJSArray<val>(meshes)) all.push_back(mesh_of(mesh, "meshes"));
+    return object_of_file(meshes_content(file, all, emscripten::vecFromJSArray<std::string>(names)));
+  });
+}
+
+/// As `prohull spheres` writes them.
+val spheres_json(const val& balls, const std::string& link) {
+  return guarded([&] { return object_of_file(robot::sphere_json({link, balls_of(balls)})); });
+}
+
 CertifiedOriginal original_of(const val& bytes, const std::string& name, bool is_stl) {
   const auto content = emscripten::convertJSArrayToNumberVector<unsigned char>(bytes);
   const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
@@ -97,14 +118,17 @@ val certificate(const val& hull, const val& bytes, const std::string& name, cons
     claims.gap = claimed_gap(gap, proven_gap);
     claims.distance = claimed_distance(asked, distance);
     const Certificate made = hull_certificate(mesh_of(hull, "hull"), original_of(bytes, name, is_stl), claims);
-    val object = val::object();
-    object.set("bytes", array_of(reinterpret_cast<const unsigned char*>(made.bytes.data()), made.bytes.size()));
-    return object;
+    return object_of_file(made.bytes);
   });
 }
 
+constexpr double kMostSampleFaces = 2e7;  // which take half of the memory that there can be
+
 val sample(const std::string& name, double faces) {
-  return guarded([&] { return object_of_mesh(make_sample(name, static_cast<std::size_t>(faces))); });
+  return guarded([&] {
+    check_whole(faces, "faces", 4, kMostSampleFaces);
+    return object_of_mesh(make_sample(name, static_cast<std::size_t>(faces)));
+  });
 }
 
 /// Of "0.5" or "1%", in the unit of the mesh, as the options of the command line read it.
@@ -127,6 +151,8 @@ EMSCRIPTEN_BINDINGS(prohull_page) {
   function("scene", &scene);
   function("certificate", &certificate);
   function("sample", &sample);
+  function("writeSeveral", &write_several);
+  function("spheresJson", &spheres_json);
   function("length", &length);
 }
 

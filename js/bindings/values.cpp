@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace prohull::js {
 namespace {
-
-constexpr double kMostIndex = std::numeric_limits<std::uint32_t>::max();
 
 [[noreturn]] void refuse_value(const std::string& what, const std::string& expected) {
   throw InputError(Defect::InvalidOption, what + ": expected " + expected);
@@ -39,6 +36,15 @@ std::vector<std::array<VertexId, 3>> triangles_of(const val& faces, std::size_t 
 }
 
 }  // namespace
+
+void check_whole(double number, const std::string& what, double least, double most) {
+  const auto refuse = [&](const char* limit, double bound) {
+    refuse_value(what + "=" + text_of(val(number)),
+                 std::string("a whole number, ") + limit + " " + text_of(val(bound)));
+  };
+  if (number > most) refuse("at most", most);
+  if (!(number >= least && number == std::trunc(number))) refuse("at least", least);
+}
 
 std::string camel_case(std::string_view name) {
   std::string result;
@@ -81,11 +87,10 @@ bool Given::not_negative(const char* name, double& to) const {
   return to = given, true;
 }
 
-bool Given::whole(const char* name, unsigned least, double& to) const {
+bool Given::whole(const char* name, double least, double most, double& to) const {
   double given = 0;
   if (!number(name, given)) return false;
-  if (!(given >= least && given <= kMostIndex && given == std::trunc(given)))
-    refuse(name, "a whole number, at least " + std::to_string(least));
+  check_whole(given, camel_case(name), least, most);
   return to = given, true;
 }
 

@@ -19,6 +19,12 @@ namespace prohull::js {
 
 using emscripten::val;
 
+constexpr double kMostIndex = 0xffffffff;
+constexpr double kMostWhole = 0x1p53 - 1;  ///< up to it, JavaScript has all whole numbers
+
+/// Throws InputError unless it is a whole number between them; `what` is for messages.
+void check_whole(double number, const std::string& what, double least, double most = kMostIndex);
+
 /// "max_distance" -> "maxDistance"
 std::string camel_case(std::string_view name);
 
@@ -29,12 +35,13 @@ class Given {
 
   bool flag(const char* name, bool& to) const;
   template <class Count>
-  bool count(const char* name, Count& to, unsigned least = 0) const {
+  bool count(const char* name, Count& to, unsigned least = 0, double most = kMostIndex) const {
     double value = 0;
-    if (!whole(name, least, value)) return false;
+    if (!whole(name, least, most, value)) return false;
     return to = static_cast<Count>(value), true;
   }
-  bool seed(const char* name, std::uint64_t& to) const { return count(name, to); }
+  bool seed(const char* name, std::uint64_t& to) const { return count(name, to, 0, kMostWhole); }
+  bool threads(unsigned&) const { return false; }  ///< there is one
   bool number(const char* name, double& to) const;
   bool not_negative(const char* name, double& to) const;
   bool text(const char* name, std::string& to) const;
@@ -60,7 +67,7 @@ class Given {
  private:
   /// Undefined if it is not given.
   val value(const char* name) const;
-  bool whole(const char* name, unsigned least, double& to) const;
+  bool whole(const char* name, double least, double most, double& to) const;
   std::optional<std::string> word(const char* name, const std::string& choices) const;
   [[noreturn]] void refuse(const char* name, const std::string& expected) const;
 

@@ -10,7 +10,7 @@ type NowOfTwo<Call> = Call extends (first: infer A, second: infer B, options?: i
 /** The library on the thread that calls it. A call stops where `progress` returns false. */
 export interface Engine {
   build(mesh: MeshLike, targetFaces?: number, options?: Omit<BuildOptions, keyof Running>, progress?: Progress): Hull;
-  build(mesh: MeshLike, targetFaces: number[], options?: Omit<BuildOptions, keyof Running>, progress?: Progress): Hull[];
+  build(mesh: MeshLike, targetFaces: number[] | Uint32Array, options?: Omit<BuildOptions, keyof Running>, progress?: Progress): Hull[];
   level(levels: Levels, faces: number, options?: {float32Coordinates?: boolean}): Mesh;
   verify: NowOfTwo<typeof prohull.verify>;
   distance: NowOfTwo<typeof prohull.distance>;
@@ -20,11 +20,13 @@ export interface Engine {
   inspect(mesh: MeshLike): prohull.Inspection;
   sample(name: string, faces?: number): Mesh;
   length(text: string, mesh: MeshLike): number;
-  certificate(...args: Parameters<typeof prohull.certificate>): Uint8Array;
+  certificate(...args: Parameters<typeof prohull.certificate>): Promise<Uint8Array>;
   scene(hull: Parameters<typeof prohull.scene>[0], original: Parameters<typeof prohull.scene>[1], options?: {side?: prohull.Side},
     progress?: Progress): {facts: string; blocks: Uint8Array};
   read(bytes: ArrayBuffer | Uint8Array, name: string): Promise<Mesh>;
   write(mesh: MeshLike, name: string): Uint8Array;
+  writeSeveral(...args: Parameters<typeof prohull.writeSeveral>): Uint8Array;
+  spheresJson(...args: Parameters<typeof prohull.spheresJson>): Uint8Array;
   memory(): number;
 }
 

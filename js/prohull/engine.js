@@ -27,11 +27,43 @@ function meshOf(mesh, name) {
   return {vertices: numbers(mesh.vertices, `${name}.vertices`), faces: numbers(mesh.faces, `${name}.faces`)};
 }
 
-function optionsOf(options) {
-  if (typeof options !== 'object' || options === null) throw new InputError(`options: expected an object`);
+function textOf(text, name) {
+  if (typeof text !== 'string') throw new InputError(`${name}: expected a text`);
+  return text;
+}
+
+/** A copy of options, which are an object. */
+export function optionsOf(options) {
+  if (typeof options !== 'object' || options === null || Array.isArray(options)) throw new InputError('options: expected an object');
   const given = {...options};
   if (given.tolerances !== undefined) given.tolerances = numbers(given.tolerances, 'tolerances');
   return given;
+}
+
+function refuseOptions(options) {
+  for (const name of Object.keys(optionsOf(options))) throw new InputError(`${name}: there is no such option, only signal and progress`);
+}
+
+function levelsOf(levels) {
+  if (levels === undefined || levels === null) throw new InputError('levels: there are none; build with levels: true');
+  const numbersOf = (name) => numbers(levels[name], `levels.${name}`);
+  return {...levels, positions: numbersOf('positions'), baseCorners: numbersOf('baseCorners'), splits: numbersOf('splits')};
+}
+
+/** Of {name} and one of `levels`, `pieces`, `balls`, or vertices and faces. */
+function shownOf(hull) {
+  if (typeof hull !== 'object') throw new InputError('hull: expected an object with a name, or null');
+  const name = textOf(hull.name, 'hull.name'), {levels, pieces, balls} = hull;
+  if (levels !== undefined) return {name, levels: levelsOf(levels)};
+  if (pieces !== undefined) return {name, pieces: meshesOf(pieces, 'hull.pieces')};
+  return balls === undefined ? {name, ...meshOf(hull, 'hull')} : {name, balls: numbers(balls, 'hull.balls')};
+}
+
+const originalOf = (mesh) => ({...meshOf(mesh, 'original'), name: textOf(mesh.name, 'original.name')});
+
+function meshesOf(meshes, name) {
+  if (!Array.isArray(meshes)) throw new InputError(`${name}: expected an array of meshes`);
+  return meshes.map((mesh, i) => meshOf(mesh, `${name}[${i}]`));
 }
 
 function bytesOf(bytes) {
@@ -42,7 +74,10 @@ function bytesOf(bytes) {
 
 const kMostOutput = (compressed) => 2 ** 26 + 200 * compressed;  // as the library has it
 
-async function gunzipped(bytes, name) {
+/** The content of a file, gzipped or not. */
+async function contentOf(file, name) {
+  const bytes = bytesOf(file);
+  if (bytes[0] !== 0x1f || bytes[1] !== 0x8b) return bytes;
   const parts = [];
   let size = 0;
   try {
@@ -72,12 +107,12 @@ export async function loadEngine(wasm) {
   };
   return {
     build(mesh, targetFaces = 2000, options = {}, progress) {
-      const several = Array.isArray(targetFaces);
+      const several = typeof targetFaces === 'object' && targetFaces !== null;
       const targets = numbers(several ? targetFaces : [targetFaces], 'targetFaces');
       const hulls = call('build', meshOf(mesh, 'mesh'), targets, optionsOf(options), progress);
       return several ? hulls : hulls[0];
     },
-    level: (levels, faces, options = {}) => call('level', levels, Number(faces), optionsOf(options)),
+    level: (levels, faces, options = {}) => call('level', levelsOf(levels), Number(faces), optionsOf(options)),
     verify: (hull, original, options = {}, progress) =>
       call('verify', meshOf(hull, 'hull'), meshOf(original, 'original'), optionsOf(options), progress),
     distance: (from, to, options = {}, progress) =>
@@ -85,18 +120,28 @@ export async function loadEngine(wasm) {
     convexPieces: (mesh, options = {}, progress) => call('convexPieces', meshOf(mesh, 'mesh'), optionsOf(options), progress),
     spheres: (mesh, options = {}, progress) => call('spheres', meshOf(mesh, 'mesh'), optionsOf(options), progress),
     repair: (mesh, options = {}, progress) => call('repair', meshOf(mesh, 'mesh'), optionsOf(options), progress),
-    inspect: (mesh) => call('inspect', meshOf(mesh, 'mesh')),
-    async read(bytes, name) {
-      const content = bytesOf(bytes);
-      const isGzip = content[0] === 0x1f && content[1] === 0x8b;
-      return call('read', isGzip ? await gunzipped(content, name) : content, String(name));
+    inspect(mesh, options = {}) {
+      refuseOptions(options);
+      return call('inspect', meshOf(mesh, 'mesh'));
     },
-    sample: (name, faces = 20000) => call('sample', String(name), Number(faces)),
+    async read(bytes, name, options = {}) {
+      refuseOptions(options);
+      return call('read', await contentOf(bytes, textOf(name, 'name')), name);
+    },
+    sample: (name, faces = 20000) => call('sample', textOf(name, 'name'), Number(faces)),
     length: (text, mesh) => call('length', String(text), meshOf(mesh, 'mesh')).length,
-    certificate: (hull, original, name, options = {}) =>
-      call('certificate', {...hull, ...meshOf(hull, 'hull')}, bytesOf(original), String(name), optionsOf(options)).bytes,
-    scene: (hull, original, options = {}, progress) => call('scene', hull, original, optionsOf(options), progress),
-    write: (mesh, name) => call('write', meshOf(mesh, 'mesh'), String(name)).bytes,
+    async certificate(hull, original, name, options = {}) {
+      const content = await contentOf(original, textOf(name, 'name'));
+      return call('certificate', meshOf(hull, 'hull'), content, name, optionsOf(options)).bytes;
+    },
+    scene: (hull, original, options = {}, progress) =>
+      call('scene', hull === undefined || hull === null ? null : shownOf(hull), originalOf(original), optionsOf(options), progress),
+    write: (mesh, name) => call('write', meshOf(mesh, 'mesh'), textOf(name, 'name')).bytes,
+    writeSeveral(meshes, name) {
+      const all = meshesOf(meshes, 'meshes'), names = meshes.map((mesh, i) => textOf(mesh.name, `meshes[${i}].name`));
+      return call('writeSeveral', all, names, textOf(name, 'name')).bytes;
+    },
+    spheresJson: (balls, link) => call('spheresJson', numbers(balls, 'balls'), textOf(link, 'link')).bytes,
     /** Bytes of memory that the library has taken; it keeps them for later calls. */
     memory: () => module.memory(),
   };

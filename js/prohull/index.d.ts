@@ -155,9 +155,9 @@ export class InputError extends Error {}
 
 /** Builds a certified hull of any triangles, of at most so many faces where that is possible. */
 export function build(mesh: MeshLike, targetFaces?: number, options?: BuildOptions): Promise<Hull>;
-export function build(mesh: MeshLike, targetFaces: number[], options?: BuildOptions): Promise<Hull[]>;
+export function build(mesh: MeshLike, targetFaces: number[] | Uint32Array, options?: BuildOptions): Promise<Hull[]>;
 /** The finest level of at most so many faces; with coordinates for STL and GLB files if that is asked for. */
-export function level(levels: Levels, faces: number, options?: {float32Coordinates?: boolean}): Promise<Mesh>;
+export function level(levels: Levels, faces: number, options?: Running & {float32Coordinates?: boolean}): Promise<Mesh>;
 /** Decides exactly whether a hull encloses the original (side 'inner': whether the original encloses it). */
 export function verify(
   hull: MeshLike, original: MeshLike,
@@ -188,19 +188,23 @@ export function inspect(mesh: MeshLike, running?: Running): Promise<Inspection>;
 export function read(bytes: ArrayBuffer | Uint8Array, name: string, running?: Running): Promise<Mesh>;
 /** The bytes of a file of that name: .stl, .obj, .ply, .off or .glb. */
 export function write(mesh: MeshLike, name: string): Promise<Uint8Array>;
+/** The bytes of an .obj or .glb file with an object of its own for each mesh, as `prohull convex` writes its pieces. */
+export function writeSeveral(meshes: (MeshLike & {name: string})[], name: string): Promise<Uint8Array>;
+/** The bytes of the .json file that `prohull spheres` writes. */
+export function spheresJson(balls: Float64Array | number[], link: string): Promise<Uint8Array>;
 /** A bundled sample, as `prohull sample` makes it. */
 export function sample(name: string, faces?: number): Promise<Mesh>;
 /** Of "0.5" or "1%" of the diagonal, in the unit of the mesh. */
 export function length(text: string, mesh: MeshLike): Promise<number>;
-/** A certificate, as `prohull build --certificate` writes it. `original` has the bytes of the original's file; gap and
+/** A certificate, as `prohull build --certificate` writes it. `original` has the bytes of the original's file, plain or gzipped; gap and
     maxDistance are what was asked for, provenGap and distance what the hull keeps. */
 export function certificate(
-  hull: MeshLike & {levels?: Levels}, original: ArrayBuffer | Uint8Array, name: string,
-  options?: {side?: Side; isStl?: boolean; gap?: number; provenGap?: number; maxDistance?: number;
+  hull: MeshLike, original: ArrayBuffer | Uint8Array, name: string,
+  options?: Running & {side?: Side; isStl?: boolean; gap?: number; provenGap?: number; maxDistance?: number;
     distance?: number}): Promise<Uint8Array>;
 /** What the page of `prohull view` draws (view/scene.h); it may change with every version. */
 export function scene(
-  hull: (MeshLike | {levels: Levels} | {pieces: MeshLike[]} | {balls: Float64Array}) & {name: string} | null,
+  hull: (MeshLike | {levels: Levels} | {pieces: MeshLike[]} | {balls: Float64Array | number[]}) & {name: string} | null,
   original: MeshLike & {name: string},
   options?: Running & {side?: Side}): Promise<{facts: string; blocks: Uint8Array}>;
 /** Ends idle workers, and so gives back their memory. */

@@ -29,9 +29,9 @@ bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }
 bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04") || bytes.starts_with("PK\x05\x06"); }
 
 std::optional<FileContent> decompressed(std::string_view bytes, const std::filesystem::path& name) {
-  if (is_gzip(bytes) || is_zip(bytes))
+  if (is_zip(bytes))
     throw InputError(Defect::UnknownFormat,
-                     fmt::format("{}: compressed files are not read here; decompress it first", name.string()));
+                     fmt::format("{}: a zip archive, which is not read here; take the file out of it", name.string()));
   return {};
 }
 
@@ -39,14 +39,13 @@ bool is_hull_content(std::string_view content) { return content.starts_with("\x8
 
 FileUnit unit_of_file(std::string_view, const std::filesystem::path&) { return {}; }
 
-bool is_imported(const std::filesystem::path&) { return false; }
-
-std::span<const std::string_view> imported_extensions() { return {}; }
-
 ImportLimits import_limits(std::size_t) { return {}; }
 
 TriangleMesh imported_mesh(std::string_view, const std::string& file, const ImportLimits&, const Progress&) {
-  refuse_file(file);
+  throw InputError(Defect::UnknownFormat,
+                   fmt::format("{}: only the program prohull reads this format; convert it to PLY, OBJ, STL or GLB, "
+                               "with Blender or MeshLab for example",
+                               file));
 }
 
 }  // namespace prohull

@@ -57,6 +57,15 @@ test('levels nest', async () => {
   await refused(prohull.level(undefined, 500), /levels/);
 });
 
+test('coordinates for STL are those of every level, the finest included', async () => {
+  const part = ball(500), hull = await prohull.build(part, 60, {levels: true});
+  for (const faces of [200, Infinity]) {
+    const level = await prohull.level(hull.levels, faces, {float32Coordinates: true});
+    await prohull.write(level, 'a.stl');
+    assert.ok((await prohull.verify(level, part)).holds);
+  }
+});
+
 test('covers and repairs', async () => {
   const pieces = await prohull.convexPieces(ball(500), {pieces: 2, shape: 'sphere'});
   assert.ok(pieces.certified && pieces.pieces[0].primitive.kind === 'sphere');
@@ -66,6 +75,9 @@ test('covers and repairs', async () => {
   assert.equal((await prohull.inspect(open)).defects['open edges'], 4);
   const solid = await prohull.repair(open);
   assert.ok(solid.certified && (await prohull.inspect(solid)).closedManifold);
+  const turned = {vertices: cube.vertices, faces: [...cube.faces].reverse()};
+  assert.deepEqual((await prohull.inspect(turned)).defects, {'mesh inside out': 1});
+  assert.deepEqual((await prohull.inspect(cube)).defects, {});
 });
 
 test('files', async () => {
@@ -77,8 +89,17 @@ test('files', async () => {
   }
   const third = {vertices: cube.vertices.map((x) => x / 3), faces: cube.faces};
   assert.deepEqual([...(await prohull.read(await prohull.write(third, 'a.obj'), 'a.obj')).vertices], third.vertices);
-  await refused(prohull.write(third, 'a.stl'), /float32/);
-  await refused(prohull.read(new Uint8Array([0x50, 0x4b, 3, 4]), 'a.zip'), /compressed/);
+  await refused(prohull.write(third, 'a.stl'), /float32Coordinates/);
+  const zip = new Uint8Array([0x50, 0x4b, 3, 4]), xml = new TextEncoder().encode('<?xml version="1.0"?>');
+  await refused(prohull.read(zip, 'a.zip'), /a.zip: a zip archive, which is not read here; take the file out of it/);
+  for (const [bytes, name] of [[zip, 'a.3mf'], [xml, 'a.dae']]) await refused(prohull.read(bytes, name), /only the program prohull reads/);
+  await refused(prohull.read(new TextEncoder().encode('ISO-10303-21;'), 'a.step'), /export it as STL/);
+  await refused(prohull.read(xml, 'a.urdf'), /it is a robot and no mesh/);
+  const two = [{...cube, name: 'a'}, {...third, name: 'b'}], text = new TextDecoder().decode(await prohull.writeSeveral(two, 'a.obj'));
+  assert.deepEqual(text.match(/^o .*/gm), ['o a', 'o b']);
+  await refused(prohull.writeSeveral(two, 'a.ply'), /hold one mesh each/);
+  assert.deepEqual(JSON.parse(new TextDecoder().decode(await prohull.spheresJson([1, 2, 3, 4], 'a'))),
+    {link: 'a', spheres: [{center: [1, 2, 3], radius: 4}]});
   await refused(prohull.read(gzipSync('solid').subarray(0, 12), 'a.stl'), /cannot decompress/);
   await refused(prohull.read(new Uint8Array(0), 'a.stl'), /a.stl/);
   await refused(prohull.read('text', 'a.stl'), /bytes/);
@@ -111,7 +132,8 @@ test('a summary has the lines of the program, and lengths are as it reads them',
   await refused(prohull.length('wide', part), /wide: expected a number/);
   await refused(prohull.sample('cow', 2000), /cow/);
   const bytes = await prohull.write(part, 'part.ply');
-  assert.ok((await prohull.certificate(hull, bytes, 'part.ply', {distance: hull.distance})).length > 0);
+  const certificate = await prohull.certificate(hull, bytes, 'part.ply', {distance: hull.distance});
+  assert.deepEqual(await prohull.certificate(hull, gzipSync(bytes), 'part.ply.gz', {distance: hull.distance}), certificate);
 });
 
 test('what is wrong is said in one line', async () => {
@@ -129,7 +151,16 @@ test('what is wrong is said in one line', async () => {
   await refused(prohull.build({vertices: vertices.map(() => Infinity), faces}), /finite/);
   await refused(prohull.build({vertices: new BigInt64Array(3), faces: [0, 0, 0]}), /array of numbers/);
   await refused(prohull.verify(cube, {vertices: [], faces: []}), /./);
-  for (const targets of [0, -1, 2.5, NaN, '8', [], [8, 'x']]) await refused(prohull.build(cube, targets), /./);
+  for (const targets of [0, -1, 2.5, NaN, [8, 3]]) await refused(prohull.build(cube, targets), /targetFaces=.*: expected a whole number, at least 4/);
+  for (const targets of ['8', [], [8, 'x']]) await refused(prohull.build(cube, targets), /./);
+  assert.equal((await prohull.build(cube, new Uint32Array([12, 8]))).length, 2);
+  for (const faces of [-5, 2.7, NaN]) await refused(prohull.sample('torus', faces), /faces=.*: expected a whole number, at least 4/);
+  for (const faces of [5e8, 1e10]) await refused(prohull.sample('torus', faces), /faces=.*: expected a whole number, at most 20000000/);
+  assert.ok((await prohull.build(cube, 12, {seed: 5e9})).certified);
+  await refused(prohull.build(cube, 8, {bestOf: 1e10}), /bestOf=10000000000: expected a whole number, at most 4294967295/);
+  await refused(prohull.build(cube, 8, {gap: Infinity}), /the gap is inf/);
+  await refused(prohull.build(cube, 8, {maxNormalDeviationDegrees: -10}), /between 0 and 90 degrees/);
+  await refused(prohull.build(cube, 8, {threads: 4}), /threads: there is no such option/);
   await refused(prohull.build(cube, 8, {tigth: true}), /tigth: there is no such option, only .*tight/);
   await refused(prohull.build(cube, 8, {tight: 1}), /tight=1: expected true or false/);
   await refused(prohull.build(cube, 8, {side: 'left'}), /side=left: expected one of outer, inner/);
@@ -137,9 +168,43 @@ test('what is wrong is said in one line', async () => {
   await refused(prohull.build(cube, 8, {gap: '1'}), /gap=1: expected a number/);
   await refused(prohull.build(cube, 8, {bestOf: 0.5}), /bestOf=0.5: expected a whole number/);
   await refused(prohull.build(cube, 8, {tolerances: [1]}), /./);
-  await refused(prohull.build(cube, 8, {side: () => 0}), /./);
+  await refused(prohull.build(cube, 8, {side: () => 0}), /no functions or proxies/);
+  await refused(prohull.build(new Proxy(cube, {}), 8), /no functions or proxies/);
   await refused(prohull.convexPieces(cube, {pieces: 0}), /pieces=0: expected a whole number, at least 1/);
   assert.ok((await prohull.build(cube, 12)).certified, 'and the next call is done');
+});
+
+test('what is no option is said, by a rejected promise', async () => {
+  for (const options of [null, 5, [], 'abc']) {
+    await refused(prohull.build(cube, 8, options), /options: expected an object/);
+    await refused(prohull.inspect(cube, options), /options: expected an object/);
+    await refused(prohull.read(new Uint8Array(3), 'a.stl', options), /options: expected an object/);
+  }
+  await refused(prohull.inspect(cube, {x: 1}), /x: there is no such option, only signal and progress/);
+  await refused(prohull.build(cube, 8, {signal: 5}), /signal: expected an AbortSignal/);
+  await refused(prohull.build(cube, 8, {progress: {}}), /progress: expected a function/);
+  await refused(prohull.level({}, 5), /levels.positions: expected an array of numbers/);
+  await refused(prohull.scene(null, null), /original: expected an object with vertices and faces/);
+  await refused(prohull.scene(null, cube), /original.name: expected a text/);
+  await refused(prohull.read(new Uint8Array(3)), /name: expected a text/);
+  assert.ok((await prohull.scene({...cube, name: 'hull'}, {...cube, name: 'part'})).blocks.length > 0, 'plain arrays are a mesh');
+});
+
+test('a progress that throws rejects the call, and the next one is done', async () => {
+  const broken = new Error('mine');
+  await assert.rejects(prohull.build(ball(2000), 100, {progress: () => { throw broken; }}), broken);
+  assert.ok((await prohull.build(cube, 12)).certified);
+});
+
+test('a worker that was ended while its result was under way is not used again', {timeout: 60000}, async () => {
+  const stop = new AbortController(), built = prohull.build(ball(200), 100, {signal: stop.signal});
+  await Promise.all([assert.rejects(built, {name: 'AbortError'}), (async () => {
+    await new Promise((resolve) => setTimeout(resolve, 10));
+    for (const began = Date.now(); Date.now() - began < 1500;);  // the result arrives, and nobody reads it
+    stop.abort();
+  })()]);
+  await new Promise((resolve) => setTimeout(resolve, 200));
+  assert.ok((await prohull.build(cube, 12)).certified);
 });
 
 test('a signal ends the work at once', async () => {

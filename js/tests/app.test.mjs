@@ -1,11 +1,11 @@
 // app.html in headless Chromium, as a user has it: what is dropped, made, saved and refused.
 import assert from 'node:assert/strict';
-import {execFileSync} from 'node:child_process';
+import {execFileSync, spawnSync} from 'node:child_process';
 import {createHash} from 'node:crypto';
-import {existsSync, readdirSync, readFileSync, writeFileSync} from 'node:fs';
+import {copyFileSync, existsSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {createRequire} from 'node:module';
-import {basename, join} from 'node:path';
+import {basename, dirname, join} from 'node:path';
 import test from 'node:test';
 import {pathToFileURL} from 'node:url';
 import {hasProgram, run, scratch} from './package.mjs';
@@ -79,11 +79,13 @@ async function saved(page, id) {
   return {path, bytes: readFileSync(path)};
 }
 
-/** Runs the command lines that the page shows; returns the bytes of the last output. */
-async function commanded(page, folder) {
-  const lines = (await text(page, 'command')).trim().split('\n').map((line) => line.split(' ').slice(1));
-  for (const words of lines) run(...words.map((word) => (/\.(stl|ply|obj|json|phull)$/.test(word) ? join(folder, word) : word)));
-  return readFileSync(join(folder, lines.at(-1)[lines.at(-1).indexOf('-o') + 1]));
+/** Has a shell run the command lines that the page shows; returns the bytes of the file that was saved, as they write it. */
+async function commanded(page, {path}) {
+  rmSync(path);
+  const PATH = `${dirname(process.env.PROHULL)}:${process.env.PATH}`;
+  const {stderr} = spawnSync('sh', ['-c', await text(page, 'command')], {cwd: scratch, env: {...process.env, PATH}, encoding: 'utf8'});
+  assert.ok(existsSync(path), stderr);
+  return readFileSync(path);
 }
 
 function sampleFile(name, faces, as) {
@@ -102,7 +104,7 @@ test('a dropped part of 100,000 faces is a certified hull of 500, with the bytes
   assert.match(await text(page, 'summary'), /certified: yes, the file as written encloses the original/);
   assert.equal(await text(page, 'command'), 'prohull build part.stl -o part_hull.stl --faces 500');
   const hull = await saved(page, 'save'), own = hash(hull.bytes);
-  assert.equal(own, hash(await commanded(page, scratch)));
+  assert.equal(own, hash(await commanded(page, hull)));
   const certificate = await saved(page, 'save-certificate');
   run('build', part, '-o', join(scratch, 'same.stl'), '--faces', '500', '--certificate', join(scratch, 'same.phcert'));
   assert.equal(hash(certificate.bytes), hash(readFileSync(join(scratch, 'same.phcert'))));
@@ -110,19 +112,77 @@ test('a dropped part of 100,000 faces is a certified hull of 500, with the bytes
   // The levels are there at once, and what is saved is the level that is shown.
   await page.fill('#wanted', '2000');
   await page.dispatchEvent('#wanted', 'change');
+  await settled(page);
   assert.equal(await text(page, 'faces'), '2,000');
   assert.match(await text(page, 'save'), /2,000 faces/);
   const level = await saved(page, 'save');
-  assert.equal(hash(level.bytes), hash(await commanded(page, scratch)));
+  assert.equal(hash(level.bytes), hash(await commanded(page, level)));
   await page.waitForFunction(() => document.getElementById('distance').textContent.startsWith('≤'));
   assert.match(await page.evaluate(() => location.hash), /l=2000/);
+  await closed(page);
+});
+
+test('the slider shows a level, which is saved, and the level box is that of the hull', {skip}, async () => {
+  const page = await opened({fragment: '#sample=torus&faces=500'});
+  await settled(page);
+  await page.fill('#want-faces', '300');
+  await page.press('#want-faces', 'Enter');
+  await settled(page);
+  assert.equal(await page.locator('#level').count(), 1);
+  assert.equal(await text(page, 'faces'), '300');
+  await page.evaluate(() => {
+    const slider = document.getElementById('level');
+    slider.value = 600;
+    for (const type of ['input', 'change']) slider.dispatchEvent(new Event(type, {bubbles: true}));
+  });
+  await settled(page);
+  const faces = await text(page, 'faces');
+  assert.notEqual(faces, '300');
+  assert.equal(await text(page, 'save'), `Save torus_hull.stl, ${faces} faces`);
+  const level = await saved(page, 'save');
+  assert.equal(String(level.bytes.readUInt32LE(80)), faces.replace(',', ''));
+  assert.equal(hash(level.bytes), hash(await commanded(page, level)));
+  await page.selectOption('#want-make', 'spheres');
+  await settled(page);
+  assert.equal(await page.locator('#level').count(), 0);
+  await closed(page);
+});
+
+test('what the command refuses is refused, and names of parts are quoted', {skip}, async () => {
+  const page = await opened(), part = join(scratch, '-a {faces}.stl');
+  copyFileSync(sampleFile('bracket', 3000, 'bracket.stl'), part);
+  await dropped(page, part);
+  const made = await saved(page, 'save');
+  assert.equal(hash(made.bytes), hash(await commanded(page, made)));
+  for (const [make, name, value, says] of [
+    ['hull', 'faces', '4294967295', 'Faces at most: it must be at most 1,000,000,000, not 4294967295'],
+    ['hull', 'void', '0', 'Void at most, %: it must be greater than 0, not 0'],
+    ['hull', 'gap', '0', 'Gap: it must be greater than 0, not 0'],
+    ['pieces', 'count', '1e9', 'Number at most: it must be between 1 and 1,000, not 1e9'],
+    ['spheres', 'distance', '0', 'Distance at most: it must be greater than 0, not 0']]) {
+    await page.selectOption('#want-make', make);
+    const before = await page.inputValue(`#want-${name}`);
+    await page.fill(`#want-${name}`, value);
+    await page.press(`#want-${name}`, 'Enter');
+    await settled(page);
+    assert.equal(await text(page, 'problem'), says);
+    await page.fill(`#want-${name}`, before);
+    await page.press(`#want-${name}`, 'Enter');
+    await settled(page);
+    assert.equal(await text(page, 'problem'), '');
+  }
+  await page.selectOption('#want-make', 'pieces');
+  await page.fill('#want-distance', '0.0001');
+  await page.press('#want-distance', 'Enter');
+  await settled(page);
+  assert.match(await text(page, 'summary'), /NOT within the bounds asked for/);
   await closed(page);
 });
 
 test('options make what the command line makes of them', {skip}, async () => {
   const page = await opened({fragment: '#sample=bracket&faces=200&distance=1%25&to=ply'});
   await settled(page);
-  for (const [id, value] of [['side', 'inner'], ['side', 'outer'], ['tight', true], ['tight', false], ['gap', '0.05'], ['make', 'pieces'], ['make', 'spheres']]) {
+  for (const [id, value] of [['side', 'inner'], ['side', 'outer'], ['tight', true], ['tight', false], ['gap', '0.05'], ['make', 'pieces'], ['to', 'obj'], ['to', 'glb'], ['make', 'spheres']]) {
     if (typeof value === 'boolean') await page.setChecked(`#want-${id}`, value);
     else if (id === 'gap') await page.fill(`#want-${id}`, value);
     else await page.selectOption(`#want-${id}`, value);
@@ -130,8 +190,8 @@ test('options make what the command line makes of them', {skip}, async () => {
     await settled(page);
     assert.equal(await text(page, 'problem'), '', `${id}=${value}`);
     const made = await saved(page, 'save');
-    if (id === 'make') assert(run('verify', '--union', made.path, join(scratch, 'bracket.ply')), value);
-    else assert.equal(hash(made.bytes), hash(await commanded(page, scratch)), `${id}=${value}`);
+    if (value === 'pieces') assert(run('verify', '--union', made.path, join(scratch, 'bracket.ply')), value);
+    else assert.equal(hash(made.bytes), hash(await commanded(page, made)), `${id}=${value}`);
   }
   assert.match(await page.evaluate(() => location.hash), /make=spheres.*distance=1%25.*gap=0\.05.*sample=bracket/);
   await closed(page);
@@ -238,6 +298,13 @@ test('on a phone, by keys, in the dark', {skip}, async () => {
   for (const id of ['open', 'sample', 'want-make', 'want-faces', 'want-distance', 'want-side', 'want-gap', 'want-tight', 'want-to', 'save', 'level'])
     assert.ok(reached.has(id), id);
   assert.ok(await inside());
+  await closed(page);
+});
+
+test('an address with the name of no sample opens the empty page', {skip}, async () => {
+  const page = await opened({fragment: '#sample=constructor'});
+  assert.match(await text(page, 'message'), /^Drop a part/);
+  assert.notEqual(await page.evaluate(() => document.documentElement.dataset.busy), 'yes');
   await closed(page);
 });
 

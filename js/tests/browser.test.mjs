@@ -13,9 +13,11 @@ const kPolicy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worke
 
 const hash = (bytes) => createHash('sha256').update(bytes).digest('hex');
 
-/** Of the package, and of an empty page. */
+/** Of the package, and of an empty page. The module is not there when it is asked for first. */
 async function served() {
+  let refusals = 1;
   const server = createServer((request, response) => {
+    if (request.url.endsWith('.wasm') && refusals-- > 0) return response.writeHead(503).end();
     const path = join(folder, new URL(request.url, 'http://a').pathname), isPage = request.url === '/';
     if (!isPage && !existsSync(path)) return response.writeHead(404).end();
     response.writeHead(200, {'content-type': kTypes[isPage ? '.html' : extname(path)] ?? '', 'content-security-policy': kPolicy});
@@ -36,7 +38,8 @@ async function launched() {
 
 /** Runs in the page. */
 async function inPage(file) {
-  const {build, read, write} = await import('/index.js');
+  const {build, read, sample, write} = await import('/index.js');
+  const unfetched = await sample('torus', 500).catch(({message}) => message);
   const bytes = Uint8Array.from(atob(file), (c) => c.charCodeAt(0));
   const mesh = await read(bytes, 'part.ply'), hull = await build(mesh, 200);
   const stop = new AbortController();
@@ -44,7 +47,7 @@ async function inPage(file) {
   setTimeout(() => stop.abort(), 100);
   const error = await build({vertices: [1], faces: []}).catch(({name}) => name);
   const written = await write(hull, 'hull.ply');
-  return {hull: [...written], certified: hull.certified, stopped: await stopped, error};
+  return {hull: [...written], certified: hull.certified, stopped: await stopped, error, unfetched};
 }
 
 const browser = await launched();
@@ -59,5 +62,6 @@ test('in Chromium', {skip: browser.missing ?? (!hasProgram && 'there is no progr
   const hull = engine.build(await engine.read(file, 'part.ply'), 200);
   assert.equal(hash(Buffer.from(found.hull)), hash(engine.write(hull, 'hull.ply')));
   assert.deepEqual([found.certified, found.stopped, found.error], [true, 'AbortError', 'InputError']);
+  assert.match(found.unfetched, /cannot fetch .*module\.wasm: 503/);
   assert.deepEqual(foreign, []);
 });

@@ -30,6 +30,7 @@ class Keywords {
   bool seed(const char* name, std::uint64_t& to) const {
     return to = get<std::uint64_t>(name, "a whole number, at least 0 and less than 2^64"), true;
   }
+  bool threads(unsigned& to) const { return count("threads", to); }
   bool number(const char* name, double& to) const { return to = get<double>(name, "a number"), true; }
   bool not_negative(const char* name, double& to) const {
     number(name, to);

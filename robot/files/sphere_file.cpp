@@ -136,17 +136,6 @@ std::vector<LinkBalls> read_sphere_file(const std::string& text, const std::file
   return reader.parse(text, [&](const YAML::Node& file) { return reader.links(file); });
 }
 
-std::string sphere_json(const LinkBalls& link) {
-  nlohmann::json spheres = nlohmann::json::array();
-  for (const auto& [center, radius] : link.balls)
-    spheres.push_back({{"center", {center.x, center.y, center.z}}, {"radius", radius}});
-  try {
-    return nlohmann::json{{"link", link.link}, {"spheres", spheres}}.dump(2) + "\n";
-  } catch (const nlohmann::json::exception&) {
-    throw InputError(Defect::InvalidOption, fmt::format("'{}' is no name of a link: it is not UTF-8", link.link));
-  }
-}
-
 LinkBalls read_sphere_json(const std::string& text, const std::filesystem::path& path) {
   const nlohmann::json file = parsed(text, path);
   const auto spheres = file.is_object() ? file.find("spheres") : file.end();

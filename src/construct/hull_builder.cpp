@@ -28,7 +28,7 @@ void check(const HullOptions& options) {
   require(guards.sufficient_compactness >= 0 && guards.sufficient_compactness <= 1,
           "sufficient_compactness must be in [0, 1]");
   require(guards.max_normal_deviation >= 0 && guards.max_normal_deviation <= std::numbers::pi / 2,
-          "max_normal_deviation must be in [0, pi/2] radians");
+          "the largest normal deviation must be between 0 and 90 degrees, pi/2 radians");
   require(guards.max_overhang >= 0, "max_overhang must be at least 0");
 }
 

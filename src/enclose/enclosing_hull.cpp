@@ -85,7 +85,7 @@ void require_usable_padding(const EnclosingOptions& options) {
   constexpr double kRoom = 64;  // for the corners of hulls, in paddings
   const double most = options.hull.float32_coordinates ? double(std::numeric_limits<float>::max()) : kLargestCoordinate;
   if (!(options.padding >= 0 && options.padding <= most / kRoom))
-    refuse(fmt::format("the padding is {:g}; it must be a number from 0 to {:.3g}", options.padding, most / kRoom));
+    refuse(fmt::format("the gap is {:g}; it must be a number from 0 to {:.3g}", options.padding, most / kRoom));
   if (options.padding > 0 && options.bounds.max_distance <= options.padding)
     refuse(
         fmt::format("a hull that keeps a gap of {:g} is farther than {:g} from the mesh: the largest distance must be "

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <csignal>
 #include <cstdlib>
@@ -27,12 +25,6 @@ constexpr std::string_view kProgram = "prohull-import";
 constexpr const char* kProgramVariable = "PROHULL_IMPORTER";
 constexpr Place kNowhere{Place::Unit::None, 0};
 constexpr std::string_view kConvert = "convert it to PLY, OBJ, STL or GLB, with Blender or MeshLab for example";
-
-/// Those of assimp 5.2 that hold meshes, without those that are read here and those that are mere animations.
-constexpr std::array<std::string_view, 33> kExtensions = {
-    ".3ds",     ".3mf",  ".ac",  ".ac3d", ".amf", ".ase", ".b3d", ".blend", ".bsp", ".cob", ".dae",
-    ".dxf",     ".fbx",  ".hmp", ".ifc",  ".iqm", ".irr", ".lwo", ".lws",   ".lxo", ".md2", ".md3",
-    ".md5mesh", ".ms3d", ".nff", ".ogex", ".q3o", ".smd", ".ter", ".x",     ".x3d", ".xgl", ".zae"};
 
 std::filesystem::path folder_of_this_program() {
   std::error_code error;
@@ -193,12 +185,6 @@ class ImportReader {
 };
 
 }  // namespace
-
-std::span<const std::string_view> imported_extensions() { return kExtensions; }
-
-bool is_imported(const std::filesystem::path& name) {
-  return std::find(kExtensions.begin(), kExtensions.end(), lower_case_extension(without_gz(name))) != kExtensions.end();
-}
 
 /// assimp 5.2.5 takes 0.1 s and 30 MiB of memory for a COLLADA file of 3 MiB (docs/formats.md); a 3MF of
 /// blanks grows a thousand times and does not get through.

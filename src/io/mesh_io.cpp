@@ -73,6 +73,16 @@ const FormatTraits* format_of_magic(std::string_view content) {
 /// Only a binary file has a byte of zeros in its header.
 bool is_text(std::string_view content) { return content.substr(0, 1024).find('\0') == content.npos; }
 
+/// Of files that hold no mesh, by their names: what to do with them; else empty.
+std::string_view advice_for(const std::filesystem::path& name) {
+  const std::string extension = lower_case_extension(name);
+  const auto is_one_of = [&](auto... known) { return ((extension == known) || ...); };
+  if (is_one_of(".step", ".stp", ".iges", ".igs"))
+    return "it holds surfaces and no triangles; export it as STL, OBJ or PLY where it was made";
+  if (is_one_of(".urdf", ".xacro", ".sdf")) return "it is a robot and no mesh; `prohull urdf` makes hulls of its links";
+  return "";
+}
+
 const FormatTraits& format_of(std::string_view content, const std::filesystem::path& name) {
   const FormatTraits* const named = named_format(name);
   const FormatTraits* found = format_of_magic(content);
@@ -91,6 +101,8 @@ const FormatTraits& format_of(std::string_view content, const std::filesystem::p
         fmt::format("{}: this is a progressive hull and not a mesh; `prohull lod` makes a mesh of any of its "
                     "levels, and prohull.load of Python reads it",
                     name.string()));
+  if (const auto advice = advice_for(name); !advice.empty())
+    throw InputError(Defect::UnknownFormat, fmt::format("{}: {}", name.string(), advice));
   if (content.empty()) throw InputError(Defect::UnknownFormat, fmt::format("{}: it is empty", name.string()));
   throw InputError(Defect::UnknownFormat,
                    fmt::format("{}: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another "
@@ -145,7 +157,7 @@ void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::s
     if (!is_finite(p)) refuse("coordinates must be finite");
     if (stores_float32(format) && !float32_stores(p))
       refuse(fmt::format(
-          "{} stores float32 and would change it; round the mesh to float32 first, or write PLY, OBJ or OFF",
+          "{} stores float32 and would change it; build with float32_coordinates (in JavaScript float32Coordinates), or write PLY, OBJ or OFF",
           traits(format).name));
   }
 }
@@ -219,8 +231,8 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
 
 bool holds_several_meshes(MeshFormat format) { return traits(format).content_of_several; }
 
-void write_meshes(const std::filesystem::path& path, std::span<const TriangleMesh> meshes,
-                  std::span<const std::string> names) {
+std::string meshes_content(const std::filesystem::path& path, std::span<const TriangleMesh> meshes,
+                           std::span<const std::string> names) {
   const MeshFormat format = format_to_write(path);
   if (!holds_several_meshes(format))
     throw InputError(Defect::UnknownFormat,
@@ -232,7 +244,12 @@ void write_meshes(const std::filesystem::path& path, std::span<const TriangleMes
   for (std::size_t i = 0; i < meshes.size(); ++i)
     check_coordinates(meshes[i], format, fmt::format("{}: {}", path.string(), names[i]));
   if (format == MeshFormat::Glb) check_glb_size(meshes, names, path);
-  write_file(path, traits(format).content_of_several(meshes, names));
+  return traits(format).content_of_several(meshes, names);
+}
+
+void write_meshes(const std::filesystem::path& path, std::span<const TriangleMesh> meshes,
+                  std::span<const std::string> names) {
+  write_file(path, meshes_content(path, meshes, names));
 }
 
 }  // namespace prohull

@@ -40,7 +40,7 @@ EnclosingOptions enclosing_options(const Given& given) {
   given.flag("relax_guards", hull.relax_guards);
   given.flag("float32_coordinates", hull.float32_coordinates);
   given.seed("seed", hull.seed);
-  given.count("threads", hull.threads);
+  given.threads(hull.threads);
   given.numbers("tolerances", hull.tolerances);
   take_bounds(given, options.bounds);
   given.not_negative("gap", options.padding);
@@ -63,7 +63,7 @@ CageOptions cage_options(const Given& given) {
   given.flag("even", options.even);
   given.flag("tight", options.tight);
   given.flag("float32_coordinates", options.float32_coordinates);
-  given.count("threads", options.threads);
+  given.threads(options.threads);
   return options;
 }
 
@@ -85,7 +85,7 @@ ConvexCoverOptions convex_cover_options(const Given& given) {
   take_bounds(given, options.bounds);
   given.choice("shape", piece_shape_names(), options.shape);
   given.flag("float32_coordinates", options.float32_coordinates);
-  given.count("threads", options.threads);
+  given.threads(options.threads);
   return options;
 }
 
@@ -95,7 +95,7 @@ SphereCoverOptions sphere_cover_options(const Given& given) {
   given.count("count", options.max_balls, 1);
   given.not_negative("max_distance", options.max_distance);
   given.flag("fill", options.fill);
-  given.count("threads", options.threads);
+  given.threads(options.threads);
   return options;
 }
 
@@ -105,7 +105,7 @@ SweepOptions sweep_options(const Given& given) {
   given.count("pieces", options.max_pieces, 1);
   given.not_negative("max_distance", options.max_distance);
   given.flag("float32_coordinates", options.float32_coordinates);
-  given.count("threads", options.threads);
+  given.threads(options.threads);
   return options;
 }
 

@@ -3,9 +3,9 @@
 import * as prohull from 'prohull';
 import {readFragment, writeFragment} from '../src/act/address.js';
 import {readObjects} from '../src/data/objects.js';
-import {byId, counted, el, grouped, short} from '../src/panel/dom.js';
+import {atMost, byId, counted, el, grouped, short} from '../src/panel/dom.js';
 import {View} from '../src/view.js';
-import {commandOf, fillForm, formValues, optionsFor, showOptions, wanted} from './wanted.js';
+import {commandOf, fillForm, formValues, isOneFile, optionsFor, pieceName, showOptions, stem, wanted} from './wanted.js';
 
 const MOST_MEGABYTES = 500;
 const MOST_FACES = 7e6;         // of the 4 GB that WebAssembly has, the scene of a hull takes 540 bytes for each face
@@ -69,6 +69,7 @@ async function run(work) {
 function clear(message) {
   view?.end();
   view = null;
+  byId('slider').replaceChildren();
   const canvas = byId('canvas'), isFocused = document.activeElement === canvas;
   canvas.replaceWith(canvas.cloneNode());
   if (isFocused) byId('canvas').focus();
@@ -160,11 +161,19 @@ async function make({signal, progress}, fragment) {
   remember();
 }
 
+/** Of pieces and spheres; the words are those of `prohull convex`. */
+function summaryOf(want, {pieces, balls, reach, notes, withinBounds, certified}) {
+  const made = pieces ? counted(pieces.length, 'convex piece', 'convex pieces') : counted(balls.length / 4, 'sphere', 'spheres');
+  return [`${want.out}: ${made}, at most ${atMost(reach)} from the mesh`, ...notes,
+    ...(withinBounds ? [] : ['NOT within the bounds asked for; allow a larger number, or larger bounds']),
+    `certified: ${certified ? 'yes, every finite triangle of the original is covered' : 'NO: nothing can be saved'}`];
+}
+
 function showResult() {
   const {want, hull} = made;
   byId('result').hidden = false;
   byId('slider').replaceChildren(...[byId('level')?.closest('section')].filter(Boolean));  // the levels stand above the rest
-  byId('summary').replaceChildren(...(hull.summary ?? hull.notes ?? []).map((line) => el('li', {}, line)));
+  byId('summary').replaceChildren(...(hull.summary ?? summaryOf(want, hull)).map((line) => el('li', {}, line)));
   byId('save-certificate').hidden = !(want.make === 'hull' && hull.certified && CERTIFIED.test(part.name) && want.to !== 'glb');
   byId('save').disabled = !hull.certified;
   refreshed();
@@ -222,24 +231,23 @@ function merged(pieces) {
   return {vertices, faces};
 }
 
-function spheresFile(balls, link) {
-  const spheres = [];
-  for (let i = 0; i < balls.length; i += 4) spheres.push({center: [...balls.subarray(i, i + 3)], radius: balls[i + 3]});
-  return new TextEncoder().encode(JSON.stringify({link, spheres}, null, 2));
+/** What is saved: the bytes that the command writes, where that writes one file. */
+async function contentOf({want, hull}, faces) {
+  if (want.make === 'spheres') return prohull.spheresJson(hull.balls, stem(part.name));
+  if (want.make === 'hull') {
+    const float32Coordinates = ['stl', 'glb'].includes(want.to);
+    return prohull.write(faces ? await prohull.level(hull.levels, faces, {float32Coordinates}) : hull, want.out);
+  }
+  if (!isOneFile(want)) return prohull.write(merged(hull.pieces), want.out);
+  return prohull.writeSeveral(hull.pieces.map((piece, i) => ({...piece, name: pieceName(want, i)})), want.out);
 }
 
-const saveHull = () => run(async () => {
-  const {want, hull} = made, faces = finerFaces(), options = {float32Coordinates: ['stl', 'glb'].includes(want.to)};
-  if (want.make === 'spheres') return save(spheresFile(hull.balls, want.stem), want.out);
-  const mesh = want.make === 'pieces' ? merged(hull.pieces) : faces ? await prohull.level(hull.levels, faces, options) : hull;
-  save(await prohull.write(mesh, want.out), want.out);
-});
+const saveHull = () => run(async () => save(await contentOf(made, finerFaces()), made.want.out));
 
 const saveCertificate = () => run(async () => {
   const {want, hull} = made, {gap = 0, maxDistance} = await optionsFor(want, part);
-  const {vertices, faces, levels, distance} = hull;
-  save(await prohull.certificate({vertices, faces, levels}, part.bytes, part.name, {
-    side: want.side, isStl: /\.stl(\.gz)?$/i.test(part.name), gap, provenGap: hull.gap, distance,
+  save(await prohull.certificate({vertices: hull.vertices, faces: hull.faces}, part.bytes, part.name, {
+    side: want.side, isStl: /\.stl(\.gz)?$/i.test(part.name), gap, provenGap: hull.gap, distance: hull.distance,
     ...(maxDistance === undefined ? {} : {maxDistance})}), `${want.stem}_hull.phcert`);
 });
 
@@ -264,8 +272,7 @@ function listen() {
     if (event.target.value) take(() => sampleOf(event.target.value));
   };
   byId('part').onsubmit = (event) => event.preventDefault();
-  byId('part').addEventListener('change', (event) => {
-    if (['file', 'sample'].includes(event.target.id)) return;
+  byId('options').addEventListener('change', () => {
     showOptions();
     remember();
     if (part) run((running) => make(running, cameraOf(shown)));
@@ -303,7 +310,7 @@ function open() {
   if (typeof WebAssembly !== 'object') return complain('This browser has no WebAssembly, which this page needs to build hulls. Use another browser, or the program prohull.');
   listen();
   keepOffline();
-  if (!SAMPLES[fragment.sample]) return;
+  if (!Object.hasOwn(SAMPLES, fragment.sample ?? '')) return;
   byId('sample').value = fragment.sample;
   take(() => sampleOf(fragment.sample), fragment);
 }

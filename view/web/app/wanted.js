@@ -1,7 +1,7 @@
 // What is to be made, as the form of the page has it, as options of the library, and as a command line.
 
 import * as prohull from 'prohull';
-import {byId} from '../src/panel/dom.js';
+import {byId, grouped} from '../src/panel/dom.js';
 
 const DEFAULTS = {make: 'hull', faces: '500', count: '16', distance: '', void: '', side: 'outer', gap: '', tight: '', to: 'stl'};
 const field = (name) => byId(`want-${name}`);
@@ -28,30 +28,63 @@ export function showOptions() {
     element.hidden = !element.dataset.for.split(' ').includes(kept('make'));
 }
 
-const quoted = (text) => /^[\w.%+:,/-]+$/.test(text) && !text.startsWith('-') ? text : `'${text.replaceAll("'", "'\\''")}'`;
+const quoted = (text) => /^[\w.%+:,/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
+const quotedFile = (name) => quoted(name.startsWith('-') ? `./${name}` : name);
 
 /** The name without its suffix. */
-const stem = (name) => name.replace(/\.gz$/i, '').replace(/\.[^.]*$/, '') || 'part';
+export const stem = (name) => name.replace(/\.gz$/i, '').replace(/\.[^.]*$/, '') || 'part';
+
+/** What the command line takes, and how it says so. */
+const RANGES = {faces: [4, 1e9], pieces: [1, 1000], spheres: [1, 100000], void: null};
+
+/** Why a number is not taken; empty if it is. */
+function whyNot({value, validity, required}, range) {
+  if (value === '') return validity.badInput || required ? 'it must be a number' : '';
+  const number = Number(value);
+  if (!range) return number > 0 ? '' : `it must be greater than 0, not ${value}`;
+  const [least, most] = range;
+  if (number < least || number > most) {
+    const limits = most < 1e6 ? `between ${least} and ${grouped(most)}` : number < least ? `at least ${least}` : `at most ${grouped(most)}`;
+    return `it must be ${limits}, not ${value}`;
+  }
+  return Number.isInteger(number) ? '' : `it must be a whole number, not ${value}`;
+}
+
+/** Whether the command writes one file; of pieces in other formats it writes a file each. */
+export const isOneFile = ({make, to}) => make !== 'pieces' || ['obj', 'glb'].includes(to);
+
+/** As the command names the pieces in its file. */
+export function pieceName({stem, count}, i) {
+  const name = `${stem}_pieces`, digits = Math.max(2, String(Number(count)).length);
+  return Number(count) === 1 ? name : `${name}_${String(i + 1).padStart(digits, '0')}`;
+}
 
 /** What the form asks for; lengths are as they were written, and become numbers in `optionsFor`. */
 export function wanted(part) {
   const values = Object.fromEntries(Object.keys(DEFAULTS).map((name) => [name, kept(name)]));
   for (const name of ['faces', 'count', 'void']) {
-    const {validationMessage, labels: [label]} = field(name);
-    if (!label.hidden && validationMessage) throw new prohull.InputError(`${label.textContent.trim()}: ${validationMessage}`);
+    const why = field(name).labels[0].hidden ? '' : whyNot(field(name), RANGES[name === 'count' ? values.make : name]);
+    if (why) refuse(name, why);
   }
-  const suffix = values.make === 'spheres' ? 'json' : values.to;
-  return {...values, isTight: values.tight === '1', out: `${stem(part.name)}_${values.make}.${suffix}`, stem: stem(part.name)};
+  const suffix = values.make === 'spheres' ? 'json' : values.to, own = stem(part.name).replace(/[{}]/g, '_');  // the command fills in {name}
+  return {...values, isTight: values.tight === '1', out: `${own}_${values.make}.${suffix}`, stem: own};
 }
 
-async function lengthOf(text, part) {
-  return text === '' ? undefined : prohull.length(text, part.mesh);
+function refuse(name, why) {
+  throw new prohull.InputError(`${field(name).labels[0].firstChild.textContent.trim()}: ${why}`);
+}
+
+async function lengthOf(name, text, part) {
+  if (text === '') return undefined;
+  const length = await prohull.length(text, part.mesh);
+  if (length === 0) refuse(name, `it must be greater than 0, not ${text}`);
+  return length;
 }
 
 /** For the functions of the library; options that are not given are left out. */
 export async function optionsFor(want, part) {
-  const maxDistance = await lengthOf(want.distance, part);
-  const gap = want.make === 'hull' ? await lengthOf(want.gap, part) : undefined;
+  const maxDistance = await lengthOf('distance', want.distance, part);
+  const gap = want.make === 'hull' ? await lengthOf('gap', want.gap, part) : undefined;
   const maxVoidPercent = want.void === '' || want.make === 'spheres' ? undefined : Number(want.void);
   const float32Coordinates = ['stl', 'glb'].includes(want.to);
   const all = want.make === 'hull' ? {side: want.side, tight: want.isTight, gap, maxDistance, maxVoidPercent, float32Coordinates, summaryOf: want.out}
@@ -65,13 +98,14 @@ const flags = (pairs) => pairs.filter(([, value]) => value !== '' && value !== f
 
 /** What does the same; `faces` are those of a finer level, or null. */
 export function commandOf(want, part, faces) {
-  const sample = part.sample ? `prohull sample ${part.sample} --faces ${part.sampleFaces} -o ${quoted(part.name)}\n` : '';
-  const file = quoted(part.name), bounds = [['--max-distance', want.distance], ['--max-void', want.void]];
+  const sample = part.sample ? `prohull sample ${part.sample} --faces ${part.sampleFaces} -o ${quotedFile(part.name)}\n` : '';
+  const file = quotedFile(part.name), out = quotedFile(want.out), bounds = [['--max-distance', want.distance], ['--max-void', want.void]];
   if (want.make === 'spheres')
-    return `${sample}prohull spheres ${file} -o ${quoted(want.out)} ${flags([['--count', want.count], bounds[0]])}`;
-  if (want.make === 'pieces') return `${sample}prohull convex ${file} -o ${quoted(want.out)} ${flags([['--pieces', want.count], ...bounds])}`;
-  const levels = quoted(`${want.stem}.phull`);
-  const build = `${sample}prohull build ${file} -o ${quoted(want.out)} ` +
+    return `${sample}prohull spheres ${file} -o ${out} ${flags([['--count', want.count], bounds[0]])}`;
+  const each = isOneFile(want) ? '' : `# writes a file for each piece\n`;
+  if (want.make === 'pieces') return `${sample}${each}prohull convex ${file} -o ${out} ${flags([['--pieces', want.count], ...bounds])}`;
+  const levels = quotedFile(`${want.stem}.phull`);
+  const build = `${sample}prohull build ${file} -o ${out} ` +
       flags([['--faces', want.faces], ...bounds, ['--side', want.side === 'inner' && 'inner'], ['--tight', want.isTight], ['--gap', want.gap]]);
-  return faces === null ? build : `${build} --hierarchy ${levels}\nprohull lod ${levels} -o ${quoted(want.out)} --faces ${faces}`;
+  return faces === null ? build : `${build} --hierarchy ${levels}\nprohull lod ${levels} -o ${out} --faces ${faces}`;
 }
