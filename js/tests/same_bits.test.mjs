@@ -79,6 +79,14 @@ for (const name of ['sphere', 'torus', 'knot', 'asteroid', 'box', 'bracket', 'gy
   test(`sample ${name}`, {skip: !hasProgram && 'there is no program to compare with'},
     (t) => compare(t, sample(name, 1500), () => true));
 
+test('distances of a summary, down to their rounding', {skip: !hasProgram && 'there is no program to compare with'}, async () => {
+  const file = sample('torus', 2000), mesh = await engine.read(readFileSync(file), 'torus.ply'), report = join(scratch, 'far.json');
+  for (const faces of [5000, 100]) {
+    run('build', file, '-o', join(scratch, 'far.ply'), '--faces', String(faces), '--report', report);
+    assert.equal(engine.build(mesh, faces, {summaryOf: 'far.ply'}).distance, JSON.parse(readFileSync(report)).hull.distance_to_triangles.upper);
+  }
+});
+
 const hasModels = models !== undefined && existsSync(models);
 test('models', {skip: !(hasModels && hasProgram) && 'PROHULL_MODELS names no folder'}, async (t) => {
   for (const file of readdirSync(models).filter((f) => /\.(obj|off|stl|ply)(\.gz)?$/.test(f))) {

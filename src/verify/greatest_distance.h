@@ -4,9 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <queue>
 #include <utility>
 
+#include "geometry/heap_with_ties.h"
 #include "prohull/distance.h"
 
 namespace prohull::verify {
@@ -93,7 +93,7 @@ class GreatestDistance {
 
   const Rule& rule_;
   const SearchLimits limits_;
-  std::priority_queue<Open> open_;
+  HeapWithTies<Open> open_;
   double settled_ = 0;  ///< the greatest bound of parts that need not be cut
   std::size_t seen_ = 0;
   DistanceBounds bounds_;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <queue>
 #include <utility>
 
+#include "geometry/heap_with_ties.h"
 #include "geometry/predicates.h"
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
@@ -326,7 +326,7 @@ class Reach {
   MeshQuery query_;
   verify::ConvexPairs pairs_;
   double rounding_ = 0;
-  std::priority_queue<Cell> cells_;
+  HeapWithTies<Cell> cells_;
   std::size_t seen_ = 0, next_look_ = 1024;
   double gap_ = std::numeric_limits<double>::infinity();  // at the last look
   DistanceBounds reach_;

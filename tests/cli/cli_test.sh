@@ -34,6 +34,8 @@ expect 0 "a float32 level encloses" $prohull verify level.stl rock.ply
 expect 0 "the finest level" $prohull lod rock.phull --faces 20000000 -o finest.ply
 checks=$((checks + 1))
 cmp -s finest.ply rock.ply || fail "the finest level is the original, bit for bit"
+expect 0 "the finest level, rounded" $prohull lod rock.phull --faces 20000000 -o finest.stl
+expect 0 "it encloses" $prohull verify finest.stl rock.ply
 
 expect 0 "inner hull" $prohull build rock.ply --side inner --faces 500 -o inner.obj --hierarchy inner.phull
 says out "inner hull" "inner hull of 500 faces"
