@@ -46,6 +46,11 @@ TEST(MeshFormat, IsToldByTheContentIfTheNameHasNone) {
       "part: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another file that is read; "
       "give it the suffix of its format, or name that by --in-format in a pipe",
       Defect::UnknownFormat);
+  expect_refused("ISO-10303-21;\n", "a.STEP",
+                 "a.STEP: it holds surfaces and no triangles; export it as STL, OBJ or PLY where it was made",
+                 Defect::UnknownFormat);
+  expect_refused("<robot name='arm'/>", "arm.urdf",
+                 "arm.urdf: it is a robot and no mesh; `prohull urdf` makes hulls of its links", Defect::UnknownFormat);
   expect_refused("", "standard input", "standard input: it is empty", Defect::UnknownFormat);
 }
 
