@@ -156,9 +156,10 @@ void check_coordinates(const TriangleMesh& mesh, MeshFormat format, const std::s
     };
     if (!is_finite(p)) refuse("coordinates must be finite");
     if (stores_float32(format) && !float32_stores(p))
-      refuse(fmt::format(
-          "{} stores float32 and would change it; build with float32_coordinates (in JavaScript float32Coordinates), or write PLY, OBJ or OFF",
-          traits(format).name));
+      refuse(
+          fmt::format("{} stores float32 and would change it; build with float32_coordinates (in JavaScript "
+                      "float32Coordinates), or write PLY, OBJ or OFF",
+                      traits(format).name));
   }
 }
 
