@@ -52,7 +52,7 @@ set(may_paper paper query hull mesh geometry)  # its engines are as those of src
 set(may_apps render robot view paper)
 set(may_examples "")
 set(may_python render robot view paper)
-set(may_js view)
+set(may_js view robot)
 
 set(failures "")
 macro(fail)
