@@ -122,7 +122,7 @@ val certificate(const val& hull, const val& bytes, const std::string& name, cons
   });
 }
 
-constexpr double kMostSampleFaces = 2e7;  // which take half of the memory that there can be
+constexpr double kMostSampleFaces = 2e7;  // these take up to 171 bytes each, of the 4 GB that there are
 
 val sample(const std::string& name, double faces) {
   return guarded([&] {
