@@ -136,8 +136,8 @@ TEST(WriteMesh, RefusesCoordinatesThatTheFormatCannotStore) {
   mesh.positions[VertexId(1)].x = 0.1;
   expect_input_error([&] { write_mesh(path, mesh); }, Defect::NonFiniteCoordinate,
                      path +
-                         ": vertex 1 is (0.1, 0, 0); STL stores float32 and would change it; round the mesh to "
-                         "float32 first, or write PLY, OBJ or OFF");
+                         ": vertex 1 is (0.1, 0, 0); STL stores float32 and would change it; build with "
+                         "float32_coordinates (in JavaScript float32Coordinates), or write PLY, OBJ or OFF");
   mesh.positions[VertexId(1)].x = 1e300;
   EXPECT_THROW(write_mesh(path, mesh), InputError);
   mesh.positions[VertexId(1)].x = std::numeric_limits<double>::quiet_NaN();

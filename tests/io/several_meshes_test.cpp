@@ -104,8 +104,8 @@ TEST_F(WriteMeshes, RefuseWhatCannotBeWritten) {
                      "a.obj: 2 names for 3 meshes");
   const std::vector<TriangleMesh> meshes{tetrahedron(), tetrahedron_at(0.1)};
   expect_input_error([&] { write_meshes("a.glb", meshes, names_); }, Defect::NonFiniteCoordinate,
-                     "a.glb: a_02: vertex 0 is (0.1, 0, 0); GLB stores float32 and would change it; round the mesh to "
-                     "float32 first, or write PLY, OBJ or OFF");
+                     "a.glb: a_02: vertex 0 is (0.1, 0, 0); GLB stores float32 and would change it; build with "
+                     "float32_coordinates (in JavaScript float32Coordinates), or write PLY, OBJ or OFF");
 }
 
 }  // namespace
