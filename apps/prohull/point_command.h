@@ -24,7 +24,7 @@ struct PointOptions {
   std::string engine = "auto";
   unsigned threads = 0;
   bool is_about_inside = false;  ///< and not of the faces alone
-  double bytes_per_point = 45;  ///< of memory, measured
+  double bytes_per_point = 45;   ///< of memory, measured
 };
 
 /// `answers` are what -o takes, "the answers".

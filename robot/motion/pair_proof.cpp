@@ -16,11 +16,11 @@ namespace {
 /// Ranges of all freedoms, and what is known there.
 struct Cell {
   std::vector<JointRange> box;
-  double distance = 0;          // in the middle, a lower bound
-  double share = 1;             // of all positions
-  std::size_t number = 0;       // in the order in which they were made
-  std::size_t widest = 0;       // the freedom that can change the distance most
-  bool may_be_smaller = false;  // otherwise rounding decides, and it stays open
+  double distance = 0;                 // in the middle, a lower bound
+  double share = 1;                    // of all positions
+  std::size_t number = 0;              // in the order in which they were made
+  std::size_t widest = 0;              // the freedom that can change the distance most
+  bool may_be_smaller = false;         // otherwise rounding decides, and it stays open
   std::optional<NearParts> near = {};  // in the middle, or in that of a larger cell
 };
 

@@ -60,7 +60,8 @@ namespace {
 bool has_plane_between(const ProofBody& a, const ProofBody& b, const JointChain::Motion& motion, double gap,
                        const std::optional<NearParts>& near) {
   std::vector<Vec3> ways{placed(motion.pose, b.ball.center) - a.ball.center};
-  if (near) ways.insert(ways.begin(), {placed(motion.pose, near->faces.point_b) - near->faces.point_a, near->faces.way});
+  if (near)
+    ways.insert(ways.begin(), {placed(motion.pose, near->faces.point_b) - near->faces.point_a, near->faces.way});
   return std::ranges::any_of(ways, [&](const Vec3& way) {
     return stay_apart_along(way, a.corners, motion.of_a, b.corners, motion.pose, motion.of_b, gap);
   });

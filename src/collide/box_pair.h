@@ -81,7 +81,8 @@ class BoxPair {
       const Float4 d_b = both4(view.d[0]) * view.m[0] + both4(view.d[1]) * view.m[1] + both4(view.d[2]) * view.m[2];
       Float4 in_a{};  // along the axes of a
       for (int j = 0; j < 3; ++j)
-        if (gaps_b[j] > 0) in_a += Float4{view.m[0][j], view.m[1][j], view.m[2][j], 0} * both4(std::copysign(gaps_b[j], d_b[j]));
+        if (gaps_b[j] > 0)
+          in_a += Float4{view.m[0][j], view.m[1][j], view.m[2][j], 0} * both4(std::copysign(gaps_b[j], d_b[j]));
       for (int i = 0; i < 3; ++i) v += Float4{ax[i], ay[i], az[i], 0} * both4(in_a[i]);
     }
     const Float4 square = v * v;
@@ -113,9 +114,9 @@ class BoxPair {
   /// A lower bound of how far apart the boxes are along a direction, which need not be that of any way.
   double gap_along(const ObbNode& a, const ObbNode& b, Float4 direction) const {
     const Float4 ax = load(a.axes), ay = load(a.axes + 3), az = load(a.axes + 6);
-    const float gap = View(*this, a, b).gap_along(ax * both4(direction[0]) + ay * both4(direction[1]) +
-                                                  az * both4(direction[2])) -
-                      slack_[0];
+    const float gap =
+        View(*this, a, b).gap_along(ax * both4(direction[0]) + ay * both4(direction[1]) + az * both4(direction[2])) -
+        slack_[0];
     return gap / unit_ * (1 - std::copysign(relative_error_, gap));
   }
 

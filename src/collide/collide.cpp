@@ -109,7 +109,9 @@ class Scene {
       return false;
     };
     if (visit_near_leaves(a_.tree, b_.tree, boxes_, result.upper, direction,
-                          [&](const ObbNode& in_a, const ObbNode& in_b) { return visit_pairs(a_, pose_a_, in_a, b_, pose_b_, in_b, measure); }))
+                          [&](const ObbNode& in_a, const ObbNode& in_b) {
+                            return visit_pairs(a_, pose_a_, in_a, b_, pose_b_, in_b, measure);
+                          }))
       return std::nullopt;
     if (result.upper == limit) result.upper = std::numeric_limits<double>::infinity();
     return result;
@@ -124,9 +126,10 @@ class Scene {
   /// visit(i, j) for the triangles of two leaves that have a point in common, until it returns true.
   template <class Visit>
   bool visit_touching(const ObbNode& in_a, const ObbNode& in_b, Visit visit) const {
-    return visit_pairs(a_, pose_a_, in_a, b_, pose_b_, in_b, [&](std::size_t i, const Triangle& s, std::size_t j, const Triangle& t) {
-      return are_near(s, t) && visit(i, j);
-    });
+    return visit_pairs(a_, pose_a_, in_a, b_, pose_b_, in_b,
+                       [&](std::size_t i, const Triangle& s, std::size_t j, const Triangle& t) {
+                         return are_near(s, t) && visit(i, j);
+                       });
   }
 
   /// Whether they have a point in common, or may be within the margin.

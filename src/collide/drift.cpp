@@ -85,7 +85,8 @@ class NearSearch {
     }
     const auto bound = [this](const ObbNode& in_a, const ObbNode& in_b) { return bound_of(in_a, in_b); };
     const bool is_near = visit_leaves_below(a_.tree, b_.tree, boxes_, gap_, bound, measure);
-    if (!is_near && one_is_inside(a_, pose_a_, b_, pose_b_)) found_ = {last_leaf(a_.tree), last_leaf(b_.tree), {}, {}, {}};
+    if (!is_near && one_is_inside(a_, pose_a_, b_, pose_b_))
+      found_ = {last_leaf(a_.tree), last_leaf(b_.tree), {}, {}, {}};
     return found_;
   }
 
@@ -101,8 +102,7 @@ class NearSearch {
   /// Of the distance of what is in the boxes, after all drifted.
   double bound_of(const ObbNode& in_a, const ObbNode& in_b) {
     const DriftingMesh::OfBox &a = drift_a_.of_box(in_a), &b = drift_b_.of_box(in_b);
-    const double along =
-        has_direction_ ? boxes_.gap_along(in_a, in_b, direction_) - (a.along + b.along) : -kInfinity;
+    const double along = has_direction_ ? boxes_.gap_along(in_a, in_b, direction_) - (a.along + b.along) : -kInfinity;
     if (along > gap_) return along;
     const double bound = std::max(along, boxes_.distance_bound(in_a, in_b, direction_) - (a.any_way + b.any_way));
     if (bound > gap_) return bound;
@@ -142,8 +142,8 @@ class NearSearch {
     constexpr double kRelative = 0x1p-44, kLength = 1 + 0x1p-20;  // the direction is shorter
     const Vec3 drift_s = drift_a_.straight(i), drift_t = drift_b_.straight(j);
     const double end = std::max({drift_s.x, dot(along_, s.b - s.a) + drift_s.y, dot(along_, s.c - s.a) + drift_s.z});
-    const double begin = std::min({dot(along_, t.a - s.a) - drift_t.x, dot(along_, t.b - s.a) - drift_t.y,
-                                   dot(along_, t.c - s.a) - drift_t.z});
+    const double begin = std::min(
+        {dot(along_, t.a - s.a) - drift_t.x, dot(along_, t.b - s.a) - drift_t.y, dot(along_, t.c - s.a) - drift_t.z});
     const double size = std::max({norm(s.b - s.a), norm(s.c - s.a), norm(t.a - s.a), norm(t.b - s.a), norm(t.c - s.a)});
     return begin - end - bend_ - kRelative * size > gap_ * kLength;
   }
@@ -177,7 +177,8 @@ bool stay_apart_along(const Vec3& direction, std::span<const Vec3> a, const Drif
   const DriftBound of_a(drift_a), of_b(drift_b);
   double end = -kInfinity, begin = kInfinity;
   for (const Vec3& p : a) end = std::max(end, dot(along_a, p) + of_a.straight(p, along_a) + of_a.of_ball(p, 0).bend);
-  for (const Vec3& p : b) begin = std::min(begin, dot(along_b, p) - of_b.straight(p, along_b) - of_b.of_ball(p, 0).bend);
+  for (const Vec3& p : b)
+    begin = std::min(begin, dot(along_b, p) - of_b.straight(p, along_b) - of_b.of_ball(p, 0).bend);
   const double size = largest_norm(a) + largest_norm(b) + norm(pose_b.translation);
   const double rounding = (0x1p-40 + 4 * rotation_defect(pose_b)) * size;
   return begin + dot(along_a, pose_b.translation) - end - rounding > gap;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <utility>
 
 #include "geometry/heap_with_ties.h"
@@ -25,7 +24,6 @@ inline int longest_side(const std::array<Vec3, 3>& corners) {
 struct SearchLimits {
   double relative_gap = 0, absolute_gap = 0;  ///< between the bounds
   std::size_t max_parts = 0;
-  std::optional<double> at_most = {};  ///< instead of a gap: once it is known whether the distance is at most this
 };
 
 /// Bounds the greatest distance of points: the part whose bound is greatest is cut in two, again and again. The rule
@@ -56,8 +54,7 @@ class GreatestDistance {
   }
   double lower() const { return bounds_.lower; }
   bool is_enough(double upper) const {
-    return upper <=
-           (limits_.at_most ? *limits_.at_most : (1 + limits_.relative_gap) * bounds_.lower + limits_.absolute_gap);
+    return upper <= (1 + limits_.relative_gap) * bounds_.lower + limits_.absolute_gap;
   }
 
   void add(Part part) {
@@ -72,7 +69,7 @@ class GreatestDistance {
   /// Of all parts that were added; calls `next` before it cuts one.
   template <class Next>
   DistanceBounds run(Next next) {
-    while (!open_.empty() && !is_enough(open_.top().upper) && !is_known_to_be_more() && seen_ < limits_.max_parts) {
+    while (!open_.empty() && !is_enough(open_.top().upper) && seen_ < limits_.max_parts) {
       next();
       const Part part = open_.top().part;
       open_.pop();
@@ -88,8 +85,6 @@ class GreatestDistance {
     double upper;
     bool operator<(const Open& other) const { return upper < other.upper; }
   };
-
-  bool is_known_to_be_more() const { return limits_.at_most && bounds_.lower > *limits_.at_most; }
 
   const Rule& rule_;
   const SearchLimits limits_;

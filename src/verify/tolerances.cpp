@@ -17,6 +17,7 @@
 namespace prohull {
 namespace {
 
+using verify::NearestFace;
 using Corners = std::array<std::array<double, 3>, 3>;
 
 /// Equal for faces that have the same corners in the same orientation.
@@ -45,27 +46,119 @@ std::size_t count_missing(const TriangleMesh& hull, const TriangleMesh& mesh, co
   return missing;
 }
 
-/// True only if no point of t is farther away from the faces.
-bool is_within(const Triangle& t, const verify::NearestFace& faces, double distance) {
-  constexpr std::size_t kMostParts = 1'000'000;
-  const verify::FarFromFaces rule(faces);
-  verify::FarFromFaces::Search search(rule, {.max_parts = kMostParts, .at_most = distance});
-  search.add({{t.a, t.b, t.c}, {rule.look_at(t.a, search), rule.look_at(t.b, search), rule.look_at(t.c, search)}});
-  return search.run([] {}).upper <= distance;
+using Polygon = std::vector<Vec3>;
+
+/// The parts of a convex polygon on both sides of a plane. Both have the same points on it.
+struct Sides {
+  Polygon front, behind;
+};
+Sides cut(const Polygon& polygon, const Vec3& on_plane, const Vec3& normal) {
+  Sides sides;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double at_p = dot(p - on_plane, normal), at_q = dot(q - on_plane, normal);
+    if (at_p >= 0) sides.front.push_back(p);
+    if (at_p <= 0) sides.behind.push_back(p);
+    if (!((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0))) continue;
+    const Vec3 crossing = p + (q - p) * (at_p / (at_p - at_q));
+    sides.front.push_back(crossing), sides.behind.push_back(crossing);
+  }
+  return sides;
 }
+
+struct Way {
+  Vec3 from, to;
+};
+Way longest_way(const Polygon& polygon) {
+  Way longest{polygon.front(), polygon.front()};
+  for (const Vec3& p : polygon)
+    for (const Vec3& q : polygon)
+      if (norm(q - p) > norm(longest.to - longest.from)) longest = {p, q};
+  return longest;
+}
+
+/// Whether all points of a face are within a distance of others: proven if true. Parts that lie over one of these, and
+/// are within the distance of it, are cut out of the face. So parts of a plane need no more parts than faces.
+class WithinSearch {
+ public:
+  WithinSearch(const NearestFace& faces, const TriangleMesh& mesh, double distance)
+      : faces_(faces), mesh_(mesh), distance_(distance) {}
+
+  bool holds(const Triangle& t) {
+    constexpr std::size_t kMostParts = 10'000;
+    open_.assign(1, {t.a, t.b, t.c});
+    for (std::size_t parts = 0; !open_.empty(); ++parts) {
+      const Polygon part = std::move(open_.back());
+      open_.pop_back();
+      if (parts == kMostParts || !is_done(part)) return false;
+    }
+    return true;
+  }
+
+ private:
+  /// Whether the part is covered, or what is left of it is open; not if it is too far away.
+  bool is_done(const Polygon& part) {
+    Vec3 middle;
+    for (const Vec3& p : part) middle = middle + p * (1.0 / double(part.size()));
+    const auto found = faces_.nearest(middle, NearestFace::kNone, looked_at_);
+    if (found.distance > distance_) return false;
+    if (is_covered(part, found.face)) return true;
+    for (const Vec3& p : part)
+      if (is_covered(part, faces_.nearest(p, NearestFace::kNone, looked_at_).face)) return true;
+    constexpr double kLarge = 16;  // distances
+    const Way longest = longest_way(part);
+    const bool is_large = norm(longest.to - longest.from) > kLarge * distance_;
+    if (!is_large || !take_away(part, found.face)) halve(part, longest);
+    return true;
+  }
+
+  /// The distance from a face is a convex function.
+  bool is_covered(const Polygon& part, std::uint32_t face) const {
+    return std::ranges::all_of(part, [&](const Vec3& p) { return faces_.distance(p, face) <= distance_; });
+  }
+
+  /// What lies beyond the edges of the face is left, if what lies over it is covered.
+  bool take_away(const Polygon& part, std::uint32_t number) {
+    const Triangle face = mesh_.triangle(FaceId{number});
+    const Vec3 normal = cross(face.b - face.a, face.c - face.a);
+    const std::array corners{face.a, face.b, face.c};
+    std::vector<Polygon> beyond;
+    Polygon over = part;
+    for (std::size_t k = 0; k < 3 && over.size() > 2; ++k) {
+      Sides sides = cut(over, corners[k], cross(corners[(k + 1) % 3] - corners[k], normal));
+      over = std::move(sides.behind);
+      if (sides.front.size() > 2) beyond.push_back(std::move(sides.front));
+    }
+    if (over.size() < 3 || beyond.empty() || !is_covered(over, number)) return false;
+    open_.insert(open_.end(), beyond.begin(), beyond.end());
+    return true;
+  }
+
+  /// Across its longest way from corner to corner.
+  void halve(const Polygon& part, const Way& longest) {
+    Sides sides = cut(part, (longest.from + longest.to) * 0.5, longest.to - longest.from);
+    open_.push_back(std::move(sides.front)), open_.push_back(std::move(sides.behind));
+  }
+
+  const NearestFace& faces_;
+  const TriangleMesh& mesh_;
+  const double distance_;
+  std::vector<Polygon> open_;
+  std::size_t looked_at_ = 0;
+};
 
 std::size_t count_far(const TriangleMesh& hull, const TriangleMesh& mesh, const PerFace<double>& tolerances,
                       const Progress& progress) {
   const double largest = std::max(verify::largest_coordinate(hull), verify::largest_coordinate(mesh));
   const double unit = verify::usable_unit(largest), rounding = verify::rounding_of_distances(largest * unit);
   const TriangleMesh to = verify::scaled(hull, unit), from = verify::scaled(mesh, unit);
-  const verify::NearestFace faces(to);
+  const NearestFace faces(to);
   ProgressMeter meter(progress, "verify");
   std::atomic<std::size_t> far = 0, done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, mesh.face_count(), [&](std::size_t i) {
     const FaceId f{static_cast<std::uint32_t>(i)};
     const bool is_asked = tolerances[f] > 0 && tolerances[f] < std::numeric_limits<double>::infinity();
-    if (is_asked && !is_within(from.triangle(f), faces, tolerances[f] * unit - rounding)) ++far;
+    if (is_asked && !WithinSearch(faces, to, tolerances[f] * unit - rounding).holds(from.triangle(f))) ++far;
     meter.at(++done, mesh.face_count());
   });
   return far;

@@ -63,6 +63,22 @@ TEST(Tolerances, OfZeroKeepFacesBitForBit) {
   }
 }
 
+/// The same cube with the other diagonals, turned so that no face is quite in the plane of another.
+TEST(Tolerances, AreDecidedInPlanesOfOtherFaces) {
+  const TriangleMesh cube = box({-1, -1, -1}, {1, 1, 1});
+  const auto turned = [](TriangleMesh mesh, double farther) {
+    for (Vec3& p : mesh.positions) p = Vec3{p.x * 0.6 - p.y * 0.8, p.x * 0.8 + p.y * 0.6, p.z} * (1 + farther);
+    return mesh;
+  };
+  TriangleMesh mirrored = cube;
+  for (Vec3& p : mirrored.positions) p.x = -p.x;
+  for (auto& t : mirrored.triangles) std::swap(t[1], t[2]);
+  const PerFace<double> tolerances(cube.face_count(), 1e-9);
+  EXPECT_TRUE(verify_tolerances(turned(cube, 0), turned(mirrored, 0), tolerances).holds);
+  EXPECT_TRUE(verify_tolerances(turned(cube, 3e-10), turned(mirrored, 0), tolerances).holds);
+  EXPECT_EQ(verify_tolerances(turned(cube, 1e-9), turned(mirrored, 0), tolerances).far_faces, cube.face_count());
+}
+
 TEST(Tolerances, BoundTheDistanceWhereTheyAreAndNowhereElse) {
   const TriangleMesh ball = sphere(5);  // faces far smaller than the tolerance allows
   constexpr double kTolerance = 0.02;

@@ -26,8 +26,8 @@ struct Drift {
   double rounding = 0;           ///< how far points may be from where they seem to be after all moves
 };
 
-/// Whether points of the convex hulls of `a` and `b`, the latter placed by the pose, stay farther apart than `gap` along
-/// a direction in the frame of a, if all points drift. Proven if true.
+/// Whether points of the convex hulls of `a` and `b`, the latter placed by the pose, stay farther apart than `gap`
+/// along a direction in the frame of a, if all points drift. Proven if true.
 bool stay_apart_along(const Vec3& direction, std::span<const Vec3> a, const Drift& drift_a, std::span<const Vec3> b,
                       const Pose& pose_b, const Drift& drift_b, double gap);
 
