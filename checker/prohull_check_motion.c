@@ -589,14 +589,14 @@ static void add_move(Sight* s, int which, const Axis* axis, size_t frame, double
 }
 
 /* Finds the pose in the middle, and what moves the bodies from there. The first hinges count as moving a, the others b,
-   and how many do is free: here, such that a body that is stiff moves least. */
+   and how many do is free: here, such that both bodies, each as a whole, move least. */
 static void find_moves(Sight* s) {
   static Axis* axes;
   static double *reach, *rest; /* rest: of a hinge and those behind it */
   axes = resized(axes, hinge_count, sizeof *axes), reach = resized(reach, hinge_count, sizeof *reach);
   rest = resized(rest, hinge_count + 1, sizeof *rest), rest[hinge_count] = 0, spend(10 * hinge_count);
-  for (int i = 0; i < 2; ++i)
-    s->moves[i] = resized(s->moves[i], hinge_count, sizeof *s->moves[i]), s->count[i] = 0;
+  static Move* moves[2];
+  for (int i = 0; i < 2; ++i) s->moves[i] = moves[i] = resized(moves[i], hinge_count, sizeof **moves), s->count[i] = 0;
   s->p = middle_pose(reach, axes), s->back = inverse(&s->p);
   for (size_t h = hinge_count; h-- > 0;) {
     const Frame* const f = frames + hinges[h].frame;
@@ -688,7 +688,8 @@ static int is_gap(Sight* s, const double* way, const Box* a, const Box* b, doubl
   place(c, &s->p, b->center, 0), subtract(c, c, a->center);
   double gap = fabs(dot(s->n, c));
   for (int k = 0; k < 3; ++k) gap -= fabs(s->n[k]) * a->half[k] + fabs(of_b[k]) * b->half[k];
-  return gap > least && gap - straight(s, 0, s->n, a->center, a->half) - straight(s, 1, of_b, b->center, b->half) > least;
+  return gap > least &&
+         gap - straight(s, 0, s->n, a->center, a->half) - straight(s, 1, of_b, b->center, b->half) > least;
 }
 
 static int boxes_apart(Sight* s, const Box* a, const Box* b) {
@@ -869,7 +870,7 @@ static int is_beside(const Body* a, const Body* b, const Pose* back) {
 /* ---- Trees of cells ---- */
 
 static Sight sight;
-static size_t cells;
+static size_t leaves, cells; /* of the tree; that were proven, of parts of leaves, too */
 static double gap;
 
 /* Whether it is proven that two bodies are apart while all freedoms stay within their reaches. */
@@ -890,7 +891,7 @@ static int is_cell_free(void) {
 }
 
 static void give_up(void) {
-  end(1, "%s and %s may be too close in cell %lu of their tree", sight.a->name, sight.b->name, COUNT(cells + 1));
+  end(1, "%s and %s may be too close in cell %lu of their tree", sight.a->name, sight.b->name, COUNT(leaves));
 }
 
 /* What is proven barely may be seen otherwise here: then in parts. */
@@ -937,7 +938,7 @@ static size_t next_node(int depth, size_t freedoms) {
 static void prove_positions(int depth) {
   const size_t f = next_node(depth, freedom_count);
   if (f == NONE) {
-    prove_box(MOST_HALVINGS);
+    ++leaves, prove_box(MOST_HALVINGS);
     return;
   }
   const double low = lows[f], high = highs[f], middle = low / 2 + high / 2;
@@ -1039,7 +1040,7 @@ static void prove_leaf(double begin, double stop, int halvings) {
 static void prove_piece(double begin, double stop, int depth) {
   const double middle = middle_of(begin, stop);
   if (next_node(depth, 1) == NONE) {
-    prove_leaf(begin, stop, MOST_HALVINGS);
+    ++leaves, prove_leaf(begin, stop, MOST_HALVINGS);
     return;
   }
   if (!(begin <= middle && middle <= stop)) end(1, "a piece is too small to be halved");
@@ -1068,7 +1069,7 @@ static void prove_pair(void) {
   const size_t i_of_a = count(body_count), i_of_b = count(body_count);
   const Body *const a = bodies + i_of_a, *const b = bodies + i_of_b;
   note_pair(i_of_a, i_of_b);
-  memset(&sight, 0, sizeof sight), sight.a = a, sight.b = b, cells = 0;
+  memset(&sight, 0, sizeof sight), sight.a = a, sight.b = b, leaves = cells = 0;
   find_chain(a->frame, b->frame);
   if (rows) {
     make_room(path_joints), prove_piece(0, (double)(rows - 1), 0);

@@ -34,7 +34,7 @@ struct IsLater {
 constexpr std::size_t kCellsForAStep = 8;
 
 /// Cells in which so many pairs of leaves are looked at count as two.
-constexpr std::size_t kLeafPairsOfACell = 64;
+constexpr std::size_t kLeafPairsOfACell = 256;
 
 class PairSearch {
  public:
@@ -103,15 +103,7 @@ class PairSearch {
     cell.number = result_.cells++, ++work_;
     const JointChain::Motion motion = chain_.motion(cell.box);
     cell.distance = distance_of_balls(a_, b_, motion.pose, chain_.rounding());
-    const double margin = record_.is_kept() ? chain_.rounding() : 0;
-    if (cell.distance > motion.change + margin) {
-      result_.proven_free += cell.share;
-      return;
-    }
-    std::size_t leaf_pairs = 0;
-    const bool is_free = stay_apart(a_, b_, motion, margin, cell.near, leaf_pairs);
-    work_ += leaf_pairs / kLeafPairsOfACell;
-    if (is_free) {
+    if (cell.distance > motion.change + chain_.rounding() || stay_apart(cell, motion)) {
       result_.proven_free += cell.share;
       return;
     }
@@ -123,6 +115,21 @@ class PairSearch {
     cell.widest = static_cast<std::size_t>(widest - parts.begin());
     cell.may_be_smaller = widest != parts.end() && *widest > chain_.rounding();
     open_.push(std::move(cell));
+  }
+
+  bool stay_apart(Cell& cell, const JointChain::Motion& motion) {
+    std::size_t leaf_pairs = 0;
+    const auto before = cell.near;
+    const bool is_free = robot::stay_apart(a_, b_, motion, 0, cell.near, leaf_pairs);
+    work_ += leaf_pairs / kLeafPairsOfACell;
+    if (is_free && record_.is_kept() && !may_be_checked(motion, before)) record_.give_up();
+    return is_free;
+  }
+
+  /// A checker rounds in another way.
+  bool may_be_checked(const JointChain::Motion& motion, std::optional<NearParts> near) const {
+    std::size_t leaf_pairs = 0;
+    return robot::stay_apart(a_, b_, motion, chain_.rounding(), near, leaf_pairs);
   }
 
   /// Where meshes around the bodies meet. Returns whether nothing more is to be found in the cell.

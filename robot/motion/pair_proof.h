@@ -49,10 +49,12 @@ struct PairProof {
 };
 
 struct ProofOptions {
-  std::size_t cells = 10'000;  ///< most cells of a pair. Time does not count, so that results are the same everywhere
-  unsigned threads = 0;        ///< 0: one for each core
-  bool keep_trees = false;     ///< for certificates
-  Progress progress = {};      ///< stage "prove"
+  /// Most cells of a pair; one in which many pairs of faces are looked at counts as several. Time does not count, so
+  /// that results are the same everywhere.
+  std::size_t cells = 10'000;
+  unsigned threads = 0;     ///< 0: one for each core
+  bool keep_trees = false;  ///< for certificates
+  Progress progress = {};   ///< stage "prove"
 };
 
 /// Decides for each pair whether the two links can meet. `links` has the mesh of each link, in its frame; a closed mesh
@@ -60,9 +62,9 @@ struct ProofOptions {
 /// InputError as CollisionIndex, and InvalidOption for limits of a joint that are out of order.
 ///
 /// How it works: A cell is a range of positions of each joint between the links. The links are apart in all of it if
-/// their distance in the middle, a proven lower bound, is greater than what the motion can change it by
-/// (JointChain::Motion::change). Otherwise it is halved, across the joint that can change the distance most. Cells with
-/// a small distance come first, so that positions at which the links meet are found early. Where the cells are used up,
+/// in the middle all faces are farther from each other than the joints can move them towards each other: stay_apart.
+/// Otherwise it is halved, across the joint that can change the distance of faces that may meet most. Cells in which
+/// these are close come first, so that positions at which the links meet are found early. Where the cells are used up,
 /// such positions are looked for downhill from those that are left, by an eighth as many steps.
 ///
 /// What "proven" means: the axes, anchors and limits are those of `robot`, and the origins of its joints are the

@@ -18,12 +18,13 @@ constexpr const char* kRounding = "rounding hides whether they touch";
 
 /// A piece of the path, and what is known there.
 struct Piece {
-  double begin = 0, end = 0;    // places
-  double distance = 0;          // in the middle, a lower bound
-  double change = 0;            // of the distance, at most, in all of it
-  std::size_t number = 0;       // in the order in which they were made
-  bool is_free = false;         // otherwise the bodies may meet there
-  bool may_be_smaller = false;  // otherwise rounding decides
+  double begin = 0, end = 0;           // places
+  double distance = 0;                 // in the middle, a lower bound
+  double change = 0;                   // of the distance, at most, in all of it
+  std::size_t number = 0;              // in the order in which they were made
+  bool is_free = false;                // otherwise the bodies may meet there
+  bool may_be_smaller = false;         // otherwise rounding decides
+  std::optional<NearParts> near = {};  // in the middle, or in that of a larger piece
 };
 
 /// What may still be free comes before what is to be known better, and large changes before small ones.
@@ -134,18 +135,18 @@ class PathSearch {
   void halve(const Piece& piece) {
     const double middle = middle_place(piece.begin, piece.end);
     record_.halve(piece.number, 0, result_.cells);
-    look_at(piece.begin, middle);
-    if (middle < end_) look_at(middle, piece.end);
+    look_at(piece.begin, middle, piece.near);
+    if (middle < end_) look_at(middle, piece.end, piece.near);
   }
 
-  void look_at(double begin, double end) {
-    Piece piece{.begin = begin, .end = end, .number = result_.cells++};
+  void look_at(double begin, double end, const std::optional<NearParts>& near = {}) {
+    Piece piece{.begin = begin, .end = end, .number = result_.cells++, .near = near};
     const JointChain::Motion motion = this->motion(begin, end);
     double rounding = chain_.rounding();
     piece.change = motion.change;
     piece.distance = distance_of_balls(motion.pose);
     const bool is_apart = piece.distance > piece.change + options_.gap + margin();
-    if (!options_.distances && !is_apart && stays_apart(motion)) {
+    if (!options_.distances && !is_apart && stay_apart(piece, motion)) {
       piece.distance = piece.change + options_.gap, piece.is_free = true;
       return done_.push_back(piece);
     }
@@ -175,8 +176,17 @@ class PathSearch {
   }
 
   /// More than the gap, in all of the motion.
-  bool stays_apart(const JointChain::Motion& motion) {
-    return stay_apart(*a_.shape, *b_.shape, motion, options_.gap + margin(), near_, work_);
+  bool stay_apart(Piece& piece, const JointChain::Motion& motion) {
+    const auto before = piece.near;
+    const bool is_free = stay_apart(motion, options_.gap, piece.near);
+    if (auto near = before; is_free && record_.is_kept() && !stay_apart(motion, options_.gap + margin(), near))
+      record_.give_up();
+    return is_free;
+  }
+
+  bool stay_apart(const JointChain::Motion& motion, double gap, std::optional<NearParts>& near) const {
+    std::size_t leaf_pairs = 0;
+    return robot::stay_apart(*a_.shape, *b_.shape, motion, gap, near, leaf_pairs);
   }
 
   /// Where meshes around curved shapes meet: parts of the motion that are not greater are not looked at. There the
@@ -232,8 +242,6 @@ class PathSearch {
   std::priority_queue<Piece, std::vector<Piece>, IsLessUrgent> open_;
   std::vector<Piece> done_;
   CellRecord record_;
-  std::optional<NearParts> near_;  // in the piece that was looked at last
-  std::size_t work_ = 0;
   bool touches_ = false;  // somewhere it is the mesh around a curved shape that meets
   PathPairProof result_;
 };

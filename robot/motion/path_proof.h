@@ -73,11 +73,11 @@ struct PathProofOptions {
 /// Decides for each path and each pair of bodies whether they are apart, by more than the gap, at every moment of the
 /// path. `pairs` are those of pairs_on_path. The result is the same for any number of threads. Throws Cancelled.
 ///
-/// How it works: A cell is a piece of the path. In the middle of it, the distance of two bodies has a proven lower
-/// bound. In all of it each joint stays within its JointPath::reach, which changes the distance by no more than
-/// JointChain::Motion::change says. Where the distance exceeds the sum of change and gap, the cell is free. Otherwise
-/// it is halved. Cells with a large change come first, so that places where the bodies meet are found early; what lies
-/// behind such a place is not looked at any more.
+/// How it works: A cell is a piece of the path. In all of it each joint stays within its JointPath::reach. Where the
+/// bodies stay_apart so, by more than the gap, the cell is free; or, if the curve of distances is asked for, where the
+/// distance in the middle exceeds the sum of JointChain::Motion::change and the gap. Otherwise it is halved. Cells with
+/// a large change come first, so that places where the bodies meet are found early; what lies behind such a place is
+/// not looked at any more.
 ///
 /// What "proven" means: see prove_pairs. The path is the one that JointPath describes, in real numbers.
 std::vector<PathProof> prove_paths(const Robot& robot, std::span<const JointPath> paths,

@@ -80,12 +80,12 @@ TEST(PairProof, DecidesAHingeOnEitherSideOfItsTouch) {
   }
 }
 
-TEST(PairProof, FindsWhereLinksMeetBesideAWallThatUsesUpAllCells) {
+TEST(PairProof, FindsWhereLinksMeetBesideAWallThatIsClose) {
   Robot robot =
       robot_of(3, {joint(JointType::Prismatic, 0, 1, {}, kAlongX), joint(JointType::Prismatic, 1, 2, {}, kAlongZ)});
   robot.joints[0].lower = -10, robot.joints[0].upper = 10;
   robot.joints[1].lower = 0, robot.joints[1].upper = 10;
-  TriangleMesh wall_and_ceiling = meshes::box({-12, 0.51, -1}, {-6, 1, 12});  // cells would have to be as small as 0.01
+  TriangleMesh wall_and_ceiling = meshes::box({-12, 0.51, -1}, {-6, 1, 12});
   append(wall_and_ceiling, meshes::box({5, -1, 9.2}, {12, 1, 10}));
   const std::vector<TriangleMesh> links{wall_and_ceiling, {}, meshes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})};
   const PairProof meets = proof_of(robot, links, 0, 2, 1000);
@@ -93,7 +93,9 @@ TEST(PairProof, FindsWhereLinksMeetBesideAWallThatUsesUpAllCells) {
   expect_witness(robot, links, meets);
   EXPECT_LE(meets.cells, 1000u);
   robot.joints[1].upper = 8.5;
-  EXPECT_EQ(proof_of(robot, links, 0, 2, 1000).verdict, PairVerdict::Open) << "the ceiling is out of reach";
+  const PairProof never = proof_of(robot, links, 0, 2, 1000);
+  EXPECT_EQ(never.verdict, PairVerdict::Never) << "the ceiling is out of reach";
+  EXPECT_LT(never.cells, 100u) << "no motion goes towards the wall, of which it is 0.01 away";
 }
 
 TEST(PairProof, DecidesASlideOnEitherSideOfItsTouch) {
@@ -324,6 +326,43 @@ TEST(JointChain, BoundsWhatMotionChangesOfDistances) {
     }
   }
   EXPECT_GT(closest, 0.9) << "the bound is far from what happens";
+}
+
+/// What may come near in a motion is near somewhere, or the bound is worth little; what may not, is nowhere.
+TEST(StayApart, HoldsAtAllPositions) {
+  Random random;
+  int free = 0, near = 0, by_change = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const Robot robot = random.robot(4);
+    const std::size_t a = random.below(3), b = a + 1 + random.below(3 - a);
+    const ProofBody of_a(random.rod()), of_b(random.rod());
+    const JointChain chain(robot, a, b, of_a.corners, of_b.corners);
+    std::vector<JointRange> box;
+    for (const JointRange& range : chain.ranges()) {
+      const double lower = random.within(range.lower, range.upper);
+      box.push_back({lower, lower + 0.2 * (range.upper - lower)});
+    }
+    const JointChain::Motion motion = chain.motion(box);
+    const double gap = round % 2 == 0 ? 0 : 0.05;
+    std::optional<NearParts> found;
+    std::size_t leaf_pairs = 0;
+    const bool is_free = stay_apart(of_a, of_b, motion, gap, found, leaf_pairs);
+    by_change += closest_parts(of_a, of_b, motion.pose).separation.lower > motion.change + gap;
+    free += is_free, near += !is_free;
+    for (int sample = 0; is_free && sample < 50; ++sample) {
+      std::vector<double> positions(robot.joints.size());
+      for (std::size_t f = 0; f < box.size(); ++f)
+        positions[chain.freedoms()[f]] = sample % 2 == 0   ? random.within(box[f].lower, box[f].upper)
+                                         : random.below(2) ? box[f].lower
+                                                           : box[f].upper;
+      follow(robot, positions);
+      const std::vector<Pose> poses = link_poses(robot, positions);
+      const Pose pose = composed(inverse(poses[a]), poses[b]);
+      ASSERT_GT(closest_parts(of_a, of_b, pose).separation.upper, gap) << "round " << round;
+    }
+  }
+  EXPECT_GT(near, 100);
+  EXPECT_GT(free, by_change + 20) << "it tells no more than the largest change does";
 }
 
 // The first axis goes through the point of b, the second one through that of a: neither moves the distance alone.
