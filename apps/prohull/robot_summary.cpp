@@ -76,6 +76,23 @@ std::string notes_text(const std::string& link, const LinkHull& hull, bool has_o
   return text;
 }
 
+/// Nothing else in the summary is about these links.
+std::string collision_only_text(const ReportInput& facts) {
+  constexpr std::size_t kMostNamed = 5;
+  std::size_t links = 0;
+  std::string names;
+  for (const LinkHulls& made : facts.hulls)
+    if (has_collision_only(facts, made) && ++links <= kMostNamed)
+      names += (links == 1 ? "" : ", ") + facts.file.robot.links[made.link].name;
+  if (links == 0) return "";
+  if (links > kMostNamed) names += fmt::format(", and {} more", grouped(links - kMostNamed));
+  return fmt::format(
+      "  {}: {}\n",
+      counted(links, "link has collision geometry only, which it keeps, and nothing about it was looked at",
+              "links have collision geometry only, which they keep, and nothing about them was looked at"),
+      names);
+}
+
 std::string hulls_text(const ReportInput& facts) {
   Table table;
   const bool has_hulls = cover_words(facts.hulls) == "hulls";
@@ -95,7 +112,7 @@ std::string hulls_text(const ReportInput& facts) {
           counted(made.non_finite_faces, "triangle that is not finite was", "triangles that are not finite were"));
     for (const LinkHull& hull : made.hulls) text += notes_text(name, hull, made.hulls.size() > 1);
   }
-  return text;
+  return text + collision_only_text(facts);
 }
 
 std::string shipped_text(const ReportInput& facts) {
@@ -348,6 +365,9 @@ std::string robot_summary(const std::filesystem::path& folder, const ReportInput
   text += certificates_text(facts.certificates);
   if (facts.motion) text += motion_text(*facts.motion, covers, sampled_pairs);
   text += motion_certificate_text(folder, facts);
+  if (hulls == 0)
+    return text +
+           fmt::format("{}: the robot, and report.html; no hull was made: {}\n", folder.string(), why_no_hull(facts));
   text += fmt::format(
       "{}: the robot with its {}, and report.html; {} of {} certified{}\n", folder.string(), covers, certified,
       covers == "hulls" ? counted(hulls, "hull is", "hulls are") : counted(hulls, "link is", "links are"),

@@ -104,7 +104,8 @@ std::string srdf_of(const Robot& robot, const MotionResult& motion, bool sampled
           ? fmt::format(
                 "The reason \"sampled\" is what {} random configurations, seed {}, say of a pair: it is no proof.",
                 motion.configurations, motion.seed)
-          : "Links that joints connect, and pairs about which this is proven. All others have to be checked.";
+          : "Of links whose collision geometry is proven to cover them: pairs that joints connect, and pairs proven to "
+            "meet never or always. All others have to be checked.";
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
       "<!-- {} -->\n"

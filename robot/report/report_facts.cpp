@@ -216,6 +216,27 @@ bool is_certified(const LinkHulls& hulls) {
   return first_hull(hulls) && std::ranges::all_of(hulls.hulls, &LinkHull::certified);
 }
 
+bool has_collision_only(const ReportInput& input, const LinkHulls& hulls) {
+  return hulls.status == LinkStatus::Empty && !input.file.robot.links[hulls.link].collision.empty();
+}
+
+std::string why_no_hull(const ReportInput& input) {
+  std::string text;
+  const auto add = [&](const auto& is, std::string_view one, std::string_view many) {
+    const auto links = static_cast<std::size_t>(std::ranges::count_if(input.hulls, is));
+    if (links > 0) text += (text.empty() ? "" : "; ") + counted(links, one, many);
+  };
+  add([](const LinkHulls& hulls) { return hulls.status == LinkStatus::Primitives; },
+      "link has primitives only, which are kept", "links have primitives only, which are kept");
+  add([&](const LinkHulls& hulls) { return has_collision_only(input, hulls); },
+      "link has collision geometry only, which --from collision takes",
+      "links have collision geometry only, which --from collision takes");
+  add([](const LinkHulls& hulls) { return !hulls.why.empty(); }, "link is left as it is, with nothing proven",
+      "links are left as they are, with nothing proven");
+  if (!text.empty()) return text;
+  return fmt::format("no link has {} geometry", input.from == Geometry::Visual ? "visual" : "collision");
+}
+
 bool was_measured(const LinkCheck& check) {
   return check.verdict == CheckVerdict::Covered || check.verdict == CheckVerdict::Leaks ||
          check.verdict == CheckVerdict::Undecided;
@@ -284,6 +305,9 @@ std::vector<Mark> marks_of(const ReportInput& input) {
         marks.push_back({link, Severity::Look, fmt::format("It was skipped: {}", clean_text(hulls->why))});
       if (hulls->status == LinkStatus::Unread)
         marks.push_back({link, Severity::Failure, fmt::format("It has no hull: {}", clean_text(hulls->why))});
+      if (has_collision_only(input, *hulls))
+        marks.push_back(
+            {link, Severity::Look, "It has collision geometry only, which it keeps; nothing about it was looked at."});
     }
     if (const LinkCheck* const check = check_of(input, link)) mark_check(input, *check, marks);
     mark_motion(input, link, marks);
@@ -312,6 +336,8 @@ std::vector<Finding> findings_of(const ReportInput& input) {
   if (totals.hulled > 0)
     findings.push_back({totals.certified == totals.hulled,
                         sum_up_hulls(totals, visual ? "visual meshes" : "collision meshes", cover_words(input.hulls))});
+  else if (!input.hulls.empty())
+    findings.push_back({true, fmt::format("No hull was made: {}.", why_no_hull(input))});
   if (totals.checked > 0) findings.push_back(finding_of_checks(totals));
   if (input.motion) findings.push_back(finding_of_motion(*input.motion, cover_words(input.hulls)));
   if (!input.disabled.empty()) {
@@ -319,7 +345,7 @@ std::vector<Finding> findings_of(const ReportInput& input) {
     findings.push_back({refuted == 0, fmt::format("{} of the SRDF {} refuted: the two links meet.",
                                                   counted(refuted, "disabled pair"), refuted == 1 ? "is" : "are")});
   }
-  if (findings.empty()) findings.push_back({true, "No link has meshes: there was nothing to do."});
+  if (findings.empty()) findings.push_back({true, "No link has visual geometry: there was nothing to do."});
   return findings;
 }
 

@@ -38,6 +38,13 @@ const LinkHull* first_hull(const LinkHulls& hulls);
 /// Whether the link has hulls, and all of them are certified.
 bool is_certified(const LinkHulls& hulls);
 
+/// Whether the link keeps its collision geometry, because there is no visual geometry to enclose.
+bool has_collision_only(const ReportInput& input, const LinkHulls& hulls);
+
+/// Where no link has a hull: "2 links have primitives only, which are kept; 1 link has collision geometry only, which
+/// --from collision takes".
+std::string why_no_hull(const ReportInput& input);
+
 /// Whether both geometries are there and were compared.
 bool was_measured(const LinkCheck& check);
 

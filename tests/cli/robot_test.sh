@@ -233,6 +233,24 @@ if [ ! -w closed ]; then
   expect 3 "a folder that takes no files" $urdf -o closed/out $small
 fi
 
+# --- links with collision geometry only ---
+{
+  echo '<robot name="two"><link name="base"><visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual></link>'
+  for i in 1 2 3 4 5 6; do
+    echo "<link name='wall$i'><collision><geometry><box size='0.02 0.4 0.6'/></geometry></collision></link>"
+    echo "<joint name='fix$i' type='fixed'><parent link='base'/><child link='wall$i'/></joint>"
+  done
+  echo '</robot>'
+} >walls.urdf
+expect 0 "collision geometry only" $prohull urdf walls.urdf -o walls $small
+says out "collision geometry only" "6 links have collision geometry only, which they keep, and nothing about them was looked at: wall1, wall2, wall3, wall4, wall5, and 1 more"
+says out "no hull has a reason" "no hull was made: 1 link has primitives only, which are kept; 6 links have collision geometry only, which --from collision takes"
+says walls/report.json "collision geometry only: JSON" "It has collision geometry only, which it keeps; nothing about it was looked at."
+says walls/walls.srdf "the SRDF tells which links it is about" "Of links whose collision geometry is proven to cover them"
+expect 0 "what the reason says" $prohull urdf walls.urdf -o walls_from $small --from collision
+says_not out "what the reason says" "collision geometry only"
+says walls_from/walls.srdf "what the reason says" 'link2="wall6"'
+
 # --- a model of Gazebo ---
 mkdir -p models/ball/meshes
 $prohull sample sphere --faces 200 -o models/ball/meshes/ball.stl >/dev/null

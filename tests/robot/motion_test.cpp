@@ -453,7 +453,7 @@ TEST(SrdfOf, ListsSampledPairsOnlyOnRequest) {
   motion.pairs = {
       {0, 1, PairKind::Adjacent}, {0, 2, PairKind::Sometimes}, {0, 3, PairKind::Always}, {1, 3, PairKind::Never}};
   EXPECT_EQ(srdf_of(robot, motion), R"(<?xml version="1.0" encoding="utf-8"?>
-<!-- Links that joints connect, and pairs about which this is proven. All others have to be checked. -->
+<!-- Of links whose collision geometry is proven to cover them: pairs that joints connect, and pairs proven to meet never or always. All others have to be checked. -->
 <robot name="a&amp;b">
   <disable_collisions link1="&lt;b&gt;" link2="z" reason="Adjacent"/>
 </robot>

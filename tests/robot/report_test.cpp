@@ -49,6 +49,13 @@ LinkHulls certified_hulls(std::size_t link) {
   return hulls;
 }
 
+/// Of links that have nothing to enclose.
+std::vector<LinkHulls> empty_hulls(std::size_t links) {
+  std::vector<LinkHulls> all(links);
+  for (std::size_t i = 0; i < links; ++i) all[i].link = i;
+  return all;
+}
+
 LinkCheck check_with(std::size_t link, CheckVerdict verdict) {
   LinkCheck check;
   check.link = link, check.verdict = verdict;
@@ -191,6 +198,33 @@ TEST(ReportFacts, PiecesAndSpheresAreCalledSo) {
   EXPECT_EQ(spheres["hulls"][0]["spheres"], 3);
   EXPECT_TRUE(spheres["hulls"][0]["faces"].is_null());
   EXPECT_EQ(totals_of(input).balls, 3U);
+}
+
+TEST(ReportFacts, CollisionGeometryWithoutVisualGeometryNeedsALook) {
+  RobotFile file = robot_of({"wall", "frame"});
+  file.robot.links[0].collision.emplace_back();
+  ReportInput input = input_of(file);
+  input.hulls = empty_hulls(2);
+  const std::vector<Mark> marks = marks_of(input);
+  ASSERT_EQ(marks.size(), 1U);
+  EXPECT_EQ(marks[0].link, 0U);
+  EXPECT_EQ(marks[0].severity, Severity::Look);
+  EXPECT_TRUE(has(marks[0].text, "collision geometry only"));
+  EXPECT_EQ(findings_of(input)[0].text,
+            "No hull was made: 1 link has collision geometry only, which --from collision takes.");
+}
+
+TEST(ReportFacts, WhereNoHullWasMadeAReasonIsTold) {
+  const RobotFile file = robot_of({"a", "b", "c"});
+  ReportInput input = input_of(file);
+  input.hulls = empty_hulls(3);
+  EXPECT_EQ(why_no_hull(input), "no link has visual geometry");
+  input.from = Geometry::Collision;
+  EXPECT_EQ(why_no_hull(input), "no link has collision geometry");
+  input.hulls[0].status = input.hulls[1].status = LinkStatus::Primitives;
+  input.hulls[2].status = LinkStatus::Skipped, input.hulls[2].why = "as its budget says";
+  EXPECT_EQ(why_no_hull(input),
+            "2 links have primitives only, which are kept; 1 link is left as it is, with nothing proven");
 }
 
 TEST(ReportFacts, AMissedCollisionIsAFailure) {
