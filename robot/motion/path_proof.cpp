@@ -145,12 +145,7 @@ class PathSearch {
     double rounding = chain_.rounding();
     piece.change = motion.change;
     piece.distance = distance_of_balls(motion.pose);
-    const bool is_apart = piece.distance > piece.change + options_.gap + margin();
-    if (!options_.distances && !is_apart && stay_apart(piece, motion)) {
-      piece.distance = piece.change + options_.gap, piece.is_free = true;
-      return done_.push_back(piece);
-    }
-    if (options_.distances || !is_apart) {
+    if (options_.distances || !(piece.distance > piece.change + options_.gap + margin())) {
       const double limit = options_.distances ? kInfinity : just_above(motion.change + options_.gap + 2 * margin());
       const Closest found = closest(motion.pose, limit);
       piece.distance = std::max(piece.distance, found.separation.lower);
@@ -162,6 +157,10 @@ class PathSearch {
         rounding = std::max(rounding, doubt_of_mesh(motion));
     }
     piece.is_free = piece.distance > piece.change + options_.gap;
+    if (!piece.is_free && !options_.distances && piece.end == end && stay_apart(piece, motion)) {
+      piece.distance = piece.change + options_.gap, piece.is_free = true;
+      return done_.push_back(piece);
+    }
     if (is_done(piece)) {
       if (piece.distance <= piece.change + options_.gap + margin()) record_.give_up();
       return done_.push_back(piece);
