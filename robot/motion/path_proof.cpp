@@ -18,13 +18,12 @@ constexpr const char* kRounding = "rounding hides whether they touch";
 
 /// A piece of the path, and what is known there.
 struct Piece {
-  double begin = 0, end = 0;           // places
-  double distance = 0;                 // in the middle, a lower bound
-  double change = 0;                   // of the distance, at most, in all of it
-  std::size_t number = 0;              // in the order in which they were made
-  bool is_free = false;                // otherwise the bodies may meet there
-  bool may_be_smaller = false;         // otherwise rounding decides
-  std::optional<NearParts> near = {};  // in the middle, or in that of a larger piece
+  double begin = 0, end = 0;    // places
+  double distance = 0;          // in the middle, a lower bound
+  double change = 0;            // of the distance, at most, in all of it
+  std::size_t number = 0;       // in the order in which they were made
+  bool is_free = false;         // otherwise the bodies may meet there
+  bool may_be_smaller = false;  // otherwise rounding decides
 };
 
 /// What may still be free comes before what is to be known better, and large changes before small ones.
@@ -135,12 +134,12 @@ class PathSearch {
   void halve(const Piece& piece) {
     const double middle = middle_place(piece.begin, piece.end);
     record_.halve(piece.number, 0, result_.cells);
-    look_at(piece.begin, middle, piece.near);
-    if (middle < end_) look_at(middle, piece.end, piece.near);
+    look_at(piece.begin, middle);
+    if (middle < end_) look_at(middle, piece.end);
   }
 
-  void look_at(double begin, double end, const std::optional<NearParts>& near = {}) {
-    Piece piece{.begin = begin, .end = end, .number = result_.cells++, .near = near};
+  void look_at(double begin, double end) {
+    Piece piece{.begin = begin, .end = end, .number = result_.cells++};
     const JointChain::Motion motion = this->motion(begin, end);
     double rounding = chain_.rounding();
     piece.change = motion.change;
@@ -150,6 +149,11 @@ class PathSearch {
       const Closest found = closest(motion.pose, limit);
       piece.distance = std::max(piece.distance, found.separation.lower);
       rounding = std::max(rounding, std::min(found.separation.upper, limit) - found.separation.lower);
+      if (!options_.distances && piece.distance <= piece.change + options_.gap &&
+          stay_apart(motion, found.separation)) {
+        piece.distance = piece.change + options_.gap, piece.is_free = true;
+        return done_.push_back(piece);
+      }
       const double middle = middle_place(begin, end);
       if (middle < end_ && meets_at(middle, motion.pose, found))
         piece.end = middle;
@@ -157,10 +161,6 @@ class PathSearch {
         rounding = std::max(rounding, doubt_of_mesh(motion));
     }
     piece.is_free = piece.distance > piece.change + options_.gap;
-    if (!piece.is_free && !options_.distances && piece.end == end && stay_apart(piece, motion)) {
-      piece.distance = piece.change + options_.gap, piece.is_free = true;
-      return done_.push_back(piece);
-    }
     if (is_done(piece)) {
       if (piece.distance <= piece.change + options_.gap + margin()) record_.give_up();
       return done_.push_back(piece);
@@ -174,18 +174,13 @@ class PathSearch {
       done_.push_back(piece);
   }
 
-  /// More than the gap, in all of the motion.
-  bool stay_apart(Piece& piece, const JointChain::Motion& motion) {
-    const auto before = piece.near;
-    const bool is_free = stay_apart(motion, options_.gap, piece.near);
-    if (auto near = before; is_free && record_.is_kept() && !stay_apart(motion, options_.gap + margin(), near))
-      record_.give_up();
+  /// Whether a plane across the way between the closest faces stays between the bodies in all of the motion. To look at
+  /// all faces takes longer than halving the piece.
+  bool stay_apart(const JointChain::Motion& motion, const Separation& closest) {
+    const Vec3 way = closest.point_b - closest.point_a;
+    const bool is_free = stay_apart_across(way, *a_.shape, *b_.shape, motion, options_.gap);
+    if (is_free && !stay_apart_across(way, *a_.shape, *b_.shape, motion, options_.gap + margin())) record_.give_up();
     return is_free;
-  }
-
-  bool stay_apart(const JointChain::Motion& motion, double gap, std::optional<NearParts>& near) const {
-    std::size_t leaf_pairs = 0;
-    return robot::stay_apart(*a_.shape, *b_.shape, motion, gap, near, leaf_pairs);
   }
 
   /// Where meshes around curved shapes meet: parts of the motion that are not greater are not looked at. There the

@@ -73,9 +73,10 @@ struct PathProofOptions {
 /// Decides for each path and each pair of bodies whether they are apart, by more than the gap, at every moment of the
 /// path. `pairs` are those of pairs_on_path. The result is the same for any number of threads. Throws Cancelled.
 ///
-/// How it works: A cell is a piece of the path. In all of it each joint stays within its JointPath::reach. Where the
-/// bodies stay_apart so, by more than the gap, the cell is free; or, if the curve of distances is asked for, where the
-/// distance in the middle exceeds the sum of JointChain::Motion::change and the gap. Otherwise it is halved. Cells with
+/// How it works: A cell is a piece of the path. In all of it each joint stays within its JointPath::reach. The cell is
+/// free where the distance in the middle exceeds the sum of JointChain::Motion::change and the gap; or, if the curve of
+/// distances is not asked for, where the bodies stay_apart_across the way between the closest faces. Otherwise it is
+/// halved. Cells with
 /// a large change come first, so that places where the bodies meet are found early; what lies behind such a place is
 /// not looked at any more.
 ///

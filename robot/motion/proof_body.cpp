@@ -54,6 +54,11 @@ Closest closest_within(const ProofBody& a, const ProofBody& b, const Pose& pose,
   return closest_of(within(a), within(b), pose, limit);
 }
 
+bool stay_apart_across(const Vec3& way, const ProofBody& a, const ProofBody& b, const JointChain::Motion& motion,
+                       double gap) {
+  return stay_apart_along(way, a.corners, motion.of_a, b.corners, motion.pose, motion.of_b, gap);
+}
+
 namespace {
 
 /// A plane across the way between faces that were near, or between the balls, may do for all.
@@ -62,9 +67,7 @@ bool has_plane_between(const ProofBody& a, const ProofBody& b, const JointChain:
   std::vector<Vec3> ways{placed(motion.pose, b.ball.center) - a.ball.center};
   if (near)
     ways.insert(ways.begin(), {placed(motion.pose, near->faces.point_b) - near->faces.point_a, near->faces.way});
-  return std::ranges::any_of(ways, [&](const Vec3& way) {
-    return stay_apart_along(way, a.corners, motion.of_a, b.corners, motion.pose, motion.of_b, gap);
-  });
+  return std::ranges::any_of(ways, [&](const Vec3& way) { return stay_apart_across(way, a, b, motion, gap); });
 }
 
 }  // namespace

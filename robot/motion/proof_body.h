@@ -54,6 +54,11 @@ struct NearParts {
 bool stay_apart(const ProofBody& a, const ProofBody& b, const JointChain::Motion& motion, double gap,
                 std::optional<NearParts>& near, std::size_t& leaf_pairs);
 
+/// Whether a plane across the way, which is in the frame of a, stays between two bodies that drift, more than `gap`
+/// apart. Proven if true.
+bool stay_apart_across(const Vec3& way, const ProofBody& a, const ProofBody& b, const JointChain::Motion& motion,
+                       double gap);
+
 /// Why it stays open whether bodies meet.
 inline constexpr const char* kTouchesMesh = "one touches the mesh around a curved shape";
 
