@@ -26,7 +26,7 @@ constexpr double kReach = 0.6;             // of most vertices of a wrap from th
 
 constexpr double kFineWrap = 256;  // to the diagonal; finer ones take ten seconds and more
 
-double square(double x) { return x * x; }
+double pairs_of_faces(const TriangleMesh& mesh) { return double(mesh.face_count()) * double(mesh.face_count()); }
 
 // With as many nodes as memory and patience allow, and less for a mesh of few faces. A wrap of a million nodes has up
 // to 340,000 faces, and a hull of it takes seconds.
@@ -53,7 +53,7 @@ double finest_loose_spacing(const Request& request) {
 double spacing_of_many_faces(const TriangleMesh& mesh) {
   constexpr double kPerPair = 16, kLeast = 0x1p16, kMost = 25e6;  // of cells of one size
   constexpr double kFacesPerArea = 8.4;  // in spacings; wraps of two robots' parts had 8.0 and 8.4
-  const double most = std::clamp(kPerPair * square(double(mesh.face_count())), kLeast, kMost);
+  const double most = std::clamp(kPerPair * pairs_of_faces(mesh), kLeast, kMost);
   return std::sqrt(kFacesPerArea * area_of(mesh) / most);
 }
 
@@ -61,7 +61,7 @@ double finest_close_spacing(const Request& request) {
   constexpr double kNodesPerPair = 0x1p9;
   constexpr double kMostNodes = 0x1p28;  // 6 bytes for each, or 10 where the mesh is not closed: less than 3 GB
   const TriangleMesh& mesh = request.to_cover();
-  return std::max(finest_spacing(request, kNodesPerPair * square(double(mesh.face_count())), kMostNodes),
+  return std::max(finest_spacing(request, kNodesPerPair * pairs_of_faces(mesh), kMostNodes),
                   spacing_of_many_faces(mesh));
 }
 
