@@ -132,7 +132,13 @@ std::optional<std::size_t> available_memory(const std::filesystem::path& root) {
   return std::min(left, 1024 * *kibibytes);
 }
 
-std::optional<std::size_t> available_memory() { return available_memory("/"); }
+std::optional<std::size_t> available_memory() {
+#ifdef __EMSCRIPTEN__  // no file can be opened there
+  return std::nullopt;
+#else
+  return available_memory("/");
+#endif
+}
 
 void require_available(std::size_t count, std::string_view what, double bytes_each) {
   const auto available = available_memory();
