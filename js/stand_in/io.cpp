@@ -6,6 +6,7 @@
 #include "io/file_content.h"
 #include "io/file_unit.h"
 #include "io/imported_mesh.h"
+#include "prohull/detail/memory.h"
 #include "prohull/error.h"
 #include "prohull/hull_file.h"
 
@@ -17,6 +18,8 @@ namespace {
 }
 
 }  // namespace
+
+std::optional<std::size_t> available_memory() { return {}; }
 
 std::string read_file(const std::filesystem::path& path) { refuse_file(path.string()); }
 
