@@ -623,6 +623,11 @@ static void find_moves(Sight* s) {
   }
 }
 
+/* More than sums over the joints of a body lose: each joint adds a term, and a few operations to those of others. */
+static double sum_rounding(const Sight* s, int which) {
+  return 1 + 10 * ROUND * (double)(1 + s->count[which]);
+}
+
 /* How far points of body `which` move that are within `radius` of x: any way, and along a direction, that part which is
    of second order. The second derivative of where a point is by two joints is at most the derivative by the one that is
    closer to the body if the other turns, and 0 otherwise. */
@@ -642,7 +647,7 @@ static void find_drift(const Sight* s, int which, const double* x, double radius
     }
     moved += m->reach * derivative;
   }
-  *any_way *= 1 + 1000 * ROUND, *bend *= 1 + 1000 * ROUND;
+  *any_way *= sum_rounding(s, which), *bend *= sum_rounding(s, which);
 }
 
 /* The part of first order along n, which is seen from the body, of the points whose coordinates are within `half`. */
@@ -659,7 +664,7 @@ static double straight(const Sight* s, int which, const double* n, const double*
     for (int k = 0; k < 3 && half; ++k) spread += half[k] * fabs(lever[k]);
     sum += m->reach * (fabs(dot(way, lever)) + spread);
   }
-  return sum * (1 + 1000 * ROUND);
+  return sum * sum_rounding(s, which);
 }
 
 /* Sets n, and what it is as seen from b. */

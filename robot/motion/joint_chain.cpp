@@ -76,6 +76,15 @@ JointRange one_turn(const JointRange& limits) {
   return {start, start + kTurn};
 }
 
+std::vector<JointReach> reaches_of(std::span<const JointRange> box) {
+  std::vector<JointReach> reaches;
+  for (const JointRange& range : box) {
+    const double middle = range.middle();
+    reaches.push_back({middle, std::max(range.upper - middle, middle - range.lower)});
+  }
+  return reaches;
+}
+
 }  // namespace
 
 std::size_t root_of(const Robot& robot, std::size_t link) {
@@ -193,19 +202,6 @@ void JointChain::find_rounding() {
   rounding_ = error * extent_;
 }
 
-namespace {
-
-std::vector<JointReach> reaches_of(std::span<const JointRange> box) {
-  std::vector<JointReach> reaches;
-  for (const JointRange& range : box) {
-    const double middle = range.middle();
-    reaches.push_back({middle, std::max(range.upper - middle, middle - range.lower)});
-  }
-  return reaches;
-}
-
-}  // namespace
-
 JointChain::Motion JointChain::motion(std::span<const JointRange> box) const { return motion(reaches_of(box)); }
 
 std::vector<double> JointChain::parts_at(const NearFaces& faces, std::span<const JointRange> box) const {
@@ -215,25 +211,19 @@ std::vector<double> JointChain::parts_at(const NearFaces& faces, std::span<const
   if (!(length > 0)) return motion.parts;
   const Vec3 way_a = faces.way * (1 / length), way_b = turned(inverse(motion.pose), way_a);
   std::vector<double> parts(freedoms_.size());
-  const auto add = [&](const Drift& drift, const Vec3& point, const Vec3& way, std::size_t first, int step) {
+  const auto add = [&](const Drift& drift, const Vec3& point, const Vec3& way) {
     double moved = 0;
-    std::size_t h = first;
     for (const JointMove& move : drift.moves) {
-      while (hinges_[h].freedom == kNone) h += std::size_t(step);
-      double& part = parts[hinges_[h].freedom];
-      h += std::size_t(step);
-      if (!move.turns) {
-        part += move.reach * std::abs(dot(move.direction, way)), moved += move.reach;
-        continue;
-      }
       const Vec3 from = point - move.point;
-      const double arm = norm(cross(from, move.direction));
-      part += move.reach * (std::abs(dot(from, cross(move.direction, way))) + moved + move.reach * arm / 2);
+      const double arm = move.turns ? norm(cross(from, move.direction)) : 1;
+      parts[move.number] +=
+          move.turns ? move.reach * (std::abs(dot(from, cross(move.direction, way))) + moved + move.reach * arm / 2)
+                     : move.reach * std::abs(dot(move.direction, way));
       moved += move.reach * arm;
     }
   };
-  add(motion.of_a, faces.point_a, way_a, 0, 1);
-  add(motion.of_b, faces.point_b, way_b, hinges_.size() - 1, -1);
+  add(motion.of_a, faces.point_a, way_a);
+  add(motion.of_b, faces.point_b, way_b);
   for (std::size_t f = 0; f < parts.size(); ++f) parts[f] = std::min(parts[f], motion.parts[f]);
   return parts;
 }
@@ -316,8 +306,8 @@ JointChain::Motion JointChain::motion(std::span<const JointReach> reaches, std::
     if (hinges_[h].freedom == kNone) continue;
     by_a[h] = by_b[h] = axis.half;
     const bool is_turning = turns(*hinges_[h].joint);
-    moves_a[h] = {axis.point, axis.direction, axis.half, is_turning};
-    moves_b[h] = {placed(back, axis.point), turned(back, axis.direction), axis.half, is_turning};
+    moves_a[h] = {axis.point, axis.direction, axis.half, is_turning, hinges_[h].freedom};
+    moves_b[h] = {placed(back, axis.point), turned(back, axis.direction), axis.half, is_turning, hinges_[h].freedom};
     if (!is_turning) continue;
     const double angle = std::min(axis.half, 2.0);
     by_a[h] = angle * (largest_distance(of_a, moves_a[h].point, moves_a[h].direction) + slack());

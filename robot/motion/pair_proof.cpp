@@ -16,7 +16,7 @@ namespace {
 /// Ranges of all freedoms, and what is known there.
 struct Cell {
   std::vector<JointRange> box;
-  double distance = 0;                 // in the middle, a lower bound
+  double distance = 0;                 // in the middle, of faces that may meet in the cell
   double share = 1;                    // of all positions
   std::size_t number = 0;              // in the order in which they were made
   std::size_t widest = 0;              // the freedom that can change the distance most

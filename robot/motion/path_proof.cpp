@@ -178,8 +178,9 @@ class PathSearch {
   /// all faces takes longer than halving the piece.
   bool stay_apart(const JointChain::Motion& motion, const Separation& closest) {
     const Vec3 way = closest.point_b - closest.point_a;
-    const bool is_free = stay_apart_across(way, *a_.shape, *b_.shape, motion, options_.gap);
-    if (is_free && !stay_apart_across(way, *a_.shape, *b_.shape, motion, options_.gap + margin())) record_.give_up();
+    const auto are_farther_than = [&](double gap) { return stay_apart_across(way, *a_.shape, *b_.shape, motion, gap); };
+    const bool is_free = are_farther_than(options_.gap);
+    if (is_free && record_.is_kept() && !are_farther_than(options_.gap + margin())) record_.give_up();
     return is_free;
   }
 

@@ -83,8 +83,16 @@ class NearSearch {
       set_direction(rotated(pose_a_, first->way));
       if (measure(a_.tree.boxes()[first->leaf_a], b_.tree.boxes()[first->leaf_b])) return found_;
     }
-    const auto bound = [this](const ObbNode& in_a, const ObbNode& in_b) { return bound_of(in_a, in_b); };
-    const bool is_near = visit_leaves_below(a_.tree, b_.tree, boxes_, gap_, bound, measure);
+    struct Bounded {
+      NodePair nodes;
+      double bound;
+    };
+    const auto bounded = [this](NodePair nodes) {
+      return Bounded{nodes, bound_of(a_.tree.boxes()[nodes.a], b_.tree.boxes()[nodes.b])};
+    };
+    const auto is_nearer = [](const Bounded& one, const Bounded& other) { return one.bound <= other.bound; };
+    const auto may_be_near = [this](const Bounded& at) { return at.bound <= gap_; };
+    const bool is_near = visit_open_leaves(a_.tree, b_.tree, boxes_, bounded, is_nearer, may_be_near, measure);
     if (!is_near && one_is_inside(a_, pose_a_, b_, pose_b_))
       found_ = {last_leaf(a_.tree), last_leaf(b_.tree), {}, {}, {}};
     return found_;

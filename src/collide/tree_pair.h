@@ -46,6 +46,34 @@ bool visit_meeting_leaves(const ObbTree& a, const ObbTree& b, const BoxPair& pai
   return false;
 }
 
+/// measure(leaf of a, leaf of b) for pairs of leaves until it returns true. Returns whether it did. `known(nodes)` has
+/// what is known of a pair of nodes, and the `nodes`. Of the two parts of a pair, one comes first if is_first(one,
+/// other). A pair for which `is_open(known)` is false once its turn comes is left out, with all that is in it.
+template <class Known, class IsFirst, class IsOpen, class Measure>
+bool visit_open_leaves(const ObbTree& a, const ObbTree& b, const BoxPair& pair, Known known, IsFirst is_first,
+                       IsOpen is_open, Measure measure) {
+  const auto boxes_a = a.boxes(), boxes_b = b.boxes();
+  decltype(known(NodePair{})) stack[2 * ObbTree::kMaxDepth + 2];
+  std::uint32_t size = 0;
+  stack[size++] = known(NodePair{0, 0});
+  while (size > 0) {
+    const auto top = stack[--size];
+    if (!is_open(top)) continue;
+    const NodePair at = top.nodes;
+    const ObbNode &in_a = boxes_a[at.a], &in_b = boxes_b[at.b];
+    if (in_a.is_leaf() && in_b.is_leaf()) {
+      if (measure(in_a, in_b)) return true;
+      continue;
+    }
+    const auto [first, second] = split(a, b, pair, at);
+    const auto one = known(first), other = known(second);
+    const bool one_is_first = is_first(one, other);
+    stack[size++] = one_is_first ? other : one;
+    stack[size++] = one_is_first ? one : other;
+  }
+  return false;
+}
+
 /// measure(leaf of a, leaf of b) for the pairs of leaves whose distance may be less than `best`, which it may lessen;
 /// near ones first, until it returns true. Returns whether it did.
 template <class Measure>
@@ -56,66 +84,19 @@ bool visit_near_leaves(const ObbTree& a, const ObbTree& b, const BoxPair& pair, 
     double bound;
     Float4 direction;
   };
-  const auto boxes_a = a.boxes(), boxes_b = b.boxes();
   const auto near = [&](NodePair nodes) {
-    return Near{nodes, pair.distance_bound(boxes_a[nodes.a], boxes_b[nodes.b], direction), direction};
+    return Near{nodes, pair.distance_bound(a.boxes()[nodes.a], b.boxes()[nodes.b], direction), direction};
   };
   const auto may_be_near = [&](const Near& at) {
     if (at.bound >= best) return false;
     const bool has_changed = mask(at.direction != direction) != 0;  // it may be better now
     return !has_changed || near(at.nodes).bound < best;
   };
-  Near stack[2 * ObbTree::kMaxDepth + 2];
-  std::uint32_t size = 0;
-  stack[size++] = near({0, 0});
-  while (size > 0) {
-    const Near top = stack[--size];
-    if (!may_be_near(top)) continue;
-    const NodePair at = top.nodes;
-    const ObbNode &in_a = boxes_a[at.a], &in_b = boxes_b[at.b];
-    if (in_a.is_leaf() && in_b.is_leaf()) {
-      if (measure(in_a, in_b)) return true;
-      continue;
-    }
-    const auto [first, second] = split(a, b, pair, at);
-    const Near one = near(first), other = near(second);
-    const bool one_is_nearer = one.bound != other.bound ? one.bound < other.bound
-                                                        : pair.nearness(boxes_a[first.a], boxes_b[first.b]) <=
-                                                              pair.nearness(boxes_a[second.a], boxes_b[second.b]);
-    stack[size++] = one_is_nearer ? other : one;
-    stack[size++] = one_is_nearer ? one : other;
-  }
-  return false;
-}
-
-/// measure(leaf of a, leaf of b) for the pairs of leaves of which bound(nodes) is at most `gap`, near ones first, until
-/// it returns true. Returns whether it did. What is in a pair has no lower bound than the pair.
-template <class Bound, class Measure>
-bool visit_leaves_below(const ObbTree& a, const ObbTree& b, const BoxPair& pair, double gap, Bound bound,
-                        Measure measure) {
-  struct Bounded {
-    NodePair nodes;
-    double bound;
+  const auto nearness = [&](NodePair nodes) { return pair.nearness(a.boxes()[nodes.a], b.boxes()[nodes.b]); };
+  const auto is_nearer = [&](const Near& one, const Near& other) {
+    return one.bound != other.bound ? one.bound < other.bound : nearness(one.nodes) <= nearness(other.nodes);
   };
-  const auto bounded = [&](NodePair nodes) { return Bounded{nodes, bound(a.boxes()[nodes.a], b.boxes()[nodes.b])}; };
-  Bounded stack[2 * ObbTree::kMaxDepth + 2];
-  std::uint32_t size = 0;
-  stack[size++] = bounded({0, 0});
-  while (size > 0) {
-    const NodePair at = stack[--size].nodes;
-    if (stack[size].bound > gap) continue;
-    const ObbNode &in_a = a.boxes()[at.a], &in_b = b.boxes()[at.b];
-    if (in_a.is_leaf() && in_b.is_leaf()) {
-      if (measure(in_a, in_b)) return true;
-      continue;
-    }
-    const auto [first, second] = split(a, b, pair, at);
-    const Bounded one = bounded(first), other = bounded(second);
-    const bool one_is_nearer = one.bound <= other.bound;
-    stack[size++] = one_is_nearer ? other : one;
-    stack[size++] = one_is_nearer ? one : other;
-  }
-  return false;
+  return visit_open_leaves(a, b, pair, near, is_nearer, may_be_near, measure);
 }
 
 }  // namespace prohull

@@ -17,6 +17,7 @@ struct JointMove {
   Vec3 direction;  ///< of length 1
   double reach = 0;
   bool turns = true;
+  std::size_t number = 0;  ///< the caller's own
 };
 
 /// How points of a mesh may move. All is in the frame of the mesh.
