@@ -23,7 +23,7 @@ class AskedMesh {
 
   std::size_t face_count() const { return faces_; }
   Box box() const;
-  /// The same of a mesh that is not closed: nothing. Not once index has been called.
+  /// The components that are inside out; none if the mesh is not closed. It must be asked before the index is made.
   InsideOut inside_out() const;
 
   /// The mesh or hull goes into the index. What `make` throws then names the file.

@@ -10,6 +10,7 @@
 
 #include "prohull/detail/missing_file.h"
 #include "prohull/error.h"
+#include "robot/files/mesh_references.h"
 #include "robot/files/mjcf.h"
 #include "robot/files/mjcf_include.h"
 #include "robot/files/packages.h"
@@ -45,16 +46,11 @@ constexpr std::array<Format, 3> kFormats{
   throw InputError(defect, fmt::format("{}: {}", path.string(), why));
 }
 
-std::string lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  return text;
-}
-
 bool is_usd(const fs::path& path, std::string_view text) {
   constexpr std::array<std::string_view, 3> kMagics{"#usda", "PXR-USDC", "PK\x03\x04"};
   constexpr std::array<std::string_view, 4> kSuffixes{".usd", ".usda", ".usdc", ".usdz"};
   return std::ranges::any_of(kMagics, [&](std::string_view magic) { return text.starts_with(magic); }) ||
-         std::ranges::find(kSuffixes, lower_case(path.extension().string())) != kSuffixes.end();
+         std::ranges::find(kSuffixes, lower_suffix(path)) != kSuffixes.end();
 }
 
 /// Whether it may be XML: it begins with "<", or is UTF-16.

@@ -16,7 +16,7 @@ double cubed(double x) { return x * x * x; }
 double finite(double volume) { return std::isfinite(volume) ? volume : std::numeric_limits<double>::max(); }
 
 // The star has size 1 around the origin: nothing beyond is a shape that the guards would let pass.
-constexpr double kReach = 8;
+constexpr double kStarReach = 8;
 
 // Calls use(a, b, c) for the corners of each face of the star until one call returns false.
 template <class Use>
@@ -59,7 +59,7 @@ std::optional<Placement> place_outside(const Star& star, double margin) {
     constraints.push_back({star.planes[i].normal, star.planes[i].offset + margin});
     objective += star.planes[i].normal * star.double_areas[i];
   }
-  const auto best = optimum_or_nearest(objective, constraints, kReach);
+  const auto best = optimum_or_nearest(objective, constraints, kStarReach);
   if (!best) return std::nullopt;
   return Placement{*best, std::max(0.0, added_volume(star, *best))};
 }
@@ -81,7 +81,7 @@ std::optional<Placement> place_outside(const Star& star, double margin, const St
   Vec3 along;
   along[axis] = 1;
   constraints.push_back({along, 0});
-  auto best = optimum_or_nearest(objective, constraints, kReach);
+  auto best = optimum_or_nearest(objective, constraints, kStarReach);
   if (!best) return std::nullopt;
   (*best)[axis] = plane.coordinate;
   return Placement{*best, std::max(0.0, added_volume(star, *best, plane.weights))};

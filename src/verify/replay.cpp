@@ -155,7 +155,8 @@ bool has_triangles_of(const Replay& replay, const TriangleMesh& original) {
 
 bool is_well_formed(const ProgressiveHull& hull) {
   return hull.positions().size() == hull.original_vertex_count() + hull.splits().size() &&
-         hull.base_corners().size() % 3 == 0 && std::ranges::all_of(hull.positions(), is_finite) &&
+         hull.base_corners().size() % 3 == 0 &&
+         std::ranges::all_of(hull.positions(), [](const Vec3& p) { return is_finite(p); }) &&
          std::ranges::all_of(hull.base_corners(), [&](VertexId v) {
            return v == ProgressiveHull::kAbsent || index(v) < hull.positions().size();
          });
