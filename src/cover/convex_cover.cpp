@@ -42,6 +42,9 @@ constexpr std::size_t kWideSearchFaces = 800;
 /// between them. Coarse ones close large openings.
 constexpr double kWrapNodes = 128, kFewestWrapNodes = 16;
 constexpr double kSearchTolerance = 1e-6;
+/// Where there is no bound to keep, a search that leaves so little void is the last: with 8 pieces of 30 links and
+/// models, further ones gained 0.04 % of the volume, and took as long again.
+constexpr double kLittleVoid = 0.03;
 /// How near a corner is to a plane that counts as on it, of the diagonal: the first is no more than rounding; each
 /// further one is tried where the proof of the cover fails.
 constexpr double kTolerances[]{1e-9, 1e-6, 1e-4};
@@ -228,20 +231,24 @@ class Covering {
   }
 
   /// Collapses leave all components of a mesh, so that a hull of few faces around them is large where they overlap. A
-  /// hull of a wrap has one, but no sharp edges. Both are searched, if either is coarser than the mesh.
+  /// hull of a wrap has one, but no sharp edges. Both are searched, if either is coarser than the mesh, and the first
+  /// cover leaves more than little void.
   ConvexCover cover_of_closed_mesh() {
     constexpr std::size_t kFewest = 4;  // faces of a component
     const TriangleMesh& mesh = prepared_.closed->mesh;
     const std::size_t components = mesh.face_count() > kSearchFaces ? inspect(mesh).components : 1;
     std::optional<ConvexCover> cover;
     if (kFewest * components <= kSearchFaces) cover = best_cover(measurable(of_closed_mesh(mesh)));
-    if (components > 1) {
+    if (components > 1 && !(cover && cover->void_ratio < little_void())) {
       const double spacing = bounding_box(mesh).diagonal() / kWrapNodes;
       ConvexCover joined = best_cover(measurable(of_closed_mesh(wrap_around(mesh, spacing, options_.progress).mesh)));
       if (!cover || is_better(joined, *cover)) cover = std::move(joined);
     }
     return std::move(*cover);
   }
+
+  /// With bounds, a search that leaves more may need fewer pieces for them.
+  double little_void() const { return options_.bounds.any() ? 0 : kLittleVoid; }
 
   bool is_better(const ConvexCover& a, const ConvexCover& b) const {
     const auto rank = [&](const ConvexCover& cover) {
@@ -342,7 +349,7 @@ class Covering {
     const Frame frame(bounding_box(material.coarse));
     const auto solid = [&](const TriangleMesh& mesh) { return search_solid(mesh, material, frame); };
     return arena_of(options_.threads).execute([&] {
-      return CutSearch(solid(material.coarse), solid(material.coarser), options_.max_pieces, meter);
+      return CutSearch(solid(material.coarse), solid(material.coarser), options_.max_pieces, little_void(), meter);
     });
   }
 

@@ -30,6 +30,8 @@ constexpr Effort kNarrow{15, 3, 1}, kWide{7, 8, 2};
 constexpr std::size_t kWideLeaves = 8;
 /// For more pieces the wide search takes too long for what it saves.
 constexpr std::size_t kMostPiecesOfWide = 24;
+/// With less than this the pieces fill the solid, and fewer of them might.
+constexpr double kNoVoid = 1e-6;
 /// A cut that saves less, of the volume of the whole convex hull, is not made.
 constexpr double kLeastGain = 1e-5;
 /// Points of parts, for each cut that is tried or looked ahead: 150,000 for 100 pieces of 4 samples. A mesh of many
@@ -76,10 +78,11 @@ class Cutting {
     if (solid.has_inside()) boundary_ = verify::solid_boundary(solid.surface(), meter);
   }
 
+  /// Negative infinity if it is unknown.
+  double solid_volume() const { return solid_volume(Cell{}); }
+
   CutTree run() {
-    Part all = whole(solid_);
-    const double volume = solid_volume(all);
-    Candidate root = candidate(std::move(all), volume);
+    Candidate root = candidate(whole(solid_), solid_volume());
     least_gain_ = kLeastGain * root.volume;
     add(std::move(root));
     for (std::size_t leaves = 1; leaves < leaves_; ++leaves) {
@@ -113,8 +116,8 @@ class Cutting {
     return {std::move(part), volume, solid_volume, volume - solid_volume + rounding};
   }
 
-  double solid_volume(const Part& part) const {
-    return boundary_ ? volume_within(part.cell, *boundary_) : -std::numeric_limits<double>::infinity();
+  double solid_volume(const Cell& cell) const {
+    return boundary_ ? volume_within(cell, *boundary_) : -std::numeric_limits<double>::infinity();
   }
 
   void add(Candidate candidate) {
@@ -188,7 +191,7 @@ class Cutting {
 
   std::vector<Candidate> sides(const Candidate& whole, const Plane& plane) const {
     auto [below, above] = cut(whole.part, plane, solid_);
-    const double volume = solid_volume(below);
+    const double volume = solid_volume(below.cell);
     const double rest = boundary_ ? whole.solid_volume - volume : volume;
     return {candidate(std::move(below), volume), candidate(std::move(above), rest)};
   }
@@ -444,15 +447,19 @@ class Division {
 
 }  // namespace
 
-CutSearch::CutSearch(Solid solid, const Solid& coarser, std::size_t pieces, ProgressMeter& meter)
+CutSearch::CutSearch(Solid solid, const Solid& coarser, std::size_t pieces, double little_void, ProgressMeter& meter)
     : solid_(std::move(solid)) {
   if (pieces == 1) {
     trees_.push_back({{CutTree::Node{}}});
     return;
   }
   const std::size_t most = pieces + pieces / 4 + 8;  // so that there is a choice of leaves
-  trees_.push_back(Cutting(solid_, most, kNarrow, meter).run());
-  if (pieces <= kMostPiecesOfWide) trees_.push_back(Cutting(coarser, most, kWide, meter).run());
+  Cutting narrow(solid_, most, kNarrow, meter);
+  trees_.push_back(narrow.run());
+  const std::vector<double> volumes = least_volumes(trees_[0]);
+  const double void_ratio = volumes[std::min(pieces, volumes.size() - 1)] / narrow.solid_volume() - 1;
+  const bool is_enough = void_ratio > kNoVoid && void_ratio < little_void;
+  if (pieces <= kMostPiecesOfWide && !is_enough) trees_.push_back(Cutting(coarser, most, kWide, meter).run());
 }
 
 CutTree CutSearch::tree(std::size_t pieces, ProgressMeter& meter) const {

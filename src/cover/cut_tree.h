@@ -26,12 +26,13 @@ struct CutTree {
 /// they save most. More are made than are needed, and the best ones are kept.
 /// Such a search often ends in a poor tree. So there are two: a narrow one tries few cuts, of `solid`, and looks one
 /// cut ahead; a wide one tries many, of `coarser`, and looks two cuts ahead. Then each plane of a tree moves as long as
-/// that makes the volume of all leaves less. The tree of less volume wins. For many pieces only the narrow search runs.
+/// that makes the volume of all leaves less. The tree of less volume wins. For many pieces, and where it leaves little
+/// void, only the narrow search runs.
 class CutSearch {
  public:
   /// For trees of up to so many leaves. `coarser` is a solid of fewer faces around `solid`, or the same. Coordinates
-  /// are of the order of 1.
-  CutSearch(Solid solid, const Solid& coarser, std::size_t pieces, ProgressMeter& meter);
+  /// are of the order of 1. The void, of the solid, counts as little if it is less than `little_void`.
+  CutSearch(Solid solid, const Solid& coarser, std::size_t pieces, double little_void, ProgressMeter& meter);
 
   /// A tree of so many leaves, or of fewer if no cut saves anything worth it.
   CutTree tree(std::size_t pieces, ProgressMeter& meter) const;
