@@ -38,6 +38,7 @@ void add_queues(CLI::App& app, Run& run);
 void add_rays(CLI::App& app, Run& run);
 void add_robots(CLI::App& app, Run& run);
 void add_scale(CLI::App& app, Run& run);
+void add_sweeps(CLI::App& app, Run& run);
 void add_tight(CLI::App& app, Run& run);
 
 // Options that several commands have.

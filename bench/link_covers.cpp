@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,10 +8,7 @@
 #include "machine.h"
 #include "prohull/convex_cover.h"
 #include "prohull/convex_hull.h"
-#include "prohull/error.h"
 #include "prohull/sphere_cover.h"
-#include "robot/files/robot_file.h"
-#include "robot/link_triangles.h"
 #include "sample_robot_files.h"
 #include "table.h"
 
@@ -22,9 +18,7 @@ namespace {
 // Convex pieces and spheres that cover the visual geometry of all links of robots.
 
 struct LinkCoversOptions {
-  std::vector<std::filesystem::path> robots;
-  robot::FileOptions file;
-  std::vector<std::string> samples;
+  LinkSources links;
   std::size_t pieces = 8, balls = 64;
   std::filesystem::path out;
 };
@@ -46,8 +40,8 @@ std::string yes_or_no(bool certified, Tables& tables) {
   return certified ? "yes" : "NO";
 }
 
-void add_link(const std::string& robot, const std::string& link, const TriangleMesh& mesh,
-              const LinkCoversOptions& options, Tables& tables) {
+void add_link(const VisualLink& link, const LinkCoversOptions& options, Tables& tables) {
+  const TriangleMesh& mesh = link.mesh;
   ConvexCover pieces;
   const double pieces_seconds =
       elapsed_seconds_of([&] { pieces = convex_cover(mesh, {.max_pieces = options.pieces}); });
@@ -61,7 +55,7 @@ void add_link(const std::string& robot, const std::string& link, const TriangleM
   const bool has_ratio = convex_excess > 0.01;  // of nearly convex links, and of parts that overlap, it means nothing
   if (has_ratio) tables.by_convex.push_back(excess / convex_excess);
   tables.spheres_reach.push_back(percent * spheres.reach.upper);
-  tables.links.add({as_cell(robot), as_cell(link), fmt::to_string(mesh.face_count()),
+  tables.links.add({as_cell(link.robot), as_cell(link.name), fmt::to_string(mesh.face_count()),
                     fmt::to_string(pieces.pieces.size()), number(excess, 3), number(convex_excess, 3),
                     has_ratio ? number(excess / convex_excess, 3) : "", number(percent * pieces.reach.upper, 3),
                     yes_or_no(pieces.certified, tables), number(pieces_seconds, 2),
@@ -69,28 +63,9 @@ void add_link(const std::string& robot, const std::string& link, const TriangleM
                     yes_or_no(spheres.certified, tables), number(spheres_seconds, 2)});
 }
 
-/// Nothing if it has none, or if a mesh file is not there.
-std::optional<TriangleMesh> visual_mesh(const robot::Link& link) try {
-  TriangleMesh mesh = robot::link_triangles(link.visual, {});
-  if (mesh.face_count() == 0) return std::nullopt;
-  return mesh;
-} catch (const InputError& error) {
-  fmt::print(stderr, "{}: left out, {}\n", link.name, error.what());
-  return std::nullopt;
-}
-
-void measure(const std::filesystem::path& path, const LinkCoversOptions& options, Tables& tables) {
-  const robot::RobotFile file = robot::read_robot(path, options.file);
-  for (const robot::Link& link : file.robot.links)
-    if (const auto mesh = visual_mesh(link)) add_link(path.stem().string(), link.name, *mesh, options, tables);
-}
-
 int run_link_covers(const LinkCoversOptions& options) {
-  const WorkFolder folder;
-  std::vector<std::filesystem::path> robots = options.robots;
-  for (const std::string& sample : options.samples) robots.push_back(sample_robot_in(folder.get(), sample));
   Tables tables;
-  for (const std::filesystem::path& robot : robots) measure(robot, options, tables);
+  visit_visual_links(options.links, [&](const VisualLink& link) { add_link(link, options, tables); });
   publish(options.out, "link_covers",
           fmt::format(
               "At most {} convex pieces, and at most {} spheres, of each link. {}\n\n{}\n"
@@ -107,10 +82,7 @@ int run_link_covers(const LinkCoversOptions& options) {
 void add_link_covers(CLI::App& app, Run& run) {
   const auto options = std::make_shared<LinkCoversOptions>();
   CLI::App& command = *app.add_subcommand("link-covers", "Convex pieces and spheres of all links of robots");
-  command.add_option("--robot", options->robots, "URDF, SDF or MJCF file; may be given several times")
-      ->check(CLI::ExistingFile);
-  command.add_option("--package-path", options->file.package_paths, "Folder of packages; may be given several times");
-  command.add_option("--sample", options->samples, "Bundled robot; may be given several times");
+  add_link_options(command, options->links);
   command.add_option("--pieces", options->pieces, "Number of convex pieces")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   add_covers(app, run);
   add_link_covers(app, run);
   add_scale(app, run);
+  add_sweeps(app, run);
   add_tight(app, run);
   add_corpus(app, run);
   add_motion(app, run);

@@ -78,15 +78,16 @@ struct SpherePart {
 
   Vec3 at(const Vec3& direction) const { return ball.center + direction * (ball.radius / norm(direction)); }
   Vec3 center() const { return at(directions[0] + directions[1] + directions[2]); }
-  /// The triangle between the directions, and the same moved outwards until the sphere is beneath it.
+  /// The triangle between the directions, and the same moved outwards until the sphere is beneath it: a point between
+  /// directions whose cosines with their middle are at least c is no nearer to the centre than c.
   std::array<Vec3, 6> hull() const {
-    const auto& [a, b, c] = directions;
-    const Vec3 n = cross(b - a, c - a);
-    const double outwards = norm(n) / dot(n, a);
+    const Vec3 sum = directions[0] + directions[1] + directions[2];
+    double cosine = 1;
+    for (const Vec3& direction : directions) cosine = std::min(cosine, dot(direction, sum) / norm(sum));
     std::array<Vec3, 6> corners;
     for (int i = 0; i < 3; ++i) {
       corners[i] = ball.center + directions[i] * ball.radius;
-      corners[i + 3] = ball.center + directions[i] * (ball.radius * outwards);
+      corners[i + 3] = ball.center + directions[i] * (ball.radius / cosine);
     }
     return corners;
   }
