@@ -1,6 +1,7 @@
 #include "cover/depth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -21,21 +22,50 @@ Vec3 of_length_1(const Vec3& v) {
   return length > 0 ? v / length : Vec3{};
 }
 
+/// Of length 1, or 0. `unit` is near the size of the triangle.
+Vec3 normal_of(const Triangle& t, double unit) {
+  return of_length_1(cross((t.b - t.a) / unit, (t.c - t.a) / unit));
+}
+
+double unit_of(const TriangleMesh& mesh) {
+  return std::ldexp(1.0, std::ilogb(std::max(bounding_box(mesh).diagonal(), 1e-300)));
+}
+
+/// The faces that do not lie within the solid, as where parts overlap, by some points of them.
+TriangleMesh outer_faces(TriangleMesh solid) {
+  constexpr double kBeside = 1e-6;      // a face
+  constexpr double kFromMiddle = 0.95;  // towards the corners
+  const double unit = unit_of(solid);
+  MeshQuery query{QueryIndex(solid)};
+  PerFace<std::array<VertexId, 3>> outer;
+  for (const FaceId f : solid.triangles.ids()) {
+    const Triangle t = solid.triangle(f);
+    const Vec3 middle = t.a / 3 + t.b / 3 + t.c / 3;
+    const Vec3 beside = normal_of(t, unit) * (kBeside * unit);
+    const bool is_inner = std::ranges::all_of(std::array{middle, t.a, t.b, t.c}, [&](const Vec3& p) {
+      return query.contains(middle + (p - middle) * kFromMiddle + beside);
+    });
+    if (!is_inner) outer.push_back(solid.triangles[f]);
+  }
+  if (!outer.empty()) solid.triangles = std::move(outer);
+  return solid;
+}
+
 }  // namespace
 
-Depth::Depth(TriangleMesh solid, double slack, TriangleMesh sheets)
-    : solid_(std::move(solid)),
+Depth::Depth(const TriangleMesh& solid, double slack, TriangleMesh sheets)
+    : faces_(outer_faces(solid)),
       slack_(slack),
-      unit_(std::ldexp(1.0, std::ilogb(std::max(bounding_box(solid_).diagonal(), 1e-300)))),
-      query_(queries_of(solid_)) {
+      unit_(unit_of(solid)),
+      inside_(queries_of(solid)),
+      surface_(queries_of(faces_)) {
   // A foot is a corner plus a point of the face seen from there: each is rounded by a few 2^-53 of the coordinates.
-  foot_error_ = 0x1p-46 * largest_coordinate(bounding_box(solid_)) + 0x1p-500;
+  foot_error_ = 0x1p-46 * largest_coordinate(bounding_box(faces_)) + 0x1p-500;
   if (sheets.face_count() > 0) sheets_ = queries_of(std::move(sheets));
 }
 
 Place Depth::at(const Vec3& p) const {
-  MeshQuery& query = query_.local();
-  return place(p, *query.closest_point(p), query.contains(p));
+  return place(p, *surface_.local().closest_point(p), is_inside(p));
 }
 
 Place Depth::place(const Vec3& p, const ClosestPoint& surface, bool is_inside) const {
@@ -47,7 +77,12 @@ Place Depth::place(const Vec3& p, const ClosestPoint& surface, bool is_inside) c
   return found;
 }
 
-double Depth::in_solid(const Vec3& p) const { return -query_.local().signed_distance(p).upper; }
+bool Depth::is_inside(const Vec3& p) const { return inside_.local().contains(p); }
+
+double Depth::in_solid(const Vec3& p) const {
+  const ClosestPoint surface = *surface_.local().closest_point(p);
+  return is_inside(p) ? surface.lower : -surface.upper;
+}
 
 double Depth::most_at(const Vec3& p, std::span<const Vec3> feet) const {
   double least = std::numeric_limits<double>::infinity();
@@ -56,17 +91,12 @@ double Depth::most_at(const Vec3& p, std::span<const Vec3> feet) const {
   return sheets_ ? std::max(most, 0.0) : most;
 }
 
-Vec3 Depth::normal_of(FaceId face) const {
-  const Triangle t = solid_.triangle(face);
-  return of_length_1(cross((t.b - t.a) / unit_, (t.c - t.a) / unit_));
-}
-
 // The ball that touches the surface at one point shrinks until no other point of the surface is in it (Ma, Bae, Choi
 // 2012, 3D medial axis point approximation).
 std::optional<Place> Depth::medial_place(const Vec3& p, double tolerance) const {
-  MeshQuery& query = query_.local();
+  MeshQuery& query = surface_.local();
   const ClosestPoint foot = *query.closest_point(p);
-  const Vec3 normal = normal_of(foot.face), touched = foot.position;
+  const Vec3 normal = normal_of(faces_.triangle(foot.face), unit_), touched = foot.position;
   if (normal == Vec3{}) return std::nullopt;
   const auto across_solid = query.first_hit(Ray{touched - normal * (tolerance / 16), -normal * unit_});
   if (!across_solid || across_solid->entering) return std::nullopt;
@@ -76,12 +106,12 @@ std::optional<Place> Depth::medial_place(const Vec3& p, double tolerance) const 
     const Vec3 center = touched - normal * radius;
     const ClosestPoint found = *query.closest_point(center);
     const bool is_empty = found.upper > std::max(radius - tolerance, 0.0);
-    if (is_empty) return query.contains(center) ? std::optional(place(center, found, true)) : std::nullopt;
+    if (is_empty) return is_inside(center) ? std::optional(place(center, found, true)) : std::nullopt;
     const Vec3 across = touched - found.position;
     const double rise = dot(normal, across);
     if (!(rise > 0)) return std::nullopt;
     const double next = squared_norm(across) / (2 * rise);
-    if (!(next < radius)) return place(center, found, query.contains(center));
+    if (!(next < radius)) return place(center, found, is_inside(center));
     radius = next;
   }
   return std::nullopt;

@@ -23,7 +23,7 @@ class Depth {
  public:
   /// `solid` is closed, and no point of its surface is farther than `slack` from the triangles that balls are to be
   /// near. `sheets` are triangles of these that `solid` does not have; they may be none.
-  Depth(TriangleMesh solid, double slack, TriangleMesh sheets);
+  Depth(const TriangleMesh& solid, double slack, TriangleMesh sheets);
 
   /// The depth is negative outside.
   Place at(const Vec3& p) const;
@@ -40,13 +40,14 @@ class Depth {
 
  private:
   Place place(const Vec3& p, const ClosestPoint& surface, bool is_inside) const;
-  Vec3 normal_of(FaceId face) const;
+  bool is_inside(const Vec3& p) const;
 
-  TriangleMesh solid_;
+  TriangleMesh faces_;   ///< of the solid's surface
   double slack_, unit_;  ///< a power of two near the solid's size
   double foot_error_;    ///< of a foot from the surface
-  mutable oneapi::tbb::enumerable_thread_specific<MeshQuery> query_;
-  mutable std::optional<oneapi::tbb::enumerable_thread_specific<MeshQuery>> sheets_;
+  using Queries = oneapi::tbb::enumerable_thread_specific<MeshQuery>;
+  mutable Queries inside_, surface_;
+  mutable std::optional<Queries> sheets_;
 };
 
 }  // namespace prohull::cover

@@ -15,7 +15,11 @@ int turn_of_moved(const Vec3& a, const Vec3& b, const Vec3& p) {
 
 }  // namespace
 
-WindingNumber::WindingNumber(std::vector<Triangle> triangles) : triangles_(std::move(triangles)), bvh_(triangles_) {}
+// All points are in the plane of a triangle without area, which winds around none. Its points are on edges of others.
+WindingNumber::WindingNumber(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
+  std::erase_if(triangles_, [](const Triangle& t) { return !projection_axis(t); });
+  bvh_ = Bvh(triangles_);
+}
 
 std::optional<int> WindingNumber::at(const Vec3& p) const {
   int winding = 0;
