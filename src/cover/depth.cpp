@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/largest_coordinate.h"
+#include "verify/solid_volume.h"
 
 namespace prohull::cover {
 namespace {
@@ -23,38 +24,31 @@ Vec3 of_length_1(const Vec3& v) {
 }
 
 /// Of length 1, or 0. `unit` is near the size of the triangle.
-Vec3 normal_of(const Triangle& t, double unit) {
-  return of_length_1(cross((t.b - t.a) / unit, (t.c - t.a) / unit));
-}
+Vec3 normal_of(const Triangle& t, double unit) { return of_length_1(cross((t.b - t.a) / unit, (t.c - t.a) / unit)); }
 
 double unit_of(const TriangleMesh& mesh) {
   return std::ldexp(1.0, std::ilogb(std::max(bounding_box(mesh).diagonal(), 1e-300)));
 }
 
-/// The faces that do not lie within the solid, as where parts overlap, by some points of them.
-TriangleMesh outer_faces(TriangleMesh solid) {
-  constexpr double kBeside = 1e-6;      // a face
-  constexpr double kFromMiddle = 0.95;  // towards the corners
-  const double unit = unit_of(solid);
-  MeshQuery query{QueryIndex(solid)};
-  PerFace<std::array<VertexId, 3>> outer;
-  for (const FaceId f : solid.triangles.ids()) {
-    const Triangle t = solid.triangle(f);
-    const Vec3 middle = t.a / 3 + t.b / 3 + t.c / 3;
-    const Vec3 beside = normal_of(t, unit) * (kBeside * unit);
-    const bool is_inner = std::ranges::all_of(std::array{middle, t.a, t.b, t.c}, [&](const Vec3& p) {
-      return query.contains(middle + (p - middle) * kFromMiddle + beside);
-    });
-    if (!is_inner) outer.push_back(solid.triangles[f]);
+/// What faces have within the solid, as where parts overlap, is no part of it.
+TriangleMesh surface_of(const TriangleMesh& solid, ProgressMeter& meter) {
+  const auto boundary = verify::solid_boundary(solid, meter);
+  if (!boundary) return solid;
+  TriangleMesh surface;
+  for (const auto& [t, times] : *boundary) {
+    if (times <= 0) continue;
+    std::array<VertexId, 3> corners;
+    std::ranges::transform(std::array{t.a, t.b, t.c}, corners.begin(),
+                           [&](const Vec3& p) { return surface.positions.push_back(p); });
+    surface.triangles.push_back(corners);
   }
-  if (!outer.empty()) solid.triangles = std::move(outer);
-  return solid;
+  return surface.face_count() > 0 ? surface : solid;
 }
 
 }  // namespace
 
-Depth::Depth(const TriangleMesh& solid, double slack, TriangleMesh sheets)
-    : faces_(outer_faces(solid)),
+Depth::Depth(const TriangleMesh& solid, double slack, TriangleMesh sheets, ProgressMeter& meter)
+    : faces_(surface_of(solid, meter)),
       slack_(slack),
       unit_(unit_of(solid)),
       inside_(queries_of(solid)),
@@ -64,9 +58,7 @@ Depth::Depth(const TriangleMesh& solid, double slack, TriangleMesh sheets)
   if (sheets.face_count() > 0) sheets_ = queries_of(std::move(sheets));
 }
 
-Place Depth::at(const Vec3& p) const {
-  return place(p, *surface_.local().closest_point(p), is_inside(p));
-}
+Place Depth::at(const Vec3& p) const { return place(p, *surface_.local().closest_point(p), is_inside(p)); }
 
 Place Depth::place(const Vec3& p, const ClosestPoint& surface, bool is_inside) const {
   const Vec3 away = of_length_1(p - surface.position);

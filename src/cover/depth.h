@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "prohull/detail/progress_meter.h"
 #include "prohull/mesh_query.h"
 #include "prohull/triangle_mesh.h"
 
@@ -23,7 +24,7 @@ class Depth {
  public:
   /// `solid` is closed, and no point of its surface is farther than `slack` from the triangles that balls are to be
   /// near. `sheets` are triangles of these that `solid` does not have; they may be none.
-  Depth(const TriangleMesh& solid, double slack, TriangleMesh sheets);
+  Depth(const TriangleMesh& solid, double slack, TriangleMesh sheets, ProgressMeter& meter);
 
   /// The depth is negative outside.
   Place at(const Vec3& p) const;

@@ -96,7 +96,8 @@ class SphereCoverer {
     to_cover_ = input_.original;
     if (options_.fill) append(to_cover_, solid_);
     box_ = bounding_box(to_cover_);
-    depth_.emplace(solid_, slack_, std::move(sheets));
+    ProgressMeter meter(options_.progress, "spheres");
+    depth_.emplace(solid_, slack_, std::move(sheets), meter);
   }
 
   /// Of triangles that bound no solid: a wrap, which closes what is open.
