@@ -287,6 +287,14 @@ void print_limits(const ConvexOptions& options, const Outcome& outcome) {
       described_limit(outcome.largest.polygons, "polygons", rules.polygons));
 }
 
+/// What keeps the pieces from the bounds.
+std::string what_to_allow(const ConvexOptions& options, const ConvexCover& cover) {
+  const bool has_full = std::ranges::any_of(
+      cover.pieces, [&](const ConvexPiece& piece) { return piece.mesh.vertex_count() == options.cover.max_vertices; });
+  return fmt::format("{}{}", cover.pieces.size() == options.cover.max_pieces ? "more --pieces, or " : "",
+                     has_full ? fmt::format("more than {} --vertices, or ", options.cover.max_vertices) : "");
+}
+
 void print_summary(const ConvexOptions& options, const PieceFiles& files, const Outcome& outcome) {
   const ConvexCover& cover = outcome.cover;
   say("{}: {}, {}\n", input_name(options.in), counted(outcome.input.faces, "face"),
@@ -311,7 +319,8 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
   if (in_shape < cover.pieces.size())
     say("  {} of {} pieces have the shape asked for; no more were found to keep the bounds\n", in_shape,
         cover.pieces.size());
-  if (!cover.within_bounds) say("  NOT within the bounds asked for; allow more --pieces, or larger bounds\n");
+  if (!cover.within_bounds)
+    say("  NOT within the bounds asked for; allow {}larger bounds\n", what_to_allow(options, cover));
   if (outcome.certified && !options.certificate.empty())
     print_certificate(options.certificate, outcome.certificate, files.meshes(cover.pieces), options.in);
   if (!outcome.others.empty())

@@ -18,12 +18,17 @@ constexpr double kSlack = 0.01;
 
 TriangleMesh sheet() { return make({{1, 1, 0}, {3, 1, 0}, {1, 3, 1}}, {{0, 1, 2}}); }
 
+ProgressMeter& no_meter() {
+  static ProgressMeter meter({}, "test");
+  return meter;
+}
+
 /// Of a solid with a hole, alone, in place of other triangles, and with a sheet beside it.
 std::list<Depth> depths(const TriangleMesh& solid) {
   std::list<Depth> made;
-  made.emplace_back(solid, 0, TriangleMesh{});
-  made.emplace_back(solid, kSlack, TriangleMesh{});
-  made.emplace_back(solid, kSlack, sheet());
+  made.emplace_back(solid, 0, TriangleMesh{}, no_meter());
+  made.emplace_back(solid, kSlack, TriangleMesh{}, no_meter());
+  made.emplace_back(solid, kSlack, sheet(), no_meter());
   return made;
 }
 
@@ -62,7 +67,7 @@ TEST(Depth, IsNoGreaterThanItsBoundByTheFeetOfOtherPlaces) {
 // A place near another is ruled out by that one's foot, without a search.
 TEST(Depth, IsBoundedClosely) {
   const TriangleMesh solid = sphere(3);
-  const Depth depth(solid, kSlack, {});
+  const Depth depth(solid, kSlack, {}, no_meter());
   for (const Vec3& p : points_around(solid, 100)) {
     const Place place = depth.at(p);
     if (place.depth <= 0) continue;
@@ -88,6 +93,12 @@ TEST(Depth, OfAMedialPlaceIsThatOfItsCenter) {
     }
     EXPECT_GT(found, int(solid.face_count()) / 2);
   }
+}
+
+TEST(Depth, SeesNoFacesWithinTheSolid) {
+  const TriangleMesh crossing = together(box({0, 0, 0}, {4, 2, 2}), box({3, 0, 0}, {8, 2, 2}));
+  const Depth depth(crossing, 0, {}, no_meter());
+  for (const double x : {2.0, 3.0, 3.5, 4.0, 6.0}) EXPECT_NEAR(depth.at({x, 1, 1}).depth, 1, 1e-12) << x;
 }
 
 }  // namespace

@@ -120,6 +120,21 @@ TEST(SphereCover, MoreBallsReachOutLess) {
   }
 }
 
+// Two tetrahedra that share a face: it is in the solid, and repairs leave triangles without area in it.
+TEST(SphereCover, OfTetrahedraWithAFaceInCommonReachesOutLittle) {
+  const TriangleMesh joined =
+      meshes::make({{1, 0, 0}, {-0.5, 0.8660254, 0}, {-0.5, -0.8660254, 0}, {0, 0, 1}, {0, 0, -1}},
+                   {{3, 0, 1}, {3, 1, 2}, {3, 2, 0}, {2, 1, 0}, {4, 1, 0}, {4, 2, 1}, {4, 0, 2}, {2, 0, 1}});
+  double before = kInfinity;
+  for (const std::size_t count : {8, 16, 32, 64}) {
+    const SphereCover cover = sphere_cover(joined, {.max_balls = count});
+    expect_covers(cover, joined);
+    EXPECT_LT(cover.reach.upper, before);
+    EXPECT_LT(cover.reach.upper, 1.1 * cover.reach.lower);
+    before = cover.reach.upper;
+  }
+}
+
 TEST(SphereCover, KeepsADistanceWithFewBalls) {
   const TriangleMesh mesh = make_sample("bracket", 500);
   const double distance = 0.08 * diagonal(mesh);

@@ -49,6 +49,15 @@ TEST(WindingNumber, OfABoxWhoseSidesAreParallelToTheRay) {
       }
 }
 
+// All points are in the plane of such a triangle, and many are in its box.
+TEST(WindingNumber, IsKnownBesideTrianglesWithoutArea) {
+  std::vector<Triangle> faces = triangles_of(box({0, 0, 0}, {4, 4, 4}));
+  faces.push_back({{0, 0, 0}, {4, 4, 4}, {0, 0, 0}}), faces.push_back({{0, 0, 0}, {2, 2, 2}, {4, 4, 4}});
+  const WindingNumber winding(faces);
+  EXPECT_EQ(winding.at({1, 2, 3}), 1);
+  EXPECT_EQ(winding.at({-1, 2, 3}), 0);
+}
+
 TEST(WindingNumber, CountsCoversCavitiesAndTurnedMeshes) {
   const TriangleMesh big = box({0, 0, 0}, {4, 4, 4}), small = box({1, 1, 1}, {3, 3, 3});
   const Vec3 middle{2, 2, 2}, wall{0.5, 0.5, 0.5}, beside{5, 2, 2};
