@@ -130,6 +130,11 @@ double MeshUnit::number_of(const Length& length, const std::string& what) const 
         fmt::format("{} {:g}{}: {}, or say a number in the mesh's unit", what, length.number, length.unit,
                     scale_ != 1 ? "with --scale, the unit of " + name_ + " is not known; use --unit instead"
                                 : name_ + " does not say its unit; add --unit mm (lengths are then in metres)"));
+  if (length.unit == "%" && length.number > 0 && diagonal_ == 0)
+    throw InputError(Defect::EmptyMesh,
+                     fmt::format("{}: {} is a share of the mesh's diagonal, but the mesh has no faces, "
+                                 "or all its points are the same",
+                                 name_, what));
   return length.needs_metres() ? length.of(diagonal_) / metres_ : length.of(diagonal_);
 }
 

@@ -52,6 +52,8 @@ says err "a mesh format" "spheres are not written to .stl files; name the file .
 expect 2 "no format" $spheres -o -
 expect 2 "no spheres" $prohull spheres bracket.stl --count 0 -o none.yaml
 says err "no spheres" "--count must be between 1 and 100,000"
+printf 'OFF\n0 0 0\n' >empty.off
+expect 3 "a share of nothing" $prohull spheres empty.off --max-distance 1% -o none.yaml
 expect 2 "a negative distance" $spheres --max-distance -1 -o none.yaml
 expect 2 "a distance that is no number" $spheres --max-distance nan -o none.yaml
 expect 2 "the input as output" $prohull spheres bracket.stl -o none.yaml --report bracket.stl
