@@ -8,6 +8,7 @@
 #include "machine.h"
 #include "motion_attack.h"
 #include "robot/motion/bodies.h"
+#include "robot/motion/joint_chain.h"
 #include "robot/motion/joint_paths.h"
 #include "robot/motion/pair_proof.h"
 #include "robot/motion/path_proof.h"
@@ -27,6 +28,7 @@ struct MotionBenchOptions {
   std::vector<path> robots;
   robot::FileOptions file;
   std::vector<std::string> samples;
+  double beside = 0;
   std::size_t faces = 500;
   ProofOptions proof;
   std::size_t paths = 50;
@@ -136,14 +138,33 @@ void measure_paths(const std::string& name, const Robot& robot, const Bodies& bo
                     std::to_string(free), number(median(cells), 0), number(median(times), 4)});
 }
 
+/// The robot, and a copy of it beside it on one root: such as two arms on a table. Their names end in 1 and 2.
+Robot two_of(const Robot& one, double apart) {
+  Robot both{.name = one.name + "_twice", .links = {{.name = "table"}}};
+  for (std::size_t copy = 0; copy < 2; ++copy) {
+    const std::size_t first_link = both.links.size(), first_joint = both.joints.size() + 1;
+    const std::string number = std::to_string(copy + 1);
+    both.joints.push_back({.name = "mount" + number, .parent = 0, .child = first_link + root_of(one, 0)});
+    both.joints.back().origin.translation.x = static_cast<double>(copy) * apart;
+    for (Link link : one.links) link.name += number, both.links.push_back(std::move(link));
+    for (Joint joint : one.joints) {
+      joint.name += number, joint.parent += first_link, joint.child += first_link;
+      if (joint.mimic) joint.mimic->joint += first_joint;
+      both.joints.push_back(std::move(joint));
+    }
+  }
+  return both;
+}
+
 void measure(const path& path_of_robot, const MotionBenchOptions& options, Found& found) {
-  const RobotFile file = read_robot(path_of_robot, options.file);
+  Robot robot = read_robot(path_of_robot, options.file).robot;
+  if (options.beside > 0) robot = two_of(robot, options.beside);
   LinkHullOptions how;
   how.budget.faces = {options.faces}, how.skip_missing = true;
-  const Bodies bodies = bodies_of(file.robot, link_hulls(file.robot, how), Geometry::Visual);
-  const std::string name = as_cell(path_of_robot.stem().string());
-  measure_pairs(name, file.robot, bodies, options, found);
-  measure_paths(name, file.robot, bodies, options, found);
+  const Bodies bodies = bodies_of(robot, link_hulls(robot, how), Geometry::Visual);
+  const std::string name = as_cell(path_of_robot.stem().string() + (options.beside > 0 ? "_twice" : ""));
+  measure_pairs(name, robot, bodies, options, found);
+  measure_paths(name, robot, bodies, options, found);
 }
 
 int run_motion(const MotionBenchOptions& options) {
@@ -185,6 +206,7 @@ void add_motion(CLI::App& app, Run& run) {
       ->check(CLI::ExistingFile);
   command.add_option("--package-path", options->file.package_paths, "Folder of packages; may be given several times");
   command.add_option("--sample", options->samples, "Bundled robot; may be given several times");
+  command.add_option("--beside", options->beside, "Measure each robot and a copy of it so many metres beside it");
   add_faces_option(command, options->faces);
   command.add_option("--prove", options->proof.cells, "Largest number of cells of a pair")->capture_default_str();
   command.add_option("--paths", options->paths, "Random paths of each robot")->capture_default_str();
