@@ -16,6 +16,7 @@
 #include "io/file_content.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
+#include "io/number_type.h"
 #include "prohull/detail/base64.h"
 
 // Sections are those of the glTF 2.0 specification (Khronos, 2021).
@@ -30,43 +31,10 @@ constexpr std::size_t kGlbHeader = 12, kChunkHeader = 8;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr Place kNowhere{Place::Unit::None, 0};
 
-/// 3.6.2.2
-enum class ComponentType { Int8 = 5120, Uint8 = 5121, Int16 = 5122, Uint16 = 5123, Uint32 = 5125, Float = 5126 };
-
-std::size_t size_of(ComponentType type) {
-  switch (type) {
-    case ComponentType::Int8:
-    case ComponentType::Uint8:
-      return 1;
-    case ComponentType::Int16:
-    case ComponentType::Uint16:
-      return 2;
-    default:
-      return 4;
-  }
-}
-
-double value_of(ByteCursor& cursor, ComponentType type) {
-  switch (type) {
-    case ComponentType::Int8:
-      return cursor.read<std::int8_t>();
-    case ComponentType::Uint8:
-      return cursor.read<std::uint8_t>();
-    case ComponentType::Int16:
-      return cursor.read<std::int16_t>();
-    case ComponentType::Uint16:
-      return cursor.read<std::uint16_t>();
-    case ComponentType::Uint32:
-      return cursor.read<std::uint32_t>();
-    default:
-      return static_cast<double>(cursor.read<float>());
-  }
-}
-
 /// Of a normalized integer (3.11): f = max(c / 127, -1) and its like.
-double normalized(double value, ComponentType type) {
+double normalized(double value, NumberType type) {
   const int bits = static_cast<int>(8 * size_of(type));
-  const bool has_sign = type == ComponentType::Int8 || type == ComponentType::Int16;
+  const bool has_sign = type == NumberType::Int8 || type == NumberType::Int16;
   return std::max(value / (std::ldexp(1, has_sign ? bits - 1 : bits) - 1), -1.0);
 }
 
@@ -74,12 +42,12 @@ double normalized(double value, ComponentType type) {
 struct Elements {
   std::string_view bytes;
   std::size_t count, stride, components;
-  ComponentType type;
+  NumberType type;
   bool normalize;
 
   double operator()(std::size_t element, std::size_t component) const {
     ByteCursor cursor(bytes, element * stride + component * size_of(type));
-    const double value = value_of(cursor, type);
+    const double value = read_number(cursor, type);
     return normalize ? normalized(value, type) : value;
   }
 };
@@ -344,7 +312,7 @@ class GltfReader {
   void add_vertices(std::size_t accessor, const Affine& place) {
     const std::string where = fmt::format("accessors {}", accessor);
     const Elements positions = elements(accessor, "VEC3", where);
-    if (positions.type == ComponentType::Uint32) fail_in(where, "positions are floats, or integers of 8 or 16 bits");
+    if (positions.type == NumberType::UInt32) fail_in(where, "positions are floats, or integers of 8 or 16 bits");
     check_growth(positions.count * sizeof(Vec3));
     std::vector<Vec3> points(positions.count);
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = {positions(i, 0), positions(i, 1), positions(i, 2)};
@@ -360,7 +328,7 @@ class GltfReader {
     const std::string where = accessor_name + ", sparse";
     const Json& sparse = checked_object(*found, where);
     const std::size_t count = required_count(sparse, "count", where);
-    const auto part = [&](const char* name, ComponentType type, std::size_t components, bool normalize) {
+    const auto part = [&](const char* name, NumberType type, std::size_t components, bool normalize) {
       const auto values = sparse.find(name);
       if (values == sparse.end()) fail_in(where, fmt::format("{} is missing", name));
       return elements_in(checked_object(*values, where), type, components, count, normalize, where);
@@ -385,8 +353,7 @@ class GltfReader {
     }
     const std::string name = fmt::format("accessors {}", *accessor);
     const Elements indices = elements(*accessor, "SCALAR", name);
-    if (indices.type != ComponentType::Uint8 && indices.type != ComponentType::Uint16 &&
-        indices.type != ComponentType::Uint32)
+    if (indices.type != NumberType::UInt8 && indices.type != NumberType::UInt16 && indices.type != NumberType::UInt32)
       fail_in(name, "indices are unsigned integers of 8, 16 or 32 bits");
     if (item("accessors", *accessor, where).contains("sparse")) fail_in(name, "sparse indices are not read");
     std::vector<std::int64_t> corners(indices.count);
@@ -415,10 +382,13 @@ class GltfReader {
 
   // --- accessors, views, buffers (3.6) ---
 
-  ComponentType component_type(const Json& object, std::string_view where) const {
+  /// 3.6.2.2
+  NumberType component_type(const Json& object, std::string_view where) const {
     const std::size_t type = required_count(object, "componentType", where);
     if (type < 5120 || type > 5126 || type == 5124) fail_in(where, fmt::format("componentType {} is unknown", type));
-    return static_cast<ComponentType>(type);
+    constexpr std::array kTypes{NumberType::Int8,   NumberType::UInt8,  NumberType::Int16,  NumberType::UInt16,
+                                NumberType::UInt32, NumberType::UInt32, NumberType::Float32};
+    return kTypes[type - 5120];
   }
 
   static bool is_normalized(const Json& accessor) { return value(accessor, "normalized") == true; }
@@ -426,7 +396,7 @@ class GltfReader {
   Elements elements(std::size_t number, const char* type, const std::string& where) const {
     const Json& accessor = item("accessors", number, where);
     if (value(accessor, "type") != type) fail_in(where, fmt::format("its type is not {}", type));
-    const ComponentType component = component_type(accessor, where);
+    const NumberType component = component_type(accessor, where);
     const std::size_t components = std::string_view(type) == "VEC3" ? 3 : 1;
     const std::size_t count_of_all = required_count(accessor, "count", where);
     if (accessor.contains("bufferView"))
@@ -437,8 +407,8 @@ class GltfReader {
   }
 
   /// What `object`, an accessor or a part of a sparse one, points to, which is checked to be there.
-  Elements elements_in(const Json& object, ComponentType type, std::size_t components, std::size_t count,
-                       bool normalize, const std::string& where) const {
+  Elements elements_in(const Json& object, NumberType type, std::size_t components, std::size_t count, bool normalize,
+                       const std::string& where) const {
     const std::size_t view_number = required_count(object, "bufferView", where);
     const Json& view = item("bufferViews", view_number, where);
     const std::string view_name = fmt::format("bufferViews {}", view_number);

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 #include <zstd.h>
 
-#include <bit>
 #include <cstdint>
 #include <fstream>
 #include <memory>
 
+#include "io/append.h"
 #include "io/atomic_file.h"
+#include "io/byte_cursor.h"
 #include "prohull/error.h"
 
 // Layout (docs/phull.md): 8 bytes of magic, u32 version, then one zstd frame with its checksum. All numbers are
@@ -25,62 +26,27 @@ constexpr std::size_t kHullHeaderSize = 12;
 constexpr int kCompressionLevel = 3;
 constexpr int kMostWindowLog = 23;  ///< that level uses 21; a frame may ask for 128 MB, however short it is
 
-class Encoder {
- public:
-  template <class Integer>
-  void integer(Integer value) {
-    for (std::size_t i = 0; i < sizeof(Integer); ++i) bytes_.push_back(static_cast<char>(value >> (8 * i) & 0xff));
-  }
-  void real(double value) { integer(std::bit_cast<std::uint64_t>(value)); }
-  void reserve(std::size_t size) { bytes_.reserve(size); }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
-
-class Decoder {
- public:
-  explicit Decoder(std::string_view bytes) : bytes_(bytes) {}
-
-  std::size_t remaining() const { return bytes_.size() - at_; }
-  // Requires that many bytes to remain.
-  template <class Integer>
-  Integer integer() {
-    Integer value = 0;
-    for (std::size_t i = 0; i < sizeof(Integer); ++i)
-      value |= static_cast<Integer>(static_cast<Integer>(static_cast<unsigned char>(bytes_[at_ + i])) << (8 * i));
-    at_ += sizeof(Integer);
-    return value;
-  }
-  double real() { return std::bit_cast<double>(integer<std::uint64_t>()); }
-
- private:
-  std::string_view bytes_;
-  std::size_t at_ = 0;
-};
-
 constexpr std::uint32_t VertexSplit::*kCornerFields[] = {&VertexSplit::od, &VertexSplit::do_};
 constexpr VertexId VertexSplit::*kVertexFields[] = {&VertexSplit::o, &VertexSplit::d, &VertexSplit::l, &VertexSplit::r};
 constexpr std::size_t kPayloadHeaderSize = 4 + 3 * 8;
 
 std::string encoded(const ProgressiveHull& hull) {
-  Encoder out;
+  std::string out;
   out.reserve(kPayloadHeaderSize + 24 * hull.positions().size() + 4 * hull.base_corners().size() +
               24 * hull.splits().size());
-  out.integer(static_cast<std::uint16_t>(hull.side()));
-  out.integer(static_cast<std::uint16_t>(hull.finest_level()));
-  out.integer(std::uint64_t{hull.original_vertex_count()});
-  out.integer(std::uint64_t{hull.original_face_count()});
-  out.integer(std::uint64_t{hull.splits().size()});
+  append_bytes(out, static_cast<std::uint16_t>(hull.side()));
+  append_bytes(out, static_cast<std::uint16_t>(hull.finest_level()));
+  append_bytes(out, std::uint64_t{hull.original_vertex_count()});
+  append_bytes(out, std::uint64_t{hull.original_face_count()});
+  append_bytes(out, std::uint64_t{hull.splits().size()});
   for (const Vec3& p : hull.positions())
-    for (int axis = 0; axis < 3; ++axis) out.real(p[axis]);
-  for (const VertexId v : hull.base_corners()) out.integer(index(v));
+    for (int axis = 0; axis < 3; ++axis) append_bytes(out, p[axis]);
+  for (const VertexId v : hull.base_corners()) append_bytes(out, index(v));
   for (const auto field : kVertexFields)
-    for (const VertexSplit& split : hull.splits()) out.integer(index(split.*field));
+    for (const VertexSplit& split : hull.splits()) append_bytes(out, index(split.*field));
   for (const auto field : kCornerFields)
-    for (const VertexSplit& split : hull.splits()) out.integer(split.*field);
-  return out.bytes();
+    for (const VertexSplit& split : hull.splits()) append_bytes(out, split.*field);
+  return out;
 }
 
 [[noreturn]] void malformed(const std::filesystem::path& name, std::string_view what) {
@@ -90,10 +56,9 @@ std::string encoded(const ProgressiveHull& hull) {
 
 ProgressiveHull decoded(std::string_view payload, const std::filesystem::path& name) {
   if (payload.size() < kPayloadHeaderSize) malformed(name, "the hull's header is incomplete");
-  Decoder in(payload);
-  const auto side = in.integer<std::uint16_t>(), finest_level = in.integer<std::uint16_t>();
-  const auto vertices = in.integer<std::uint64_t>(), faces = in.integer<std::uint64_t>(),
-             splits = in.integer<std::uint64_t>();
+  ByteCursor in(payload, 0);
+  const auto side = in.read<std::uint16_t>(), finest_level = in.read<std::uint16_t>();
+  const auto vertices = in.read<std::uint64_t>(), faces = in.read<std::uint64_t>(), splits = in.read<std::uint64_t>();
   constexpr std::uint64_t kMost = 0xfffffffe;
   if (side > 1 || finest_level > 3 || vertices > kMost || splits > kMost || vertices + splits > kMost ||
       faces > kMost / 3)
@@ -104,14 +69,14 @@ ProgressiveHull decoded(std::string_view payload, const std::filesystem::path& n
 
   PerVertex<Vec3> positions(vertices + splits);
   for (Vec3& p : positions)
-    for (int axis = 0; axis < 3; ++axis) p[axis] = in.real();
+    for (int axis = 0; axis < 3; ++axis) p[axis] = in.read<double>();
   std::vector<VertexId> corners(3 * faces);
-  for (VertexId& v : corners) v = VertexId(in.integer<std::uint32_t>());
+  for (VertexId& v : corners) v = VertexId(in.read<std::uint32_t>());
   std::vector<VertexSplit> records(splits);
   for (const auto field : kVertexFields)
-    for (VertexSplit& split : records) split.*field = VertexId(in.integer<std::uint32_t>());
+    for (VertexSplit& split : records) split.*field = VertexId(in.read<std::uint32_t>());
   for (const auto field : kCornerFields)
-    for (VertexSplit& split : records) split.*field = in.integer<std::uint32_t>();
+    for (VertexSplit& split : records) split.*field = in.read<std::uint32_t>();
 
   ProgressiveHull hull(HullSide(side), vertices, std::move(positions), std::move(corners), std::move(records));
   if (const auto defect = first_defect(hull)) malformed(name, *defect);
@@ -151,11 +116,10 @@ void save_hull(const std::filesystem::path& path, const ProgressiveHull& hull) {
   std::string frame(ZSTD_compressBound(payload.size()), '\0');
   frame.resize(ZSTD_compress2(context.get(), frame.data(), frame.size(), payload.data(), payload.size()));
 
-  Encoder version;
-  version.integer(kVersion);
+  std::string start(kHullMagic);
+  append_bytes(start, kVersion);
   AtomicFile file(path);
-  file.write(kHullMagic);
-  file.write(version.bytes());
+  file.write(start);
   file.write(frame);
   file.commit();
 }
@@ -178,7 +142,7 @@ ProgressiveHull load_hull(std::string_view content, const std::filesystem::path&
                                  "-o HULL --hierarchy H.phull` makes one from a mesh",
                                  name.string()));
   if (content.size() < kHullHeaderSize) malformed(name, fmt::format("it is truncated after {} bytes", content.size()));
-  const auto version = Decoder(content.substr(kHullMagic.size())).integer<std::uint32_t>();
+  const auto version = ByteCursor(content, kHullMagic.size()).read<std::uint32_t>();
   if (version != kVersion)
     throw InputError(Defect::UnknownFormat,
                      fmt::format("{}: version {} of the .phull format; this program reads version {}: use the one that "

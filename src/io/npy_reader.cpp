@@ -1,39 +1,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
+#include <utility>
 
 #include "io/byte_cursor.h"
 #include "io/npy_header.h"
 #include "io/number_table.h"
+#include "io/number_type.h"
+#include "prohull/detail/names.h"
 
 namespace prohull {
 namespace {
 
-using Load = double (*)(std::string_view bytes, std::size_t position, std::endian order);
-
-template <class Number>
-double load(std::string_view bytes, std::size_t position, std::endian order) {
-  return static_cast<double>(ByteCursor(bytes, position, order).read<Number>());
-}
-
-struct NumberType {
-  std::string_view name;  // kind and bytes
-  std::size_t size;
-  Load load;
-};
-
-constexpr std::array<NumberType, 10> kTypes = {{{"f4", 4, load<float>},
-                                                {"f8", 8, load<double>},
-                                                {"i1", 1, load<std::int8_t>},
-                                                {"i2", 2, load<std::int16_t>},
-                                                {"i4", 4, load<std::int32_t>},
-                                                {"i8", 8, load<std::int64_t>},
-                                                {"u1", 1, load<std::uint8_t>},
-                                                {"u2", 2, load<std::uint16_t>},
-                                                {"u4", 4, load<std::uint32_t>},
-                                                {"u8", 8, load<std::uint64_t>}}};
+constexpr std::pair<std::string_view, NumberType> kTypes[]{
+    {"f4", NumberType::Float32}, {"f8", NumberType::Float64}, {"i1", NumberType::Int8},  {"i2", NumberType::Int16},
+    {"i4", NumberType::Int32},   {"i8", NumberType::Int64},   {"u1", NumberType::UInt8}, {"u2", NumberType::UInt16},
+    {"u4", NumberType::UInt32},  {"u8", NumberType::UInt64}};
 
 class NpyReader {
  public:
@@ -47,8 +29,10 @@ class NpyReader {
   void read(const RowSink& sink) const {
     std::vector<double> row(columns_.names.size());
     for (std::size_t i = 0; i < rows(); ++i) {
-      for (std::size_t j = 0; j < row.size(); ++j)
-        row[j] = type_->load(content_, header_.size + place_of(i, j) * type_->size, order_);
+      for (std::size_t j = 0; j < row.size(); ++j) {
+        ByteCursor cursor(content_, header_.size + place_of(i, j) * size_of(type_), order_);
+        row[j] = read_number(cursor, type_);
+      }
       sink(row, {Place::Unit::Row, i});
     }
   }
@@ -67,13 +51,13 @@ class NpyReader {
   void set_type() {
     const std::string_view name = std::string_view(header_.type).substr(std::min<std::size_t>(1, header_.type.size()));
     const char order = header_.type.empty() ? '\0' : header_.type[0];
-    type_ = std::find_if(kTypes.begin(), kTypes.end(), [&](const NumberType& t) { return t.name == name; });
-    const bool known = type_ != kTypes.end() && (order == '<' || order == '>' || (order == '|' && type_->size == 1));
-    if (!known)
+    const auto known = value_of<NumberType>(kTypes, name);
+    if (!known || !(order == '<' || order == '>' || (order == '|' && size_of(*known) == 1)))
       fail(
           fmt::format("its elements are of type {}; expected integers, or floating point of 32 or 64 bits: save "
                       "array.astype('float64')",
                       in_quotes(header_.type)));
+    type_ = *known;
     order_ = order == '>' ? std::endian::big : std::endian::little;
   }
 
@@ -88,7 +72,7 @@ class NpyReader {
   }
 
   void check_size() const {
-    const std::size_t row_size = columns_.names.size() * type_->size, left = content_.size() - header_.size;
+    const std::size_t row_size = columns_.names.size() * size_of(type_), left = content_.size() - header_.size;
     if (rows() > left / row_size)
       fail(fmt::format("the file ends after {} of {} rows; it is truncated or its shape is wrong", left / row_size,
                        rows()));
@@ -104,7 +88,7 @@ class NpyReader {
   const std::string& file_;
   const Columns& columns_;
   NpyHeader header_;
-  const NumberType* type_ = nullptr;
+  NumberType type_{};
   std::endian order_ = std::endian::little;
 };
 

@@ -6,31 +6,18 @@
 #include <array>
 
 #include "io/text_scanner.h"
+#include "prohull/detail/names.h"
 
 namespace prohull {
 namespace {
 
-struct TypeName {
-  std::string_view name;
-  PlyType type;
-};
-
-constexpr std::array<TypeName, 16> kTypeNames = {{{"char", PlyType::Int8},
-                                                  {"int8", PlyType::Int8},
-                                                  {"uchar", PlyType::UInt8},
-                                                  {"uint8", PlyType::UInt8},
-                                                  {"short", PlyType::Int16},
-                                                  {"int16", PlyType::Int16},
-                                                  {"ushort", PlyType::UInt16},
-                                                  {"uint16", PlyType::UInt16},
-                                                  {"int", PlyType::Int32},
-                                                  {"int32", PlyType::Int32},
-                                                  {"uint", PlyType::UInt32},
-                                                  {"uint32", PlyType::UInt32},
-                                                  {"float", PlyType::Float32},
-                                                  {"float32", PlyType::Float32},
-                                                  {"double", PlyType::Float64},
-                                                  {"float64", PlyType::Float64}}};
+constexpr std::pair<std::string_view, NumberType> kTypeNames[]{
+    {"char", NumberType::Int8},      {"int8", NumberType::Int8},       {"uchar", NumberType::UInt8},
+    {"uint8", NumberType::UInt8},    {"short", NumberType::Int16},     {"int16", NumberType::Int16},
+    {"ushort", NumberType::UInt16},  {"uint16", NumberType::UInt16},   {"int", NumberType::Int32},
+    {"int32", NumberType::Int32},    {"uint", NumberType::UInt32},     {"uint32", NumberType::UInt32},
+    {"float", NumberType::Float32},  {"float32", NumberType::Float32}, {"double", NumberType::Float64},
+    {"float64", NumberType::Float64}};
 
 class HeaderReader {
  public:
@@ -104,11 +91,10 @@ class HeaderReader {
     return found;
   }
 
-  PlyType type_of(std::string_view name) {
-    const auto found =
-        std::find_if(kTypeNames.begin(), kTypeNames.end(), [&](const TypeName& t) { return t.name == name; });
-    if (found == kTypeNames.end()) scanner_.fail(fmt::format("unknown type {}", in_quotes(name)));
-    return found->type;
+  NumberType type_of(std::string_view name) {
+    const auto type = value_of<NumberType>(kTypeNames, name);
+    if (!type) scanner_.fail(fmt::format("unknown type {}", in_quotes(name)));
+    return *type;
   }
 
   TextScanner scanner_;
@@ -117,26 +103,6 @@ class HeaderReader {
 };
 
 }  // namespace
-
-std::size_t size_of(PlyType type) {
-  switch (type) {
-    case PlyType::Int8:
-    case PlyType::UInt8:
-      return 1;
-    case PlyType::Int16:
-    case PlyType::UInt16:
-      return 2;
-    case PlyType::Int32:
-    case PlyType::UInt32:
-    case PlyType::Float32:
-      return 4;
-    case PlyType::Float64:
-      break;
-  }
-  return 8;
-}
-
-bool is_integer(PlyType type) { return type != PlyType::Float32 && type != PlyType::Float64; }
 
 std::optional<std::size_t> PlyElement::find(std::string_view property) const {
   for (std::size_t i = 0; i < properties.size(); ++i)

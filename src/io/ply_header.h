@@ -6,17 +6,14 @@
 #include <string_view>
 #include <vector>
 
+#include "io/number_type.h"
+
 namespace prohull {
-
-enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
-
-std::size_t size_of(PlyType type);
-bool is_integer(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type;
-  std::optional<PlyType> count_type;  ///< of a list
+  NumberType type;
+  std::optional<NumberType> count_type;  ///< of a list
 };
 
 struct PlyElement {

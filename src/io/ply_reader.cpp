@@ -48,23 +48,23 @@ class AsciiBody {
   }
 
   // What other readers store for a property of type float, and so what a hull must enclose.
-  double number(PlyType type) {
+  double number(NumberType type) {
     const double value = scanner_.number("a number");
-    return type == PlyType::Float32 ? nearest_float32(value) : value;
+    return type == NumberType::Float32 ? nearest_float32(value) : value;
   }
-  std::int64_t integer(PlyType) { return scanner_.integer("an integer"); }
-  std::size_t list_length(PlyType, PlyType) {
+  std::int64_t integer(NumberType) { return scanner_.integer("an integer"); }
+  std::size_t list_length(NumberType, NumberType) {
     const std::int64_t length = scanner_.integer("the length of a list");
     if (length < 0) scanner_.fail(fmt::format("a list has the length {}", length));
     return static_cast<std::size_t>(length);
   }
-  void skip(std::size_t count, PlyType) {
+  void skip(std::size_t count, NumberType) {
     for (; count > 0; --count)
       if (scanner_.word().empty()) scanner_.fail("the line ends before the end of the record");
   }
 
   /// How many records with `items` items in a list can be left, whatever the header claims.
-  std::size_t fits(const PlyElement& element, std::size_t items, PlyType) const {
+  std::size_t fits(const PlyElement& element, std::size_t items, NumberType) const {
     return size_ / (2 * (element.properties.size() + items));
   }
   Place place() const { return scanner_.place(); }
@@ -86,50 +86,29 @@ class BinaryBody {
   void begin(const PlyRecord& record) { record_ = record; }
   void end() {}
 
-  double number(PlyType type) {
-    if (type == PlyType::Float32) return read<float>();
-    if (type == PlyType::Float64) return read<double>();
-    return static_cast<double>(integer(type));
+  double number(NumberType type) {
+    require(1, size_of(type));
+    return read_number(cursor_, type);
   }
-  std::int64_t integer(PlyType type) {
-    switch (type) {
-      case PlyType::Int8:
-        return read<std::int8_t>();
-      case PlyType::UInt8:
-        return read<std::uint8_t>();
-      case PlyType::Int16:
-        return read<std::int16_t>();
-      case PlyType::UInt16:
-        return read<std::uint16_t>();
-      case PlyType::Int32:
-        return read<std::int32_t>();
-      default:
-        return read<std::uint32_t>();
-    }
-  }
-  std::size_t list_length(PlyType type, PlyType item) {
+  std::int64_t integer(NumberType type) { return static_cast<std::int64_t>(number(type)); }
+  std::size_t list_length(NumberType type, NumberType item) {
     const Place place = cursor_.place();
     const std::int64_t length = integer(type);
     if (length < 0) fail(file_, place, fmt::format("a list has the length {}", length));
     require(static_cast<std::size_t>(length), size_of(item));
     return static_cast<std::size_t>(length);
   }
-  void skip(std::size_t count, PlyType type) {
+  void skip(std::size_t count, NumberType type) {
     require(count, size_of(type));
     cursor_.skip(count * size_of(type));
   }
 
-  std::size_t fits(const PlyElement& element, std::size_t items, PlyType item) const {
+  std::size_t fits(const PlyElement& element, std::size_t items, NumberType item) const {
     return cursor_.remaining() / (element.min_record_size() + items * size_of(item));
   }
   Place place() const { return cursor_.place(); }
 
  private:
-  template <class T>
-  T read() {
-    require(1, sizeof(T));
-    return cursor_.read<T>();
-  }
   void require(std::size_t count, std::size_t size) const {
     if (!cursor_.has(count, size)) fail(file_, {Place::Unit::Byte, size_}, record_.truncated("within"));
   }
@@ -193,7 +172,7 @@ class PlyReader {
     std::size_t found_ = 0;
   };
 
-  void read_channel(std::size_t channel, PlyType type) {
+  void read_channel(std::size_t channel, NumberType type) {
     const double value = body_.number(type) * (is_integer(type) ? 1 : 255);
     const auto byte = static_cast<std::uint8_t>(std::lround(value >= 0 && value <= 255 ? value
                                                             : value > 255              ? 255
@@ -211,7 +190,7 @@ class PlyReader {
         fail_on_header(element, fmt::format("element vertex has no number named {}", name));
       axis_of[*found] = axis;
     }
-    builder_.reserve_vertices(std::min(element.count, body_.fits(element, 0, PlyType::Int8)));
+    builder_.reserve_vertices(std::min(element.count, body_.fits(element, 0, NumberType::Int8)));
     Vec3 position;
     const ColorProperties colors(element, marks_ != nullptr);
     const auto read_property = [&](const PlyProperty& property, std::size_t i) {

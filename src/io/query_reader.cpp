@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "io/extension.h"
-#include "io/file.h"
 #include "io/file_content.h"
 #include "io/npy_header.h"
 #include "io/number_table.h"
@@ -58,37 +58,7 @@ void read_uncompressed(std::string_view content, const std::filesystem::path& na
   }
 }
 
-template <class Query>
-struct Traits;
-
 Vec3 point(std::span<const double> row, std::size_t first) { return {row[first], row[first + 1], row[first + 2]}; }
-
-template <>
-struct Traits<Segment> {
-  static Columns columns() { return {"segments", {"x0", "y0", "z0", "x1", "y1", "z1"}}; }
-  static Segment query(std::span<const double> row) { return {point(row, 0), point(row, 3)}; }
-  static std::optional<std::string_view> why_not(const Segment& s) {
-    if (s.a == s.b) return "the segment's ends are equal; leave it out";
-    return {};
-  }
-};
-
-template <>
-struct Traits<Ray> {
-  static Columns columns() { return {"rays", {"x", "y", "z", "dx", "dy", "dz"}}; }
-  static Ray query(std::span<const double> row) { return {point(row, 0), point(row, 3)}; }
-  static std::optional<std::string_view> why_not(const Ray& r) {
-    if (r.direction == Vec3{}) return "the ray's direction is zero; leave it out";
-    return {};
-  }
-};
-
-template <>
-struct Traits<Triangle> {
-  static Columns columns() { return {"triangles", {"x0", "y0", "z0", "x1", "y1", "z1", "x2", "y2", "z2"}}; }
-  static Triangle query(std::span<const double> row) { return {point(row, 0), point(row, 3), point(row, 6)}; }
-  static std::optional<std::string_view> why_not(const Triangle&) { return {}; }
-};
 
 /// The numbers of a pose, in one of three forms.
 struct PoseRow {
@@ -150,16 +120,11 @@ std::vector<Pose> read_uncompressed_poses(std::string_view content, const std::f
   return poses;
 }
 
-template <>
-struct Traits<Vec3> {
-  static Columns columns() { return {"points", {"x", "y", "z"}}; }
-  static Vec3 query(std::span<const double> row) { return point(row, 0); }
-  static std::optional<std::string_view> why_not(const Vec3&) { return {}; }
-};
-
+/// why_not(query) says what to do about a query without length; it is empty for others.
 template <class Query>
-std::vector<Query> read_queries(std::string_view content, const std::filesystem::path& name) {
-  const Columns columns = Traits<Query>::columns();
+std::vector<Query> read_queries(std::string_view content, const std::filesystem::path& name, const Columns& columns,
+                                const std::function<Query(std::span<const double> row)>& query_of,
+                                const std::function<std::string_view(const Query&)>& why_not = {}) {
   const std::string file = name.string();
   std::vector<Query> queries;
   const RowSink add = [&](std::span<const double> row, Place place) {
@@ -167,8 +132,9 @@ std::vector<Query> read_queries(std::string_view content, const std::filesystem:
       if (!std::isfinite(row[i]))
         fail(file, place, fmt::format("{} is {}; expected finite numbers", columns.names[i], row[i]),
              Defect::NonFiniteCoordinate);
-    queries.push_back(Traits<Query>::query(row));
-    if (const auto why = Traits<Query>::why_not(queries.back())) fail(file, place, *why, Defect::NoLength);
+    queries.push_back(query_of(row));
+    if (const std::string_view why = why_not ? why_not(queries.back()) : ""; !why.empty())
+      fail(file, place, why, Defect::NoLength);
   };
   if (is_gzip(content))
     read_uncompressed(gunzip(content, name), name, columns, add);
@@ -180,29 +146,38 @@ std::vector<Query> read_queries(std::string_view content, const std::filesystem:
 }  // namespace
 
 std::vector<Segment> read_segments(std::string_view content, const std::filesystem::path& name) {
-  return read_queries<Segment>(content, name);
+  return read_queries<Segment>(
+      content, name, {"segments", {"x0", "y0", "z0", "x1", "y1", "z1"}},
+      [](std::span<const double> row) {
+        return Segment{point(row, 0), point(row, 3)};
+      },
+      [](const Segment& s) { return s.a == s.b ? "the segment's ends are equal; leave it out" : ""; });
 }
+
 std::vector<Ray> read_rays(std::string_view content, const std::filesystem::path& name) {
-  return read_queries<Ray>(content, name);
+  return read_queries<Ray>(
+      content, name, {"rays", {"x", "y", "z", "dx", "dy", "dz"}},
+      [](std::span<const double> row) {
+        return Ray{point(row, 0), point(row, 3)};
+      },
+      [](const Ray& r) { return r.direction == Vec3{} ? "the ray's direction is zero; leave it out" : ""; });
 }
+
 std::vector<Triangle> read_triangles(std::string_view content, const std::filesystem::path& name) {
-  return read_queries<Triangle>(content, name);
+  return read_queries<Triangle>(content, name, {"triangles", {"x0", "y0", "z0", "x1", "y1", "z1", "x2", "y2", "z2"}},
+                                [](std::span<const double> row) {
+                                  return Triangle{point(row, 0), point(row, 3), point(row, 6)};
+                                });
 }
+
 std::vector<Vec3> read_points(std::string_view content, const std::filesystem::path& name) {
-  return read_queries<Vec3>(content, name);
+  return read_queries<Vec3>(content, name, {"points", {"x", "y", "z"}},
+                            [](std::span<const double> row) { return point(row, 0); });
 }
 
 std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name) {
   return is_gzip(content) ? read_uncompressed_poses(gunzip(content, name), name)
                           : read_uncompressed_poses(content, name);
 }
-
-std::vector<Pose> read_poses(const std::filesystem::path& path) { return read_poses(read_file(path), path); }
-std::vector<Segment> read_segments(const std::filesystem::path& path) { return read_segments(read_file(path), path); }
-std::vector<Ray> read_rays(const std::filesystem::path& path) { return read_rays(read_file(path), path); }
-std::vector<Triangle> read_triangles(const std::filesystem::path& path) {
-  return read_triangles(read_file(path), path);
-}
-std::vector<Vec3> read_points(const std::filesystem::path& path) { return read_points(read_file(path), path); }
 
 }  // namespace prohull

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
-#include <numeric>
+#include <functional>
+#include <utility>
+#include <variant>
 
 #include "io/append.h"
 #include "io/extension.h"
@@ -21,179 +24,85 @@ std::vector<std::size_t> queries_of(const std::vector<std::size_t>& offsets) {
   return queries;
 }
 
-void append_point(std::string& out, const Vec3& p) {
-  append_number(out, p.x);
-  append_number(out += ',', p.y);
-  append_number(out += ',', p.z);
+/// In the files of numpy.
+template <class T>
+constexpr std::string_view kNumpyType = "<i8";
+template <>
+constexpr std::string_view kNumpyType<double> = "<f8";
+template <>
+constexpr std::string_view kNumpyType<bool> = "|b1";
+
+void append_text(std::string& out, bool value) { out += value ? '1' : '0'; }
+template <class Number>
+void append_text(std::string& out, Number value) {
+  append_number(out, value);
 }
 
-std::string_view query_name(HitsOf of) { return of == HitsOf::Segments ? "segment" : "ray"; }
-
-std::string csv_content(const HitBatch& batch, HitsOf of) {
-  std::string out = fmt::format("{},t,face,x,y,z,entering\n", query_name(of));
-  const std::vector<std::size_t> queries = queries_of(batch.offsets);
-  for (std::size_t i = 0; i < batch.hits.size(); ++i) {
-    const Hit& hit = batch.hits[i];
-    append_number(out, queries[i]);
-    append_number(out += ',', hit.t);
-    append_number(out += ',', index(hit.face));
-    append_point(out += ',', hit.position);
-    out += hit.entering ? ",1\n" : ",0\n";
-  }
-  return out;
-}
-
-std::string csv_content(const FaceBatch& batch) {
-  std::string out = "triangle,face\n";
-  const std::vector<std::size_t> queries = queries_of(batch.offsets);
-  for (std::size_t i = 0; i < batch.faces.size(); ++i) {
-    append_number(out, queries[i]);
-    append_number(out += ',', index(batch.faces[i]));
-    out += '\n';
-  }
-  return out;
-}
-
-std::string csv_content(const FacePairBatch& batch) {
-  std::string out = "pose,face_a,face_b\n";
-  const std::vector<std::size_t> poses = queries_of(batch.offsets);
-  for (std::size_t i = 0; i < batch.pairs.size(); ++i) {
-    append_number(out, poses[i]);
-    append_number(out += ',', index(batch.pairs[i].a));
-    append_number(out += ',', index(batch.pairs[i].b));
-    out += '\n';
-  }
-  return out;
-}
-
-/// One array for each name; each takes a value of every item.
-class NpzContent {
+/// Columns of as many rows each.
+class Table {
  public:
-  template <class Items, class ValueOf>
-  void add(std::string_view name, std::string_view type, const Items& items, ValueOf value_of) {
-    std::string array = npy_header(type, {items.size()});
-    for (const auto& item : items) append_bytes(array, value_of(item));
-    zip_.add(std::string(name) + ".npy", array);
+  explicit Table(std::size_t rows) : rows_(rows) {}
+
+  /// Adds a column: at(i) is the value in row i, of type std::int64_t, double or bool.
+  template <class T>
+  void add(std::string_view name, std::function<T(std::size_t row)> at) {
+    columns_.push_back(Column<T>{name, std::move(at)});
   }
-  std::string finish() { return zip_.finish(); }
+  void add_points(const std::array<std::string_view, 3>& names, const std::function<Vec3(std::size_t row)>& at) {
+    for (int axis = 0; axis < 3; ++axis)
+      add<double>(names[std::size_t(axis)], [at, axis](std::size_t i) { return at(i)[axis]; });
+  }
+
+  std::string csv() const {
+    std::string out;
+    for_each_column(out, [&](const auto& column) { out += column.name; });
+    for (std::size_t i = 0; i < rows_; ++i)
+      for_each_column(out, [&](const auto& column) { append_text(out, column.at(i)); });
+    return out;
+  }
+
+  /// An array for each column.
+  std::string npz() const {
+    ZipWriter zip;
+    const auto add_array = [&]<class T>(const Column<T>& column) {
+      std::string array = npy_header(kNumpyType<T>, {rows_});
+      for (std::size_t i = 0; i < rows_; ++i) append_bytes(array, column.at(i));
+      zip.add(std::string(column.name) + ".npy", array);
+    };
+    for (const AnyColumn& column : columns_) std::visit(add_array, column);
+    return zip.finish();
+  }
+
+  /// One array, of columns of doubles.
+  std::string npy() const {
+    std::string out = npy_header(kNumpyType<double>, {rows_, columns_.size()});
+    for (std::size_t i = 0; i < rows_; ++i)
+      for (const AnyColumn& column : columns_) append_bytes(out, std::get<Column<double>>(column).at(i));
+    return out;
+  }
 
  private:
-  ZipWriter zip_;
+  template <class T>
+  struct Column {
+    std::string_view name;
+    std::function<T(std::size_t row)> at;
+  };
+  using AnyColumn = std::variant<Column<std::int64_t>, Column<double>, Column<bool>>;
+
+  /// Makes a line of what `append` appends for each column.
+  template <class Append>
+  void for_each_column(std::string& out, Append append) const {
+    for (const AnyColumn& column : columns_) {
+      if (&column != columns_.data()) out += ',';
+      std::visit(append, column);
+    }
+    out += '\n';
+  }
+
+  std::size_t rows_;
+  std::vector<AnyColumn> columns_;
 };
 
-constexpr std::string_view kInt64 = "<i8", kFloat64 = "<f8", kBool = "|b1";
-
-std::string npz_content(const HitBatch& batch, HitsOf of) {
-  NpzContent out;
-  out.add(query_name(of), kInt64, queries_of(batch.offsets), [](std::size_t i) { return std::int64_t(i); });
-  out.add("t", kFloat64, batch.hits, [](const Hit& hit) { return hit.t; });
-  out.add("face", kInt64, batch.hits, [](const Hit& hit) { return std::int64_t{index(hit.face)}; });
-  out.add("x", kFloat64, batch.hits, [](const Hit& hit) { return hit.position.x; });
-  out.add("y", kFloat64, batch.hits, [](const Hit& hit) { return hit.position.y; });
-  out.add("z", kFloat64, batch.hits, [](const Hit& hit) { return hit.position.z; });
-  out.add("entering", kBool, batch.hits, [](const Hit& hit) { return std::uint8_t{hit.entering}; });
-  return out.finish();
-}
-
-std::string npz_content(const FaceBatch& batch) {
-  NpzContent out;
-  out.add("triangle", kInt64, queries_of(batch.offsets), [](std::size_t i) { return std::int64_t(i); });
-  out.add("face", kInt64, batch.faces, [](FaceId face) { return std::int64_t{index(face)}; });
-  return out.finish();
-}
-
-std::string npz_content(const FacePairBatch& batch) {
-  NpzContent out;
-  out.add("pose", kInt64, queries_of(batch.offsets), [](std::size_t i) { return std::int64_t(i); });
-  out.add("face_a", kInt64, batch.pairs, [](const FacePair& pair) { return std::int64_t{index(pair.a)}; });
-  out.add("face_b", kInt64, batch.pairs, [](const FacePair& pair) { return std::int64_t{index(pair.b)}; });
-  return out.finish();
-}
-
-std::string csv_content(const std::vector<bool>& inside) {
-  std::string out = "point,inside\n";
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    append_number(out, i);
-    out += inside[i] ? ",1\n" : ",0\n";
-  }
-  return out;
-}
-
-std::string csv_content(std::span<const ClosestPoint> distances) {
-  std::string out = "point,distance,lower,upper,face,x,y,z\n";
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    const ClosestPoint& d = distances[i];
-    append_number(out, i);
-    for (const double value : {d.distance, d.lower, d.upper}) append_number(out += ',', value);
-    append_number(out += ',', index(d.face));
-    append_point(out += ',', d.position);
-    out += '\n';
-  }
-  return out;
-}
-
-/// 0, 1, 2, ...: each point has a row.
-std::vector<std::size_t> all_of(std::size_t count) {
-  std::vector<std::size_t> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
-  return numbers;
-}
-
-std::string npz_content(const std::vector<bool>& inside) {
-  NpzContent out;
-  out.add("point", kInt64, all_of(inside.size()), [](std::size_t i) { return std::int64_t(i); });
-  out.add("inside", kBool, inside, [](bool is_inside) { return std::uint8_t{is_inside}; });
-  return out.finish();
-}
-
-std::string npz_content(std::span<const ClosestPoint> distances) {
-  NpzContent out;
-  out.add("point", kInt64, all_of(distances.size()), [](std::size_t i) { return std::int64_t(i); });
-  out.add("distance", kFloat64, distances, [](const ClosestPoint& d) { return d.distance; });
-  out.add("lower", kFloat64, distances, [](const ClosestPoint& d) { return d.lower; });
-  out.add("upper", kFloat64, distances, [](const ClosestPoint& d) { return d.upper; });
-  out.add("face", kInt64, distances, [](const ClosestPoint& d) { return std::int64_t{index(d.face)}; });
-  out.add("x", kFloat64, distances, [](const ClosestPoint& d) { return d.position.x; });
-  out.add("y", kFloat64, distances, [](const ClosestPoint& d) { return d.position.y; });
-  out.add("z", kFloat64, distances, [](const ClosestPoint& d) { return d.position.z; });
-  return out.finish();
-}
-
-std::string csv_content(std::span<const Vec3> points) {
-  std::string out = "x,y,z\n";
-  for (const Vec3& p : points) {
-    append_point(out, p);
-    out += '\n';
-  }
-  return out;
-}
-
-std::string npy_content(std::span<const Vec3> points) {
-  std::string out = npy_header(kFloat64, {points.size(), 3});
-  for (const Vec3& p : points)
-    for (const double value : {p.x, p.y, p.z}) append_bytes(out, value);
-  return out;
-}
-
-std::string csv_content(std::span<const Segment> segments) {
-  std::string out = "x0,y0,z0,x1,y1,z1\n";
-  for (const Segment& s : segments) {
-    append_point(out, s.a);
-    append_point(out += ',', s.b);
-    out += '\n';
-  }
-  return out;
-}
-
-std::string npy_content(std::span<const Segment> segments) {
-  std::string out = npy_header(kFloat64, {segments.size(), 6});
-  for (const Segment& s : segments)
-    for (const Vec3& p : {s.a, s.b})
-      for (const double value : {p.x, p.y, p.z}) append_bytes(out, value);
-  return out;
-}
-
-/// Of the name of a file of `what`, which is written in this format or as csv.
 QueryFormat format_for(std::string_view what, const std::filesystem::path& path, QueryFormat binary) {
   const auto format = query_format(path);
   if (format == binary || format == QueryFormat::Csv) return *format;
@@ -220,33 +129,72 @@ QueryFormat segments_format(const std::filesystem::path& path) {
 
 QueryFormat hits_format(const std::filesystem::path& path) { return format_for("hits", path, QueryFormat::Npz); }
 
+namespace {
+
+void write_answers(const std::filesystem::path& path, const Table& table) {
+  write_file(path, hits_format(path) == QueryFormat::Csv ? table.csv() : table.npz());
+}
+
+}  // namespace
+
 void write_hits(const std::filesystem::path& path, const HitBatch& batch, HitsOf of) {
-  write_file(path, hits_format(path) == QueryFormat::Csv ? csv_content(batch, of) : npz_content(batch, of));
+  const auto& hits = batch.hits;
+  const std::vector<std::size_t> queries = queries_of(batch.offsets);
+  Table table(hits.size());
+  table.add<std::int64_t>(of == HitsOf::Segments ? "segment" : "ray", [&](std::size_t i) { return queries[i]; });
+  table.add<double>("t", [&](std::size_t i) { return hits[i].t; });
+  table.add<std::int64_t>("face", [&](std::size_t i) { return index(hits[i].face); });
+  table.add_points({"x", "y", "z"}, [&](std::size_t i) { return hits[i].position; });
+  table.add<bool>("entering", [&](std::size_t i) { return hits[i].entering; });
+  write_answers(path, table);
 }
 
 void write_faces_met(const std::filesystem::path& path, const FaceBatch& batch) {
-  write_file(path, hits_format(path) == QueryFormat::Csv ? csv_content(batch) : npz_content(batch));
+  const std::vector<std::size_t> queries = queries_of(batch.offsets);
+  Table table(batch.faces.size());
+  table.add<std::int64_t>("triangle", [&](std::size_t i) { return queries[i]; });
+  table.add<std::int64_t>("face", [&](std::size_t i) { return index(batch.faces[i]); });
+  write_answers(path, table);
 }
 
 void write_face_pairs(const std::filesystem::path& path, const FacePairBatch& batch) {
-  write_file(path, hits_format(path) == QueryFormat::Csv ? csv_content(batch) : npz_content(batch));
-}
-
-void write_segments(const std::filesystem::path& path, std::span<const Segment> segments) {
-  write_file(path, segments_format(path) == QueryFormat::Csv ? csv_content(segments) : npy_content(segments));
-}
-
-void write_points(const std::filesystem::path& path, std::span<const Vec3> points) {
-  const QueryFormat format = format_for("points", path, QueryFormat::Npy);
-  write_file(path, format == QueryFormat::Csv ? csv_content(points) : npy_content(points));
+  const std::vector<std::size_t> poses = queries_of(batch.offsets);
+  Table table(batch.pairs.size());
+  table.add<std::int64_t>("pose", [&](std::size_t i) { return poses[i]; });
+  table.add<std::int64_t>("face_a", [&](std::size_t i) { return index(batch.pairs[i].a); });
+  table.add<std::int64_t>("face_b", [&](std::size_t i) { return index(batch.pairs[i].b); });
+  write_answers(path, table);
 }
 
 void write_inside(const std::filesystem::path& path, const std::vector<bool>& inside) {
-  write_file(path, hits_format(path) == QueryFormat::Csv ? csv_content(inside) : npz_content(inside));
+  Table table(inside.size());
+  table.add<std::int64_t>("point", std::identity());
+  table.add<bool>("inside", [&](std::size_t i) { return inside[i]; });
+  write_answers(path, table);
 }
 
 void write_distances(const std::filesystem::path& path, std::span<const ClosestPoint> distances) {
-  write_file(path, hits_format(path) == QueryFormat::Csv ? csv_content(distances) : npz_content(distances));
+  Table table(distances.size());
+  table.add<std::int64_t>("point", std::identity());
+  table.add<double>("distance", [&](std::size_t i) { return distances[i].distance; });
+  table.add<double>("lower", [&](std::size_t i) { return distances[i].lower; });
+  table.add<double>("upper", [&](std::size_t i) { return distances[i].upper; });
+  table.add<std::int64_t>("face", [&](std::size_t i) { return index(distances[i].face); });
+  table.add_points({"x", "y", "z"}, [&](std::size_t i) { return distances[i].position; });
+  write_answers(path, table);
+}
+
+void write_segments(const std::filesystem::path& path, std::span<const Segment> segments) {
+  Table table(segments.size());
+  table.add_points({"x0", "y0", "z0"}, [&](std::size_t i) { return segments[i].a; });
+  table.add_points({"x1", "y1", "z1"}, [&](std::size_t i) { return segments[i].b; });
+  write_file(path, segments_format(path) == QueryFormat::Csv ? table.csv() : table.npy());
+}
+
+void write_points(const std::filesystem::path& path, std::span<const Vec3> points) {
+  Table table(points.size());
+  table.add_points({"x", "y", "z"}, [&](std::size_t i) { return points[i]; });
+  write_file(path, format_for("points", path, QueryFormat::Npy) == QueryFormat::Csv ? table.csv() : table.npy());
 }
 
 }  // namespace prohull

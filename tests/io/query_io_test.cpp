@@ -332,7 +332,7 @@ TEST(HitsWriter, WritesTheSameArchiveEveryTime) {
   write_hits(folder / "b.npz", two_hits());
   EXPECT_EQ(read_file(folder / "a.npz"), read_file(folder / "b.npz"));
   expect_input_error(
-      [&] { read_segments(folder / "a.npz"); }, Defect::Malformed,
+      [&] { read_segments(read_file(folder / "a.npz"), folder / "a.npz"); }, Defect::Malformed,
       (folder / "a.npz").string() + ": none of its 7 arrays is called segments; save the one you mean alone");
 }
 
@@ -357,7 +357,7 @@ TEST(SegmentsWriter, WritesWhatReadsBackBitForBit) {
     segments.push_back({{coordinate(), coordinate(), coordinate()}, {coordinate(), coordinate(), coordinate()}});
   for (const char* name : {"s.npy", "s.csv"}) {
     write_segments(folder / name, segments);
-    const auto read = read_segments(folder / name);
+    const auto read = read_segments(read_file(folder / name), folder / name);
     ASSERT_EQ(read.size(), segments.size());
     for (std::size_t i = 0; i < read.size(); ++i) {
       EXPECT_EQ(read[i].a, segments[i].a) << name << " row " << i;
@@ -366,7 +366,7 @@ TEST(SegmentsWriter, WritesWhatReadsBackBitForBit) {
   }
   for (const char* name : {"none.npy", "none.csv"}) {
     write_segments(folder / name, {});
-    EXPECT_TRUE(read_segments(folder / name).empty());
+    EXPECT_TRUE(read_segments(read_file(folder / name), folder / name).empty());
   }
 }
 
@@ -376,7 +376,7 @@ TEST(Points, AreReadAndWrittenAsSegmentsAre) {
   const std::vector<Vec3> points{{0.1, -0.0, 1e-300}, {1, 2, 3}};
   for (const char* name : {"p.npy", "p.csv"}) {
     write_points(folder / name, points);
-    EXPECT_EQ(read_points(folder / name), points) << name;
+    EXPECT_EQ(read_points(read_file(folder / name), folder / name), points) << name;
   }
   expect_input_error([] { read_points("1,2,3\n1,nan,3\n", "p.csv"); }, Defect::NonFiniteCoordinate,
                      "p.csv: line 2: y is nan; expected finite numbers");
@@ -393,7 +393,7 @@ TEST(Points, HaveAnswersInRowsAndInArrays) {
   EXPECT_EQ(read_file(folder / "a.csv"), "point,distance,lower,upper,face,x,y,z\n0,-0.5,-0.75,-0.25,7,1,2,3\n");
   write_distances(folder / "a.npz", distances);
   expect_input_error(
-      [&] { read_points(folder / "a.npz"); }, Defect::Malformed,
+      [&] { read_points(read_file(folder / "a.npz"), folder / "a.npz"); }, Defect::Malformed,
       (folder / "a.npz").string() + ": none of its 8 arrays is called points; save the one you mean alone");
 }
 

@@ -13,7 +13,7 @@ namespace prohull {
 
 // Files of queries and of their answers. Rows are counted from 0, and so are queries. Lines of text are counted from 1.
 
-/// Reads segments, one a row: x0,y0,z0,x1,y1,z1.
+/// Reads segments, one a row: x0,y0,z0,x1,y1,z1. `name` is that of a file with this content:
 ///   .npy   an array of shape (n, 6) or (n, 2, 3), of floating point numbers of 32 or 64 bits or of integers, of either
 ///          byte order, in C or Fortran order
 ///   .npz   with one such array, or one called `segments`
@@ -21,19 +21,16 @@ namespace prohull {
 ///          lines, comments from # on, and a first line of names are skipped; LF or CR LF
 /// Each may be gzipped. The file name tells the format; if it does not, the content does. A name that contradicts the
 /// content is an error. Integers beyond 2^53 and decimals become the nearest double. A file without rows gives none.
-/// Throws InputError with file, row or line, and what to do: CannotRead, UnknownFormat, Malformed (another shape, kind
+/// Throws InputError with file, row or line, and what to do: UnknownFormat, Malformed (another shape, kind
 /// of number, or truncated), NonFiniteCoordinate, NoLength for ends that are equal. Memory use is bounded by the size
 /// of the content, as in mesh_io.h.
-std::vector<Segment> read_segments(const std::filesystem::path& path);
 std::vector<Segment> read_segments(std::string_view content, const std::filesystem::path& name);
 
 /// Reads rays in the same way: x,y,z,dx,dy,dz, an array called `rays`; NoLength for a direction of zeros.
-std::vector<Ray> read_rays(const std::filesystem::path& path);
 std::vector<Ray> read_rays(std::string_view content, const std::filesystem::path& name);
 
 /// Reads triangles in the same way: x0,y0,z0,x1,y1,z1,x2,y2,z2, of shape (n, 9) or (n, 3, 3), an array called
 /// `triangles`. Triangles without area are allowed.
-std::vector<Triangle> read_triangles(const std::filesystem::path& path);
 std::vector<Triangle> read_triangles(std::string_view content, const std::filesystem::path& name);
 
 /// Reads poses in the same way, of an array called `poses`. Each row is one of these, which the file's first row tells:
@@ -41,10 +38,9 @@ std::vector<Triangle> read_triangles(std::string_view content, const std::filesy
 ///   r00,r01,r02,x,r10,...   the upper three rows of a matrix; shape (n, 12) or (n, 3, 4)
 ///   r00,...,0,0,0,1         a whole matrix; shape (n, 16) or (n, 4, 4)
 /// Malformed if a pose is not rigid (collide.h).
-std::vector<Pose> read_poses(const std::filesystem::path& path);
 std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name);
+
 /// Reads points in the same way: x,y,z, of shape (n, 3), an array called `points`.
-std::vector<Vec3> read_points(const std::filesystem::path& path);
 std::vector<Vec3> read_points(std::string_view content, const std::filesystem::path& name);
 
 enum class QueryFormat { Npy, Npz, Csv };
