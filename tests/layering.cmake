@@ -26,6 +26,7 @@ room(construct OWNS hull_builder tight_hull detail/float32_hull padded_hull deta
 # Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges, and
 # whether that is closed.
 room(verify    OWNS enclosure verification union_verification detail/replay distance tolerances detail/solid_pieces detail/inside_out MAY geometry parallel base prohull/detail/ids
+                                                                                     prohull/detail/disjoint_sets
                                                                                      prohull/triangle_mesh
                                                                                      mesh/closed
                                                                                      prohull/detail/vertex_split

@@ -54,7 +54,7 @@ refused(src/io/mesh_io.cpp "#include \"tests/meshes.h\"" "io may not include tes
 # Exact numbers of others.
 refused(apps/prohull/info.cpp "#include <CGAL/Lazy_exact_nt.h>" "exact numbers are those of")
 refused(src/geometry/exact_number.cpp "#include <boost/multiprecision/cpp_int.hpp>" "exact numbers are those of")
-refused(src/verify/exact.h "#include <gmpxx.h>" "exact numbers are those of")
+refused(src/verify/cell.h "#include <gmpxx.h>" "exact numbers are those of")
 # What nobody has put into the table.
 refused(include/prohull/newcomer.h "#pragma once" "prohull/newcomer.h has no owner")
 refused(src/newcomer/newcomer.h "#pragma once" "src/newcomer/newcomer.h: its folder newcomer has no rule")

@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <type_traits>
@@ -45,6 +46,17 @@ pybind11::array array_of(std::vector<T> values, std::vector<pybind11::ssize_t> s
   return pybind11::array_t<T>(std::move(shape), kept->data(), keep);
 }
 
+inline pybind11::array offsets_of(const std::vector<std::size_t>& offsets) {
+  return array_of(std::vector<std::int64_t>(offsets.begin(), offsets.end()),
+                  {static_cast<pybind11::ssize_t>(offsets.size())});
+}
+
+inline pybind11::array truths_of(const std::vector<bool>& truths) {
+  pybind11::array_t<bool> array(static_cast<pybind11::ssize_t>(truths.size()));
+  std::copy(truths.begin(), truths.end(), array.mutable_data());
+  return array;
+}
+
 /// Shape (3,).
 inline pybind11::array point_of(const Vec3& p) { return array_of(std::vector<double>{p.x, p.y, p.z}, {3}); }
 
@@ -84,6 +96,13 @@ template <class Row, class T>
 const Row* rows_of(const Array<T>& array) {
   static_assert(sizeof(Row) % sizeof(T) == 0 && std::is_standard_layout_v<Row>);
   return reinterpret_cast<const Row*>(array.data());
+}
+
+/// Of rows of four numbers.
+inline std::vector<Ball> balls_of(const Array<double>& rows) {
+  static_assert(sizeof(Ball) == 4 * sizeof(double));
+  const auto* const first = rows_of<Ball>(rows);
+  return {first, first + rows.shape(0)};
 }
 
 }  // namespace prohull::python

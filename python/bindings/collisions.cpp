@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -34,12 +33,9 @@ auto answered(unsigned threads, const py::object& progress, Batch batch) {
 py::array collides(const CollisionIndex& a, const CollisionIndex& b, const Array<double>& poses_a,
                    const Array<double>& poses_b, bool conservative, unsigned threads, const py::object& progress) {
   const std::vector<PosePair> poses = pose_pairs(poses_a, poses_b);
-  const std::vector<bool> truths = answered(threads, progress, [&](const CollisionOptions& how) {
+  return truths_of(answered(threads, progress, [&](const CollisionOptions& how) {
     return conservative ? may_collide(a, b, poses, how) : collide(a, b, poses, how);
-  });
-  py::array_t<bool> result(poses_a.shape(0));
-  std::ranges::copy(truths, result.mutable_data());
-  return result;
+  }));
 }
 
 py::tuple intersecting_faces_of(const CollisionIndex& a, const CollisionIndex& b, const Array<double>& poses_a,
@@ -50,9 +46,7 @@ py::tuple intersecting_faces_of(const CollisionIndex& a, const CollisionIndex& b
   std::vector<std::int64_t> faces;
   for (const FacePair& pair : batch.pairs) faces.insert(faces.end(), {index(pair.a), index(pair.b)});
   const auto count = static_cast<py::ssize_t>(batch.pairs.size());
-  return py::make_tuple(array_of(std::vector<std::int64_t>(batch.offsets.begin(), batch.offsets.end()),
-                                 {static_cast<py::ssize_t>(batch.offsets.size())}),
-                        array_of(std::move(faces), {count, 2}));
+  return py::make_tuple(offsets_of(batch.offsets), array_of(std::move(faces), {count, 2}));
 }
 
 /// Lower and upper bounds, points (n, 2, 3) and faces (n, 2).

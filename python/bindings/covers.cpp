@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -25,13 +24,6 @@ namespace py = pybind11;
 
 namespace prohull::python {
 namespace {
-
-static_assert(sizeof(Ball) == 4 * sizeof(double) && std::is_standard_layout_v<Ball>);
-
-std::vector<Ball> balls_of(const Array<double>& rows) {
-  const Ball* const first = rows_of<Ball>(rows);
-  return {first, first + rows.shape(0)};
-}
 
 /// The name of its class in Python, and the values of its fields; None if the piece is none of them.
 struct PrimitiveFacts {

@@ -36,12 +36,8 @@ struct DrawnOf {
     for (const SharedMesh& piece : given) pieces.push_back(*piece);
     return pieces;
   }
-  Result operator()(const Array<double>& given) const {
-    const auto* const rows = rows_of<Ball>(given);
-    return view::Balls(rows, rows + given.shape(0));
-  }
+  Result operator()(const Array<double>& given) const { return balls_of(given); }
 };
-static_assert(sizeof(Ball) == 4 * sizeof(double) && std::is_standard_layout_v<Ball>);
 
 /// Each with its name; of meshes the side on which they lie is told, too.
 using Given = std::tuple<std::string, Drawn, std::optional<std::string>>;

@@ -52,10 +52,9 @@ py::bytes picture(const TriangleMesh& mesh, const TriangleMesh* inside, int widt
 py::bytes picture_of_parts(const std::vector<SharedMesh>& pieces, const Array<double>& balls, int width, int height) {
   check_size(width, height);
   return watched(py::none(), [&](Watch& watch) {
-    const auto* const rows = rows_of<Ball>(balls);
     std::vector<TriangleMesh> meshes;
     for (const SharedMesh& piece : pieces) meshes.push_back(*piece);
-    render::Exploded parts = render::exploded(robot::mesh_of(meshes, {rows, rows + balls.shape(0)}), 0);
+    render::Exploded parts = render::exploded(robot::mesh_of(meshes, balls_of(balls)), 0);
     render::PanelPlan plan;
     plan.face_colors = std::move(parts.colors);
     return png_of(std::move(plan), parts.mesh, nullptr, width, height, watch);

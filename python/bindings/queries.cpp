@@ -98,14 +98,11 @@ py::list first_hits(const QueryIndex& index, const Array<double>& rows, bool are
 
 py::array any_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
                    const py::object& progress) {
-  const std::vector<bool> crossed = watched(progress, [&](Watch& watch) {
+  return truths_of(watched(progress, [&](Watch& watch) {
     const BatchOptions options = batch_options(watch, threads);
     return are_rays ? crosses(index, queries_of<Ray>(rows), options)
                     : crosses(index, queries_of<Segment>(rows), options);
-  });
-  py::array_t<bool> result(rows.shape(0));
-  std::ranges::copy(crossed, result.mutable_data());
-  return result;
+  }));
 }
 
 struct Chunk {
@@ -147,11 +144,6 @@ py::list all_hits(const QueryIndex& index, const Array<double>& rows, bool are_r
   return result;
 }
 
-py::array offsets_of(const std::vector<std::size_t>& offsets) {
-  return array_of(std::vector<std::int64_t>(offsets.begin(), offsets.end()),
-                  {static_cast<py::ssize_t>(offsets.size())});
-}
-
 /// `rows` of shape (n, 9).
 py::tuple triangles_met(const QueryIndex& index, const Array<double>& rows, unsigned threads,
                         const py::object& progress) {
@@ -167,11 +159,9 @@ py::tuple triangles_met(const QueryIndex& index, const Array<double>& rows, unsi
 /// `points` of shape (n, 3).
 py::array points_inside(const QueryIndex& index, const Array<double>& points, unsigned threads,
                         const py::object& progress) {
-  const std::vector<bool> inside = watched(
-      progress, [&](Watch& watch) { return contains(index, queries_of<Vec3>(points), batch_options(watch, threads)); });
-  py::array_t<bool> result(points.shape(0));
-  std::ranges::copy(inside, result.mutable_data());
-  return result;
+  return truths_of(watched(progress, [&](Watch& watch) {
+    return contains(index, queries_of<Vec3>(points), batch_options(watch, threads));
+  }));
 }
 
 /// Columns of n closest points.

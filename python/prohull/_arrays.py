@@ -3,7 +3,7 @@
 import numbers
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Any, Optional
 
 import numpy as np
@@ -55,6 +55,11 @@ def count(name: str, value: Any, bits: int = 32, least: int = 0) -> int:
     if not is_whole or not least <= value < 1 << bits:
         raise InputError(f"{name}={value!r}: expected a whole number, at least {least} and less than 2^{bits}")
     return int(value)
+
+
+def one_of(name: str, value: Any, choices: Collection[Any]) -> None:
+    if value not in choices:
+        raise InputError(f"{name}={value!r}: expected one of {', '.join(choices)}")
 
 
 def not_negative(name: str, value: Any) -> float:

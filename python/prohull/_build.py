@@ -1,7 +1,6 @@
 """The call that makes hulls."""
 
 import math
-import os
 from collections.abc import Sequence
 from typing import Any, Optional, Union, overload
 
@@ -9,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _prohull
-from ._files import bound_of, distance_of, mesh_of
+from ._files import bound_of, distance_of, mesh_of, naming
 from ._hull import Hull
 from ._meshes import Mesh
 from ._prohull import InputError
@@ -137,12 +136,8 @@ def build(mesh: Any, faces: Any = None, target_faces: Any = None, *,  # type: ig
     keywords.update(max_distance=bound_of("max_distance", max_distance, given), gap=distance_of("gap", gap, given),
                     seal_holes=bound_of("seal_holes", seal_holes, given),
                     tolerances=() if tolerances is None else tolerances)
-    try:
+    with naming(mesh):
         made = _prohull.build(given._core, [int(n) for n in np.atleast_1d(targets)], progress, keywords)
-    except InputError as error:
-        if isinstance(mesh, (str, os.PathLike)):
-            raise InputError(f"{os.fspath(mesh)}: {error}") from None
-        raise
     hulls = [Hull._made(dict(facts, mirror=mirror), side) for facts in made]
     return hulls if targets.ndim > 0 else hulls[0]
 

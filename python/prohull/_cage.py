@@ -24,14 +24,6 @@ class CageHull(Mesh):
     worst_aspect_ratio: float  #: longest edge of a triangle, divided by its shortest altitude
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
 
-    @classmethod
-    def _made(cls, facts: dict[str, Any]) -> "CageHull":
-        hull = cls.__new__(cls)
-        hull._set(facts.pop("mesh"))
-        for name, value in facts.items():
-            setattr(hull, name, value)
-        return hull
-
 
 @dataclass(frozen=True)
 class Cage(Shown):
@@ -77,5 +69,5 @@ def cage(mesh: MeshLike, faces: int = 400, *, inner_faces: int = 0, gap: Gap = 0
     keywords = dict(faces=faces, inner_faces=inner_faces, gap=gap, even=even, tight=tight,
                     float32_coordinates=float32_coordinates, threads=threads)
     facts = _covered(_prohull.cage, mesh, progress, keywords)
-    inner = CageHull._made(facts["inner"]) if facts["inner"] else None
-    return Cage(CageHull._made(facts["outer"]), inner, facts["gap"], facts["notes"], facts["original"])
+    outer, inner = (hull and CageHull._with(hull.pop("mesh"), **hull) for hull in (facts["outer"], facts["inner"]))
+    return Cage(outer, inner, facts["gap"], facts["notes"], facts["original"])

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _prohull
-from ._files import bound_of, mesh_of, write_whole
+from ._files import bound_of, mesh_of, naming, write_whole
 from ._meshes import Mesh
 from ._prohull import InputError
 from ._shown import Shown
@@ -50,13 +50,6 @@ class ConvexPiece(Mesh):
     """A piece of a cover: a convex polytope, closed, with faces that look outwards. Everything that a Mesh does, it does."""
 
     primitive: Optional[Union[OrientedBox, Capsule, Ball]]  #: a box, capsule or ball that encloses the polytope, if `shape` asked for one
-
-    @classmethod
-    def _made(cls, core: _prohull.Mesh, primitive: Optional[tuple[Any, ...]]) -> "ConvexPiece":
-        piece = cls.__new__(cls)
-        piece._set(core)
-        piece.primitive = _PRIMITIVES[primitive[0]](*primitive[1:]) if primitive else None
-        return piece
 
 
 class CoverShown(Shown):
@@ -220,7 +213,8 @@ def convex_pieces(mesh: MeshLike, pieces: int = 16, *, vertices: int = 64, max_d
     keywords = dict(pieces=pieces, vertices=vertices, max_distance=max_distance, max_void_percent=max_void_percent,
                     shape=shape, float32_coordinates=float32_coordinates, threads=threads)
     facts = _covered(_prohull.convex_pieces, mesh, progress, keywords)
-    facts["pieces"] = [ConvexPiece._made(*piece) for piece in facts["pieces"]]
+    facts["pieces"] = [ConvexPiece._with(core, primitive=primitive and _PRIMITIVES[primitive[0]](*primitive[1:]))
+                       for core, primitive in facts["pieces"]]
     return ConvexCover(**facts)
 
 
@@ -296,12 +290,8 @@ def _covered(cover: Callable[..., dict[str, Any]], mesh: MeshLike, progress: Opt
     """What `cover` makes of the mesh; errors name the file."""
     given = mesh_of(mesh, keep_non_finite=True)
     lengths = {name: bound_of(name, keywords[name], given) for name in ("max_distance", "gap", "spacing") if name in keywords}
-    try:
+    with naming(mesh):
         return {**cover(given._core, progress, {**keywords, **lengths}), "original": given}
-    except InputError as error:
-        if isinstance(mesh, (str, os.PathLike)):
-            raise InputError(f"{os.fspath(mesh)}: {error}") from None
-        raise
 
 
 def _balls(pieces: Any) -> Optional[NDArray[np.float64]]:

@@ -1,8 +1,11 @@
 """Meshes and hulls from files, from arrays and from other libraries."""
 
+import contextlib
 import os
 import pathlib
 import tempfile
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -24,6 +27,17 @@ def mesh_of(mesh: MeshLike, keep_non_finite: bool = False) -> Mesh:
     if arrays is None:
         raise InputError(f"{_arrays.described(mesh)} is no mesh; {_arrays.MESHES}")
     return Mesh(*arrays)
+
+
+@contextlib.contextmanager
+def naming(mesh: Any) -> Iterator[None]:
+    """Errors name the mesh if it was given as a file."""
+    try:
+        yield
+    except InputError as error:
+        if isinstance(mesh, (str, os.PathLike)):
+            raise InputError(f"{os.fspath(mesh)}: {error}") from None
+        raise
 
 
 def distance_of(name: str, value: Gap, mesh: Mesh) -> float:
@@ -109,12 +123,18 @@ def bytes_of(path: Path) -> bytes:
         raise InputError(f"{os.fspath(path)}: cannot read: {error.strerror}") from None
 
 
+@contextlib.contextmanager
+def replaced(path: pathlib.Path) -> Iterator[pathlib.Path]:
+    """A path for a file that takes the place of the one at `path`, once it is whole."""
+    with tempfile.TemporaryDirectory(dir=path.parent) as beside:
+        whole = pathlib.Path(beside) / path.name
+        yield whole
+        os.replace(whole, path)
+
+
 def write_whole(path: pathlib.Path, text: str) -> None:
-    """The file is written beside `path`, then it is renamed."""
     try:
-        with tempfile.TemporaryDirectory(dir=path.parent) as beside:
-            whole = pathlib.Path(beside) / path.name
+        with replaced(path) as whole:
             whole.write_text(text, encoding="utf-8")
-            os.replace(whole, path)
     except OSError as error:
         raise InputError(f"{path}: {error.strerror}") from None

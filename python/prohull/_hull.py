@@ -56,9 +56,9 @@ class Hull(Mesh):
     _volume_inside: Optional[float]  # that void is measured against; None: that of the original
     _open_shells: OpenShells
     _replay_suffices: bool  # whether a level that encloses the solid of the original covers every triangle of it
-    _distance: Optional[float]  # computed when it is asked for, and so are the next
-    _self_intersections: Optional[int]
-    _verdict: "Optional[Verification]"
+    _distance: Optional[float] = None  # computed when it is asked for, and so are the next
+    _self_intersections: Optional[int] = None
+    _verdict: "Optional[Verification]" = None
 
     @classmethod
     def _made(cls, facts: dict[str, Any], side: Side) -> "Hull":
@@ -71,14 +71,6 @@ class Hull(Mesh):
                        _replay_suffices=facts.pop("replay_suffices"),
                        _volume_inside=facts.pop("volume_inside", None))
         return cls._with(facts.pop("mesh"), side=side, **private, **facts)
-
-    @classmethod
-    def _with(cls, core: _prohull.Mesh, **attributes: Any) -> "Hull":
-        hull = cls.__new__(cls)
-        hull._set(core)
-        hull._distance = hull._self_intersections = hull._verdict = None
-        hull.__dict__.update(attributes)
-        return hull
 
     def _as(self, core: _prohull.Mesh, **changes: Any) -> "Hull":
         """Another mesh with the facts of this hull, but for `changes`."""

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, TypeVar, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -93,6 +93,8 @@ class TwoHulls(NamedTuple):
 
 Engine = Union[EngineName, Refinement, TwoHulls]
 
+_AnyMesh = TypeVar("_AnyMesh", bound="Mesh")
+
 
 class Mesh(Shown):
     """Vertices and triangles, which do not change. Triangles are counter-clockwise when seen from outside.
@@ -133,6 +135,13 @@ class Mesh(Shown):
     def _of(cls, core: _prohull.Mesh, levels: Optional[_prohull.Levels] = None) -> "Mesh":
         mesh = cls.__new__(cls)
         mesh._set(core, levels)
+        return mesh
+
+    @classmethod
+    def _with(cls: type[_AnyMesh], core: _prohull.Mesh, **facts: Any) -> _AnyMesh:
+        mesh = cls.__new__(cls)
+        mesh._set(core)
+        mesh.__dict__.update(facts)
         return mesh
 
     def __getstate__(self) -> dict[str, Any]:

@@ -116,11 +116,6 @@ def path_rows(names: Sequence[str], joints: Optional[Sequence[str]], positions: 
                              table("accelerations", accelerations))
 
 
-def check_geometry(geometry: Geometry) -> None:
-    if geometry not in get_args(Geometry):
-        raise InputError(f"geometry={geometry!r}: expected one of {', '.join(get_args(Geometry))}")
-
-
 def _world_of(world: Any) -> Mapping[str, MeshLike]:
     if world is None:
         return {}
@@ -142,7 +137,7 @@ def _pairs_of(ignore: Any) -> list[tuple[str, str]]:
 
 def path_checker(robot: _prohull.Robot, joint_names: Sequence[str], world: Optional[Mapping[str, MeshLike]],
                  geometry: Geometry, srdf: Optional[Path], ignore: Sequence[tuple[str, str]]) -> PathChecker:
-    check_geometry(geometry)
+    _arrays.one_of("geometry", geometry, get_args(Geometry))
     text = b"" if srdf is None else bytes_of(srdf)
     meshes = [(name, mesh_of(mesh)._core) for name, mesh in _world_of(world).items()]
     core = _prohull.PathChecker(robot, meshes, geometry, text, "" if srdf is None else os.fspath(srdf),

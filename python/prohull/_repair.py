@@ -1,6 +1,6 @@
 """Closed solids of meshes."""
 
-from typing import Any, Optional
+from typing import Optional
 
 from . import _prohull
 from ._covers import _covered
@@ -20,14 +20,6 @@ class Solid(Mesh):
     closed_openings: int  #: number of openings that got a cap
     largest_opening: float  #: the diameter of the largest of these, in the mesh's unit
     original: Mesh  #: what it was made of
-
-    @classmethod
-    def _made(cls, facts: dict[str, Any]) -> "Solid":
-        solid = cls.__new__(cls)
-        solid._set(facts.pop("mesh"))
-        for name, value in facts.items():
-            setattr(solid, name, value)
-        return solid
 
 
 def repair(mesh: MeshLike, *, spacing: Gap = 0.0, open_shells: OpenShells = "close", keep_cavities: bool = True,
@@ -56,4 +48,5 @@ def repair(mesh: MeshLike, *, spacing: Gap = 0.0, open_shells: OpenShells = "clo
     """
     keywords = dict(spacing=spacing, open_shells=open_shells, keep_cavities=keep_cavities,
                     float32_coordinates=float32_coordinates)
-    return Solid._made(_covered(_prohull.repair, mesh, progress, keywords))
+    facts = _covered(_prohull.repair, mesh, progress, keywords)
+    return Solid._with(facts.pop("mesh"), **facts)

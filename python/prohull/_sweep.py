@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _prohull
 from ._collide import matrices
 from ._covers import CoverShown, save_pieces
-from ._files import bytes_of, distance_of, mesh_of
+from ._files import bytes_of, distance_of, mesh_of, naming
 from ._meshes import Mesh
 from ._prohull import InputError
 from ._types import Axis, Gap, MeshLike, Path, Progress
@@ -94,12 +94,8 @@ def sweep(mesh: MeshLike, *, axis: Union[Axis, Sequence[float]] = "z", through: 
     given = mesh_of(mesh, keep_non_finite=True)
     keywords = sweep_keywords(pieces, max_distance, lambda name, distance: distance_of(name, distance, given),
                               float32_coordinates, threads)
-    try:
+    with naming(mesh):
         return sweep_of(_prohull.sweep(given._core, motions, progress, keywords))
-    except InputError as error:
-        if isinstance(mesh, (str, os.PathLike)):
-            raise InputError(f"{os.fspath(mesh)}: {error}") from None
-        raise
 
 
 def sweep_keywords(pieces: int, max_distance: Optional[Gap], read: Callable[[str, Any], float], float32_coordinates: bool,

@@ -99,8 +99,7 @@ def view(*shown: Viewable, original: Optional[MeshLike] = None, path: Optional[P
 
         prohull.view("hull.stl", original="part.stl", path="view.html")
     """
-    if side not in _prohull.sides:
-        raise InputError(f"side={side!r}: expected one of {', '.join(_prohull.sides)}")
+    _arrays.one_of("side", side, _prohull.sides)
     _check_path(path)
     parts = _distinct([part for given in shown for part in _parts_of(given)])
     if not parts:

@@ -22,7 +22,6 @@ import os
 import pathlib
 import sys
 import time
-import uuid
 import warnings
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, Optional, TypeVar, Union, get_args, overload
@@ -39,7 +38,7 @@ except ImportError as error:
 import prohull
 
 from . import AllHits, FirstHits, Hull, InputError, Mesh, _arrays, _prohull, robot
-from ._files import mesh_of
+from ._files import mesh_of, replaced
 from ._meshes import Engine
 from ._types import MeshLike, Path, Side
 
@@ -240,8 +239,7 @@ def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kin
     Raises InputError as the query itself does, and distributed.KilledWorker if all workers died that a chunk was given
     to.
     """
-    if kind not in ("first_hit", "any_hit", "all_hits"):
-        raise InputError(f"kind={kind!r}: expected one of first_hit, any_hit, all_hits")
+    _arrays.one_of("kind", kind, ("first_hit", "any_hit", "all_hits"))
     rows = _arrays.with_length(_finite(_arrays.rows("segments", segments, (2, 3), (6,)).reshape(-1, 6)), False)
     given = mesh_of(mesh)
     bare = Mesh._of(given._core, given._query_levels)  # of a Hull no more than is asked
@@ -656,10 +654,5 @@ def _reported(file: pathlib.Path, rows: Mapping[int, _AnyRow], row: type[_AnyRow
 
 
 def _write(path: pathlib.Path, text: str) -> None:
-    """Whole or not at all."""
-    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}")
-    try:
-        beside.write_text(text, encoding="utf-8", errors="surrogateescape")  # names of files may be no UTF-8
-        os.replace(beside, path)
-    finally:
-        beside.unlink(missing_ok=True)
+    with replaced(path) as whole:
+        whole.write_text(text, encoding="utf-8", errors="surrogateescape")  # names of files may be no UTF-8

@@ -10,7 +10,6 @@ radians. What is wrong with a file is raised as InputError, with the file and th
 
 import os
 import pathlib
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, Optional, Union, get_args
 
@@ -18,9 +17,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _prohull
-from ._files import bytes_of
+from ._files import bytes_of, replaced
 from ._meshes import Mesh
-from ._paths import BeyondLimits, Geometry, PathCheck, PathChecker, PathPair, check_geometry, path_checker, path_rows
+from ._paths import BeyondLimits, Geometry, PathCheck, PathChecker, PathPair, path_checker, path_rows
 from ._prohull import InputError
 from ._shown import Shown
 from ._sweep import Sweep, sweep_keywords, sweep_of
@@ -274,10 +273,8 @@ class Hulls(Shown):
         for name, write in self._core.files(out, self._format, package or ""):
             target = out / name
             target.parent.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryDirectory(dir=target.parent) as beside:
-                whole = pathlib.Path(beside) / target.name
+            with replaced(target) as whole:
                 write(whole)
-                os.replace(whole, target)
             written.append(str(target))
         return written
 
@@ -385,8 +382,7 @@ class Robot(Shown):
         """
         for name, value, choices in (("from_", from_, Geometry), ("format", format, Format),
                                      ("collision", collision, Collision)):
-            if value not in get_args(choices):
-                raise InputError(f"{name}={value!r}: expected one of {', '.join(get_args(choices))}")
+            _arrays.one_of(name, value, get_args(choices))
         sizes = {"pieces": (pieces, 1), "vertices": (vertices, 4), "spheres": (spheres, 1)}
         for name, (size, least) in sizes.items():
             _arrays.count(name, size, least=least)
@@ -473,7 +469,7 @@ class Robot(Shown):
 
         Raises InputError as check_path() and prohull.sweep() do.
         """
-        check_geometry(geometry)
+        _arrays.one_of("geometry", geometry, get_args(Geometry))
         rows = path_rows(self._path_joints(), joints, positions, times, velocities, accelerations)
         made = _prohull.sweep_robot(
             self._core, rows, self._numbers_of(links), geometry == "visual", progress,
@@ -494,7 +490,7 @@ class Robot(Shown):
         Raises InputError as sweep() does, and for a joint that has no limits, wrong ones or several freedoms, if such a
         link is behind it.
         """
-        check_geometry(geometry)
+        _arrays.one_of("geometry", geometry, get_args(Geometry))
         made = _prohull.sweep_workspace(
             self._core, self._numbers_of(links), geometry == "visual", progress,
             sweep_keywords(pieces, max_distance, _arrays.not_negative, float32_coordinates, threads))

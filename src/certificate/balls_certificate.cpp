@@ -11,7 +11,7 @@
 #include "geometry/box_around_ball.h"
 #include "geometry/bvh.h"
 #include "prohull/certificate.h"
-#include "verify/exact.h"
+#include "verify/cell.h"
 
 // A part of which one ball holds all corners is a leaf. Any other is cut in two at the middle of its longest side.
 

@@ -6,6 +6,7 @@
 
 #include "geometry/orientation.h"
 #include "mesh/closed.h"
+#include "prohull/detail/disjoint_sets.h"
 #include "prohull/detail/finite.h"
 #include "prohull/enclosure.h"
 #include "verify/surface.h"
@@ -20,7 +21,7 @@ constexpr std::uint64_t kVersion = 1;
 std::vector<std::vector<FaceId>> components(const TriangleMesh& mesh, const std::vector<FaceId>& faces) {
   const std::vector<std::uint32_t> number = numbered_by_position(mesh.positions);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> first_at;
-  verify::Clusters clusters(faces.size());
+  DisjointSets clusters(faces.size());
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     const auto& corners = mesh.triangles[faces[i]];
     for (int c = 0; c < 3; ++c) {
@@ -30,7 +31,7 @@ std::vector<std::vector<FaceId>> components(const TriangleMesh& mesh, const std:
     }
   }
   std::map<std::uint32_t, std::vector<FaceId>> groups;
-  for (std::uint32_t i = 0; i < faces.size(); ++i) groups[clusters.representative(i)].push_back(faces[i]);
+  for (std::uint32_t i = 0; i < faces.size(); ++i) groups[clusters.find(i)].push_back(faces[i]);
   std::vector<std::vector<FaceId>> result;
   for (auto& [first, group] : groups) result.push_back(std::move(group));
   return result;

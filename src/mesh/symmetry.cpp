@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "geometry/triangle_key.h"
 #include "mesh/mirror_images.h"
 
 namespace prohull {
@@ -14,18 +15,10 @@ namespace {
 constexpr std::array<std::pair<std::string_view, Axis>, 3> kAxisNames{{{"x", Axis::X}, {"y", Axis::Y}, {"z", Axis::Z}}};
 
 using PlacedCorner = std::array<double, 3>;
-/// The corners of a face from the least one on, in their order around it.
-using CornersKey = std::array<PlacedCorner, 3>;
 
 PlacedCorner corner(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-CornersKey key_of(const Triangle& t) {
-  CornersKey key{corner(t.a), corner(t.b), corner(t.c)};
-  std::rotate(key.begin(), std::ranges::min_element(key), key.end());
-  return key;
-}
-
-std::ptrdiff_t count(const std::vector<CornersKey>& sorted, const CornersKey& key) {
+std::ptrdiff_t count(const std::vector<TriangleKey>& sorted, const TriangleKey& key) {
   const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), key);
   return last - first;
 }
@@ -46,17 +39,11 @@ class Inspection {
   }
 
  private:
-  std::optional<PlacedCorner> image_of(const Vec3& p) const {
-    const auto image = plane_ && is_finite(p) ? plane_->image(p) : std::nullopt;
-    return image ? std::optional(corner(*image)) : std::nullopt;
-  }
+  std::optional<Vec3> image_of(const Vec3& p) const { return plane_ && is_finite(p) ? plane_->image(p) : std::nullopt; }
 
-  std::optional<CornersKey> image_of(const Triangle& t) const {
+  std::optional<TriangleKey> key_of_image(const Triangle& t) const {
     const auto a = image_of(t.a), b = image_of(t.b), c = image_of(t.c);
-    if (!a || !b || !c) return std::nullopt;
-    CornersKey key{*a, *c, *b};
-    std::rotate(key.begin(), std::ranges::min_element(key), key.end());
-    return key;
+    return a && b && c ? std::optional(oriented_key({*a, *c, *b})) : std::nullopt;
   }
 
   void inspect_vertices() {
@@ -70,7 +57,7 @@ class Inspection {
     for (const VertexId v : is_used.ids()) {
       if (!is_used[v]) continue;
       const auto image = image_of(mesh_.positions[v]);
-      if (image && std::ranges::binary_search(places, *image)) continue;
+      if (image && std::ranges::binary_search(places, corner(*image))) continue;
       ++report_.vertices_without_image;
       note("vertex", index(v), mesh_.positions[v]);
     }
@@ -78,14 +65,14 @@ class Inspection {
 
   // Of faces that lie on each other there must be as many on the other side.
   void inspect_faces() {
-    std::vector<CornersKey> keys;
+    std::vector<TriangleKey> keys;
     for (const FaceId f : mesh_.triangles.ids())
-      if (const Triangle t = mesh_.triangle(f); image_of(t)) keys.push_back(key_of(t));
+      if (const Triangle t = mesh_.triangle(f); key_of_image(t)) keys.push_back(oriented_key(t));
     std::ranges::sort(keys);
     for (const FaceId f : mesh_.triangles.ids()) {
       const Triangle t = mesh_.triangle(f);
-      const auto image = image_of(t);
-      if (image && count(keys, *image) == count(keys, key_of(t))) continue;
+      const auto image = key_of_image(t);
+      if (image && count(keys, *image) == count(keys, oriented_key(t))) continue;
       ++report_.faces_without_image;
       note("face", index(f), t.a);
     }

@@ -3,10 +3,14 @@
 #include <array>
 #include <vector>
 
+#include "geometry/lazy_number.h"
 #include "prohull/geometry.h"
-#include "verify/exact.h"
 
 namespace prohull::verify {
+
+using Number = LazyNumber;
+
+inline Vec3 rounded(const std::array<Number, 3>& p) { return {p[0].rounded(), p[1].rounded(), p[2].rounded()}; }
 
 /// In the projection along an axis: the coordinates (axis + 1) % 3 and (axis + 2) % 3.
 struct PlanePoint {

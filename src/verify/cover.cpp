@@ -12,6 +12,7 @@
 #include "geometry/triangle_contact.h"
 #include "geometry/triangle_predicates.h"
 #include "mesh/closed.h"
+#include "prohull/detail/disjoint_sets.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
@@ -73,7 +74,7 @@ class CoveredFaces {
   /// All of the face.
   bool contain(FaceIndex f) {
     if (beyond_.empty()) follow_edges();
-    f = sheets_.representative(f);
+    f = sheets_.find(f);
     if (all_[f] == Answer::NotAsked) {
       Arrangement pieces(surface_.faces[f], surface_.axis[f], random_, steps_);
       pieces.add(0, surface_, cutters_of(f));
@@ -130,7 +131,7 @@ class CoveredFaces {
   const Surface& surface_;
   Steps& steps_;
   std::vector<std::vector<FaceIndex>> meets_;
-  Clusters sheets_;                               // of faces that have the same regions beside them
+  DisjointSets sheets_;                           // of faces that have the same regions beside them
   std::vector<Answer> all_;                       // by representative
   std::vector<std::array<FaceIndex, 3>> beyond_;  // each edge: the face that goes on in the plane, or the face itself
   std::size_t self_intersections_ = 0;
@@ -342,7 +343,7 @@ class CoverVerifier {
         check_alone(f);
         continue;
       }
-      auto& answer = is_covered[groups_.representative(*corner)];
+      auto& answer = is_covered[groups_.find(*corner)];
       if (!answer) answer = winding_at(outer_, ExactPoint(mesh_.positions[VertexId(*corner)])) >= 1;
       if (!*answer) add_outside(f);
     }
@@ -376,7 +377,7 @@ class CoverVerifier {
   Steps steps_;
   CoveredFaces covered_;
   const std::vector<std::uint32_t> number_;  // of the vertices, by position
-  Clusters groups_;                          // of clear vertices, which are in one region of H
+  DisjointSets groups_;                      // of clear vertices, which are in one region of H
   std::vector<bool> is_clear_;               // by number: H does not touch a triangle that has the vertex
   std::vector<FaceId> free_;                 // the triangles that no face of H cuts or holds
   std::vector<FaceIndex> near_;              // of the triangle at hand

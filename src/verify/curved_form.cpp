@@ -7,7 +7,7 @@
 
 #include "prohull/detail/solid_pieces.h"
 #include "prohull/error.h"
-#include "verify/exact.h"
+#include "verify/cell.h"
 
 namespace prohull {
 namespace {

@@ -1,4 +1,5 @@
 #include "prohull/enclosure.h"
+#include "prohull/detail/disjoint_sets.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +14,6 @@
 #include "prohull/error.h"
 #include "verify/arrangement.h"
 #include "verify/cell.h"
-#include "verify/holes.h"
 #include "verify/offenders.h"
 #include "verify/self_intersection.h"
 #include "verify/solids.h"
@@ -104,10 +104,10 @@ class Verifier {
         ++holes.undecided;
       }
     }
-    Clusters clusters(outer_.faces.size());
+    DisjointSets clusters(outer_.faces.size());
     join_along_edges(outer_, clusters, [&](const FaceEdge& e) { return bounds_hole[e.face] != 0; });
     for (FaceIndex f = 0; f < outer_.faces.size(); ++f)
-      if (bounds_hole[f] && clusters.representative(f) == f) ++holes.count;
+      if (bounds_hole[f] && clusters.find(f) == f) ++holes.count;
     return holes;
   }
 
@@ -142,7 +142,7 @@ class Verifier {
   };
 
   void check_inner_faces() {
-    Clusters clusters(inner_.faces.size());
+    DisjointSets clusters(inner_.faces.size());
     std::vector<std::uint8_t> is_free(inner_.faces.size());        // H does not meet the interior
     std::vector<std::uint8_t> open_edges(inner_.faces.size(), 0);  // bit e: edge e is not on H
     for (FaceIndex f = 0; f < inner_.faces.size(); ++f) {
@@ -160,7 +160,7 @@ class Verifier {
     std::vector<std::uint8_t> is_uncovered(inner_.faces.size());  // by representative, which comes first in its cluster
     for (FaceIndex f = 0; f < inner_.faces.size(); ++f) {
       if (!is_free[f]) continue;
-      const FaceIndex r = clusters.representative(f);
+      const FaceIndex r = clusters.find(f);
       if (r == f) is_uncovered[r] = is_uncovered_somewhere(f);
       if (is_uncovered[r]) check_inner_face(f, {});
     }
@@ -228,7 +228,7 @@ class Verifier {
   }
 
   template <class Joins>
-  static void join_along_edges(const Surface& surface, Clusters& clusters, Joins joins) {
+  static void join_along_edges(const Surface& surface, DisjointSets& clusters, Joins joins) {
     const std::vector<FaceEdge> sides = edges(surface);
     for (std::size_t i = 0, end; i < sides.size(); i = end) {
       std::optional<FaceIndex> first;

@@ -77,12 +77,7 @@ class AtLeast {
 
 class GapSearch {
  public:
-  GapSearch(const TriangleMesh& original, double gap) : original_(original), gap_(gap) {
-    std::vector<Box> boxes;
-    boxes.reserve(original.face_count());
-    for (const FaceId f : original.triangles.ids()) boxes.push_back(box_of(original.triangle(f)));
-    tree_ = Bvh(std::move(boxes));
-  }
+  GapSearch(const TriangleMesh& original, double gap) : original_(original), gap_(gap), tree_(original) {}
 
   bool keeps_gap(const Triangle& face) const {
     const AtLeast at_least(face);
@@ -119,7 +114,7 @@ class GapSearch {
 
   const TriangleMesh& original_;
   const double gap_;
-  Bvh tree_;
+  const Bvh tree_;
 };
 
 }  // namespace

@@ -43,13 +43,6 @@ DistanceBounds unscaled(const DistanceBounds& bounds, double unit) {
   return {bounds.lower / unit, upper, bounds.farthest / unit};
 }
 
-NearestFace::NearestFace(const TriangleMesh& mesh) : mesh_(mesh) {
-  std::vector<Box> boxes;
-  boxes.reserve(mesh.face_count());
-  for (const FaceId f : mesh.triangles.ids()) boxes.push_back(box_of(mesh.triangle(f)));
-  tree_ = Bvh(std::move(boxes));
-}
-
 double NearestFace::distance(const Vec3& p, std::uint32_t face) const {
   return norm(p - closest_point(p, mesh_.triangle(FaceId(face))));
 }

@@ -38,7 +38,7 @@ class NearestFace {
     double distance;
   };
 
-  explicit NearestFace(const TriangleMesh& mesh);
+  explicit NearestFace(const TriangleMesh& mesh) : mesh_(mesh), tree_(mesh) {}
 
   double distance(const Vec3& p, std::uint32_t face) const;
   static constexpr Found kNone{0, std::numeric_limits<double>::infinity()};

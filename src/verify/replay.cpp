@@ -10,6 +10,7 @@
 
 #include "geometry/no_index.h"
 #include "geometry/predicates.h"
+#include "geometry/triangle_key.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
 
@@ -120,23 +121,12 @@ class Replay {
   std::size_t signs_ = 0;
 };
 
-using Corners = std::array<std::array<double, 3>, 3>;
-
-// The chain of the faces: the corners of each, in order from the least on, so that a face that is turned is another
-// one; -0 becomes 0. Triangles with two equal corners are no part of a chain.
+// The chain of the faces. Triangles with two equal corners are no part of it.
 template <class TriangleOf>
-std::vector<Corners> chain_of(std::size_t count, TriangleOf triangle) {
-  std::vector<Corners> all;
-  for (std::size_t f = 0; f < count; ++f) {
-    const Triangle t = triangle(f);
-    if (t.a == t.b || t.b == t.c || t.c == t.a) continue;
-    Corners corners;
-    std::ranges::transform(std::array{t.a, t.b, t.c}, corners.begin(), [](const Vec3& p) {
-      return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};
-    });
-    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
-    all.push_back(corners);
-  }
+std::vector<TriangleKey> chain_of(std::size_t count, TriangleOf triangle) {
+  std::vector<TriangleKey> all;
+  for (std::size_t f = 0; f < count; ++f)
+    if (const Triangle t = triangle(f); t.a != t.b && t.b != t.c && t.c != t.a) all.push_back(oriented_key(t));
   std::ranges::sort(all);
   return all;
 }

@@ -10,6 +10,7 @@
 #include "geometry/heap_with_ties.h"
 #include "geometry/predicates.h"
 #include "geometry/triangle_contact.h"
+#include "geometry/triangle_key.h"
 #include "geometry/triangle_predicates.h"
 #include "prohull/enclosure.h"
 #include "prohull/mesh_query.h"
@@ -43,26 +44,12 @@ TriangleMesh faces_that(const TriangleMesh& mesh, Keeps keeps) {
   return result;
 }
 
-/// Corners in an order that equal triangles have in common.
-using TriangleKey = std::array<double, 9>;
-TriangleKey key_of(const Triangle& t) {
-  std::array<std::array<double, 3>, 3> corners;
-  for (int i = 0; i < 3; ++i) {
-    const Vec3& p = i == 0 ? t.a : i == 1 ? t.b : t.c;
-    corners[i] = {p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 becomes 0
-  }
-  std::sort(corners.begin(), corners.end());
-  TriangleKey key;
-  for (int i = 0; i < 9; ++i) key[i] = corners[i / 3][i % 3];
-  return key;
-}
-
 TriangleMesh without_equals(const TriangleMesh& mesh, const TriangleMesh& others) {
   std::vector<TriangleKey> keys;
-  for (const FaceId f : others.triangles.ids()) keys.push_back(key_of(others.triangle(f)));
+  for (const FaceId f : others.triangles.ids()) keys.push_back(unoriented_key(others.triangle(f)));
   std::sort(keys.begin(), keys.end());
-  return faces_that(mesh,
-                    [&](FaceId f) { return !std::binary_search(keys.begin(), keys.end(), key_of(mesh.triangle(f))); });
+  return faces_that(
+      mesh, [&](FaceId f) { return !std::binary_search(keys.begin(), keys.end(), unoriented_key(mesh.triangle(f))); });
 }
 
 bool lies_in_one(const Triangle& t, std::span<const CurvedForm> forms) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/triangle_predicates.h"
+#include "prohull/detail/disjoint_sets.h"
 #include "verify/arrangement.h"
 #include "verify/cell.h"
 #include "verify/known_solid.h"
@@ -57,7 +58,7 @@ class Boundary {
 
   /// Faces that meet no others are joined where an edge has two of them and no third.
   void add_free_faces() {
-    Clusters clusters(meets_.size());
+    DisjointSets clusters(meets_.size());
     const std::vector<FaceEdge> sides = edges(surface_);
     for (std::size_t i = 0, end; i < sides.size(); i = end) {
       for (end = i; end < sides.size() && sides[end].key == sides[i].key;) ++end;
@@ -68,7 +69,7 @@ class Boundary {
     for (FaceIndex f = 0; f < meets_.size(); ++f) {
       meter_.go_on();
       if (!meets_[f].empty()) continue;
-      const FaceIndex r = clusters.representative(f);
+      const FaceIndex r = clusters.find(f);
       const Triangle& t = surface_.faces[f];
       if (r == f) steps[f] = steps_at(f);
       add(t.a, t.b, t.c, steps[r]);

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
+#include "verify/cell.h"
 #include "verify/self_intersection.h"
 #include "verify/surface.h"
 
@@ -27,6 +30,15 @@ struct Holes {
   Vec3 point;                          ///< beside one, rounded
   std::size_t self_intersections = 0;  ///< of `outer`, if they were looked for
 };
+
+/// For a face of the outer surface, cells of it, one at least within each connected part beside which `outer` winds
+/// less than once; nothing if that is not known.
+using OpenCells = std::function<std::optional<std::vector<Cell>>(FaceIndex)>;
+
+/// If `outer` covers every triangle of `inner` (verify_cover), it encloses `inner` if and only if there are no holes.
+/// Exact: no triangle of `inner` reaches the open space around which `outer` winds less than once, so that the winding
+/// of `inner` is the same all over each connected part of that space, and each is bounded by faces of `outer` alone.
+Holes find_holes(const Surface& inner, const Surface& outer, const OpenCells& open_cells, const Progress& progress);
 
 /// The faces of a mesh that lie, in part, outside of the closure of what it winds around at least once: those of folds
 /// and of components that are inside out; and those without area. Whatever encloses the mesh covers all others

@@ -10,6 +10,7 @@
 #include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
 #include "mesh/closed.h"
+#include "prohull/detail/disjoint_sets.h"
 #include "prohull/detail/inside_out.h"
 #include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
@@ -48,18 +49,6 @@ Surface::Surface(const TriangleMesh& mesh, std::string_view name, Turning turnin
   }
 }
 
-Clusters::Clusters(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-std::uint32_t Clusters::representative(std::uint32_t i) {
-  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-  return i;
-}
-
-void Clusters::join(std::uint32_t i, std::uint32_t j) {
-  i = representative(i), j = representative(j);
-  parent_[std::max(i, j)] = std::min(i, j);
-}
-
 // By the lesser end first, in linear time: few sides share it.
 std::vector<FaceEdge> edges(const Surface& surface) {
   std::vector<std::size_t> first;
@@ -92,7 +81,7 @@ std::pair<std::vector<std::uint32_t>, std::uint32_t> components(const TriangleMe
   using Side = std::pair<std::uint32_t, FaceIndex>;  // to which end
   SidesByEnd<Side> sides(mesh, number,
                          [](std::uint32_t v, std::uint32_t w, FaceId f) { return Side(std::max(v, w), index(f)); });
-  Clusters clusters(mesh.face_count());
+  DisjointSets clusters(mesh.face_count());
   for (std::uint32_t v = 0; v < number.size(); ++v) {
     const std::span<Side> here = sides.of(v);
     std::sort(here.begin(), here.end());
@@ -102,7 +91,7 @@ std::pair<std::vector<std::uint32_t>, std::uint32_t> components(const TriangleMe
   std::vector<std::uint32_t> component(mesh.face_count());
   std::uint32_t count = 0;
   for (FaceIndex f = 0; f < component.size(); ++f) {
-    const FaceIndex first = clusters.representative(f);  // never greater than f
+    const FaceIndex first = clusters.find(f);  // never greater than f
     component[f] = first == f ? count++ : component[first];
   }
   return {std::move(component), count};
@@ -141,7 +130,7 @@ bool is_one_sheet(const TriangleMesh& mesh) {
   SidesByEnd<Side> sides(mesh, number, [](std::uint32_t v, std::uint32_t w, FaceId f) {
     return Side{std::max(v, w), index(f), v < w};
   });
-  Clusters clusters(mesh.face_count());
+  DisjointSets clusters(mesh.face_count());
   for (std::uint32_t v = 0; v < number.size(); ++v) {
     const std::span<Side> here = sides.of(v);
     if (here.size() % 2 != 0) return false;
@@ -154,7 +143,7 @@ bool is_one_sheet(const TriangleMesh& mesh) {
     }
   }
   for (FaceIndex f = 0; f < mesh.face_count(); ++f)
-    if (clusters.representative(f) != 0) return false;
+    if (clusters.find(f) != 0) return false;
   return true;
 }
 

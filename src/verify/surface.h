@@ -46,17 +46,6 @@ Turned turn_outwards(TriangleMesh& mesh, std::string_view name);
 /// The same, and returns the faces of all components but cavities.
 std::vector<FaceId> turn_outwards_and_fill(TriangleMesh& mesh, std::string_view name);
 
-/// The connected components of some faces or vertices.
-class Clusters {
- public:
-  explicit Clusters(std::size_t count);
-  std::uint32_t representative(std::uint32_t i);  ///< the least of the component
-  void join(std::uint32_t i, std::uint32_t j);
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 /// Side e of a face, from its corner e to the next.
 struct FaceEdge {
   std::uint64_t key;  ///< equal for sides with the same ends, in either direction

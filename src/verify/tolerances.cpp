@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/triangle_key.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 #include "verify/nearest_face.h"
@@ -18,15 +19,6 @@ namespace prohull {
 namespace {
 
 using verify::NearestFace;
-using Corners = std::array<std::array<double, 3>, 3>;
-
-/// Equal for faces that have the same corners in the same orientation.
-Corners positions_of(const Triangle& t) {
-  const auto corner = [](const Vec3& p) { return std::array{p.x, p.y, p.z}; };
-  Corners key{corner(t.a), corner(t.b), corner(t.c)};
-  std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
-  return key;
-}
 
 void check(const TriangleMesh& hull, const TriangleMesh& mesh, const PerFace<double>& tolerances) {
   verify::require_distances(hull);
@@ -37,12 +29,12 @@ void check(const TriangleMesh& hull, const TriangleMesh& mesh, const PerFace<dou
 }
 
 std::size_t count_missing(const TriangleMesh& hull, const TriangleMesh& mesh, const PerFace<double>& tolerances) {
-  std::vector<Corners> there;
-  for (const FaceId f : hull.triangles.ids()) there.push_back(positions_of(hull.triangle(f)));
+  std::vector<TriangleKey> there;
+  for (const FaceId f : hull.triangles.ids()) there.push_back(oriented_key(hull.triangle(f)));
   std::ranges::sort(there);
   std::size_t missing = 0;
   for (const FaceId f : mesh.triangles.ids())
-    missing += tolerances[f] == 0 && !std::ranges::binary_search(there, positions_of(mesh.triangle(f)));
+    missing += tolerances[f] == 0 && !std::ranges::binary_search(there, oriented_key(mesh.triangle(f)));
   return missing;
 }
 

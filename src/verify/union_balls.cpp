@@ -18,7 +18,7 @@
 #include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
-#include "verify/exact.h"
+#include "verify/cell.h"
 #include "verify/offenders.h"
 #include "verify/original.h"
 #include "verify/solid_volume.h"

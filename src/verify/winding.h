@@ -6,7 +6,6 @@
 
 #include "geometry/predicates.h"
 #include "verify/cell.h"
-#include "verify/exact.h"
 #include "verify/surface.h"
 
 namespace prohull::verify {
