@@ -7,16 +7,11 @@
 #include <vector>
 
 #include "cover/extreme_points.h"
+#include "cover/farthest.h"
 #include "cover/primitives.h"
 
 namespace prohull::cover {
 namespace {
-
-double farthest(const Vec3& from, const std::vector<Vec3>& points) {
-  double most = 0;
-  for (const Vec3& p : points) most = std::max(most, norm(p - from));
-  return most;
-}
 
 /// The least ball with these points on its surface, at most 4; nothing if they do not have one.
 std::optional<Ball> ball_through(std::span<const Vec3> points) {

@@ -8,6 +8,7 @@
 #include <queue>
 #include <utility>
 
+#include "cover/farthest.h"
 #include "geometry/bvh.h"
 
 namespace prohull::cover {
@@ -18,12 +19,6 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 template <class Body>
 void for_each_index(std::size_t count, Body body) {
   oneapi::tbb::parallel_for(std::size_t{0}, count, body);
-}
-
-double farthest(const Vec3& from, std::span<const Vec3> points) {
-  double most = 0;
-  for (const Vec3& p : points) most = std::max(most, squared_norm(p - from));
-  return std::sqrt(most);
 }
 
 /// How far a ball at the place has to reach out, to hold the points of the patch.

@@ -9,13 +9,15 @@
 
 namespace prohull::cover {
 
-TriangleMesh convex_hull_of(std::vector<Vec3> points) {
-  TriangleMesh mesh;
-  mesh.positions = PerVertex<Vec3>(std::move(points));
-  for (std::uint32_t i = 2; i < mesh.vertex_count(); ++i)
-    mesh.triangles.push_back({VertexId{0}, VertexId{i - 1}, VertexId{i}});
-  return convex_hull(mesh);
+TriangleMesh fan_of(std::vector<Vec3> points) {
+  TriangleMesh fan;
+  fan.positions = PerVertex<Vec3>(std::move(points));
+  for (std::uint32_t i = 2; i < fan.vertex_count(); ++i)
+    fan.triangles.push_back({VertexId{0}, VertexId{i - 1}, VertexId{i}});
+  return fan;
 }
+
+TriangleMesh convex_hull_of(std::vector<Vec3> points) { return convex_hull(fan_of(std::move(points))); }
 
 Vec3 middle(const TriangleMesh& polytope) {
   Vec3 sum{};

@@ -6,6 +6,9 @@
 
 namespace prohull::cover {
 
+/// A mesh that uses the points.
+TriangleMesh fan_of(std::vector<Vec3> points);
+
 /// The convex hull of points. No faces if they lie in a plane.
 TriangleMesh convex_hull_of(std::vector<Vec3> points);
 

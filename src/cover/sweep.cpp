@@ -12,6 +12,7 @@
 #include <numbers>
 #include <utility>
 
+#include "cover/farthest.h"
 #include "cover/polytope.h"
 #include "geometry/bvh.h"
 #include "geometry/float32.h"
@@ -53,22 +54,7 @@ double rounding_of(double largest, bool float32_coordinates) {
   return float32_coordinates ? 0x1p-23 * largest + 0x1p-147 : 0x1p-48 * largest + 0x1p-1000;
 }
 
-double farthest_from(const Vec3& center, std::span<const Vec3> points) {
-  double farthest = 0;
-  for (const Vec3& p : points) farthest = std::max(farthest, norm(p - center));
-  return farthest;
-}
-
 std::span<const Vec3> vertices_of(const TriangleMesh& mesh) { return {mesh.positions.data(), mesh.positions.size()}; }
-
-/// A mesh that uses the points.
-TriangleMesh fan_of(std::vector<Vec3> points) {
-  TriangleMesh fan;
-  fan.positions = PerVertex<Vec3>(std::move(points));
-  for (std::uint32_t i = 2; i < fan.vertex_count(); ++i)
-    fan.triangles.push_back({VertexId{0}, VertexId{i - 1}, VertexId{i}});
-  return fan;
-}
 
 // Motion
 
@@ -99,7 +85,7 @@ class MovedPiece {
       arm_ = std::max(arm_, arm(corners_.back()));
     }
     const Vec3 center = placed(motion.start, cover::middle(piece)) - through_;
-    radius_ = farthest_from(center, corners_);
+    radius_ = cover::farthest(center, corners_);
     arm_of_center_ = arm(center);
     extent_ += norm(through_) + norm(motion.start.translation) + norm(shift_);
   }
@@ -307,17 +293,17 @@ EnclosingPolytope polytope_around(std::vector<Vec3> points, double distance, boo
                                  "scale it",
                                  kSmallest));
   const double rounding = rounding_of(largest, float32_coordinates), room = distance + rounding;
-  TriangleMesh hull = convex_hull(fan_of(points));
+  TriangleMesh hull = convex_hull(cover::fan_of(points));
   const bool is_flat = hull.face_count() == 0;
   const Vec3 center = is_flat ? Vec3{} : cover::middle(hull);
   const double depth = is_flat ? 0 : proven_depth(center, hull);
   double growth = std::numbers::sqrt3 * room;
   if (room < kUnseen * depth) {
     const double factor = room / depth * (1 + 0x1p-40);
-    growth = factor * farthest_from(center, vertices_of(hull));
+    growth = factor * cover::farthest(center, vertices_of(hull));
     for (Vec3& p : hull.positions) p += (p - center) * factor;
   } else {
-    hull = slab_around(is_flat ? fan_of(std::move(points)) : hull, room);
+    hull = slab_around(is_flat ? cover::fan_of(std::move(points)) : hull, room);
   }
   if (float32_coordinates)
     for (Vec3& p : hull.positions) p = nearest_float32(p);
