@@ -49,11 +49,12 @@ set(outside render robot view paper apps examples python js)
 set(may_render render)
 set(may_robot robot render)
 set(may_view view robot)
-set(may_paper paper query hull mesh geometry)  # its engines are as those of src/query
+# Its engines are as those of src/query, and it looks at single collapses.
+set(may_paper paper query hull mesh geometry construct/placement construct/shape_guards construct/star)
 set(may_apps render robot view paper)
 set(may_examples "")
 set(may_python render robot view paper)
-set(may_js view robot)
+set(may_js view robot paper)
 
 set(failures "")
 macro(fail)

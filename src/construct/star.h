@@ -43,4 +43,18 @@ bool satisfies_link_condition(const Star& star);
 /// Coordinates, planes and areas. Requires gather_star.
 void measure_star(const HalfEdgeMesh& mesh, Star& star);
 
+/// P&T Figure 3: visits the edges whose star has a face around s, which are those with an end on s or its link. Some
+/// are visited twice.
+template <class Visit>
+void visit_edges_around(const HalfEdgeMesh& mesh, VertexId s, Visit visit) {
+  for (const HalfEdgeId h : mesh.around(s)) {
+    const HalfEdgeId back = mesh.twin(h);
+    visit(mesh.edge(h));
+    // Edges between two link vertices are met from both: the one beside s is left to its own tail.
+    HalfEdgeId g = mesh.rotated(back);
+    visit(mesh.edge(g));
+    for (g = mesh.rotated(g); mesh.rotated(g) != back; g = mesh.rotated(g)) visit(mesh.edge(g));
+  }
+}
+
 }  // namespace prohull

@@ -296,16 +296,8 @@ class CollapseLoop {
     }
   }
 
-  // P&T Figure 3.
   void reevaluate_around(VertexId s) {
-    for (const HalfEdgeId h : mesh_.around(s)) {
-      const HalfEdgeId back = mesh_.twin(h);
-      reevaluate(mesh_.edge(h));
-      // Edges between two link vertices are met from both: the one beside s is left to its own tail.
-      HalfEdgeId g = mesh_.rotated(back);
-      reevaluate(mesh_.edge(g));
-      for (g = mesh_.rotated(g); mesh_.rotated(g) != back; g = mesh_.rotated(g)) reevaluate(mesh_.edge(g));
-    }
+    visit_edges_around(mesh_, s, [this](EdgeId edge) { reevaluate(edge); });
   }
 
   void unqueue(EdgeId edge) {
