@@ -23,6 +23,7 @@ export interface Engine {
   certificate(...args: Parameters<typeof prohull.certificate>): Promise<Uint8Array>;
   scene(hull: Parameters<typeof prohull.scene>[0], original: Parameters<typeof prohull.scene>[1], options?: {side?: prohull.Side},
     progress?: Progress): {facts: string; blocks: Uint8Array};
+  figure(name: string, args: unknown[]): any;
   read(bytes: ArrayBuffer | Uint8Array, name: string): Promise<Mesh>;
   write(mesh: MeshLike, name: string): Uint8Array;
   writeSeveral(...args: Parameters<typeof prohull.writeSeveral>): Uint8Array;

@@ -141,6 +141,8 @@ export async function loadEngine(wasm) {
       const all = meshesOf(meshes, 'meshes'), names = meshes.map((mesh, i) => textOf(mesh.name, `meshes[${i}].name`));
       return call('writeSeveral', all, names, textOf(name, 'name')).bytes;
     },
+    /** One of the functions of bindings/figures.cpp, by its name and its arguments. */
+    figure: (name, args) => call(name, ...args),
     spheresJson: (balls, link) => call('spheresJson', numbers(balls, 'balls'), textOf(link, 'link')).bytes,
     /** Bytes of memory that the library has taken; it keeps them for later calls. */
     memory: () => module.memory(),

@@ -207,5 +207,7 @@ export function scene(
   hull: (MeshLike | {levels: Levels} | {pieces: MeshLike[]} | {balls: Float64Array | number[]}) & {name: string} | null,
   original: MeshLike & {name: string},
   options?: Running & {side?: Side}): Promise<{facts: string; blocks: Uint8Array}>;
+/** What the page for teaching draws (js/bindings/figures.cpp); it may change with every version. */
+export function figure(name: string, args: unknown[]): Promise<any>;
 /** Ends idle workers, and so gives back their memory. */
 export function release(): void;

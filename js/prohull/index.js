@@ -108,6 +108,7 @@ export const sample = withoutOptions('sample', 2);
 export const length = withoutOptions('length', 2);
 export const write = withoutOptions('write', 2);
 export const writeSeveral = withoutOptions('writeSeveral', 2);
+export const figure = withoutOptions('figure', 2);
 export const spheresJson = withoutOptions('spheresJson', 2);
 
 /** Ends idle workers, which keep the memory of their last call. Later calls start new ones. */

@@ -4,57 +4,18 @@ import {execFileSync, spawnSync} from 'node:child_process';
 import {createHash} from 'node:crypto';
 import {copyFileSync, existsSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createServer} from 'node:http';
-import {createRequire} from 'node:module';
 import {basename, dirname, join} from 'node:path';
 import test from 'node:test';
-import {pathToFileURL} from 'node:url';
+import {app, inBrowser, kPatience} from './pages.mjs';
 import {hasProgram, run, scratch} from './package.mjs';
 
-const app = process.env.PROHULL_APP, cases = process.env.PROHULL_CASES, checker = process.env.PROHULL_CHECK;
+const cases = process.env.PROHULL_CASES, checker = process.env.PROHULL_CHECK;
 const pictureFile = process.env.PROHULL_PICTURE;  // where the picture of docs/browser.md goes, if it is to be made
 const kTypes = {'.js': 'text/javascript', '.html': 'text/html'};
-const kArguments = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-const kPatience = 300000;  // milliseconds: other work may fill the machine
 
 const hash = (bytes) => createHash('sha256').update(bytes).digest('hex');
 
-async function launched() {
-  if (!existsSync(join(app, 'app.html'))) return {missing: `there is no ${app}/app.html`};
-  if (!hasProgram) return {missing: 'there is no program to compare with'};
-  try {
-    const {chromium} = createRequire(import.meta.url)('playwright-core');
-    return await chromium.launch({executablePath: process.env.PROHULL_CHROMIUM, args: kArguments});
-  } catch (error) {
-    return {missing: error.message.split('\n')[0]};
-  }
-}
-
-const browser = await launched(), skip = browser.missing ?? false;
-const file = pathToFileURL(join(app, 'app.html')).href;
-
-/** The page; what must not happen is collected: errors, requests. */
-async function opened({url = file, fragment = '', width = 1000, height = 700, scheme = 'light', script} = {}) {
-  const page = await browser.newPage({viewport: {width, height}, colorScheme: scheme, reducedMotion: 'reduce'});
-  page.setDefaultTimeout(kPatience);
-  page.complaints = [];
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver Message/.test(message.text()))
-      page.complaints.push(message.text());
-  });
-  page.on('pageerror', (error) => page.complaints.push(error.message));
-  page.on('request', (request) => {
-    if (!request.isNavigationRequest() && !request.url().startsWith('blob:')) page.complaints.push(`request: ${request.url()}`);
-  });
-  if (script) await page.addInitScript(script);
-  await page.goto(url + fragment);
-  await page.waitForFunction(() => document.documentElement.dataset.ready);
-  return page;
-}
-
-async function closed(page) {
-  assert.deepEqual(page.complaints, []);
-  await page.close();
-}
+const {skip, opened, closed} = await inBrowser('app.html');
 
 const text = (page, id) => page.evaluate((name) => document.getElementById(name).textContent, id);
 const settled = (page, timeout = kPatience) => page.waitForFunction(() => document.documentElement.dataset.busy === 'no', null, {timeout});
@@ -345,5 +306,3 @@ test('the picture of docs/browser.md', {skip: skip || (!pictureFile && 'PROHULL_
   await page.screenshot({path: pictureFile});
   await closed(page);
 });
-
-test.after(() => browser.close?.());

@@ -7,7 +7,7 @@ const [src, out] = process.argv.slice(2);
 const LONGEST = 8000;  // characters of a literal in C++
 
 async function write() {
-  const page = pageOf(path.join(src, 'page.html'),
+  const page = pageOf(fs.readFileSync(path.join(src, 'page.html'), 'utf8'),
       {script: await bundled(path.join(src, 'main.js')), style: await bundled(path.join(src, 'style.css'))});
 
   const literals = [];

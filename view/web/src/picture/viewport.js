@@ -52,7 +52,9 @@ export class Viewport {
     this.controls.maxDistance = radius * 40;
     this.controls.addEventListener('change', () => this.changed());
     this.panels = null;
+    this.markSize = 0.03;  // of the shorter side
     this.cut = null;
+    this.plane = new THREE.Vector4(0, 0, 0, NO_CUT);  // the materials of all pictures of a page share one
     this.onChange = () => {};
     this.home();
     this.observer = new ResizeObserver(() => this.resize());
@@ -93,6 +95,7 @@ export class Viewport {
   draw() {
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x === 0 || size.y === 0) return;
+    plane.value.copy(this.plane);
     this.renderer.setScissorTest(false);
     this.renderer.setViewport(0, 0, size.x, size.y);
     this.renderer.clear();
@@ -119,7 +122,7 @@ export class Viewport {
     this.camera.aspect = aspect;
     this.camera.fov = 2 * Math.atan(aspect < 1 ? half / aspect : half) * 180 / Math.PI;
     this.camera.updateProjectionMatrix();
-    const size = 0.03 * half;
+    const size = this.markSize * half;
     for (const mark of this.marks.children) mark.scale.setScalar(2 * size * (aspect < 1 ? 1 / aspect : 1));
   }
 
@@ -229,11 +232,11 @@ export class Viewport {
   /** Cuts away what is beyond a plane: a direction, and how far it is from the middle; null: nothing. */
   setCut(direction, distance, bodies) {
     if (direction === null) {
-      plane.value.set(0, 0, 0, NO_CUT);
+      this.plane.set(0, 0, 0, NO_CUT);
       this.cut = null;
     } else {
       const normal = new THREE.Vector3(...direction);
-      plane.value.set(normal.x, normal.y, normal.z, distance);
+      this.plane.set(normal.x, normal.y, normal.z, distance);
       this.cut = {point: normal.clone().multiplyScalar(distance), direction: normal};
     }
     for (const body of bodies) body.showCap(this.cut);

@@ -1,0 +1,134 @@
+// What the page teach.html asks for beside what index.d.ts lists (view/web/teach): the paper's figures.
+#include <emscripten/bind.h>
+
+#include <array>
+
+#include "calls.h"
+#include "levels.h"
+#include "paper/collapse_study.h"
+#include "paper/engines.h"
+#include "paper/refine_along.h"
+#include "prohull/hull_builder.h"
+
+namespace prohull::js {
+namespace {
+
+std::size_t whole_of(double number, const std::string& name) {
+  check_whole(number, name, 0);
+  return static_cast<std::size_t>(number);
+}
+
+template <std::size_t kCount>
+std::array<double, kCount> these_numbers_of(const val& array, const std::string& name) {
+  const std::vector<double> numbers = numbers_of(array, name);
+  if (numbers.size() != kCount)
+    throw InputError(Defect::InvalidOption, name + ": expected " + std::to_string(kCount) + " numbers");
+  std::array<double, kCount> result;
+  std::copy(numbers.begin(), numbers.end(), result.begin());
+  return result;
+}
+
+Segment segment_of(const val& array) {
+  const auto [ax, ay, az, bx, by, bz] = these_numbers_of<6>(array, "segment");
+  return {{ax, ay, az}, {bx, by, bz}};
+}
+
+/// The queue is the heap, which orders edges as the paper says.
+HullOptions paper_options(const val& given) {
+  return options_of(given, val::undefined(), [](const Given& named) {
+    HullOptions read{.strategy = Strategy::Paper1, .queue = QueueKind::Heap};
+    named.count("target_faces", read.target_faces, 4);
+    named.choice("side", hull_side_names(), read.side);
+    named.choice("strategy", strategy_names(), read.strategy);
+    return read;
+  });
+}
+
+/// The levels of a hull, and how many linear programs they took.
+val record_of_hull(const val& mesh, const val& given) {
+  return guarded([&] {
+    const HullResult result = build_hull(mesh_of(mesh, "mesh"), paper_options(given));
+    val object = object_of_levels(result.hull);
+    object.set("linearPrograms", result.linear_programs);
+    return object;
+  });
+}
+
+/// `place` has three numbers, or is null: that of the collapse.
+val collapse_of(const val& levels, double i, const val& place) {
+  return guarded([&] {
+    std::optional<Vec3> at;
+    if (!place.isNull()) {
+      const auto [x, y, z] = these_numbers_of<3>(place, "place");
+      at = {x, y, z};
+    }
+    const StudiedCollapse study = study_collapse(levels_of(levels), whole_of(i, "collapse"), at);
+    val object = val::object();
+    object.set("star", object_of_mesh(study.star));
+    object.set("made", array_of(study.made));
+    object.set("optimum", array_of(study.optimum));
+    object.set("optimalVolume", study.optimal_volume);
+    object.set("steepest", array_of(study.steepest));
+    object.set("sides", array_of(study.sides.data(), study.sides.size()));
+    object.set("addedVolume", study.added_volume);
+    return object;
+  });
+}
+
+/// Of each edge its two ends, its priority, why it is refused, and whether it was renewed.
+val queue_of(const val& levels, double i, const val& given) {
+  return guarded([&] {
+    std::vector<std::uint32_t> ends;
+    std::vector<double> priorities;
+    std::vector<std::string> refusals;
+    std::vector<std::uint8_t> renewed;
+    for (const QueuedEdge& edge : queue_before(levels_of(levels), whole_of(i, "collapse"), paper_options(given))) {
+      ends.insert(ends.end(), {index(edge.ends[0]), index(edge.ends[1])});
+      priorities.push_back(edge.priority);
+      refusals.emplace_back(edge.refusal ? name_of(refusal_names(), *edge.refusal) : "");
+      renewed.push_back(edge.is_renewed);
+    }
+    val object = val::object();
+    object.set("ends", array_of(ends.data(), ends.size()));
+    object.set("priorities", array_of(priorities.data(), priorities.size()));
+    object.set("refusals", strings_of(refusals));
+    object.set("renewed", array_of(renewed.data(), renewed.size()));
+    return object;
+  });
+}
+
+/// As `prohull render --refine` draws it.
+val refined_along(const val& levels, const val& segment) {
+  return guarded([&] {
+    const RefinedAlong refined = refine_along(levels_of(levels), segment_of(segment));
+    val object = object_of_mesh(refined.hull);
+    object.set("found", array_of(refined.found.data(), refined.found.size()));
+    object.set("missed", array_of(refined.missed.data(), refined.missed.size()));
+    return object;
+  });
+}
+
+/// Where the segment crosses the mesh that both are hulls of, as the engine finds it.
+val hits_of(const val& outer, const val& inner, const val& segment, const std::string& engine) {
+  return guarded([&] {
+    const QueryIndex index = index_called(engine, levels_of(outer), levels_of(inner));
+    std::vector<double> parameters;
+    for (const Hit& hit : MeshQuery(index).all_hits(segment_of(segment))) parameters.push_back(hit.t);
+    val object = val::object();
+    object.set("t", array_of(parameters.data(), parameters.size()));
+    return object;
+  });
+}
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(prohull_figures) {
+  using emscripten::function;
+  function("recordOfHull", &record_of_hull);
+  function("collapseOf", &collapse_of);
+  function("queueOf", &queue_of);
+  function("refinedAlong", &refined_along);
+  function("hitsOf", &hits_of);
+}
+
+}  // namespace prohull::js
