@@ -39,6 +39,7 @@ class Figure {
     this.section = section;
     this.draw = draw;
     this.picture = new Picture(section);
+    this.tell('The library computes it now.');
     for (const control of section.querySelectorAll('input, select')) control.addEventListener('input', () => this.refresh());
   }
 
