@@ -1,8 +1,6 @@
 // What the page teach.html asks for beside what index.d.ts lists (view/web/teach): the paper's figures.
 #include <emscripten/bind.h>
 
-#include <array>
-
 #include "calls.h"
 #include "levels.h"
 #include "paper/collapse_study.h"
@@ -18,19 +16,16 @@ std::size_t whole_of(double number, const std::string& name) {
   return static_cast<std::size_t>(number);
 }
 
-template <std::size_t kCount>
-std::array<double, kCount> these_numbers_of(const val& array, const std::string& name) {
-  const std::vector<double> numbers = numbers_of(array, name);
-  if (numbers.size() != kCount)
-    throw InputError(Defect::InvalidOption, name + ": expected " + std::to_string(kCount) + " numbers");
-  std::array<double, kCount> result;
-  std::copy(numbers.begin(), numbers.end(), result.begin());
-  return result;
+std::vector<double> so_many_numbers_of(const val& array, const std::string& name, std::size_t count) {
+  std::vector<double> numbers = numbers_of(array, name);
+  if (numbers.size() != count)
+    throw InputError(Defect::InvalidOption, name + ": expected " + std::to_string(count) + " numbers");
+  return numbers;
 }
 
 Segment segment_of(const val& array) {
-  const auto [ax, ay, az, bx, by, bz] = these_numbers_of<6>(array, "segment");
-  return {{ax, ay, az}, {bx, by, bz}};
+  const auto n = so_many_numbers_of(array, "segment", 6);
+  return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
 }
 
 /// The queue is the heap, which orders edges as the paper says.
@@ -59,8 +54,8 @@ val collapse_of(const val& levels, double i, const val& place) {
   return guarded([&] {
     std::optional<Vec3> at;
     if (!place.isNull()) {
-      const auto [x, y, z] = these_numbers_of<3>(place, "place");
-      at = {x, y, z};
+      const auto n = so_many_numbers_of(place, "place", 3);
+      at = {n[0], n[1], n[2]};
     }
     const StudiedCollapse study = study_collapse(levels_of(levels), whole_of(i, "collapse"), at);
     val object = val::object();
@@ -108,10 +103,10 @@ val refined_along(const val& levels, const val& segment) {
   });
 }
 
-/// Where the segment crosses the mesh that both are hulls of, as the engine finds it.
-val hits_of(const val& outer, const val& inner, const val& segment, const std::string& engine) {
+/// Where the segment crosses the mesh that both are hulls of, found by walking through the void.
+val walk_hits(const val& outer, const val& inner, const val& segment) {
   return guarded([&] {
-    const QueryIndex index = index_called(engine, levels_of(outer), levels_of(inner));
+    const QueryIndex index = index_called("walk", levels_of(outer), levels_of(inner));
     std::vector<double> parameters;
     for (const Hit& hit : MeshQuery(index).all_hits(segment_of(segment))) parameters.push_back(hit.t);
     val object = val::object();
@@ -128,7 +123,7 @@ EMSCRIPTEN_BINDINGS(prohull_figures) {
   function("collapseOf", &collapse_of);
   function("queueOf", &queue_of);
   function("refinedAlong", &refined_along);
-  function("hitsOf", &hits_of);
+  function("walkHits", &walk_hits);
 }
 
 }  // namespace prohull::js

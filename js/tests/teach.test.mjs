@@ -100,6 +100,24 @@ test('Figure 2 tells how many planes are violated, and what is added', {skip}, a
   await closed(page);
 });
 
+test('the first edge of each queue is the one that is collapsed next', {skip}, () => {
+  for (const strategy of ['paper1', 'paper2']) {
+    const levels = rock(strategy);
+    for (let i = 0; i < levels.splits.length / 6; ++i) {
+      const {ends, refusals} = engine.figure('queueOf', [levels, i, {strategy}]);
+      assert.deepEqual([...ends.slice(0, 2)].sort(), [...levels.splits.slice(6 * i, 6 * i + 2)].sort());
+      assert.equal(refusals[0], '');
+    }
+  }
+});
+
+test('what is no figure is refused', {skip}, () => {
+  const levels = rock('paper1');
+  for (const [name, ...args] of [['collapseOf', levels, 9999, null], ['collapseOf', levels, 0.5, null], ['collapseOf', levels, 0, [1, 2]], ['queueOf', levels, 0, {strategy: 'lazy'}],
+    ['refinedAlong', levels, Float64Array.of(1, 2, 3)], ['walkHits', levels, levels, Float64Array.of(0, 0, -9, 0, 0, 9)], ['recordOfHull', engine.sample('torus', 100), {targetFaces: 1}]])
+    assert.throws(() => engine.figure(name, args), {name: 'InputError'}, name);
+});
+
 test('Figure 3 has the edge first that is collapsed next', {skip}, async () => {
   const page = await opened();
   await shown(page, 'figure-3');

@@ -139,7 +139,7 @@ async function drawQueue(own) {
   picture.clear();
   picture.mesh(mesh);
   picture.lines(linesOf((e) => renewed[e]), ORANGE, 3);
-  picture.lines(linesOf((e) => e === 0), GREEN, 6, true);
+  picture.lines(linesOf((e) => e === 0 && refusals[e] === ''), GREEN, 6, true);
   if (i > 0) picture.mark(made, 's', BLUE);
   const count = renewed.reduce((sum, is) => sum + is, 0), waiting = refusals.filter((why) => why === '').length;
   own.tell(`${counted(priorities.length, 'edge', 'edges')}; ${i > 0 ? `the last collapse changed the stars of ${count} of them` : 'no collapse is made yet'}. ` +
@@ -156,7 +156,14 @@ function whyNot(refusals) {
 }
 
 const tellCrossings = (t) => t.length === 0 ? 'no crossing' : `${counted(t.length, 'crossing', 'crossings')}, at ${[...t].map((x) => short(x, 4)).join(', ')} of the way`;
-const onTheWay = (segment, t) => plus(segment.slice(0, 3), minus(segment.slice(3), segment.slice(0, 3)), t);
+
+/** The segment, and where it crosses the mesh. */
+function markCrossings(picture, segment, {found, missed}) {
+  const from = segment.slice(0, 3), to = segment.slice(3), at = (t) => plus(from, minus(to, from), t);
+  picture.lines([from, to], PURPLE, 4, true);
+  for (const t of found) picture.mark(at(t), '•', GREEN);
+  for (const t of missed) picture.mark(at(t), '?', RED);
+}
 
 async function drawRefinement(own) {
   const {picture} = own, {mesh, levels} = await recordOf('pony', 8000, {targetFaces: 300, strategy: 'paper1'});
@@ -168,9 +175,7 @@ async function drawRefinement(own) {
   own.segment = segment;
   picture.clear();
   picture.mesh(refined, {color: BLUE});
-  picture.lines([segment.slice(0, 3), segment.slice(3)], PURPLE, 4, true);
-  for (const t of refined.found) picture.mark(onTheWay(segment, t), '•', GREEN);
-  for (const t of refined.missed) picture.mark(onTheWay(segment, t), '?', RED);
+  markCrossings(picture, segment, refined);
   const base = facesAfter(levels, collapsesOf(levels)), faces = refined.faces.length / 3;
   own.tell(`The coarse hull has ${grouped(base)} faces, the refined one ${grouped(faces)}: ${grouped((faces - base) / 2)} of ${grouped(collapsesOf(levels))} splits were made. ` +
       `Found: ${tellCrossings(refined.found)}.${refined.missed.length ? ` Missed, as in Figure 5: ${tellCrossings(refined.missed)}.` : ''}`);
@@ -186,15 +191,14 @@ async function drawMissed(own) {
   const way = minus(FOLDED.slice(3), FOLDED.slice(0, 3)), flat = Math.hypot(way[0], way[1]), across = [-way[1] / flat, way[0] / flat, 0];
   const segment = [0, 3].flatMap((k) => plus(FOLDED.slice(k, k + 3), across, own.value('shift')));
   const numbers = Float64Array.from(segment), refined = walks ? await level(outer, 0) : await figure('refinedAlong', outer, numbers);
-  const found = walks ? (await figure('hitsOf', outer, inner, numbers, 'walk')).t : refined.found, missed = refined.missed ?? [];
+  const found = walks ? (await figure('walkHits', outer, inner, numbers)).t : refined.found, missed = refined.missed ?? [];
   own.segment = segment;
   picture.frame = frameOf(mesh.vertices);
   picture.clear();
   const bodies = [picture.mesh(mesh, {closed: true, edges: false}), picture.mesh(refined, {color: BLUE, opacity: 0.3, order: 1, depth: 1, closed: true, edges: false})];
   if (walks) bodies.push(picture.mesh(await level(inner, 0), {color: GREEN, order: 30, depth: 4, closed: true, edges: false}));
   showSection(picture, segment, bodies);
-  for (const t of found) picture.mark(onTheWay(segment, t), '•', GREEN);
-  for (const t of missed) picture.mark(onTheWay(segment, t), '?', RED);
+  markCrossings(picture, segment, {found, missed});
   own.tell(`Found: ${tellCrossings(found)}. ${missed.length ? `Missed: ${tellCrossings(missed)}.` : 'None is missed.'}`);
 }
 
@@ -205,7 +209,6 @@ function showSection(picture, segment, bodies) {
   picture.viewport.setCut(normal, normal.reduce((sum, n, k) => sum + n * from[k], 0), bodies);
   if (!picture.shown) picture.lookFrom(normal, -12);
   picture.shown = true;
-  picture.lines([segment.slice(0, 3), segment.slice(3)], PURPLE, 4, true);
 }
 
 const FEWEST = 100;
@@ -241,8 +244,12 @@ function open() {
     for (const {target, isIntersecting} of entries) {
       if (!isIntersecting) continue;
       watch.unobserve(target);
-      figures.push(new Figure(target, draws[target.id]));
-      figures.at(-1).refresh();
+      try {
+        figures.push(new Figure(target, draws[target.id]));
+        figures.at(-1).refresh();
+      } catch (error) {
+        complain(`${error.message}: the pictures need WebGL.`);
+      }
     }
   }, {rootMargin: '200px'});
   for (const id of Object.keys(draws)) watch.observe(byId(id));
