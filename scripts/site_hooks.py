@@ -1,11 +1,13 @@
 """For mkdocs. Pages link to files of the repository that are no pages: the site shows these as they are. And pictures
-below `<!-- live: NAME -->` open a page of `prohull view`, made here, when they are clicked."""
+below `<!-- live: NAME -->` open a page of `prohull view`, made here, when they are clicked. Where the pages for the browser
+were built, the site has them, and `<!-- page: FILE -->` is a link to one."""
 
 import html
 import os
 import pathlib
 import posixpath
 import re
+import shutil
 import subprocess
 import tempfile
 
@@ -14,6 +16,8 @@ from mkdocs.exceptions import PluginError
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PROHULL = pathlib.Path(os.environ.get("PROHULL", ROOT / "build/release/bin/prohull"))
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(((?:\.\./)+[^)#\s]+)\)")
+BROWSER_PAGES = ROOT / "build/wasm/js/app"
+BROWSER_PAGE = re.compile(r"<!-- page: ([\w.]+) -->")
 LIVE = re.compile(r"<!-- live: (\w+) -->\n!\[([^\]]+)\]\(([^)\s]+)\)")
 PICTURE = """<figure class="live"><a href="{page}"><img src="{picture}" alt="{alt}"></a>
 <figcaption><a href="{page}">Turn it around</a></figcaption></figure>"""
@@ -79,6 +83,11 @@ def on_page_markdown(markdown, page, config, **_):
         target = posixpath.relpath(f"docs/live/{name}.html", folder)
         return PICTURE.format(page=target, picture=source, alt=html.escape(alt))
 
+    def opened(place):
+        if not (BROWSER_PAGES / place[1]).exists():
+            return ""
+        return f'<a href="{posixpath.relpath(f"docs/{place[1]}", folder)}">Open the page</a>'
+
     def kept_or_shown(link):
         target = posixpath.normpath(posixpath.join(folder, link[2]))
         if target.startswith("docs/"):
@@ -86,4 +95,9 @@ def on_page_markdown(markdown, page, config, **_):
         show(target, pathlib.Path(config["site_dir"]) / "source")
         return f'<a href="{posixpath.relpath(f"docs/source/{target}.html", folder)}">{link[1]}</a>'
 
-    return LINK.sub(kept_or_shown, LIVE.sub(live, markdown))
+    return LINK.sub(kept_or_shown, BROWSER_PAGE.sub(opened, LIVE.sub(live, markdown)))
+
+
+def on_post_build(config, **_):
+    if BROWSER_PAGES.is_dir():
+        shutil.copytree(BROWSER_PAGES, config["site_dir"], dirs_exist_ok=True)
