@@ -696,12 +696,13 @@ class Segments {
     return way_point<double>(about(piece.begin), about(piece.end), place);
   }
 
-  /// By its shares of two sides of t: their rounding leaves it in the plane.
+  /// By its shares of two sides of t: their rounding leaves it in the plane. A needle whose area is rounded to 0 has
+  /// none to share.
   Vec3 in_t(const Planar<double>& p) const {
     const Planar<double> b = relative<double>(t_.b), c = relative<double>(t_.c);
     const double area = b.u * c.v - b.v * c.u;
-    const double to_b = std::clamp((p.u * c.v - p.v * c.u) / area, 0.0, 1.0);
-    const double to_c = std::clamp((b.u * p.v - b.v * p.u) / area, 0.0, 1.0);
+    const auto share = [&](double part) { return area == 0 ? 0.0 : std::clamp(part / area, 0.0, 1.0); };
+    const double to_b = share(p.u * c.v - p.v * c.u), to_c = share(b.u * p.v - b.v * p.u);
     return t_.a + (t_.b - t_.a) * to_b + (t_.c - t_.a) * to_c;
   }
 
