@@ -148,6 +148,12 @@ std::string candidate_of(const nlohmann::json& hull, double diagonal) {
   return spacing.is_null() ? source : fmt::format("{} 1/{:.0f}", source, diagonal / spacing.get<double>());
 }
 
+/// The upper bound.
+double distance_of(const nlohmann::json& verdict) {
+  const nlohmann::json& solid = verdict.at("distance_to_solid");
+  return (solid.is_null() ? verdict.at("distance_to_triangles") : solid).at("upper").get<double>();
+}
+
 /// Says what the report of a build tells.
 void add_report(const nlohmann::json& report, const TriangleMesh& mesh, CorpusRow& row) {
   const nlohmann::json &input = report.at("input"), &hull = report.at("hull");
@@ -156,7 +162,7 @@ void add_report(const nlohmann::json& report, const TriangleMesh& mesh, CorpusRo
   const double diagonal = bounding_box(mesh).diagonal();
   row.candidate = candidate_of(hull, diagonal);
   row.by_convex = hull.at("volume").get<double>() / convex_volume(mesh);
-  row.distance = hull.at("distance_bound").get<double>() / diagonal;
+  row.distance = distance_of(hull.at("verdict")) / diagonal;
   const std::string repair = input.value("repair", "none");
   if (repair == "wrap") row.why = repair;
   for (const auto& phrase : input.at("repairs").get<std::vector<std::string>>())

@@ -96,13 +96,13 @@ double excess(double volume, const TriangleMesh& original) { return volume / sig
 
 CoverJudgement judge(const std::vector<TriangleMesh>& pieces, const TriangleMesh& original) {
   const UnionVerification found = verify_union(pieces, original, all_offenders(original));
-  return judgement_of(found, found.covers, excess(union_volume(pieces), original), union_reach(pieces, original).upper,
-                      original);
+  return judgement_of(found, found.certified, excess(union_volume(pieces), original),
+                      union_reach(pieces, original).upper, original);
 }
 
 CoverJudgement judge(const std::vector<Ball>& balls, const TriangleMesh& original, bool fill) {
   const UnionVerification found = verify_union(balls, original, fill, all_offenders(original));
-  return judgement_of(found, found.covers, excess(union_volume(balls), original), union_reach(balls, original).upper,
+  return judgement_of(found, found.certified, excess(union_volume(balls), original), union_reach(balls, original).upper,
                       original);
 }
 

@@ -54,13 +54,14 @@ void add_link(const VisualLink& link, const LinkCoversOptions& options, Tables& 
   tables.excess.push_back(excess), tables.convex_excess.push_back(convex_excess);
   const bool has_ratio = convex_excess > 0.01;  // of nearly convex links, and of parts that overlap, it means nothing
   if (has_ratio) tables.by_convex.push_back(excess / convex_excess);
-  tables.spheres_reach.push_back(percent * spheres.reach.upper);
+  tables.spheres_reach.push_back(percent * spheres.verdict.distance().upper);
   tables.links.add({as_cell(link.robot), as_cell(link.name), fmt::to_string(mesh.face_count()),
                     fmt::to_string(pieces.pieces.size()), number(excess, 3), number(convex_excess, 3),
-                    has_ratio ? number(excess / convex_excess, 3) : "", number(percent * pieces.reach.upper, 3),
-                    yes_or_no(pieces.certified, tables), number(pieces_seconds, 2),
-                    fmt::to_string(spheres.balls.size()), number(percent * spheres.reach.upper, 3),
-                    yes_or_no(spheres.certified, tables), number(spheres_seconds, 2)});
+                    has_ratio ? number(excess / convex_excess, 3) : "",
+                    number(percent * pieces.verdict.distance().upper, 3), yes_or_no(pieces.verdict.certified, tables),
+                    number(pieces_seconds, 2), fmt::to_string(spheres.balls.size()),
+                    number(percent * spheres.verdict.distance().upper, 3), yes_or_no(spheres.verdict.certified, tables),
+                    number(spheres_seconds, 2)});
 }
 
 int run_link_covers(const LinkCoversOptions& options) {

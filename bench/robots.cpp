@@ -46,10 +46,10 @@ void add_link(const std::string& name, const Link& link, const LinkHulls& made, 
     const LinkHull& hull = made.hulls[0];
     const double by_part = ratio(hull.volume, made.sealed_volume), by_convex = ratio(hull.volume, made.convex_volume);
     tables.by_part.push_back(by_part), tables.by_convex.push_back(by_convex);
-    tables.uncertified += !hull.certified;
+    tables.uncertified += !hull.certified();
     for (const std::string& cell : {std::to_string(made.triangles.face_count()), std::to_string(hull.mesh.face_count()),
-                                    std::string(hull.certified ? "yes" : "NO"), number(by_part, 3),
-                                    number(by_convex, 3), number(1000 * hull.distance.upper, 3)})
+                                    std::string(hull.certified() ? "yes" : "NO"), number(by_part, 3),
+                                    number(by_convex, 3), number(1000 * hull.verdict.distance().upper, 3)})
       row.push_back(cell);
   } else {
     row.insert(row.end(), {"", "", std::string(name_of(made.status)), "", "", ""});

@@ -24,7 +24,7 @@ nlohmann::json facts_of(const Verification& found) {
           {"proof", std::string(found.proof)},
           {"side", std::string(name_of(hull_side_names(), found.side))},
           {"original_closed", found.original_closed},
-          {"every_triangle", found.every_triangle},
+          {"every_triangle", found.covers_triangles != Answer::NotAsked},
           {"why_not", found.why_not},
           {"splits", found.splits},
           {"signs", found.signs},
@@ -39,7 +39,7 @@ nlohmann::json facts_of(const Verification& found) {
 }
 
 nlohmann::json facts_of(const UnionVerification& found) {
-  return {{"encloses", found.covers},
+  return {{"encloses", found.certified},
           {"proof", "union"},
           {"original_closed", found.original_closed},
           {"why_not", found.why_not},

@@ -75,11 +75,12 @@ void write_certificate(Written& written, const CertifiedOriginal& original, cons
                        Outputs& outputs) {
   const EnclosingHull& hull = written.hull;
   written.certificate_path = path_for(options.certificate, hull.target_faces);
-  written.certificate = hull_certificate(
-      hull.mesh, original,
-      {.side = options.enclosing.hull.side,
-       .gap = claimed_gap(options.enclosing.padding, hull.padding),
-       .distance = claimed_distance(options.enclosing.bounds.max_distance, written.measures.to_triangles.upper)});
+  written.certificate =
+      hull_certificate(hull.mesh, original,
+                       {.side = options.enclosing.hull.side,
+                        .gap = claimed_gap(options.enclosing.padding, hull.padding),
+                        .distance = claimed_distance(options.enclosing.bounds.max_distance,
+                                                     written.measures.verdict.distance_to_triangles->upper)});
   outputs.add(written.certificate_path, written.certificate.bytes);
 }
 
@@ -90,11 +91,11 @@ Written write_certified(EnclosingHull hull, FinestLevel finest, const BuildOptio
   written.path = path_for(options.out, written.hull.target_faces);
   if (!written.hull.certified) return written;
   Stopwatch writing;
-  written.certified = outputs.add(written.path, suffix, [&](const auto& file) {
+  written.holds_bits = outputs.add(written.path, suffix, [&](const auto& file) {
     write_mesh(file, written.hull.mesh);
     return holds_triangles_of(file, written.hull.mesh);
   });
-  if (written.certified)
+  if (written.holds_bits)
     outputs.add(options.hierarchy, ".phull", [&](const auto& file) {
       return save_hull(file, written.hull.levels->with_finest_level(finest)), true;
     });
@@ -120,6 +121,7 @@ void measure(BuildOutcome& outcome) {
   ProgressLine line;
   for (Written& written : outcome.written) {
     written.measures = measures_of(outcome.made, written.hull, std::ref(line));
+    written.measures.verdict = as_written(std::move(written.measures.verdict), written.holds_bits);
     for (std::size_t i = 0; i < outcome.regions.all.size(); ++i)
       written.regions.push_back(distance_of_region(outcome.regions.faces[i], written.hull.mesh,
                                                    outcome.regions.all[i].max_distance, std::ref(line)));
@@ -189,7 +191,7 @@ BuildOutcome build_and_write(BuildOptions options) {
   measure(outcome);
   if (!options.certificate.empty())
     for (Written& written : outcome.written)
-      if (written.certified) write_certificate(written, original, options, outputs);
+      if (written.certified()) write_certificate(written, original, options, outputs);
   outputs.add_report(options.report, report_of(options, outcome));
   outputs.commit();
   return outcome;

@@ -57,9 +57,9 @@ void print_hull(const BuildOptions& options, const BuildOutcome& outcome, const 
   say_all(lines_of_shape(hull));
   print_regions(outcome, written);
   say_all(lines_of_limits(hull));
-  if (written.certified && !options.hierarchy.empty()) print_levels(options, outcome, written.hull);
-  say_all(lines_of_proof(hull, written.certified));
-  if (written.certified && !options.certificate.empty())
+  if (written.certified() && !options.hierarchy.empty()) print_levels(options, outcome, written.hull);
+  say_all(lines_of_proof(written.measures.verdict));
+  if (written.certified() && !options.certificate.empty())
     print_certificate(written.certificate_path, written.certificate, {written.path}, options.in);
 }
 
@@ -134,17 +134,12 @@ nlohmann::json facts_of_hull(const BuildOptions& options, const BuildOutcome& ou
           {"wrap_spacing",
            hull.source == Source::Wrap ? nlohmann::json(outcome.solid(hull).wrap_spacing) : nlohmann::json()},
           {"folds", facts(outcome.solid(hull).folds)},
-          {"distance_bound", written.measures.to_solid.upper},
-          {"distance_to_solid", facts(written.measures.to_solid)},
-          {"distance_to_triangles", facts(written.measures.to_triangles)},
           {"self_intersections", hull.self_intersections},
           {"added_self_intersections", told(options, outcome, written).added_self_intersections()},
           {"quality", facts(written.measures.quality)},
           {"rounded_vertices", hull.rounded_vertices},
-          {"certified", written.certified},
-          {"proof", std::string(hull.proof)},
-          {"verdict", facts(of_file(hull.verdict, outcome.made.input))},
-          {"padding", hull.padding},
+          {"original_volume", finite_or_null(hull.verdict.original_volume)},
+          {"verdict", facts(written.measures.verdict)},
           {"relaxed_guards", hull.relaxed_guards},
           {"stopped", why_stopped(hull)},
           {"within_bounds", hull.within_bounds},
@@ -202,7 +197,7 @@ void print_search(const BuildOutcome& outcome) {
   for (const Written& written : outcome.written) {
     say_more("  {}: built in {:.2f} s, verified in {:.2f} s by {}\n", output_name(written.path),
              written.hull.build_seconds, written.hull.verify_seconds,
-             written.hull.proof.empty() ? "nothing" : written.hull.proof);
+             written.hull.certified ? written.hull.verdict.proof : "nothing");
     if (const std::string refused = describe_refusals(written.hull.refusals); !refused.empty())
       say_more("    collapses refused on the way: {}\n", refused);
   }
@@ -230,8 +225,8 @@ std::vector<std::string> table_rows(const BuildOutcome& outcome) {
     rows.push_back(fmt::format("{:>11}  {:>9}  {:>8}  {:>9.4g}  {}", grouped(outcome.made.input.found.faces),
                                grouped(written.hull.mesh.face_count()),
                                std::isnan(written.hull.void_ratio) ? "" : percent_text(written.hull.void_ratio, 2),
-                               rounded_up(written.measures.to_solid.upper, 4),
-                               !written.certified            ? "NO"
+                               rounded_up(written.measures.verdict.distance().upper, 4),
+                               !written.certified()          ? "NO"
                                : !written.hull.within_bounds ? "yes, NOT within the bounds"
                                                              : "yes"));
   return rows;

@@ -30,14 +30,15 @@ struct BuildOptions {
 struct Written {
   EnclosingHull hull;
   std::filesystem::path path;
-  bool certified = false;  ///< the hull, and the file holds its very bits
-  HullMeasures measures = {};
+  bool holds_bits = false;                   ///< the hull is certified, and the file holds its very bits
+  HullMeasures measures = {};                ///< the verdict is about the file
   std::vector<DistanceBounds> regions = {};  ///< of each region, from the hull
   std::filesystem::path certificate_path = {};
   Certificate certificate = {};
   double write_seconds = 0;
 
-  bool is_as_asked() const { return certified && hull.target_reached && hull.within_bounds; }
+  bool certified() const { return measures.verdict.certified; }
+  bool is_as_asked() const { return certified() && hull.target_reached && hull.within_bounds; }
 };
 
 /// The regions of --tolerance, and the faces of each.

@@ -31,11 +31,13 @@ struct File {
   const CageHull* hull;
   std::filesystem::path path;
   std::string suffix;
-  bool certified = false;  ///< the hull, and the file holds its very bits
+  Verdict verdict = {};  ///< of the file
   std::filesystem::path certificate_path = {};
   Certificate certificate = {};
 
-  bool is_as_asked() const { return certified && hull->is_disjoint && hull->keeps_gap && hull->hull().target_reached; }
+  bool is_as_asked() const {
+    return verdict.certified && hull->is_disjoint && hull->keeps_gap && hull->hull().target_reached;
+  }
 };
 
 Cage cage_of(TriangleMesh mesh, const CageRunOptions& options) {
@@ -47,10 +49,12 @@ Cage cage_of(TriangleMesh mesh, const CageRunOptions& options) {
 
 void write(File& file, Outputs& outputs) {
   const EnclosingHull& hull = file.hull->hull();
-  file.certified = hull.certified && outputs.add(file.path, file.suffix, [&](const auto& path) {
+  const bool holds_bits = hull.certified && outputs.add(file.path, file.suffix, [&](const auto& path) {
     write_mesh(path, hull.mesh);
     return holds_triangles_of(path, hull.mesh);
   });
+  file.verdict = hull.verdict, file.verdict.certified = hull.certified;
+  file.verdict = as_written(std::move(file.verdict), holds_bits);
 }
 
 constexpr std::string_view kSideInName = "{side}";
@@ -109,7 +113,7 @@ void print_hull(const Cage& cage, const File& file) {
       file.hull->keeps_gap
           ? ""
           : fmt::format("; NOT the {:.6g} asked for: no {} hull that keeps it was found", cage.gap, file.side));
-  say("  certified: {}\n", certificate_of(file.hull->made, hull, file.certified));
+  say("  certified: {}\n", certificate_of(file.verdict));
 }
 
 nlohmann::json facts_of(const File& file) {
@@ -121,10 +125,9 @@ nlohmann::json facts_of(const File& file) {
           {"volume", volume_of(hull)},
           {"void_ratio", finite_or_null(hull.void_ratio)},
           {"source", name_of(source_names(), hull.source)},
-          {"certified", file.certified},
-          {"verdict", facts(of_file(hull.verdict, file.hull->made.input))},
+          {"original_volume", finite_or_null(hull.verdict.original_volume)},
+          {"verdict", facts(file.verdict)},
           {"disjoint", file.hull->is_disjoint},
-          {"gap", hull.padding},
           {"keeps_gap", file.hull->keeps_gap},
           {"self_intersections", hull.self_intersections},
           {"quality", facts(file.hull->quality)},
@@ -187,14 +190,15 @@ int run_cage(CageRunOptions options) {
   Outputs outputs;
   for (File& file : files) {
     write(file, outputs);
-    if (file.certified && !options.certificate.empty()) write_certificate(file, original, options, cage.gap, outputs);
+    if (file.verdict.certified && !options.certificate.empty())
+      write_certificate(file, original, options, cage.gap, outputs);
   }
   outputs.add_report(options.report, report_of(options, cage, files));
   outputs.commit();
   print_input(options, cage);
   for (const File& file : files) {
     print_hull(cage, file);
-    if (file.certified && !options.certificate.empty())
+    if (file.verdict.certified && !options.certificate.empty())
       print_certificate(file.certificate_path, file.certificate, {file.path}, options.in);
   }
   const bool is_disjoint = std::ranges::all_of(files, [](const File& file) { return file.hull->is_disjoint; });
@@ -203,7 +207,7 @@ int run_cage(CageRunOptions options) {
   else
     say("disjoint: NO\n");
   say("  read, build and verify {:.2f} s\n", build_seconds);
-  const bool certified = std::ranges::all_of(files, &File::certified);
+  const bool certified = std::ranges::all_of(files, [](const File& file) { return file.verdict.certified; });
   const bool as_asked = std::ranges::all_of(files, &File::is_as_asked);
   return !certified || (options.strict && !as_asked) ? kAnswerIsNo : kDone;
 }

@@ -219,15 +219,15 @@ class PieceFiles {
 struct Outcome {
   MeshReport input;
   double diagonal = 0;
-  ConvexCover cover;
-  bool certified = false;     ///< and the files hold the very bits of the pieces
+  ConvexCover cover;          ///< its verdict is about the files
   PieceSize largest;          ///< in the files; zeros if none is a mesh
   bool within_limits = true;  ///< of the engine
   Certificate certificate;
   std::vector<std::string> others;
   double read_seconds = 0, write_seconds = 0;
 
-  int exit_code() const { return certified && cover.within_bounds && within_limits ? kDone : kAnswerIsNo; }
+  bool certified() const { return cover.verdict.certified; }
+  int exit_code() const { return certified() && cover.within_bounds && within_limits ? kDone : kAnswerIsNo; }
 };
 
 Certificate certificate_of(const ConvexCover& cover, const CertifiedOriginal& original) {
@@ -269,7 +269,7 @@ std::string described_pieces(const ConvexCover& cover) {
 
 std::string described_size(const ConvexCover& cover) {
   const char* const at_most = cover.volume_is_bound ? "at most " : "";
-  if (!cover.covers_inside || !(cover.original_volume > 0))
+  if (cover.verdict.encloses_solid != Answer::Yes || !(cover.original_volume > 0))
     return fmt::format("volume {}{:.4g}", at_most, cover.volume);
   return fmt::format("{}{} more volume than the mesh{}", at_most, percent_text(std::max(0.0, cover.void_ratio), 2),
                      cover.is_estimated ? " (estimated)" : "");
@@ -300,20 +300,12 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
   say("{}: {}, {}\n", input_name(options.in), counted(outcome.input.faces, "face"),
       counted(outcome.input.components, "component"));
   for (const std::string& note : cover.notes) say("  {}\n", note);
+  const double reach = cover.verdict.distance().upper;
   say("{}: {}, {}, at most {:.4g} from the mesh ({} % of its diagonal){}{}\n", output_name(options.out),
-      described_pieces(cover), described_size(cover), rounded_up(cover.reach.upper, 4),
-      with_decimals_up(100 * cover.reach.upper / outcome.diagonal, 2),
-      cover.fills_cavities ? " with cavities filled" : "",
-      text_of_openings(cover.has_openings, cover.reach_from_triangles));
-  if (outcome.certified)
-    say("  certified: yes, the pieces as written cover every {}triangle of the original{}\n",
-        cover.non_finite_faces == 0 ? "" : "finite ",
-        !cover.covers_inside    ? "; it is not closed, so nothing is proven of its inside: `prohull repair` closes it"
-        : cover.original_closed ? ", and its inside"
-        : cover.has_openings    ? ", and its inside with its openings closed"
-                                : ", and its inside after repairs");
-  else
-    say("  certified: NO: nothing was written; please report this mesh\n");
+      described_pieces(cover), described_size(cover), rounded_up(reach, 4),
+      with_decimals_up(100 * reach / outcome.diagonal, 2), cover.fills_cavities ? " with cavities filled" : "",
+      text_of_openings(cover.verdict.cap_faces > 0, *cover.verdict.distance_to_triangles));
+  say("  certified: {}\n", certificate_of(cover.verdict, "the union of the pieces as written"));
   if (options.engine && outcome.largest.vertices > 0) print_limits(options, outcome);
   const auto in_shape = static_cast<std::size_t>(std::ranges::count(cover.pieces, options.cover.shape, shape_of));
   if (in_shape < cover.pieces.size())
@@ -321,7 +313,7 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
         cover.pieces.size());
   if (!cover.within_bounds)
     say("  NOT within the bounds asked for; allow {}larger bounds\n", what_to_allow(options, cover));
-  if (outcome.certified && !options.certificate.empty())
+  if (outcome.certified() && !options.certificate.empty())
     print_certificate(options.certificate, outcome.certificate, files.meshes(cover.pieces), options.in);
   if (!outcome.others.empty())
     say("  also there, but no pieces of this mesh: {}; remove them if they are of an earlier run\n",
@@ -362,21 +354,17 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
   in["path"] = options.in.string();
   in["diagonal"] = outcome.diagonal;
   for (std::size_t i = 0; i < cover.pieces.size(); ++i) pieces.push_back(facts_of(cover.pieces[i], files.name(i)));
-  if (outcome.certified)
+  if (outcome.certified())
     for (const path& file : files.written(cover.pieces)) paths.push_back(file.string());
   return {{"input", in},
           {"paths", paths},
           {"pieces", pieces},
-          {"certified", outcome.certified},
-          {"covers_inside", cover.covers_inside},
+          {"verdict", facts(cover.verdict)},
           {"volume", finite_or_null(cover.volume)},
           {"volume_is_bound", cover.volume_is_bound},
           {"original_volume", finite_or_null(cover.original_volume)},
           {"void_ratio", cover.original_volume > 0 ? finite_or_null(cover.void_ratio) : nlohmann::json()},
           {"void_is_estimated", cover.is_estimated},
-          {"reach", facts(cover.reach)},
-          {"reach_from_triangles", facts(cover.reach_from_triangles)},
-          {"non_finite_faces", cover.non_finite_faces},
           {"within_bounds", cover.within_bounds},
           {"largest_piece", {{"vertices", outcome.largest.vertices}, {"polygons", outcome.largest.polygons}}},
           {"within_limits", outcome.within_limits},
@@ -413,19 +401,21 @@ int run_convex(ConvexOptions options) {
                          [&](const ConvexCoverOptions& how) { return convex_cover(std::move(mesh), how); });
   Outputs pieces, report;
   const Stopwatch writing;
-  if (const auto size = outcome.cover.certified ? files.add_to(pieces, outcome.cover.pieces) : std::nullopt) {
-    outcome.certified = true;
+  Verdict& verdict = outcome.cover.verdict;
+  const auto size = verdict.certified ? files.add_to(pieces, outcome.cover.pieces) : std::nullopt;
+  verdict = as_written(std::move(verdict), size.has_value());
+  if (size) {
     outcome.largest = *size;
     outcome.within_limits = !options.engine || is_within(*size, *options.engine.value());
   }
   outcome.write_seconds = writing.seconds();
   outcome.others = files.others(outcome.cover.pieces);
-  if (outcome.certified && !options.certificate.empty()) {
+  if (outcome.certified() && !options.certificate.empty()) {
     outcome.certificate = certificate_of(outcome.cover, original);
     pieces.add(options.certificate, outcome.certificate.bytes);
   }
   report.add_report(options.report, report_of(options, files, outcome));
-  if (outcome.certified) pieces.commit();
+  if (outcome.certified()) pieces.commit();
   report.commit();
   print_summary(options, files, outcome);
   return outcome.exit_code();

@@ -32,11 +32,17 @@ TriangleMesh level_of(const ProgressiveHull& hull, const LodOptions& options, co
 }
 
 struct LodOutcome {
-  TriangleMesh level, written;             ///< `written`: what the file holds
+  TriangleMesh level, written;  ///< `written`: what the file holds
+  HullSide side = HullSide::Outer;
   std::optional<Verification> found = {};  ///< against the finest level, unless it is that, bit for bit
   double read_seconds = 0, extract_seconds = 0, verify_seconds = 0;
 
-  bool certified() const { return !found || found->encloses; }
+  /// The finest level encloses its own solid.
+  Verdict verdict() const {
+    if (found) return *found;
+    return {
+        .certified = true, .proof = "identity", .side = side, .encloses_solid = Answer::Yes, .original_closed = true};
+  }
 };
 
 Verification verified(const TriangleMesh& written, const TriangleMesh& finest, HullSide side) {
@@ -44,8 +50,14 @@ Verification verified(const TriangleMesh& written, const TriangleMesh& finest, H
   return verify_hull(written, finest, side, {.progress = std::ref(line)});
 }
 
-std::string certificate_of(const LodOutcome& outcome) {
-  return outcome.found ? certificate_of_level(*outcome.found) : "yes, the file as written is the finest level";
+std::string certificate_of_level(const LodOutcome& outcome) {
+  if (!outcome.found) return "yes, the file as written is the finest level";
+  const Verification& found = *outcome.found;
+  const std::string what = claim(found, "the file as written", "the finest level");
+  if (found.certified) return "yes, " + what;
+  if (found.faces_outside == 0) return fmt::format("no, {}: {}", what, found.why_not);
+  return fmt::format("no, {}, of which {} {} not covered, at least in part: {}", what,
+                     counted(found.faces_outside, "face"), found.faces_outside == 1 ? "is" : "are", found.why_not);
 }
 
 nlohmann::json report_of(const LodOptions& options, const ProgressiveHull& hull, const LodOutcome& outcome) {
@@ -58,14 +70,10 @@ nlohmann::json report_of(const LodOptions& options, const ProgressiveHull& hull,
       {"finest_faces", hull.original_face_count()},
       {"coarsest", outcome.level.face_count() == hull.base_face_count()},
       {"finest_level", name_of(finest_level_names(), hull.finest_level())},
-      {"certified", outcome.certified()},
+      {"verdict", facts(outcome.verdict())},
       {"seconds",
        {{"read", outcome.read_seconds}, {"extract", outcome.extract_seconds}, {"verify", outcome.verify_seconds}}}};
-  if (outcome.found) {
-    report["why_not"] = outcome.found->why_not;
-    report["faces_outside"] = outcome.found->faces_outside;
-    report["verdict"] = facts(*outcome.found);
-  }
+  if (outcome.found) report["faces_outside"] = outcome.found->faces_outside;
   return report;
 }
 
@@ -75,7 +83,7 @@ void print_summary(const LodOptions& options, const ProgressiveHull& hull, const
       options.faces != 0 && faces > options.faces ? ", which is the coarsest level of the file" : "");
   if (const std::string finest = described_finest_level(hull.finest_level()); !finest.empty())
     say("  the finest level of the file is {}, not the input itself\n", finest);
-  say("  certified: {}\n", certificate_of(outcome));
+  say("  certified: {}\n", certificate_of_level(outcome));
   say_more("  read {:.2f} s, extracted {:.2f} s, verified in {:.2f} s\n", outcome.read_seconds, outcome.extract_seconds,
            outcome.verify_seconds);
 }
@@ -101,6 +109,7 @@ int extract(const LodOptions& options) {
   const TriangleMesh finest = hull.original();
   if (!has_triangles_of(outcome.written, finest)) outcome.found = verified(outcome.written, finest, hull.side());
   outcome.verify_seconds = verifying.seconds();
+  outcome.side = hull.side();
   outputs.add_report(options.report, report_of(options, hull, outcome));
   outputs.commit();
   print_summary(options, hull, outcome);

@@ -20,8 +20,7 @@ struct RepairRunOptions {
 
 struct RepairOutcome {
   ClosedSolid solid;
-  bool certified = false;  ///< and the file holds the very bits of the solid
-  std::string why_not;
+  Verdict verdict;  ///< of the file
   double read_seconds = 0, seconds = 0;
 
   bool is_wrap() const { return solid.source == Source::Wrap; }
@@ -50,10 +49,7 @@ void print_summary(const RepairRunOptions& options, const RepairOutcome& outcome
         "(around sheets about half, in places more than all of it), which closes openings narrower than about twice "
         "that (--spacing)\n",
         solid.wrap_spacing);
-  if (outcome.certified)
-    say("  certified: yes, {}\n", claim(of_file(solid.verdict, solid.input), "the file as written", "the original"));
-  else
-    say("  certified: NO, so nothing was written: {}\n", outcome.why_not);
+  say("  certified: {}\n", certificate_of(outcome.verdict));
   say("  read {:.2f} s, repair and verify {:.2f} s\n", outcome.read_seconds, outcome.seconds);
 }
 
@@ -73,9 +69,7 @@ nlohmann::json report_of(const RepairRunOptions& options, const RepairOutcome& o
           {"wrap_spacing", outcome.is_wrap() ? nlohmann::json(solid.wrap_spacing) : nlohmann::json()},
           {"folds", facts(solid.folds)},
           {"openings", {{"closed", repairs.closed_openings}, {"largest", repairs.largest_opening}}},
-          {"certified", outcome.certified},
-          {"why_not", outcome.why_not},
-          {"verdict", facts(of_file(solid.verdict, solid.input))},
+          {"verdict", facts(outcome.verdict)},
           {"seconds", {{"read", outcome.read_seconds}, {"repair", outcome.seconds}}}};
 }
 
@@ -95,18 +89,15 @@ int run_repair(RepairRunOptions options) {
   outcome.seconds = repairing.seconds();
   const ClosedSolid& solid = outcome.solid;
   Outputs outputs;
-  outcome.why_not = solid.verdict.why_not;
-  if (solid.verdict.holds()) {
-    outcome.certified = outputs.add(options.out, suffix, [&](const auto& file) {
-      write_mesh(file, solid.mesh);
-      return holds_triangles_of(file, solid.mesh);
-    });
-    if (!outcome.certified) outcome.why_not = "the file does not keep its triangles; write .ply, .obj or .off";
-  }
+  const bool holds_bits = solid.verdict.certified && outputs.add(options.out, suffix, [&](const auto& file) {
+    write_mesh(file, solid.mesh);
+    return holds_triangles_of(file, solid.mesh);
+  });
+  outcome.verdict = as_written(solid.verdict, holds_bits);
   outputs.add_report(options.report, report_of(options, outcome));
   outputs.commit();
   print_summary(options, outcome);
-  return outcome.certified ? kDone : kAnswerIsNo;
+  return outcome.verdict.certified ? kDone : kAnswerIsNo;
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ void add_hulls(Table& table, const Link& link, const LinkHulls& made) {
   for (const LinkHull& hull : made.hulls)
     table.add({link.name, grouped(made.triangles.face_count()), size_of(hull),
                (made.is_estimated && made.sealed_volume > 0 ? "~ " : "") + ratio(hull.volume, made.sealed_volume),
-               ratio(hull.volume, made.convex_volume), at_most(hull.distance.upper), hull.certified ? "yes" : "NO"});
+               ratio(hull.volume, made.convex_volume), at_most(hull.verdict.distance().upper),
+               hull.certified() ? "yes" : "NO"});
   if (made.status == LinkStatus::Primitives) table.add({link.name, "primitives, kept"});
   if (!made.why.empty()) table.add({link.name, "left as it is"});
 }
@@ -67,9 +68,9 @@ std::string notes_text(const std::string& link, const LinkHull& hull, bool has_o
   const std::string which = has_others ? fmt::format("{}, {} faces", link, hull.target_faces) : link;
   std::string text;
   if (!hull.within_bounds)
-    text += fmt::format("  {}: NOT within the distance asked for: {}\n", which, at_most(hull.distance.upper));
-  if (const std::string from_triangles = at_most(hull.distance_from_triangles.upper);
-      hull.has_openings && from_triangles != at_most(hull.distance.upper))
+    text += fmt::format("  {}: NOT within the distance asked for: {}\n", which, at_most(hull.verdict.distance().upper));
+  if (const std::string from_triangles = at_most(hull.verdict.distance_to_triangles->upper);
+      hull.has_openings() && from_triangles != at_most(hull.verdict.distance().upper))
     text += fmt::format("  {}: its openings count as closed, and from its triangles alone it reaches at most {}\n",
                         which, from_triangles);
   for (const std::string& note : hull.notes) text += fmt::format("  {}: {}\n", which, note);
@@ -359,7 +360,7 @@ void say_disabled(const Robot& robot, const std::string& file, std::span<const D
 std::string robot_summary(const std::filesystem::path& folder, const ReportInput& facts, bool sampled_pairs) {
   std::size_t hulls = 0, certified = 0;
   for (const LinkHulls& link : facts.hulls)
-    for (const LinkHull& hull : link.hulls) ++hulls, certified += hull.certified;
+    for (const LinkHull& hull : link.hulls) ++hulls, certified += hull.certified();
   const std::string_view covers = cover_words(facts.hulls);
   std::string text = hulls_text(facts) + shipped_text(facts);
   text += certificates_text(facts.certificates);

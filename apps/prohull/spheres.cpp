@@ -29,7 +29,7 @@ struct Outcome {
   double diagonal = 0, read_seconds = 0;
   Certificate certificate;
 
-  double part_of_diagonal() const { return diagonal > 0 ? cover.reach.upper / diagonal : 0; }
+  double part_of_diagonal() const { return diagonal > 0 ? cover.verdict.distance().upper / diagonal : 0; }
   double void_ratio() const { return cover.volume / cover.original_volume - 1; }
   bool has_volume() const { return cover.original_volume > 0; }
 };
@@ -85,14 +85,10 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
   return {{"input", {{"path", options.in.string()}, {"faces", outcome.faces}, {"diagonal", outcome.diagonal}}},
           {"path", options.out.string()},
           {"link", link_name(options)},
-          {"certified", cover.certified},
-          {"covers_inside", cover.covers_inside},
+          {"verdict", facts(cover.verdict)},
           {"within_bounds", cover.within_bounds},
           {"spheres", json_of(cover.balls)},
-          {"reach", facts(cover.reach)},
-          {"reach_from_triangles",
-           cover.is_of_wrap || cover.has_openings ? facts(cover.reach_from_triangles) : nlohmann::json()},
-          {"non_finite_faces", cover.non_finite_faces},
+          {"solid_is_wrap", cover.is_of_wrap},
           {"volume", cover.volume},
           {"original_volume", cover.original_volume},
           {"void_ratio", outcome.has_volume() ? nlohmann::json(outcome.void_ratio()) : nlohmann::json()},
@@ -103,32 +99,28 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
 
 /// From what they reach out.
 std::string text_of_origin(const SphereCover& cover) {
-  const double from_triangles = cover.reach_from_triangles.upper;
-  if (!cover.is_of_wrap) return text_of_openings(cover.has_openings, cover.reach_from_triangles);
-  if (cover.reach.upper == from_triangles) return ", from the triangles alone";
+  const DistanceBounds& from_triangles = *cover.verdict.distance_to_triangles;
+  if (!cover.is_of_wrap) return text_of_openings(cover.verdict.cap_faces > 0, from_triangles);
+  if (cover.verdict.distance().upper == from_triangles.upper) return ", from the triangles alone";
   return fmt::format("; that is from a wrap, and from the triangles alone it is at most {:.4g}",
-                     rounded_up(from_triangles, 4));
+                     rounded_up(from_triangles.upper, 4));
 }
 
 void print_summary(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
   say("{}: {} around {}, which reach out by at most {:.4g}, {} % of the diagonal{}\n", output_name(options.out),
-      counted(cover.balls.size(), "sphere"), counted(outcome.faces, "face"), rounded_up(cover.reach.upper, 4),
-      with_decimals_up(100 * outcome.part_of_diagonal(), 2), text_of_origin(cover));
+      counted(cover.balls.size(), "sphere"), counted(outcome.faces, "face"),
+      rounded_up(cover.verdict.distance().upper, 4), with_decimals_up(100 * outcome.part_of_diagonal(), 2),
+      text_of_origin(cover));
   if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);
   if (outcome.has_volume())
     say("  volume: {:.4g} with overlaps counted once, {} {} than the solid's{}\n", cover.volume,
         percent_text(std::abs(outcome.void_ratio()), 1), outcome.void_ratio() < 0 ? "less" : "more",
         cover.is_estimated ? " (estimated)" : "");
   for (const std::string& note : cover.notes) say("  {}\n", note);
-  if (cover.certified)
-    say("  certified: yes, the spheres cover every {}triangle{}\n", cover.non_finite_faces == 0 ? "" : "finite ",
-        !cover.covers_inside    ? ""
-        : cover.original_closed ? " and the inside"
-                                : " and what counts as the inside");
-  else
-    say("  certified: no, so nothing was written\n");
-  if (cover.certified && !options.certificate.empty())
+  say("  certified: {}{}\n", certificate_of(cover.verdict, "the union of the spheres as written"),
+      cover.fills_wrap ? ", and the inside of the wrap" : "");
+  if (cover.verdict.certified && !options.certificate.empty())
     print_certificate(options.certificate, outcome.certificate, {options.out}, options.in);
   say("  read {:.2f} s, cover {:.2f} s, of which verify {:.2f} s\n", outcome.read_seconds, cover.seconds,
       cover.verify_seconds);
@@ -150,15 +142,15 @@ int run_spheres(SpheresOptions options) {
   outcome.cover = naming(options.in, options.cover,
                          [&](const SphereCoverOptions& how) { return sphere_cover(std::move(mesh), how); });
   Outputs outputs;
-  if (outcome.cover.certified) outputs.add(options.out, text_of(options, suffix, outcome.cover.balls));
-  if (outcome.cover.certified && !options.certificate.empty()) {
+  if (outcome.cover.verdict.certified) outputs.add(options.out, text_of(options, suffix, outcome.cover.balls));
+  if (outcome.cover.verdict.certified && !options.certificate.empty()) {
     outcome.certificate = balls_certificate(outcome.cover.balls, original);
     outputs.add(options.certificate, outcome.certificate.bytes);
   }
   outputs.add_report(options.report, report_of(options, outcome));
   outputs.commit();
   print_summary(options, outcome);
-  return outcome.cover.certified && outcome.cover.within_bounds ? kDone : kAnswerIsNo;
+  return outcome.cover.verdict.certified && outcome.cover.within_bounds ? kDone : kAnswerIsNo;
 }
 
 }  // namespace

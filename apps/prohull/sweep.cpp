@@ -1,5 +1,6 @@
 #include "prohull/sweep.h"
 #include "prohull/detail/rounded.h"
+#include "prohull/detail/verdict_parts.h"
 
 #include <fmt/format.h>
 
@@ -18,6 +19,7 @@
 #include "robot/motion/poses.h"
 #include "robot/motion/workspace_sweep.h"
 #include "robot_summary.h"
+#include "verdict.h"
 
 namespace prohull::cli {
 namespace {
@@ -42,8 +44,7 @@ struct SweepRunOptions {
 struct SweptZone {
   std::vector<LinkSweep> sweeps;  ///< of a mesh one, without a name
   std::optional<EnclosingHull> hull;
-  double hull_distance = 0;  ///< of the hull from the pieces, at most
-  bool certified = false;    ///< and the file holds the very bits
+  Verdict verdict;  ///< of all together, as the file holds it
   double read_seconds = 0, seconds = 0;
 
   std::vector<TriangleMesh> pieces() const {
@@ -51,26 +52,19 @@ struct SweptZone {
     for (const LinkSweep& link : sweeps) all.insert(all.end(), link.sweep.pieces.begin(), link.sweep.pieces.end());
     return all;
   }
-  double reach() const {
-    return std::ranges::max(sweeps, {}, [](const LinkSweep& link) { return link.sweep.reach; }).sweep.reach +
-           hull_distance;
-  }
-  bool covers_inside() const {
-    return std::ranges::all_of(sweeps, [](const LinkSweep& link) { return link.sweep.covers_inside; });
-  }
-  bool has_openings() const {
-    return std::ranges::any_of(sweeps, [](const LinkSweep& link) { return link.sweep.has_openings; });
-  }
   bool fills_cavities() const {
     return std::ranges::any_of(sweeps, [](const LinkSweep& link) { return link.sweep.fills_cavities; });
   }
-  /// " with openings closed"; empty if all is as in the mesh.
-  std::string changes() const {
-    return !has_openings()    ? fills_cavities() ? " with cavities filled" : ""
-           : fills_cavities() ? " with openings closed and cavities filled"
-                              : " with openings closed";
-  }
 };
+
+/// Of all sweeps together, and of the hull if there is one.
+Verdict verdict_of(const SweptZone& zone, const TriangleMesh& pieces) {
+  Verdict verdict = zone.sweeps[0].sweep.verdict;
+  for (std::size_t i = 1; i < zone.sweeps.size(); ++i) verdict = both(std::move(verdict), zone.sweeps[i].sweep.verdict);
+  if (!zone.hull) return verdict;
+  verdict.certified = zone.hull->certified;
+  return farther_by(std::move(verdict), distance_bounds(zone.hull->mesh, pieces).upper);
+}
 
 TriangleMesh joined(const std::vector<TriangleMesh>& pieces) {
   TriangleMesh all;
@@ -157,7 +151,6 @@ void add_hull(const SweepRunOptions& options, bool float32, SweptZone& zone) {
   how.progress = std::ref(line);
   const TriangleMesh all = joined(zone.pieces());
   zone.hull = enclosing_hull(all, options.faces, how);
-  zone.hull_distance = distance_bounds(zone.hull->mesh, all).upper;
 }
 
 bool write(const SweepRunOptions& options, const std::string& suffix, const SweptZone& zone, Outputs& outputs) {
@@ -172,12 +165,13 @@ bool write(const SweepRunOptions& options, const std::string& suffix, const Swep
   });
 }
 
-std::string claim_of(const SweptZone& zone, const SweepRunOptions& options) {
-  const std::string what = zone.hull ? "the hull as written encloses" : "the pieces as written enclose";
-  const std::string whose = is_robot_file(options.in) ? "the links" : "the mesh";
-  return fmt::format(
-      "{} every triangle of {}{}, {}", what, whose, zone.covers_inside() ? ", and the inside" + zone.changes() : "",
-      options.workspace ? "wherever the joints are within their limits" : "at every moment of the motion");
+std::string certificate_of(const SweptZone& zone, const SweepRunOptions& options) {
+  const std::string what = zone.hull ? "the hull as written" : "the union of the pieces as written";
+  const std::string of_what = is_robot_file(options.in) ? "the links" : "the mesh";
+  return certificate_of(zone.verdict, what, of_what) + (!zone.verdict.certified ? ""
+                                                        : options.workspace
+                                                            ? ", wherever the joints are within their limits"
+                                                            : ", at every moment of the motion");
 }
 
 /// "arm", or in a workspace "arm, hand in the frame of base"
@@ -193,7 +187,7 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
     for (const std::string& note : link.sweep.notes) say("  {}{}\n", link.link.empty() ? "" : link.link + ": ", note);
     if (is_robot)
       say("  {}: {}, at most {:.4g} mm from what {} pass{}\n", whose(link), pieces(link),
-          rounded_up(1e3 * link.sweep.reach, 4), link.links.size() > 1 ? "they" : "it",
+          rounded_up(1e3 * link.sweep.verdict.distance().upper, 4), link.links.size() > 1 ? "they" : "it",
           link.links.size() > 1 ? "" : "es");
   }
   if (zone.hull)
@@ -203,12 +197,9 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
     say("{}: {}", output_name(options.out), counted(zone.pieces().size(), "convex piece"));
   else
     say("{}: {}, volume about {:.3g}", output_name(options.out), pieces(zone.sweeps[0]), zone.sweeps[0].sweep.volume);
-  say(", at most {:.4g} from what {} passes{}\n", rounded_up(zone.reach(), 4), is_robot ? "the robot" : "the mesh",
-      zone.changes());
-  if (zone.certified)
-    say("  certified: yes, {}\n", claim_of(zone, options));
-  else
-    say("  certified: NO: nothing was written; please report this mesh\n");
+  say(", at most {:.4g} from what {} passes{}\n", rounded_up(zone.verdict.distance().upper, 4),
+      is_robot ? "the robot" : "the mesh", zone.fills_cavities() ? " with cavities filled" : "");
+  say("  certified: {}\n", certificate_of(zone, options));
   say("  read {:.2f} s, sweep {:.2f} s\n", zone.read_seconds, zone.seconds);
 }
 
@@ -220,10 +211,8 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
                       {"frame", link.links.empty() ? nlohmann::json() : nlohmann::json(link.link)},
                       {"pieces", link.sweep.pieces.size()},
                       {"cover_pieces", link.sweep.cover_pieces},
-                      {"covers_inside", link.sweep.covers_inside},
-                      {"has_openings", link.sweep.has_openings},
+                      {"verdict", facts(link.sweep.verdict)},
                       {"fills_cavities", link.sweep.fills_cavities},
-                      {"reach", link.sweep.reach},
                       {"notes", link.sweep.notes}});
   const bool has_volume = zone.hull || !is_robot_file(options.in);
   const double volume = zone.hull ? volume_of(*zone.hull) : zone.sweeps[0].sweep.volume;
@@ -231,8 +220,7 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
           {"path", options.out.string()},
           {"pieces", zone.pieces().size()},
           {"hull_faces", zone.hull ? nlohmann::json(zone.hull->mesh.face_count()) : nlohmann::json()},
-          {"certified", zone.certified},
-          {"reach", zone.reach()},
+          {"verdict", facts(zone.verdict)},
           {"volume", has_volume ? nlohmann::json(volume) : nlohmann::json()},
           {"volume_is_estimated", !zone.hull || std::isnan(zone.hull->verdict.hull_volume)},
           {"sweeps", sweeps},
@@ -271,12 +259,14 @@ int run_sweep(const SweepRunOptions& options) {
   if (options.faces > 0) add_hull(options, float32, zone);
   zone.seconds = watch.seconds() - zone.read_seconds;
   Outputs outputs, report;
-  zone.certified = (!zone.hull || zone.hull->certified) && write(options, suffix, zone, outputs);
+  zone.verdict = verdict_of(zone, joined(zone.pieces()));
+  const bool holds_bits = zone.verdict.certified && write(options, suffix, zone, outputs);
+  zone.verdict = as_written(std::move(zone.verdict), holds_bits);
   report.add_report(options.report, report_of(options, zone));
-  if (zone.certified) outputs.commit();
+  if (zone.verdict.certified) outputs.commit();
   report.commit();
   print_summary(options, zone);
-  return zone.certified ? kDone : kAnswerIsNo;
+  return zone.verdict.certified ? kDone : kAnswerIsNo;
 }
 
 void add_motion_options(CLI::App& command, SweepRunOptions& options) {

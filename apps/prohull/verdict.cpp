@@ -40,36 +40,13 @@ nlohmann::json SizeComparison::facts() const {
   return {{"size_ratio", finite_or_null(ratio_)}, {"units_doubtful", is_doubtful()}};
 }
 
-std::string certificate_of_level(const Verification& found) {
-  const std::string file = "the file as written", finest = "the finest level";
-  const bool is_outer = found.side == HullSide::Outer;
-  const std::string what = claim(found, is_outer ? file : finest, is_outer ? finest : file);
-  if (found.encloses) return "yes, " + what;
-  if (found.faces_outside == 0) return fmt::format("no, {}: {}", what, found.why_not);
-  return fmt::format("no, {} {} of {} uncovered, at least in part: {}", is_outer ? "it leaves" : finest + " leaves",
-                     counted(found.faces_outside, "face"), is_outer ? finest : "it", found.why_not);
-}
-
-nlohmann::json facts(const Verification& found) {
-  return {{"encloses", found.encloses},
-          {"proof", std::string(found.proof)},
-          {"side", std::string(name_of(hull_side_names(), found.side))},
-          {"original_closed", found.original_closed},
-          {"cap_faces", found.cap_faces},
-          {"non_finite_faces", found.non_finite_faces},
-          {"every_triangle", found.every_triangle},
-          {"original_volume", finite_or_null(found.original_volume)},
-          {"void_ratio", finite_or_null(found.void_ratio)}};
+int exit_code_of(const Verdict& verdict, bool is_sure) {
+  if (verdict.certified) return is_sure ? kDone : kAnswerIsNo;
+  return is_undecided(verdict) ? kUndecided : kAnswerIsNo;
 }
 
 nlohmann::json facts(const Folds& folds) {
   return {{"faces", folds.faces}, {"place", {folds.place.x, folds.place.y, folds.place.z}}};
-}
-
-nlohmann::json facts(const DistanceBounds& bounds) {
-  const Vec3& p = bounds.farthest;
-  const nlohmann::json farthest = bounds.lower > 0 ? nlohmann::json{p.x, p.y, p.z} : nlohmann::json();
-  return {{"lower", bounds.lower}, {"upper", finite_or_null(bounds.upper)}, {"farthest", farthest}};
 }
 
 }  // namespace prohull::cli

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "prohull/detail/summary.h"
-#include "prohull/distance.h"
 #include "prohull/enclosing_hull.h"
-#include "prohull/verification.h"
+#include "prohull/verdict.h"
+#include "robot/report/verdict_facts.h"
 
 namespace prohull::cli {
 
@@ -30,12 +30,11 @@ class SizeComparison {
   double ratio_ = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What `lod` says behind "certified: " of a level as it is written, which was compared with the finest one.
-std::string certificate_of_level(const Verification& found);
+/// What was asked is not decided: neither yes nor no.
+inline bool is_undecided(const Verdict& verdict) { return !verdict.is_yes() && !verdict.is_any(Answer::No); }
+/// Of a verdict that was asked for; `is_sure` is false where units are in doubt.
+int exit_code_of(const Verdict& verdict, bool is_sure);
 
-/// What was proven, against what, as reports have it.
-nlohmann::json facts(const Verification& found);
-nlohmann::json facts(const DistanceBounds& bounds);  ///< `farthest` is null where no point is known to be away
 nlohmann::json facts(const Folds& folds);
 
 }  // namespace prohull::cli

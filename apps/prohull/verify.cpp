@@ -45,6 +45,7 @@ Verification verify(const VerifyOptions& options, const MeshOrHull& hull, const 
                                   .gap = gap,
                                   .finite_only = options.finite_only,
                                   .closed = closed ? &closed->mesh : nullptr,
+                                  .max_steps = options.max_steps,
                                   .progress = std::ref(line)};
     const auto* const levels = std::get_if<ProgressiveHull>(&hull);
     return levels ? verify_hull(*levels, original, how)
@@ -60,16 +61,6 @@ bool has_failed_replay(const Verification& found) {
   return found.proof == "replay" && !found.encloses && std::isnan(found.hull_volume);
 }
 
-/// "part.stl with its openings closed by 2 faces encloses hull.stl"
-std::string claim_of_inner(Verification found, std::string original, const std::string& hull) {
-  if (found.non_finite_faces > 0) original += " without what is not finite";
-  if (!found.original_closed)
-    original += found.cap_faces > 0 ? fmt::format(" with its openings closed by {}", counted(found.cap_faces, "face"))
-                                    : std::string(" after repairs");
-  found.original_closed = true, found.non_finite_faces = 0;  // these were told
-  return claim(found, original, hull);
-}
-
 /// "yes: hull.stl encloses part.stl", or why not.
 std::string verdict(const Verification& found, const SizeComparison& sizes, const VerifyOptions& options, double gap) {
   const std::string hull = input_name(options.hull), original = input_name(options.original);
@@ -77,19 +68,18 @@ std::string verdict(const Verification& found, const SizeComparison& sizes, cons
   if (has_failed_replay(found)) return fmt::format("NO: {} proves nothing about {}: {}", hull, original, found.why_not);
   const bool base_only = !found.encloses || found.faces_beside_solid > 0;
   const std::string levels = replayed ? (base_only ? "the base mesh of " : "every level of ") + hull : hull;
-  Verification of_finite = found;
-  of_finite.encloses |= found.encloses_finite;
-  const std::string what = inner ? claim_of_inner(of_finite, original, levels) : claim(of_finite, levels, original);
+  const std::string what = claim(found, levels, original);
   if (!found.encloses)
-    return fmt::format("NO: {}{}: {}", what, found.encloses_finite ? ", but there is more" : "", found.why_not);
+    return fmt::format("{}: {}{}: {}", is_undecided(found) && found.keeps_gap ? "UNDECIDED" : "NO", what,
+                       found.is_yes() ? ", but there is more" : "", found.why_not);
   if (!found.keeps_gap)
     return fmt::format("NO: {}, but {} does not keep the gap of {:.9g}: {}", what, hull, gap, found.why_not);
   std::string how = ", exactly";
   if (replayed)
     how = fmt::format("{}; {} splits replayed, {} signs exact",
-                      !base_only || !found.has_solid ? ""
-                      : inner                        ? ", and the solid of every level"
-                                                     : ", and every level its solid",
+                      !base_only || found.encloses_solid == Answer::NotAsked ? ""
+                      : inner                                                ? ", and the solid of every level"
+                                                                             : ", and every level its solid",
                       grouped(found.splits), grouped(found.signs));
   if (gap > 0) how = fmt::format(" and keeps a gap of {:.9g}", gap) + how;
   if (sizes.is_doubtful() && !options.any_scale) return fmt::format("UNITS: {}{}, but {}", what, how, sizes.doubt());
@@ -127,7 +117,7 @@ nlohmann::json near_facts(const std::vector<NearFace>& nearest) {
 nlohmann::json report_of(const VerifyOptions& options, const Verification& found, double gap, double seconds) {
   nlohmann::json json = {{"hull", options.hull.string()},
                          {"original", options.original.string()},
-                         {"why_not", found.why_not},
+                         {"verdict", facts(static_cast<const Verdict&>(found))},
                          {"splits", found.splits},
                          {"signs", found.signs},
                          {"faces_outside", found.faces_outside},
@@ -135,11 +125,12 @@ nlohmann::json report_of(const VerifyOptions& options, const Verification& found
                          {"cavities", found.cavities},
                          {"faces_undecided", found.faces_undecided},
                          {"faces_beside_solid", found.faces_beside_solid},
+                         {"original_volume", finite_or_null(found.original_volume)},
+                         {"void_ratio", finite_or_null(found.void_ratio)},
                          {"notes", found.notes},
                          {"seconds", seconds}};
-  json.update(facts(found));
   if (gap > 0) {
-    json["gap"] = gap;
+    json["gap_asked"] = gap;
     json["keeps_gap"] = found.keeps_gap;
     json["least_distance"] = found.least_distance;
     json["faces_too_near"] = found.faces_too_near;
@@ -195,7 +186,8 @@ int run_verify(const VerifyOptions& options) {
   print_summary(options, found, sizes, gap, seconds);
   say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(face_count(hull), "face"),
            counted(original.face_count(), "face"), found.proof, read_seconds);
-  return found.holds() && (options.any_scale || !sizes.is_doubtful()) ? kDone : kAnswerIsNo;
+  if (has_failed_replay(found) || !found.keeps_gap) return kAnswerIsNo;
+  return exit_code_of(found, options.any_scale || !sizes.is_doubtful());
 }
 
 }  // namespace
@@ -263,6 +255,10 @@ void add_verify(CLI::App& app, Run& run) {
              "files, whose levels touch.",
              "ORIGINAL")
       ->excludes(is_union);
+  add_optional_number(command, "--steps", options->max_steps, {1, 1e15},
+                      "Largest number of steps of each search for parts that lie outside: what is left then is "
+                      "undecided, and the exit code is 4 if nothing else says no. Without this option it is two "
+                      "billion and 2,000 for each face of ORIGINAL, which take some minutes.");
   add_report_option(command, options->report);
   add_examples(
       command,

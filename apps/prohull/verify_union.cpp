@@ -20,8 +20,10 @@ namespace {
 
 UnionVerification verify(const Union& all, TriangleMesh original, const VerifyOptions& options) {
   ProgressLine line;
-  const VerificationOptions how{
-      .solid_only = options.solid_only, .finite_only = options.finite_only, .progress = std::ref(line)};
+  const VerificationOptions how{.solid_only = options.solid_only,
+                                .finite_only = options.finite_only,
+                                .max_steps = options.max_steps,
+                                .progress = std::ref(line)};
   return all.balls.empty() ? verify_union(all.pieces, std::move(original), how)
                            : verify_union(all.balls, std::move(original), options.inside, how);
 }
@@ -31,12 +33,6 @@ DistanceBounds reach_of(const Union& all, const TriangleMesh& original) {
   const DistanceOptions how{.progress = std::ref(line)};
   return all.balls.empty() ? union_reach(all.pieces, original, how) : union_reach(all.balls, original, how);
 }
-
-bool asks_inside(const Union& all, const VerifyOptions& options, const UnionVerification& found) {
-  return found.original_closed && (all.balls.empty() || options.inside || options.solid_only);
-}
-
-bool is_undecided(const UnionVerification& found) { return found.faces_undecided > 0 || found.inside_undecided; }
 
 /// The faces of the pieces. Balls count as the finest meshes.
 std::size_t face_count(const Union& all) {
@@ -58,18 +54,12 @@ Box box_of(const Union& all) {
 
 std::string verdict(const Union& all, const VerifyOptions& options, const UnionVerification& found,
                     const SizeComparison& sizes, const std::string& original) {
-  const std::string what = !asks_inside(all, options, found) ? "every triangle of " + original
-                           : options.solid_only              ? "the solid of " + original
-                                                             : "every triangle and the inside of " + original;
-  const std::string pieces = all.description();
-  const bool is_one = pieces.starts_with("1 ");
-  if (found.covers) {
-    const std::string claim = fmt::format("{} cover{} {}, exactly", pieces, is_one ? "s" : "", what);
-    if (sizes.is_doubtful() && !options.any_scale) return fmt::format("UNITS: {}, but {}", claim, sizes.doubt());
-    return "yes: " + claim;
-  }
-  if (found.faces_outside + found.holes == 0 && is_undecided(found)) return "UNDECIDED: " + found.why_not;
-  return fmt::format("NO: {} do{} not cover {}: {}", pieces, is_one ? "es" : "", what, found.why_not);
+  const std::string what = claim(found, "the union of " + all.description(), original);
+  if (found.certified && sizes.is_doubtful() && !options.any_scale)
+    return fmt::format("UNITS: {}, exactly, but {}", what, sizes.doubt());
+  if (found.certified) return fmt::format("yes: {}, exactly", what);
+  if (is_undecided(found)) return "UNDECIDED: " + found.why_not;
+  return fmt::format("NO: {}{}: {}", what, found.is_yes() ? ", but there is more" : "", found.why_not);
 }
 
 void print_offenders(const UnionVerification& found, const std::string& original) {
@@ -79,13 +69,14 @@ void print_offenders(const UnionVerification& found, const std::string& original
   for (const Offender& o : found.worst)
     say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
   if (found.faces_undecided > 0)
-    say("  {} of {} {} undecided:\n", counted(found.faces_undecided, "face"), original,
-        found.faces_undecided == 1 ? "is" : "are");
+    say("  {} of {} {} undecided{}\n", counted(found.faces_undecided, "face"), original,
+        found.faces_undecided == 1 ? "is" : "are", found.undecided.empty() ? "" : ":");
   for (const Offender& o : found.undecided) say("    face {} at {}, in doubt\n", index(o.face), text_of_point(o.point));
   if (found.inside_undecided) say("  the inside is undecided\n");
 }
 
-void print_summary(const Union& all, const UnionVerification& found, const DistanceBounds& reach) {
+void print_summary(const Union& all, const UnionVerification& found) {
+  const DistanceBounds& reach = found.distance();
   if (found.turned_pieces > 0)
     say("  {} inwards and count{} as turned\n", counted(found.turned_pieces, "piece looks", "pieces look"),
         found.turned_pieces == 1 ? "s" : "");
@@ -106,7 +97,7 @@ nlohmann::json point_or_null(const std::optional<PointOfFace>& point) {
 }
 
 nlohmann::json report_of(const std::vector<std::filesystem::path>& files, const Union& all,
-                         const UnionVerification& found, const DistanceBounds& reach) {
+                         const UnionVerification& found) {
   nlohmann::json names = nlohmann::json::array();
   for (const std::filesystem::path& file : files) names.push_back(file.string());
   std::vector<std::string> notes = all.notes;
@@ -114,9 +105,7 @@ nlohmann::json report_of(const std::vector<std::filesystem::path>& files, const 
   return {{"union", names},
           {"pieces", all.pieces.size()},
           {"spheres", all.balls.size()},
-          {"original_closed", found.original_closed},
-          {"covers", found.covers},
-          {"why_not", found.why_not},
+          {"verdict", facts(static_cast<const Verdict&>(found))},
           {"faces_outside", found.faces_outside},
           {"worst", facts(found.worst)},
           {"point_outside", point_or_null(found.point_outside)},
@@ -128,7 +117,6 @@ nlohmann::json report_of(const std::vector<std::filesystem::path>& files, const 
           {"union_volume", finite_or_null(found.union_volume)},
           {"original_volume", finite_or_null(found.original_volume)},
           {"void_ratio", finite_or_null(found.void_ratio)},
-          {"reach", facts(reach)},
           {"notes", notes}};
 }
 
@@ -156,11 +144,12 @@ int run_verify_union(const VerifyOptions& options) {
   const TriangleMesh original =
       minus(read_input(last, options.original_input, NonFinite::Keep), Vec3{numbers[0], numbers[1], numbers[2]});
   const Stopwatch verifying;
-  const UnionVerification found = verify(all, original, options);
+  UnionVerification found = verify(all, original, options);
   const double seconds = verifying.seconds();
-  const DistanceBounds reach = reach_of(all, finite_part(original));
+  found.distance_to_triangles = reach_of(all, finite_part(original));
+  if (found.original_closed) found.distance_to_solid = found.distance_to_triangles;
   const SizeComparison sizes(box_of(all), face_count(all), finite_bounding_box(original), HullSide::Outer);
-  nlohmann::json report = report_of(files, all, found, reach);
+  nlohmann::json report = report_of(files, all, found);
   report["original"] = last.string();
   report["offset"] = numbers;
   report.update(sizes.facts());
@@ -171,8 +160,8 @@ int run_verify_union(const VerifyOptions& options) {
   outputs.commit();
   say("{}, {:.2f} s\n", verdict(all, options, found, sizes, input_name(last)), seconds);
   print_offenders(found, input_name(last));
-  print_summary(all, found, reach);
-  return found.covers && (options.any_scale || !sizes.is_doubtful()) ? kDone : kAnswerIsNo;
+  print_summary(all, found);
+  return exit_code_of(found, options.any_scale || !sizes.is_doubtful());
 }
 
 }  // namespace prohull::cli

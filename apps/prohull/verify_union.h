@@ -23,6 +23,7 @@ struct VerifyOptions {
   std::string offset = "0,0,0";
   std::string link;  ///< of the files of pieces, with --union
   Length gap;
+  std::size_t max_steps = 0;
 };
 
 /// "(1, 2, 3)"

@@ -24,7 +24,7 @@ struct ClosedSolid {
   double wrap_spacing = 0;       ///< of a wrap
   Folds folds = {};              ///< of the repaired mesh, if `mesh` was changed around them so that it covers them
   RepairedMesh input;            ///< `repairs` has the openings that were closed, `obstacle` why repairs do not do
-  Verification verdict;          ///< of `mesh` as an outer hull of the input; if it `holds`, every triangle is covered
+  Verification verdict;  ///< of `mesh` as an outer hull of the input; if it is `certified`, every triangle is covered
 };
 
 /// Makes a closed solid of any triangles, as enclosing_hulls does before it builds hulls: repaired_mesh, and a wrap
@@ -33,7 +33,7 @@ struct ClosedSolid {
 /// InputError as repaired_mesh and wrap do, and for a wrap that is no closed 2-manifold; Cancelled.
 ///
 ///     const ClosedSolid solid = closed_solid(read_mesh("scan.stl"));
-///     if (solid.verdict.holds()) write_mesh("scan.ply", solid.mesh);
+///     if (solid.verdict.certified) write_mesh("scan.ply", solid.mesh);
 ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& options = {});
 
 /// Of all points that a closed mesh winds around at least once, in cubic units.

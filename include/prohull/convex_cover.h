@@ -11,6 +11,7 @@
 #include "prohull/distance.h"
 #include "prohull/progress.h"
 #include "prohull/triangle_mesh.h"
+#include "prohull/verdict.h"
 
 namespace prohull {
 
@@ -23,7 +24,7 @@ Names<PieceShape> piece_shape_names();
 struct ConvexCoverOptions {
   std::size_t max_pieces = 16;    ///< at least 1
   std::size_t max_vertices = 64;  ///< of a piece; at least 4
-  /// How far the union may reach (ConvexCover::reach), and how large it may be. With bounds the cover has as few pieces
+  /// How far the union may reach (Verdict::distance), and how large it may be. With bounds the cover has as few pieces
   /// as keep them, at most max_pieces.
   HullBounds bounds = {};
   /// With any other shape than Polytope, pieces take that shape where `bounds` allow it: all, if there are none.
@@ -47,29 +48,23 @@ double volume_of(const ConvexPiece& piece);
 
 struct ConvexCover {
   std::vector<ConvexPiece> pieces;
-  bool certified = false;        ///< the meshes of the pieces cover, proven exactly (verify_union)
-  bool covers_inside = false;    ///< what was proven: also the inside, with the openings of the input closed
-  bool original_closed = false;  ///< the input bounds a solid by itself: `covers_inside` is about that
-  double volume = 0;             ///< of the union; overlaps count once
+  /// Of the meshes of the pieces, by verify_union. Where the input is not closed, but can be (repaired_mesh), its solid
+  /// is the closed mesh. Cavities of the solid count as full in distances.
+  Verdict verdict;
+  double volume = 0;  ///< of the union; overlaps count once
   /// The volume is not greater: it is that of polytopes around capsules, or around spheres beside other pieces.
-  /// `reach` is always theirs.
+  /// Distances are always theirs.
   bool volume_is_bound = false;
-  double original_volume = 0;  ///< as EnclosingHulls::volume; 0 if it is not known
-  bool is_estimated = false;   ///< `original_volume` is an estimate, from a wrap
-  double void_ratio = 0;       ///< volume / original_volume - 1; infinite if the triangles have no volume
-  /// How far the union reaches out of the solid, or from the triangles if there is none. What closes openings of the
-  /// input belongs to the solid.
-  DistanceBounds reach;
-  DistanceBounds reach_from_triangles;  ///< the same without what closes openings
-  bool has_openings = false;            ///< the input has openings that count as closed: the two may differ
-  bool fills_cavities = false;          ///< the input has cavities, which count as filled: the reach is not from them
-  std::size_t non_finite_faces = 0;     ///< faces of the input that were left out: a corner is not finite
+  double original_volume = 0;   ///< as EnclosingHulls::volume; 0 if it is not known
+  bool is_estimated = false;    ///< `original_volume` is an estimate, from a wrap
+  double void_ratio = 0;        ///< volume / original_volume - 1; infinite if the triangles have no volume
+  bool fills_cavities = false;  ///< the input has cavities, which count as filled: distances are not from them
   bool within_bounds = true;
   std::vector<std::string> notes;  ///< sentences for the user
   double seconds = 0, verify_seconds = 0;
 };
 
-/// Covers triangles by a few convex pieces. Guaranteed: `certified` is decided exactly, on the coordinates returned, by
+/// Covers triangles by a few convex pieces. Guaranteed: `verdict` is decided exactly, on the coordinates returned, by
 /// code that shares nothing with the search. Every finite triangle is covered, and the inside too where the triangles
 /// bound a solid, or bound one with their openings closed (repaired_mesh).
 ///

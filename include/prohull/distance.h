@@ -11,9 +11,9 @@ namespace prohull {
 /// Two bounds of the one-sided Hausdorff distance: of the distance from the point of one mesh that is farthest from the
 /// other mesh. In the input's unit.
 struct DistanceBounds {
-  double lower = 0;  ///< the distance of the point `farthest`, rounded
-  double upper = 0;  ///< proven: no point is farther away than this
-  Vec3 farthest;     ///< the farthest point that was found
+  double lower = 0;    ///< the distance of the point `farthest`, rounded
+  double upper = 0;    ///< proven: no point is farther away than this
+  Vec3 farthest = {};  ///< the farthest point that was found
 };
 
 struct DistanceOptions {

@@ -65,16 +65,14 @@ struct EnclosingHull {
   TriangleMesh mesh;
   bool certified = false;  ///< enclosure is proven exactly, by code that shares nothing with the construction
   /// What verify_hull says of `mesh` and all finite triangles of the input as they were given. If these are not closed,
-  /// but could be closed, RepairedMesh::closed stands for them.
+  /// but could be closed, RepairedMesh::closed stands for them. Distances are not measured: verdict_of (summary.h).
   Verification verdict;
-  std::string_view proof;        ///< how: "replay", "enclosure" or "coverage" (verification.h); with padding
-                                 ///< "padding", which includes "enclosure" or "coverage"; empty if not certified
   std::size_t target_faces = 0;  ///< how many faces were asked for
   bool target_reached = false;   ///< the mesh has at most target_faces faces, or none with fewer was found to keep
                                  ///< `bounds`
   bool within_bounds = true;     ///< the hull keeps `bounds`
   double excess = 0;             ///< HullBounds::excess, if bounds were given; above 1 where it does not keep them
-  double padding = 0;     ///< proven least distance from the triangles, if EnclosingOptions::padding asks for one
+  double padding = 0;            ///< Verdict::gap, if EnclosingOptions::padding asks for one; else 0
   double void_ratio = 0;  ///< volume of the hull / EnclosingHulls::volume - 1; NaN if that is not known well enough
   Source source = Source::Mesh;
   std::vector<std::string> notes;  ///< sentences for the user: why something is not as asked for, and what to look at

@@ -9,6 +9,7 @@
 #include "prohull/convex_cover.h"
 #include "prohull/progress.h"
 #include "prohull/triangle_mesh.h"
+#include "prohull/verdict.h"
 
 namespace prohull {
 
@@ -37,13 +38,11 @@ inline constexpr std::size_t kMostSweptPieces = 50'000;
 
 struct Sweep {
   std::vector<TriangleMesh> pieces;  ///< convex polytopes: closed, outwards, no vertex outside of a face's plane
-  bool covers_inside = false;        ///< what is enclosed: also the inside of the mesh, as ConvexCover says it,
-  bool has_openings = false;         ///< with its openings closed, which it then has
-  bool fills_cavities = false;       ///< and with its cavities filled
-  double volume = 0;                 ///< of the union of the pieces, estimated by 200,000 points
-  /// Proven: no point of the surfaces of the pieces is farther from all positions of the mesh's solid, or of its
-  /// triangles if there is none.
-  double reach = 0;
+  /// Of all positions of the mesh, or of polytopes, together: what ConvexCover proves of one. Distances are of points
+  /// of the pieces' surfaces from all positions.
+  Verdict verdict;
+  bool fills_cavities = false;     ///< the mesh has cavities, which count as filled
+  double volume = 0;               ///< of the union of the pieces, estimated by 200,000 points
   std::size_t cover_pieces = 0;    ///< convex pieces of the mesh
   std::vector<std::string> notes;  ///< sentences for the user
   double seconds = 0;
@@ -52,7 +51,7 @@ struct Sweep {
 /// Encloses all positions of a mesh along motions, one after the other, by convex pieces.
 ///
 /// Guaranteed: each position of each finite triangle lies in the union of the pieces, at every moment of the motions,
-/// in real numbers; and so does the inside where `covers_inside` says so. Rounding is part of the bounds. `notes` tell
+/// in real numbers; and so does the inside where `verdict` says so. Rounding is part of the bounds. `notes` tell
 /// how many triangles are not finite.
 ///
 /// Throws InputError as convex_cover; NonFiniteCoordinate for a motion that is not finite or goes beyond 1e100;

@@ -22,17 +22,13 @@ struct PointOfFace {
 };
 
 /// What verify_union has found. Volumes and distances are in the input's unit.
-struct UnionVerification {
-  bool covers = false;            ///< the verdict: proven
-  bool original_closed = false;   ///< only then the inside is asked for
-  std::string why_not;            ///< why the verdict is no; empty if it is yes
+struct UnionVerification : Verdict {
   std::size_t faces_outside = 0;  ///< triangles of the original of which a part lies outside of all pieces; exact
   std::vector<Offender> worst;    ///< the farthest of these, farthest first
   std::size_t holes = 0;          ///< connected parts of the union's surface that leave a hole in the solid
   /// Of balls: a point of a triangle that no ball holds, if one was found. Exact.
   std::optional<PointOfFace> point_outside;
-  /// Of balls: triangles of which neither was found out, whether balls cover all of them nor a point that no ball
-  /// holds.
+  /// Triangles of which neither was found out, whether all of them is covered nor a point that is not.
   std::size_t faces_undecided = 0;
   std::vector<Offender> undecided;  ///< of these, a point in doubt; max_offenders at most, of distance 0
   bool inside_undecided = false;    ///< the same of the inside
@@ -53,7 +49,7 @@ struct UnionVerification {
 /// not convex.
 ///
 ///     const UnionVerification found = verify_union(pieces, read_mesh("part.stl"));
-///     if (!found.covers) std::cout << found.why_not;
+///     if (!found.certified) std::cout << found.why_not;
 UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMesh original,
                                const VerificationOptions& options = {});
 
@@ -61,8 +57,8 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
 /// options.solid_only that solid alone. `holes` is at most 1: the search for one ends at the first.
 /// Guaranteed: yes is exact, for the balls with the doubles given, and so is every triangle that counts as outside, and
 /// every hole. Undecided is what the balls cover with less than about 1e-9 of the diagonal to spare, if at all, and
-/// what would take more than a million parts of one triangle or four million cubes of the inside; then `covers` is
-/// false. Balls may touch corners of the original, and each other in the middles of edges, with nothing to spare.
+/// what would take more than a million parts of one triangle or four million cubes of the inside; then the answer
+/// is no. Balls may touch corners of the original, and each other in the middles of edges, with nothing to spare.
 UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh original, bool inside,
                                const VerificationOptions& options = {});
 

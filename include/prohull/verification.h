@@ -3,13 +3,13 @@
 #include <cstddef>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "prohull/enclosure.h"
 #include "prohull/progress.h"
 #include "prohull/progressive_hull.h"
 #include "prohull/triangle_mesh.h"
+#include "prohull/verdict.h"
 
 namespace prohull {
 
@@ -28,6 +28,10 @@ struct VerificationOptions {
   /// an inner hull must be enclosed by its solid. It is not looked at if the original is closed.
   const TriangleMesh* closed = nullptr;
   std::size_t max_offenders = 5;
+  /// The most steps of each search for parts that lie outside; faces that are left then are undecided, the same on
+  /// every machine. 0: two billion and 2,000 for each face of the original, which take some minutes. Gaps and spheres
+  /// have no such searches.
+  std::size_t max_steps = 0;
   Progress progress = {};  ///< stage "verify"
 };
 
@@ -40,21 +44,9 @@ struct NearFace {
 };
 
 /// What verify_hull has found. Volumes and distances are in the input's unit.
-struct Verification {
-  bool encloses = false;  ///< the verdict, exact; of an inner hull: whether the original encloses it
-  /// The same of the finite triangles alone: the verdict is no for others, unless VerificationOptions::finite_only.
-  bool encloses_finite = false;
-  /// How it was decided: "replay" of the vertex splits of a progressive hull, "enclosure" of one closed mesh by
-  /// another, or "coverage" of every triangle of an original that is not closed.
-  std::string_view proof;
-  HullSide side = HullSide::Outer;
-  bool original_closed = false;
-  bool has_solid = false;            ///< the original bounds a solid, or VerificationOptions::closed stands for it
-  std::size_t cap_faces = 0;         ///< faces of VerificationOptions::closed that are no triangles of the original
-  std::size_t non_finite_faces = 0;  ///< faces of the original that were left out: a corner is not finite
-  bool every_triangle = false;       ///< every triangle had to be covered: unless solid_only allows less
+struct Verification : Verdict {
+  bool encloses = false;  ///< `certified` but for the gap: exact; of an inner hull, whether the original encloses it
 
-  std::string why_not;     ///< why the verdict is no; empty if it is yes
   std::size_t splits = 0;  ///< vertex splits replayed
   std::size_t signs = 0;   ///< signs of orient3d that the replay decided exactly
 
@@ -84,9 +76,6 @@ struct Verification {
   double void_ratio = std::numeric_limits<double>::quiet_NaN();  ///< hull_volume / original_volume - 1; NaN if unknown
   /// Sentences for the user: what was left out of the original, and units that seem to differ.
   std::vector<std::string> notes;
-
-  /// The hull encloses, and keeps the gap if one was asked for.
-  bool holds() const { return encloses && keeps_gap; }
 };
 
 /// Decides whether `hull` encloses `original` (HullSide::Inner: whether `original` encloses `hull`). Guaranteed: a yes
@@ -97,7 +86,7 @@ struct Verification {
 ///   inner hull        the original encloses the solid of the hull, and its solid covers every triangle of the hull
 ///
 /// With options.gap it is also decided whether the hull keeps that distance from all finite triangles of the original,
-/// caps on its openings not included; `holds` says whether both is so.
+/// caps on its openings not included; `certified` says whether both is so. Distances are not measured.
 ///
 /// If faces of the original are not finite, the verdict is no; with options.finite_only they are left out. Components
 /// of a closed original that are inside out count as turned (turned_outwards); `notes` tell of both, and of meshes

@@ -26,7 +26,7 @@ namespace {
 val object_of(const EnclosingHull& hull, const EnclosingHulls& made) {
   val object = object_of_mesh(hull.mesh);
   object.set("certified", hull.certified);
-  object.set("proof", std::string(hull.proof));
+  object.set("proof", std::string(hull.certified ? hull.verdict.proof : ""));
   object.set("gap", hull.padding);
   object.set("targetReached", hull.target_reached);
   object.set("withinBounds", hull.within_bounds);
@@ -51,10 +51,11 @@ void add_summary(val& object, const std::string& file, const EnclosingHull& hull
   lines.push_back(line_of_hull(file, told));
   const std::string content = hull.certified ? mesh_content(file, hull.mesh) : "";
   const bool written = hull.certified && has_triangles_of(read_mesh(std::string_view(content), file), hull.mesh);
-  for (const auto& more : {lines_of_shape(told), lines_of_limits(told), lines_of_proof(told, written)})
+  for (const auto& more :
+       {lines_of_shape(told), lines_of_limits(told), lines_of_proof(as_written(measures.verdict, written))})
     lines.insert(lines.end(), more.begin(), more.end());
   object.set("summary", strings_of(lines));
-  object.set("distance", measures.to_triangles.upper);
+  object.set("distance", measures.verdict.distance_to_triangles->upper);
 }
 
 val build(const val& mesh, const val& targets, const val& given, const val& progress) {
@@ -97,7 +98,7 @@ val level(const val& levels, double faces, const val& given) {
 
 val object_of(const Verification& found) {
   val object = val::object();
-  object.set("holds", found.holds());
+  object.set("holds", found.certified);
   object.set("encloses", found.encloses);
   object.set("keepsGap", found.keeps_gap);
   object.set("proof", std::string(found.proof));
@@ -157,12 +158,12 @@ val distance(const val& from, const val& to, const val& given, const val& progre
 template <class Cover>
 val object_of_cover(const Cover& cover) {
   val object = val::object();
-  object.set("certified", cover.certified);
-  object.set("coversInside", cover.covers_inside);
+  object.set("certified", cover.verdict.certified);
+  object.set("coversInside", cover.verdict.encloses_solid == Answer::Yes);
   object.set("volume", cover.volume);
   object.set("originalVolume", cover.original_volume);
   object.set("withinBounds", cover.within_bounds);
-  object.set("reach", cover.reach.upper);
+  object.set("reach", cover.verdict.distance().upper);
   object.set("notes", strings_of(told_notes(cover)));
   return object;
 }
@@ -228,7 +229,7 @@ val repair(const val& mesh, const val& given, const val& progress) {
     const ClosedSolidOptions options = options_of(given, progress, closed_solid_options<Given>);
     const ClosedSolid made = closed_solid(mesh_of(mesh, "mesh"), options);
     val object = object_of_mesh(made.mesh);
-    object.set("certified", made.verdict.holds());
+    object.set("certified", made.verdict.certified);
     object.set("whyNot", made.verdict.why_not);
     object.set("source", std::string(name_of(source_names(), made.source)));
     object.set("repairs", strings_of(describe(made.input.repairs)));

@@ -51,7 +51,7 @@ function comparePieces(file, mesh, name) {
   const cover = engine.convexPieces(mesh, {pieces: 6});
   const report = join(scratch, `${name}_pieces.json`);
   run('convex', file, '-o', join(scratch, `${name}_piece.ply`), '--pieces', '6', '--report', report);
-  assert.equal(JSON.parse(readFileSync(report)).certified, cover.certified);
+  assert.equal(JSON.parse(readFileSync(report)).verdict.certified, cover.certified);
   if (!cover.certified) return;
   const written = readdirSync(scratch).filter((f) => f.startsWith(`${name}_piece_`)).sort();
   assert.equal(written.length, cover.pieces.length, `${name}: number of pieces`);
@@ -83,7 +83,7 @@ test('distances of a summary, down to their rounding', {skip: !hasProgram && 'th
   const file = sample('torus', 2000), mesh = await engine.read(readFileSync(file), 'torus.ply'), report = join(scratch, 'far.json');
   for (const faces of [5000, 100]) {
     run('build', file, '-o', join(scratch, 'far.ply'), '--faces', String(faces), '--report', report);
-    assert.equal(engine.build(mesh, faces, {summaryOf: 'far.ply'}).distance, JSON.parse(readFileSync(report)).hull.distance_to_triangles.upper);
+    assert.equal(engine.build(mesh, faces, {summaryOf: 'far.ply'}).distance, JSON.parse(readFileSync(report)).hull.verdict.distance_to_triangles.upper);
   }
 });
 

@@ -17,6 +17,7 @@
 #include "prohull/detail/mesh_part.h"
 #include "prohull/detail/told_notes.h"
 #include "prohull/enclosing_hull.h"
+#include "verdicts.h"
 #include "watch.h"
 
 namespace py = pybind11;
@@ -91,7 +92,7 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
   facts["levels"] = std::move(hull.levels);
   facts["mesh"] = std::move(hull.mesh);
   facts["certified"] = hull.certified;
-  facts["proof"] = hull.proof;
+  facts["proof"] = hull.certified ? hull.verdict.proof : std::string_view();
   facts["gap"] = hull.padding;
   facts["gap_asked"] = options.padding;
   facts["target_faces"] = hull.target_faces;
@@ -125,9 +126,9 @@ py::list build(const TriangleMesh& mesh, const std::vector<std::size_t>& targets
 py::dict facts_of(CageHull side) {
   EnclosingHull& hull = side.made.hulls.front();
   py::dict facts;
-  facts["certified"] = hull.certified;
+  hull.verdict.certified = hull.certified;
+  facts["verdict"] = facts_of(static_cast<const Verdict&>(hull.verdict));
   facts["is_disjoint"] = side.is_disjoint;
-  facts["gap"] = hull.padding;
   facts["keeps_gap"] = side.keeps_gap;
   facts["void_ratio"] = hull.void_ratio;
   facts["target_reached"] = hull.target_reached;
@@ -153,8 +154,7 @@ py::dict repair(const TriangleMesh& mesh, const py::object& progress, const py::
   ClosedSolid made = watched(progress, closed_solid_options(Keywords(keywords)),
                              [&](const auto& how) { return closed_solid(mesh, how); });
   py::dict facts;
-  facts["certified"] = made.verdict.holds();
-  facts["why_not"] = made.verdict.why_not;
+  facts["verdict"] = facts_of(static_cast<const Verdict&>(made.verdict));
   facts["source"] = name_of(source_names(), made.source);
   facts["wrap_spacing"] = made.wrap_spacing;
   facts["repairs"] = describe(made.input.repairs);

@@ -18,6 +18,7 @@
 #include "prohull/union_verification.h"
 #include "robot/files/piece_files.h"
 #include "robot/files/sphere_file.h"
+#include "verdicts.h"
 #include "watch.h"
 
 namespace py = pybind11;
@@ -43,13 +44,9 @@ struct PrimitiveFacts {
 template <class Cover>
 py::dict common_facts_of(const Cover& cover) {
   py::dict facts;
-  facts["certified"] = cover.certified;
-  facts["covers_inside"] = cover.covers_inside;
+  facts["verdict"] = facts_of(cover.verdict);
   facts["volume"] = cover.volume;
   facts["original_volume"] = cover.original_volume;
-  facts["reach"] = py::make_tuple(cover.reach.lower, cover.reach.upper);
-  facts["reach_from_triangles"] = py::make_tuple(cover.reach_from_triangles.lower, cover.reach_from_triangles.upper);
-  facts["non_finite_faces"] = cover.non_finite_faces;
   facts["within_bounds"] = cover.within_bounds;
   facts["notes"] = told_notes(cover);
   facts["seconds"] = cover.seconds;
@@ -77,10 +74,7 @@ py::dict spheres(const TriangleMesh& mesh, const py::object& progress, const py:
 }
 
 py::dict facts_of(const UnionVerification& found) {
-  py::dict facts;
-  facts["covers"] = found.covers;
-  facts["original_closed"] = found.original_closed;
-  facts["why_not"] = found.why_not;
+  py::dict facts = facts_of(static_cast<const Verdict&>(found));
   facts["faces_outside"] = found.faces_outside;
   facts["worst"] = offenders_of(found.worst);
   facts["faces_undecided"] = found.faces_undecided;

@@ -25,6 +25,7 @@
 #include "robot/motion/motion.h"
 #include "robot/report/pictures.h"
 #include "robot/report/report.h"
+#include "verdicts.h"
 #include "view/shown_robot.h"
 #include "watch.h"
 
@@ -152,15 +153,11 @@ py::dict facts_of(const LinkHull& hull, const LinkHulls& link) {
   facts["pieces"] = pieces;
   facts["spheres"] = rows_of_balls(hull.balls);
   facts["origin"] = matrix(link.frame.in_link);
-  facts["certified"] = hull.certified;
-  facts["proof"] = hull.proof;
+  facts["verdict"] = facts_of(hull.verdict);
   facts["target_reached"] = hull.target_reached;
   facts["within_bounds"] = hull.within_bounds;
   facts["source"] = hull.source;
   facts["volume_ratio"] = link.sealed_volume > 0 ? hull.volume / link.sealed_volume : NAN;
-  facts["distance_bound"] = hull.distance.upper;
-  facts["distance_from_triangles"] = hull.distance_from_triangles.upper;
-  facts["gap"] = hull.padding;
   facts["self_intersections"] = hull.self_intersections;
   facts["notes"] = hull.notes;
   return facts;

@@ -17,6 +17,7 @@
 #include "robot/motion/path_sweep.h"
 #include "robot/motion/poses.h"
 #include "robot/motion/workspace_sweep.h"
+#include "verdicts.h"
 #include "watch.h"
 
 namespace py = pybind11;
@@ -31,10 +32,8 @@ py::dict facts_of(Sweep sweep) {
   for (TriangleMesh& piece : sweep.pieces) pieces.append(std::make_shared<TriangleMesh>(std::move(piece)));
   py::dict facts;
   facts["pieces"] = pieces;
-  facts["covers_inside"] = sweep.covers_inside;
-  facts["has_openings"] = sweep.has_openings;
+  facts["verdict"] = facts_of(sweep.verdict);
   facts["fills_cavities"] = sweep.fills_cavities;
-  facts["reach"] = sweep.reach;
   facts["cover_pieces"] = sweep.cover_pieces;
   facts["notes"] = sweep.notes;
   return facts;

@@ -12,6 +12,7 @@
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/verification.h"
+#include "verdicts.h"
 #include "watch.h"
 
 namespace py = pybind11;
@@ -22,13 +23,8 @@ namespace {
 using Release = py::call_guard<py::gil_scoped_release>;
 
 py::dict facts_of(const Verification& found) {
-  py::dict facts;
+  py::dict facts = facts_of(static_cast<const Verdict&>(found));
   facts["encloses"] = found.encloses;
-  facts["proof"] = found.proof;
-  facts["side"] = name_of(hull_side_names(), found.side);
-  facts["original_closed"] = found.original_closed;
-  facts["every_triangle"] = found.every_triangle;
-  facts["why_not"] = found.why_not;
   facts["faces_outside"] = found.faces_outside;
   facts["worst"] = offenders_of(found.worst);
   facts["cavities"] = found.cavities;
@@ -36,7 +32,6 @@ py::dict facts_of(const Verification& found) {
   facts["faces_beside_solid"] = found.faces_beside_solid;
   facts["self_intersections"] = found.self_intersections;
   facts["original_volume"] = found.original_volume;
-  facts["non_finite_faces"] = found.non_finite_faces;
   facts["void_ratio"] = found.void_ratio;
   facts["notes"] = found.notes;
   facts["keeps_gap"] = found.keeps_gap;

@@ -193,15 +193,21 @@ def new_object(context, source, name, mesh, facts):
 
 def facts_of_hull(report):
     hull = report["hull"]
-    return described({"certified": hull["certified"], "proof": hull["proof"], "distance_bound": hull["distance_bound"],
-                      "void_ratio": hull["void_ratio"], "within_bounds": hull["within_bounds"]})
+    return described({**facts_of_verdict(hull["verdict"]), "void_ratio": hull["void_ratio"],
+                      "within_bounds": hull["within_bounds"]})
 
 
 def facts_of_pieces(report):
     """They are about all pieces together."""
-    return described({"certified": report["certified"], "proof": "union", "distance_bound": report["reach"]["upper"],
-                      "void_ratio": report["void_ratio"], "within_bounds": report["within_bounds"],
-                      "covers_inside": report["covers_inside"], "pieces": len(report["pieces"])})
+    verdict = report["verdict"]
+    return described({**facts_of_verdict(verdict), "void_ratio": report["void_ratio"],
+                      "within_bounds": report["within_bounds"], "covers_inside": verdict["encloses_solid"] is True,
+                      "pieces": len(report["pieces"])})
+
+
+def facts_of_verdict(verdict):
+    distance = verdict["distance_to_solid"] or verdict["distance_to_triangles"]
+    return {"certified": verdict["certified"], "proof": verdict["proof"], "distance_bound": distance["upper"]}
 
 
 def described(facts):

@@ -28,13 +28,13 @@ from ._meshes import AllHits, ClosestPoints, FacesMet, FirstHits, Mesh, Refineme
 from ._prohull import InputError
 from ._repair import Solid, repair
 from ._sweep import Sweep, sweep
-from ._verify import NearFace, Offender, Verification, distance_bounds, verify
+from ._verify import NearFace, Offender, Verdict, Verification, distance_bounds, verify
 from ._view import View, view
 
 __all__ = ["AllHits", "Ball", "Cage", "CageHull", "Capsule", "ClosestPoints", "Collider", "ConvexCover",
            "ConvexPiece", "Distances", "ENGINES", "FacePairs", "FacesMet", "FirstHits", "Hull", "InputError",
            "Mesh", "NearFace", "Offender", "OrientedBox", "Refinement", "Solid", "SphereCover", "Sweep", "TwoHulls", "UnionVerification",
-           "Verification", "View", "build", "cage", "convex_pieces", "distance_bounds", "load", "read", "repair", "sample",
+           "Verdict", "Verification", "View", "build", "cage", "convex_pieces", "distance_bounds", "load", "read", "repair", "sample",
            "spheres", "sweep", "verify", "verify_union", "view"]
 
 #: Names of the engines of queries.

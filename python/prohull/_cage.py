@@ -8,21 +8,26 @@ from ._covers import _covered
 from ._meshes import Mesh
 from ._shown import Shown
 from ._types import Gap, MeshLike, Progress
+from ._verify import Verdict, verdict_of
 from ._view import Part, mesh_parts
 
 
 class CageHull(Mesh):
     """A hull of a cage: closed, with faces that look outwards. Everything that a Mesh does, it does."""
 
-    certified: bool  #: whether it is proven, exactly, that it encloses the mesh (an inner one: is enclosed by it)
+    verdict: Verdict  #: whether it is proven, exactly, that it encloses the mesh (an inner one: is enclosed by it)
     is_disjoint: bool  #: whether no face of it touches the mesh, the other hull, or itself; exact
-    gap: float  #: the least distance from the mesh, in its unit; proven
-    keeps_gap: bool  #: whether that is at least the gap asked for; an inner hull of a thin mesh may keep less
+    keeps_gap: bool  #: whether `verdict.gap` is at least the gap asked for; an inner hull of a thin mesh may keep less
     void_ratio: float  #: the void, as a share of the volume of the mesh
     target_reached: bool  #: whether it has at most as many faces as were asked for
     smallest_angle_degrees: float  #: of all its triangles
     worst_aspect_ratio: float  #: longest edge of a triangle, divided by its shortest altitude
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
+
+    @property
+    def certified(self) -> bool:
+        """Whether what `verdict` tells is proven, exactly."""
+        return self.verdict.certified
 
 
 @dataclass(frozen=True)
@@ -69,5 +74,5 @@ def cage(mesh: MeshLike, faces: int = 400, *, inner_faces: int = 0, gap: Gap = 0
     keywords = dict(faces=faces, inner_faces=inner_faces, gap=gap, even=even, tight=tight,
                     float32_coordinates=float32_coordinates, threads=threads)
     facts = _covered(_prohull.cage, mesh, progress, keywords)
-    outer, inner = (hull and CageHull._with(hull.pop("mesh"), **hull) for hull in (facts["outer"], facts["inner"]))
+    outer, inner = (hull and CageHull._with(hull.pop("mesh"), **{**hull, **verdict_of(hull)}) for hull in (facts["outer"], facts["inner"]))
     return Cage(outer, inner, facts["gap"], facts["notes"], facts["original"])

@@ -16,7 +16,7 @@ from ._meshes import Mesh
 from ._prohull import InputError
 from ._shown import Shown
 from ._types import Gap, MeshLike, Path, PieceShape, Progress, Rows
-from ._verify import Offender
+from ._verify import Offender, Verdict, verdict_of
 from ._view import Part, balls_part, pieces_part
 
 
@@ -53,6 +53,13 @@ class ConvexPiece(Mesh):
 
 
 class CoverShown(Shown):
+    verdict: Verdict
+
+    @property
+    def certified(self) -> bool:
+        """Whether what `verdict` tells is proven, exactly."""
+        return self.verdict.certified
+
     def picture(self, width: int = 400, height: int = 300) -> bytes:
         """Draws what covers the mesh, each piece or ball in a colour of its own. Returns the content of a .png file.
 
@@ -69,13 +76,9 @@ class ConvexCover(CoverShown):
     """Convex pieces whose union covers a mesh; convex_pieces() makes it."""
 
     pieces: list[ConvexPiece]
-    certified: bool  #: whether it is proven, exactly, that the pieces cover the mesh
-    covers_inside: bool  #: whether the inside is covered too, of an open mesh with its openings closed; else its triangles
+    verdict: Verdict  #: what is proven of the pieces together; the solid of an open mesh is that with its openings closed
     volume: float  #: of the union, in cubic units; overlaps count once
     original_volume: float  #: of what lies inside of the mesh, in cubic units
-    reach: tuple[float, float]  #: bounds of how far the union reaches out of the mesh, in its unit; the second is proven
-    reach_from_triangles: tuple[float, float]  #: the same without what closes openings of the mesh
-    non_finite_faces: int  #: number of triangles that were left out: a corner is not finite
     within_bounds: bool  #: whether max_distance and max_void_percent hold
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
     seconds: float
@@ -109,13 +112,9 @@ class SphereCover(CoverShown):
     """Balls whose union covers a mesh; spheres() makes it."""
 
     balls: NDArray[np.float64] = field(repr=False)  #: (n, 4): center and radius of each, in the mesh's unit
-    certified: bool  #: whether it is proven, exactly, that the balls cover the mesh
-    covers_inside: bool  #: whether the inside of the mesh is covered too, as fill=True asks; else its triangles
+    verdict: Verdict  #: what is proven of the balls together; distances of a mesh without a solid are from a wrap
     volume: float  #: of the union, in cubic units; overlaps count once
     original_volume: float  #: of what lies inside of the mesh, in cubic units
-    reach: tuple[float, float]  #: bounds of how far the balls reach out of the mesh, in its unit; the second is proven
-    reach_from_triangles: tuple[float, float]  #: the same without what closes openings of the mesh, as a wrap does
-    non_finite_faces: int  #: number of triangles that were left out: a corner is not finite
     within_bounds: bool  #: whether max_distance holds
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
     seconds: float
@@ -160,12 +159,9 @@ class SphereCover(CoverShown):
 
 
 @dataclass(frozen=True)
-class UnionVerification:
+class UnionVerification(Verdict):
     """What verify_union() found. It counts as true if the union covers the original."""
 
-    covers: bool  #: the verdict: proven
-    original_closed: bool  #: whether the original bounds a solid; only then its inside must be covered
-    why_not: str  #: why the verdict is no; empty if it is yes
     faces_outside: int  #: number of triangles of the original of which a part lies outside of all pieces; exact
     worst: list[Offender]  #: the farthest of these, farthest first
     faces_undecided: int  #: of balls: number of triangles that neither is proven of, to be covered or to reach outside
@@ -176,9 +172,6 @@ class UnionVerification:
     original_volume: float  #: in cubic units; nan if the original is not closed
     void_ratio: float  #: union_volume / original_volume - 1; nan if one of the two is
     notes: list[str]  #: what was left out of the original or turned
-
-    def __bool__(self) -> bool:
-        return self.covers
 
 
 def convex_pieces(mesh: MeshLike, pieces: int = 16, *, vertices: int = 64, max_distance: Gap = math.inf,
@@ -291,7 +284,8 @@ def _covered(cover: Callable[..., dict[str, Any]], mesh: MeshLike, progress: Opt
     given = mesh_of(mesh, keep_non_finite=True)
     lengths = {name: bound_of(name, keywords[name], given) for name in ("max_distance", "gap", "spacing") if name in keywords}
     with naming(mesh):
-        return {**cover(given._core, progress, {**keywords, **lengths}), "original": given}
+        facts = cover(given._core, progress, {**keywords, **lengths})
+        return {**facts, **verdict_of(facts), "original": given}
 
 
 def _balls(pieces: Any) -> Optional[NDArray[np.float64]]:

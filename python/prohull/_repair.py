@@ -6,13 +6,13 @@ from . import _prohull
 from ._covers import _covered
 from ._meshes import Mesh
 from ._types import Gap, MeshLike, OpenShells, Progress, Source
+from ._verify import Verdict
 
 
 class Solid(Mesh):
     """A closed mesh whose faces look outwards, which repair() makes. Everything that a Mesh does, it does."""
 
-    certified: bool  #: whether it is proven, exactly, that it covers every finite triangle of the mesh
-    why_not: str  #: why it is not certified; empty if it is
+    verdict: Verdict  #: what is proven, exactly: whether it covers every finite triangle of the mesh
     source: Source  #: "mesh"; or "wrap", which is another solid than the mesh
     wrap_spacing: float  #: of the grid that a wrap was made on, in the mesh's unit; 0 if it is none
     repairs: list[str]  #: what was changed
@@ -20,6 +20,11 @@ class Solid(Mesh):
     closed_openings: int  #: number of openings that got a cap
     largest_opening: float  #: the diameter of the largest of these, in the mesh's unit
     original: Mesh  #: what it was made of
+
+    @property
+    def certified(self) -> bool:
+        """Whether what `verdict` tells is proven, exactly."""
+        return self.verdict.certified
 
 
 def repair(mesh: MeshLike, *, spacing: Gap = 0.0, open_shells: OpenShells = "close", keep_cavities: bool = True,

@@ -17,6 +17,7 @@ from ._files import bytes_of, distance_of, mesh_of, naming
 from ._meshes import Mesh
 from ._prohull import InputError
 from ._types import Axis, Gap, MeshLike, Path, Progress
+from ._verify import Verdict, verdict_of
 from ._view import Part, pieces_part
 
 _AXES: dict[str, tuple[float, float, float]] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
@@ -27,10 +28,8 @@ class Sweep(CoverShown):
     """Convex pieces whose union encloses all positions of a mesh; sweep() and Robot.sweep() make it."""
 
     pieces: list[Mesh]  #: convex polytopes, which overlap
-    covers_inside: bool  #: whether all positions of the inside are enclosed too; else those of the triangles
-    has_openings: bool  #: whether the mesh has openings, which count as closed where covers_inside is True
-    fills_cavities: bool  #: whether the mesh has cavities, which count as filled where covers_inside is True
-    reach: float  #: no point of the pieces' surfaces is farther than this from all positions of the mesh: proven
+    verdict: Verdict  #: what is proven of all positions of the mesh together; distances are from these
+    fills_cavities: bool  #: whether the mesh has cavities, which count as filled
     cover_pieces: int  #: number of convex pieces of the mesh itself
     notes: list[str]
     volume: float = math.nan  #: of the union, in cubic units: an estimate, by 200,000 points; nan of links
@@ -54,7 +53,7 @@ class Sweep(CoverShown):
         return [pieces_part([piece._core for piece in self.pieces])]
 
     def __repr__(self) -> str:
-        return f"<prohull.Sweep: {len(self.pieces):,} convex pieces, at most {self.reach:.3g} from what is passed>"
+        return f"<prohull.Sweep: {len(self.pieces):,} convex pieces, at most {self.verdict.distance_bound:.3g} from what is passed>"
 
 
 def sweep(mesh: MeshLike, *, axis: Union[Axis, Sequence[float]] = "z", through: Sequence[float] = (0, 0, 0),
@@ -64,7 +63,7 @@ def sweep(mesh: MeshLike, *, axis: Union[Axis, Sequence[float]] = "z", through: 
     """Encloses all positions that a mesh has along a motion, as `prohull sweep` does: the swept volume.
 
     Guaranteed: each position of each finite triangle lies in the union of the pieces, at every moment of the motion;
-    and so does the inside where `covers_inside` is True. It is proven, not sampled. The same input gives the same bits,
+    and so does the inside where `verdict.encloses_solid` is True. It is proven, not sampled. The same input gives the same bits,
     whatever `threads` is.
 
     mesh: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
@@ -109,7 +108,7 @@ def sweep_keywords(pieces: int, max_distance: Optional[Gap], read: Callable[[str
 
 def sweep_of(facts: dict[str, Any]) -> Sweep:
     facts["pieces"] = [Mesh._of(piece) for piece in facts["pieces"]]
-    return Sweep(**facts)
+    return Sweep(**{**facts, **verdict_of(facts)})
 
 
 def _turn(axis: Any, through: Any, angle: float, move: Any) -> list[_prohull.RigidMotion]:

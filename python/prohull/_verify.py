@@ -1,8 +1,9 @@
 """Proofs and distances between two meshes."""
 
+import math
 import os
 from dataclasses import dataclass
-from typing import NamedTuple, Optional
+from typing import Any, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from . import _arrays, _prohull
 from ._files import distance_of, mesh_of
 from ._hull import Hull
-from ._types import Gap, MeshLike, OpenShells, Progress, Proof, Side
+from ._types import Gap, MeshLike, OpenShells, Progress, Side
 
 
 class Offender(NamedTuple):
@@ -31,15 +32,48 @@ class NearFace(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Verification:
+class Verdict:
+    """What is proven of a hull, or of pieces or spheres together, and against what; as reports of the command line have it.
+
+    What was not asked, not decided or not measured is None. It counts as true if all that was asked is proven.
+    """
+
+    certified: bool  #: the answer: whether all that was asked is proven
+    why_not: str  #: why the answer is no; empty if it is yes
+    proof: str  #: how it was decided: "replay", "enclosure", "coverage", "union", "padding" or "sweep"
+    side: Side  #: "outer" or "inner"
+    covers_triangles: Optional[bool]  #: whether every finite triangle of the original is covered; of an inner hull: of the hull
+    encloses_solid: Optional[bool]  #: whether the solid of the original is enclosed; of an inner hull: whether it encloses
+    gap: Optional[float]  #: no point is nearer than this to a triangle of the original: proven
+    distance_to_triangles: Optional[tuple[float, float]]  #: bounds of how far the triangles are at most; the second is proven
+    distance_to_solid: Optional[tuple[float, float]]  #: the same of the solid, to which what closes its openings belongs
+    original_closed: bool  #: whether the original bounds a solid as it was given
+    cap_faces: int  #: number of faces that are none of the original, and count as if they closed its openings
+    non_finite_faces: int  #: number of faces of the original that were left out: a corner is not finite
+
+    @property
+    def distance_bound(self) -> float:
+        """No point is farther than this from the solid, or from the triangles if there is none: proven.
+
+        nan if it was not measured.
+        """
+        known = self.distance_to_solid or self.distance_to_triangles
+        return known[1] if known else math.nan
+
+    def __bool__(self) -> bool:
+        return self.certified
+
+
+def verdict_of(facts: dict[str, Any]) -> dict[str, Verdict]:
+    """The verdict among the facts, if there is one."""
+    return {"verdict": Verdict(**facts["verdict"])} if "verdict" in facts else {}
+
+
+@dataclass(frozen=True)
+class Verification(Verdict):
     """What verify() found. It counts as true if the hull encloses the original, and keeps the gap if one was asked for."""
 
-    encloses: bool  #: the verdict, exact; of an inner hull, whether the original encloses it
-    proof: Proof  #: "replay" of a .phull file, "enclosure" of closed meshes, or "coverage" of every triangle
-    side: Side  #: "outer" or "inner"
-    original_closed: bool  #: whether the original bounds a solid; if it does not, only its triangles must be covered
-    every_triangle: bool  #: whether every triangle had to be covered, which solid_only=True does not ask of closed ones
-    why_not: str  #: why the verdict is no; empty if it is yes
+    encloses: bool  #: `certified` but for the gap; of an inner hull, whether the original encloses it
     faces_outside: int  #: number of triangles of the inner mesh of which a part lies outside of the outer one; exact
     worst: list[Offender]  #: the farthest of these, farthest first
     cavities: int  #: number of hollows of the outer mesh that leave a part of the inner one uncovered
@@ -47,16 +81,12 @@ class Verification:
     faces_beside_solid: int  #: number of faces of the inner mesh that bound no part of its solid, as in folds
     self_intersections: int  #: number of pairs of faces of the hull that meet beyond what they share; exact
     original_volume: float  #: of the solid, in cubic units; overlaps count once; nan if it is not known
-    non_finite_faces: int  #: number of faces of the original with a corner that is not finite
     void_ratio: float  #: volume of the hull / volume of the original - 1; nan if one of the two is not known
     notes: list[str]  #: what was left out of the original or turned, and units that seem to differ
     keeps_gap: bool  #: whether the hull keeps the gap; exact
     faces_too_near: int  #: number of faces of the hull that do not; exact
     nearest: list[NearFace]  #: the nearest of these, nearest first
     least_distance: float  #: between hull and original, rounded; nan without a gap
-
-    def __bool__(self) -> bool:
-        return self.encloses and self.keeps_gap
 
 
 def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, solid_only: bool = False,

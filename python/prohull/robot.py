@@ -23,7 +23,8 @@ from ._paths import BeyondLimits, Geometry, PathCheck, PathChecker, PathPair, pa
 from ._prohull import InputError
 from ._shown import Shown
 from ._sweep import Sweep, sweep_keywords, sweep_of
-from ._types import MeshLike, Path, Progress, Proof, Source
+from ._types import MeshLike, Path, Progress, Source
+from ._verify import Verdict, verdict_of
 from ._view import Part
 
 __all__ = ["BeyondLimits", "Check", "DisabledFinding", "DisabledPair", "Hulls", "Joint", "Link", "LinkCheck", "LinkHull",
@@ -33,7 +34,7 @@ Collision = Literal["hull", "convex", "spheres"]
 Format = Literal["stl", "obj", "glb"]
 JointType = Literal["fixed", "revolute", "continuous", "prismatic", "ball", "planar", "floating"]
 Status = Literal["hulled", "primitives", "skipped", "unread", "empty"]
-Verdict = Literal["covered", "leaks", "undecided", "no-collision", "no-visual", "missing"]
+CheckVerdict = Literal["covered", "leaks", "undecided", "no-collision", "no-visual", "missing"]
 PairKind = Literal["adjacent", "sampled-always", "sampled-never", "always", "never", "sometimes"]
 PairVerdict = Literal["never", "always", "meets", "open"]
 DisabledVerdict = Literal["unknown", "adjacent", "no-geometry", "never", "always", "meets", "open"]
@@ -92,17 +93,18 @@ class LinkHull(NamedTuple):
     pieces: list[Mesh]  #: convex pieces, if they were asked for; else empty
     spheres: NDArray[np.float64]  #: (n, 4), the center and the radius of each in the frame of the link; else empty
     origin: NDArray[np.float64]  #: (4, 4), the frame of the mesh in that of the link
-    certified: bool  #: whether it is proven, exactly, that the hull encloses the geometry, or that the pieces cover it
-    proof: Union[Proof, Literal["union"]]  #: how it is proven; of pieces and spheres "union"
+    verdict: Verdict  #: what is proven, exactly, of the hull, or of the pieces or spheres together; distances are in metres
     target_reached: bool  #: whether the hull has at most target_faces faces, or none with fewer was found to keep max_distance
     within_bounds: bool  #: whether max_distance holds
     source: Source  #: what it was built from
     volume_ratio: float  #: its volume / the volume inside of the geometry; nan if that encloses no space
-    distance_bound: float  #: no point of the hull is farther than this from the geometry, whose openings count as closed: proven
-    distance_from_triangles: float  #: the same from the triangles alone, without what closes their openings
-    gap: float  #: least distance from the geometry, proven, if a gap was asked for; else 0
     self_intersections: int  #: pairs of its faces that intersect
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
+
+    @property
+    def certified(self) -> bool:
+        """Whether what `verdict` tells is proven, exactly."""
+        return self.verdict.certified
 
 
 class LinkHulls(NamedTuple):
@@ -122,7 +124,7 @@ class LinkCheck(NamedTuple):
     """How the collision geometry that a link ships with lies to its visual geometry."""
 
     name: str
-    verdict: Verdict  #: exact; "undecided" where the two touch on a curved surface
+    verdict: CheckVerdict  #: exact; "undecided" where the two touch on a curved surface
     passes: bool  #: whether the link is as it should be: covered, nothing to cover, or sticking out by at most `allow`
     sticks_out_at_least: float  #: proven: some point of the visual geometry is that far outside
     sticks_out_at_most: float  #: proven: none is farther outside
@@ -541,4 +543,4 @@ def _link_hulls(facts: dict[str, Any]) -> LinkHulls:
 def _link_hull(facts: dict[str, Any]) -> LinkHull:
     facts["mesh"] = Mesh._of(facts["mesh"])
     facts["pieces"] = [Mesh._of(piece) for piece in facts["pieces"]]
-    return LinkHull(**facts)
+    return LinkHull(**{**facts, **verdict_of(facts)})

@@ -10,6 +10,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import asdict
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Optional
 
@@ -40,16 +41,17 @@ def convex_decomposition(mesh: MeshLike, *, maxConvexHulls: int = 64, maxNumVert
         greater than 0. There are as few pieces as keep it; if maxConvexHulls do not, `within_bounds` is False.
     max_distance: how far the pieces may reach out of the mesh, as of convex_pieces().
 
-    Each piece has in `metadata["prohull"]` what is proven of all of them together: `certified`, `covers_inside`,
-    `within_bounds`, `void_ratio`, `reach` and `notes`, as ConvexCover has them.
+    Each piece has in `metadata["prohull"]` what is proven of all of them together: `verdict`, with
+    the fields of Verdict as a dictionary, `within_bounds`, `void_ratio` and `notes`, as ConvexCover has them.
 
     Raises InputError as convex_pieces() does, and ImportError if trimesh is not installed.
     """
     import_module("trimesh")  # before the work
     cover = convex_pieces(mesh, maxConvexHulls, vertices=maxNumVerticesPerCH, max_distance=max_distance,
                           max_void_percent=minimumVolumePercentErrorAllowed)
-    names = ("certified", "covers_inside", "within_bounds", "void_ratio", "reach", "notes")
-    return [_told(piece, {name: getattr(cover, name) for name in names}) for piece in cover.pieces]
+    names = ("within_bounds", "void_ratio", "notes")
+    facts = {"verdict": asdict(cover.verdict), **{name: getattr(cover, name) for name in names}}
+    return [_told(piece, facts) for piece in cover.pieces]
 
 
 def simplify(mesh: MeshLike, percent: Optional[float] = None, face_count: Optional[int] = None,

@@ -100,8 +100,8 @@ def test_lengths_take_per_cent(pony):
     near = prohull.build(pony, 4, max_distance="3%", seal_holes="1%")
     assert near.within_bounds and np.array_equal(near.vertices, prohull.build(pony, 4, max_distance=0.03 * diagonal).vertices)
     assert prohull.cage(pony, gap="1%").gap == pytest.approx(0.01 * diagonal)
-    assert prohull.spheres(pony, 500, max_distance="10%").reach[1] <= 0.1 * diagonal
-    assert prohull.convex_pieces(ball, max_distance="25%").reach[1] <= 0.25 * np.linalg.norm(np.ptp(ball.vertices, axis=0))
+    assert prohull.spheres(pony, 500, max_distance="10%").verdict.distance_bound <= 0.1 * diagonal
+    assert prohull.convex_pieces(ball, max_distance="25%").verdict.distance_bound <= 0.25 * np.linalg.norm(np.ptp(ball.vertices, axis=0))
     for wrong in ["3", "x%", "-1%", "1mm"]:
         for call, name in [(prohull.build, "seal_holes"), (prohull.cage, "gap"), (prohull.spheres, "max_distance")]:
             with pytest.raises(prohull.InputError, match=f"{name}={wrong!r}: expected a number"):
@@ -110,7 +110,7 @@ def test_lengths_take_per_cent(pony):
 
 def test_repair_closes_a_mesh(pony):
     solid = prohull.repair((pony.vertices, np.delete(pony.faces, [5, 900], axis=0)))
-    assert solid.certified and solid.source == "mesh" and solid.closed_openings == 2 and not solid.why_not
+    assert solid.certified and solid.source == "mesh" and solid.closed_openings == 2 and not solid.verdict.why_not
     assert len(solid.faces) == len(pony.faces) and solid.contains(pony.vertices.mean(axis=0)[None]).shape == (1,)
     assert solid.largest_opening > 0 and "closed 2 openings" in solid.repairs[0]
     book = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, -1]], [[0, 1, 2], [0, 1, 3], [0, 1, 4]])

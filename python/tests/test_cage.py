@@ -7,8 +7,8 @@ import pytest
 def test_hulls_are_nested_and_keep_the_gap(pony):
     made = prohull.cage(pony, 300, inner_faces=300, gap=0.004)
     for hull in (made.outer, made.inner):
-        assert hull.certified and hull.is_disjoint and hull.gap > 0 and hull.is_closed and hull.target_reached
-    assert made.gap == 0.004 and made.outer.gap >= 0.004
+        assert hull.certified and hull.is_disjoint and hull.verdict.gap > 0 and hull.is_closed and hull.target_reached
+    assert made.gap == 0.004 and made.outer.verdict.gap >= 0.004
     assert made.outer.void_ratio > 0 > made.inner.void_ratio
     assert prohull.verify(made.outer, pony) and prohull.verify(made.inner, pony, side="inner")
 

@@ -23,11 +23,11 @@ def balls(pony):
 
 
 def test_convex_pieces_cover(pieces, pony):
-    assert pieces.certified and pieces.covers_inside and pieces.within_bounds
+    assert pieces.certified and pieces.verdict.encloses_solid and pieces.within_bounds
     assert 2 <= len(pieces.pieces) <= 4
     assert all(len(piece.vertices) <= 32 and piece.is_closed and piece.volume > 0 for piece in pieces.pieces)
     assert all(piece.primitive is None for piece in pieces.pieces)
-    assert 0 <= pieces.reach[0] <= pieces.reach[1] and pieces.void_ratio > 0
+    assert 0 <= pieces.verdict.distance_to_solid[0] <= pieces.verdict.distance_bound and pieces.void_ratio > 0
     assert f"{len(pieces.pieces)} convex pieces" in repr(pieces) and "certified" in repr(pieces)
 
 
@@ -65,13 +65,13 @@ def test_balls_cover(balls, pony):
 
 def test_balls_fill(pony):
     filled = prohull.spheres(pony, 32, fill=True)
-    assert filled.certified and filled.covers_inside and prohull.verify_union(filled, pony, inside=True)
+    assert filled.certified and filled.verdict.encloses_solid and prohull.verify_union(filled, pony, inside=True)
 
 
 def test_bounds_are_kept(small):
     size = np.linalg.norm(np.ptp(small.vertices, axis=0))
     cover = prohull.convex_pieces(small, 8, max_distance=0.2 * size)
-    assert cover.within_bounds and cover.reach[1] <= 0.2 * size and len(cover.pieces) < 8
+    assert cover.within_bounds and cover.verdict.distance_bound <= 0.2 * size and len(cover.pieces) < 8
     assert not prohull.convex_pieces(small, 1, max_void_percent=1).within_bounds
     assert not prohull.spheres(small, 2, max_distance=0.05 * size).within_bounds
 

@@ -74,7 +74,7 @@ def test_hulls_are_certified_in_the_frame_that_they_tell(robot, hulls):
     for link in robot.links[:2]:
         for hull, faces in zip(hulls[link.name].hulls, (100, 60)):
             assert len(hull.mesh.faces) <= faces == hull.target_faces
-            assert hull.proof == "padding" and hull.gap >= 0.01 and hull.volume_ratio > 1
+            assert hull.verdict.proof == "padding" and hull.verdict.gap >= 0.01 and hull.volume_ratio > 1
             in_link = hull.mesh.vertices @ hull.origin[:3, :3].T + hull.origin[:3, 3]
             assert prohull.Mesh(in_link, hull.mesh.faces).contains(link.visual.vertices).all()
     with pytest.raises(KeyError):
@@ -106,8 +106,8 @@ def test_links_get_convex_pieces(robot, tmp_path):
     assert made.certified and [link.status for link in made] == ["hulled", "hulled", "primitives"]
     for link in robot.links[:2]:
         hull, = made[link.name].hulls
-        assert hull.distance_from_triangles >= hull.distance_bound > 0 and made[link.name].non_finite_faces == 0
-        assert 1 <= len(hull.pieces) <= 3 and hull.proof == "union" and hull.spheres.shape == (0, 4)
+        assert hull.verdict.distance_to_triangles[1] >= hull.verdict.distance_bound > 0 and made[link.name].non_finite_faces == 0
+        assert 1 <= len(hull.pieces) <= 3 and hull.verdict.proof == "union" and hull.spheres.shape == (0, 4)
         assert all(len(piece.vertices) <= 20 for piece in hull.pieces)
         assert len(hull.mesh.faces) == sum(len(piece.faces) for piece in hull.pieces)
         if np.array_equal(hull.origin, np.eye(4)):
@@ -283,7 +283,7 @@ def test_what_was_turned_is_noted(slide):
 
 def test_links_are_enclosed_all_along_a_path(slide):
     sweeps = slide.sweep([[0, 1], [2, 4]], links=["cart", "rail"])
-    assert list(sweeps) == ["cart", "rail"] and all(sweep.covers_inside for sweep in sweeps.values())
+    assert list(sweeps) == ["cart", "rail"] and all(sweep.verdict.encloses_solid for sweep in sweeps.values())
     low, high = (f(sweeps["cart"].mesh.vertices, axis=0) for f in (np.min, np.max))
     assert np.allclose(low, [1.5, -0.5, -0.5], atol=0.01) and np.allclose(high, [5.5, 0.5, 2.5], atol=0.01)
     assert math.isnan(sweeps["cart"].volume) and list(slide.sweep([[0, 1]])) == ["base", "rail", "cart"]
@@ -352,9 +352,9 @@ def test_what_is_wrong_with_a_path_is_told(slide, tmp_path):
 
 def test_positions_of_links_are_enclosed(robot):
     passed = robot.sweep([[0], [1]], ["turn"], links=["tool"])
-    assert list(passed) == ["tool"] and passed["tool"].covers_inside
+    assert list(passed) == ["tool"] and passed["tool"].verdict.encloses_solid
     ever = robot.sweep_workspace(links=["tool"], threads=1)
-    assert list(ever) == ["base"] and ever["base"].reach < 0.02
+    assert list(ever) == ["base"] and ever["base"].verdict.distance_bound < 0.02
     ball = prohull.sample("sphere", 200)
     where = (0.1 * ball.vertices + [0, 0, 5], ball.faces)
     assert prohull.verify_union(passed["tool"].pieces, where) and prohull.verify_union(ever["base"].pieces, where)

@@ -27,7 +27,7 @@ def test_a_turn_is_enclosed_at_all_moments(cube, random):
     for degrees in random().uniform(0, 70, 50):
         assert is_in_a_piece(center + turned(corners - center, degrees), sweep).all()
     assert not is_in_a_piece(center + turned(corners - center, 80), sweep).all()
-    assert sweep.covers_inside and not sweep.has_openings and 8 < sweep.volume < 30 and 0 < sweep.reach < 0.1
+    assert sweep.verdict and sweep.verdict.encloses_solid and sweep.verdict.cap_faces == 0 and 8 < sweep.volume < 30 and 0 < sweep.verdict.distance_bound < 0.1
     assert prohull.verify_union(sweep.pieces, cube)
 
 

@@ -29,8 +29,8 @@ def test_pieces_cover_the_mesh_and_say_so(pony):
     assert len(pieces) == 6 and all(type(piece) is Trimesh and len(piece.vertices) <= 24 for piece in pieces)
     assert prohull.verify_union(pieces, mesh)
     told = pieces[0].metadata["prohull"]
-    assert told["certified"] and told["covers_inside"] and not told["within_bounds"]
-    assert told["reach"][1] > 0 and json.dumps(told)
+    assert told["verdict"]["certified"] and told["verdict"]["encloses_solid"] and not told["within_bounds"]
+    assert told["verdict"]["distance_to_solid"][1] > 0 and json.dumps(told)
 
 
 def test_a_hull_encloses_the_mesh_and_says_so(pony):

@@ -69,10 +69,10 @@ pieces = prohull.convex_pieces((v, f), max_distance=0.01, progress=lambda stage,
 corners: NDArray[np.float64] = pieces.pieces[0].vertices
 balls: prohull.SphereCover = prohull.spheres(mesh, 32, max_distance=0.1, fill=True, threads=1)
 balls.save("part.yaml", link="forearm")
-covers: bool = prohull.verify_union(pieces, "part.stl").covers
+covers: bool = prohull.verify_union(pieces, "part.stl").certified
 covers = bool(prohull.verify_union(["a.stl", "b.stl"], mesh, solid_only=True))
 covers = bool(prohull.verify_union([(v, f)], mesh))
-covers = prohull.verify_union(balls.balls, mesh, inside=True).covers
+covers = prohull.verify_union(balls.balls, mesh, inside=True).certified
 
 made: prohull.Cage = prohull.cage("part.stl", 400, inner_faces=200, gap=0.01, even=True)
 corners = made.outer.vertices

@@ -53,9 +53,9 @@ Certificate certificate_of(const LinkHull& hull, const CertifiedOriginal& origin
   if (!hull.pieces.empty()) return pieces_certificate(hull.pieces, original);
   if (!hull.balls.empty()) return balls_certificate(hull.balls, original);
   const double asked = budget.max_distance > 0 ? budget.max_distance : std::numeric_limits<double>::infinity();
-  return hull_certificate(
-      hull.mesh, original,
-      {.gap = claimed_gap(budget.padding, hull.padding), .distance = claimed_distance(asked, hull.distance.upper)});
+  return hull_certificate(hull.mesh, original,
+                          {.gap = claimed_gap(budget.padding, hull.padding),
+                           .distance = claimed_distance(asked, hull.verdict.distance().upper)});
 }
 
 /// Where the robot has a mesh file that it names, from its folder.

@@ -11,9 +11,9 @@
 
 #include "prohull/detail/names.h"
 #include "prohull/detail/shapes.h"
-#include "prohull/distance.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/progress.h"
+#include "prohull/verdict.h"
 #include "robot/files/robot_file.h"
 #include "robot/link_triangles.h"
 
@@ -67,18 +67,16 @@ struct LinkHull {
   TriangleMesh mesh = {};
   std::vector<TriangleMesh> pieces = {};  ///< not empty if they were asked for
   std::vector<Ball> balls = {};           ///< likewise
-  bool certified = false;
-  std::string proof =
-      {};  ///< "enclosure", "coverage" (verification.h); with padding "padding"; of pieces, balls "union"
+  Verdict verdict = {};  ///< distances are from curved forms themselves; caps of openings belong to the solid
   bool target_reached = false, within_bounds = true;
-  std::string source = {};       ///< "mesh", "convex-hull" or "wrap": what a hull was built from
-  double volume = 0;             ///< of the union
-  DistanceBounds distance = {};  ///< from the geometry, curved forms themselves, and the caps of its openings
-  bool has_openings = false;     ///< there are such caps: the two distances may differ
-  DistanceBounds distance_from_triangles = {};
-  double padding = 0;  ///< proven least distance from the triangles; 0 if none was asked for
+  std::string source = {};  ///< "mesh", "convex-hull" or "wrap": what a hull was built from
+  double volume = 0;        ///< of the union
+  double padding = 0;       ///< least distance from the triangles that the construction claims; 0 if none was asked for
   std::size_t self_intersections = 0;
   std::vector<std::string> notes = {};
+
+  bool certified() const { return verdict.certified; }
+  bool has_openings() const { return verdict.cap_faces > 0; }  ///< that count as closed: the two distances may differ
 };
 
 /// All pieces in one mesh, with a mesh around each ball, or within it.
@@ -126,7 +124,7 @@ void check_budgets(const Robot& robot, const LinkHullOptions& options);
 /// Hulls of all links, in the order of Robot::links. Links are worked on side by side; the result is the same for any
 /// number of threads.
 ///
-/// Guaranteed: `certified` is decided exactly, in this call, by verify_hull or verify_union, from the coordinates of
+/// Guaranteed: `verdict` is decided exactly, in this call, by verify_hull or verify_union, from the coordinates of
 /// the hull, which files keep, and the finite triangles of the link. That holds for hulls of the cache too. Throws
 /// InputError: as check_budgets; CannotRead that lists every mesh which was not found, unless skip_missing; Cancelled.
 std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& options = {});

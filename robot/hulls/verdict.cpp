@@ -18,19 +18,21 @@ const TriangleMesh& solid_of(const RepairedMesh& input) { return input.closed ? 
 
 /// `sealed` are the triangles with what closes their openings; `distance_from` measures from one of the two.
 template <class Measure>
-void measure_distances(LinkHull& hull, const TriangleMesh& sealed, const RepairedMesh& input, bool has_openings,
+void measure_distances(LinkHull& hull, const TriangleMesh& sealed, const RepairedMesh& input, std::size_t cap_faces,
                        Measure distance_from) {
-  hull.has_openings = has_openings;
-  hull.distance = distance_from(sealed);
-  hull.distance_from_triangles = has_openings ? distance_from(input.original) : hull.distance;
-  hull.distance.upper = std::min(hull.distance.upper, hull.distance_from_triangles.upper);  // the sealed has these
+  DistanceBounds from_sealed = distance_from(sealed);
+  const DistanceBounds from_triangles = cap_faces > 0 ? distance_from(input.original) : from_sealed;
+  from_sealed.upper = std::min(from_sealed.upper, from_triangles.upper);  // the sealed has these
+  hull.verdict.cap_faces = cap_faces;
+  hull.verdict.distance_to_triangles = from_triangles;
+  if (input.closed || cap_faces > 0) hull.verdict.distance_to_solid = from_sealed;
 }
 
 /// A reach counts the caps of a solid only.
 template <class Parts>
 void measure_reaches(LinkHull& hull, const Parts& parts, const JudgedGeometry& geometry, const Progress& go_on) {
   const RepairedMesh& input = geometry.input;
-  measure_distances(hull, solid_of(input), input, input.closed && input.caps.face_count() > 0,
+  measure_distances(hull, solid_of(input), input, input.closed ? input.caps.face_count() : 0,
                     [&](const TriangleMesh& from) {
                       const DistanceBounds reach = union_reach(parts, from, {.progress = go_on});
                       return from_forms(reach, geometry.curved.around, is_closed(from));
@@ -42,16 +44,17 @@ void judge_hull(LinkHull& hull, const JudgedGeometry& geometry, const Budget& bu
   const double gap = budget.padding > 0 ? hull.padding : 0;
   const Verification found = verify_hull(hull.mesh, geometry.triangles, HullSide::Outer,
                                          {.gap = gap, .finite_only = true, .max_offenders = 0, .progress = go_on});
-  hull.certified = found.holds() && hull.padding >= budget.padding;
-  hull.proof = budget.padding > 0 ? "padding" : found.proof;
+  hull.verdict = found;
+  hull.verdict.certified = found.certified && hull.padding >= budget.padding;
+  if (budget.padding > 0) hull.verdict.proof = "padding";
   hull.volume = found.hull_volume;
   hull.self_intersections = found.self_intersections;
   TriangleMesh sealed = solid_of(input);
   if (!input.closed) append(sealed, input.caps);
-  measure_distances(hull, sealed, input, input.caps.face_count() > 0, [&](const TriangleMesh& from) {
-    return from_forms(distance_bounds(hull.mesh, from, {.progress = go_on}), geometry.curved.around, hull.certified);
+  measure_distances(hull, sealed, input, input.caps.face_count(), [&](const TriangleMesh& from) {
+    return from_forms(distance_bounds(hull.mesh, from, {.progress = go_on}), geometry.curved.around, hull.certified());
   });
-  if (budget.max_distance > 0 && hull.within_bounds && hull.distance.upper > budget.max_distance)
+  if (budget.max_distance > 0 && hull.within_bounds && hull.verdict.distance().upper > budget.max_distance)
     hull.notes.emplace_back("keeps the largest distance only if the openings that its wrap closed count as closed");
 }
 
@@ -60,16 +63,13 @@ void judge_pieces(LinkHull& hull, const JudgedGeometry& geometry, const Progress
       verify_union(hull.pieces, geometry.triangles, {.finite_only = true, .max_offenders = 1, .progress = go_on});
   hull.mesh = mesh_of(hull.pieces, {});
   hull.volume = found.union_volume;
-  hull.certified = found.covers;
-  hull.proof = "union";
+  hull.verdict = found;
   measure_reaches(hull, hull.pieces, geometry, go_on);
 }
 
 void judge_balls(LinkHull& hull, const JudgedGeometry& geometry, const Progress& go_on) {
-  hull.certified =
-      verify_union(hull.balls, geometry.triangles, false, {.finite_only = true, .max_offenders = 1, .progress = go_on})
-          .covers;
-  hull.proof = "union";
+  hull.verdict =
+      verify_union(hull.balls, geometry.triangles, false, {.finite_only = true, .max_offenders = 1, .progress = go_on});
   hull.mesh = mesh_of({}, hull.balls);
   hull.volume = union_volume(hull.balls);
   measure_reaches(hull, hull.balls, geometry, go_on);
@@ -101,7 +101,7 @@ bool is_as_asked(const LinkHull& hull, const Budget& budget, bool float32) {
 }
 
 bool is_within_bounds(const LinkHull& hull, const Budget& budget) {
-  return budget.max_distance == 0 || hull.distance.upper <= budget.max_distance;
+  return budget.max_distance == 0 || hull.verdict.distance().upper <= budget.max_distance;
 }
 
 std::vector<std::size_t> targets_of(const Budget& budget) {
@@ -134,7 +134,6 @@ void judge(LinkHull& hull, const JudgedGeometry& geometry, const Budget& budget,
       judge_balls(hull, geometry, go_on);
       break;
   }
-  if (!hull.certified) hull.proof.clear();
 }
 
 InsideVolume sealed_volume(const JudgedGeometry& geometry, std::span<const LinkHull> hulls, const Progress& go_on) {
@@ -156,7 +155,7 @@ std::optional<std::vector<LinkHull>> verified(std::vector<LinkHull> proposal, co
       return std::nullopt;
     }
     const bool is_convex = !std::isnan(hull.volume);  // as verify_union says of pieces
-    if (!hull.certified || !is_convex || (hull.within_bounds && !is_within_bounds(hull, budget))) return std::nullopt;
+    if (!hull.certified() || !is_convex || (hull.within_bounds && !is_within_bounds(hull, budget))) return std::nullopt;
   }
   return proposal;
 }

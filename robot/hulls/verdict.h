@@ -23,12 +23,12 @@ struct JudgedGeometry {
 /// which has one, from the forms themselves. nullopt if nothing is left for them.
 std::optional<double> distance_left(const Budget& budget, double around);
 
-/// Decides what a hull proves, and measures it: `certified`, `proof`, `mesh` of pieces and balls, `volume`, distances
-/// and `self_intersections`. It uses the coordinates of the hull and the finite triangles of the link, and shares
+/// Decides what a hull proves, and measures it: `verdict`, `mesh` of pieces and balls, `volume` and
+/// `self_intersections`. It uses the coordinates of the hull and the finite triangles of the link, and shares
 /// nothing with the construction: verify_hull or verify_union decides, for hulls of this run and for those of the
 /// cache. A hull of a budget with padding has to keep LinkHull::padding as well.
 ///
-/// LinkHull::distance counts from the repaired geometry, with the caps of its openings, and from curved forms
+/// The distance from the solid counts from the repaired geometry, with the caps of its openings, and from curved forms
 /// themselves. Where no distance_left is, the hull is not `within_bounds`. Throws InputError if the hull is no solid;
 /// Cancelled.
 void judge(LinkHull& hull, const JudgedGeometry& geometry, const Budget& budget, const Progress& go_on);

@@ -91,7 +91,7 @@ class RobotSet {
     collision.link = link.link, collision.from = options_.from, collision.kept = link.primitives;
     if (link.status == LinkStatus::Hulled) {
       const std::string name = names_.of(file_.robot.links[link.link].name);  // the same in all sets
-      if (!link.hulls[set_].certified) return;
+      if (!link.hulls[set_].certified()) return;
       add_hull(link.hulls[set_], name, collision);
     } else if (link.status != LinkStatus::Primitives) {
       return;

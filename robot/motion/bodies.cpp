@@ -15,7 +15,7 @@ namespace {
 TriangleMesh hull_in_link(const Robot& robot, const LinkHulls& link, Geometry from, std::size_t set,
                           Curved curved = Curved::Around) {
   const bool is_hulled = link.status == LinkStatus::Hulled;
-  if (is_hulled && !link.hulls[set].certified) return {};
+  if (is_hulled && !link.hulls[set].certified()) return {};
   TriangleMesh hull;
   if (is_hulled && curved == Curved::Within && !link.hulls[set].balls.empty())
     hull = placed(link.frame.in_link, mesh_of({}, link.hulls[set].balls, curved));

@@ -12,6 +12,7 @@
 
 #include "prohull/convex_cover.h"
 #include "prohull/detail/finite.h"
+#include "prohull/detail/verdict_parts.h"
 #include "prohull/error.h"
 #include "robot/link_triangles.h"
 #include "robot/motion/joint_chain.h"
@@ -144,9 +145,9 @@ std::vector<LinkSweep> sweep_links(const Robot& robot, const JointPath& path, st
       owners.push_back(sweeps.size());
     }
     LinkSweep& made = sweeps.emplace_back(LinkSweep{robot.links[link].name, {}});
-    made.sweep.covers_inside = cover.covers_inside, made.sweep.has_openings = cover.has_openings;
+    made.sweep.verdict = std::move(cover.verdict);
+    made.sweep.verdict.proof = "sweep";
     made.sweep.fills_cavities = cover.fills_cavities;
-    made.sweep.reach = cover.reach.upper;
     made.sweep.cover_pieces = cover.pieces.size();
     made.sweep.notes = std::move(cover.notes);
   }
@@ -159,7 +160,8 @@ std::vector<LinkSweep> sweep_links(const Robot& robot, const JointPath& path, st
     std::ranges::move(tasks[i].pieces, std::back_inserter(pieces));
     reach[owners[i]] = std::max(reach[owners[i]], tasks[i].reach);
   }
-  for (std::size_t s = 0; s < sweeps.size(); ++s) sweeps[s].sweep.reach += reach[s] * (1 + 0x1p-40);
+  for (std::size_t s = 0; s < sweeps.size(); ++s)
+    sweeps[s].sweep.verdict = farther_by(std::move(sweeps[s].sweep.verdict), reach[s]);
   return sweeps;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "prohull/convex_cover.h"
+#include "prohull/detail/verdict_parts.h"
 #include "prohull/distance.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/error.h"
@@ -60,16 +61,25 @@ class Workspace {
     for (std::size_t link = 0; link < robot_.links.size(); ++link) {
       if (std::ranges::any_of(robot_.joints, [&](const Joint& joint) { return joint.child == link; })) continue;
       LinkSweep made{robot_.links[link].name, {}};
-      made.sweep.covers_inside = true;
       Zone zone = zone_of(link, made);
       if (zone.pieces.empty()) continue;
-      made.sweep.pieces = std::move(zone.pieces), made.sweep.reach = zone.reach * (1 + 0x1p-40);
+      made.sweep.pieces = std::move(zone.pieces);
+      tell_reach(zone.reach, made.sweep.verdict);
       sweeps.push_back(std::move(made));
     }
     return sweeps;
   }
 
  private:
+  /// With what joints have added.
+  static void tell_reach(double reach, Verdict& verdict) {
+    const bool has_solid = verdict.distance_to_solid.has_value();
+    verdict.distance_to_triangles.reset();
+    (has_solid ? verdict.distance_to_solid : verdict.distance_to_triangles) =
+        DistanceBounds{.upper = reach * (1 + 0x1p-40)};
+    verdict.proof = "sweep";
+  }
+
   Zone zone_of(std::size_t link, LinkSweep& said) const {
     Zone zone;
     if (std::ranges::find(links_, link) != links_.end()) add_link(link, zone, said);
@@ -93,13 +103,12 @@ class Workspace {
     made.links.push_back(robot_.links[link].name);
     Sweep& said = made.sweep;
     ConvexCover cover = covered(std::move(mesh));
-    said.covers_inside = said.covers_inside && cover.covers_inside;
-    said.has_openings = said.has_openings || cover.has_openings;
+    zone.reach = cover.verdict.distance().upper;
+    said.verdict = made.links.size() > 1 ? both(std::move(said.verdict), cover.verdict) : cover.verdict;
     said.fills_cavities = said.fills_cavities || cover.fills_cavities;
     said.cover_pieces += cover.pieces.size();
     for (const std::string& note : cover.notes) said.notes.push_back(robot_.links[link].name + ": " + note);
     take(cover, zone);
-    zone.reach = cover.reach.upper;
   }
 
   Zone moved(std::size_t number, Zone zone) const {
@@ -117,7 +126,7 @@ class Workspace {
     SweepOptions how = options_;
     how.float32_coordinates = false;
     Sweep made = sweep(zone.pieces, {{motion}}, how);
-    return placed_by(joint.origin, joint.anchor, {std::move(made.pieces), zone.reach + made.reach});
+    return placed_by(joint.origin, joint.anchor, {std::move(made.pieces), zone.reach + made.verdict.distance().upper});
   }
 
   // The pose in which the motion starts, its product with the rest, and this one are each rounded by less than 2^-46 of
@@ -146,11 +155,12 @@ class Workspace {
     how.progress = options_.progress;
     const EnclosingHull hull = enclosing_hull(all, kHullFaces, how);
     const ConvexCover cover = covered(hull.mesh);
-    if (!hull.certified || !hull.verdict.original_closed || !cover.original_closed || !cover.covers_inside)
+    if (!hull.certified || !hull.verdict.original_closed || !cover.verdict.original_closed ||
+        cover.verdict.encloses_solid != Answer::Yes)
       throw InputError(Defect::NoCertificate, "no hull of what a joint moves was certified; please report this robot");
     Zone few;
     take(cover, few);
-    few.reach = zone.reach + distance_bounds(hull.mesh, all).upper + cover.reach.upper;
+    few.reach = zone.reach + distance_bounds(hull.mesh, all).upper + cover.verdict.distance().upper;
     return few;
   }
 

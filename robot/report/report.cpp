@@ -6,6 +6,7 @@
 
 #include "robot/files/xml.h"
 #include "robot/report/report_facts.h"
+#include "robot/report/verdict_facts.h"
 
 namespace prohull::robot {
 namespace {
@@ -43,17 +44,13 @@ Json facts_of(const LinkHull& hull, const LinkHulls& link) {
           {"faces", hull.balls.empty() ? Json(hull.mesh.face_count()) : Json()},
           {"pieces", hull.pieces.empty() ? Json() : Json(hull.pieces.size())},
           {"spheres", hull.balls.empty() ? Json() : Json(hull.balls.size())},
-          {"certified", hull.certified},
-          {"proof", hull.proof.empty() ? Json() : Json(hull.proof)},
+          {"verdict", prohull::facts(hull.verdict)},
           {"target_reached", hull.target_reached},
           {"within_bounds", hull.within_bounds},
           {"source", hull.source.empty() ? Json() : Json(hull.source)},
           {"volume", number(hull.volume)},
           {"volume_ratio", number(ratio(hull.volume, link.sealed_volume))},
           {"convex_ratio", number(ratio(hull.volume, link.convex_volume))},
-          {"distance", distance(hull.distance)},
-          {"distance_from_triangles", hull.has_openings ? distance(hull.distance_from_triangles) : Json()},
-          {"padding", number(hull.padding)},
           {"self_intersections", hull.self_intersections},
           {"notes", texts(hull.notes)}};
 }

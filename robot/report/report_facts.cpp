@@ -48,7 +48,7 @@ void mark_hull(std::size_t link, const LinkHulls& link_hulls, const LinkHull& hu
   const auto add = [&](Severity severity, std::string_view what) {
     marks.push_back({link, severity, sentence_of_hull(hull, what)});
   };
-  if (!hull.certified) add(Severity::Failure, "is not certified: it may not enclose the link.");
+  if (!hull.certified()) add(Severity::Failure, "is not certified: it may not enclose the link.");
   if (!hull.target_reached)
     add(Severity::Look, fmt::format("has more faces than the {} asked for.", grouped(hull.target_faces)));
   if (!hull.within_bounds) add(Severity::Look, "does not keep the bound of the distance.");

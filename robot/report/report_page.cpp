@@ -269,7 +269,7 @@ std::string marks(const ReportInput& input) {
 // Links
 
 Cell certificate(const LinkHull& hull) {
-  return hull.certified ? Cell("✓ certified", "good") : Cell("✕ not certified", "bad");
+  return hull.certified() ? Cell("✓ certified", "good") : Cell("✕ not certified", "bad");
 }
 
 Cell verdict(const LinkCheck& check, double allow) {
@@ -306,7 +306,7 @@ std::vector<Cell> hull_cells(const LinkHulls* hulls) {
           hulls->collision == Collision::Hull ? grouped(hull->mesh.face_count()) : size_text(*hull),
           part_ratio_text(*hull, *hulls),
           ratio_text(ratio(hull->volume, hulls->convex_volume)),
-          length_text(hull->distance.upper, Rounded::Up)};
+          length_text(hull->verdict.distance().upper, Rounded::Up)};
 }
 
 std::vector<Cell> check_cells(const LinkCheck* check, double allow) {
@@ -372,26 +372,27 @@ struct Fact {
 std::vector<Fact> facts(const LinkHulls* link, std::span<const LinkHull> hulls, bool has_check, double allow) {
   using Hull = const LinkHull&;
   using Check = const LinkCheck&;
-  const bool has_hulls = !hulls.empty(), is_padded = std::ranges::any_of(hulls, [](Hull h) { return h.padding > 0; });
+  const bool has_hulls = !hulls.empty(),
+             is_padded = std::ranges::any_of(hulls, [](Hull h) { return h.verdict.gap.has_value(); });
   const auto unknown = [](const auto&) { return kDash; };
   const auto range = [](const DistanceBounds& bounds) { return range_text(bounds.lower, bounds.upper); };
   const auto times = [](double volume, double of) { return ratio_text(ratio(volume, of)); };
   return {{true, "Encloses the geometry", certificate, [=](Check c) { return verdict(c, allow); }},
-          {has_check, "Geometry sticks out by", [](Hull h) { return h.certified ? "0 mm" : "?"; }, sticks_out},
+          {has_check, "Geometry sticks out by", [](Hull h) { return h.certified() ? "0 mm" : "?"; }, sticks_out},
           {true, "Faces", [=](Hull h) { return faces_of(h, link->collision); },
            [](Check c) { return count_in(c.collision_faces, c.pieces > 1 ? counted(c.pieces, "piece") : ""); }},
           {true, "Volume / original", [=](Hull h) { return part_ratio_text(h, *link); },
            [=](Check c) { return times(c.collision_volume, c.visual_volume); }},
           {true, "Volume / convex hull", [=](Hull h) { return times(h.volume, link->convex_volume); },
            [=](Check c) { return times(c.collision_volume, c.convex_volume); }},
-          {true, "Greatest distance from the geometry", [=](Hull h) { return range(h.distance); },
+          {true, "Greatest distance from the geometry", [=](Hull h) { return range(h.verdict.distance()); },
            [=](Check c) { return range(c.reach); }},
           {std::ranges::any_of(hulls, &LinkHull::has_openings), "The same, from its triangles alone",
-           [=](Hull h) { return range(h.distance_from_triangles); }, unknown},
+           [=](Hull h) { return range(*h.verdict.distance_to_triangles); }, unknown},
           {has_check, "Mean distance from the geometry", unknown, [](Check c) { return length_text(c.mean_distance); }},
-          {is_padded, "Padding, proven", [](Hull h) { return "at least " + length_text(h.padding, Rounded::Down); },
-           unknown},
-          {has_hulls, "Proof", [](Hull h) { return h.proof.empty() ? kDash : html_escaped(h.proof); }, unknown},
+          {is_padded, "Padding, proven",
+           [](Hull h) { return "at least " + length_text(h.verdict.gap.value_or(0), Rounded::Down); }, unknown},
+          {has_hulls, "Proof", [](Hull h) { return h.certified() ? std::string(h.verdict.proof) : kDash; }, unknown},
           {has_hulls, "Built from", built_from, unknown}};
 }
 

@@ -196,21 +196,21 @@ class Covering {
     // One convex piece holds all that lies between the triangles, too. Bounds of the void ask for more: a volume.
     if (!cover && options_.max_pieces == 1 && !options_.bounds.any() && !is_flat())
       cover = best_cover(of_convex_hull());
-    if (!cover || !cover->certified) {
+    if (!cover || !cover->verdict.certified) {
       const Material material = measurable(of_open_triangles());
       cover = best_cover(material);
       if (prepared_.closed) cover->notes.emplace_back("no cover of the mesh itself was certified");
-      if (!cover->covers_inside)
+      if (cover->verdict.encloses_solid != Answer::Yes)
         cover->notes.emplace_back("the triangles are covered; what lies between them may not be");
     }
-    if (!cover->certified) {
+    if (!cover->verdict.certified) {
       cover = best_cover(of_convex_hull());
       cover->notes.emplace_back("no cover of several pieces was certified; this is the convex hull");
     } else if (is_no_better_than_one_piece(*cover)) {
       ConvexCover one = best_cover(of_convex_hull());
-      if (one.certified && one.volume <= cover->volume) return one;
+      if (one.verdict.certified && one.volume <= cover->volume) return one;
     }
-    if (!cover->certified) throw InputError(Defect::NoCertificate, "no cover of these triangles was certified");
+    if (!cover->verdict.certified) throw InputError(Defect::NoCertificate, "no cover of these triangles was certified");
     return std::move(*cover);
   }
 
@@ -252,7 +252,7 @@ class Covering {
 
   bool is_better(const ConvexCover& a, const ConvexCover& b) const {
     const auto rank = [&](const ConvexCover& cover) {
-      return std::tuple(!cover.certified, !cover.within_bounds, options_.bounds.any() ? cover.pieces.size() : 0,
+      return std::tuple(!cover.verdict.certified, !cover.within_bounds, options_.bounds.any() ? cover.pieces.size() : 0,
                         cover.volume);
     };
     return rank(a) < rank(b);
@@ -321,7 +321,7 @@ class Covering {
     const std::size_t most = fewest_parts(tree);
     ConvexCover best = fitted(tree, most, solid, material);
     // Fewer pieces do without the cut that defeats the proof.
-    for (std::size_t count = most; !best.certified && count > 2;) {
+    for (std::size_t count = most; !best.verdict.certified && count > 2;) {
       count -= std::max<std::size_t>(1, count / 6);
       best = fitted(tree_of(search, count, material), count, solid, material);
     }
@@ -329,7 +329,7 @@ class Covering {
     while (suffices(best, material) && high - low > 1) {
       const std::size_t middle = (low + high) / 2;
       ConvexCover cover = fitted(tree_of(search, middle, material), middle, solid, material);
-      if (cover.certified && suffices(cover, material))
+      if (cover.verdict.certified && suffices(cover, material))
         best = std::move(cover), high = middle;
       else
         low = middle;
@@ -368,7 +368,7 @@ class Covering {
     for (const double tolerance : kTolerances) {
       solid.set_tolerance(tolerance);
       cover = certified(pieces(tree, std::min(count, leaves(tree)), solid), material);
-      if (cover.certified) break;
+      if (cover.verdict.certified) break;
     }
     return cover;
   }
@@ -407,9 +407,10 @@ class Covering {
     if (options_.shape == PieceShape::Polytope || !polytopes.within_bounds) return polytopes;
     ConvexCover cover = in_shape(polytopes, material);
     // The mesh of a box is larger than the box: what it covers proves less than that the polytope in the box covers it.
-    cover.certified = cover.certified && polytopes.certified;
-    cover.original_closed = polytopes.original_closed;
-    cover.covers_inside = cover.certified && polytopes.covers_inside;
+    Verdict& verdict = cover.verdict;
+    verdict.certified = verdict.certified && polytopes.verdict.certified;
+    verdict.covers_triangles = std::min(verdict.covers_triangles, polytopes.verdict.covers_triangles);
+    verdict.encloses_solid = verdict.certified ? polytopes.verdict.encloses_solid : verdict.encloses_solid;
     note_size(cover);
     return cover;
   }
@@ -459,11 +460,14 @@ class Covering {
     const auto verified = [&](const TriangleMesh& original) {
       return verify_union(meshes_of(cover.pieces), original, {.max_offenders = 1, .progress = options_.progress});
     };
-    const UnionVerification found = verified(prepared_.original);
-    cover.certified = found.covers;
-    cover.original_closed = found.original_closed;
-    cover.covers_inside =
-        found.covers && (found.original_closed || (prepared_.closed && verified(prepared_.closed->mesh).covers));
+    Verdict found = verified(prepared_.original);
+    if (found.certified && !found.original_closed && prepared_.closed && verified(prepared_.closed->mesh).certified)
+      found.encloses_solid = Answer::Yes;
+    found.cap_faces = prepared_.closed ? prepared_.caps.face_count() : 0;
+    found.non_finite_faces = prepared_.repairs.dropped_non_finite_faces;
+    found.distance_to_triangles = cover.verdict.distance_to_triangles;
+    found.distance_to_solid = cover.verdict.distance_to_solid;
+    cover.verdict = std::move(found);
     cover.verify_seconds = watch.seconds();
   }
 
@@ -479,19 +483,20 @@ class Covering {
     if (!cover.is_estimated || material.inside.volume <= cover.volume) cover.original_volume = material.inside.volume;
     cover.void_ratio = cover.original_volume > 0 ? cover.volume / cover.original_volume - 1 : infinity;
     const DistanceOptions how{.progress = options_.progress};
-    cover.reach_from_triangles = union_reach(meshes, prepared_.original, how);
-    cover.has_openings = prepared_.closed && prepared_.caps.face_count() > 0;
-    cover.reach = cover.has_openings ? union_reach(meshes, prepared_.closed->mesh, how) : cover.reach_from_triangles;
-    cover.reach.upper = std::min(cover.reach.upper, cover.reach_from_triangles.upper);  // the solid has the triangles
-    if (std::ranges::any_of(cover.pieces, is_round)) cover.reach.lower = cover.reach_from_triangles.lower = 0;
-    cover.non_finite_faces = prepared_.repairs.dropped_non_finite_faces;
+    DistanceBounds from_triangles = union_reach(meshes, prepared_.original, how), from_solid = from_triangles;
+    if (prepared_.closed && prepared_.caps.face_count() > 0)
+      from_solid = union_reach(meshes, prepared_.closed->mesh, how);
+    from_solid.upper = std::min(from_solid.upper, from_triangles.upper);  // the solid has the triangles
+    if (std::ranges::any_of(cover.pieces, is_round)) from_solid.lower = from_triangles.lower = 0;
+    cover.verdict.distance_to_triangles = from_triangles;
+    if (prepared_.closed) cover.verdict.distance_to_solid = from_solid;
     cover.within_bounds = keeps_bounds(cover);
     return cover;
   }
 
   bool keeps_bounds(const ConvexCover& cover) const {
     const HullBounds& b = options_.bounds;
-    return cover.reach.upper <= b.max_distance && cover.void_ratio <= b.max_void_ratio &&
+    return cover.verdict.distance().upper <= b.max_distance && cover.void_ratio <= b.max_void_ratio &&
            cover.volume - cover.original_volume <= b.max_added_volume;
   }
 

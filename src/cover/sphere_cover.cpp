@@ -121,7 +121,7 @@ class SphereCoverer {
     if (best && best->within_bounds) return std::move(*best);
     SphereCover nearest = proven(reach_least());
     nearest.verify_seconds += best ? best->verify_seconds : 0;
-    if (!best || nearest.reach.upper <= best->reach.upper) best = std::move(nearest);
+    if (!best || nearest.verdict.distance().upper <= best->verdict.distance().upper) best = std::move(nearest);
     if (!best->within_bounds)
       best->notes.push_back(fmt::format("no cover by {} was found that keeps a distance of {:.4g}",
                                         counted(options_.max_balls, "sphere"), options_.max_distance));
@@ -135,7 +135,7 @@ class SphereCoverer {
     std::optional<SphereCover> cover;
     if (!std::isfinite(options_.max_distance)) return cover;
     double verify_seconds = 0, aim = options_.max_distance * (1 - kRoomForTheProof) - 2 * least_margin_;
-    for (int i = 0; i < kMostAims && aim > 0; ++i, aim *= options_.max_distance / cover->reach.upper) {
+    for (int i = 0; i < kMostAims && aim > 0; ++i, aim *= options_.max_distance / cover->verdict.distance().upper) {
       const BallCover found = keep_distance(aim);
       if (found.balls.empty()) break;
       cover = proven(found);
@@ -211,10 +211,12 @@ class SphereCoverer {
     for (int trial = 0; trial < kTrials; ++trial, margin *= kGrowth) {
       cover.balls.clear();
       for (const auto& [center, radius] : found.balls) cover.balls.push_back(stored({center, radius + margin}));
-      cover.certified = covers(cover.balls);
-      if (cover.certified) break;
+      cover.verdict = decided(cover.balls);
+      if (cover.verdict.certified) break;
     }
-    cover.covers_inside = cover.certified && options_.fill;
+    cover.is_of_wrap = !input_.closed, cover.fills_wrap = cover.is_of_wrap && options_.fill && cover.verdict.certified;
+    cover.verdict.non_finite_faces = input_.repairs.dropped_non_finite_faces;
+    cover.verdict.cap_faces = input_.closed ? input_.caps.face_count() : 0;
   }
 
   // Planners on GPUs read float32 numbers. Far from the origin these are too coarse.
@@ -226,31 +228,38 @@ class SphereCoverer {
     return radius - ball.radius < kMostRounding * diagonal_ ? Ball{center, radius} : ball;
   }
 
-  bool covers(const std::vector<Ball>& balls) const {
+  Verdict decided(const std::vector<Ball>& balls) const {
     const VerificationOptions options{.progress = options_.progress};
     const bool asks_inside = options_.fill && is_closed(input_.original);
-    if (!verify_union(balls, input_.original, asks_inside, options).covers) return false;
-    return !options_.fill || asks_inside || verify_union(balls, solid_, true, options).covers;
+    Verdict found = verify_union(balls, input_.original, asks_inside, options);
+    if (!found.certified || !options_.fill || asks_inside) return found;
+    UnionVerification of_solid = verify_union(balls, solid_, true, options);
+    found.certified = of_solid.certified, found.why_not = std::move(of_solid.why_not);
+    if (input_.closed) found.encloses_solid = of_solid.certified ? Answer::Yes : Answer::Undecided;
+    return found;
+  }
+
+  DistanceBounds reach_of(const std::vector<Ball>& balls) const {
+    DistanceBounds reach = union_reach(balls, solid_, {.progress = options_.progress});
+    const double most = options_.max_distance - slack_;
+    if (reach.upper > most && reach.lower < most && reach.lower > 0)
+      reach = union_reach(balls, solid_, {.relative_gap = most / reach.lower - 1, .progress = options_.progress});
+    reach.upper += slack_;
+    if (slack_ > 0 || input_.dropped.face_count() > 0) reach.lower = 0;
+    return reach;
   }
 
   void measure(SphereCover& cover) const {
-    cover.reach = union_reach(cover.balls, solid_, {.progress = options_.progress});
-    const double most = options_.max_distance - slack_;
-    if (const double lower = cover.reach.lower; cover.reach.upper > most && lower < most && lower > 0)
-      cover.reach = union_reach(cover.balls, solid_, {.relative_gap = most / lower - 1, .progress = options_.progress});
-    cover.reach.upper += slack_;
-    if (slack_ > 0 || input_.dropped.face_count() > 0) cover.reach.lower = 0;
-    cover.original_closed = is_closed(input_.original);
-    cover.is_of_wrap = !input_.closed, cover.has_openings = input_.closed && input_.caps.face_count() > 0;
-    cover.non_finite_faces = input_.repairs.dropped_non_finite_faces;
-    const bool has_more = cover.is_of_wrap || cover.has_openings;
-    cover.reach_from_triangles =
-        has_more ? union_reach(cover.balls, input_.original, {.progress = options_.progress}) : cover.reach;
-    cover.reach.upper = std::min(cover.reach.upper, cover.reach_from_triangles.upper);  // the solid has the triangles
+    DistanceBounds reach = reach_of(cover.balls), from_triangles = reach;
+    if (cover.is_of_wrap || cover.verdict.cap_faces > 0)
+      from_triangles = union_reach(cover.balls, input_.original, {.progress = options_.progress});
+    reach.upper = std::min(reach.upper, from_triangles.upper);  // the solid has the triangles
+    cover.verdict.distance_to_triangles = from_triangles, cover.verdict.distance_to_solid = reach;
     cover.volume = union_volume(cover.balls);
+    const bool fills = cover.fills_wrap || cover.verdict.encloses_solid == Answer::Yes;
     // No estimate may say that the mesh is larger than what covers it.
-    if (cover.is_estimated && cover.covers_inside && cover.original_volume > cover.volume) cover.original_volume = 0;
-    cover.within_bounds = cover.reach.upper <= options_.max_distance;
+    if (cover.is_estimated && fills && cover.original_volume > cover.volume) cover.original_volume = 0;
+    cover.within_bounds = reach.upper <= options_.max_distance;
   }
 
   static constexpr double kCubesPerReach = 3;

@@ -22,6 +22,7 @@
 #include "prohull/convex_hull.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/detail/stopwatch.h"
+#include "prohull/detail/verdict_parts.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -321,7 +322,6 @@ Sweep sweep(std::span<const TriangleMesh> polytopes, std::span<const RigidMotion
   const std::vector<Slice> slices =
       slices_of(moved, options.max_distance > 0 ? options.max_distance : kUsualDistance * box.diagonal());
   Sweep result;
-  result.covers_inside = true;
   result.cover_pieces = polytopes.size();
   result.pieces.resize(slices.size());
   std::vector<double> reach(slices.size());
@@ -337,7 +337,13 @@ Sweep sweep(std::span<const TriangleMesh> polytopes, std::span<const RigidMotion
     });
     result.volume = volume_by_points(result.pieces);
   });
-  result.reach = *std::ranges::max_element(reach) * (1 + 0x1p-40);
+  result.verdict = {.certified = true,
+                    .proof = "sweep",
+                    .covers_triangles = Answer::Yes,
+                    .encloses_solid = Answer::Yes,
+                    .distance_to_solid = DistanceBounds{},
+                    .original_closed = true};
+  result.verdict = farther_by(std::move(result.verdict), std::ranges::max(reach));
   result.seconds = watch.seconds();
   return result;
 }
@@ -352,13 +358,13 @@ Sweep sweep(TriangleMesh mesh, std::span<const RigidMotion> motions, const Sweep
   std::vector<TriangleMesh> polytopes;
   for (ConvexPiece& piece : cover.pieces) polytopes.push_back(std::move(piece.mesh));
   Sweep result = sweep(polytopes, motions, how);
-  result.covers_inside = cover.covers_inside, result.has_openings = cover.has_openings;
+  result.verdict = farther_by(std::move(cover.verdict), result.verdict.distance().upper);
+  result.verdict.proof = "sweep";
   result.fills_cavities = cover.fills_cavities;
   result.notes = std::move(cover.notes);
-  if (cover.non_finite_faces > 0)
+  if (result.verdict.non_finite_faces > 0)
     result.notes.push_back(
-        fmt::format("triangles with corners that are not finite were left out: {}", cover.non_finite_faces));
-  result.reach = (result.reach + cover.reach.upper) * (1 + 0x1p-40);
+        fmt::format("triangles with corners that are not finite were left out: {}", result.verdict.non_finite_faces));
   result.seconds = watch.seconds();
   return result;
 }

@@ -58,7 +58,7 @@ std::optional<Attempt> attempt(const Candidate& candidate, const Request& reques
   const Stopwatch verifying;
   if (stored) certify(made, request, solids);
   made.hull.self_intersections =
-      made.hull.verdict.holds() ? made.hull.verdict.self_intersections : count_self_intersections(made.hull.mesh);
+      made.hull.verdict.certified ? made.hull.verdict.self_intersections : count_self_intersections(made.hull.mesh);
   if (stored && candidate.bounds.any()) measure(made, candidate.bounds, request, solids);
   made.hull.verify_seconds = verifying.seconds();
   return made;

@@ -11,6 +11,7 @@
 #include "construct/turned.h"
 #include "enclose/known_void.h"
 #include "prohull/collide.h"
+#include "prohull/detail/summary.h"
 #include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
@@ -136,9 +137,11 @@ double CageMaker::distance_of(const EnclosingHulls& made, const TriangleMesh& me
 std::optional<Verification> CageMaker::proven(const EnclosingHulls& made, HullSide side,
                                               const TriangleMesh& mesh) const {
   const RepairedMesh& input = made.input;
-  Verification verdict = verify_hull(
-      mesh, input.original, side,
-      {.closed = input.closed ? &input.closed->mesh : nullptr, .max_offenders = 0, .progress = options_.progress});
+  Verification verdict = of_file(
+      verify_hull(
+          mesh, input.original, side,
+          {.closed = input.closed ? &input.closed->mesh : nullptr, .max_offenders = 0, .progress = options_.progress}),
+      input);
   if (!verdict.encloses) return std::nullopt;
   TriangleMesh beside = made.solids[made.hulls[0].solid].doors;
   if (!input.closed) append(beside, input.caps);
@@ -164,7 +167,7 @@ bool CageMaker::accept(EnclosingHulls& made, HullSide side, TriangleMesh mesh) c
   hull.levels.reset();
   hull.padding = distance;
   hull.self_intersections = self_intersections;
-  hull.proof = "padding";
+  hull.verdict.proof = "padding", hull.verdict.gap = distance;
   hull.target_reached = hull.mesh.face_count() <= hull.target_faces;
   hull.void_ratio = known_void(made, hull);
   return true;

@@ -8,6 +8,7 @@
 #include "construct/turned.h"
 #include "enclose/folds.h"
 #include "prohull/detail/replay.h"
+#include "prohull/detail/summary.h"
 #include "prohull/enclosure.h"
 #include "prohull/padded_hull.h"
 #include "prohull/tight_hull.h"
@@ -23,8 +24,10 @@ bool covers(const TriangleMesh& hull, const TriangleMesh& triangles, const Progr
 
 Verification verdict_of(const TriangleMesh& hull, const Request& request, Solids& solids, std::size_t max_offenders,
                         double gap) {
-  return verify::verify_hull(hull, solids.original(), request.options.hull.side,
-                             {.gap = gap, .max_offenders = max_offenders, .progress = request.options.progress});
+  return of_file(
+      verify::verify_hull(hull, solids.original(), request.options.hull.side,
+                          {.gap = gap, .max_offenders = max_offenders, .progress = request.options.progress}),
+      request.input);
 }
 
 bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& request, Solids& solids) {
@@ -34,7 +37,7 @@ bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& reque
   const bool may_lift = request.input.closed && request.is_outer() && solid.source == Source::Mesh && !options.levels &&
                         hull.padding == 0;
   hull.verdict = verdict_of(hull.mesh, request, solids, may_lift ? kMostProtrusions : 0, gap);
-  if (hull.verdict.holds() || !may_lift) return hull.verdict.holds();
+  if (hull.verdict.certified || !may_lift) return hull.verdict.certified;
   if (hull.verdict.worst.size() < hull.verdict.faces_outside) return false;
   TriangleMesh outside{request.to_cover().positions, {}};
   for (const Offender& o : hull.verdict.worst) outside.triangles.push_back(request.to_cover().triangles[o.face]);
@@ -44,7 +47,7 @@ bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& reque
   hull.mesh = std::move(*lifted);
   hull.levels.reset();
   hull.verdict = verdict_of(hull.mesh, request, solids, 0, gap);
-  return hull.verdict.holds();
+  return hull.verdict.certified;
 }
 
 // The splits of a progressive hull, replayed, lead from its base mesh to the solid. Of a hull that was rounded to
@@ -64,7 +67,7 @@ bool is_proven(EnclosingHull& hull, const Solid& solid, const Request& request, 
     if (!base_holds) hull.levels.reset();
   }
   if (are_proven && is_base)
-    hull.verdict = std::move(*of_levels);
+    hull.verdict = of_file(std::move(*of_levels), request.input);
   else if (!encloses_mesh(hull, solid, request, solids))
     return false;
   return !request.is_outer() || (covers(hull.mesh, solid.doors, progress) &&
@@ -73,7 +76,6 @@ bool is_proven(EnclosingHull& hull, const Solid& solid, const Request& request, 
 
 void certify_as_it_is(EnclosingHull& hull, const Solid& solid, const Request& request, Solids& solids) {
   hull.certified = is_proven(hull, solid, request, solids);
-  hull.proof = hull.certified ? hull.verdict.proof : std::string_view();
 }
 
 // What is missing is added, and measured again; twice of it after the first time, as faces turn when they move, and
@@ -118,10 +120,10 @@ void certify_with_padding(Attempt& attempt, const Solid& solid, const Request& r
   if (hull.padding < padding) return;
   hull.levels.reset();
   certify_as_it_is(hull, solid, request, solids);
-  if (hull.certified) hull.proof = "padding";
+  if (hull.certified) hull.verdict.proof = "padding", hull.verdict.gap = hull.padding;
   // One that keeps clear all along does not pass through itself, and comes next.
   const bool has_other_way = solid.source == Source::Wrap && other_way(attempt.candidate.recipe, request).has_value();
-  if (has_other_way && hull.verdict.self_intersections > 0) hull.certified = false, hull.proof = {};
+  if (has_other_way && hull.verdict.self_intersections > 0) hull.certified = false;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "prohull/detail/finite.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/detail/openings.h"
+#include "prohull/detail/summary.h"
 #include "prohull/enclosure.h"
 #include "prohull/wrap.h"
 
@@ -21,8 +22,9 @@ void judge(ClosedSolid& solid, const ClosedSolidOptions& options) {
   if (options.float32_coordinates)
     for (Vec3& p : solid.mesh.positions) p = nearest_float32(p);
   const auto& closed = solid.input.closed;
-  solid.verdict = verify_hull(solid.mesh, solid.input.original, HullSide::Outer,
-                              {.closed = closed ? &closed->mesh : nullptr, .progress = options.progress});
+  solid.verdict = of_file(verify_hull(solid.mesh, solid.input.original, HullSide::Outer,
+                                      {.closed = closed ? &closed->mesh : nullptr, .progress = options.progress}),
+                          solid.input);
 }
 
 TriangleMesh wrap_of(const RepairedMesh& input, double spacing, const ClosedSolidOptions& options) {
@@ -40,13 +42,13 @@ ClosedSolid solid_of(TriangleMesh triangles, const ClosedSolidOptions& options) 
   if (solid.input.closed) {
     solid.mesh = solid.input.closed->mesh;
     judge(solid, options);
-    if (solid.verdict.holds()) return solid;
+    if (solid.verdict.certified) return solid;
     if (auto made =
             unfolded(solid.mesh, {.float32_coordinates = options.float32_coordinates, .progress = options.progress})) {
       solid.mesh = std::move(made->mesh);
       solid.folds = made->folds;
       judge(solid, options);
-      if (solid.verdict.holds()) return solid;
+      if (solid.verdict.certified) return solid;
       solid.folds = {};
     }
   }

@@ -129,7 +129,7 @@ void require_volume(double volume, const HullBounds& bounds) {
 }
 
 double volume_of(const EnclosingHull& hull) {
-  const double known = hull.verdict.holds() ? hull.verdict.hull_volume : std::numeric_limits<double>::quiet_NaN();
+  const double known = hull.verdict.certified ? hull.verdict.hull_volume : std::numeric_limits<double>::quiet_NaN();
   return std::isnan(known) ? signed_volume(hull.mesh) : known;
 }
 

@@ -18,10 +18,10 @@ namespace {
 constexpr double kRadiansOfDegree = std::numbers::pi / 180;
 
 /// What makes a solid of an original that is not closed; empty if it is closed.
-std::string caps_of(const Verification& found) {
-  if (found.original_closed) return "";
-  if (found.cap_faces == 0) return " after repairs";
-  return fmt::format(" with its openings closed by {}", counted(found.cap_faces, "face", "faces"));
+std::string caps_of(const Verdict& verdict) {
+  if (verdict.original_closed) return "";
+  if (verdict.cap_faces == 0) return " after repairs";
+  return fmt::format(" with its openings closed by {}", counted(verdict.cap_faces, "face", "faces"));
 }
 
 std::string described(const MeshQuality& quality) {
@@ -73,16 +73,35 @@ std::string described_guards(const EnclosingHull& hull) {
 
 }  // namespace
 
-std::string claim(const Verification& found, const std::string& subject, const std::string& object) {
-  const bool is_open = found.faces_undecided > 0 && found.faces_outside == 0 && found.cavities == 0;
-  const std::string covers = found.encloses ? "covers" : is_open ? "may cover" : "does not cover";
-  const std::string encloses = found.encloses ? "encloses" : is_open ? "may enclose" : "does not enclose";
-  const std::string finite = found.non_finite_faces == 0 ? "" : "finite ";
-  if (!found.has_solid) return fmt::format("{} {} every {}triangle of {}", subject, covers, finite, object);
-  if (found.original_closed)
-    return fmt::format("{} {} {}{}{}", subject, encloses, found.every_triangle ? "" : "the solid of ",
-                       finite.empty() ? "" : "the finite triangles of ", object);
-  return fmt::format("{} {} every {}triangle of {}, and its inside{}", subject, covers, finite, object, caps_of(found));
+std::string claim(const Verdict& verdict, const std::string& subject, const std::string& object) {
+  const bool is_yes = verdict.is_yes(), is_open = !is_yes && !verdict.is_any(Answer::No);
+  const bool asks_triangles = verdict.covers_triangles != Answer::NotAsked;
+  const std::string finite = verdict.non_finite_faces == 0 ? "" : "finite ";
+  const std::string of_finite = finite.empty() ? "" : "the finite triangles of ";
+  const std::string solid_of = asks_triangles ? "" : "the solid of ";
+  if (verdict.side == HullSide::Inner)
+    return fmt::format("{}{} {} enclosed by {}{}{}", solid_of, subject,
+                       is_yes    ? "is"
+                       : is_open ? "may be"
+                                 : "is not",
+                       of_finite, object, caps_of(verdict));
+  const bool asks_solid = verdict.encloses_solid != Answer::NotAsked;
+  if (asks_solid && (verdict.original_closed || !asks_triangles))
+    return fmt::format("{} {} {}{}{}{}", subject,
+                       is_yes    ? "encloses"
+                       : is_open ? "may enclose"
+                                 : "does not enclose",
+                       solid_of, of_finite, object, caps_of(verdict));
+  return fmt::format("{} {} every {}triangle of {}{}{}", subject,
+                     is_yes    ? "covers"
+                     : is_open ? "may cover"
+                               : "does not cover",
+                     finite, object, asks_solid ? ", and its inside" : "", asks_solid ? caps_of(verdict) : "");
+}
+
+std::string certificate_of(const Verdict& verdict, const std::string& subject, const std::string& object) {
+  if (verdict.certified) return "yes, " + claim(verdict, subject, object);
+  return "NO, so nothing was written: " + verdict.why_not;
 }
 
 std::string text_of_void(double void_ratio) {
@@ -117,12 +136,10 @@ Verification of_file(Verification found, const RepairedMesh& input) {
   return found;
 }
 
-std::string certificate_of(const EnclosingHulls& made, const EnclosingHull& hull, bool written) {
-  if (!written) return "NO: nothing was written; please report this mesh";
-  const Verification found = of_file(hull.verdict, made.input);
-  if (found.side == HullSide::Outer) return "yes, " + claim(found, "the file as written", "the original");
-  return fmt::format("yes, the file as written is enclosed by {}the original{}",
-                     found.non_finite_faces > 0 ? "the finite triangles of " : "", caps_of(found));
+Verdict as_written(Verdict verdict, bool holds_bits) {
+  if (verdict.certified && !holds_bits)
+    verdict.certified = false, verdict.why_not = "the file does not keep its coordinates; write .ply, .obj or .off";
+  return verdict;
 }
 
 std::string described_finest_level(FinestLevel finest_level) {
@@ -153,9 +170,13 @@ HullMeasures measures_of(const EnclosingHulls& made, const EnclosingHull& hull, 
   HullMeasures found;
   const DistanceOptions how{.progress = progress};
   found.has_openings = made.input.caps.face_count() > 0 || made.solids[hull.solid].doors.face_count() > 0;
-  found.to_triangles = distance_bounds(hull.mesh, made.input.original, how);
-  found.to_solid =
-      found.has_openings ? distance_bounds(hull.mesh, triangles_to_cover(made, hull), how) : found.to_triangles;
+  found.verdict = hull.verdict;
+  found.verdict.certified = hull.certified;
+  found.verdict.distance_to_triangles = distance_bounds(hull.mesh, made.input.original, how);
+  if (found.has_openings)
+    found.verdict.distance_to_solid = distance_bounds(hull.mesh, triangles_to_cover(made, hull), how);
+  else if (made.input.closed)
+    found.verdict.distance_to_solid = found.verdict.distance_to_triangles;
   found.quality = mesh_quality(hull.mesh);
   return found;
 }
@@ -182,12 +203,12 @@ std::vector<std::string> lines_of_repairs(const EnclosingHulls& made) {
 
 std::string line_of_hull(const std::string& name, const ToldHull& told) {
   const EnclosingHull& hull = told.hull;
-  return fmt::format("{}: {} hull of {}{}{}, at most {:.4g} from the mesh{}", name,
-                     name_of(hull_side_names(), told.options.hull.side),
-                     counted(hull.mesh.face_count(), "face", "faces"),
-                     hull.source == Source::Mesh ? "" : fmt::format(", of {}", source_of(told.solid())),
-                     described_void(told.made, hull), rounded_up(told.measures.to_solid.upper, 4),
-                     text_of_openings(told.measures.has_openings, told.measures.to_triangles, openings_of(told)));
+  return fmt::format(
+      "{}: {} hull of {}{}{}, at most {:.4g} from the mesh{}", name, name_of(hull_side_names(), told.options.hull.side),
+      counted(hull.mesh.face_count(), "face", "faces"),
+      hull.source == Source::Mesh ? "" : fmt::format(", of {}", source_of(told.solid())),
+      described_void(told.made, hull), rounded_up(told.measures.verdict.distance().upper, 4),
+      text_of_openings(told.measures.has_openings, *told.measures.verdict.distance_to_triangles, openings_of(told)));
 }
 
 std::vector<std::string> lines_of_shape(const ToldHull& told) {
@@ -228,12 +249,12 @@ std::vector<std::string> lines_of_limits(const ToldHull& told) {
   return lines;
 }
 
-std::vector<std::string> lines_of_proof(const ToldHull& told, bool written) {
-  std::vector<std::string> lines{"certified: " + certificate_of(told.made, told.hull, written)};
-  if (written && told.hull.padding > 0)
+std::vector<std::string> lines_of_proof(const Verdict& verdict) {
+  std::vector<std::string> lines{"certified: " + certificate_of(verdict)};
+  if (verdict.certified && verdict.gap)
     lines.push_back(fmt::format("gap: the least distance from the mesh is at least {:.6g}, proven{}",
-                                rounded_down(told.hull.padding, 6),
-                                told.options.hull.side == HullSide::Outer ? "; all points within it are inside" : ""));
+                                rounded_down(*verdict.gap, 6),
+                                verdict.side == HullSide::Outer ? "; all points within it are inside" : ""));
   return lines;
 }
 

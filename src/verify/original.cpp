@@ -71,6 +71,12 @@ Original::Original(const TriangleMesh& given, const TriangleMesh* closed)
   if (!is_changed()) changed_.reset();
 }
 
+void take_facts(const PreparedOriginal& original, Verdict& verdict) {
+  verdict.proof = "union";
+  verdict.original_closed = original.closed;
+  verdict.non_finite_faces = original.non_finite_faces;
+}
+
 void refuse_non_finite_faces(std::size_t count, const VerificationOptions& options, bool& yes, std::string& why_not) {
   if (count == 0 || options.finite_only || !yes) return;
   yes = false;

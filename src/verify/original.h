@@ -64,6 +64,9 @@ Verification verify_hull(const TriangleMesh& hull, Original& original, HullSide 
                          const VerificationOptions& options);
 Verification verify_hull(const ProgressiveHull& hull, Original& original, const VerificationOptions& options);
 
+/// What a union's verdict says of the original.
+void take_facts(const PreparedOriginal& original, Verdict& verdict);
+
 /// A yes about the other faces is none about the original, unless options.finite_only says so.
 void refuse_non_finite_faces(std::size_t count, const VerificationOptions& options, bool& yes, std::string& why_not);
 

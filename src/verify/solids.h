@@ -8,6 +8,7 @@
 
 #include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
+#include "prohull/verification.h"
 #include "verify/cell.h"
 #include "verify/self_intersection.h"
 #include "verify/surface.h"
@@ -17,8 +18,16 @@ namespace prohull::verify {
 /// verify_enclosure of two meshes.
 EnclosureReport verify_enclosure(const Surface& inner, const Surface& outer, const EnclosureOptions& options);
 
-/// How many steps a verification of meshes with so many faces may take (EnclosureOptions::max_steps): some minutes.
-constexpr std::size_t most_steps(std::size_t faces) { return 2'000'000'000 + 2'000 * faces; }
+/// How many steps a search may take, against an original with so many faces (EnclosureOptions::max_steps).
+constexpr std::size_t most_steps(const VerificationOptions& options, std::size_t faces) {
+  return options.max_steps > 0 ? options.max_steps : 2'000'000'000 + 2'000 * faces;
+}
+
+/// What a search has found.
+inline Answer answer_of(const EnclosureReport& report) {
+  if (report.encloses) return Answer::Yes;
+  return report.faces_outside > 0 || report.cavities > 0 ? Answer::No : Answer::Undecided;
+}
 
 /// Why a verdict is no that leaves faces undecided, and knows of no part outside.
 std::string undecided(std::size_t faces);

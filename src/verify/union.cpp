@@ -41,7 +41,7 @@ class UnionJudge {
         found_(found),
         together_(pieces.together()),
         all_(together_, "united") {
-    found.covers = true;
+    found.certified = true;
   }
 
   void cover_triangles() {
@@ -57,24 +57,35 @@ class UnionJudge {
         offenders_.push_back(verify::farthest(f, points, all_));
     }
     if (!undecided.empty()) ask_windings(undecided);
+    const std::size_t left = found_.faces_undecided;
+    found_.covers_triangles = !offenders_.empty() ? Answer::No : left > 0 ? Answer::Undecided : Answer::Yes;
     take_offenders("triangles of the original lie outside of the pieces, or in part");
+    if (left > 0) refuse(verify::undecided(left));
   }
 
   void fill_inside() {
     const verify::Holes holes =
         verify::find_holes(verify::Surface(original_, "original"), pieces_, all_, meter_.part(0.5, 0.9));
     found_.holes = holes.count;
+    found_.encloses_solid = holes.count > 0    ? Answer::No
+                            : found_.certified ? Answer::Yes
+                                               : Answer::Undecided;  // triangles that stick out may bound no solid
     if (holes.count > 0)
       refuse(fmt::format("the pieces leave a part of the inside open, for instance at {}", text(holes.point)));
   }
 
   void enclose_solid() {
-    EnclosureReport report = verify_enclosure(
-        original_, together_, {.max_offenders = original_.face_count(), .progress = meter_.part(0.1, 0.9)});
+    EnclosureReport report = verify_enclosure(original_, together_,
+                                              {.max_offenders = original_.face_count(),
+                                               .progress = meter_.part(0.1, 0.9),
+                                               .max_steps = verify::most_steps(options_, original_.face_count())});
     found_.holes = report.cavities;
+    found_.faces_undecided = report.faces_undecided;
+    found_.encloses_solid = verify::answer_of(report);
     offenders_ = std::move(report.worst);
     take_offenders("a part of the solid that the original bounds lies outside of the pieces");
-    if (!report.encloses) refuse("the pieces leave a part of the inside open");
+    if (report.cavities > 0) refuse("the pieces leave a part of the inside open");
+    if (report.faces_undecided > 0) refuse(verify::undecided(report.faces_undecided));
   }
 
   void measure() {
@@ -101,8 +112,11 @@ class UnionJudge {
   void ask_windings(const std::vector<FaceId>& faces) {
     TriangleMesh triangles{original_.positions, {}};
     for (const FaceId f : faces) triangles.triangles.push_back(original_.triangles[f]);
-    const EnclosureReport report =
-        verify_cover(triangles, together_, {.max_offenders = faces.size(), .progress = meter_.part(0.1, 0.5)});
+    const EnclosureReport report = verify_cover(triangles, together_,
+                                                {.max_offenders = faces.size(),
+                                                 .progress = meter_.part(0.1, 0.5),
+                                                 .max_steps = verify::most_steps(options_, original_.face_count())});
+    found_.faces_undecided = report.faces_undecided;
     for (const Offender& o : report.worst) offenders_.push_back({faces[index(o.face)], o.point, o.distance});
   }
 
@@ -114,8 +128,8 @@ class UnionJudge {
 
   /// The first reason is told.
   void refuse(const std::string& why_not) {
-    if (found_.covers) found_.why_not = why_not;
-    found_.covers = false;
+    if (found_.certified) found_.why_not = why_not;
+    found_.certified = false;
   }
 
   const verify::Pieces& pieces_;
@@ -136,7 +150,7 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
   UnionVerification found;
   const verify::PreparedOriginal prepared = verify::prepare_original(original, found.notes);
   if (!prepared.closed) found.notes.emplace_back(verify::kNotClosed);
-  found.original_closed = prepared.closed;
+  verify::take_facts(prepared, found);
   if (prepared.closed) found.original_volume = verify::solid_volume(original, meter);
   const verify::Pieces sound = verify::prepare_pieces(pieces, meter.part(0, 0.1));
   found.turned_pieces = sound.turned;
@@ -147,7 +161,7 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
     judge.cover_triangles();
     if (prepared.closed) judge.fill_inside();
   }
-  verify::refuse_non_finite_faces(prepared.non_finite_faces, options, found.covers, found.why_not);
+  verify::refuse_non_finite_faces(prepared.non_finite_faces, options, found.certified, found.why_not);
   judge.measure();
   meter.at(1);
   return found;

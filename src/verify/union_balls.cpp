@@ -435,6 +435,9 @@ class BallUnionJudge {
       }
     }
     found_.faces_outside = offenders.size();
+    found_.covers_triangles = !offenders.empty()           ? Answer::No
+                              : found_.faces_undecided > 0 ? Answer::Undecided
+                                                           : Answer::Yes;
     if (!offenders.empty()) refuse("triangles of the original lie outside of the balls, or in part");
     found_.worst = worst_of(std::move(offenders), options_.max_offenders);
   }
@@ -444,6 +447,9 @@ class BallUnionJudge {
     CubeCutter cutter(solid, balls_, smallest_, meter_.part(0.5, 1));
     const Decision decision = cutter.decide();
     found_.inside_undecided = decision == Decision::Undecided;
+    found_.encloses_solid = decision == Decision::Outside     ? Answer::No
+                            : decision == Decision::Undecided ? Answer::Undecided
+                                                              : Answer::Yes;
     if (decision != Decision::Outside) return;
     found_.holes = 1;
     const Vec3& p = cutter.point();
@@ -486,7 +492,7 @@ class BallUnionJudge {
   }
 
   void refuse(const std::string& why) {
-    found_.covers = false;
+    found_.certified = false;
     if (found_.why_not.empty()) found_.why_not = why;
   }
 
@@ -521,8 +527,8 @@ UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh origina
   const verify::PreparedOriginal prepared = verify::prepare_original(original, found.notes);
   if (!prepared.closed) found.notes.emplace_back(verify::kNotClosed);
   verify::check(balls);
-  found.original_closed = prepared.closed;
-  found.covers = true;
+  verify::take_facts(prepared, found);
+  found.certified = true;
   verify::BallUnionJudge judge(balls, original, prepared, options, found);
   if (!options.solid_only || !prepared.closed) judge.cover_triangles();
   if (prepared.closed && (inside || options.solid_only)) judge.fill_inside();
@@ -532,7 +538,7 @@ UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh origina
     found.original_volume = verify::solid_volume(original, meter);
   }
   if (found.original_volume > 0) found.void_ratio = found.union_volume / found.original_volume - 1;
-  verify::refuse_non_finite_faces(prepared.non_finite_faces, options, found.covers, found.why_not);
+  verify::refuse_non_finite_faces(prepared.non_finite_faces, options, found.certified, found.why_not);
   judge.finish();
   return found;
 }

@@ -74,14 +74,18 @@ class Judge {
     found.turned_original_faces = prepared.turned_faces;
     found.non_finite_faces = prepared.non_finite_faces;
     if (stand_in_) found.cap_faces = stand_in_->caps;
-    found.has_solid = original.has_solid();
-    if (!is_outer() && !found.has_solid)
+    if (!is_outer() && !has_solid())
       throw InputError(
           Defect::OpenEdge,
           "the original is not closed: it has no inside that could enclose an inner hull; `prohull repair` "
           "closes it, and --open-shells close closes its openings");
-    found.every_triangle = !options.solid_only || !found.has_solid;
+    if (has_solid()) found.encloses_solid = Answer::Undecided;
+    if (!has_solid() || !options.solid_only) found.covers_triangles = Answer::Undecided;
   }
+
+  bool has_solid() const { return original_.has_solid(); }
+  bool asks_triangles() const { return found.covers_triangles != Answer::NotAsked; }
+  bool encloses_solid() const { return found.encloses_solid == Answer::Yes; }
 
   bool is_outer() const { return found.side == HullSide::Outer; }
 
@@ -92,7 +96,7 @@ class Judge {
     const double from = static_cast<double>(done_++), steps = static_cast<double>(steps_);
     return {.max_offenders = options_.max_offenders,
             .progress = meter_.part(from / steps, (from + 1) / steps),
-            .max_steps = verify::most_steps(original_.mesh().face_count())};
+            .max_steps = verify::most_steps(options_, original_.mesh().face_count())};
   }
 
   /// Hulls are not turned, but refused: who uses one believes that it looks outwards.
@@ -102,7 +106,7 @@ class Judge {
     const auto [faces, inwards] = verify::turn_outwards(turned, "hull");
     found.inverted_hull_faces = faces;
     if (faces == 0) return false;
-    found.encloses = false;
+    (has_solid() ? found.encloses_solid : found.covers_triangles) = Answer::No;
     found.why_not =
         inwards < faces
             ? "the hull is inside out as a whole: its volume is negative; turn it (trimesh: mesh.invert()) if that is "
@@ -118,18 +122,14 @@ class Judge {
 
   void enclose_solid(verify::KnownSolid& hull) {
     const verify::Surface &inside = inner(hull).surface(), &outside = outer(hull).surface();
-    if (is_outer())
-      take(verify::verify_enclosure(inside, outside, next_step()),
-           "a part of the solid that the original bounds lies outside of the hull");
-    else
-      take(verify::verify_enclosure(inside, outside, next_step()),
-           "a part of the solid that the hull bounds lies outside of the original");
+    found.encloses_solid = take(verify::verify_enclosure(inside, outside, next_step()),
+                                is_outer() ? "a part of the solid that the original bounds lies outside of the hull"
+                                           : "a part of the solid that the hull bounds lies outside of the original");
   }
 
   /// Of an original that is not closed.
   void cover_all(const TriangleMesh& hull) {
-    take(verify_cover(original_.mesh(), hull, next_step()),
-         "triangles of the original lie outside of the hull, or in part");
+    found.covers_triangles = take(verify_cover(original_.mesh(), hull, next_step()), kLeavesTriangles);
   }
 
   /// By the finest level of a hull, and so by all, or else by the base mesh.
@@ -138,7 +138,7 @@ class Judge {
     if (found.faces_outside == 0) return;
     const std::size_t outside = found.faces_beside_solid = found.faces_outside;
     cover_all(base);
-    if (found.encloses)
+    if (found.is_yes())
       found.notes.push_back(
           fmt::format("{} of the original lie{} outside of the finest level, as in folds: the base mesh "
                       "covers {}, finer levels may not",
@@ -150,26 +150,27 @@ class Judge {
     const EnclosureOptions looking = next_step(), how = next_step();
     const std::vector<FaceId>& rest = inner(hull).faces_beside(looking.progress);
     found.faces_beside_solid = rest.size();
+    found.covers_triangles = Answer::Yes;
     if (rest.empty()) return;
-    take(covered(inner(hull).mesh(), rest, outer(hull).mesh(), how),
-         is_outer() ? "triangles of folds of the original, or of parts that are inside out, lie "
-                      "outside of the hull; its solid is enclosed"
-                    : "triangles of folds of the hull, or of parts that are inside out, lie outside "
-                      "of the original; its solid is enclosed");
+    found.covers_triangles =
+        take(covered(inner(hull).mesh(), rest, outer(hull).mesh(), how),
+             is_outer() ? "triangles of folds of the original, or of parts that are inside out, lie "
+                          "outside of the hull; its solid is enclosed"
+                        : "triangles of folds of the hull, or of parts that are inside out, lie outside "
+                          "of the original; its solid is enclosed");
   }
 
   /// The triangles of the original that are no faces of its stand-in, as those that repair has dropped.
   void cover_what_is_not_in_the_solid(const TriangleMesh& hull) {
-    if (!stand_in_ || !is_outer() || !found.encloses || stand_in_->rest.empty()) return;
+    if (!stand_in_ || !is_outer() || !found.is_yes() || stand_in_->rest.empty()) return;
     EnclosureReport report = covered(original_.mesh(), stand_in_->rest, hull, next_step());
-    found.encloses = report.encloses;
-    if (!report.encloses) found.why_not = "triangles of the original lie outside of the hull, or in part";
+    if (!report.encloses) found.covers_triangles = verify::answer_of(report), found.why_not = kLeavesTriangles;
     found.faces_outside = report.faces_outside;
     found.worst = std::move(report.worst);
   }
 
-  void refuse_non_finite_faces() {
-    found.encloses_finite = found.encloses;
+  void conclude() {
+    found.encloses = found.is_yes();
     verify::refuse_non_finite_faces(found.non_finite_faces, options_, found.encloses, found.why_not);
   }
 
@@ -179,6 +180,7 @@ class Judge {
   void keep_gap(const TriangleMesh& hull) {
     verify::GapReport report = verify::verify_gap(hull, original_.mesh(), options_.gap, next_step());
     found.keeps_gap = report.keeps_gap();
+    if (found.keeps_gap) found.gap = options_.gap;
     found.faces_too_near = report.faces_too_near;
     found.nearest = std::move(report.nearest);
     found.least_distance = report.least_distance;
@@ -190,24 +192,28 @@ class Judge {
   void measure(verify::KnownSolid& hull) {
     found.self_intersections = hull.self_intersections(meter_).size();
     found.hull_volume = found.inverted_hull_faces > 0 ? signed_volume(hull.mesh()) : hull.volume(meter_);
-    if (found.has_solid) found.original_volume = original_.solid().volume(meter_);
+    if (has_solid()) found.original_volume = original_.solid().volume(meter_);
     if (found.original_volume > 0) found.void_ratio = found.hull_volume / found.original_volume - 1;
+    found.certified = found.encloses && found.keeps_gap;
     meter_.at(1);
   }
 
   Verification found;
 
  private:
-  void take(EnclosureReport report, std::string_view why_not) {
-    found.encloses = report.encloses;
-    const bool is_known = report.faces_outside > 0 || report.cavities > 0;
-    if (!report.encloses) found.why_not = is_known ? why_not : verify::undecided(report.faces_undecided);
+  static constexpr std::string_view kLeavesTriangles = "triangles of the original lie outside of the hull, or in part";
+
+  Answer take(EnclosureReport report, std::string_view why_not) {
+    const Answer answer = verify::answer_of(report);
+    if (answer == Answer::No) found.why_not = why_not;
+    if (answer == Answer::Undecided) found.why_not = verify::undecided(report.faces_undecided);
     found.faces_undecided = report.faces_undecided;
     found.faces_outside = report.faces_outside;
     found.worst = std::move(report.worst);
     if (stand_in_ && is_outer())
       for (Offender& o : found.worst) o.face = stand_in_->number[index(o.face)];
     found.cavities += report.cavities;
+    return answer;
   }
 
   /// verify_cover of some faces of a mesh.
@@ -240,18 +246,18 @@ Verification verify::verify_hull(const TriangleMesh& hull, Original& original, H
                      fmt::format("the gap is {:g}; it must be a finite number of at least 0", options.gap));
   Judge judge(original, side, options, options.gap > 0 ? 5 : 4);
   Verification& found = judge.found;
-  found.proof = found.has_solid ? "enclosure" : "coverage";
+  found.proof = judge.has_solid() ? "enclosure" : "coverage";
   note_place(usable_box(hull, "hull"), original.facts().box, found.notes);
   KnownSolid known(hull, "hull");
   if (!judge.refuses_inverted(hull)) {
-    if (found.has_solid)
+    if (judge.has_solid())
       judge.enclose_solid(known);
     else
       judge.cover_all(hull);
-    if (found.has_solid && found.encloses && found.every_triangle) judge.cover_the_rest(known);
+    if (judge.encloses_solid() && judge.asks_triangles()) judge.cover_the_rest(known);
     judge.cover_what_is_not_in_the_solid(hull);
   }
-  judge.refuse_non_finite_faces();
+  judge.conclude();
   if (options.gap > 0) judge.keep_gap(hull);
   judge.measure(known);
   return std::move(judge.found);
@@ -267,7 +273,7 @@ Verification verify::verify_hull(const ProgressiveHull& hull, Original& original
   Verification& found = judge.found;
   found.proof = "replay";
   note_place(prohull::usable_box(hull), original.facts().box, found.notes);
-  const bool is_finest = found.has_solid && is_of_input;  // the solid has to be the finest level
+  const bool is_finest = judge.has_solid() && is_of_input;  // the solid has to be the finest level
   const TriangleMesh finest = is_finest ? TriangleMesh{} : hull.original();
   ReplayReport replay;
   const EnclosureOptions replaying = judge.next_step();
@@ -277,29 +283,31 @@ Verification verify::verify_hull(const ProgressiveHull& hull, Original& original
                            : verify_replay(hull, finest, replaying.progress);
       },
       [&] {
-        if (is_finest && found.every_triangle && judge.is_outer()) judge.look_at_solid();
+        if (is_finest && judge.asks_triangles() && judge.is_outer()) judge.look_at_solid();
       });
-  found.encloses = replay.holds;
   found.why_not = std::move(replay.why_not);
   found.splits = replay.splits;
   found.signs = replay.signs;
   if (!replay.holds) return std::move(judge.found);
   const TriangleMesh base = hull.base();
   KnownSolid known(base, "hull");
-  if (!found.has_solid) {
+  if (!judge.has_solid()) {
     judge.cover_all_by_levels(finest, base);
   } else if (!judge.refuses_inverted(base)) {
     KnownSolid level(finest, "hull");
-    if (!is_finest) judge.enclose_solid(level);
-    if (found.encloses && found.every_triangle) judge.cover_the_rest(known);
-    if (const std::size_t beside = found.faces_beside_solid; beside > 0 && found.encloses && judge.is_outer())
+    if (is_finest)
+      found.encloses_solid = Answer::Yes;
+    else
+      judge.enclose_solid(level);
+    if (judge.encloses_solid() && judge.asks_triangles()) judge.cover_the_rest(known);
+    if (const std::size_t beside = found.faces_beside_solid; beside > 0 && found.is_yes() && judge.is_outer())
       found.notes.push_back(
           fmt::format("{} of the original bound{} no part of its solid, as in folds: the base mesh "
                       "covers {}, finer levels may not",
                       counted(beside, "face"), beside == 1 ? "s" : "", beside == 1 ? "it" : "them"));
   }
   judge.cover_what_is_not_in_the_solid(base);
-  judge.refuse_non_finite_faces();
+  judge.conclude();
   judge.measure(known);
   return std::move(judge.found);
 }

@@ -22,20 +22,20 @@ slab both.obj 0.3 1 8
 
 # --- pieces ---
 expect 0 "several files" $prohull verify --union left.obj right.obj part.obj --report report.json
-says out "several files" "yes: 2 pieces cover every triangle and the inside of part.obj, exactly"
-says report.json "report: the verdict" '"covers": true'
+says out "several files" "yes: the union of 2 pieces encloses part.obj, exactly"
+says report.json "report: the verdict" '"certified": true'
 says report.json "report: the pieces" '"pieces": 2'
 says report.json "report: the reach" '"upper"'
 expect 0 "one file of two components" $prohull verify --union both.obj part.obj
-says out "one file of two components" "2 pieces cover"
+says out "one file of two components" "the union of 2 pieces encloses"
 expect 0 "files mixed" $prohull verify --union both.obj left.obj part.obj
-says out "files mixed" "3 pieces cover"
+says out "files mixed" "the union of 3 pieces encloses"
 expect 1 "a slit of one ulp" $prohull verify --union left.obj away.obj part.obj --report report.json
-says out "a slit of one ulp" "NO: 2 pieces do not cover"
+says out "a slit of one ulp" "NO: the union of 2 pieces does not enclose"
 says out "a slit of one ulp: offenders" "8 faces of part.obj lie outside"
 says report.json "report: offenders" '"point"'
 expect 1 "one piece alone" $prohull verify --union left.obj part.obj
-says out "one piece alone" "NO: 1 piece does not cover"
+says out "one piece alone" "NO: the union of 1 piece does not enclose"
 expect 0 "the solid alone" $prohull verify --union both.obj part.obj --solid-only
 says out "the solid alone" "the solid of part.obj"
 sed '$d' left.obj >open.obj
@@ -52,7 +52,7 @@ collision_spheres:
       radius: 0.9
 YAML
 expect 0 "spheres" $prohull verify --union spheres.yaml part.obj --inside --report report.json
-says out "spheres" "yes: 1 sphere covers every triangle and the inside of part.obj, exactly"
+says out "spheres" "yes: the union of 1 sphere encloses part.obj, exactly"
 says report.json "report: the spheres" '"spheres": 1'
 expect 0 "the surface alone" $prohull verify --union spheres.yaml part.obj
 says out "the surface alone" "covers every triangle of part.obj"
@@ -66,7 +66,7 @@ for suffix in urdf xml; do
   for shape in polytope box sphere; do
     expect 0 "$suffix of shape $shape" $prohull convex bracket.stl --pieces 3 --vertices 24 --shape $shape -o c.$suffix
     expect 0 "$suffix of shape $shape covers" $prohull verify --union c.$suffix bracket.stl --report report.json
-    says out "$suffix of shape $shape covers" "cover every triangle"
+    says out "$suffix of shape $shape covers" "encloses bracket.stl"
   done
 done
 says report.json "spheres of a robot" '"pieces": 0'
@@ -76,7 +76,7 @@ says out "turned boxes count as smaller" "boxes.urdf: boxes whose corners have n
 for suffix in yaml urdf xml json; do
   expect 0 "spheres as $suffix" $prohull spheres bracket.stl --count 10 --fill -o s.$suffix
   expect 0 "spheres as $suffix cover" $prohull verify --union s.$suffix bracket.stl --inside
-  says out "spheres as $suffix cover" "every triangle and the inside"
+  says out "spheres as $suffix cover" "encloses part.obj"
 done
 sed 's/radius="[^"]*"/radius="0.01"/' s.urdf >less.urdf
 expect 1 "spheres of a robot that are too small" $prohull verify --union less.urdf bracket.stl

@@ -81,7 +81,7 @@ for mesh in bucket nan; do
 done
 expect 0 "a bucket" $prohull urdf bucket.urdf -o bucket --max-distance 1cm --no-pictures
 says out "a bucket" "a: its openings count as closed, and from its triangles alone it reaches at most 501 mm"
-says bucket/report.json "a bucket" '"distance_from_triangles": {'
+says bucket/report.json "a bucket" '"distance_to_triangles": {'
 expect 0 "a corner that is not finite" $prohull urdf nan.urdf -o nan --no-pictures
 says out "a corner that is not finite" "a: 1 triangle that is not finite was left out"
 says nan/report.json "a corner that is not finite" "no point of a finite triangle of its visual meshes lies outside of its hull"
@@ -90,7 +90,7 @@ for side in outer inner; do
   expect 0 "openings are closed as by build: $side" $prohull verify $side.obj bucket.obj --side $side --open-shells close --report closed.json
   says closed.json "openings are closed as by build: $side" '"cap_faces": 2'
 done
-says out "an inner hull of a bucket" "yes: bucket.obj with its openings closed by 2 faces encloses inner.obj, exactly"
+says out "an inner hull of a bucket" "yes: inner.obj is enclosed by bucket.obj with its openings closed by 2 faces, exactly"
 expect 0 "the triangles of a bucket" $prohull verify outer.obj bucket.obj
 says out "the triangles of a bucket" "yes: outer.obj covers every triangle of bucket.obj, exactly"
 expect 0 "a shell" $prohull build bucket.obj --faces 500 --open-shells keep -o shell.obj
@@ -116,7 +116,7 @@ says err "a control character in a file" "red.obj: line 1: '\x1b[31m' is not a n
 # --- repairs ---
 expect 0 "a corner that is not finite" $prohull build nan.obj --faces 12 -o hull.obj
 says out "a corner that is not finite" "the finite triangles of the original"
-for command in build cage repair; do
+for command in build cage repair convex; do
   expect 0 "triangles that are left out: $command" $prohull $command nan.obj -o hull.obj --report nan.json
   says out "triangles that are left out: $command" "the finite triangles of the original"
   says nan.json "triangles that are left out: $command" '"non_finite_faces": 1'
@@ -164,12 +164,12 @@ expect 0 "a level that encloses" $prohull lod sphere.phull --faces 300 -o level.
 says out "a level that encloses" "certified: yes, the file as written encloses the finest level"
 says level.json "a level that encloses" '"certified": true'
 expect 0 "a level that leaves folds" $prohull lod folded.phull --faces 300 -o level.ply --report level.json
-says out "a level that leaves folds" "of the finest level uncovered, at least in part: triangles of folds"
+says out "a level that leaves folds" "not covered, at least in part: triangles of folds"
 says level.json "a level that leaves folds" '"certified": false'
 expect 1 "a level that leaves folds: verify" $prohull verify level.ply folded.obj
 uncovered=$(sed -n 's/^  \([0-9]*\) faces* of folded.obj lies* outside.*/\1/p' out)
 expect 0 "how many faces it leaves" $prohull lod folded.phull --faces 300 -o level.ply
-says out "how many faces it leaves" "certified: no, it leaves $uncovered face"
+says out "how many faces it leaves" "certified: no, the file as written does not enclose the finest level, of which $uncovered face"
 expect 0 "the base mesh covers them" $prohull lod folded.phull -o level.ply
 says out "the base mesh covers them" "certified: yes, the file as written encloses the finest level"
 expect 0 "the finest level" $prohull lod folded.phull --faces 600 -o level.ply --report level.json
@@ -177,7 +177,7 @@ says level.json "the finest level" '"certified": true'
 says out "the finest level" "certified: yes, the file as written is the finest level"
 expect 0 "an inner hull" $prohull build sphere.obj --side inner --faces 100 --hierarchy inner.phull -o hull.ply
 expect 0 "an inner level" $prohull lod inner.phull --faces 300 -o level.ply
-says out "an inner level" "certified: yes, the finest level encloses the file as written"
+says out "an inner level" "certified: yes, the file as written is enclosed by the finest level"
 
 {
   grep '^v' stone.obj
@@ -308,7 +308,7 @@ expect 0 "a least distance" $prohull cage cube.obj -o cage.obj --gap 0.003464101
 is "a least distance" awk '/gap: at least/ { said = $4 + 0 } /"gap":/ && !proven { proven = $2 + 0 } END { exit !(said <= proven) }' out cage.json
 for gap in 0.123 0.2 0.31 0.44; do
   expect 0 "a greatest distance" $prohull build cube.obj -o away.obj --faces 12 --gap $gap --report away.json
-  is "a greatest distance" awk '/at most/ { sub(/.*at most /, ""); said = $1 + 0 } /"distance_bound":/ { proven = $2 + 0 } END { exit !(said >= proven) }' out away.json
+  is "a greatest distance" awk '/at most/ { sub(/.*at most /, ""); said = $1 + 0 } /"distance_to_triangles":/ { inside = 1 } inside && /"upper":/ { proven = $2 + 0; inside = 0 } END { exit !(said >= proven) }' out away.json
 done
 
 # --- bounds ---
@@ -317,7 +317,7 @@ says err "a gap beyond the largest distance" "the largest distance must be great
 expect 1 "a distance with a gap" $prohull build cube.obj -o away.obj --faces 12 --gap 0.1 --max-distance 0.12 --repair none
 says out "a distance with a gap" "NOT within the bounds asked for"
 expect 0 "a distance with a gap" $prohull build cube.obj -o away.obj --faces 12 --gap 0.1 --max-distance 0.15 --report away.json
-is "a distance with a gap" awk '/"distance_bound":/ { proven = $2 + 0 } END { exit !(0.1 <= proven && proven <= 0.15) }' away.json
+is "a distance with a gap" awk '/"distance_to_triangles":/ { inside = 1 } inside && /"upper":/ { proven = $2 + 0; inside = 0 } END { exit !(0.1 <= proven && proven <= 0.15) }' away.json
 expect 0 "a void with a gap" $prohull build rock.ply -o away.obj --faces 12 --gap 0.02 --max-void 20 --report away.json
 is "a void with a gap" awk '/"void_ratio":/ { void = $2 + 0 } END { exit !(0 < void && void <= 0.2) }' away.json
 for command in build convex; do
@@ -342,7 +342,7 @@ for part in cube nested rock; do
   mesh=$(ls $part.*)
   for count in 1 2 3 5; do
     expect 0 "a share of the diagonal" $prohull spheres "$mesh" -o s.json --count $count --report spheres.json
-    is "a share of the diagonal" awk '/reach out/ { said = $(NF - 4) / 100 } /"diagonal":/ { diagonal = $2 + 0 } /"reach":/ { inside = 1 } inside && /"upper":/ { proven = $2 + 0; inside = 0 } END { exit !(said * (1 + 1e-12) >= proven / diagonal) }' out spheres.json
+    is "a share of the diagonal" awk '/reach out/ { said = $(NF - 4) / 100 } /"diagonal":/ { diagonal = $2 + 0 } /"distance_to_solid":/ { inside = 1 } inside && /"upper":/ { proven = $2 + 0; inside = 0 } END { exit !(said * (1 + 1e-12) >= proven / diagonal) }' out spheres.json
   done
 done
 expect 0 "nothing to close" $prohull spheres sheet.obj -o s.json --count 4

@@ -60,7 +60,7 @@ TriangleMesh small_torus() { return meshes::torus(effort(16u, 9u), effort(8u, 5u
 
 TEST(ConvexCover, FillsCavitiesAndTellsTheirVolume) {
   const ConvexCover cover = convex_cover(hollow_cube(), {.max_pieces = 3});
-  EXPECT_TRUE(cover.certified && cover.covers_inside);
+  EXPECT_TRUE(cover.verdict.certified && cover.verdict.encloses_solid == Answer::Yes);
   EXPECT_EQ(cover.pieces.size(), 1u) << "they count as filled";
   EXPECT_DOUBLE_EQ(cover.original_volume, 0.875);
   EXPECT_NEAR(cover.void_ratio, 1 / 0.875 - 1, 1e-8);
@@ -73,15 +73,15 @@ TEST(ConvexCover, OfABoxIsTheBox) {
   const ConvexCover cover = convex_cover(meshes::box({0, 0, 0}, {1, 2, 3}));
   ASSERT_EQ(cover.pieces.size(), 1u);
   EXPECT_EQ(cover.pieces[0].mesh.vertex_count(), 8u);
-  EXPECT_TRUE(cover.certified && cover.covers_inside);
+  EXPECT_TRUE(cover.verdict.certified && cover.verdict.encloses_solid == Answer::Yes);
   EXPECT_NEAR(cover.void_ratio, 0, 1e-6);
-  EXPECT_LT(cover.reach.upper, 1e-8);
+  EXPECT_LT(cover.verdict.distance().upper, 1e-8);
 }
 
 TEST(ConvexCover, OfABoxWithAHoleIsFourPiecesHoweverManyMayBe) {
   const ConvexCover cover = convex_cover(make_sample("box", 60));
   EXPECT_EQ(cover.pieces.size(), 4u);
-  EXPECT_TRUE(cover.certified && cover.covers_inside);
+  EXPECT_TRUE(cover.verdict.certified && cover.verdict.encloses_solid == Answer::Yes);
   EXPECT_NEAR(cover.void_ratio, 0, 1e-6);
 }
 
@@ -90,15 +90,15 @@ TEST(ConvexCover, OfABoxWithoutALidCoversWhatItsOpeningLeadsInto) {
   TriangleMesh bucket{box.positions, {}};
   for (std::uint32_t f = 2; f < box.face_count(); ++f) bucket.triangles.push_back(box.triangles[FaceId{f}]);
   const ConvexCover cover = convex_cover(bucket);
-  EXPECT_TRUE(cover.certified && cover.covers_inside);
-  EXPECT_FALSE(cover.original_closed);
+  EXPECT_TRUE(cover.verdict.certified && cover.verdict.encloses_solid == Answer::Yes);
+  EXPECT_FALSE(cover.verdict.original_closed);
   EXPECT_NEAR(cover.void_ratio, 0, 1e-6);
 }
 
 TEST(ConvexCover, FindsTheCutThatLeavesNoVoid) {
   const ConvexCover cover = convex_cover(angle_of_bars(), {.max_pieces = 2});
   EXPECT_EQ(cover.pieces.size(), 2u);
-  EXPECT_TRUE(cover.certified);
+  EXPECT_TRUE(cover.verdict.certified);
   EXPECT_LT(cover.void_ratio, 0.02) << "their convex hull has 40 % void";
 }
 
@@ -120,11 +120,11 @@ TEST(ConvexCover, OfSamplesIsCertifiedAndSmallerThanTheConvexHull) {
     if (kTestsAreSlow && sample.name != "bracket") continue;
     const TriangleMesh mesh = make_sample(sample.name, 300);
     const ConvexCover few = convex_cover(mesh, {.max_pieces = 4});
-    EXPECT_TRUE(few.certified && few.covers_inside) << sample.name;
+    EXPECT_TRUE(few.verdict.certified && few.verdict.encloses_solid == Answer::Yes) << sample.name;
     EXPECT_LE(few.pieces.size(), 4u);
     for (const ConvexPiece& piece : few.pieces) EXPECT_LE(piece.mesh.vertex_count(), 64u) << sample.name;
     EXPECT_LE(few.volume, signed_volume(convex_hull(mesh)) * 1.05) << sample.name;
-    EXPECT_TRUE(verify_union(meshes_of(few), mesh).covers) << sample.name;
+    EXPECT_TRUE(verify_union(meshes_of(few), mesh).certified) << sample.name;
   }
 }
 
@@ -139,7 +139,7 @@ TEST(ConvexCover, OfManyPartsThatOverlapCutsWhatTheyAreTogether) {
     append(fan, part);
   }
   const ConvexCover cover = convex_cover(fan, {.max_pieces = 4, .threads = 1});
-  EXPECT_TRUE(cover.certified);
+  EXPECT_TRUE(cover.verdict.certified);
   EXPECT_EQ(cover.pieces.size(), 4U);
   EXPECT_LT(cover.volume, 0.5);  // the convex hull has 0.61
 }
@@ -163,8 +163,8 @@ TEST(ConvexCover, HasAsFewPiecesAsKeepTheBounds) {
   EXPECT_GT(fewer.void_ratio, 0.25);
   const ConvexCover too_few = convex_cover(mesh, {.max_pieces = 2, .bounds = {.max_distance = 0.01}});
   EXPECT_FALSE(too_few.within_bounds);
-  EXPECT_TRUE(too_few.certified);
-  EXPECT_GT(too_few.reach.upper, 0.01);
+  EXPECT_TRUE(too_few.verdict.certified);
+  EXPECT_GT(too_few.verdict.distance().upper, 0.01);
 }
 
 TEST(ConvexCover, TakesAnyTriangles) {
@@ -191,15 +191,15 @@ TEST(ConvexCover, TakesAnyTriangles) {
                                                    {"far away", meshes::moved(small_torus(), {1e6, 0, 0})}};
   for (const auto& [name, mesh] : all) {
     const ConvexCover cover = convex_cover(mesh, {.max_pieces = 2});
-    EXPECT_TRUE(cover.certified) << name;
-    EXPECT_TRUE(verify_union(meshes_of(cover), mesh, {.finite_only = true}).covers) << name;
+    EXPECT_TRUE(cover.verdict.certified) << name;
+    EXPECT_TRUE(verify_union(meshes_of(cover), mesh, {.finite_only = true}).certified) << name;
   }
 }
 
 TEST(ConvexCover, OfASolidThatRepeatsItselfInsideOutCoversTheInside) {
   const TriangleMesh solid = meshes::octahedron();
   const ConvexCover cover = convex_cover(meshes::together(meshes::inside_out(solid), solid), {.max_pieces = 2});
-  EXPECT_TRUE(cover.certified && cover.covers_inside && cover.notes.empty());
+  EXPECT_TRUE(cover.verdict.certified && cover.verdict.encloses_solid == Answer::Yes && cover.notes.empty());
 }
 
 // No hull around them is cut for that.
@@ -210,7 +210,7 @@ TEST(ConvexCover, OfOnePieceIsTheConvexHullOfLooseTriangles) {
   loose.triangles.resize(loose.face_count() / 2);
   const ConvexCover cover = convex_cover(loose, {.max_pieces = 1});
   ASSERT_EQ(cover.pieces.size(), 1u);
-  EXPECT_TRUE(cover.certified && cover.notes.empty());
+  EXPECT_TRUE(cover.verdict.certified && cover.notes.empty());
   EXPECT_NEAR(cover.volume / signed_volume(convex_hull(loose)), 1, 1e-6);
 }
 
@@ -219,10 +219,10 @@ TEST(ConvexCover, OfTrianglesThatEncloseNothingCutsTheseThemselves) {
   const TriangleMesh fins =
       meshes::make({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}});
   const ConvexCover cover = convex_cover(fins, {.max_pieces = 3});
-  EXPECT_TRUE(cover.certified);
-  EXPECT_FALSE(cover.covers_inside);
+  EXPECT_TRUE(cover.verdict.certified);
+  EXPECT_NE(cover.verdict.encloses_solid, Answer::Yes);
   EXPECT_LT(cover.volume, 0.01 * signed_volume(convex_hull(fins)));
-  EXPECT_LT(cover.reach.upper, 0.01);
+  EXPECT_LT(cover.verdict.distance().upper, 0.01);
 }
 
 // As of a floor with a hole: parts of a plane have no volumes to compare.
@@ -238,9 +238,9 @@ TEST(ConvexCover, OfFlatTrianglesGoesAroundTheirHole) {
     frame.triangles.push_back({VertexId{j}, VertexId{4 + j}, VertexId{4 + i}});
   }
   const ConvexCover cover = convex_cover(frame, {.max_pieces = 8, .bounds = {.max_distance = 0.2}});
-  EXPECT_TRUE(cover.certified && cover.within_bounds);
+  EXPECT_TRUE(cover.verdict.certified && cover.within_bounds);
   EXPECT_EQ(cover.pieces.size(), 4U);
-  EXPECT_LT(convex_cover(frame, {.max_pieces = 8}).reach.upper, 0.2);
+  EXPECT_LT(convex_cover(frame, {.max_pieces = 8}).verdict.distance().upper, 0.2);
   frame.triangles.resize(2);
   EXPECT_EQ(convex_cover(frame, {.max_pieces = 8, .bounds = {.max_distance = 0.2}}).pieces.size(), 1U);
   frame.triangles.resize(1);
@@ -253,7 +253,7 @@ TEST(ConvexCover, OfFlatTrianglesGoesAroundTheirHole) {
 TEST(ConvexCover, KeepsFloat32Coordinates) {
   const TriangleMesh mesh = meshes::torus(effort(20u, 12u), effort(9u, 6u));
   const ConvexCover cover = convex_cover(mesh, {.max_pieces = 6, .float32_coordinates = true});
-  EXPECT_TRUE(cover.certified);
+  EXPECT_TRUE(cover.verdict.certified);
   for (const ConvexPiece& piece : cover.pieces)
     for (const Vec3& p : piece.mesh.positions)
       for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(p[axis], static_cast<double>(static_cast<float>(p[axis])));
@@ -272,7 +272,7 @@ TEST(ConvexCover, OfFloat32CoordinatesIsHardlyLarger) {
 TEST(ConvexCover, TakesTheShapeThatIsAskedFor) {
   for (const PieceShape shape : {PieceShape::Box, PieceShape::Capsule, PieceShape::Ball}) {
     const ConvexCover cover = convex_cover(small_torus(), {.max_pieces = effort(4u, 2u), .shape = shape});
-    EXPECT_TRUE(cover.certified);
+    EXPECT_TRUE(cover.verdict.certified);
     for (const ConvexPiece& piece : cover.pieces)
       EXPECT_EQ(piece.primitive.index(), shape == PieceShape::Box ? 1u : shape == PieceShape::Capsule ? 2u : 3u);
   }
@@ -285,7 +285,7 @@ TEST(ConvexCover, OfRoundShapesIsMeasuredAtAnySize) {
       const TriangleMesh mesh = meshes::scaled(meshes::box({0, 0, 0}, {1, 2, 3}), size);
       const ConvexCover cover = convex_cover(mesh, {.max_pieces = 1, .shape = shape});
       EXPECT_GT(cover.volume, cover.original_volume);
-      EXPECT_GT(cover.reach.upper, 0.1 * size);
+      EXPECT_GT(cover.verdict.distance().upper, 0.1 * size);
     }
 }
 

@@ -46,10 +46,10 @@ std::vector<Vec3> points_on(const TriangleMesh& mesh) {
 
 /// Covered at all points tried, and proven.
 void expect_covers(const SphereCover& cover, const TriangleMesh& mesh) {
-  EXPECT_TRUE(cover.certified);
+  EXPECT_TRUE(cover.verdict.certified);
   EXPECT_FALSE(cover.balls.empty());
-  EXPECT_GE(cover.reach.upper, cover.reach.lower);
-  EXPECT_GE(cover.reach.lower, 0);
+  EXPECT_GE(cover.verdict.distance().upper, cover.verdict.distance().lower);
+  EXPECT_GE(cover.verdict.distance().lower, 0);
   for (const Ball& ball : cover.balls) ASSERT_TRUE(is_finite(ball.center) && ball.radius > 0);
   for (const Vec3& p : points_on(mesh)) ASSERT_TRUE(is_in(cover.balls, p)) << p.x << " " << p.y << " " << p.z;
 }
@@ -76,7 +76,7 @@ TEST(SphereCover, OneBallIsAboutTheSmallestAroundTheMesh) {
   expect_covers(cover, mesh);
   ASSERT_EQ(cover.balls.size(), 1U);
   EXPECT_NEAR(cover.balls[0].radius, std::sqrt(3.0), 0.02);
-  EXPECT_NEAR(cover.reach.upper, std::sqrt(3.0) - 1, 0.03);
+  EXPECT_NEAR(cover.verdict.distance().upper, std::sqrt(3.0) - 1, 0.03);
 }
 
 TEST(SphereCover, HasFloat32NumbersNearTheOrigin) {
@@ -93,7 +93,7 @@ TEST(SphereCover, OfABallIsThatBall) {
   const TriangleMesh mesh = meshes::sphere(2);
   const SphereCover cover = sphere_cover(mesh, {.max_balls = 3});
   expect_covers(cover, mesh);
-  EXPECT_LT(cover.reach.upper, 0.1);
+  EXPECT_LT(cover.verdict.distance().upper, 0.1);
 }
 
 TEST(SphereCover, OfSamplesReachesOutLittle) {
@@ -102,9 +102,9 @@ TEST(SphereCover, OfSamplesReachesOutLittle) {
     const SphereCover cover = sphere_cover(mesh, {.max_balls = effort<std::size_t>(64, 16)});
     expect_covers(cover, mesh);
     EXPECT_LE(cover.balls.size(), 64U);
-    EXPECT_LT(cover.reach.upper, effort(0.08, 0.2) * diagonal(mesh)) << name;
+    EXPECT_LT(cover.verdict.distance().upper, effort(0.08, 0.2) * diagonal(mesh)) << name;
     EXPECT_TRUE(cover.within_bounds);
-    EXPECT_GE(cover.reach.upper, sampled_reach(cover.balls, mesh)) << name;
+    EXPECT_GE(cover.verdict.distance().upper, sampled_reach(cover.balls, mesh)) << name;
     EXPECT_GT(cover.volume, 0.5 * cover.original_volume) << name;
   }
 }
@@ -115,8 +115,8 @@ TEST(SphereCover, MoreBallsReachOutLess) {
   for (const std::size_t count : {4, 16, 64}) {
     const SphereCover cover = sphere_cover(mesh, {.max_balls = count});
     EXPECT_LE(cover.balls.size(), count);
-    EXPECT_LT(cover.reach.upper, before);
-    before = cover.reach.upper;
+    EXPECT_LT(cover.verdict.distance().upper, before);
+    before = cover.verdict.distance().upper;
   }
 }
 
@@ -141,7 +141,7 @@ TEST(SphereCover, KeepsADistanceWithFewBalls) {
   const SphereCover cover = sphere_cover(mesh, {.max_balls = 500, .max_distance = distance});
   expect_covers(cover, mesh);
   EXPECT_TRUE(cover.within_bounds);
-  EXPECT_LE(cover.reach.upper, distance);
+  EXPECT_LE(cover.verdict.distance().upper, distance);
   EXPECT_LT(cover.balls.size(), 100U);
   EXPECT_LT(sphere_cover(mesh, {.max_balls = 500, .max_distance = 2 * distance}).balls.size(), cover.balls.size());
 }
@@ -149,11 +149,11 @@ TEST(SphereCover, KeepsADistanceWithFewBalls) {
 TEST(SphereCover, KeepsADistanceThatIsKeptWithoutIt) {
   for (const auto& [name, factor] : {std::pair("knot", 1.0), std::pair("bracket", 1.05)}) {
     const TriangleMesh mesh = make_sample(name, 200);
-    const double reach = sphere_cover(mesh, {.max_balls = 16}).reach.upper;
+    const double reach = sphere_cover(mesh, {.max_balls = 16}).verdict.distance().upper;
     const SphereCover cover = sphere_cover(mesh, {.max_balls = 16, .max_distance = factor * reach});
     expect_covers(cover, mesh);
     EXPECT_TRUE(cover.within_bounds) << name;
-    EXPECT_LE(cover.reach.upper, factor * reach) << name;
+    EXPECT_LE(cover.verdict.distance().upper, factor * reach) << name;
     EXPECT_LE(cover.balls.size(), 16U);
     EXPECT_TRUE(cover.notes.empty()) << name;
   }
@@ -174,7 +174,7 @@ TEST(SphereCover, FillsTheInside) {
   const TriangleMesh mesh = meshes::box({0, 0, 0}, {3, 2, 2});
   const SphereCover cover = sphere_cover(mesh, {.max_balls = 30, .fill = true});
   expect_covers(cover, mesh);
-  EXPECT_TRUE(cover.covers_inside);
+  EXPECT_TRUE(cover.verdict.encloses_solid == Answer::Yes);
   std::mt19937 random(test_seed());
   std::uniform_real_distribution<double> x(0, 3), y(0, 2);
   for (int i = 0; i < 10000; ++i) ASSERT_TRUE(is_in(cover.balls, {x(random), y(random), y(random)}));
@@ -186,7 +186,7 @@ TEST(SphereCover, FillsWhatIsNotClosed) {
   for (std::size_t i = 0; i < 60; ++i) open.triangles.pop_back();
   const SphereCover cover = sphere_cover(open, {.max_balls = 64, .fill = true});
   expect_covers(cover, open);
-  EXPECT_TRUE(cover.covers_inside);
+  EXPECT_TRUE(cover.verdict.encloses_solid == Answer::Yes);
 }
 
 TEST(SphereCover, ReachesNowhereOutWithinACavity) {
@@ -195,8 +195,8 @@ TEST(SphereCover, ReachesNowhereOutWithinACavity) {
   const SphereCover cover = sphere_cover(hollow, {.max_balls = 12});
   EXPECT_DOUBLE_EQ(cover.original_volume, 0.875);
   EXPECT_EQ(cover.notes.size(), 1u);
-  EXPECT_EQ(cover.reach.upper, union_reach(cover.balls, hollow).upper) << "verify says the same";
-  EXPECT_EQ(cover.reach.upper, union_reach(cover.balls, meshes::box({0, 0, 0}, {1, 1, 1})).upper);
+  EXPECT_EQ(cover.verdict.distance().upper, union_reach(cover.balls, hollow).upper) << "verify says the same";
+  EXPECT_EQ(cover.verdict.distance().upper, union_reach(cover.balls, meshes::box({0, 0, 0}, {1, 1, 1})).upper);
 }
 
 TEST(SphereCover, IsTheSameForAnyNumberOfThreads) {
@@ -229,7 +229,7 @@ TEST(SphereCover, IsTheSameInAnyUnit) {
 
 TEST(SphereCover, OfATinyBoxEnds) {
   const SphereCover cover = sphere_cover(meshes::box({0, 0, 0}, {1e-98, 1e-98, 1e-98}), {.max_balls = 4});
-  EXPECT_TRUE(cover.certified);
+  EXPECT_TRUE(cover.verdict.certified);
 }
 
 TEST(SphereCover, CoversTrianglesThatBoundNothing) {
@@ -239,7 +239,7 @@ TEST(SphereCover, CoversTrianglesThatBoundNothing) {
   for (const TriangleMesh& mesh : {plate, needle, segment}) {
     const SphereCover cover = sphere_cover(mesh, {.max_balls = 16});
     expect_covers(cover, mesh);
-    EXPECT_LE(cover.reach.upper, 0.2 * diagonal(mesh) + 1e-6);
+    EXPECT_LE(cover.verdict.distance().upper, 0.2 * diagonal(mesh) + 1e-6);
   }
 }
 

@@ -84,7 +84,7 @@ TEST(Sweep, EnclosesRandomMotionsOfRandomMeshes) {
     const Sweep made = sweep(mesh, {{motion}}, options);
     EXPECT_EQ(outside(made, mesh, motion, 200), 0U) << round;
     for (const double time : {0., 0.1, 0.37, 0.5, 0.93, 1.})
-      EXPECT_TRUE(verify_union(made.pieces, moved(motion, mesh, time)).covers) << round << " at " << time;
+      EXPECT_TRUE(verify_union(made.pieces, moved(motion, mesh, time)).certified) << round << " at " << time;
     if (!options.float32_coordinates) continue;
     for (const TriangleMesh& piece : made.pieces)
       EXPECT_TRUE(std::ranges::all_of(piece.positions, [](const Vec3& p) { return is_float32(p); }));
@@ -98,7 +98,7 @@ TEST(Sweep, ReachesNoFartherThanItSays) {
   for (const Vec3& shift : {Vec3{}, Vec3{0, 0, 1}}) {
     const RigidMotion motion{.axis = {0, 0, 1}, .angle = kPi / 2, .shift = shift};
     const Sweep made = sweep(mesh, {{motion}}, {.max_pieces = 1, .max_distance = 0.1});
-    EXPECT_LT(made.reach, 0.1 + 1e-9);
+    EXPECT_LT(made.verdict.distance().upper, 0.1 + 1e-9);
     for (int i = 0; i < 300; ++i) {
       const TriangleMesh& piece = made.pieces[random() % made.pieces.size()];
       const Vec3& p = piece.positions[VertexId(random() % piece.vertex_count())];
@@ -110,7 +110,7 @@ TEST(Sweep, ReachesNoFartherThanItSays) {
                           std::max({-q.z, q.z - 0.2, 0.})};
         least = std::min(least, norm(beyond));
       }
-      EXPECT_LE(least, made.reach);
+      EXPECT_LE(least, made.verdict.distance().upper);
     }
   }
 }
@@ -134,8 +134,8 @@ TEST(Sweep, OfATranslationIsTheConvexHullOfBothEnds) {
   ASSERT_EQ(made.pieces.size(), 1U);
   EXPECT_NEAR(signed_volume(made.pieces[0]), 1 + 3 + 4 + 5, 1e-9);
   EXPECT_NEAR(made.volume, 13, 0.1);
-  EXPECT_LT(made.reach, 1e-9);
-  EXPECT_TRUE(made.covers_inside);
+  EXPECT_LT(made.verdict.distance().upper, 1e-9);
+  EXPECT_TRUE(made.verdict.encloses_solid == Answer::Yes);
 }
 
 TEST(Sweep, OfALongSlantedMotionHasItsVolume) {

@@ -44,7 +44,7 @@ TEST(EnclosingHull, OfAClosedMeshIsThatOfBuildHull) {
   const EnclosingHull hull = only(hull_of(mesh, 200));
   EXPECT_EQ(hull.mesh, build_hull(mesh, {.target_faces = 200}).hull.base());
   EXPECT_TRUE(hull.certified);
-  EXPECT_EQ(hull.proof, "replay");
+  EXPECT_EQ(hull.verdict.proof, "replay");
   EXPECT_TRUE(hull.target_reached);
   ASSERT_TRUE(hull.levels);
   EXPECT_EQ(hull.levels->original(), mesh);
@@ -160,7 +160,7 @@ TEST(EnclosingHull, NamesWhatClosesAnOpenMesh) {
   for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
     const EnclosingHulls made = hull_of(open, 12, {.hull = {.side = side}});
     const Verification& verdict = made.hulls[0].verdict;
-    EXPECT_TRUE(made.hulls[0].certified && verdict.encloses && verdict.has_solid);
+    EXPECT_TRUE(made.hulls[0].certified && verdict.encloses && verdict.encloses_solid == Answer::Yes);
     EXPECT_FALSE(verdict.original_closed);
     EXPECT_EQ(verdict.cap_faces, 2u);
     EXPECT_DOUBLE_EQ(verdict.original_volume, 1);
@@ -244,7 +244,7 @@ TEST(EnclosingHull, OfALeafIsASheetAroundIt) {
   const EnclosingHulls made = hull_of(leaf(), 100);
   const EnclosingHull hull = only(made);
   EXPECT_TRUE(hull.certified);
-  EXPECT_EQ(hull.proof, "coverage");
+  EXPECT_EQ(hull.verdict.proof, "coverage");
   EXPECT_FALSE(made.input.closed);
   EXPECT_NE(made.input.obstacle.find("open edges"), std::string::npos) << made.input.obstacle;
   EXPECT_TRUE(verify_cover(leaf(), hull.mesh).encloses);
@@ -319,7 +319,7 @@ TEST(EnclosingHull, OfAWrapMovesTowardsTheTriangles) {
   const EnclosingHull hull = only(made);
   ASSERT_EQ(hull.source, Source::Wrap);
   EXPECT_TRUE(hull.certified);
-  EXPECT_EQ(hull.proof, "enclosure");
+  EXPECT_EQ(hull.verdict.proof, "enclosure");
   EXPECT_TRUE(verify_enclosure(knot, hull.mesh).encloses);
   EXPECT_GT(made.solids[hull.solid].wrap_spacing, 0);
   EXPECT_FALSE(hull.levels);
@@ -433,7 +433,7 @@ TEST(EnclosingHull, MeasuresFromTheMeshNotFromWhatReplacesAFold) {
 TEST(ClosedSolid, KeepsAllFacesThatAreNotAroundAFold) {
   const TriangleMesh mesh = folded_rock();
   const ClosedSolid solid = closed_solid(mesh);
-  EXPECT_TRUE(solid.verdict.holds());
+  EXPECT_TRUE(solid.verdict.certified);
   EXPECT_EQ(solid.source, Source::Mesh);
   EXPECT_GT(solid.folds.faces, 0U);
   EXPECT_GT(solid.mesh.face_count(), mesh.face_count() - 40);

@@ -41,7 +41,7 @@ double winding_number(const TriangleMesh& mesh, const Vec3& p) {
 /// By other means than those of the construction: points near the triangles are inside, and no face is.
 void expect_padding(const TriangleMesh& triangles, const EnclosingHull& hull, double padding, SoupMaker& random) {
   ASSERT_TRUE(hull.certified);
-  EXPECT_EQ(hull.proof, "padding");
+  EXPECT_EQ(hull.verdict.proof, "padding");
   EXPECT_GE(hull.padding, padding);
   EXPECT_FALSE(hull.levels);
   const CollisionIndex surface(hull.mesh, StandsFor::Surface), parts(soup(triangles), StandsFor::Surface);
@@ -227,10 +227,10 @@ EnclosingHull inner(const TriangleMesh& mesh, std::size_t faces, double padding,
 
 void expect_gap_inside(const TriangleMesh& mesh, const EnclosingHull& hull, double gap) {
   ASSERT_TRUE(hull.certified);
-  EXPECT_EQ(hull.proof, "padding");
+  EXPECT_EQ(hull.verdict.proof, "padding");
   EXPECT_EQ(hull.self_intersections, 0u);
   EXPECT_GT(signed_volume(hull.mesh), 0);
-  EXPECT_TRUE(verify_hull(hull.mesh, mesh, HullSide::Inner, {.gap = gap}).holds());
+  EXPECT_TRUE(verify_hull(hull.mesh, mesh, HullSide::Inner, {.gap = gap}).certified);
 }
 
 TEST(Padding, InsideOfACubeIsASmallerCube) {

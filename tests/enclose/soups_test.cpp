@@ -279,26 +279,26 @@ void expect_cover(Case& given, const Cover& cover, bool covers_inside, std::size
       if (contains(i, x)) return true;
     return false;
   };
-  ASSERT_TRUE(cover.certified) << testing::PrintToString(cover.notes);
+  ASSERT_TRUE(cover.verdict.certified) << testing::PrintToString(cover.notes);
   for (const Point& x : given.judge.points_on_faces(given.random))
     ASSERT_TRUE(has(x)) << text(x) << " on a triangle is outside of all pieces";
   if (!covers_inside) return;
   EXPECT_GE(cover.volume, (1 - 1e-9) * cover.original_volume) << "the union is smaller than what it covers";
   if (!given.judge.is_closed()) {  // the inside is that of the mesh with its openings closed
-    EXPECT_FALSE(cover.original_closed);
+    EXPECT_FALSE(cover.verdict.original_closed);
     return;
   }
   for (const Point& x : given.inside_points()) ASSERT_TRUE(has(x)) << text(x) << " inside is outside of all pieces";
 }
 
-bool is_of_triangles_alone(const ConvexCover& cover) { return !cover.has_openings; }
-bool is_of_triangles_alone(const SphereCover& cover) { return !cover.has_openings && !cover.is_of_wrap; }
+bool is_of_triangles_alone(const ConvexCover& cover) { return cover.verdict.cap_faces == 0; }
+bool is_of_triangles_alone(const SphereCover& cover) { return cover.verdict.cap_faces == 0 && !cover.is_of_wrap; }
 
 /// Of points of the union from the triangles. Bounds that were asked for hold for the distance from the solid, to which
 /// caps on openings belong.
 template <class Cover>
 double bound_of_reach(const Cover& cover, double max_distance) {
-  const double proven = cover.reach_from_triangles.upper;
+  const double proven = cover.verdict.distance_to_triangles->upper;
   return cover.within_bounds && is_of_triangles_alone(cover) ? std::min(proven, max_distance) : proven;
 }
 
@@ -335,7 +335,7 @@ void convex(Case& given) {
                   is_float32(p));
     }
   }
-  expect_cover(given, cover, cover.covers_inside, pieces.size(),
+  expect_cover(given, cover, cover.verdict.encloses_solid == Answer::Yes, pieces.size(),
                [&](std::size_t i, const Point& x) { return pieces[i].has_within_planes(x); });
   expect_not_denied(given, pieces_certificate(parts, {given.soup.mesh}), oracle::off(file));
   const double bound = bound_of_reach(cover, options.bounds.max_distance);
@@ -355,8 +355,8 @@ void spheres(Case& given) {
   if (given.random.one_in(3)) options.max_distance = some_distance(given, "--max-distance");
   const SphereCover cover = sphere_cover(given.soup.mesh, options);
   // Of what is open, the inside is that of a wrap.
-  expect_cover(given, cover, cover.covers_inside && cover.original_closed, cover.balls.size(),
-               [&](std::size_t i, const Point& x) { return oracle::contains(cover.balls[i], x); });
+  expect_cover(given, cover, cover.verdict.encloses_solid == Answer::Yes && cover.verdict.original_closed,
+               cover.balls.size(), [&](std::size_t i, const Point& x) { return oracle::contains(cover.balls[i], x); });
   expect_not_denied(given, balls_certificate(cover.balls, {given.soup.mesh}), oracle::yaml(cover.balls), ".yaml");
   const double bound = bound_of_reach(cover, options.max_distance);
   for (std::size_t i = 0; i < cover.balls.size(); ++i)

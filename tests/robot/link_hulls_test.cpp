@@ -69,7 +69,7 @@ TEST_F(LinkHullsTest, EncloseAllMeshesOfALink) {
   for (const std::size_t link : {0U, 1U}) {
     ASSERT_EQ(made[link].hulls.size(), 1U);
     const LinkHull& hull = made[link].hulls[0];
-    EXPECT_TRUE(hull.certified);
+    EXPECT_TRUE(hull.certified());
     EXPECT_LE(hull.mesh.face_count(), 200U);
     EXPECT_TRUE(verify_cover(made[link].triangles, hull.mesh).encloses);
     for (const Vec3& p : hull.mesh.positions) EXPECT_EQ(p.x, double(float(p.x)));  // as an STL file keeps it
@@ -106,8 +106,8 @@ TEST_F(LinkHullsTest, MayBeConvexPieces) {
   for (const std::size_t link : {0U, 1U}) {
     ASSERT_EQ(made[link].hulls.size(), 1U);
     const LinkHull& cover = made[link].hulls[0];
-    EXPECT_TRUE(cover.certified);
-    EXPECT_EQ(cover.proof, "union");
+    EXPECT_TRUE(cover.certified());
+    EXPECT_EQ(cover.verdict.proof, "union");
     EXPECT_GE(cover.pieces.size(), 1U);
     EXPECT_LE(cover.pieces.size(), 4U);
     for (const TriangleMesh& piece : cover.pieces) {
@@ -136,11 +136,11 @@ TEST_F(LinkHullsTest, MayBeSpheresInTheFrameOfTheLink) {
     ASSERT_EQ(made[link].hulls.size(), 1U);
     EXPECT_EQ(made[link].frame.in_link, Pose{});
     const LinkHull& cover = made[link].hulls[0];
-    EXPECT_TRUE(cover.certified);
-    EXPECT_EQ(cover.proof, "union");
+    EXPECT_TRUE(cover.certified());
+    EXPECT_EQ(cover.verdict.proof, "union");
     EXPECT_GE(cover.balls.size(), 1U);
     EXPECT_LE(cover.balls.size(), 10U);
-    EXPECT_TRUE(verify_union(cover.balls, made[link].triangles, false).covers);
+    EXPECT_TRUE(verify_union(cover.balls, made[link].triangles, false).certified);
     ASSERT_TRUE(is_closed(cover.mesh));  // a mesh around each ball
     EXPECT_GT(signed_volume(cover.mesh), cover.volume);
   }
@@ -184,7 +184,7 @@ TEST_F(LinkHullsTest, SayWhichMeshesAreMissing) {
   const std::vector<LinkHulls> made = link_hulls(robot_, options_);
   EXPECT_EQ(made[1].status, LinkStatus::Skipped);
   EXPECT_EQ(made[1].why, "package://p/arm.stl: not there");
-  EXPECT_TRUE(made[0].hulls[0].certified);
+  EXPECT_TRUE(made[0].hulls[0].certified());
 }
 
 TEST_F(LinkHullsTest, NameTheLinkOfABadMesh) {
@@ -207,11 +207,12 @@ TEST_F(LinkHullsTest, OfOpenMeshesAreMeasuredFromTheirTrianglesAloneToo) {
     options_.budget.collision = kind;
     const std::vector<LinkHulls> made = link_hulls(robot_, options_);
     const LinkHull &open = made[0].hulls[0], &closed = made[1].hulls[0];
-    EXPECT_TRUE(open.has_openings && open.certified);
-    EXPECT_GE(open.distance_from_triangles.upper, kind == Collision::Spheres ? open.distance.upper : 0.49);
-    EXPECT_LT(open.distance.upper, 0.4);
-    EXPECT_FALSE(closed.has_openings);
-    EXPECT_EQ(closed.distance_from_triangles.upper, closed.distance.upper);
+    EXPECT_TRUE(open.has_openings() && open.certified());
+    EXPECT_GE(open.verdict.distance_to_triangles->upper,
+              kind == Collision::Spheres ? open.verdict.distance().upper : 0.49);
+    EXPECT_LT(open.verdict.distance().upper, 0.4);
+    EXPECT_FALSE(closed.has_openings());
+    EXPECT_EQ(closed.verdict.distance_to_triangles->upper, closed.verdict.distance().upper);
     EXPECT_NEAR(made[0].sealed_volume, 1, 1e-12);
   }
 }
@@ -246,7 +247,7 @@ TEST_F(LinkHullsTest, ComeFromTheCacheWhileNothingChanges) {
   EXPECT_FALSE(first[0].from_cache);
   EXPECT_TRUE(second[0].from_cache);
   EXPECT_EQ(second[0].hulls[0].mesh, first[0].hulls[0].mesh);
-  EXPECT_EQ(second[0].hulls[0].distance.upper, first[0].hulls[0].distance.upper);
+  EXPECT_EQ(second[0].hulls[0].verdict.distance().upper, first[0].hulls[0].verdict.distance().upper);
   EXPECT_EQ(second[0].sealed_volume, first[0].sealed_volume);
   EXPECT_EQ(second[0].triangles, first[0].triangles);
 
@@ -309,7 +310,7 @@ TEST_F(LinkHullsTest, HaveAKeyOfWhatOtherFilesHold) {
     write_file(folder_.path() / "part.bin", positions(2));
     const LinkHulls made = link_hulls(robot_, options_)[0];
     ASSERT_EQ(made.hulls.size(), 1U) << name;
-    EXPECT_TRUE(made.hulls[0].certified);
+    EXPECT_TRUE(made.hulls[0].certified());
     EXPECT_TRUE(verify_cover(read_mesh(folder_.path() / name), made.hulls[0].mesh).encloses) << name;
   }
 }
@@ -369,9 +370,9 @@ class ForgedCacheTest : public LinkHullsTest {
     const LinkHulls again = link_hulls(robot_, options_)[0];
     EXPECT_FALSE(again.from_cache) << what;
     ASSERT_EQ(again.hulls.size(), made_->hulls.size()) << what;
-    EXPECT_TRUE(again.hulls[0].certified) << what;
+    EXPECT_TRUE(again.hulls[0].certified()) << what;
     EXPECT_EQ(again.hulls[0].mesh, made_->hulls[0].mesh) << what;
-    EXPECT_EQ(again.hulls[0].distance.upper, made_->hulls[0].distance.upper) << what;
+    EXPECT_EQ(again.hulls[0].verdict.distance().upper, made_->hulls[0].verdict.distance().upper) << what;
     EXPECT_TRUE(link_hulls(robot_, options_)[0].from_cache) << what;
   }
 
@@ -517,7 +518,7 @@ TEST_F(LinkHullsTest, StandForTheBodiesOfTheRobot) {
 
 TEST_F(LinkHullsTest, ThatAreNotCertifiedAreNoBodies) {
   std::vector<LinkHulls> made = link_hulls(robot_, options_);
-  made[0].hulls[0].certified = false;
+  made[0].hulls[0].verdict.certified = false;
   const Bodies bodies = bodies_of(robot_, made, Geometry::Visual);
   EXPECT_EQ(bodies.hull[0].face_count(), 0U);
   EXPECT_EQ(bodies.visual[0], made[0].triangles);
@@ -530,7 +531,7 @@ TEST_F(LinkHullsTest, WithPaddingEncloseThePrimitivesToo) {
   EXPECT_EQ(made[2].status, LinkStatus::Hulled);
   EXPECT_TRUE(made[2].primitives.empty());
   for (const std::size_t link : {0U, 1U, 2U}) {
-    EXPECT_TRUE(made[link].hulls[0].certified);
+    EXPECT_TRUE(made[link].hulls[0].certified());
     EXPECT_GE(made[link].hulls[0].padding, 0.02);
   }
 }
@@ -583,12 +584,12 @@ TEST_F(CurvedLinksTest, BoundsHoldForTheFormsThemselves) {
   for (const LinkHulls& made : link_hulls(robot_, options_)) {
     SCOPED_TRACE(made.link);
     const LinkHull& hull = made.hulls.at(0);
-    EXPECT_TRUE(hull.certified);
+    EXPECT_TRUE(hull.certified());
     const double reach = reach_at_points(made);
-    EXPECT_GE(hull.distance.upper, reach - 1e-12);
-    EXPECT_GE(hull.distance_from_triangles.upper, reach - 1e-12);
-    EXPECT_LE(hull.distance.lower, reach + 1e-12);
-    EXPECT_LE(hull.distance.upper, reach + 0.002);
+    EXPECT_GE(hull.verdict.distance().upper, reach - 1e-12);
+    EXPECT_GE(hull.verdict.distance_to_triangles->upper, reach - 1e-12);
+    EXPECT_LE(hull.verdict.distance().lower, reach + 1e-12);
+    EXPECT_LE(hull.verdict.distance().upper, reach + 0.002);
   }
 }
 
@@ -597,7 +598,7 @@ TEST_F(CurvedLinksTest, KeepTheLargestDistanceFromTheFormsThemselves) {
   options_.budget.max_distance = 0.0035;
   for (const LinkHulls& made : built_and_from_cache()) {
     EXPECT_TRUE(made.hulls.at(0).within_bounds);
-    EXPECT_LE(made.hulls[0].distance.upper, 0.0035);
+    EXPECT_LE(made.hulls[0].verdict.distance().upper, 0.0035);
     EXPECT_LE(reach_at_points(made), 0.0035);
   }
 }
@@ -607,7 +608,7 @@ TEST_F(CurvedLinksTest, KeepNoDistanceThatIsLessThanThatOfTheMeshesAround) {
   make_links({{cylinder_}});
   options_.budget.max_distance = 0.003;
   for (const LinkHulls& made : built_and_from_cache()) {
-    EXPECT_TRUE(made.hulls.at(0).certified);
+    EXPECT_TRUE(made.hulls.at(0).certified());
     EXPECT_FALSE(made.hulls[0].within_bounds);
     ASSERT_FALSE(made.hulls[0].notes.empty());
     EXPECT_NE(made.hulls[0].notes.back().find("curved"), std::string::npos);
@@ -619,9 +620,9 @@ TEST_F(CurvedLinksTest, SpheresKeepTheLargestDistanceFromTheFormsThemselves) {
   options_.budget = {.collision = Collision::Spheres, .spheres = 200, .max_distance = 0.03};
   const LinkHulls made = link_hulls(robot_, options_).at(0);
   const LinkHull& cover = made.hulls.at(0);
-  EXPECT_TRUE(cover.certified && cover.within_bounds);
-  EXPECT_LE(cover.distance.upper, 0.03);
-  EXPECT_GE(cover.distance.upper, reach_at_points(made) - 1e-12);
+  EXPECT_TRUE(cover.certified() && cover.within_bounds);
+  EXPECT_LE(cover.verdict.distance().upper, 0.03);
+  EXPECT_GE(cover.verdict.distance().upper, reach_at_points(made) - 1e-12);
 }
 
 TEST_F(CurvedLinksTest, VolumesAreThoseOfTheForms) {
@@ -647,15 +648,15 @@ TEST_F(CurvedLinksTest, AreNotSharedWithMeshesOfTheSameTriangles) {
   const std::vector<LinkHulls> made = link_hulls(robot_, options_);
   ASSERT_EQ(made[0].triangles, made[1].triangles);
   EXPECT_EQ(made[0].hulls.at(0).mesh, made[1].hulls.at(0).mesh);
-  EXPECT_NEAR(made[0].hulls[0].distance.upper - made[1].hulls[0].distance.upper, 0.0012, 1e-4);
-  EXPECT_EQ(made[0].hulls[0].distance.lower, made[1].hulls[0].distance.lower);
+  EXPECT_NEAR(made[0].hulls[0].verdict.distance().upper - made[1].hulls[0].verdict.distance().upper, 0.0012, 1e-4);
+  EXPECT_EQ(made[0].hulls[0].verdict.distance().lower, made[1].hulls[0].verdict.distance().lower);
   EXPECT_NEAR(made[1].sealed_volume / made[0].sealed_volume, 1.0032, 1e-3);
 }
 
 TEST_F(CurvedLinksTest, MayBeFlat) {
   make_links({{{.form = CylinderForm{0.5, 0}}}, {{.form = CylinderForm{0, 1}}}});
   for (const LinkHulls& made : link_hulls(robot_, options_)) {
-    EXPECT_TRUE(made.hulls.at(0).certified);
+    EXPECT_TRUE(made.hulls.at(0).certified());
     EXPECT_LT(made.sealed_volume, 1e-9);
   }
 }

@@ -182,7 +182,7 @@ TEST(WorkspaceSweep, OfOneJointIsAboutAsLargeAsWhatIsPassed) {
   for (const TriangleMesh& piece : made.pieces)
     for (const Vec3& p : piece.positions) highest = std::max(highest, norm(Vec3{p.x, p.y, 0}));
   EXPECT_NEAR(highest, std::sqrt(0.5), 0.05);
-  EXPECT_LT(made.reach, 0.05);
+  EXPECT_LT(made.verdict.distance().upper, 0.05);
 }
 
 TEST(WorkspaceSweep, RefusesJointsWithoutBounds) {

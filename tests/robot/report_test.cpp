@@ -42,8 +42,9 @@ LinkHulls certified_hulls(std::size_t link) {
   LinkHull hull;
   hull.target_faces = 100;
   hull.mesh = scaled(make_sample("sphere", 100), 1.2);
-  hull.certified = hull.target_reached = true;
-  hull.proof = "coverage", hull.source = "mesh";
+  hull.verdict.certified = hull.target_reached = true;
+  hull.verdict.proof = "coverage", hull.source = "mesh";
+  hull.verdict.distance_to_triangles = DistanceBounds{};
   hull.volume = 4.2;
   hulls.hulls.push_back(hull);
   return hulls;
@@ -124,7 +125,7 @@ TEST(ReportFacts, AHullThatIsNotCertifiedIsAFailureAndALargeOneNeedsALook) {
   EXPECT_TRUE(findings_of(input).front().good);
 
   input.hulls[0].hulls[0].volume = 4.8;
-  input.hulls[1].hulls[0].certified = false;
+  input.hulls[1].hulls[0].verdict.certified = false;
   const std::vector<Mark> marks = marks_of(input);
   ASSERT_EQ(marks.size(), 2);
   EXPECT_EQ(marks[0].severity, Severity::Look);
@@ -148,9 +149,13 @@ TEST(ReportFacts, OpeningsAreToldWithTheDistanceFromTheTriangles) {
   ReportInput input = input_of(file);
   input.hulls = {certified_hulls(0)};
   LinkHull& hull = input.hulls[0].hulls[0];
-  EXPECT_TRUE(report_json(input)["links"][0]["hulls"][0]["distance_from_triangles"].is_null());
-  hull.has_openings = true, hull.distance_from_triangles.lower = hull.distance_from_triangles.upper = 0.5;
-  EXPECT_EQ(report_json(input)["links"][0]["hulls"][0]["distance_from_triangles"]["at_most"], 0.5);
+  const auto verdict = [&] { return report_json(input)["links"][0]["hulls"][0]["verdict"]; };
+  EXPECT_TRUE(verdict()["distance_to_solid"].is_null()) << "nothing is known of one";
+  hull.verdict.cap_faces = 2, hull.verdict.distance_to_solid = DistanceBounds{.upper = 0.25};
+  hull.verdict.distance_to_triangles->lower = hull.verdict.distance_to_triangles->upper = 0.5;
+  EXPECT_EQ(verdict()["distance_to_triangles"]["upper"], 0.5);
+  EXPECT_EQ(verdict()["distance_to_solid"]["upper"], 0.25);
+  EXPECT_EQ(verdict()["cap_faces"], 2);
 }
 
 TEST(ReportFacts, NoPlaceIsToldWhereNoneIsKnown) {
@@ -174,7 +179,7 @@ TEST(ReportFacts, PiecesAndSpheresAreCalledSo) {
   ReportInput input = input_of(file);
   input.hulls = {certified_hulls(0)};
   LinkHull& cover = input.hulls[0].hulls[0];
-  cover.volume = 6, cover.target_faces = 0, cover.source = "", cover.proof = "union";  // large, as covers are
+  cover.volume = 6, cover.target_faces = 0, cover.source = "", cover.verdict.proof = "union";  // large, as covers are
 
   input.hulls[0].collision = Collision::Convex;
   cover.pieces = {make_sample("box", 12), make_sample("box", 12)};
@@ -190,7 +195,7 @@ TEST(ReportFacts, PiecesAndSpheresAreCalledSo) {
   EXPECT_TRUE(has(report_html(input), "inside of its translucent 2 convex pieces"));
 
   input.hulls[0].collision = Collision::Spheres;
-  cover.pieces.clear(), cover.balls = {{{}, 1}, {{}, 2}, {{}, 3}}, cover.certified = false;
+  cover.pieces.clear(), cover.balls = {{{}, 1}, {{}, 2}, {{}, 3}}, cover.verdict.certified = false;
   ASSERT_EQ(marks_of(input).size(), 1U);
   EXPECT_EQ(marks_of(input)[0].text, "The union of 3 spheres is not certified: it may not enclose the link.");
   const nlohmann::json spheres = report_json(input)["links"][0];
@@ -243,7 +248,7 @@ TEST(ReportJson, HasAnEntryForEachLinkAndNoNumberThatIsNone) {
   input.hulls = {certified_hulls(0), {}};
   input.hulls[1].link = 1;
   input.hulls[0].sealed_volume = kNan;
-  input.hulls[0].hulls[0].distance.upper = kInfinity;
+  input.hulls[0].hulls[0].verdict.distance_to_triangles->upper = kInfinity;
   input.shipped = {check_with(0, CheckVerdict::Leaks), check_with(1, CheckVerdict::NoVisual)};
   input.shipped[0].worst_point = {kNan, 0, 1};
   const nlohmann::json report = nlohmann::json::parse(report_json(input).dump());
@@ -302,7 +307,7 @@ TEST(ReportJunit, AHullThatIsNotCertifiedFails) {
   ReportInput input = input_of(file);
   input.hulls = {certified_hulls(0)};
   EXPECT_EQ(count(report_junit(input), "<failure"), 0);
-  input.hulls[0].hulls[0].certified = false;
+  input.hulls[0].hulls[0].verdict.certified = false;
   EXPECT_EQ(count(report_junit(input), "<failure"), 1);
 }
 
@@ -355,7 +360,7 @@ TEST(ReportPage, ShowsTextsOfTheRobotAndInterpretsNone) {
   ReportInput input = input_of(file);
   input.hulls = {certified_hulls(0), {}};
   input.hulls[0].repairs = {evil}, input.hulls[0].hulls[0].notes = {evil};
-  input.hulls[0].hulls[0].proof = input.hulls[0].hulls[0].source = evil;
+  input.hulls[0].hulls[0].source = evil;
   input.hulls[1].link = 1, input.hulls[1].status = LinkStatus::Skipped, input.hulls[1].why = evil;
   input.shipped = {check_with(0, CheckVerdict::Leaks)};
   input.shipped[0].notes = {evil};

@@ -116,7 +116,7 @@ TEST_F(WriteRobotTest, KeepsLongNamesShortAndDistinct) {
 TEST_F(WriteRobotTest, WritesAFileForEachConvexPiece) {
   how_.faces = {500}, how_.format = "obj";
   hulls_[0].collision = Collision::Convex;
-  hulls_[0].hulls = {{.pieces = {make_sample("sphere", 80), make_sample("box", 12)}, .certified = true}};
+  hulls_[0].hulls = {{.pieces = {make_sample("sphere", 80), make_sample("box", 12)}, .verdict = {.certified = true}}};
   const std::filesystem::path out = folder_.path() / "out";
   write_all(output_files(file_, hulls_, out, how_).files, out);
   const RobotFile again = read_robot(out / "arm.urdf");
@@ -135,7 +135,8 @@ TEST_F(WriteRobotTest, KeepsTheNamesOfPiecesDistinctFromThoseOfLinks) {
       << "<robot name=\"two\"><link name=\"a\">" << visual << "<link name=\"a_01\">" << visual
       << "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"a_01\"/></joint></robot>";
   std::vector<LinkHulls> hulls{hulls_[0], hulls_[0]};
-  hulls[0].collision = Collision::Convex, hulls[0].hulls = {{.pieces = {make_sample("sphere", 80)}, .certified = true}};
+  hulls[0].collision = Collision::Convex,
+  hulls[0].hulls = {{.pieces = {make_sample("sphere", 80)}, .verdict = {.certified = true}}};
   hulls[1].link = 1;
   how_.faces = {500};
   std::set<std::filesystem::path> names;
@@ -148,7 +149,7 @@ TEST_F(WriteRobotTest, KeepsTheNamesOfPiecesDistinctFromThoseOfLinks) {
 TEST_F(WriteRobotTest, WritesSpheresIntoTheRobotAndIntoAFileOfTheirOwn) {
   how_.faces = {500};
   hulls_[0].collision = Collision::Spheres, hulls_[0].frame = {};
-  hulls_[0].hulls = {{.balls = {{{0.1, -0.2, 1e-7}, 0.125}, {{0, 0, 1}, 0.3}}, .certified = true}};
+  hulls_[0].hulls = {{.balls = {{{0.1, -0.2, 1e-7}, 0.125}, {{0, 0, 1}, 0.3}}, .verdict = {.certified = true}}};
   const std::filesystem::path out = folder_.path() / "out";
   const std::vector<OutputFile> files = output_files(file_, hulls_, out, how_).files;
   EXPECT_EQ(files.back().path, "arm_spheres.yaml");
@@ -183,7 +184,7 @@ TEST_F(WriteRobotTest, WritesSpheresThatALinkHadBeforeToo) {
 }
 
 TEST_F(WriteRobotTest, KeepsTheCollisionElementsOfALinkWithoutACertificate) {
-  for (LinkHull& hull : hulls_[0].hulls) hull.certified = false;
+  for (LinkHull& hull : hulls_[0].hulls) hull.verdict.certified = false;
   const std::filesystem::path out = folder_.path() / "out";
   write_all(output_files(file_, hulls_, out, how_).files, out);
   const RobotFile again = read_robot(out / "arm.urdf");

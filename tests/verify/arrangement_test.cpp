@@ -8,6 +8,7 @@
 #include "effort.h"
 #include "progress.h"
 #include "prohull/enclosure.h"
+#include "prohull/union_verification.h"
 #include "random.h"
 #include "verify/oracle.h"
 #include "verify/random_chains.h"
@@ -159,6 +160,27 @@ TEST(HullsThatOverlapOften, AreNotSaidToEncloseWhereFacesAreUndecided) {
   EXPECT_EQ(verify::undecided(2), "undecided: 2 faces would take too long, because they meet so many others");
   const EnclosureReport clean = verify_enclosure(octahedron(), box({-1, -1, -1}, {1, 1, 1}), {.max_steps = 0});
   EXPECT_TRUE(clean.encloses) << "without contacts no step is taken";
+}
+
+TEST(HullsThatOverlapOften, AreUndecidedAfterAsManyStepsAsAreAllowed) {
+  const TriangleMesh mesh = scattered_tetrahedra(20, 1);
+  const Verification found = verify_hull(mesh, mesh, HullSide::Outer, {.max_steps = 1000});
+  EXPECT_FALSE(found.certified || found.is_any(Answer::No));
+  EXPECT_EQ(found.encloses_solid, Answer::Undecided);
+  EXPECT_GT(found.faces_undecided, 0U);
+  EXPECT_TRUE(verify_hull(mesh, mesh).certified);
+}
+
+TEST(PiecesThatOverlapOften, AreUndecidedAfterAsManyStepsAsAreAllowed) {
+  const TriangleMesh many = scattered_tetrahedra(20, 1);
+  for (const bool solid_only : {false, true}) {
+    const UnionVerification found =
+        verify_union(std::vector{many}, many, {.solid_only = solid_only, .max_steps = solid_only ? 1000U : 1U});
+    EXPECT_FALSE(found.certified || found.is_any(Answer::No)) << solid_only;
+    EXPECT_GT(found.faces_undecided, 0U) << solid_only;
+    EXPECT_NE(found.why_not.find("undecided"), std::string::npos) << found.why_not;
+  }
+  EXPECT_TRUE(verify_union(std::vector{many}, many).certified);
 }
 
 TEST(HullsThatOverlapOften, TellProgressWithinOneTriangle) {

@@ -31,21 +31,21 @@ Verification verified(const TriangleMesh& hull, const TriangleMesh& original, do
 
 TEST(VerifyGap, IsKeptByAHullPreciselySoFarAway) {
   const Verification found = verified(kLarge, kCube, 0.25);
-  EXPECT_TRUE(found.encloses && found.keeps_gap && found.holds());
+  EXPECT_TRUE(found.encloses && found.keeps_gap && found.certified);
   EXPECT_NEAR(found.least_distance, 0.25, 1e-12);
   const Verification more = verified(kLarge, kCube, above(0.25));
   EXPECT_TRUE(more.encloses);
-  EXPECT_FALSE(more.keeps_gap || more.holds());
+  EXPECT_FALSE(more.keeps_gap || more.certified);
   EXPECT_EQ(more.faces_too_near, 12u);
   EXPECT_NE(more.why_not.find("12 faces"), std::string::npos) << more.why_not;
 }
 
 TEST(VerifyGap, IsKeptByAnInnerHull) {
-  EXPECT_TRUE(verified(kCube, kLarge, 0.25, HullSide::Inner).holds());
-  EXPECT_FALSE(verified(kCube, kLarge, above(0.25), HullSide::Inner).holds());
+  EXPECT_TRUE(verified(kCube, kLarge, 0.25, HullSide::Inner).certified);
+  EXPECT_FALSE(verified(kCube, kLarge, above(0.25), HullSide::Inner).certified);
   const Verification outside = verified(kLarge, kCube, 0.25, HullSide::Inner);
   EXPECT_TRUE(outside.keeps_gap) << "but on the wrong side";
-  EXPECT_FALSE(outside.holds());
+  EXPECT_FALSE(outside.certified);
 }
 
 TEST(VerifyGap, SaysWhereItIsNotKept) {
@@ -126,7 +126,7 @@ TEST(VerifyGap, IsDecidedInEveryUnit) {
   for (int exponent = -498; exponent <= 331; exponent += 10) {
     const TriangleMesh hull = scaled(kLarge, exponent), cube = scaled(kCube, exponent);
     const double gap = std::ldexp(0.25, exponent);
-    EXPECT_TRUE(verified(hull, cube, gap).holds()) << exponent;
+    EXPECT_TRUE(verified(hull, cube, gap).certified) << exponent;
     EXPECT_FALSE(verified(hull, cube, above(gap)).keeps_gap) << exponent;
     EXPECT_FALSE(verified(hull, cube, 1e100).keeps_gap) << exponent;
     EXPECT_EQ(verified(hull, cube, gap).least_distance,
@@ -136,8 +136,8 @@ TEST(VerifyGap, IsDecidedInEveryUnit) {
 
 TEST(VerifyGap, IsOfEveryTriangleOfAnOriginalThatIsNotClosed) {
   const TriangleMesh stray = together(kCube, make({{0.5, 0.5, 1.2}, {0.6, 0.5, 1.2}, {0.5, 0.6, 1.2}}, {{0, 1, 2}}));
-  EXPECT_TRUE(verified(kLarge, stray, 0.04).holds());
-  EXPECT_FALSE(verified(kLarge, stray, 0.06).holds());
+  EXPECT_TRUE(verified(kLarge, stray, 0.04).certified);
+  EXPECT_FALSE(verified(kLarge, stray, 0.06).certified);
 }
 
 TEST(VerifyGap, IsRefusedWhereItMeansNothing) {

@@ -48,10 +48,10 @@ TEST(UnionOfPieces, MayShareWalls) {
   const TriangleMesh original = box({0, 0, 0}, {1, 1, 1});
   Pieces pieces{box({0, 0, 0}, {third, 1, 1}), box({third, 0, 0}, {1, 1, 1})};
   const UnionVerification found = verify_union(pieces, original);
-  EXPECT_TRUE(found.covers) << found.why_not;
+  EXPECT_TRUE(found.certified) << found.why_not;
   EXPECT_TRUE(found.original_closed);
   EXPECT_NEAR(found.void_ratio, 0, 1e-6);
-  EXPECT_TRUE(verify_union(small_cubes(), kCube).covers);
+  EXPECT_TRUE(verify_union(small_cubes(), kCube).certified);
 }
 
 TEST(UnionOfPieces, LeavesASlitOfOneUlp) {
@@ -59,7 +59,7 @@ TEST(UnionOfPieces, LeavesASlitOfOneUlp) {
   const TriangleMesh original = box({0, 0, 0}, {1, 1, 1});
   Pieces pieces{box({0, 0, 0}, {third, 1, 1}), box({std::nextafter(third, 1), 0, 0}, {1, 1, 1})};
   const UnionVerification found = verify_union(pieces, original);
-  EXPECT_FALSE(found.covers);
+  EXPECT_FALSE(found.certified);
   EXPECT_EQ(found.faces_outside, 8u);
   ASSERT_FALSE(found.worst.empty());
   EXPECT_NEAR(found.worst[0].point.x, third, 1e-15);
@@ -68,7 +68,7 @@ TEST(UnionOfPieces, LeavesASlitOfOneUlp) {
 TEST(UnionOfPieces, IsFoundTooSmallByOneUlpInAnyCoordinate) {
   const Pieces pieces{box({0, 0, 0}, {0.3, 1, 1}), box({0.3, 0, 0}, {1, 1, 1})};
   const TriangleMesh original = box({0, 0, 0}, {1, 1, 1});
-  ASSERT_TRUE(verify_union(pieces, original).covers);
+  ASSERT_TRUE(verify_union(pieces, original).certified);
   for (std::size_t i = 0; i < pieces.size(); ++i)
     for (const VertexId v : pieces[i].positions.ids())
       for (int axis = 0; axis < 3; ++axis) {
@@ -77,27 +77,27 @@ TEST(UnionOfPieces, IsFoundTooSmallByOneUlpInAnyCoordinate) {
         x = std::nextafter(x, 0.5);
         const bool slides_along_the_wall = axis == 0 && x > 0.2 && x < 0.4;
         const UnionVerification found = verify_union(mutant, original);
-        EXPECT_FALSE(found.covers && !slides_along_the_wall) << i << ' ' << index(v) << ' ' << axis;
+        EXPECT_FALSE(found.certified && !slides_along_the_wall) << i << ' ' << index(v) << ' ' << axis;
         x = std::nextafter(std::nextafter(x, x < 0.5 ? -1 : 2), x < 0.5 ? -1 : 2);
         if (!slides_along_the_wall) {
-          EXPECT_TRUE(verify_union(mutant, original).covers);
+          EXPECT_TRUE(verify_union(mutant, original).certified);
         }
       }
 }
 
 TEST(UnionOfPieces, LeavesAHoleInside) {
   const UnionVerification found = verify_union(small_cubes(kMiddle), kCube);
-  EXPECT_FALSE(found.covers);
+  EXPECT_FALSE(found.certified);
   EXPECT_EQ(found.faces_outside, 0u);
   EXPECT_EQ(found.holes, 1u);
   EXPECT_NE(found.why_not.find("inside open"), std::string::npos) << found.why_not;
-  EXPECT_FALSE(verify_union(small_cubes(kMiddle), kCube, {.solid_only = true}).covers);
+  EXPECT_FALSE(verify_union(small_cubes(kMiddle), kCube, {.solid_only = true}).certified);
 }
 
 TEST(UnionOfPieces, OutsideOfASurfaceTouchesAllTrianglesButNotTheInside) {
   Pieces pieces = small_cubes(kMiddle);
   const UnionVerification found = verify_union(pieces, box({1, 1, 1}, {2, 2, 2}));
-  EXPECT_FALSE(found.covers);
+  EXPECT_FALSE(found.certified);
   EXPECT_EQ(found.faces_outside, 0u);
   EXPECT_GE(found.holes, 1u);
 }
@@ -106,18 +106,27 @@ TEST(UnionOfPieces, TurnsPiecesThatAreInsideOut) {
   Pieces pieces = small_cubes();
   pieces[3] = inside_out(pieces[3]);
   const UnionVerification found = verify_union(pieces, kCube);
-  EXPECT_TRUE(found.covers) << found.why_not;
+  EXPECT_TRUE(found.certified) << found.why_not;
   EXPECT_EQ(found.turned_pieces, 1u);
 }
 
 TEST(UnionOfPieces, TakesPiecesThatAreNotConvex) {
   const TriangleMesh ring = torus(24, 12);
   const UnionVerification found = verify_union(Pieces{ring, box({5, 5, 5}, {6, 6, 6})}, ring);
-  EXPECT_TRUE(found.covers) << found.why_not;
+  EXPECT_TRUE(found.certified) << found.why_not;
   EXPECT_TRUE(std::isnan(found.union_volume));
   TriangleMesh smaller = ring;
   smaller.positions[VertexId(0)].x = std::nextafter(smaller.positions[VertexId(0)].x, 0);  // farthest out
-  EXPECT_FALSE(verify_union(Pieces{smaller}, ring).covers);
+  EXPECT_FALSE(verify_union(Pieces{smaller}, ring).certified);
+}
+
+TEST(UnionOfPieces, AnswersForTheSolidAndForTheTrianglesApart) {
+  const auto answers = [](const Verdict& found) { return std::pair(found.encloses_solid, found.covers_triangles); };
+  EXPECT_EQ(answers(verify_union(small_cubes(), kCube)), std::pair(Answer::Yes, Answer::Yes));
+  EXPECT_EQ(answers(verify_union(small_cubes(kMiddle), kCube)), std::pair(Answer::No, Answer::Yes));
+  EXPECT_EQ(answers(verify_union(small_cubes(), kCube, {.solid_only = true})),
+            std::pair(Answer::Yes, Answer::NotAsked));
+  EXPECT_EQ(answers(verify_union(Pieces{small_cubes()[0]}, kCube)), std::pair(Answer::Undecided, Answer::No));
 }
 
 TEST(UnionOfPieces, AsksOfAnOpenOriginalOnlyTheTriangles) {
@@ -125,9 +134,9 @@ TEST(UnionOfPieces, AsksOfAnOpenOriginalOnlyTheTriangles) {
   open.triangles.pop_back();
   open.triangles.push_back(open.triangles[FaceId(0)]);
   open.triangles.push_back({open.positions.push_back({kInfinity, 0, 0}), VertexId(0), VertexId(1)});
-  EXPECT_FALSE(verify_union(small_cubes(kMiddle), open).covers) << "nobody knows where the last triangle is";
+  EXPECT_FALSE(verify_union(small_cubes(kMiddle), open).certified) << "nobody knows where the last triangle is";
   const UnionVerification found = verify_union(small_cubes(kMiddle), open, {.finite_only = true});
-  EXPECT_TRUE(found.covers) << found.why_not;
+  EXPECT_TRUE(found.certified) << found.why_not;
   EXPECT_FALSE(found.original_closed);
   ASSERT_EQ(found.notes.size(), 2u);
   EXPECT_NE(found.notes[0].find("1 face of the original is not finite"), std::string::npos);
@@ -191,7 +200,7 @@ TEST(UnionOfPieces, AgreesWithBruteForce) {
     for (const FaceId f : original.triangles.ids()) outside += !chain.covers(original.triangle(f), random);
     covers = outside == 0 && oracle::Chain(original).is_enclosed_by(chain, random);
     const UnionVerification found = verify_union(pieces, original);
-    ASSERT_EQ(found.covers, covers) << "round " << i;
+    ASSERT_EQ(found.certified, covers) << "round " << i;
     ASSERT_EQ(found.faces_outside, outside) << "round " << i;
     ++(covers ? accepted : rejected);
   }
@@ -206,19 +215,19 @@ const TriangleMesh kInscribed =
 
 TEST(UnionOfBalls, MayTouchCornersButNotByOneUlpLess) {
   const UnionVerification found = verify_union(std::vector<Ball>{{{0, 0, 0}, 3}}, kInscribed, true);
-  EXPECT_TRUE(found.covers) << found.why_not;
+  EXPECT_TRUE(found.certified) << found.why_not;
   const UnionVerification less = verify_union(std::vector<Ball>{{{0, 0, 0}, std::nextafter(3, 0)}}, kInscribed, false);
-  EXPECT_FALSE(less.covers);
+  EXPECT_FALSE(less.certified);
   EXPECT_EQ(less.faces_outside, kInscribed.face_count());
   EXPECT_TRUE(less.notes.empty()) << "no point of doubt";
 }
 
 TEST(UnionOfBalls, MayTouchEachOther) {
   const TriangleMesh segment = make({{-2, 0, 0}, {2, 0, 0}}, {{0, 1, 1}});
-  EXPECT_TRUE(verify_union(std::vector<Ball>{{{-1, 0, 0}, 1}, {{1, 0, 0}, 1}}, segment, false).covers);
+  EXPECT_TRUE(verify_union(std::vector<Ball>{{{-1, 0, 0}, 1}, {{1, 0, 0}, 1}}, segment, false).certified);
   const double less = std::nextafter(1, 0);
-  EXPECT_FALSE(verify_union(std::vector<Ball>{{{-1, 0, 0}, 1}, {{1 + 1e-15, 0, 0}, 1}}, segment, false).covers);
-  EXPECT_FALSE(verify_union(std::vector<Ball>{{{-1, 0, 0}, less}, {{1, 0, 0}, 1}}, segment, false).covers);
+  EXPECT_FALSE(verify_union(std::vector<Ball>{{{-1, 0, 0}, 1}, {{1 + 1e-15, 0, 0}, 1}}, segment, false).certified);
+  EXPECT_FALSE(verify_union(std::vector<Ball>{{{-1, 0, 0}, less}, {{1, 0, 0}, 1}}, segment, false).certified);
 }
 
 // No point outside is known, so that none is told.
@@ -228,7 +237,7 @@ TEST(UnionOfBalls, WithAPointInDoubtAreUndecided) {
   const double third = 1.0 / 3;
   const std::vector<Ball> balls{{{third - 2, 0, 0}, 2}, {{third + 2, 0, 0}, 2}};
   const UnionVerification found = verify_union(balls, segment, false);
-  EXPECT_FALSE(found.covers);
+  EXPECT_FALSE(found.certified);
   EXPECT_EQ(found.faces_outside, 0u);
   EXPECT_TRUE(found.worst.empty());
   EXPECT_FALSE(found.point_outside);
@@ -256,7 +265,7 @@ TEST(UnionOfBalls, ThatLeaveAPointOutsideBesideOneInDoubtDoNotCover) {
   const std::vector<Ball> balls{{{third - 2, 0, 0}, 2}, {{third + 2, 0, 0}, 2}};
   const TriangleMesh original = make({{-1, 0, 0}, {1, 0, 0}, {0.5, 0.25, 0}}, {{0, 1, 1}, {0, 1, 2}});
   const UnionVerification found = verify_union(balls, original, false);
-  EXPECT_FALSE(found.covers);
+  EXPECT_FALSE(found.certified);
   EXPECT_EQ(found.faces_outside, 1u);
   EXPECT_EQ(found.faces_undecided, 1u);
   ASSERT_TRUE(found.point_outside);
@@ -275,7 +284,7 @@ TEST(UnionOfBalls, AreUndecidedInsideWhereTheyTouch) {
       balls.back().center[axis] += away;
     }
   const UnionVerification found = verify_union(balls, box({0, 0, 0}, {1, 1, 1}), true);
-  EXPECT_FALSE(found.covers);
+  EXPECT_FALSE(found.certified);
   EXPECT_EQ(found.faces_outside + found.faces_undecided + found.holes, 0u);
   EXPECT_TRUE(found.inside_undecided);
   EXPECT_NE(found.why_not.find("undecided"), std::string::npos) << found.why_not;
@@ -288,11 +297,20 @@ std::vector<Ball> balls_around_small_cubes(int left_out = -1) {
   return balls;
 }
 
+TEST(UnionOfBalls, AnswersForTheSolidOnlyWhereItIsAsked) {
+  const UnionVerification surface = verify_union(balls_around_small_cubes(kMiddle), kCube, false);
+  EXPECT_EQ(surface.covers_triangles, Answer::Yes);
+  EXPECT_EQ(surface.encloses_solid, Answer::NotAsked);
+  const UnionVerification inside = verify_union(balls_around_small_cubes(kMiddle), kCube, true);
+  EXPECT_EQ(inside.covers_triangles, Answer::Yes);
+  EXPECT_EQ(inside.encloses_solid, Answer::No);
+}
+
 TEST(UnionOfBalls, LeavesAHoleInside) {
-  EXPECT_TRUE(verify_union(balls_around_small_cubes(), kCube, true).covers);
-  EXPECT_TRUE(verify_union(balls_around_small_cubes(kMiddle), kCube, false).covers);
+  EXPECT_TRUE(verify_union(balls_around_small_cubes(), kCube, true).certified);
+  EXPECT_TRUE(verify_union(balls_around_small_cubes(kMiddle), kCube, false).certified);
   const UnionVerification found = verify_union(balls_around_small_cubes(kMiddle), kCube, true);
-  EXPECT_FALSE(found.covers);
+  EXPECT_FALSE(found.certified);
   EXPECT_EQ(found.faces_outside, 0u);
   EXPECT_EQ(found.holes, 1u);
   EXPECT_NE(found.why_not.find("inside open"), std::string::npos) << found.why_not;
@@ -301,13 +319,13 @@ TEST(UnionOfBalls, LeavesAHoleInside) {
 TEST(UnionOfBalls, OutsideOfTheSolidNeedNotCover) {
   const TriangleMesh hollow = together(kCube, inside_out(box({1, 1, 1}, {2, 2, 2})));
   std::vector<Ball> balls = balls_around_small_cubes(kMiddle);
-  EXPECT_TRUE(verify_union(balls, hollow, true).covers);
+  EXPECT_TRUE(verify_union(balls, hollow, true).certified);
 }
 
 TEST(UnionOfBalls, NamesTheFarthestTriangle) {
   std::vector<Ball> balls = balls_around_small_cubes(0);
   const UnionVerification found = verify_union(balls, kCube, false);
-  EXPECT_FALSE(found.covers);
+  EXPECT_FALSE(found.certified);
   EXPECT_EQ(found.faces_outside, 6u);
   ASSERT_FALSE(found.worst.empty());
   EXPECT_EQ(found.worst[0].point, (Vec3{0, 0, 0}));
@@ -329,7 +347,7 @@ TEST(UnionOfBalls, AgreesWithPointsInExactArithmetic) {
     std::vector<Ball> balls;
     for (int k = 0; k < 5; ++k)
       balls.push_back({{coordinate(random), coordinate(random), coordinate(random)}, radius(random)});
-    const bool covers = verify_union(balls, original, true).covers;
+    const bool covers = verify_union(balls, original, true).certified;
     accepted += covers;
     bool all_points = true;
     for (int k = 0; k < 3000 && all_points; ++k) {

@@ -54,7 +54,7 @@ TEST(VerifyHull, OfAClosedOriginalTheSolidMustBeEnclosedAndEveryTriangleCovered)
   EXPECT_TRUE(found.encloses);
   EXPECT_EQ(found.proof, "enclosure");
   EXPECT_TRUE(found.original_closed);
-  EXPECT_TRUE(found.every_triangle);
+  EXPECT_EQ(found.covers_triangles, Answer::Yes);
   EXPECT_TRUE(found.why_not.empty());
   EXPECT_DOUBLE_EQ(found.hull_volume, 27);
   EXPECT_DOUBLE_EQ(found.original_volume, 1);
@@ -65,6 +65,20 @@ TEST(VerifyHull, OfAClosedOriginalTheSolidMustBeEnclosedAndEveryTriangleCovered)
   EXPECT_EQ(reversed.faces_outside, 12u);
   EXPECT_FALSE(reversed.worst.empty());
   EXPECT_FALSE(reversed.why_not.empty());
+}
+
+TEST(VerifyHull, AnswersForTheSolidAndForTheTrianglesApart) {
+  const auto answers = [](const Verdict& found) { return std::pair(found.encloses_solid, found.covers_triangles); };
+  const TriangleMesh folded = box_with_a_spike_inside_out(), open = without_a_face(kSmall);
+  EXPECT_EQ(answers(verify_hull(kLarge, kSmall)), std::pair(Answer::Yes, Answer::Yes));
+  EXPECT_EQ(answers(verify_hull(kSmall, kLarge)), std::pair(Answer::No, Answer::Undecided)) << "not looked at any more";
+  EXPECT_EQ(answers(verify_hull(kLarge, folded)), std::pair(Answer::Yes, Answer::No));
+  EXPECT_EQ(answers(verify_hull(kLarge, folded, HullSide::Outer, {.solid_only = true})),
+            std::pair(Answer::Yes, Answer::NotAsked));
+  EXPECT_EQ(answers(verify_hull(kLarge, open)), std::pair(Answer::NotAsked, Answer::Yes));
+  EXPECT_EQ(answers(verify_hull(kLarge, open, HullSide::Outer, {.closed = &kSmall})),
+            std::pair(Answer::Yes, Answer::Yes));
+  EXPECT_EQ(answers(verify_hull(kSmall, kLarge, HullSide::Inner)), std::pair(Answer::Yes, Answer::Yes));
 }
 
 TEST(VerifyHull, SaysNoToAFoldThatSticksOut) {
@@ -78,7 +92,7 @@ TEST(VerifyHull, SaysNoToAFoldThatSticksOut) {
   EXPECT_TRUE(std::min({t.a.z, t.b.z, t.c.z}) == -2) << "the face has its number in the original";
   const Verification solid = verify_hull(kLarge, original, HullSide::Outer, {.solid_only = true});
   EXPECT_TRUE(solid.encloses) << solid.why_not;
-  EXPECT_FALSE(solid.every_triangle);
+  EXPECT_EQ(solid.covers_triangles, Answer::NotAsked);
   EXPECT_TRUE(verify_hull(box({-1, -1, -2}, {2, 2, 2}), original).encloses);
 }
 
@@ -107,7 +121,7 @@ TEST(VerifyHull, OfAnOpenOriginalEveryTriangleMustBeCovered) {
   EXPECT_TRUE(found.encloses);
   EXPECT_EQ(found.proof, "coverage");
   EXPECT_FALSE(found.original_closed);
-  EXPECT_TRUE(found.every_triangle);
+  EXPECT_EQ(found.covers_triangles, Answer::Yes);
   EXPECT_TRUE(std::isnan(found.original_volume));
   EXPECT_TRUE(std::isnan(found.void_ratio));
   EXPECT_TRUE(says(found, "not closed"));
@@ -269,7 +283,7 @@ TEST(VerifyHull, ComparesWithAClosedMeshThatStandsForAnOpenOne) {
   const TriangleMesh inside = box({0.25, 0.25, 0.25}, {0.5, 0.5, 0.5});
   EXPECT_THROW(verify_hull(inside, open, HullSide::Inner), InputError) << "it has no inside";
   const Verification inner = verify_hull(inside, open, HullSide::Inner, with);
-  EXPECT_TRUE(inner.encloses && inner.has_solid && !inner.original_closed);
+  EXPECT_TRUE(inner.encloses && inner.encloses_solid == Answer::Yes && !inner.original_closed);
   EXPECT_EQ(inner.cap_faces, 2u);
   EXPECT_FALSE(verify_hull(box({0.5, 0.5, 0.5}, {1.5, 0.75, 0.75}), open, HullSide::Inner, with).encloses);
   EXPECT_TRUE(verify_hull(kLarge, open, HullSide::Outer, with).encloses);

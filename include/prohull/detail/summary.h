@@ -10,9 +10,14 @@ namespace prohull {
 
 // The sentences of summaries, which the command line prints and the page in the browser shows.
 
-/// What is proven, or what is not: "hull.stl encloses part.stl", "hull.stl does not cover every triangle of part.stl";
-/// and what closes the openings of an original that is not closed. docs/proofs.md has these words.
-std::string claim(const Verification& found, const std::string& subject, const std::string& object);
+/// What is proven, or what is not: "hull.stl encloses part.stl", "hull.stl does not cover every triangle of part.stl",
+/// of an inner hull "hull.stl is enclosed by part.stl"; and what closes the openings of an original that is not closed.
+/// docs/proofs.md has these words.
+std::string claim(const Verdict& verdict, const std::string& subject, const std::string& object);
+
+/// What every summary says behind "certified: ": "yes, the file as written encloses the original", or why not.
+std::string certificate_of(const Verdict& verdict, const std::string& subject = "the file as written",
+                           const std::string& object = "the original");
 
 /// ", void 3.125 %"; empty if the void is not known.
 std::string text_of_void(double void_ratio);
@@ -32,8 +37,8 @@ bool has_triangles_of(const TriangleMesh& a, const TriangleMesh& b);
 /// A verdict about the finite triangles of a file, as it is of the file: with those that were left out.
 Verification of_file(Verification found, const RepairedMesh& input);
 
-/// What a summary says behind "certified: "; `written` is whether the file holds the very bits of the hull.
-std::string certificate_of(const EnclosingHulls& made, const EnclosingHull& hull, bool written);
+/// The verdict about what was made, as it is of the file: of one that does not hold its very bits, the answer is no.
+Verdict as_written(Verdict verdict, bool holds_bits);
 
 /// What the finest level of a hull is, where that is not the input: "the convex hull of the input"; else empty.
 std::string described_finest_level(FinestLevel finest_level);
@@ -42,9 +47,8 @@ std::string described_finest_level(FinestLevel finest_level);
 std::string source_of(const Solid& solid);
 
 struct HullMeasures {
-  bool has_openings = false;     ///< that count as closed
-  DistanceBounds to_solid = {};  ///< of the hull, from the triangles of the original and from what closes its openings
-  DistanceBounds to_triangles = {};  ///< from the triangles alone
+  bool has_openings = false;  ///< that count as closed
+  Verdict verdict = {};       ///< of the hull, with its distances: to the solid, doors of a wrap belong
   MeshQuality quality = {};
 };
 
@@ -71,6 +75,6 @@ std::vector<std::string> lines_of_repairs(const EnclosingHulls& made);
 std::string line_of_hull(const std::string& name, const ToldHull& told);
 std::vector<std::string> lines_of_shape(const ToldHull& told);
 std::vector<std::string> lines_of_limits(const ToldHull& told);
-std::vector<std::string> lines_of_proof(const ToldHull& told, bool written);
+std::vector<std::string> lines_of_proof(const Verdict& verdict);
 
 }  // namespace prohull
