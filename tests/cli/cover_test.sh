@@ -66,7 +66,7 @@ for suffix in urdf xml; do
   for shape in polytope box sphere; do
     expect 0 "$suffix of shape $shape" $prohull convex bracket.stl --pieces 3 --vertices 24 --shape $shape -o c.$suffix
     expect 0 "$suffix of shape $shape covers" $prohull verify --union c.$suffix bracket.stl --report report.json
-    says out "$suffix of shape $shape covers" "encloses bracket.stl"
+    says out "$suffix of shape $shape covers" "bracket.stl, exactly"
   done
 done
 says report.json "spheres of a robot" '"pieces": 0'
@@ -76,7 +76,7 @@ says out "turned boxes count as smaller" "boxes.urdf: boxes whose corners have n
 for suffix in yaml urdf xml json; do
   expect 0 "spheres as $suffix" $prohull spheres bracket.stl --count 10 --fill -o s.$suffix
   expect 0 "spheres as $suffix cover" $prohull verify --union s.$suffix bracket.stl --inside
-  says out "spheres as $suffix cover" "encloses part.obj"
+  says out "spheres as $suffix cover" "encloses bracket.stl"
 done
 sed 's/radius="[^"]*"/radius="0.01"/' s.urdf >less.urdf
 expect 1 "spheres of a robot that are too small" $prohull verify --union less.urdf bracket.stl

@@ -17,7 +17,7 @@ is "YAML: at most 20 spheres" test "$(grep -c radius bracket.yaml)" -le 20
 says report.json "report" '"certified": true'
 says report.json "report: bounds" '"within_bounds": true'
 expect 0 "filled" $spheres -o filled.yml --fill --link "arm/1"
-says out "filled" "every triangle and the inside"
+says out "filled" "encloses the original"
 says filled.yml "filled: the link" '"arm/1":'
 expect 0 "URDF" $spheres -o bracket.urdf
 says bracket.urdf "URDF" "<sphere radius="

@@ -91,7 +91,7 @@ expect 0 "a robot at the beginning" $prohull verify arm.stl bar.off
 expect 0 "one link" $prohull sweep arm.urdf turn.csv --links bar --faces 200 -o bar.glb
 sed 's|<link name="base">.*|<link name="base"/>|' arm.urdf >bare.urdf
 expect 0 "a workspace" $prohull sweep arm.urdf --workspace -o workspace.stl
-says out "a workspace" "and the inside, wherever the joints are within their limits"
+says out "a workspace" "encloses the links, wherever the joints are within their limits"
 says out "whose the pieces are" "base, bar in the frame of base: "
 expect 0 "a root without a shape" $prohull sweep bare.urdf --workspace -o bare.stl --report bare.json
 says out "a root without a shape" "  bar in the frame of base: "
@@ -112,7 +112,7 @@ says err "a robot in millimetres" "a robot is in metres: leave --unit and --scal
 printf '%s\n' OFF '8 10 0' '0 0 0' '1 0 0' '1 1 0' '0 1 0' '0 0 1' '1 0 1' '1 1 1' '0 1 1' '3 0 2 1' '3 0 3 2' '3 0 1 5' \
   '3 0 5 4' '3 1 2 6' '3 1 6 5' '3 2 3 7' '3 2 7 6' '3 3 0 4' '3 3 4 7' >bucket.off
 expect 0 "an open mesh" $prohull sweep bucket.off --angle 30 -o bucket.obj
-says out "an open mesh" "and the inside with openings closed, at every moment"
+says out "an open mesh" "and its inside with its openings closed by"
 sed -n '3,10p' bucket.off | awk '{ print 3 * $1 - 1, 3 * $2 - 1, 3 * $3 - 1 }' >far_corners
 {
   printf 'OFF\n16 24 0\n'

@@ -393,4 +393,42 @@ says robot/report.json "an estimated part" '"sealed_volume_is_estimated": true'
 # --- numbers of things ---
 expect 0 "one point" $prohull contains cube.obj --random 1
 says out "one point" "1 random point, seed 1"
+# --- the record ---
+# The names in each verdict of a report, in one line.
+keys_of() {
+  awk '{ indent = match($0, /[^ ]/) } /"verdict": \{/ { inside = indent; next }
+    inside && indent <= inside { print ""; inside = 0 } inside && indent == inside + 2 { printf "%s ", $1 }' "$1" | sort -u
+}
+expect 0 "the record: verify" $prohull verify cube.obj cube.obj --report verify.json
+record=$(keys_of verify.json)
+is "the record has its keys" test "$record" = '"cap_faces": "certified": "covers_triangles": "distance_to_solid": "distance_to_triangles": "encloses_solid": "gap": "non_finite_faces": "original_closed": "proof": "side": "why_not": '
+$prohull sample mobile-base -o base/base.urdf >out
+while read -r name arguments; do
+  expect 0 "the record: $name" $prohull $arguments --report $name.json
+  is "the record: $name" test "$(keys_of $name.json)" = "$record"
+done <<END
+build build cube.obj -o r.obj --hierarchy r.phull
+cage cage cube.obj -o r.obj --inner i.obj
+convex convex cube.obj -o r.obj
+spheres spheres cube.obj -o r.json --count 8
+sweep sweep cube.obj -o r.obj --angle 10
+lod lod r.phull -o r.obj
+repair repair cube.obj -o r.obj
+union verify --union cube.obj cube.obj
+urdf urdf base/base.urdf -o base_safe --faces 40 --configurations 0 --no-pictures
+END
+says spheres.json "what was not asked is null" '"encloses_solid": null'
+says verify.json "what was not measured is null" '"distance_to_triangles": null'
+
+# --- a budget of steps ---
+$prohull sample knot -o knot.obj --faces 200 >out
+awk '/^v / { print "v", $2 + 0.05, $3, $4 }' knot.obj >moved.obj
+awk '/^f / { print "f", $2 + '"$(grep -c '^v ' knot.obj)"', $3 + '"$(grep -c '^v ' knot.obj)"', $4 + '"$(grep -c '^v ' knot.obj)"' }' knot.obj >faces.obj
+{ grep '^v ' knot.obj; cat moved.obj; grep '^f ' knot.obj; cat faces.obj; } >tangled.obj
+expect 0 "as many steps as it takes" $prohull verify tangled.obj tangled.obj
+expect 4 "too few steps" $prohull verify tangled.obj tangled.obj --steps 1 --report verify.json
+says out "too few steps" "UNDECIDED: tangled.obj may enclose tangled.obj: undecided: "
+says verify.json "too few steps" '"encloses_solid": null'
+says verify.json "too few steps" '"certified": false'
+
 count_checks

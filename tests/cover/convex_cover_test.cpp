@@ -266,7 +266,7 @@ TEST(ConvexCover, OfFloat32CoordinatesIsHardlyLarger) {
   const ConvexCover usual = convex_cover(mesh, {.max_pieces = pieces});
   const ConvexCover rounded = convex_cover(mesh, {.max_pieces = pieces, .float32_coordinates = true});
   EXPECT_LT(rounded.volume, usual.volume * 1.01);
-  EXPECT_LT(rounded.reach.upper, usual.reach.upper * 1.01);
+  EXPECT_LT(rounded.verdict.distance().upper, usual.verdict.distance().upper * 1.01);
 }
 
 TEST(ConvexCover, TakesTheShapeThatIsAskedFor) {

@@ -86,7 +86,7 @@ TEST(SphereCover, HasFloat32NumbersNearTheOrigin) {
   const TriangleMesh mesh = meshes::moved(meshes::octahedron(), {0.1, 0.2, 0.3});
   EXPECT_TRUE(std::ranges::all_of(sphere_cover(mesh, {.max_balls = 8}).balls, is_stored));
   const SphereCover far = sphere_cover(meshes::moved(mesh, {1e6, 1e6, 1e6}), {.max_balls = 8});
-  EXPECT_TRUE(far.certified && !std::ranges::all_of(far.balls, is_stored));
+  EXPECT_TRUE(far.verdict.certified && !std::ranges::all_of(far.balls, is_stored));
 }
 
 TEST(SphereCover, OfABallIsThatBall) {
@@ -218,7 +218,7 @@ TEST(SphereCover, IsTheSameInAnyUnit) {
     const double unit = std::ldexp(1.0, exponent);
     for (Vec3& p : scaled.positions) p = p * unit;
     const SphereCover same = sphere_cover(scaled, {.max_balls = 5});
-    EXPECT_TRUE(same.certified);
+    EXPECT_TRUE(same.verdict.certified);
     ASSERT_EQ(same.balls.size(), cover.balls.size()) << exponent;
     for (std::size_t i = 0; i < cover.balls.size(); ++i) {
       EXPECT_EQ(same.balls[i].center, cover.balls[i].center * unit) << exponent;
