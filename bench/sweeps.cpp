@@ -130,7 +130,7 @@ void add(const VisualLink& link, const SweepsOptions& options, Found& found) {
   const std::size_t outside = points_outside(link.mesh, zone, options.points);
   found.points += options.points, found.outside += outside;
   const ClosedSolid solid = closed_solid(link.mesh);
-  const bool is_solid = made.covers_inside && solid.source == Source::Mesh;
+  const bool is_solid = made.verdict.encloses_solid == Answer::Yes && solid.source == Source::Mesh;
   found.volumes.push_back(is_solid ? volume_by_union(solid.mesh, zone, options.volume_points) : kUnknown);
   found.table.add({as_cell(link.robot), as_cell(link.name), fmt::to_string(options.pieces),
                    fmt::to_string(link.mesh.face_count()), fmt::to_string(made.pieces.size()),

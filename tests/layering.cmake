@@ -25,7 +25,7 @@ room(repair    OWNS detail/openings repair                                      
 room(construct OWNS hull_builder tight_hull detail/float32_hull padded_hull detail/mesh_part   MAY hull mesh geometry parallel base)
 # Shares nothing with the construction of hulls but the exact predicates: of mesh/ and hull/ only what it judges, and
 # whether that is closed.
-room(verify    OWNS enclosure verification union_verification detail/replay distance tolerances detail/solid_pieces detail/inside_out MAY geometry parallel base prohull/detail/ids
+room(verify    OWNS enclosure verification union_verification verdict detail/verdict_parts detail/replay distance tolerances detail/solid_pieces detail/inside_out MAY geometry parallel base prohull/detail/ids
                                                                                      prohull/detail/disjoint_sets
                                                                                      prohull/triangle_mesh
                                                                                      mesh/closed

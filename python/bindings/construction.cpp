@@ -127,7 +127,7 @@ py::dict facts_of(CageHull side) {
   EnclosingHull& hull = side.made.hulls.front();
   py::dict facts;
   hull.verdict.certified = hull.certified;
-  facts["verdict"] = facts_of(static_cast<const Verdict&>(hull.verdict));
+  facts["verdict"] = verdict_facts(hull.verdict);
   facts["is_disjoint"] = side.is_disjoint;
   facts["keeps_gap"] = side.keeps_gap;
   facts["void_ratio"] = hull.void_ratio;
@@ -154,7 +154,7 @@ py::dict repair(const TriangleMesh& mesh, const py::object& progress, const py::
   ClosedSolid made = watched(progress, closed_solid_options(Keywords(keywords)),
                              [&](const auto& how) { return closed_solid(mesh, how); });
   py::dict facts;
-  facts["verdict"] = facts_of(static_cast<const Verdict&>(made.verdict));
+  facts["verdict"] = verdict_facts(made.verdict);
   facts["source"] = name_of(source_names(), made.source);
   facts["wrap_spacing"] = made.wrap_spacing;
   facts["repairs"] = describe(made.input.repairs);

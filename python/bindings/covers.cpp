@@ -44,7 +44,7 @@ struct PrimitiveFacts {
 template <class Cover>
 py::dict common_facts_of(const Cover& cover) {
   py::dict facts;
-  facts["verdict"] = facts_of(cover.verdict);
+  facts["verdict"] = verdict_facts(cover.verdict);
   facts["volume"] = cover.volume;
   facts["original_volume"] = cover.original_volume;
   facts["within_bounds"] = cover.within_bounds;
@@ -74,7 +74,7 @@ py::dict spheres(const TriangleMesh& mesh, const py::object& progress, const py:
 }
 
 py::dict facts_of(const UnionVerification& found) {
-  py::dict facts = facts_of(static_cast<const Verdict&>(found));
+  py::dict facts = verdict_facts(found);
   facts["faces_outside"] = found.faces_outside;
   facts["worst"] = offenders_of(found.worst);
   facts["faces_undecided"] = found.faces_undecided;

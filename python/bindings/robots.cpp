@@ -153,7 +153,7 @@ py::dict facts_of(const LinkHull& hull, const LinkHulls& link) {
   facts["pieces"] = pieces;
   facts["spheres"] = rows_of_balls(hull.balls);
   facts["origin"] = matrix(link.frame.in_link);
-  facts["verdict"] = facts_of(hull.verdict);
+  facts["verdict"] = verdict_facts(hull.verdict);
   facts["target_reached"] = hull.target_reached;
   facts["within_bounds"] = hull.within_bounds;
   facts["source"] = hull.source;

@@ -32,7 +32,7 @@ py::dict facts_of(Sweep sweep) {
   for (TriangleMesh& piece : sweep.pieces) pieces.append(std::make_shared<TriangleMesh>(std::move(piece)));
   py::dict facts;
   facts["pieces"] = pieces;
-  facts["verdict"] = facts_of(sweep.verdict);
+  facts["verdict"] = verdict_facts(sweep.verdict);
   facts["fills_cavities"] = sweep.fills_cavities;
   facts["cover_pieces"] = sweep.cover_pieces;
   facts["notes"] = sweep.notes;

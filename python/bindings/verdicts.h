@@ -21,7 +21,7 @@ pybind11::object object_of(const std::optional<Value>& value) {
 }
 
 /// The keywords of the class Verdict in Python.
-inline pybind11::dict facts_of(const Verdict& verdict) {
+inline pybind11::dict verdict_facts(const Verdict& verdict) {
   pybind11::dict facts;
   visit_fields(verdict, [&](const char* name, const auto& value) { facts[name] = object_of(value); });
   return facts;

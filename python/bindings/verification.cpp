@@ -23,7 +23,7 @@ namespace {
 using Release = py::call_guard<py::gil_scoped_release>;
 
 py::dict facts_of(const Verification& found) {
-  py::dict facts = facts_of(static_cast<const Verdict&>(found));
+  py::dict facts = verdict_facts(found);
   facts["encloses"] = found.encloses;
   facts["faces_outside"] = found.faces_outside;
   facts["worst"] = offenders_of(found.worst);

@@ -1,5 +1,7 @@
 """Convex pieces and balls that cover, and proofs of unions."""
 
+import math
+
 import pickle
 
 import numpy as np
@@ -208,3 +210,15 @@ def test_wrong_unions_are_named(cube, pieces, message):
 def test_open_pieces_are_refused(cube):
     with pytest.raises(prohull.InputError):
         prohull.verify_union([(cube[0], cube[1][1:])], cube)
+
+
+def test_all_products_have_one_record(pony, tmp_path):
+    ball = prohull.sample("sphere", 100)
+    made = [prohull.build(ball, 40), prohull.convex_pieces(ball, 2), prohull.spheres(ball, 8), prohull.cage(ball, 40).outer,
+            prohull.repair(ball), prohull.sweep(ball, angle=0.1)]
+    for product in made:
+        assert isinstance(product.verdict, prohull.Verdict) and product.verdict and product.verdict.original_closed, product
+        assert product.verdict.covers_triangles and product.verdict.why_not == "" and product.verdict.cap_faces == 0
+    assert made[2].verdict.encloses_solid is None and made[3].verdict.gap > 0 and made[0].verdict.gap is None
+    assert math.isnan(made[4].verdict.distance_bound) and made[1].verdict.distance_bound > 0
+    assert isinstance(prohull.verify_union(made[1], ball), prohull.Verdict) and not prohull.verify(ball, made[0])

@@ -256,7 +256,7 @@ TEST(ReportJson, HasAnEntryForEachLinkAndNoNumberThatIsNone) {
   EXPECT_EQ(report["links"][0]["status"], "hulled");
   EXPECT_TRUE(report["links"][0]["sealed_volume"].is_null());
   EXPECT_TRUE(report["links"][0]["hulls"][0]["volume_ratio"].is_null());
-  EXPECT_TRUE(report["links"][0]["hulls"][0]["distance"]["at_most"].is_null());
+  EXPECT_TRUE(report["links"][0]["hulls"][0]["verdict"]["distance_to_triangles"]["upper"].is_null());
   EXPECT_EQ(report["links"][0]["shipped"]["verdict"], "leaks");
   EXPECT_TRUE(report["links"][0]["shipped"]["worst_point"][0].is_null());
   EXPECT_FALSE(report["links"][1]["shipped"].contains("sticks_out")) << "nothing was measured";
