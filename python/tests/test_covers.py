@@ -1,7 +1,6 @@
 """Convex pieces and balls that cover, and proofs of unions."""
 
 import math
-
 import pickle
 
 import numpy as np

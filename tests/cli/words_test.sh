@@ -397,15 +397,15 @@ says out "one point" "1 random point, seed 1"
 # The names in each verdict of a report, in one line.
 keys_of() {
   awk '{ indent = match($0, /[^ ]/) } /"verdict": \{/ { inside = indent; next }
-    inside && indent <= inside { print ""; inside = 0 } inside && indent == inside + 2 { printf "%s ", $1 }' "$1" | sort -u
+    inside && indent <= inside { print ""; inside = 0 } inside && indent == inside + 2 && /":/ { printf "%s ", $1 }' "$1" | sort -u
 }
 expect 0 "the record: verify" $prohull verify cube.obj cube.obj --report verify.json
 record=$(keys_of verify.json)
 is "the record has its keys" test "$record" = '"cap_faces": "certified": "covers_triangles": "distance_to_solid": "distance_to_triangles": "encloses_solid": "gap": "non_finite_faces": "original_closed": "proof": "side": "why_not": '
-$prohull sample mobile-base -o base/base.urdf >out
-while read -r name arguments; do
-  expect 0 "the record: $name" $prohull $arguments --report $name.json
-  is "the record: $name" test "$(keys_of $name.json)" = "$record"
+$prohull sample mobile-base -o base >out
+while read -r product arguments; do
+  expect 0 "the record: $product" $prohull $arguments --report $product.json
+  is "the record: $product" test "$(keys_of $product.json)" = "$record"
 done <<END
 build build cube.obj -o r.obj --hierarchy r.phull
 cage cage cube.obj -o r.obj --inner i.obj
@@ -415,8 +415,9 @@ sweep sweep cube.obj -o r.obj --angle 10
 lod lod r.phull -o r.obj
 repair repair cube.obj -o r.obj
 union verify --union cube.obj cube.obj
-urdf urdf base/base.urdf -o base_safe --faces 40 --configurations 0 --no-pictures
 END
+expect 0 "the record: urdf" $prohull urdf base/mobile-base.urdf -o base_safe --faces 40 --configurations 0 --no-pictures
+is "the record: urdf" test "$(keys_of base_safe/report.json)" = "$record"
 says spheres.json "what was not asked is null" '"encloses_solid": null'
 says verify.json "what was not measured is null" '"distance_to_triangles": null'
 
