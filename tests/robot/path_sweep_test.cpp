@@ -73,7 +73,7 @@ TEST(PathSweep, EnclosesAllLinksOfRandomRobots) {
     ASSERT_EQ(made.size(), 5U);
     EXPECT_EQ(made[0].sweep.pieces.size(), 1U) << "what does not move";
     EXPECT_EQ(outside(made, robot, path, 300), 0U) << round;
-    for (const LinkSweep& link : made) EXPECT_LT(link.sweep.reach, 0.4);
+    for (const LinkSweep& link : made) EXPECT_LT(link.sweep.verdict.distance().upper, 0.4);
   }
 }
 
@@ -156,8 +156,8 @@ TEST(WorkspaceSweep, EnclosesAllPositionsOfARandomRobot) {
                       {.max_pieces = 4, .max_distance = 0.6, .float32_coordinates = unit(random) < 0});
   ASSERT_EQ(made.size(), 1U);
   EXPECT_EQ(made[0].link, "link0");
-  EXPECT_TRUE(made[0].sweep.covers_inside);
-  EXPECT_LT(made[0].sweep.reach, 5);
+  EXPECT_TRUE(made[0].sweep.verdict.encloses_solid == Answer::Yes);
+  EXPECT_LT(made[0].sweep.verdict.distance().upper, 5);
   for (int i = 0; i < 400; ++i) {
     std::vector<double> positions;
     for (const Joint& j : robot.joints) {
