@@ -19,13 +19,15 @@ struct Offender {
 
 struct EnclosureReport {
   bool encloses = false;          ///< the verdict, exact
-  std::size_t faces_outside = 0;  ///< how many triangles of the inner mesh lie outside, at least in part; exact
+  /// How many triangles of the inner mesh lie outside, at least in part; exact. Those on the surface of the outer mesh
+  /// do not, even if the solid that they bound goes on beyond it.
+  std::size_t faces_outside = 0;
   std::vector<Offender> worst;    ///< those that reach farthest outside, the farthest first
   /// Faces, of either mesh, that EnclosureOptions::max_steps left undecided. If there are any, `encloses` is false, and
   /// there may be more faces outside and more cavities.
   std::size_t faces_undecided = 0;
-  /// Connected parts of the outer mesh that leave a hole in the solid it bounds: exact if faces_outside is 0, else some
-  /// parts may be missing.
+  /// Connected parts of the outer mesh that leave a hole in the solid it bounds; exact. They are looked for only if
+  /// faces_outside is 0.
   std::size_t cavities = 0;
   /// Pairs of faces of the outer mesh that meet beyond shared corners and edges; exact. Faces without area do not
   /// count.

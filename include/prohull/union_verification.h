@@ -25,7 +25,8 @@ struct PointOfFace {
 struct UnionVerification : Verdict {
   std::size_t faces_outside = 0;  ///< triangles of the original of which a part lies outside of all pieces; exact
   std::vector<Offender> worst;    ///< the farthest of these, farthest first
-  std::size_t holes = 0;          ///< connected parts of the union's surface that leave a hole in the solid
+  /// Connected parts of the union's surface that leave a hole in the solid; looked for only if faces_outside is 0.
+  std::size_t holes = 0;
   /// Of balls: a point of a triangle that no ball holds, if one was found. Exact.
   std::optional<PointOfFace> point_outside;
   /// Triangles of which neither was found out, whether all of them is covered nor a point that is not.

@@ -166,7 +166,7 @@ class UnionVerification(Verdict):
     worst: list[Offender]  #: the farthest of these, farthest first
     faces_undecided: int  #: of balls: number of triangles that neither is proven of, to be covered or to reach outside
     inside_undecided: bool  #: of balls: the same of the inside
-    holes: int  #: number of connected parts of the union's surface that leave a hole in the solid
+    holes: int  #: number of connected parts of the union's surface that leave a hole in the solid; they are looked for only if faces_outside is 0
     turned_pieces: int  #: number of pieces that were inside out and count as turned
     union_volume: float  #: in cubic units; overlaps count once; nan if a piece is not convex
     original_volume: float  #: in cubic units; nan if the original is not closed

@@ -74,9 +74,9 @@ class Verification(Verdict):
     """What verify() found. It counts as true if the hull encloses the original, and keeps the gap if one was asked for."""
 
     encloses: bool  #: `certified` but for the gap; of an inner hull, whether the original encloses it
-    faces_outside: int  #: number of triangles of the inner mesh of which a part lies outside of the outer one; exact
+    faces_outside: int  #: number of triangles of the inner mesh of which a part lies outside of the outer one, and not on it; exact
     worst: list[Offender]  #: the farthest of these, farthest first
-    cavities: int  #: number of hollows of the outer mesh that leave a part of the inner one uncovered
+    cavities: int  #: number of hollows of the outer mesh that leave a part of the inner one uncovered; they are looked for only if faces_outside is 0
     faces_undecided: int  #: number of faces whose decision would take minutes; if there are any, `encloses` is false
     faces_beside_solid: int  #: number of faces of the inner mesh that bound no part of its solid, as in folds
     self_intersections: int  #: number of pairs of faces of the hull that meet beyond what they share; exact

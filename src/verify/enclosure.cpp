@@ -27,10 +27,13 @@
 //   (1) X lies beside some part of a triangle of O. check_inner_faces visits every triangle of O, which H (and O, where
 //       that matters) divide into parts beside which w_H and w_O are constant. An Arrangement knows both beside each: X
 //       is found.
-//   (2) X lies beside none. Then its boundary lies on H alone, and is made of whole pieces of faces of H as H cuts
+//   (2) X lies beside none, or only beside parts of O that H holds, with w_H >= 1 on their other side. Then its boundary lies on H alone, and is made of whole pieces of faces of H as H cuts
 //       itself: where O crosses such a piece or covers a part of it, on the side of X, X would lie beside O; and where
 //       O only touches it from the other side, X goes on. find_holes looks beside each piece: X is found. A piece that
 //       lies on O needs no answer: it does not bound X.
+//
+// A triangle of O lies outside where w_H < 1 on both of its sides. If X lies beside one, but none lies outside, then
+// w_H >= 1 all around X: X is all of some regions of H, but for surfaces, and find_holes finds these as well.
 //
 // What is found is a point beside which w_O >= 1 and w_H < 1, exactly; so what is rejected does not enclose.
 // Triangles of O whose interior H does not meet lie in one region of H, together with their neighbours, if some point
@@ -47,6 +50,8 @@ bool is_open_there(const Windings& w) { return w.outside[kH] < 1 || w.inside[kH]
 bool is_x_there(const Windings& w) {
   return (w.outside[kO] >= 1 && w.outside[kH] < 1) || (w.inside[kO] >= 1 && w.inside[kH] < 1);
 }
+/// Beside X, and no part of the solid that H bounds.
+bool lies_outside(const Windings& w) { return w.outside[kH] < 1 && w.inside[kH] < 1 && is_solid_there(w); }
 
 class Verifier {
  public:
@@ -59,9 +64,10 @@ class Verifier {
 
   EnclosureReport report() {
     check_inner_faces();
-    x_is_off_o_ = offenders_.empty() && undecided_ == 0;
-    const Holes holes = find_holes();
-    report_.self_intersections = holes.self_intersections;
+    x_is_off_o_ = !x_is_beside_o_ && undecided_ == 0;
+    const FacePairs pairs = self_intersections(outer_, meter_);
+    const Holes holes = offenders_.empty() ? find_holes(pairs) : Holes{};
+    report_.self_intersections = pairs.size();
     report_.cavities = holes.count;
     report_.faces_undecided = undecided_ + holes.undecided;
     report_.faces_outside = offenders_.size();
@@ -74,18 +80,15 @@ class Verifier {
     return report_;
   }
 
-  /// Looks for pieces of H beside which w_H < 1, in the midst of O.
-  Holes find_holes() {
-    const auto pairs = self_intersections(outer_, meter_);
+  /// Looks for pieces of H beside which w_H < 1, in the midst of O; `pairs` are the self_intersections of H.
+  Holes find_holes(const FacePairs& pairs) {
     std::vector<std::vector<FaceIndex>> meets(outer_.faces.size());
     for (const auto& [f, g] : pairs) meets[f].push_back(g), meets[g].push_back(f);
-    Holes holes = find_holes([&](FaceIndex f) {
+    return find_holes([&](FaceIndex f) {
       Neighbours near;
       for (const FaceIndex g : meets[f]) near.add(outer_.faces[f], outer_.axis[f], outer_.faces[g]);
       return beside_a_hole(f, near.cutters);
     });
-    holes.self_intersections = pairs.size();
-    return holes;
   }
 
   /// The same if point_of(f) is a point of the face that is beside a hole, if there is one.
@@ -166,7 +169,7 @@ class Verifier {
     }
   }
 
-  /// Looks for a point beside face f of O where w_H < 1 and w_O >= 1; `cutters` are the faces of H that cut it.
+  /// Looks for X beside face f of O, and for parts of it that lie outside; `cutters` are the faces of H that cut it.
   void check_inner_face(FaceIndex f, const std::vector<Triangle>& cutters) {
     try {
       const std::vector<Vec3> points = points_outside(f, cutters);
@@ -182,7 +185,9 @@ class Verifier {
     parts.add(kH, outer_, cutters);
     if (!parts.has_part(is_open_there)) return {};
     parts.add(kO, inner_, neighbours(inner_, f, inner_, f).cutters);
-    return parts.points_of_parts(is_x_there);
+    if (!parts.has_part(is_x_there)) return {};
+    x_is_beside_o_ = true;
+    return parts.points_of_parts(lies_outside);
   }
 
   /// Of a face of O that H does not cut.
@@ -249,6 +254,7 @@ class Verifier {
   std::mt19937 random_;  // the verdict does not depend on it
   std::vector<Offender> offenders_;
   std::size_t undecided_ = 0;  // faces of O
+  bool x_is_beside_o_ = false; // X was found beside a triangle of O
   bool x_is_off_o_ = false;    // it is known that X lies beside no triangle of O
   EnclosureReport report_;
 };

@@ -34,10 +34,9 @@ std::string undecided(std::size_t faces);
 
 /// What `outer` leaves open in the midst of `inner`.
 struct Holes {
-  std::size_t count = 0;               ///< connected parts of `outer` that bound holes
-  std::size_t undecided = 0;           ///< faces of `outer` that may bound others
-  Vec3 point;                          ///< beside one, rounded
-  std::size_t self_intersections = 0;  ///< of `outer`, if they were looked for
+  std::size_t count = 0;      ///< connected parts of `outer` that bound holes
+  std::size_t undecided = 0;  ///< faces of `outer` that may bound others
+  Vec3 point;                 ///< beside one, rounded
 };
 
 /// For a face of the outer surface, cells of it, one at least within each connected part beside which `outer` winds

@@ -159,7 +159,7 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
     judge.enclose_solid();
   } else {
     judge.cover_triangles();
-    if (prepared.closed) judge.fill_inside();
+    if (prepared.closed && found.faces_outside == 0) judge.fill_inside();
   }
   verify::refuse_non_finite_faces(prepared.non_finite_faces, options, found.certified, found.why_not);
   judge.measure();

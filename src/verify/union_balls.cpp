@@ -531,7 +531,7 @@ UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh origina
   found.certified = true;
   verify::BallUnionJudge judge(balls, original, prepared, options, found);
   if (!options.solid_only || !prepared.closed) judge.cover_triangles();
-  if (prepared.closed && (inside || options.solid_only)) judge.fill_inside();
+  if (prepared.closed && (inside || options.solid_only) && found.faces_outside == 0) judge.fill_inside();
   found.union_volume = union_volume(balls);
   if (prepared.closed) {
     ProgressMeter meter(options.progress, "verify");

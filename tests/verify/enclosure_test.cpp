@@ -129,6 +129,31 @@ TEST(Enclosure, SeesACavityOfTheHullInTheMidstOfTheOriginal) {
       encloses(together(outer, inside_out(box({0.3, 0.3, 0.3}, {0.6, 0.6, 0.6}))), together(kUnitBox, bubble)));
 }
 
+TEST(Enclosure, FacesOnTheHullDoNotLieOutsideEvenIfTheSolidGoesOnBeyondThem) {
+  for (const Vec3& by : {Vec3{0.5, 0.5, 0.5}, Vec3{0.5, 0.5, 0}, Vec3{0.3, 0.2, 0.1}}) {
+    const EnclosureReport report = verify_enclosure(together(kUnitBox, moved(kUnitBox, by)), kUnitBox);
+    EXPECT_FALSE(report.encloses);
+    EXPECT_EQ(report.faces_outside, 12u);
+    for (const Offender& o : report.worst) EXPECT_GT(o.distance, 0);
+  }
+}
+
+TEST(Enclosure, SeesACavityWhoseWallsAreFacesOfTheOriginal) {
+  const TriangleMesh core = box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6});
+  for (const TriangleMesh& walls : {core, subdivided(core)}) {
+    const EnclosureReport report = verify_enclosure(together(kUnitBox, walls), together(kUnitBox, inside_out(core)));
+    EXPECT_FALSE(report.encloses);
+    EXPECT_EQ(report.faces_outside, 0u);
+    EXPECT_EQ(report.cavities, 1u);
+  }
+}
+
+TEST(Enclosure, CountsNoCavityOfAHullInTheMidstOfTheOriginal) {
+  const EnclosureReport report = verify_enclosure(kUnitBox, box({0.2, 0.2, 0.2}, {0.7, 0.7, 0.7}));
+  EXPECT_EQ(report.faces_outside, 12u);
+  EXPECT_EQ(report.cavities, 0u);
+}
+
 TEST(Enclosure, OfAHullThatIntersectsItselfButCoversTwice) {
   const TriangleMesh outer = together(box({-1, -1, -1}, {0.6, 2, 2}), box({0.4, -1, -1}, {2, 2, 2}));
   const EnclosureReport report = verify_enclosure(kUnitBox, outer);

@@ -85,6 +85,15 @@ TEST(UnionOfPieces, IsFoundTooSmallByOneUlpInAnyCoordinate) {
       }
 }
 
+TEST(UnionOfPieces, HasNoHoleWhereItLiesInTheMidstOfTheOriginal) {
+  const UnionVerification found = verify_union(Pieces{box({1, 1, 1}, {2, 2, 2})}, kCube);
+  EXPECT_EQ(found.faces_outside, 12u);
+  EXPECT_EQ(found.holes, 0u);
+  const UnionVerification ball = verify_union(std::vector<Ball>{{{1.5, 1.5, 1.5}, 1}}, kCube, true);
+  EXPECT_EQ(ball.faces_outside, 12u);
+  EXPECT_EQ(ball.holes, 0u);
+}
+
 TEST(UnionOfPieces, LeavesAHoleInside) {
   const UnionVerification found = verify_union(small_cubes(kMiddle), kCube);
   EXPECT_FALSE(found.certified);
