@@ -180,6 +180,13 @@ std::string whose(const LinkSweep& sweep) {
   return fmt::format("{} in the frame of {}", fmt::join(sweep.links, ", "), sweep.link);
 }
 
+/// At most three digits of the volume, the last of which two standard errors change by half at most.
+std::string known_digits(const Sweep& sweep) {
+  const double last = sweep.volume_error > 0 ? std::ceil(std::log10(4 * sweep.volume_error)) : -400;
+  const double digits = std::clamp(std::floor(std::log10(sweep.volume)) - last + 1, 1., 3.);
+  return fmt::format("{:.{}g}", sweep.volume, static_cast<int>(digits));
+}
+
 void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
   const bool is_robot = is_robot_file(options.in);
   const auto pieces = [](const LinkSweep& link) { return counted(link.sweep.pieces.size(), "convex piece"); };
@@ -196,7 +203,7 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
   else if (is_robot)
     say("{}: {}", output_name(options.out), counted(zone.pieces().size(), "convex piece"));
   else
-    say("{}: {}, volume about {:.3g}", output_name(options.out), pieces(zone.sweeps[0]), zone.sweeps[0].sweep.volume);
+    say("{}: {}, volume about {}", output_name(options.out), pieces(zone.sweeps[0]), known_digits(zone.sweeps[0].sweep));
   say(", at most {:.4g} from what {} passes{}\n", rounded_up(zone.verdict.distance().upper, 4),
       is_robot ? "the robot" : "the mesh", zone.fills_cavities() ? " with cavities filled" : "");
   say("  certified: {}\n", certificate_of(zone, options));
@@ -222,6 +229,7 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
           {"hull_faces", zone.hull ? nlohmann::json(zone.hull->mesh.face_count()) : nlohmann::json()},
           {"verdict", facts(zone.verdict)},
           {"volume", has_volume ? nlohmann::json(volume) : nlohmann::json()},
+          {"volume_error", has_volume && !zone.hull ? nlohmann::json(zone.sweeps[0].sweep.volume_error) : nlohmann::json()},
           {"volume_is_estimated", !zone.hull || std::isnan(zone.hull->verdict.hull_volume)},
           {"sweeps", sweeps},
           {"seconds", {{"read", zone.read_seconds}, {"sweep", zone.seconds}}}};

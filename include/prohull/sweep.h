@@ -42,7 +42,8 @@ struct Sweep {
   /// of the pieces' surfaces from all positions.
   Verdict verdict;
   bool fills_cavities = false;     ///< the mesh has cavities, which count as filled
-  double volume = 0;               ///< of the union of the pieces, estimated by 200,000 points
+  double volume = 0;               ///< of the union of the pieces, overlaps counted once: an estimate,
+  double volume_error = 0;         ///< and its standard error; 0 of a single piece
   std::size_t cover_pieces = 0;    ///< convex pieces of the mesh
   std::vector<std::string> notes;  ///< sentences for the user
   double seconds = 0;

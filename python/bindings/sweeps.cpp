@@ -61,9 +61,10 @@ py::dict sweep_mesh(const TriangleMesh& mesh, const Motions& motions, const py::
                     const py::dict& keywords) {
   SweepOptions options = sweep_options(Keywords(keywords));
   Sweep made = watched(progress, options, [&](const auto& how) { return sweep(mesh, motions, how); });
-  const double volume = made.volume;
+  const double volume = made.volume, volume_error = made.volume_error;
   py::dict facts = facts_of(std::move(made));
   facts["volume"] = volume;
+  facts["volume_error"] = volume_error;
   return facts;
 }
 

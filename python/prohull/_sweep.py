@@ -32,7 +32,8 @@ class Sweep(CoverShown):
     fills_cavities: bool  #: whether the mesh has cavities, which count as filled
     cover_pieces: int  #: number of convex pieces of the mesh itself
     notes: list[str]
-    volume: float = math.nan  #: of the union, in cubic units: an estimate, by 200,000 points; nan of links
+    volume: float = math.nan  #: of the union, in cubic units: an estimate; nan of links
+    volume_error: float = math.nan  #: standard error of the estimate; 0 of a single piece, nan of links
 
     @property
     def mesh(self) -> Mesh:

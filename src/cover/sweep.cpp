@@ -2,19 +2,16 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <utility>
 
 #include "cover/farthest.h"
 #include "cover/polytope.h"
-#include "geometry/bvh.h"
+#include "cover/volume_estimate.h"
 #include "geometry/float32.h"
 #include "geometry/largest_coordinate.h"
 #include "geometry/predicates.h"
@@ -159,83 +156,6 @@ class MovedPiece {
   std::vector<Vec3> corners_;  // from `through_`
 };
 
-// Volume
-
-/// A convex polytope around whose middle its faces make tetrahedra.
-class SampledPolytope {
- public:
-  explicit SampledPolytope(const TriangleMesh& polytope)
-      : box_(bounding_box(polytope)), middle_(cover::middle(polytope)) {
-    for (const FaceId f : polytope.triangles.ids()) {
-      const Triangle& t = faces_.emplace_back(polytope.triangle(f));
-      normals_.push_back(cross(t.b - t.a, t.c - t.a));
-      volume_ += std::max(0.0, dot(normals_.back(), t.a - middle_) / 6);
-      reached_.push_back(volume_);
-    }
-  }
-
-  const Box& box() const { return box_; }
-  double volume() const { return volume_; }
-
-  bool contains(const Vec3& p) const {
-    for (std::size_t i = 0; i < faces_.size(); ++i)
-      if (dot(normals_[i], p - faces_[i].a) > 0) return false;
-    return true;
-  }
-
-  /// Point `k` of a sequence that is spread evenly over its volume: the additive recurrence of Roberts (2018).
-  Vec3 point(std::size_t k) const {
-    constexpr double kRatio = 1.1673039782614187;  // the root of x^5 = x + 1
-    std::array<double, 4> parts;
-    double step = 1;
-    for (double& part : parts) {
-      step /= kRatio;
-      part = 0.5 + static_cast<double>(k) * step;
-      part -= std::floor(part);
-    }
-    const auto face = std::ranges::upper_bound(reached_, parts[3] * volume_);
-    const Triangle& t = faces_[std::min(static_cast<std::size_t>(face - reached_.begin()), faces_.size() - 1)];
-    std::sort(parts.begin(), parts.begin() + 3);  // their differences are even coordinates in a tetrahedron
-    return t.a * parts[0] + t.b * (parts[1] - parts[0]) + t.c * (parts[2] - parts[1]) + middle_ * (1 - parts[2]);
-  }
-
- private:
-  Box box_;
-  Vec3 middle_;
-  std::vector<Triangle> faces_;
-  std::vector<Vec3> normals_;
-  std::vector<double> reached_;  // the volume up to each face
-  double volume_ = 0;
-};
-
-/// The volume of a union of convex polytopes: that of each counts as far as points in it are in none before. The exact
-/// clipping of union_volume takes minutes where so many overlap.
-double volume_by_points(std::span<const TriangleMesh> pieces) {
-  constexpr std::size_t kPoints = 200'000, kFewest = 32;  // of all pieces, and of each
-  const std::vector<SampledPolytope> polytopes(pieces.begin(), pieces.end());
-  std::vector<Box> boxes;
-  for (const SampledPolytope& polytope : polytopes) boxes.push_back(polytope.box());
-  const Bvh tree(std::move(boxes));
-  const std::size_t points = std::max(kFewest, kPoints / pieces.size());
-  const auto is_new = [&](std::size_t i, const Vec3& p) {
-    bool found = false;
-    tree.visit([&](const Box& box) { return !found && box.contains(p); },
-               [&](std::uint32_t other) { found = found || (other < i && polytopes[other].contains(p)); });
-    return !found;
-  };
-  return oneapi::tbb::parallel_deterministic_reduce(
-      oneapi::tbb::blocked_range<std::size_t>(0, pieces.size()), 0.0,
-      [&](const oneapi::tbb::blocked_range<std::size_t>& range, double sum) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          std::size_t kept = 0;
-          for (std::size_t k = 0; k < points; ++k) kept += is_new(i, polytopes[i].point(i * points + k));
-          sum += polytopes[i].volume() * static_cast<double>(kept) / static_cast<double>(points);
-        }
-        return sum;
-      },
-      std::plus<>());
-}
-
 struct Slice {
   std::size_t moved = 0, number = 0, count = 0;
 };
@@ -335,7 +255,8 @@ Sweep sweep(std::span<const TriangleMesh> polytopes, std::span<const RigidMotion
       reach[i] = moved[m].spread(double(count)) + polytope.growth;
       meter.at(++done, slices.size());
     });
-    result.volume = volume_by_points(result.pieces);
+    const auto [volume, error] = cover::estimated_volume(result.pieces);
+    result.volume = volume, result.volume_error = error;
   });
   result.verdict = {.certified = true,
                     .proof = "sweep",

@@ -27,7 +27,8 @@
 //   (1) X lies beside some part of a triangle of O. check_inner_faces visits every triangle of O, which H (and O, where
 //       that matters) divide into parts beside which w_H and w_O are constant. An Arrangement knows both beside each: X
 //       is found.
-//   (2) X lies beside none, or only beside parts of O that H holds, with w_H >= 1 on their other side. Then its boundary lies on H alone, and is made of whole pieces of faces of H as H cuts
+//   (2) X lies beside none, or only beside parts of O that H holds, with w_H >= 1 on their other side. Then its
+//   boundary lies on H alone, and is made of whole pieces of faces of H as H cuts
 //       itself: where O crosses such a piece or covers a part of it, on the side of X, X would lie beside O; and where
 //       O only touches it from the other side, X goes on. find_holes looks beside each piece: X is found. A piece that
 //       lies on O needs no answer: it does not bound X.
@@ -253,9 +254,9 @@ class Verifier {
   Steps steps_;
   std::mt19937 random_;  // the verdict does not depend on it
   std::vector<Offender> offenders_;
-  std::size_t undecided_ = 0;  // faces of O
-  bool x_is_beside_o_ = false; // X was found beside a triangle of O
-  bool x_is_off_o_ = false;    // it is known that X lies beside no triangle of O
+  std::size_t undecided_ = 0;   // faces of O
+  bool x_is_beside_o_ = false;  // X was found beside a triangle of O
+  bool x_is_off_o_ = false;     // it is known that X lies beside no triangle of O
   EnclosureReport report_;
 };
 

@@ -133,7 +133,7 @@ TEST(Sweep, OfATranslationIsTheConvexHullOfBothEnds) {
   const Sweep made = sweep(meshes::box({0, 0, 0}, {1, 1, 1}), {{motion}});
   ASSERT_EQ(made.pieces.size(), 1U);
   EXPECT_NEAR(signed_volume(made.pieces[0]), 1 + 3 + 4 + 5, 1e-9);
-  EXPECT_NEAR(made.volume, 13, 0.1);
+  EXPECT_NEAR(made.volume, 13, 1e-9);
   EXPECT_LT(made.verdict.distance().upper, 1e-9);
   EXPECT_TRUE(made.verdict.encloses_solid == Answer::Yes);
 }
@@ -141,6 +141,19 @@ TEST(Sweep, OfATranslationIsTheConvexHullOfBothEnds) {
 TEST(Sweep, OfALongSlantedMotionHasItsVolume) {
   const Sweep made = sweep(meshes::box({0, 0, 0}, {1, 1, 1}), {{{.shift = {0, 1000, 1000}}}});
   EXPECT_NEAR(made.volume, 2001, 1);
+}
+
+// A turn of a cube about one of its edges: a quarter of a cylinder between two halves of the cube.
+TEST(Sweep, OfManySlicesHasItsVolume) {
+  for (const double angle : {kPi / 2, 2 * kPi}) {
+    const Sweep made =
+        sweep(meshes::box({0, 0, 0}, {1, 1, 1}), {{{.angle = angle}}}, {.max_pieces = 1, .max_distance = 1e-3});
+    const double exact = std::min(1 + angle, 2 * kPi);  // the slices add up to 1e-3 times the area of the outside
+    EXPECT_GT(made.pieces.size(), 40U);
+    EXPECT_LT(made.volume_error, 2e-3 * exact);
+    EXPECT_GT(made.volume, exact - 4 * made.volume_error);
+    EXPECT_LT(made.volume, exact + 5e-3 + 4 * made.volume_error);
+  }
 }
 
 TEST(Sweep, OfAMotionThatStandsStillIsTheCover) {
