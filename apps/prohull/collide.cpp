@@ -42,16 +42,14 @@ struct Body {
   InsideOut inside_out = {};  ///< if it is closed: nothing is inside of these components
 };
 
-TriangleMesh outer_hull(const ProgressiveHull& levels, const std::filesystem::path& path) {
+TriangleMesh outer_hull(const ProgressiveHull& levels) {
   if (levels.side() == HullSide::Inner)
-    throw InputError(Defect::InvalidOption,
-                     input_name(path) + ": it holds inner hulls; --conservative needs outer ones");
+    throw InputError(Defect::InvalidOption, "it holds inner hulls; --conservative needs outer ones");
   return levels.base();
 }
 
-CollisionIndex index_of(const ProgressiveHull& levels, const CollideOptions& options,
-                        const std::filesystem::path& path) {
-  return CollisionIndex(options.conservative ? outer_hull(levels, path) : levels.original());
+CollisionIndex index_of(const ProgressiveHull& levels, const CollideOptions& options) {
+  return CollisionIndex(options.conservative ? outer_hull(levels) : levels.original());
 }
 
 Body read_body(const CollideOptions& options, const std::filesystem::path& path) {
@@ -59,13 +57,18 @@ Body read_body(const CollideOptions& options, const std::filesystem::path& path)
   stop_if_interrupted();
   return naming(path, [&]() -> Body {
     if (const auto* const levels = std::get_if<ProgressiveHull>(&read))
-      return {index_of(*levels, options, path), levels->finest_level()};
+      return {index_of(*levels, options), levels->finest_level()};
     const auto& mesh = std::get<TriangleMesh>(read);
     CollisionIndex index(mesh);
-    const InsideOut inside_out = index.is_solid() ? inside_out_parts(mesh) : InsideOut{};
+    const bool closed = is_closed(mesh);
+    const InsideOut inside_out = closed ? inside_out_parts(mesh) : InsideOut{};
     if (options.conservative && inside_out.parts > 0)
       throw InputError(Defect::NoVolume, described(inside_out, "the mesh") +
                                              " and encloses nothing, which --conservative could tell of; turn it");
+    if (options.conservative && !closed)
+      throw InputError(Defect::OpenEdge,
+                       "it is not closed, so that it encloses nothing, which --conservative could tell of; `prohull "
+                       "repair` closes it");
     return {std::move(index), FinestLevel::Input, inside_out};
   });
 }
@@ -128,12 +131,12 @@ void print_summary(const CollideOptions& options, const Answers& answers) {
 }
 
 void print_notes(const Body& body, const std::filesystem::path& path) {
-  if (!body.index.is_solid())
+  if (!body.index.is_solid() && body.inside_out.parts == 0)
     say("  {} is not closed: only its faces count, not what lies inside (`prohull repair` closes it)\n",
         input_name(path));
   if (body.inside_out.parts > 0)
-    say("  {}: only its faces count, because nothing is inside of it (`prohull repair` turns it)\n",
-        described(body.inside_out, input_name(path)));
+    say("  {}: only its faces count, because nothing is inside of it ({})\n",
+        described(body.inside_out, input_name(path)), remedy(body.inside_out));
   if (const std::string finest = described_finest_level(body.finest_level); !finest.empty())
     say("  {} stands for {}: the finest level of the file is not the input itself\n", input_name(path), finest);
 }

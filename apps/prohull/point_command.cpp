@@ -81,7 +81,7 @@ int run_points(const PointOptions& options, const OutputKind& answers, const Ask
   options.random.say_what("points");
   say("{}{}\n", options.out.empty() ? "" : output_name(options.out) + ": ", found.summary);
   if (inside_out.parts > 0)
-    say("  {}: nothing is inside of it (`prohull repair` turns it)\n", described(inside_out, input_name(options.in)));
+    say("  {}: nothing is inside of it ({})\n", described(inside_out, input_name(options.in)), remedy(inside_out));
   say("  engine {}, {}: {} points per second\n", index.engine_name(), counted(threads, "thread"),
       grouped(static_cast<std::size_t>(per_second)));
   seconds.say_them();

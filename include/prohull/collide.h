@@ -55,7 +55,9 @@ class CollisionIndex {
   /// finite or beyond 1e100.
   explicit CollisionIndex(const TriangleMesh& mesh, StandsFor what = StandsFor::Solid);
 
-  bool is_solid() const;  ///< whether the mesh is closed and stands for its solid
+  /// Whether the mesh is closed, stands for its solid, and is not inside out in all of its components, so that there is
+  /// nothing inside.
+  bool is_solid() const;
   std::size_t face_count() const;
   std::size_t memory_bytes() const;  ///< of what all copies share
 

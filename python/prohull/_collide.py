@@ -53,7 +53,7 @@ class Collider:
 
     @property
     def is_solid(self) -> bool:
-        """Whether the mesh is closed, so that what lies inside of it collides."""
+        """Whether the mesh is closed, and not inside out in all components, so that what lies inside of it collides."""
         return self._core.is_solid
 
     def collides(self, other: Union["Collider", MeshLike], poses: Optional[ArrayLike] = None, *,

@@ -159,7 +159,8 @@ void require_closed(const CollisionIndex& a, const CollisionIndex& b) {
   if (!a.is_solid() || !b.is_solid())
     throw InputError(
         Defect::OpenEdge,
-        "a mesh is not closed, so that it encloses nothing: ask for the exact answer, or close it (`prohull repair`)");
+        "a mesh is not closed, or is inside out, so that it encloses nothing: ask for the exact answer, or mend it "
+        "(`prohull repair`)");
 }
 
 /// answer(pose) for each of them.

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "collide/box_pair.h"
+#include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
 #include "geometry/usable_size.h"
 #include "prohull/detail/disjoint_sets.h"
@@ -61,12 +62,29 @@ PerVertex<VertexId> first_at_position(const PerVertex<Vec3>& positions) {
 }
 
 /// The first and the last vertex of each component, by x, y and z.
-std::vector<Segment> component_ends_of(const TriangleMesh& mesh) {
+/// The parts whose faces are connected by vertices, matched by position.
+DisjointSets connected_vertices(const TriangleMesh& mesh) {
   const PerVertex<VertexId> first = first_at_position(mesh.positions);
   DisjointSets connected(mesh.vertex_count());
   for (const VertexId v : mesh.positions.ids()) connected.join(index(v), index(first[v]));
   for (const auto& corners : mesh.triangles)
     for (const VertexId v : corners) connected.join(index(corners[0]), index(v));
+  return connected;
+}
+
+/// Of a closed mesh: whether each of its parts has a negative volume. Exact.
+bool is_inside_out(const TriangleMesh& mesh) {
+  const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
+  if (volume_sign(mesh.face_count(), triangle) >= 0) return false;
+  DisjointSets connected = connected_vertices(mesh);
+  PerVertex<std::vector<Triangle>> parts(mesh.vertex_count());
+  for (const FaceId f : mesh.triangles.ids())
+    parts[VertexId(connected.find(index(mesh.triangles[f][0])))].push_back(mesh.triangle(f));
+  return std::ranges::all_of(parts, [](const auto& part) { return part.empty() || volume_sign(part) < 0; });
+}
+
+std::vector<Segment> component_ends_of(const TriangleMesh& mesh) {
+  DisjointSets connected = connected_vertices(mesh);
   PerVertex<Segment> ends(mesh.vertex_count());
   for (const VertexId v : mesh.positions.ids()) ends[v] = {mesh.positions[v], mesh.positions[v]};
   const auto before = [](const Vec3& p, const Vec3& q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); };
@@ -142,7 +160,7 @@ int winding_of(const Triangle& t, const Vec3& p) {
 CollisionMesh::CollisionMesh(const TriangleMesh& given, StandsFor what)
     : tree(triangles_of(given)),
       mesh(reordered(given, tree.items())),
-      is_solid(what == StandsFor::Solid && is_closed(mesh)) {
+      is_solid(what == StandsFor::Solid && is_closed(mesh) && !is_inside_out(mesh)) {
   component_ends = component_ends_of(mesh);
 }
 

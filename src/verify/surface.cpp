@@ -167,9 +167,11 @@ InsideOut inside_out_parts(const TriangleMesh& mesh) {
   InsideOut found;
   const auto [component, count] = verify::components(mesh);
   const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
-  const std::vector<bool> inside_out = orientation(triangle, component, count).inside_out;
+  const Orientation facing = orientation(triangle, component, count);
+  const std::vector<bool>& inside_out = facing.inside_out;
   found.parts = static_cast<std::size_t>(std::ranges::count(inside_out, true));
   found.is_all = found.parts > 0 && found.parts == inside_out.size();
+  found.crosses = std::ranges::count(facing.components, Facing::Unclear) > 0;
   const auto first = std::ranges::find_if(component, [&](std::uint32_t c) { return inside_out[c]; });
   if (found.parts > 0) found.first = FaceId(static_cast<std::uint32_t>(first - component.begin()));
   return found;
@@ -182,6 +184,11 @@ std::string described(const InsideOut& found, const std::string& name) {
                                               : fmt::format(", as {} {}", found.parts == 2 ? "is" : "are",
                                                             counted(found.parts - 1, "other", "others"));
   return fmt::format("the component of face {} of {} is inside out{}", index(found.first), name, others);
+}
+
+std::string remedy(const InsideOut& found) {
+  return found.crosses ? "turn it where the mesh was made: it crosses or repeats other components"
+                       : "`prohull repair` turns it";
 }
 
 TriangleMesh turned_outwards(TriangleMesh mesh) {

@@ -107,6 +107,10 @@ TEST(Collide, AnOpenMeshStandsForItsFaces) {
   TriangleMesh open = scaled(octahedron(), 10);
   open.triangles.pop_back();
   EXPECT_FALSE(CollisionIndex(open).is_solid());
+  const TriangleMesh cube = meshes::box({0, 0, 0}, {1, 1, 1}), other = meshes::box({5, 0, 0}, {9, 4, 4});
+  EXPECT_TRUE(CollisionIndex(meshes::together(cube, meshes::inside_out(other))).is_solid());
+  EXPECT_FALSE(CollisionIndex(meshes::inside_out(cube)).is_solid()) << "nothing is inside";
+  EXPECT_FALSE(CollisionIndex(meshes::inside_out(meshes::together(cube, other))).is_solid());
   EXPECT_FALSE(collide(open, octahedron()));
   EXPECT_TRUE(collide(open, octahedron(), at({10, 0, 0})));
   TriangleMesh sheet = make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});

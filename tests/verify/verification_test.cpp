@@ -319,6 +319,8 @@ TEST(InsideOutParts, AreComponentsOfNegativeVolumeThatAreNoCavities) {
             "the component of face 12 of it is inside out, as is 1 other");
   const TriangleMesh bar = inside_out(box({-0.5, -0.5, -9}, {0.5, 0.5, 9}));  // larger than the cube, and crosses it
   EXPECT_EQ(described(inside_out_parts(together(cube, bar)), "it"), "the component of face 12 of it is inside out");
+  EXPECT_TRUE(inside_out_parts(together(cube, bar)).crosses);
+  EXPECT_FALSE(inside_out_parts(together(cube, beside)).crosses);
   EXPECT_TRUE(says(verify_hull(kLarge, together(cube, bar)),
                    "24 faces of the original count as turned, as its volume is negative: 12 of these look inwards"));
 }
