@@ -23,20 +23,11 @@ namespace prohull::cli {
 
 namespace {
 
-constexpr std::string_view kFacesInName = "{faces}";
-
-std::filesystem::path path_for(const std::filesystem::path& pattern, std::size_t faces) {
-  std::string name = pattern.string();
-  if (const auto at = name.find(kFacesInName); at != std::string::npos)
-    name.replace(at, kFacesInName.size(), std::to_string(faces));
-  return name;
-}
-
 void require_faces_in_name(const BuildOptions& options, const std::filesystem::path& file) {
-  if (options.faces.size() > 1 && !file.empty() && file.string().find(kFacesInName) == std::string::npos)
+  if (options.faces.size() > 1 && !file.empty() && path_for(file, 0) == file)
     refuse(fmt::format(
-        "{}: several hulls need several names; put {{faces}} where the number of faces goes, as in hull_{{faces}}.stl",
-        file.string()));
+        "{}: several hulls need several names; put {{faces}} where the number of faces goes, as in {}", file.string(),
+        (file.parent_path() / (file.stem().string() + "_{faces}" + file.extension().string())).string()));
 }
 
 /// What the names of the outputs end in; refuses options that contradict each other.
@@ -220,22 +211,31 @@ BuildOptions for_mesh(BuildOptions options, const std::filesystem::path& in) {
   return options;
 }
 
-/// Before any work, that no file is written twice.
+void require_names(const BuildOptions& options) {
+  const std::pair<const char*, std::filesystem::path> files[] = {{"-o", pattern_of(options.out, "")},
+                                                                 {"--hierarchy", options.hierarchy},
+                                                                 {"--certificate", options.certificate},
+                                                                 {"--report", options.report}};
+  for (const auto& [option, file] : files)
+    if (!file.empty() && named_after(file, "a.stl") == file)
+      refuse(
+          fmt::format("{}: several meshes need several names; put {{name}} where the name of the mesh goes, as in {} "
+                      "'{}'{}",
+                      file.string(), option, (file.parent_path() / ("{name}" + file.extension().string())).string(),
+                      file == options.out ? ", or end -o in / for a folder" : ""));
+}
+
+/// Before any work: refuses options as for one mesh, and files that would be written twice.
 void check_several(const BuildOptions& options, const std::vector<std::filesystem::path>& meshes) {
+  require_names(options);
+  BuildOptions of_all = for_mesh(options, "{name}.stl");  // names stay patterns
+  of_all.in = meshes.front();
+  check_options(of_all);
   std::vector<std::filesystem::path> outputs;
   for (const auto& mesh : meshes) {
     const BuildOptions one = for_mesh(options, mesh);
     for (const auto& file : {one.out, one.hierarchy, one.certificate, one.report}) outputs.push_back(file);
   }
-  const auto is_of_all = [](const std::filesystem::path& file) {
-    return !file.empty() && named_after(file, "a.stl") == file;
-  };
-  for (const auto& file : {pattern_of(options.out, ""), options.hierarchy, options.certificate, options.report})
-    if (is_of_all(file))
-      refuse(
-          fmt::format("{}: several meshes need several names; put {{name}} where the name of the mesh goes, as in "
-                      "hulls/{{name}}.stl, or end -o in / for a folder",
-                      file.string()));
   check_files(meshes, outputs);
 }
 

@@ -191,8 +191,7 @@ double write_seconds(const BuildOutcome& outcome) {
 /// What the ladder looked at before it chose: docs/repair.md.
 void print_search(const BuildOutcome& outcome) {
   for (const Solid& solid : outcome.made.solids)
-    say_more("  tried {}: {}, {} of its faces intersecting\n",
-             solid.source == Source::ConvexHull ? "a convex solid" : source_of(solid),
+    say_more("  tried {}: {}, {} of its faces intersecting\n", source_of(solid),
              counted(solid.mesh.face_count(), "face", "faces"), counted(solid.self_intersections, "pair", "pairs"));
   for (const Written& written : outcome.written) {
     say_more("  {}: built in {:.2f} s, verified in {:.2f} s by {}\n", output_name(written.path),
@@ -215,6 +214,19 @@ void print_summary(const BuildOptions& options, const BuildOutcome& outcome) {
   print_search(outcome);
 }
 
+/// What a row of the table has to say behind its yes.
+std::string caveats_of(const Written& written) {
+  const Verdict& verdict = written.measures.verdict;
+  std::string text;
+  if (!written.hull.within_bounds) text += ", NOT within the bounds";
+  if (const std::size_t dropped = verdict.non_finite_faces; dropped > 0)
+    text += fmt::format(", of finite triangles ({} {} not)", grouped(dropped), dropped == 1 ? "is" : "are");
+  if (verdict.cap_faces > 0 && verdict.distance_to_triangles)
+    text += fmt::format(", with openings closed ({:.4g} from the triangles alone)",
+                        rounded_up(verdict.distance_to_triangles->upper, 4));
+  return text;
+}
+
 std::string table_head() {
   return fmt::format("{:>11}  {:>9}  {:>8}  {:>9}  {}", "faces", "hull", "void", "distance", "certified");
 }
@@ -226,9 +238,7 @@ std::vector<std::string> table_rows(const BuildOutcome& outcome) {
                                grouped(written.hull.mesh.face_count()),
                                std::isnan(written.hull.void_ratio) ? "" : percent_text(written.hull.void_ratio, 2),
                                rounded_up(written.measures.verdict.distance().upper, 4),
-                               !written.certified()          ? "NO"
-                               : !written.hull.within_bounds ? "yes, NOT within the bounds"
-                                                             : "yes"));
+                               written.certified() ? "yes" + caveats_of(written) : "NO"));
   return rows;
 }
 

@@ -88,7 +88,7 @@ void print_summary(const LodOptions& options, const ProgressiveHull& hull, const
            outcome.verify_seconds);
 }
 
-int extract(const LodOptions& options) {
+int extract(LodOptions options) {
   const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
   check_files({options.in}, {options.out, options.report});
   LodOutcome outcome;
@@ -99,6 +99,7 @@ int extract(const LodOptions& options) {
   const Stopwatch extracting;
   outcome.level = level_of(hull, options, suffix);
   outcome.extract_seconds = extracting.seconds();
+  options.out = path_for(options.out, options.faces > 0 ? options.faces : outcome.level.face_count());
   Outputs outputs;
   outputs.add(options.out, suffix, [&](const auto& file) {
     write_mesh(file, outcome.level);

@@ -144,6 +144,8 @@ std::vector<std::string> formats_of(const OutputKind& kind) {
 void require_writable(const path& file) {
   if (file.empty() || is_stream(file)) return;
   const path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
+    fail_to_write(file, fmt::format("{} is a file and no folder; choose another name", folder.string()));
   if (!std::filesystem::is_directory(folder))
     fail_to_write(file, fmt::format("there is no folder {}; create it first", folder.string()));
   if (std::filesystem::is_directory(file)) fail_to_write(file, "it is a folder; name a file in it");
@@ -280,6 +282,14 @@ CLI::Option* add_out_format_option(CLI::App& command, std::string& format, const
   return add_value(command, "--out-format", format, CLI::detail::join(formats, "|"),
                    "Format of the output, where its name does not tell it: the name - does not.")
       ->transform(one_of("--out-format", formats));
+}
+
+path path_for(const path& pattern, std::size_t faces) {
+  constexpr std::string_view kFacesInName = "{faces}";
+  std::string name = pattern.string();
+  if (const auto at = name.find(kFacesInName); at != std::string::npos)
+    name.replace(at, kFacesInName.size(), std::to_string(faces));
+  return name;
 }
 
 void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }

@@ -76,6 +76,9 @@ void add_mesh_output_options(CLI::App& command, std::filesystem::path& out, std:
                              const std::string& what);
 CLI::Option* add_out_format_option(CLI::App& command, std::string& format, const OutputKind& kind);
 
+/// {faces} in the pattern becomes the number of faces that a hull was asked to have.
+std::filesystem::path path_for(const std::filesystem::path& pattern, std::size_t faces);
+
 /// Throws InputError(InvalidOption).
 [[noreturn]] void refuse(const std::string& what);
 

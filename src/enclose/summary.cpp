@@ -65,8 +65,8 @@ std::string described_topology(const TriangleMesh& hull) {
 
 std::string described_guards(const EnclosingHull& hull) {
   const ShapeGuards& guards = kRelaxedGuards[hull.relaxed_guards - 1];
-  return fmt::format("shape guards relaxed to reach it: normals may turn by {:.0f} degrees{}, step {} of {}",
-                     guards.max_normal_deviation / kRadiansOfDegree,
+  return fmt::format("shape guards relaxed{}: normals may turn by {:.0f} degrees{}, step {} of {}",
+                     hull.target_reached ? " to reach it" : "", guards.max_normal_deviation / kRadiansOfDegree,
                      std::isfinite(guards.max_overhang) ? "" : " and spikes are allowed", hull.relaxed_guards,
                      kRelaxedGuards.size());
 }
@@ -160,7 +160,7 @@ std::string source_of(const Solid& solid) {
     case Source::Mesh:
       return "the mesh";
     case Source::ConvexHull:
-      return "the convex hull";
+      return "a convex solid";
     default:
       return fmt::format("a wrap with a spacing of {:.4g}", solid.wrap_spacing);
   }

@@ -165,7 +165,21 @@ absent "hulls/four*" "a mesh that is broken"
 expect 1 "a bound that one misses" $prohull build parts -o missed/ --faces 8 --strict --keep-guards --repair none --max-valence 3
 expect 2 "one name for two" $prohull build parts -o one.stl
 says err "one name for two" "several meshes need several names"
+says err "one name for two" "as in -o '{name}.stl', or end -o in / for a folder"
 absent one.stl "one name for two"
+expect 2 "one report for two" $prohull build parts -o hulls/ --report parts/r.json
+says err "one report for two" "as in --report 'parts/{name}.json'"
+expect 2 "one name for two hulls of each" $prohull build parts -o 'hulls/{name}.stl' --faces 20,12
+says err "one name for two hulls of each" "as in hulls/{name}_{faces}.stl"
+is "one name for two hulls of each: said once" test "$(wc -l <err)" = 1
+says_not out "one name for two hulls of each: no table" "mesh"
+expect 2 "a hierarchy of two hulls" $prohull build parts -o hulls/ --faces 20,12 --hierarchy 'hulls/{name}.phull'
+is "a hierarchy of two hulls: said once" test "$(wc -l <err)" = 1
+printf 'OFF\n5 5 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nnan 0 0\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 4\n3 2 3 4\n' >holed.off
+expect 0 "caveats in a table" $prohull build holed.off three.ply -o 'hulls/{name}.stl' --faces 30
+says out "caveats in a table" "yes, of finite triangles (2 are not), with openings closed ("
+expect 3 "a folder that is a file" $prohull build three.ply -o three.ply/hull.stl
+says err "a folder that is a file" "three.ply is a file and no folder"
 expect 2 "two meshes of one name" $prohull build parts/one.ply "$PWD/parts/../parts/one.ply" -o new/
 says err "two meshes of one name" "is named twice"
 absent new "two meshes of one name"

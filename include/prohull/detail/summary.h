@@ -43,7 +43,8 @@ Verdict as_written(Verdict verdict, bool holds_bits);
 /// What the finest level of a hull is, where that is not the input: "the convex hull of the input"; else empty.
 std::string described_finest_level(FinestLevel finest_level);
 
-/// "the mesh", "the convex hull", "a wrap with a spacing of 0.1"
+/// "the mesh", "a convex solid", which is the convex hull or one of fewer faces around it, "a wrap with a spacing of
+/// 0.1"
 std::string source_of(const Solid& solid);
 
 struct HullMeasures {
