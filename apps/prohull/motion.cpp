@@ -193,27 +193,6 @@ void say_others(const PathOptions& options, const PathProof& proof) {
         options.proof.gap > 0 ? "are closer" : "meet", open);
 }
 
-/// How many digits tell the position from both limits.
-int digits_apart(double position, const Joint& joint) {
-  constexpr int kFewest = 6, kMost = std::numeric_limits<double>::max_digits10;
-  int digits = kFewest;
-  const auto text = [&](double number) { return fmt::format("{:.{}g}", number, digits); };
-  while (digits < kMost && (text(position) == text(joint.lower) || text(position) == text(joint.upper))) ++digits;
-  return digits;
-}
-
-/// Where the path leaves the limits of a joint; empty if it does not.
-std::string beyond_text(const Robot& robot, const JointPath& path) {
-  const auto beyond = first_beyond_limits(robot, path);
-  if (!beyond) return "";
-  const Joint& joint = robot.joints[beyond->joint];
-  const int digits = digits_apart(beyond->position, joint);
-  return fmt::format("BEYOND LIMITS: {0}{1} {2}: {3} is at {4:.{7}g}, and its limits are {5:.{7}g} and {6:.{7}g}",
-                     beyond->is_in_row() ? "" : "after ", path.rows().row,
-                     path.rows().numbers.empty() ? beyond->row() : path.rows().numbers[beyond->row()], joint.name,
-                     beyond->position, joint.lower, joint.upper, digits);
-}
-
 void say_path(const PathOptions& options, const Decision& decision, std::size_t p) {
   const Robot& robot = decision.file.robot;
   const JointPath& path = decision.paths[p];

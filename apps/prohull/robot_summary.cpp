@@ -287,6 +287,18 @@ std::string frame_text(const RobotFile& file, std::string_view what) {
   return fmt::format("  {} is in the frame of link '{}', wherever the file places that in its model\n", what, root);
 }
 
+std::string beyond_text(const Robot& robot, const JointPath& path) {
+  const auto beyond = first_beyond_limits(robot, path);
+  if (!beyond) return "";
+  const Joint& joint = robot.joints[beyond->joint];
+  const int digits =
+      std::max(digits_apart(beyond->position, joint.lower, 6), digits_apart(beyond->position, joint.upper, 6));
+  return fmt::format("BEYOND LIMITS: {0}{1} {2}: {3} is at {4:.{7}g}, and its limits are {5:.{7}g} and {6:.{7}g}",
+                     beyond->is_in_row() ? "" : "after ", path.rows().row,
+                     path.rows().numbers.empty() ? beyond->row() : path.rows().numbers[beyond->row()], joint.name,
+                     beyond->position, joint.lower, joint.upper, digits);
+}
+
 void say_robot(const RobotFile& file) {
   const Robot& robot = file.robot;
   say("{}: {}, {}, {}\n", file.path.string(), robot.name, counted(robot.links.size(), "link"),

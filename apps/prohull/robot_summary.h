@@ -7,6 +7,7 @@
 #include "robot/check/check.h"
 #include "robot/files/robot_file.h"
 #include "robot/hulls/link_hulls.h"
+#include "robot/motion/joint_path.h"
 #include "robot/report/report.h"
 
 namespace prohull::cli {
@@ -18,6 +19,9 @@ namespace prohull::cli {
 std::string frame_text(const robot::RobotFile& file, std::string_view what);
 
 void say_robot(const robot::RobotFile& file);
+
+/// Where the path leaves the limits of a joint; empty if it does not.
+std::string beyond_text(const robot::Robot& robot, const robot::JointPath& path);
 
 /// What a run would do with each link. Returns whether all meshes that it needs are there.
 bool say_plan(const robot::RobotFile& file, const robot::LinkHullOptions& options);

@@ -140,6 +140,7 @@ std::vector<LinkSweep> sweeps_of_robot(const SweepRunOptions& options, SweepOpti
   if (sweeps.empty()) throw InputError(Defect::EmptyMesh, fmt::format("{}: no link has a shape", options.in.string()));
   say_robot(file);
   say("{}", frame_text(file, "the zone"));
+  if (const std::string beyond = path ? beyond_text(file.robot, *path) : ""; !beyond.empty()) say("  {}\n", beyond);
   return sweeps;
 }
 

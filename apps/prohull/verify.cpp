@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "prohull/detail/closed_original.h"
+#include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "prohull/verification.h"
@@ -23,13 +24,13 @@ void print_offenders(const Verification& found, const std::string& mesh) {
     say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
 }
 
-void print_near_faces(const Verification& found, const std::string& hull) {
+void print_near_faces(const Verification& found, const std::string& hull, double gap) {
   if (found.faces_too_near > 0)
     say("  {} of {} {} too near; the nearest:\n", counted(found.faces_too_near, "face"), hull,
         found.faces_too_near == 1 ? "is" : "are");
   for (const NearFace& near : found.nearest)
-    say("    face {} at {}, {:.6g} from face {} of the mesh\n", index(near.face), text_of_point(near.point),
-        near.distance, index(near.original_face));
+    say("    face {} at {}, {:.{}g} from face {} of the mesh\n", index(near.face), text_of_point(near.point),
+        near.distance, digits_apart(near.distance, gap, 6), index(near.original_face));
 }
 
 HullSide side_of(const MeshOrHull& hull, const VerifyOptions& options) {
@@ -73,7 +74,8 @@ std::string verdict(const Verification& found, const SizeComparison& sizes, cons
     return fmt::format("{}: {}{}: {}", is_undecided(found) && found.keeps_gap ? "UNDECIDED" : "NO", what,
                        found.is_yes() ? ", but there is more" : "", found.why_not);
   if (!found.keeps_gap)
-    return fmt::format("NO: {}, but {} does not keep the gap of {:.9g}: {}", what, hull, gap, found.why_not);
+    return fmt::format("NO: {}, but {} does not keep the gap of {:.{}g}: {}", what, hull, gap,
+                       digits_apart(gap, found.least_distance, 9), found.why_not);
   std::string how = ", exactly";
   if (replayed)
     how = fmt::format("{}; {} splits replayed, {} signs exact",
@@ -91,7 +93,7 @@ void print_summary(const VerifyOptions& options, const Verification& found, cons
   const std::string hull = input_name(options.hull), original = input_name(options.original);
   say("{}, {:.2f} s\n", verdict(found, sizes, options, gap), seconds);
   print_offenders(found, found.side == HullSide::Outer ? original : hull);
-  print_near_faces(found, hull);
+  print_near_faces(found, hull, gap);
   if (found.cavities > 0 && found.faces_outside == 0)
     say("  {} of {} {}, and that is not covered\n", counted(found.cavities, "part"),
         found.side == HullSide::Outer ? hull : original,
@@ -100,7 +102,9 @@ void print_summary(const VerifyOptions& options, const Verification& found, cons
   if (has_failed_replay(found)) return;
   if (!std::isnan(found.hull_volume))
     say("  hull: volume {:.9g}{}\n", found.hull_volume, text_of_void(found.void_ratio));
-  if (gap > 0) say("  least distance: {:.9g}\n", found.least_distance);
+  if (gap > 0)
+    say("  least distance: {:.{}g}\n", found.least_distance,
+        found.keeps_gap ? 9 : digits_apart(gap, found.least_distance, 9));
   say("  {} intersects itself in {}\n", hull, counted(found.self_intersections, "pair of faces", "pairs of faces"));
 }
 

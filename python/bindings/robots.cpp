@@ -344,6 +344,10 @@ void bind_robots(py::module_& module) {
       .def_property_readonly("link_names", &link_names)
       .def_property_readonly("joints", &joints_of)
       .def("link_mesh", &link_mesh)
+      .def("has_shape",
+           [](const RobotFile& file, std::size_t link) {
+             return !file.robot.links[link].visual.empty() || !file.robot.links[link].collision.empty();
+           })
       .def("poses", &poses_of)
       .def("hulls", &hulls_of)
       .def("check", &check_of)

@@ -469,7 +469,7 @@ class Robot(Shown):
         max_distance: how far the slices of the motion may add to the distance of the pieces, in metres, greater than
             0. None: 2 % of the diagonal of each link.
 
-        Raises InputError as check_path() and prohull.sweep() do.
+        Raises InputError as check_path() and prohull.sweep() do, and for a link without a shape.
         """
         _arrays.one_of("geometry", geometry, get_args(Geometry))
         rows = path_rows(self._path_joints(), joints, positions, times, velocities, accelerations)
@@ -500,9 +500,14 @@ class Robot(Shown):
 
     def _numbers_of(self, links: Optional[Sequence[str]]) -> list[int]:
         numbers = {link.name: number for number, link in enumerate(self.links)}
-        named = list(numbers) if links is None else _arrays.names("links", links)
+        with_shape = [link.name for link in self.links if self._core.has_shape(numbers[link.name])]
+        if not with_shape:
+            raise InputError(f"{self.name}: no link has a shape")
+        named = with_shape if links is None else _arrays.names("links", links)
         if unknown := [name for name in named if name not in numbers]:
             raise InputError(f"links: the robot has no link {unknown[0]!r}; it has {', '.join(numbers)}")
+        if shapeless := [name for name in named if name not in with_shape]:
+            raise InputError(f"links: {shapeless[0]!r} has no shape")
         return [numbers[name] for name in named]
 
     def _path_joints(self) -> list[str]:

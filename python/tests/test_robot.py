@@ -297,6 +297,16 @@ def test_links_are_enclosed_all_along_a_path(slide):
         slide.sweep([[0, 1]], max_distance=0)
 
 
+def test_a_link_without_a_shape_is_not_swept(tmp_path):
+    bare = SLIDE.replace('<collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>', "")
+    (tmp_path / "bare.urdf").write_text(bare)
+    robot = prohull.robot.Robot.load(tmp_path / "bare.urdf")
+    assert list(robot.sweep([[0, 1]])) == ["base", "cart"] and list(robot.sweep_workspace()) == ["base"]
+    for sweep in (lambda: robot.sweep([[0, 1]], links=["cart", "rail"]), lambda: robot.sweep_workspace(links=["rail"])):
+        with pytest.raises(prohull.InputError, match="links: 'rail' has no shape"):
+            sweep()
+
+
 def test_rows_of_an_srdf_are_decided(slide, tmp_path):
     rows = [("base", "cart", "Never"), ("base", "cart", "User"), ("base", "rail", "Adjacent"), ("base", "desk", "Never")]
     (tmp_path / "slide.srdf").write_text("<robot name='slide'>\n" + "\n".join(

@@ -36,6 +36,11 @@ expect 0 "it covers the end" $prohull verify quarter.stl end.off
 expect 0 "the axis as a vector, through a point" \
   $sweep --axis 0,0,2 --through 0,0,7 --angle 90 -o vector.obj --threads 1
 says vector.obj "an object for each piece" "o piece_01"
+printf 'OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n' >cube.off
+sed -n '11,16p' bar.off >>cube.off
+expect 0 "many slices" $prohull sweep cube.off --angle 90 --max-distance 0.1% --pieces 1 -o many.obj --report many.json
+says out "the volume of many slices is 1 + pi / 2" "volume about 2.57,"
+says many.json "the volume of many slices" '"volume_error": '
 expect 0 "more slices" $sweep --angle 90 --max-distance 0.2% -o fine.ply
 expect 0 "one mesh" $sweep --angle 90 --faces 100 -o hull.stl
 says out "one mesh" "hull of 100 faces"
@@ -100,6 +105,9 @@ says bare.json "a root without a shape" '"link": null'
 expect 0 "a robot in its workspace" $prohull verify workspace.stl bar.off
 expect 2 "a workspace and a path" $prohull sweep arm.urdf turn.csv --workspace -o no.stl
 expect 2 "the workspace of a mesh" $prohull sweep bar.off --angle 5 --workspace -o no.stl
+sed 's/1.5707963267948966/99/' turn.csv >far.csv
+expect 0 "a path beyond limits" $prohull sweep arm.urdf far.csv -o far.stl
+says out "a path beyond limits" "BEYOND LIMITS: "
 expect 2 "no such link" $prohull sweep arm.urdf turn.csv --links elbow -o no.stl
 says err "no such link" "the robot has no link 'elbow'"
 expect 2 "a link without a shape" $prohull sweep bare.urdf turn.csv --links base,bar -o no.stl

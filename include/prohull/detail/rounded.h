@@ -22,6 +22,13 @@ inline double rounded_up(double number, int digits) {
   return nearest_of_digits(nearest + std::strtod(("1e" + std::to_string(exponent)).c_str(), nullptr), digits);
 }
 
+/// So few significant digits, but at least `fewest`, that the two numbers look different, if they are.
+inline int digits_apart(double a, double b, int fewest) {
+  constexpr int kMost = 17;
+  while (fewest < kMost && nearest_of_digits(a, fewest) == nearest_of_digits(b, fewest)) ++fewest;
+  return fewest;
+}
+
 /// With so many decimals, and not below `number`.
 inline std::string with_decimals_up(double number, int decimals) {
   const auto text = [&](double x) {
