@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 #include <sstream>
 
 #include "arguments.h"
@@ -108,6 +109,21 @@ std::string command_list(const std::vector<Command>& commands, std::size_t width
 /// Whether only --all shows it.
 bool is_more(const Argument& argument) { return argument.group.starts_with("More "); }
 
+/// Removes what only --all shows, and what is said of it. Returns how many options there were.
+std::size_t remove_more(Command& command) {
+  std::set<std::string> more;
+  for (const Argument& argument : command.arguments)
+    if (is_more(argument)) more.insert(argument.names.begin(), argument.names.end());
+  const std::size_t count = std::erase_if(command.arguments, is_more);
+  for (Argument& argument : command.arguments)
+    std::erase_if(argument.excluded, [&](const std::string& name) { return more.contains(name); });
+  std::erase_if(command.footer, [&](const std::string& example) {
+    const std::vector<std::string> words = CLI::detail::split(example, ' ');
+    return std::ranges::any_of(words, [&](const std::string& word) { return more.contains(word); });
+  });
+  return count;
+}
+
 std::string footer(const Command& command, std::size_t width) {
   std::string text;
   for (const std::string& line : command.footer)  // examples are to be copied, so they stay lines
@@ -126,7 +142,7 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string, CLI::AppF
       wrapped(command.description, width, 0) + "\n" + wrapped(usage(command, !commands.empty()), width, 0);
   if (!commands.empty()) text += command_list(commands, width);
   std::string hint;
-  if (const auto more = mode == CLI::AppFormatMode::All ? 0 : std::erase_if(command.arguments, is_more); more > 0)
+  if (const auto more = mode == CLI::AppFormatMode::All ? 0 : remove_more(command); more > 0)
     hint =
         "\n" + wrapped(fmt::format("`prohull help {} --all` shows {} more options.", app->get_name(), more), width, 0);
   return text + arguments(command, width) + hint + footer(command, width);
@@ -227,9 +243,10 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
   if (chosen.empty() && before_command.empty()) return help_of(*app);
   const std::string what =
       before_command.empty() ? what_is_wrong(*chosen.front(), error) : unknown_before_command(*app, before_command);
+  const bool is_about_all = chosen.empty() || chosen.front()->get_name() == "help";
   return fmt::format("prohull: {}\n`prohull help{}` shows {}.\n", one_line(what),
-                     chosen.empty() ? "" : " " + chosen.front()->get_name(),
-                     chosen.empty() ? "all commands" : "options, with examples");
+                     is_about_all ? "" : " " + chosen.front()->get_name(),
+                     is_about_all ? "all commands" : "options, with examples");
 }
 
 void add_help(CLI::App& app, Run& run) {

@@ -323,7 +323,7 @@ std::string face_counts(const std::vector<PanelPlan>& plans, const MeshTable& ta
   std::string text;
   for (const PanelPlan& plan : plans)
     text += (text.empty() ? "" : " + ") + grouped(table.meshes()[plan.shown].face_count());
-  return text;
+  return text + (text == "1" ? " face" : " faces");
 }
 
 nlohmann::json facts_of(const std::vector<PanelPlan>& plans, const MeshTable& table) {
@@ -374,7 +374,7 @@ int run_render(const RenderOptions& options) {
                                       {"bytes", png.size()},
                                       {"seconds", watch.seconds()}});
   outputs.commit();
-  say("{}: {} x {}, {} faces, {:.1f} s\n", output_name(options.out), size.width, size.height, face_counts(plans, table),
+  say("{}: {} x {}, {}, {:.1f} s\n", output_name(options.out), size.width, size.height, face_counts(plans, table),
       watch.seconds());
   for (const std::string& note : planner.notes()) say("  {}\n", note);
   say_more("  {} bytes; read {:.2f} s, draw {:.2f} s, write {:.2f} s\n", grouped(png.size()), read_seconds,

@@ -92,8 +92,9 @@ class Hull(Mesh):
     def levels(self) -> range:
         """The numbers of faces that level() has, from the hull to the original. Empty if the hull has no levels.
 
-        A tight hull has none. Unless it was built with levels=True, a hull has none either if its vertices were moved
-        after the last collapse: if its source is a wrap or the convex hull, or if it was lifted over folds.
+        A hull that was built with levels=True has levels. A tight hull has none, nor has one with a gap. Others have
+        none if their vertices were moved after the last collapse, as of a wrap or a convex solid, where a hull was
+        lifted over folds, and of some inner hulls.
         """
         if self._levels is None:
             return range(0)

@@ -10,6 +10,7 @@
 #include "io/append.h"
 #include "io/atomic_file.h"
 #include "io/byte_cursor.h"
+#include "io/file_content.h"
 #include "prohull/error.h"
 
 // Layout (docs/phull.md): 8 bytes of magic, u32 version, then one zstd frame with its checksum. All numbers are
@@ -136,6 +137,9 @@ bool is_hull_file(const std::filesystem::path& path) {
 }
 
 ProgressiveHull load_hull(std::string_view content, const std::filesystem::path& name) {
+  if (is_gzip(content))
+    throw InputError(Defect::UnknownFormat,
+                     fmt::format("{}: it is gzipped, and a .phull file is read as it is: gunzip it", name.string()));
   if (!is_hull_content(content))
     throw InputError(Defect::UnknownFormat,
                      fmt::format("{}: this is not a .phull file, which holds all levels of a hull; `prohull build MESH "

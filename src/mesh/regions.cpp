@@ -53,7 +53,8 @@ class Membership {
                       "fits: put it before them, or make them smaller",
                       counted(found, "face")));
     if (std::holds_alternative<Box>(region_.faces))
-      refuse("no face has all its corners in the box; is the box in the unit of the mesh?");
+      refuse(
+          "no face has all its corners in the box; is the box in the unit of the mesh, which is metres with --unit?");
     if (const auto* const group = std::get_if<NamedGroup>(&region_.faces))
       refuse(fmt::format("no face has the group, object or material {}; the file has {}", group->name, known_names()));
     if (std::holds_alternative<PaintedColor>(region_.faces))

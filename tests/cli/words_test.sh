@@ -57,7 +57,16 @@ says_not err "-- is no option" "'--'"
 expect 0 "no collapse" $prohull build cube.obj --faces 12 -o hull.obj
 says out "the mesh itself" "the mesh has no more faces than were asked for: the hull is the mesh itself"
 expect 0 "a polytope" $prohull build cube.obj --faces 8 -o hull.obj
-says_not out "a polytope is not the convex hull, which has 12 faces" "the convex hull has no more faces"
+says_not out "a polytope is not the convex hull, which has 12 faces" ", of the convex hull,"
+says out "a polytope" "outer hull of 8 faces, of a convex solid, "
+printf "$corners$bottom$walls" >bucket.obj
+expect 0 "a target that is not reached" $prohull build bucket.obj --faces 8 -o hull.obj --hierarchy hull.phull
+says out "a target that is not reached" "shape guards relaxed: normals may turn by"
+expect 0 "a name of a level" $prohull lod hull.phull -o 'level_{faces}.obj'
+is "a name of a level" test -s level_12.obj
+gzip -k hull.phull
+expect 3 "a gzipped hierarchy" $prohull lod hull.phull.gz -o level.obj
+says err "a gzipped hierarchy" "it is gzipped"
 for changed in twice tube nested; do
   expect 0 "repaired: $changed" $prohull build $changed.obj --faces 12 -o hull.obj
   says out "repaired: $changed" "the repaired mesh has no more faces than were asked for: the hull is the repaired mesh itself"
@@ -432,4 +441,40 @@ says out "too few steps" "UNDECIDED: tangled.obj may enclose tangled.obj: undeci
 says verify.json "too few steps" '"encloses_solid": null'
 says verify.json "too few steps" '"certified": false'
 
+
+# --- what is inside out, and what does not enclose ---
+awk '/^f/ { print $1, $2, $4, $3; next } 1' cube.obj >turned.obj
+expect 0 "nothing is inside" $prohull contains turned.obj --random 9
+says out "nothing is inside" "nothing is inside of it (\`prohull repair\` turns it)"
+{
+  grep '^v' cube.obj
+  awk '/^v / { print "v", 0.5 + $2, 0.5 + $3, 0.5 + $4 }' cube.obj
+  grep '^f' cube.obj
+  awk '/^f / { print "f", $2 + 8, $4 + 8, $3 + 8 }' cube.obj
+} >crossing.obj
+expect 0 "what repair does not turn" $prohull contains crossing.obj --random 9
+says_not out "what repair does not turn" "prohull repair"
+says out "what repair does not turn" "it crosses or repeats other components"
+expect 1 "no solid" $prohull collide turned.obj cube.obj --report collide.json
+is "no solid" test "$(grep -c '"solid": false' collide.json)" = 1
+says_not out "no solid" "is not closed"
+expect 3 "what is not closed has a name" $prohull collide cube.obj bucket.obj --conservative
+says err "what is not closed has a name" "bucket.obj: it is not closed"
+expect 0 "an inner hierarchy" $prohull build rock.ply --side inner --faces 100 -o inner.obj --hierarchy inner.phull
+expect 2 "an inner hierarchy" $prohull collide inner.phull cube.obj --conservative
+says err "an inner hierarchy" "prohull: inner.phull: it holds inner hulls"
+
+# --- numbers that look the same ---
+awk '/^v / { print "v", 0.25 + 0.5 * $2, 0.25 + 0.5 * $3, 0.25 + 0.5 * $4; next } 1' cube.obj >core.obj
+expect 1 "a gap that is hardly kept" $prohull verify cube.obj core.obj --gap 0.2500000000001
+says out "a gap that is hardly kept" "does not keep the gap of 0.2500000000001"
+says_not out "a gap that is hardly kept" "does not keep the gap of 0.25:"
+expect 1 "a hull in the midst" $prohull verify core.obj cube.obj --report verify.json
+says verify.json "a hull in the midst has no cavity" '"cavities": 0'
+expect 0 "one face" $prohull render triangle.obj -o triangle.png
+says out "one face" ", 1 face, "
+expect 2 "help of no command" $prohull help nope
+says err "help of no command" "\`prohull help\` shows all commands"
+expect 0 "help of build" $prohull help build
+says_not out "help of build: options of --all" "--recenter"
 count_checks
