@@ -18,11 +18,11 @@ struct Offender {
 };
 
 struct EnclosureReport {
-  bool encloses = false;          ///< the verdict, exact
+  bool encloses = false;  ///< the verdict, exact
   /// How many triangles of the inner mesh lie outside, at least in part; exact. Those on the surface of the outer mesh
   /// do not, even if the solid that they bound goes on beyond it.
   std::size_t faces_outside = 0;
-  std::vector<Offender> worst;    ///< those that reach farthest outside, the farthest first
+  std::vector<Offender> worst;  ///< those that reach farthest outside, the farthest first
   /// Faces, of either mesh, that EnclosureOptions::max_steps left undecided. If there are any, `encloses` is false, and
   /// there may be more faces outside and more cavities.
   std::size_t faces_undecided = 0;
