@@ -129,9 +129,9 @@ TEST(SphereCover, OfTetrahedraWithAFaceInCommonReachesOutLittle) {
   for (const std::size_t count : {8, 16, 32, 64}) {
     const SphereCover cover = sphere_cover(joined, {.max_balls = count});
     expect_covers(cover, joined);
-    EXPECT_LT(cover.reach.upper, before);
-    EXPECT_LT(cover.reach.upper, 1.1 * cover.reach.lower);
-    before = cover.reach.upper;
+    EXPECT_LT(cover.verdict.distance().upper, before);
+    EXPECT_LT(cover.verdict.distance().upper, 1.1 * cover.verdict.distance().lower);
+    before = cover.verdict.distance().upper;
   }
 }
 
