@@ -8,11 +8,11 @@ from ._covers import _covered
 from ._meshes import Mesh
 from ._shown import Shown
 from ._types import Gap, MeshLike, Progress
-from ._verify import Verdict, verdict_of
+from ._verify import Proven, Verdict, verdict_of
 from ._view import Part, mesh_parts
 
 
-class CageHull(Mesh):
+class CageHull(Proven, Mesh):
     """A hull of a cage: closed, with faces that look outwards. Everything that a Mesh does, it does."""
 
     verdict: Verdict  #: whether it is proven, exactly, that it encloses the mesh (an inner one: is enclosed by it)
@@ -23,11 +23,6 @@ class CageHull(Mesh):
     smallest_angle_degrees: float  #: of all its triangles
     worst_aspect_ratio: float  #: longest edge of a triangle, divided by its shortest altitude
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
-
-    @property
-    def certified(self) -> bool:
-        """Whether what `verdict` tells is proven, exactly."""
-        return self.verdict.certified
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from ._meshes import Mesh
 from ._prohull import InputError
 from ._shown import Shown
 from ._types import Gap, MeshLike, Path, PieceShape, Progress, Rows
-from ._verify import Offender, Verdict, verdict_of
+from ._verify import Offender, Proven, Verdict, verdict_of
 from ._view import Part, balls_part, pieces_part
 
 
@@ -52,14 +52,7 @@ class ConvexPiece(Mesh):
     primitive: Optional[Union[OrientedBox, Capsule, Ball]]  #: a box, capsule or ball that encloses the polytope, if `shape` asked for one
 
 
-class CoverShown(Shown):
-    verdict: Verdict
-
-    @property
-    def certified(self) -> bool:
-        """Whether what `verdict` tells is proven, exactly."""
-        return self.verdict.certified
-
+class CoverShown(Proven, Shown):
     def picture(self, width: int = 400, height: int = 300) -> bytes:
         """Draws what covers the mesh, each piece or ball in a colour of its own. Returns the content of a .png file.
 

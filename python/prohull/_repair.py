@@ -6,10 +6,10 @@ from . import _prohull
 from ._covers import _covered
 from ._meshes import Mesh
 from ._types import Gap, MeshLike, OpenShells, Progress, Source
-from ._verify import Verdict
+from ._verify import Proven, Verdict
 
 
-class Solid(Mesh):
+class Solid(Proven, Mesh):
     """A closed mesh whose faces look outwards, which repair() makes. Everything that a Mesh does, it does."""
 
     verdict: Verdict  #: what is proven, exactly: whether it covers every finite triangle of the mesh
@@ -20,11 +20,6 @@ class Solid(Mesh):
     closed_openings: int  #: number of openings that got a cap
     largest_opening: float  #: the diameter of the largest of these, in the mesh's unit
     original: Mesh  #: what it was made of
-
-    @property
-    def certified(self) -> bool:
-        """Whether what `verdict` tells is proven, exactly."""
-        return self.verdict.certified
 
 
 def repair(mesh: MeshLike, *, spacing: Gap = 0.0, open_shells: OpenShells = "close", keep_cavities: bool = True,

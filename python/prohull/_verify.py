@@ -64,6 +64,17 @@ class Verdict:
         return self.certified
 
 
+class Proven:
+    """What has a verdict."""
+
+    verdict: Verdict
+
+    @property
+    def certified(self) -> bool:
+        """Whether what `verdict` tells is proven, exactly."""
+        return self.verdict.certified
+
+
 def verdict_of(facts: dict[str, Any]) -> dict[str, Verdict]:
     """The verdict among the facts, if there is one."""
     return {"verdict": Verdict(**facts["verdict"])} if "verdict" in facts else {}
