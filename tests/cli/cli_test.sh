@@ -52,7 +52,8 @@ says out "verify tells the gap" "and keeps a gap of"
 expect 1 "a greater gap" $prohull verify away.ply rock.ply --gap 1.5% --report away.json
 says out "faces that are too near" "too near; the nearest"
 says away.json "report: near faces" '"original_face"'
-says away.json "report: it encloses" '"certified": true'
+says away.json "report: it encloses" '"encloses_solid": true'
+says away.json "report: it is too near" '"certified": false'
 $prohull sample asteroid -o pebble.ply --faces $((2000 / divisor)) >/dev/null
 expect 0 "an inner gap" $prohull build pebble.ply --faces 300 --side inner --gap 1% -o core.ply
 expect 0 "an inner gap verified" $prohull verify core.ply pebble.ply --side inner --gap 1%
