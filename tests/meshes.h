@@ -130,6 +130,18 @@ inline TriangleMesh together(TriangleMesh a, const TriangleMesh& b) {
 }
 
 /// The same surface with three vertices of its own for every face.
+/// The walls of a cube of side 1, of six plates that cross each other, around a chamber.
+inline TriangleMesh walls(double thickness) {
+  TriangleMesh all;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double at : {0.0, 1 - thickness}) {
+      Vec3 min{}, max{1, 1, 1};
+      min[axis] = at, max[axis] = at + thickness;
+      all = together(std::move(all), box(min, max));
+    }
+  return all;
+}
+
 inline TriangleMesh soup(const TriangleMesh& mesh) {
   TriangleMesh result;
   for (const FaceId f : mesh.triangles.ids()) {

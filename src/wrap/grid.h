@@ -23,6 +23,9 @@ class Grid {
   std::size_t nodes(int axis) const { return nodes_[static_cast<std::size_t>(axis)]; }
   std::size_t node_count() const { return nodes_[0] * nodes_[1] * nodes_[2]; }
   std::size_t node(std::size_t x, std::size_t y, std::size_t z) const { return (z * nodes_[1] + y) * nodes_[0] + x; }
+  Vec3 place(std::size_t node) const {
+    return {double(node % nodes_[0]), double(node / nodes_[0] % nodes_[1]), double(node / nodes_[0] / nodes_[1])};
+  }
   Vec3 position(const Vec3& in_spacings) const { return origin_ + in_spacings * spacing_; }
   Vec3 in_spacings(const Vec3& position) const { return (position - origin_) / spacing_; }
 

@@ -6,7 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
+
+#include "geometry/winding_number.h"
 
 namespace prohull {
 namespace {
@@ -299,7 +302,44 @@ void fill(const Grid& grid, const std::vector<float>& far, float closing, const 
   }
 }
 
+/// Those to which ways lead from one of them along edges that no triangle crosses. All have the same winding number.
+template <class IsMember>
+Nodes connected_nodes(const Grid& grid, std::size_t start, const std::vector<std::uint8_t>& crossed,
+                      IsMember take_if_member) {
+  Nodes found;
+  const auto visit = [&](std::size_t n) {
+    if (take_if_member(n)) found.push_back(static_cast<std::uint32_t>(n));
+  };
+  visit(start);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) {  // nodes inside are not on the border of the grid
+      const std::size_t n = found[i], stride = strides(grid)[axis];
+      if (!(crossed[n] >> axis & 1)) visit(n + stride);
+      if (!(crossed[n - stride] >> axis & 1)) visit(n - stride);
+    }
+  return found;
+}
+
 }  // namespace
+
+std::vector<char> find_cavities(const Grid& grid, const TriangleMesh& closed, const Inside& inside) {
+  std::vector<Triangle> triangles;
+  for (const FaceId f : closed.triangles.ids()) triangles.push_back(closed.triangle(f));
+  const WindingNumber winding(std::move(triangles));
+  const std::vector<std::uint8_t> crossed = crossed_edges(grid, closed);
+  std::vector<char> is_new(grid.node_count()), is_cavity(grid.node_count());
+  std::ranges::transform(inside.signed_distances, is_new.begin(), [](float d) { return d < 0; });
+  const auto take = [&](std::size_t n) { return std::exchange(is_new[n], 0) != 0; };
+  for (std::size_t start = 0; start < grid.node_count(); ++start) {
+    if (!is_new[start]) continue;
+    const Nodes nodes = connected_nodes(grid, start, crossed, take);
+    std::optional<int> known;
+    for (std::size_t i = 0; i < nodes.size() && !known; ++i) known = winding.at(grid.position(grid.place(nodes[i])));
+    if (known.value_or(1) < 1)
+      for (const std::uint32_t n : nodes) is_cavity[n] = 1;
+  }
+  return is_cavity;
+}
 
 Inside find_inside(const Grid& grid, const TriangleMesh& triangles, const InsideOptions& options,
                    ProgressMeter& meter) {

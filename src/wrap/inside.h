@@ -29,6 +29,9 @@ struct InsideOptions {
 };
 Inside find_inside(const Grid& grid, const TriangleMesh& triangles, const InsideOptions& options, ProgressMeter& meter);
 
+/// The nodes inside of a closed mesh around which it does not wind, as in cavities and between its parts; 1 for each.
+std::vector<char> find_cavities(const Grid& grid, const TriangleMesh& closed, const Inside& inside);
+
 /// No two nodes of a tetrahedron that are farther from a face than this can have it between them.
 constexpr float kLeastSeal = 0.9F;
 

@@ -177,6 +177,11 @@ void add_greater_distances(const Grid& grid, const TriangleMesh& triangles, std:
   }
 }
 
+void leave_out(const std::vector<char>& is_cavity, Inside& inside) {
+  for (std::size_t n = 0; n < is_cavity.size(); ++n)
+    if (is_cavity[n]) inside.signed_distances[n] = std::abs(inside.signed_distances[n]);
+}
+
 /// The triangles that have nodes outside near them. The others are not on the boundary of the inside: their distances
 /// would cut into it.
 TriangleMesh without_hidden(const Grid& grid, const TriangleMesh& triangles, const Inside& inside,
@@ -242,9 +247,13 @@ TriangleMesh inner_wrap(const TriangleMesh& triangles, const WrapOptions& option
   ProgressMeter meter(options.progress, "wrap");
   const auto offset = static_cast<float>(options.offset);
   const float level = offset + static_cast<float>(options.padding / options.spacing);
-  const TriangleMesh boundary = without_hidden(grid, triangles, find_inside(grid, triangles, {}, meter), meter);
+  Inside inside = find_inside(grid, triangles, {}, meter);
+  const std::vector<char> is_cavity = find_cavities(grid, triangles, inside);
+  leave_out(is_cavity, inside);
+  const TriangleMesh boundary = without_hidden(grid, triangles, inside, meter);
   if (boundary.face_count() == 0) return {};
-  Inside inside = find_inside(grid, boundary, {}, meter);
+  inside = find_inside(grid, boundary, {}, meter);
+  leave_out(is_cavity, inside);
   std::vector<float>& values = inside.signed_distances;
   const float least = kClearance - offset;
   const auto is_high = [&](std::size_t n) { return values[n] >= least + kRounding; };

@@ -178,6 +178,15 @@ TEST(InnerWrap, LiesInsideOfTheUnionOfParts) {
   EXPECT_GT(signed_volume(inner), 0.85 * 1.08) << "the faces hidden inside do not cut into it";
 }
 
+TEST(InnerWrap, LeavesOutCavities) {
+  const TriangleMesh hollow = together(box({0, 0, 0}, {1, 1, 1}), inside_out(box({0.3, 0.3, 0.3}, {0.7, 0.7, 0.7})));
+  for (const TriangleMesh& mesh : {hollow, walls(0.3)}) {
+    const TriangleMesh inner = inner_wrap(mesh, {.spacing = 0.04});
+    EXPECT_TRUE(verify_enclosure(inner, mesh).encloses);
+    EXPECT_GT(signed_volume(inner), 0.6);
+  }
+}
+
 TEST(InnerWrap, OfWhatIsThinHasNoFaces) {
   EXPECT_EQ(inner_wrap(box({0, 0, 0}, {1, 1, 0.01}), {.spacing = 0.1}).face_count(), 0u);
 }
