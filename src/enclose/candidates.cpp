@@ -151,10 +151,10 @@ void Candidates::plan_further() {
     if (!ranking.has_certified() || !ranking.best().hull.within_bounds || has_few_faces(ranking) ||
         ranking.best().candidate.recipe.method == Method::Further)
       return std::nullopt;
-    const bool is_of_mesh = ranking.best().hull.source == Source::Mesh;
+    const bool may_touch = ranking.best().hull.source == Source::Mesh || !request_.is_outer();
     Candidate candidate{.solid = ranking.best().hull.solid,
                         .target_faces = target_faces_,
-                        .recipe = {Method::Further, /*moves=*/true, is_of_mesh ? Approach::Touching : Approach::Clear}};
+                        .recipe = {Method::Further, /*moves=*/true, may_touch ? Approach::Touching : Approach::Clear}};
     candidate.start = ranking.best().hull;
     return candidate;
   });

@@ -167,6 +167,7 @@ void Candidates::plan_inner() {
     if (ranking.is_as_asked() && ranking.best_void() >= -kLittleVoid) return std::nullopt;
     return moved(0);
   });
+  if (bounds_.any()) return plan_loose_wraps();
   steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
     if (ranking.has_certified() && ranking.best_void() >= -kMuchVoid) return std::nullopt;
     const auto id = wrap(kWrapInside, spacing_for(kWrapInside), solids);

@@ -530,6 +530,17 @@ TEST(EnclosingHull, HasFurtherCollapsesWithinABound) {
   EXPECT_LT(inner.mesh.face_count(), 165U);
 }
 
+// A spike through the other side leaves the wrap alone, and with so few faces, its spacing is coarser than the bound.
+TEST(EnclosingHull, LiesInsideOfAFoldedMeshWithinABound) {
+  TriangleMesh mesh = make_sample("asteroid", 600);
+  mesh.positions[VertexId{0}] = mesh.positions[VertexId{0}] * -1.3;
+  const HullBounds bounds{.max_distance = 0.03 * bounding_box(mesh).diagonal()};
+  const EnclosingHull hull = enclosing_hull(mesh, 20, {.hull = {.side = HullSide::Inner}, .bounds = bounds});
+  EXPECT_TRUE(hull.certified && hull.within_bounds);
+  EXPECT_EQ(hull.source, Source::Wrap);
+  EXPECT_LT(hull.mesh.face_count(), 300U);
+}
+
 // Levels of the convex hull keep it with 90 faces; the hull that moves on its way down, with 60.
 TEST(EnclosingHull, KeepsABoundWithAsFewFacesAsTheHullWithoutIt) {
   const EnclosingHull hull = enclosing_hull(make_sample("gyroid", 1500), 60, {.bounds = {.max_distance = 0.25}});
