@@ -75,14 +75,6 @@ bool may_keep_bounds(double spacing, const Ranking& ranking, double last) {
   return !ranking.has_certified() || ranking.best().hull.excess * spacing <= last;
 }
 
-/// After a wrap with the spacing `last`. Where the finest would miss the bounds by far, only a second one is: a hull
-/// that missed a bound of the void 17 times over came no nearer by ever finer wraps.
-bool is_worth_a_finer_wrap(const LooseWrap& next, double finest, const Ranking& ranking, double last) {
-  constexpr double kHopeless = 2;
-  if (!may_keep_bounds(finest / kHopeless, ranking, last)) return next.number == 1;
-  return next.is_last || may_keep_bounds(next.spacing, ranking, last);
-}
-
 }  // namespace
 
 void Candidates::plan_bounded_wraps() {
@@ -154,8 +146,9 @@ void Candidates::plan_loose_wraps() {
     next.is_last = next.number + 1 == kMostBounded || next.spacing == finest;
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       const std::span<const SolidId> made = solids.wraps(target_faces_);
-      if (next.number > 0 && !made.empty() &&
-          !is_worth_a_finer_wrap(next, finest, ranking, solids[made.back()].wrap_spacing))
+      // The last one is as near as the next larger bounds have it.
+      if (!next.is_last && next.number > 0 && !made.empty() &&
+          !may_keep_bounds(next.spacing, ranking, solids[made.back()].wrap_spacing))
         return std::nullopt;
       return loose_wrap(next, ranking, solids);
     });

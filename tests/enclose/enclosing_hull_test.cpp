@@ -530,6 +530,23 @@ TEST(EnclosingHull, HasFurtherCollapsesWithinABound) {
   EXPECT_LT(inner.mesh.face_count(), 165U);
 }
 
+// That of a closer one had a coarser wrap, and a void of 0.26 % for one of 0.12 %.
+TEST(EnclosingHull, OfACloserBoundIsNoLooserWhereItIsMissed) {
+  const TriangleMesh mesh = make_sample("asteroid", 80);
+  const auto void_within = [&](double most) {
+    return enclosing_hull(mesh, 20, {.bounds = {.max_void_ratio = most}, .repair = Repair::Wrap}).void_ratio;
+  };
+  EXPECT_LE(void_within(1e-6), void_within(1e-3));
+}
+
+// The convex solid around its corners misses the bound by a hundredth.
+TEST(EnclosingHull, IsNearBoundsThatAGapMisses) {
+  const EnclosingHull hull =
+      enclosing_hull(box({0, 0, 0}, {1, 2, 3}), 12, {.bounds = {.max_distance = 0.0403}, .padding = 0.04});
+  EXPECT_TRUE(hull.certified);
+  EXPECT_LT(hull.excess, 1.2);
+}
+
 // A spike through the other side leaves the wrap alone, and with so few faces, its spacing is coarser than the bound.
 TEST(EnclosingHull, LiesInsideOfAFoldedMeshWithinABound) {
   TriangleMesh mesh = make_sample("asteroid", 600);
