@@ -71,6 +71,20 @@ std::string described_guards(const EnclosingHull& hull) {
                      kRelaxedGuards.size());
 }
 
+std::string line_of_missed_bounds(const ToldHull& told) {
+  constexpr double kFar = 1e4;
+  const double missing = told.hull.excess - 1;
+  const bool is_open = !told.made.input.closed || told.measures.has_openings;
+  std::string line = "NOT within the bounds asked for: of all that was tried, this hull misses them least";
+  line += missing > kFar ? fmt::format(", by more than {:.0f} %", 100 * kFar)
+                         : fmt::format(", by {:.3g} %; allow that much", rounded_up(100 * missing, 3));
+  if (is_open || told.input_self_intersections > 0)
+    line += fmt::format("{} mend the mesh where it {}", missing > kFar ? ";" : ", or",
+                        is_open ? "is open or intersects itself" : "intersects itself");
+  if (told.made.input.repairs.dropped_components > 0) line += ", or leave cavities open by --keep-cavities";
+  return line;
+}
+
 }  // namespace
 
 std::string claim(const Verdict& verdict, const std::string& subject, const std::string& object) {
@@ -240,12 +254,7 @@ std::vector<std::string> lines_of_limits(const ToldHull& told) {
     lines.push_back(fmt::format("no legal collapse is left above the {} faces asked for: {}; of the {} edges left, {}",
                                 grouped(hull.target_faces), described_topology(hull.mesh),
                                 grouped(3 * hull.mesh.face_count() / 2), describe_refusals(hull.blocked)));
-  if (!hull.within_bounds)
-    lines.push_back(fmt::format(
-        "NOT within the bounds asked for: of all that was tried, this hull misses them least, by {:.3g} %; allow that "
-        "much, or mend the mesh where it is open or intersects itself{}",
-        rounded_up(100 * (hull.excess - 1), 3),
-        told.made.input.repairs.dropped_components > 0 ? ", or leave cavities open by --keep-cavities" : ""));
+  if (!hull.within_bounds) lines.push_back(line_of_missed_bounds(told));
   return lines;
 }
 
