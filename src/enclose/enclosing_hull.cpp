@@ -133,11 +133,12 @@ double volume_of(const EnclosingHull& hull) {
   return std::isnan(known) ? signed_volume(hull.mesh) : known;
 }
 
-// No estimate may say that what encloses is smaller than what it encloses.
+// No estimate may say that what encloses is smaller than what it encloses, nor may rounding.
 double known_void(const EnclosingHulls& made, const EnclosingHull& hull) {
   const double ratio = hull.verdict.hull_volume / made.volume - 1;
-  const bool may_be = hull.verdict.side == HullSide::Outer ? ratio >= 0 : ratio <= 0;
-  return made.volume > 0 && (may_be || !made.is_estimated) ? ratio : std::numeric_limits<double>::quiet_NaN();
+  const double possible = hull.verdict.side == HullSide::Outer ? std::max(ratio, 0.0) : std::min(ratio, 0.0);
+  const bool is_known = made.volume > 0 && (possible == ratio || !made.is_estimated);
+  return is_known ? possible : std::numeric_limits<double>::quiet_NaN();
 }
 
 Names<Repair> repair_names() { return kRepairNames; }
