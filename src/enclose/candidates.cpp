@@ -191,13 +191,23 @@ void Candidates::plan_convex_hull_in_steps() {
 // ones, hulls of 20, 30, 50 and 100 faces were smaller for 29, 27, 14 and 2.
 void Candidates::plan_polytope() {
   steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-    constexpr std::size_t kFew = 50, kFewest = 4;
-    const bool is_worth_it = ranking.is_of_flat() ? !ranking.is_near_flat()
-                                                  : target_faces_ <= kFew && is_worth_a_wrap(ranking, solids, true);
-    if (!is_worth_it) return std::nullopt;
+    constexpr std::size_t kFewest = 4;
+    if (!is_worth_a_polytope(ranking, solids)) return std::nullopt;
     const auto id = solids.polytope(std::max(target_faces_, kFewest));
     return id ? std::optional(of_convex(*id, ranking, solids)) : std::nullopt;
   });
+}
+
+// Where the mesh's own hull has little void, no wrap does better, but a polytope may.
+bool Candidates::is_worth_a_polytope(const Ranking& ranking, Solids& solids) const {
+  constexpr std::size_t kFew = 50;
+  constexpr double kLittleVoid = 0.03;
+  if (ranking.is_of_flat()) return !ranking.is_near_flat();
+  if (target_faces_ > kFew) return false;
+  if (is_worth_a_wrap(ranking, solids, true)) return true;
+  if (request_.options.keep_cavities || ranking.is_on_triangles() || ranking.slack() <= kLittleVoid) return false;
+  const auto convex = solids.convex_hull(ranking.best_volume());
+  return convex && solids[*convex].volume < ranking.best_volume();
 }
 
 bool Candidates::is_worth_a_search(const EnclosingHull& hull) const {

@@ -51,8 +51,10 @@ class Candidates {
   static bool has_very_much_void(const Ranking& ranking);
   bool are_wraps_stuck(const Ranking& ranking) const;
   bool is_worth_a_wrap(const Ranking& ranking, const Solids& solids, bool is_first) const;
+  bool is_worth_a_polytope(const Ranking& ranking, Solids& solids) const;
   std::optional<SolidId> wrap(const WrapKind& kind, double spacing, Solids& solids) const;
   std::optional<Candidate> of_wrap(const WrapKind& kind, const Ranking& ranking, Solids& solids) const;
+  bool may_be_better(const LooseWrap& next, const Ranking& ranking, const Solids& solids) const;
   std::optional<Candidate> loose_wrap(const LooseWrap& next, const Ranking& ranking, Solids& solids) const;
   bool has_few_faces(const Ranking& ranking) const;
   bool has_too_many_parts(const Solid& solid) const;
