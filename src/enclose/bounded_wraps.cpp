@@ -156,16 +156,25 @@ void Candidates::plan_loose_wraps() {
   }
 }
 
+// Where another hull keeps the bounds already. One of the void alone says nothing about the spacing: a hull of a wrap
+// may have fewer faces by a finer one.
+bool Candidates::may_be_better(const LooseWrap& next, const Ranking& ranking, const Solids& solids) const {
+  const EnclosingHull& best = ranking.best().hull;
+  if (is_of_clean_mesh(ranking, solids) || best.mesh.face_count() <= target_faces_ ||
+      next.spacing < request_.diagonal / kFineWrap)
+    return false;
+  const std::span<const SolidId> made = solids.wraps(target_faces_);
+  const bool was_better = std::isinf(bounds_.max_distance) && !made.empty() && best.solid == made.back();
+  return next.number == 0 || was_better || !ranking.is_clean();
+}
+
 // A hull of a wrap that keeps the bounds has at most kMostReduced times fewer faces than the wrap. Where another hull
 // keeps them with fewer still, the wrap is left out: of 10 robots' parts at 1 % of the diagonal, it had a better hull
 // for 2, and took 2 to 10 times as long.
 std::optional<Candidate> Candidates::loose_wrap(const LooseWrap& next, const Ranking& ranking, Solids& solids) const {
   constexpr std::size_t kMostReduced = 300;
   const bool is_within = ranking.has_certified() && ranking.best().hull.within_bounds;
-  if (is_within &&
-      (next.number > 0 || is_of_clean_mesh(ranking, solids) || ranking.best().hull.mesh.face_count() <= target_faces_ ||
-       next.spacing < request_.diagonal / kFineWrap))
-    return std::nullopt;
+  if (is_within && !may_be_better(next, ranking, solids)) return std::nullopt;
   const auto id = wrap(kBoundedWrap, next.spacing, solids);
   if (!request_.input.closed) require_volume(solids.volume(target_faces_), bounds_);
   if (!id || (is_within && ranking.best().hull.mesh.face_count() * kMostReduced < solids[*id].mesh.face_count()))

@@ -547,6 +547,20 @@ TEST(EnclosingHull, IsNearBoundsThatAGapMisses) {
   EXPECT_LT(hull.excess, 1.2);
 }
 
+// By a spacing that suits 20 faces, one of a wrap has 260.
+TEST(EnclosingHull, HasAFinerWrapWhereABoundOfTheVoidNeedsManyFaces) {
+  const EnclosingHull hull =
+      enclosing_hull(make_sample("asteroid", 300), 20, {.bounds = {.max_void_ratio = 0.05}, .repair = Repair::Wrap});
+  EXPECT_TRUE(hull.certified && hull.within_bounds);
+  EXPECT_LT(hull.mesh.face_count(), 220U);
+}
+
+TEST(EnclosingHull, IsAPolytopeWhereTheHullOfTheMeshHasALittleMoreVoid) {
+  const EnclosingHull hull = enclosing_hull(bipyramid(24), 12);
+  EXPECT_TRUE(hull.certified && hull.target_reached);
+  EXPECT_LT(hull.void_ratio, 0.12) << "the other one has 13.5 %";
+}
+
 // A spike through the other side leaves the wrap alone, and with so few faces, its spacing is coarser than the bound.
 TEST(EnclosingHull, LiesInsideOfAFoldedMeshWithinABound) {
   TriangleMesh mesh = make_sample("asteroid", 600);
