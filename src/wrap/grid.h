@@ -24,7 +24,8 @@ class Grid {
   std::size_t node_count() const { return nodes_[0] * nodes_[1] * nodes_[2]; }
   std::size_t node(std::size_t x, std::size_t y, std::size_t z) const { return (z * nodes_[1] + y) * nodes_[0] + x; }
   Vec3 place(std::size_t node) const {
-    return {double(node % nodes_[0]), double(node / nodes_[0] % nodes_[1]), double(node / nodes_[0] / nodes_[1])};
+    const std::size_t y = node / nodes_[0] % nodes_[1], z = node / nodes_[0] / nodes_[1];
+    return {double(node % nodes_[0]), double(y), double(z)};
   }
   Vec3 position(const Vec3& in_spacings) const { return origin_ + in_spacings * spacing_; }
   Vec3 in_spacings(const Vec3& position) const { return (position - origin_) / spacing_; }
