@@ -204,7 +204,8 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
   else if (is_robot)
     say("{}: {}", output_name(options.out), counted(zone.pieces().size(), "convex piece"));
   else
-    say("{}: {}, volume about {}", output_name(options.out), pieces(zone.sweeps[0]), known_digits(zone.sweeps[0].sweep));
+    say("{}: {}, volume about {}", output_name(options.out), pieces(zone.sweeps[0]),
+        known_digits(zone.sweeps[0].sweep));
   say(", at most {:.4g} from what {} passes{}\n", rounded_up(zone.verdict.distance().upper, 4),
       is_robot ? "the robot" : "the mesh", zone.fills_cavities() ? " with cavities filled" : "");
   say("  certified: {}\n", certificate_of(zone, options));
@@ -224,16 +225,17 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
                       {"notes", link.sweep.notes}});
   const bool has_volume = zone.hull || !is_robot_file(options.in);
   const double volume = zone.hull ? volume_of(*zone.hull) : zone.sweeps[0].sweep.volume;
-  return {{"input", {{"path", options.in.string()}}},
-          {"path", options.out.string()},
-          {"pieces", zone.pieces().size()},
-          {"hull_faces", zone.hull ? nlohmann::json(zone.hull->mesh.face_count()) : nlohmann::json()},
-          {"verdict", facts(zone.verdict)},
-          {"volume", has_volume ? nlohmann::json(volume) : nlohmann::json()},
-          {"volume_error", has_volume && !zone.hull ? nlohmann::json(zone.sweeps[0].sweep.volume_error) : nlohmann::json()},
-          {"volume_is_estimated", !zone.hull || std::isnan(zone.hull->verdict.hull_volume)},
-          {"sweeps", sweeps},
-          {"seconds", {{"read", zone.read_seconds}, {"sweep", zone.seconds}}}};
+  return {
+      {"input", {{"path", options.in.string()}}},
+      {"path", options.out.string()},
+      {"pieces", zone.pieces().size()},
+      {"hull_faces", zone.hull ? nlohmann::json(zone.hull->mesh.face_count()) : nlohmann::json()},
+      {"verdict", facts(zone.verdict)},
+      {"volume", has_volume ? nlohmann::json(volume) : nlohmann::json()},
+      {"volume_error", has_volume && !zone.hull ? nlohmann::json(zone.sweeps[0].sweep.volume_error) : nlohmann::json()},
+      {"volume_is_estimated", !zone.hull || std::isnan(zone.hull->verdict.hull_volume)},
+      {"sweeps", sweeps},
+      {"seconds", {{"read", zone.read_seconds}, {"sweep", zone.seconds}}}};
 }
 
 void check_options(const SweepRunOptions& options) {

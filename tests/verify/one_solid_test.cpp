@@ -128,8 +128,8 @@ TEST(SolidVolume, IsThatOfAPartThatANeedlePierces) {
 // The doubled area of its first face, -2^-60, is rounded to 0.
 TEST(SolidVolume, IsKnownWhereANeedleCrossesAPart) {
   constexpr double kTiny = 0x1p-30;
-  const TriangleMesh needle = make({{0, 0, 0}, {1 + kTiny, 1, 0}, {1, 1 - kTiny, 0}, {0, 0, 1}},
-                                   {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}});
+  const TriangleMesh needle =
+      make({{0, 0, 0}, {1 + kTiny, 1, 0}, {1, 1 - kTiny, 0}, {0, 0, 1}}, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}});
   const TriangleMesh crate = box({0.25, -1, -1}, {2, 2, 2});
   ProgressMeter silent({}, "verify");
   EXPECT_NEAR(solid_volume(together(crate, needle), silent) / signed_volume(crate), 1, 1e-12);
