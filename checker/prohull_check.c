@@ -961,8 +961,7 @@ static int turn_components(const Mesh* m, File* f, uint64_t count) {
     if (named[i] && i != r)
       volume[r][0] += volume[i][0], volume[r][1] += volume[i][1] + 1e-15 * size_of(volume[r][0]), named[i] = 0;
   for (uint32_t i = 0; i < m->n; ++i)
-    if (named[i] && !(volume[i][0] < -volume[i][1]) &&
-        sign_of_volume(m, parent, i, all) <= 0) /* now that it is turned */
+    if (named[i] && !(volume[i][0] < -volume[i][1]) && sign_of_volume(m, parent, i, all) <= 0) /* now that it is turned */
       end(1, "the volume of the component of triangle %u of the original is not negative", i);
   free(edges.slot), free(parent), free(volume), free(named);
   return all;
@@ -1375,8 +1374,7 @@ int main(int count, char** names) {
     if (c.claims & k & DISTANCE) printf("no point of the hull is farther than %.17g from the triangles", c.distance);
   }
   if (c.original.infinite) printf("; triangles of the original that are not finite: %lu", COUNT(c.original.infinite));
-  if (turned)
-    printf("; components of the original that are turned: %lu%s", COUNT(turned), all ? ", which are all" : "");
+  if (turned) printf("; components of the original that are turned: %lu%s", COUNT(turned), all ? ", which are all" : "");
   if (c.original.scale != 1) printf("; the original is scaled by %.17g", c.original.scale);
   putchar('\n');
   return 0;

@@ -624,7 +624,9 @@ static void find_moves(Sight* s) {
 }
 
 /* More than sums over the joints of a body lose: each joint adds a term, and a few operations to those of others. */
-static double sum_rounding(const Sight* s, int which) { return 1 + 10 * ROUND * (double)(1 + s->count[which]); }
+static double sum_rounding(const Sight* s, int which) {
+  return 1 + 10 * ROUND * (double)(1 + s->count[which]);
+}
 
 /* How far points of body `which` move that are within `radius` of x: any way, and along a direction, that part which is
    of second order. The second derivative of where a point is by two joints is at most the derivative by the one that is
