@@ -67,9 +67,7 @@ class UnionJudge {
     const verify::Holes holes =
         verify::find_holes(verify::Surface(original_, "original"), pieces_, all_, meter_.part(0.5, 0.9));
     found_.holes = holes.count;
-    found_.encloses_solid = holes.count > 0    ? Answer::No
-                            : found_.certified ? Answer::Yes
-                                               : Answer::Undecided;  // triangles that stick out may bound no solid
+    found_.encloses_solid = holes.count > 0 ? Answer::No : found_.certified ? Answer::Yes : Answer::Undecided;
     if (holes.count > 0)
       refuse(fmt::format("the pieces leave a part of the inside open, for instance at {}", text(holes.point)));
   }
@@ -159,7 +157,10 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
     judge.enclose_solid();
   } else {
     judge.cover_triangles();
-    if (prepared.closed && found.faces_outside == 0) judge.fill_inside();
+    if (prepared.closed && found.faces_outside == 0)
+      judge.fill_inside();
+    else if (prepared.closed)
+      found.encloses_solid = Answer::Undecided;  // triangles that stick out may bound no solid
   }
   verify::refuse_non_finite_faces(prepared.non_finite_faces, options, found.certified, found.why_not);
   judge.measure();

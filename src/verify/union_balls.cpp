@@ -531,7 +531,11 @@ UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh origina
   found.certified = true;
   verify::BallUnionJudge judge(balls, original, prepared, options, found);
   if (!options.solid_only || !prepared.closed) judge.cover_triangles();
-  if (prepared.closed && (inside || options.solid_only) && found.faces_outside == 0) judge.fill_inside();
+  const bool asks_inside = prepared.closed && (inside || options.solid_only);
+  if (asks_inside && found.faces_outside == 0)
+    judge.fill_inside();
+  else if (asks_inside)
+    found.encloses_solid = Answer::Undecided;
   found.union_volume = union_volume(balls);
   if (prepared.closed) {
     ProgressMeter meter(options.progress, "verify");
