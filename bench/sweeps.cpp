@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <atomic>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -11,7 +10,6 @@
 #include "geometry/predicates.h"
 #include "machine.h"
 #include "prohull/closed_solid.h"
-#include "prohull/collide.h"
 #include "prohull/mesh_query.h"
 #include "prohull/sweep.h"
 #include "sample_robot_files.h"
@@ -129,9 +127,11 @@ void add(const VisualLink& link, const SweepsOptions& options, Found& found) {
   const Zone zone(made);
   const std::size_t outside = points_outside(link.mesh, zone, options.points);
   found.points += options.points, found.outside += outside;
-  const ClosedSolid solid = closed_solid(link.mesh);
-  const bool is_solid = made.verdict.encloses_solid == Answer::Yes && solid.source == Source::Mesh;
-  found.volumes.push_back(is_solid ? volume_by_union(solid.mesh, zone, options.volume_points) : kUnknown);
+  double volume = kUnknown;
+  if (made.verdict.encloses_solid == Answer::Yes)
+    if (const ClosedSolid solid = closed_solid(link.mesh); solid.source == Source::Mesh)
+      volume = volume_by_union(solid.mesh, zone, options.volume_points);
+  found.volumes.push_back(volume);
   found.table.add({as_cell(link.robot), as_cell(link.name), fmt::to_string(options.pieces),
                    fmt::to_string(link.mesh.face_count()), fmt::to_string(made.pieces.size()),
                    number(found.seconds.back(), 2), fmt::to_string(options.points), fmt::to_string(outside),

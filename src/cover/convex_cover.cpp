@@ -239,7 +239,8 @@ class Covering {
     const std::size_t components = mesh.face_count() > kSearchFaces ? inspect(mesh).components : 1;
     std::optional<ConvexCover> cover;
     if (kFewest * components <= kSearchFaces) cover = best_cover(measurable(of_closed_mesh(mesh)));
-    if (components > 1 && !(cover && cover->void_ratio < little_void())) {
+    const bool is_enough = cover && cover->verdict.certified && cover->void_ratio < little_void();
+    if (components > 1 && !is_enough) {
       const double spacing = bounding_box(mesh).diagonal() / kWrapNodes;
       ConvexCover joined = best_cover(measurable(of_closed_mesh(wrap_around(mesh, spacing, options_.progress).mesh)));
       if (!cover || is_better(joined, *cover)) cover = std::move(joined);
@@ -339,7 +340,6 @@ class Covering {
 
   /// Pieces that fill the mesh, but for rounding, may be more than that takes: not every way to cut it ends in few.
   bool suffices(const ConvexCover& cover, const Material& material) const {
-    constexpr double kNoVoid = 1e-6;
     return options_.bounds.any() ? cover.within_bounds
                                  : material.fillable > 0 && cover.volume < (1 + kNoVoid) * material.fillable;
   }

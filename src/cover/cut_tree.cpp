@@ -30,8 +30,6 @@ constexpr Effort kNarrow{15, 3, 1}, kWide{7, 8, 2};
 constexpr std::size_t kWideLeaves = 8;
 /// For more pieces the wide search takes too long for what it saves.
 constexpr std::size_t kMostPiecesOfWide = 24;
-/// With less than this the pieces fill the solid, and fewer of them might.
-constexpr double kNoVoid = 1e-6;
 /// A cut that saves less, of the volume of the whole convex hull, is not made.
 constexpr double kLeastGain = 1e-5;
 /// Points of parts, for each cut that is tried or looked ahead: 150,000 for 100 pieces of 4 samples. A mesh of many
@@ -458,7 +456,7 @@ CutSearch::CutSearch(Solid solid, const Solid& coarser, std::size_t pieces, doub
   trees_.push_back(narrow.run());
   const std::vector<double> volumes = least_volumes(trees_[0]);
   const double void_ratio = volumes[std::min(pieces, volumes.size() - 1)] / narrow.solid_volume() - 1;
-  const bool is_enough = void_ratio > kNoVoid && void_ratio < little_void;
+  const bool is_enough = void_ratio >= kNoVoid && void_ratio < little_void;  // what fills may do with fewer pieces
   if (pieces <= kMostPiecesOfWide && !is_enough) trees_.push_back(Cutting(coarser, most, kWide, meter).run());
 }
 

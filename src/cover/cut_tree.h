@@ -18,6 +18,9 @@ struct CutTree {
   std::vector<Node> nodes;  ///< the first is the root
 };
 
+/// Pieces with less void than this, as a share of the solid's volume, fill it, but for rounding.
+inline constexpr double kNoVoid = 1e-6;
+
 /// Looks for trees whose leaves have little volume. Deterministic; uses the threads of the arena that it runs in.
 ///
 /// How it works: of each part the best cuts in many directions are tried, and of those the one is taken after which
