@@ -52,6 +52,8 @@ nlohmann::json json_of(const std::vector<Ball>& balls) {
   return all;
 }
 
+bool is_yaml(const std::string& suffix) { return suffix == ".yaml" || suffix == ".yml"; }
+
 std::string yaml_of(const std::string& link, const std::vector<Ball>& balls, const std::filesystem::path& path) {
   const robot::LinkBalls spheres{link, balls};
   const std::string text = robot::sphere_file(std::span(&spheres, 1));
@@ -63,7 +65,7 @@ std::string yaml_of(const std::string& link, const std::vector<Ball>& balls, con
 
 std::string text_of(const SpheresOptions& options, const std::string& suffix, const std::vector<Ball>& balls) {
   const std::string link = link_name(options);
-  if (suffix == ".yaml" || suffix == ".yml") return yaml_of(link, balls, options.out);
+  if (is_yaml(suffix)) return yaml_of(link, balls, options.out);
   if (suffix == ".json") return robot::sphere_json({link, balls});
   std::vector<robot::NamedPiece> pieces;
   for (const Ball& ball : balls) pieces.push_back({ball, {}});
@@ -106,7 +108,7 @@ std::string text_of_origin(const SphereCover& cover) {
                      rounded_up(from_triangles.upper, 4));
 }
 
-void print_summary(const SpheresOptions& options, const Outcome& outcome) {
+void print_summary(const SpheresOptions& options, const std::string& suffix, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
   say("{}: {} around {}, which reach out by at most {:.4g}, {} % of the diagonal{}\n", output_name(options.out),
       counted(cover.balls.size(), "sphere"), counted(outcome.faces, "face"),
@@ -118,7 +120,9 @@ void print_summary(const SpheresOptions& options, const Outcome& outcome) {
         percent_text(std::abs(outcome.void_ratio()), 1), outcome.void_ratio() < 0 ? "less" : "more",
         cover.is_estimated ? " (estimated)" : "");
   for (const std::string& note : cover.notes) say("  {}\n", note);
-  say("  certified: {}{}\n", certificate_of(cover.verdict, "the union of the spheres as written"),
+  // Only YAML is read back.
+  const std::string what = fmt::format("the union of the spheres{}", is_yaml(suffix) ? " as written" : "");
+  say("  certified: {}{}\n", certificate_of(cover.verdict, what),
       cover.fills_wrap ? ", and the inside of the wrap" : "");
   if (cover.verdict.certified && !options.certificate.empty())
     print_certificate(options.certificate, outcome.certificate, {options.out}, options.in);
@@ -149,7 +153,7 @@ int run_spheres(SpheresOptions options) {
   }
   outputs.add_report(options.report, report_of(options, outcome));
   outputs.commit();
-  print_summary(options, outcome);
+  print_summary(options, suffix, outcome);
   return outcome.cover.verdict.certified && outcome.cover.within_bounds ? kDone : kAnswerIsNo;
 }
 

@@ -24,6 +24,7 @@ says bracket.urdf "URDF" "<sphere radius="
 expect 0 "MJCF" $spheres -o bracket.xml
 says bracket.xml "MJCF" 'type="sphere"'
 expect 0 "JSON" $spheres -o bracket.json
+says out "JSON: it is not read back" "certified: yes, the union of the spheres covers every triangle"
 says bracket.json "JSON" '"radius"'
 expect 0 "standard output" $spheres -o - --out-format yaml
 is "standard output has the same bytes" cmp out bracket.yaml
