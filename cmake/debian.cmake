@@ -65,7 +65,7 @@ install(FILES ${PROJECT_BINARY_DIR}/share/_prohull
 package(dev libprohull-dev libdevel "hulls that provably enclose a triangle mesh - C++ library
 ${what_it_is}
 This package has what programs in C++20 are compiled and linked with."
-"libarchive-dev, libfmt-dev, libtbb-dev, libzstd-dev, zlib1g-dev, pkg-config")
+"libfmt-dev, libminizip-dev, libtbb-dev, libzstd-dev, zlib1g-dev, pkg-config")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS prohull)  # prohull-import, which the library runs
 
 if(BUILD_SHARED_LIBS)

@@ -1,10 +1,8 @@
 #include "io/file_content.h"
 
-#include <archive.h>
-#include <archive_entry.h>
-#include <fmt/format.h>
 #define ZLIB_CONST  // inputs are const
-#include <locale.h>
+#include <fmt/format.h>
+#include <minizip/unzip.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -12,9 +10,11 @@
 #include <cstdio>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include "io/file.h"
 #include "io/mesh_readers.h"
+#include "io/zip_file.h"
 #include "prohull/detail/missing_file.h"
 #include "prohull/error.h"
 
@@ -79,67 +79,53 @@ class Inflater {
   std::size_t left_ = 0;
 };
 
-/// While it lives, libarchive gives names in UTF-8. It converts them to the charset of the locale, and drops those that
-/// this lacks: in the locale of a program that sets none, all but ASCII.
-class Utf8Locale {
- public:
-  Utf8Locale() : locale_(newlocale(LC_CTYPE_MASK, "C.UTF-8", locale_t{})) {
-    if (locale_ != locale_t{}) former_ = uselocale(locale_);
-  }
-  Utf8Locale(const Utf8Locale&) = delete;
-  Utf8Locale& operator=(const Utf8Locale&) = delete;
-  ~Utf8Locale() {
-    if (locale_ == locale_t{}) return;
-    uselocale(former_);
-    freelocale(locale_);
-  }
-
- private:
-  locale_t locale_, former_{};
-};
-
 class ZipReader {
  public:
-  ZipReader(std::string_view compressed, const std::filesystem::path& name)
-      : compressed_(compressed), name_(name), archive_(archive_read_new(), archive_read_free) {
-    archive_read_support_format_zip(archive_.get());
-    if (archive_read_open_memory(archive_.get(), compressed.data(), compressed.size()) != ARCHIVE_OK) fail();
+  ZipReader(std::string_view compressed, const std::filesystem::path& name) : file_{compressed}, name_(name) {
+    zlib_filefunc64_def functions = file_.functions();
+    zip_.reset(unzOpen2_64("", &functions));
+    if (!zip_) fail_to_decompress(name, "the archive is damaged or truncated");
+    unz_global_info64 info;
+    check(unzGetGlobalInfo64(zip_.get(), &info));
+    left_ = info.number_entry;
   }
 
-  /// Goes on to the next member that has a name; empty at the end.
+  /// Goes on to the next member; empty at the end.
   std::optional<std::string> next() {
-    archive_entry* entry = nullptr;
-    while (true) {
-      const int status = archive_read_next_header(archive_.get(), &entry);
-      if (status == ARCHIVE_EOF) return {};
-      if (status != ARCHIVE_OK && status != ARCHIVE_WARN) fail();
-      if (const char* const path = archive_entry_pathname(entry)) return path;
-    }
+    if (left_ == 0) return {};
+    --left_;
+    check(std::exchange(begun_, true) ? unzGoToNextFile(zip_.get()) : unzGoToFirstFile(zip_.get()));
+    std::string path(std::size_t{1} << 16, '\0');  // longer names cannot be
+    check(unzGetCurrentFileInfo64(zip_.get(), nullptr, path.data(), path.size(), nullptr, 0, nullptr, 0));
+    return path.c_str();
   }
 
   /// Of the member that `next` has named.
   std::string data() {
     std::string bytes;
     std::size_t size = 0;
-    while (const auto read = archive_read_data(archive_.get(), grow(bytes, size), kChunk)) {
-      if (read < 0) fail();
+    check(unzOpenCurrentFile(zip_.get()));
+    while (const int read = unzReadCurrentFile(zip_.get(), grow(bytes, size), kChunk)) {
+      if (read < 0) check(read);
       size += static_cast<std::size_t>(read);
-      check_limit(size, compressed_.size(), name_);
+      check_limit(size, file_.archive.size(), name_);
     }
+    check(unzCloseCurrentFile(zip_.get()));
     bytes.resize(size);
     return bytes;
   }
 
  private:
-  [[noreturn]] void fail() const {
-    const char* const reason = archive_error_string(archive_.get());
-    fail_to_decompress(name_, reason ? reason : "the archive is damaged");
+  void check(int status) const {
+    if (status == UNZ_CRCERROR) fail_to_decompress(name_, "a checksum is wrong; the archive is damaged");
+    if (status != UNZ_OK) fail_to_decompress(name_, "the archive is damaged, encrypted, or packed in an unknown way");
   }
 
-  const Utf8Locale names_;
-  std::string_view compressed_;
+  ZipFile file_;
   const std::filesystem::path& name_;
-  std::unique_ptr<archive, decltype(&archive_read_free)> archive_;
+  std::unique_ptr<void, int (*)(void*)> zip_{nullptr, unzClose};
+  ZPOS64_T left_ = 0;
+  bool begun_ = false;
 };
 
 /// Not the files "__MACOSX/._part.ply" with which macOS accompanies each file.

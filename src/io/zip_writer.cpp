@@ -1,49 +1,44 @@
 #include "io/zip_writer.h"
 
-#include <archive.h>
-#include <archive_entry.h>
+#include <minizip/zip.h>
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
 namespace prohull {
 namespace {
 
-la_ssize_t append(archive*, void* bytes, const void* data, std::size_t size) {
-  try {
-    static_cast<std::string*>(bytes)->append(static_cast<const char*>(data), size);
-    return static_cast<la_ssize_t>(size);
-  } catch (const std::bad_alloc&) {
-    return -1;
-  }
+void check(int status) {
+  if (status != ZIP_OK) throw std::bad_alloc();  // in memory, nothing else can fail
 }
+
+zipFile created(ZipFile& file) {
+  zlib_filefunc64_def functions = file.functions();
+  const zipFile zip = zipOpen2_64("", APPEND_STATUS_CREATE, nullptr, &functions);
+  if (!zip) throw std::bad_alloc();
+  return zip;
+}
+
+int close(zipFile zip) { return zipClose(zip, nullptr); }
 
 }  // namespace
 
-ZipWriter::ZipWriter() : archive_(archive_write_new(), archive_write_free) {
-  check(archive_write_set_format_zip(archive_.get()));
-  check(archive_write_zip_set_compression_store(archive_.get()));
-  check(archive_write_set_bytes_in_last_block(archive_.get(), 1));
-  check(archive_write_open(archive_.get(), &bytes_, nullptr, append, nullptr));
-}
+ZipWriter::ZipWriter() : zip_(created(file_), close) {}
 
 void ZipWriter::add(const std::string& name, std::string_view content) {
-  const std::unique_ptr<archive_entry, void (*)(archive_entry*)> entry(archive_entry_new(), archive_entry_free);
-  archive_entry_set_pathname(entry.get(), name.c_str());
-  archive_entry_set_size(entry.get(), static_cast<la_int64_t>(content.size()));
-  archive_entry_set_filetype(entry.get(), AE_IFREG);
-  archive_entry_set_perm(entry.get(), 0644);
-  check(archive_write_header(archive_.get(), entry.get()));
-  if (!content.empty()) check(archive_write_data(archive_.get(), content.data(), content.size()));
+  constexpr std::size_t kLarge = 0xFFFFFFFF, kChunk = std::size_t{1} << 30;  // 32 bits, and `unsigned`
+  const int stored = 0;
+  check(zipOpenNewFileInZip64(zip_.get(), name.c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr, stored, 0,
+                              content.size() >= kLarge));
+  for (; !content.empty(); content.remove_prefix(std::min(kChunk, content.size())))
+    check(zipWriteInFileInZip(zip_.get(), content.data(), static_cast<unsigned>(std::min(kChunk, content.size()))));
+  check(zipCloseFileInZip(zip_.get()));
 }
 
 std::string ZipWriter::finish() {
-  check(archive_write_close(archive_.get()));
+  check(close(zip_.release()));
   return std::move(bytes_);
-}
-
-void ZipWriter::check(long status) const {
-  if (status < ARCHIVE_OK) throw std::bad_alloc();  // in memory, nothing else can fail
 }
 
 }  // namespace prohull

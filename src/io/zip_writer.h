@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-struct archive;
+#include "io/zip_file.h"
 
 namespace prohull {
 
@@ -21,10 +21,9 @@ class ZipWriter {
   std::string finish();
 
  private:
-  void check(long status) const;
-
   std::string bytes_;
-  std::unique_ptr<archive, int (*)(archive*)> archive_;
+  ZipFile file_{{}, &bytes_};
+  std::unique_ptr<void, int (*)(void*)> zip_;
 };
 
 }  // namespace prohull
