@@ -39,7 +39,7 @@ class CMakeBuild(build_ext):
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count()))
         say(f"compiling in {build} with {jobs} jobs; this takes about two minutes on two cores")
         self.cmake("--build", str(build), "--target", "prohull_wheel", "--parallel", jobs)
-        self.cmake("--install", str(build), "--component", "wheel", "--prefix", str(package))
+        self.cmake("--install", str(build), "--strip", "--component", "wheel", "--prefix", str(package))
         if SELF_CONTAINED:
             say("adding the shared libraries")
             subprocess.run([sys.executable, str(ROOT / "scripts" / "bundle-libraries"), str(package)], check=True)
