@@ -1094,7 +1094,7 @@ static void prove_pair(void) {
 
 int main(int arguments, char** names) {
   size_t size, gaps = 0;
-  if (arguments != 2) end(2, "usage: prohull_check_motion CERTIFICATE");
+  if (arguments != 2 || names[1][0] == '-') end(2, "usage: prohull_check_motion CERTIFICATE");
   file_name = names[1], begin_of_file = at = bytes_of(file_name, &size);
   if (!pass("prohull-motion") || !pass("1")) unreadable("this is no certificate of motion of version 1");
   while (!pass("end"))

@@ -291,7 +291,8 @@ void print_limits(const ConvexOptions& options, const Outcome& outcome) {
 std::string what_to_allow(const ConvexOptions& options, const ConvexCover& cover) {
   const bool has_full = std::ranges::any_of(
       cover.pieces, [&](const ConvexPiece& piece) { return piece.mesh.vertex_count() == options.cover.max_vertices; });
-  return fmt::format("{}{}", cover.pieces.size() == options.cover.max_pieces ? "more --pieces, or " : "",
+  const bool may_be_cut = !has_full || cover.pieces.size() == options.cover.max_pieces;
+  return fmt::format("{}{}", may_be_cut ? "more --pieces, or " : "",
                      has_full ? fmt::format("more than {} --vertices, or ", options.cover.max_vertices) : "");
 }
 
@@ -301,9 +302,9 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
       counted(outcome.input.components, "component"));
   for (const std::string& note : cover.notes) say("  {}\n", note);
   const double reach = cover.verdict.distance().upper;
-  say("{}: {}, {}, at most {:.4g} from the mesh ({} % of its diagonal){}{}\n", output_name(options.out),
+  say("{}: {}, {}, at most {:.4g} from the mesh ({:.3g} % of its diagonal){}{}\n", output_name(options.out),
       described_pieces(cover), described_size(cover), rounded_up(reach, 4),
-      with_decimals_up(100 * reach / outcome.diagonal, 2), cover.fills_cavities ? " with cavities filled" : "",
+      rounded_up(100 * reach / outcome.diagonal, 3), cover.fills_cavities ? " with cavities filled" : "",
       text_of_openings(cover.verdict.cap_faces > 0, *cover.verdict.distance_to_triangles));
   say("  certified: {}\n", certificate_of(cover.verdict, "the union of the pieces as written"));
   if (options.engine && outcome.largest.vertices > 0) print_limits(options, outcome);

@@ -65,7 +65,7 @@ int parse_and_run(int argc, char** argv) {
   app.fallthrough(false);
   app.footer(
       "`prohull help COMMAND` shows the options and examples of a command.\n"
-      "Exit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 130 interrupted.");
+      "Exit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 4 undecided; 130 interrupted.");
   Run run;
   add_commands(app, run);
   try {

@@ -110,9 +110,9 @@ std::string text_of_origin(const SphereCover& cover) {
 
 void print_summary(const SpheresOptions& options, const std::string& suffix, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
-  say("{}: {} around {}, which reach out by at most {:.4g}, {} % of the diagonal{}\n", output_name(options.out),
+  say("{}: {} around {}, which reach out by at most {:.4g}, {:.3g} % of the diagonal{}\n", output_name(options.out),
       counted(cover.balls.size(), "sphere"), counted(outcome.faces, "face"),
-      rounded_up(cover.verdict.distance().upper, 4), with_decimals_up(100 * outcome.part_of_diagonal(), 2),
+      rounded_up(cover.verdict.distance().upper, 4), rounded_up(100 * outcome.part_of_diagonal(), 3),
       text_of_origin(cover));
   if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);
   if (outcome.has_volume())

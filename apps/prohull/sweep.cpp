@@ -100,7 +100,7 @@ LinkSweep sweep_of_mesh(const SweepRunOptions& options, SweepOptions how, double
   const std::vector<RigidMotion> motions = motions_of(options);
   const Stopwatch reading;
   FileUnit unit;
-  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Refuse, nullptr, &unit);
+  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep, nullptr, &unit);
   read_seconds = reading.seconds();
   if (options.max_distance.number > 0)
     how.max_distance =

@@ -20,8 +20,7 @@ void print_offenders(const Verification& found, const std::string& mesh) {
   if (found.faces_outside > 0)
     say("  {} of {} {} outside, at least in part; the farthest:\n", counted(found.faces_outside, "face"), mesh,
         found.faces_outside == 1 ? "lies" : "lie");
-  for (const Offender& o : found.worst)
-    say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
+  print_worst(found.worst);
 }
 
 void print_near_faces(const Verification& found, const std::string& hull, double gap) {
@@ -197,6 +196,12 @@ int run_verify(const VerifyOptions& options) {
 }  // namespace
 
 std::string text_of_point(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x, p.y, p.z); }
+
+void print_worst(const std::vector<Offender>& worst) {
+  for (const Offender& o : worst)
+    say("    face {} at {}, {}\n", index(o.face), text_of_point(o.point),
+        o.distance > 0 ? fmt::format("{:.6g} outside", o.distance) : "outside by less than rounding lets tell");
+}
 
 nlohmann::json facts(const std::vector<Offender>& worst) {
   nlohmann::json all = nlohmann::json::array();

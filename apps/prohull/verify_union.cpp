@@ -66,8 +66,7 @@ void print_offenders(const UnionVerification& found, const std::string& original
   if (found.faces_outside > 0)
     say("  {} of {} {} outside, at least in part; the farthest:\n", counted(found.faces_outside, "face"), original,
         found.faces_outside == 1 ? "lies" : "lie");
-  for (const Offender& o : found.worst)
-    say("    face {} at {}, {:.6g} outside\n", index(o.face), text_of_point(o.point), o.distance);
+  print_worst(found.worst);
   if (found.faces_undecided > 0)
     say("  {} of {} {} undecided{}\n", counted(found.faces_undecided, "face"), original,
         found.faces_undecided == 1 ? "is" : "are", found.undecided.empty() ? "" : ":");

@@ -22,7 +22,7 @@ enum class Answer {
 /// one tells it, with the same names in reports and in Python; docs/proofs.md has the words. What was not asked, not
 /// decided or not measured is NotAsked, Undecided or empty.
 struct Verdict {
-  bool certified = false;    ///< the answer: all that was asked is proven
+  bool certified = false;    ///< the answer: what the record says is proven; of verify_hull, the gap that was asked for too
   std::string why_not = {};  ///< why the answer is no; empty if it is yes
   /// How it was decided: "replay" of the vertex splits of a progressive hull, "enclosure" of one closed mesh by
   /// another, "coverage" of every triangle of an original that is not closed, "union" of pieces or spheres, "padding"
@@ -36,7 +36,8 @@ struct Verdict {
   /// The solid of the original is enclosed; of an inner hull, the original encloses it.
   Answer encloses_solid = Answer::NotAsked;
   std::optional<double> gap = {};  ///< no point is nearer to a triangle of the original than that
-  /// No point is farther than `upper` from all triangles of the original, or from its solid with what closes it.
+  /// No point is farther than `upper` from all triangles of the original, or from its solid with what closes it. Of
+  /// pieces and spheres, points in the solid of a closed original do not count.
   std::optional<DistanceBounds> distance_to_triangles = {}, distance_to_solid = {};
 
   bool original_closed = false;      ///< as it was given

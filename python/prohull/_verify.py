@@ -35,10 +35,10 @@ class NearFace(NamedTuple):
 class Verdict:
     """What is proven of a hull, or of pieces or spheres together, and against what; as reports of the command line have it.
 
-    What was not asked, not decided or not measured is None. It counts as true if all that was asked is proven.
+    What was not asked, not decided or not measured is None. It counts as true if it is `certified`.
     """
 
-    certified: bool  #: the answer: whether all that was asked is proven
+    certified: bool  #: the answer: whether what this says is proven; of verify(), whether the gap asked for is kept, too
     why_not: str  #: why the answer is no; empty if it is yes
     proof: str  #: how it was decided: "replay", "enclosure", "coverage", "union", "padding" or "sweep"
     side: Side  #: "outer" or "inner"

@@ -272,6 +272,13 @@ JointRange JointPath::range(std::size_t k, std::size_t first, std::size_t last) 
   return range;
 }
 
+bool JointPath::is_moved(std::size_t k) const {
+  const auto any = [&](const std::vector<std::vector<double>>& rows, double rest) {
+    return std::ranges::any_of(rows, [&](const std::vector<double>& row) { return !row.empty() && row[k] != rest; });
+  };
+  return any(rows_.positions, rows_.positions[0][k]) || any(rows_.velocities, 0) || any(rows_.accelerations, 0);
+}
+
 std::vector<JointRange> JointPath::ranges() const {
   std::vector<JointRange> ranges;
   for (const double rest : rest_) ranges.push_back({rest, rest});

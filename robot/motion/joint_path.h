@@ -45,6 +45,9 @@ class JointPath {
   /// How far the place of which time_at is the time, rounded, is at most from one that lies behind the same row.
   double rounding_of_times(double place) const;
 
+  /// Whether joints()[k] is ever elsewhere than in the first row.
+  bool is_moved(std::size_t k) const;
+
   /// The positions of all joints of the robot, but for those that mimic. Others than joints() are at their
   /// rest_positions.
   std::vector<double> positions_at(double place) const;

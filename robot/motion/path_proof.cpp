@@ -14,7 +14,10 @@ namespace prohull::robot {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr const char* kRounding = "rounding hides whether they touch";
+
+const char* rounding_hides(double gap) {
+  return gap > 0 ? "rounding hides whether they are closer than the gap" : "rounding hides whether they touch";
+}
 
 /// A piece of the path, and what is known there.
 struct Piece {
@@ -65,7 +68,7 @@ class PathSearch {
   PathPairProof run(ProgressMeter& meter) {
     result_.why = !a_.unread.empty() ? a_.unread : !b_.unread.empty() ? b_.unread : chain_.obstacle();
     if (!result_.why.empty()) return with_verdict({{.begin = 0, .end = path_.length()}});
-    result_.nothing_moves = chain_.freedoms().empty();
+    result_.nothing_moves = std::ranges::none_of(numbers_, [&](const auto& k) { return k && path_.is_moved(*k); });
     if (!meets_at(0)) {
       meets_at(path_.length());
       look_at(0, path_.length());
@@ -80,7 +83,7 @@ class PathSearch {
       else
         done_.push_back(piece);
     }
-    result_.why = !open_.empty() ? kCellsUsedUp : touches_ ? kTouchesMesh : kRounding;
+    result_.why = !open_.empty() ? kCellsUsedUp : touches_ ? kTouchesMesh : rounding_hides(options_.gap);
     for (; !open_.empty(); open_.pop()) done_.push_back(open_.top());
     return with_verdict(std::move(done_));
   }
@@ -219,7 +222,7 @@ class PathSearch {
     }
     if (undecided && result_.verdict == PathVerdict::Free) result_.verdict = PathVerdict::Open;
     const bool is_open = result_.verdict == PathVerdict::Open;
-    if (!undecided || (!is_open && result_.why == kRounding)) result_.why.clear();
+    if (!undecided || (!is_open && result_.why == rounding_hides(options_.gap))) result_.why.clear();
     if (result_.verdict == PathVerdict::Free) result_.tree = record_.tree();
     const bool meets = result_.verdict == PathVerdict::Meets;
     result_.begin = undecided ? undecided->lower : end_;

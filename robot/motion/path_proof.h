@@ -43,7 +43,7 @@ struct PathPairProof {
   std::vector<double> positions = {};  ///< of Meets: of all joints of the robot, at `end`
   std::size_t part_a = 0, part_b = 0;  ///< of Meets: which parts of the bodies meet
   FacePair faces = {};                 ///< two faces of these; 0 and 0 where one part is inside of the other
-  bool nothing_moves = false;          ///< no joint moves them against each other
+  bool nothing_moves = false;          ///< the path moves no joint between them
   std::size_t cells = 0;               ///< pieces of the path that were looked at
   /// In their order; nothing is known between them. They are sharp only if PathProofOptions::distances asks for it.
   std::vector<DistanceBound> bounds = {};

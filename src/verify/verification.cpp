@@ -125,6 +125,7 @@ class Judge {
     found.encloses_solid = take(verify::verify_enclosure(inside, outside, next_step()),
                                 is_outer() ? "a part of the solid that the original bounds lies outside of the hull"
                                            : "a part of the solid that the hull bounds lies outside of the original");
+    if (asks_triangles() && any_triangle_is_outside()) found.covers_triangles = Answer::No;
   }
 
   /// Of an original that is not closed.
@@ -201,6 +202,13 @@ class Judge {
   Verification found;
 
  private:
+  /// Caps are none.
+  bool any_triangle_is_outside() const {
+    if (!stand_in_ || !is_outer()) return found.faces_outside > 0;
+    return std::ranges::any_of(found.worst,
+                               [&](const Offender& o) { return index(o.face) < original_.mesh().face_count(); });
+  }
+
   static constexpr std::string_view kLeavesTriangles = "triangles of the original lie outside of the hull, or in part";
 
   Answer take(EnclosureReport report, std::string_view why_not) {

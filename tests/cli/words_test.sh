@@ -94,6 +94,8 @@ says bucket/report.json "a bucket" '"distance_to_triangles": {'
 expect 0 "a corner that is not finite" $prohull urdf nan.urdf -o nan --no-pictures
 says out "a corner that is not finite" "a: 1 triangle that is not finite was left out"
 says nan/report.json "a corner that is not finite" "no point of a finite triangle of its visual meshes lies outside of its hull"
+expect 0 "a sweep of a corner that is not finite" $prohull sweep nan.obj --move 1,0,0 -o nan_swept.obj
+says out "a sweep of a corner that is not finite" "not finite were left out: 1"
 for side in outer inner; do
   expect 0 "openings of a bucket: $side" $prohull build bucket.obj --faces 12 --side $side -o $side.obj
   expect 0 "openings are closed as by build: $side" $prohull verify $side.obj bucket.obj --side $side --open-shells close --report closed.json

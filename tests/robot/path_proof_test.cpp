@@ -78,7 +78,12 @@ TEST(PathProof, DecidesASinglePosition) {
   const PathPairProof close = slide.proof(slide.path({}, {{1e-15}}));
   EXPECT_EQ(close.verdict, PathVerdict::Open);
   EXPECT_EQ(close.why, "rounding hides whether they touch");
-  EXPECT_EQ(slide.proof(slide.path({}, {{1}, {1}})).verdict, PathVerdict::Free) << "nothing moves";
+  EXPECT_EQ(slide.proof(slide.path({}, {{1 + 1e-15}}), {.gap = 1}).why,
+            "rounding hides whether they are closer than the gap");
+  const PathPairProof still = slide.proof(slide.path({}, {{1}, {1}}));
+  EXPECT_EQ(still.verdict, PathVerdict::Free);
+  EXPECT_TRUE(still.nothing_moves);
+  EXPECT_FALSE(slide.proof(slide.path({}, {{1}, {2}})).nothing_moves);
 }
 
 TEST(PathProof, KeepsAGap) {

@@ -29,18 +29,6 @@ inline int digits_apart(double a, double b, int fewest) {
   return fewest;
 }
 
-/// With so many decimals, and not below `number`.
-inline std::string with_decimals_up(double number, int decimals) {
-  const auto text = [&](double x) {
-    char buffer[512];
-    std::snprintf(buffer, sizeof buffer, "%.*f", decimals, x);
-    return std::string(buffer);
-  };
-  const std::string nearest = text(number);
-  const double shown = std::strtod(nearest.c_str(), nullptr);
-  return shown >= number || !std::isfinite(number) ? nearest : text(shown + std::pow(10.0, -decimals));
-}
-
 constexpr double kGreatestRatio = 1e4;  ///< that is written with its digits
 
 /// In per cent: 0.5 -> "50.0 %", and 1e9 -> "more than 1000000 %".
