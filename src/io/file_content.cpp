@@ -22,6 +22,7 @@ namespace prohull {
 namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 18;
+constexpr std::string_view kEndOfZip = "PK\x05\x06";
 
 [[noreturn]] void fail_to_decompress(const std::filesystem::path& name, std::string_view reason) {
   throw InputError(Defect::Malformed, fmt::format("{}: cannot decompress: {}", name.string(), reason));
@@ -82,6 +83,7 @@ class Inflater {
 class ZipReader {
  public:
   ZipReader(std::string_view compressed, const std::filesystem::path& name) : file_{compressed}, name_(name) {
+    if (compressed.starts_with(kEndOfZip)) return;  // it has no members
     zlib_filefunc64_def functions = file_.functions();
     zip_.reset(unzOpen2_64("", &functions));
     if (!zip_) fail_to_decompress(name, "the archive is damaged or truncated");
@@ -104,6 +106,7 @@ class ZipReader {
   std::string data() {
     std::string bytes;
     std::size_t size = 0;
+    require_readable();
     check(unzOpenCurrentFile(zip_.get()));
     while (const int read = unzReadCurrentFile(zip_.get(), grow(bytes, size), kChunk)) {
       if (read < 0) check(read);
@@ -118,7 +121,17 @@ class ZipReader {
  private:
   void check(int status) const {
     if (status == UNZ_CRCERROR) fail_to_decompress(name_, "a checksum is wrong; the archive is damaged");
-    if (status != UNZ_OK) fail_to_decompress(name_, "the archive is damaged, encrypted, or packed in an unknown way");
+    if (status != UNZ_OK) fail_to_decompress(name_, "the archive is damaged");
+  }
+
+  /// minizip returns other members as they are packed.
+  void require_readable() const {
+    constexpr uLong kEncrypted = 1, kStored = 0;
+    unz_file_info64 info;
+    check(unzGetCurrentFileInfo64(zip_.get(), &info, nullptr, 0, nullptr, 0, nullptr, 0));
+    if (info.flag & kEncrypted) fail_to_decompress(name_, "it is encrypted; extract the mesh first");
+    if (info.compression_method != kStored && info.compression_method != Z_DEFLATED)
+      fail_to_decompress(name_, "it is not packed by deflate, as zip files are by default; extract the mesh first");
   }
 
   ZipFile file_;
@@ -175,7 +188,7 @@ std::size_t decompression_limit(std::size_t compressed) { return (std::size_t{64
 
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }
 
-bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04") || bytes.starts_with("PK\x05\x06"); }
+bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04") || bytes.starts_with(kEndOfZip); }
 
 std::string gunzip(std::string_view compressed, const std::filesystem::path& name) {
   Inflater inflater(compressed);

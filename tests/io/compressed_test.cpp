@@ -82,6 +82,30 @@ TEST(Zip, WithoutOrWithSeveralMeshesIsAnError) {
                  "a.zip: cannot decompress: it has more than one mesh, a.off and b.ply; extract the one you mean");
 }
 
+// Of such members minizip returns the bytes as they are in the archive.
+TEST(Zip, ThatIsEncryptedOrPackedInAnotherWayIsAnError) {
+  const std::string bytes = zipped({{"a.off", kOff}});
+  const std::size_t local = 0, central = bytes.find("PK\x01\x02");
+  const auto with = [&](std::size_t field, char value) {
+    std::string changed = bytes;
+    changed[local + 6 + field] = changed[central + 8 + field] = value;
+    return changed;
+  };
+  EXPECT_EQ(read_mesh(with(2, bytes[local + 8]), "a.zip").face_count(), 1u) << "as it was";
+  expect_refused(with(0, 1), "a.zip", "a.zip: cannot decompress: it is encrypted; extract the mesh first");
+  constexpr char kBzip2 = 12;
+  expect_refused(with(2, kBzip2), "a.zip",
+                 "a.zip: cannot decompress: it is not packed by deflate, as zip files are by default; extract the mesh "
+                 "first");
+}
+
+TEST(Zip, WithoutMembersHasNoMesh) {
+  expect_refused(
+      "PK\x05\x06" + std::string(18, '\0'), "a.zip",
+      "a.zip: cannot decompress: it has no .ply, .obj, .off, .stl or .glb file, nor another mesh; name a 3MF "
+      "file .3mf, or say so by --in-format in a pipe");
+}
+
 TEST(Zip, ThatIsDamagedIsAnError) {
   const std::string bytes = zipped({{"a.off", kOff}});
   EXPECT_THROW(read_mesh(std::string_view(bytes).substr(0, 50), "a.zip"), InputError);
