@@ -61,6 +61,8 @@ bool has_failed_replay(const Verification& found) {
   return found.proof == "replay" && !found.encloses && std::isnan(found.hull_volume);
 }
 
+bool is_gap_undecided(const Verification& found) { return !found.keeps_gap && found.faces_too_near == 0; }
+
 /// "yes: hull.stl encloses part.stl", or why not.
 std::string verdict(const Verification& found, const SizeComparison& sizes, const VerifyOptions& options, double gap) {
   const std::string hull = input_name(options.hull), original = input_name(options.original);
@@ -70,8 +72,10 @@ std::string verdict(const Verification& found, const SizeComparison& sizes, cons
   const std::string levels = replayed ? (base_only ? "the base mesh of " : "every level of ") + hull : hull;
   const std::string what = claim(found, levels, original);
   if (!found.encloses)
-    return fmt::format("{}: {}{}: {}", is_undecided(found) && found.keeps_gap ? "UNDECIDED" : "NO", what,
+    return fmt::format("{}: {}{}: {}", is_undecided(found) && found.faces_too_near == 0 ? "UNDECIDED" : "NO", what,
                        found.is_yes() ? ", but there is more" : "", found.why_not);
+  if (is_gap_undecided(found))
+    return fmt::format("UNDECIDED: {}, and may keep the gap of {:.9g}: {}", what, gap, found.why_not);
   if (!found.keeps_gap)
     return fmt::format("NO: {}, but {} does not keep the gap of {:.{}g}: {}", what, hull, gap,
                        digits_apart(gap, found.least_distance, 9), found.why_not);
@@ -101,7 +105,7 @@ void print_summary(const VerifyOptions& options, const Verification& found, cons
   if (has_failed_replay(found)) return;
   if (!std::isnan(found.hull_volume))
     say("  hull: volume {:.9g}{}\n", found.hull_volume, text_of_void(found.void_ratio));
-  if (gap > 0)
+  if (gap > 0 && !std::isnan(found.least_distance))
     say("  least distance: {:.{}g}\n", found.least_distance,
         found.keeps_gap ? 9 : digits_apart(gap, found.least_distance, 9));
   say("  {} intersects itself in {}\n", hull, counted(found.self_intersections, "pair of faces", "pairs of faces"));
@@ -134,8 +138,8 @@ nlohmann::json report_of(const VerifyOptions& options, const Verification& found
                          {"seconds", seconds}};
   if (gap > 0) {
     json["gap_asked"] = gap;
-    json["keeps_gap"] = found.keeps_gap;
-    json["least_distance"] = found.least_distance;
+    json["keeps_gap"] = is_gap_undecided(found) ? nlohmann::json() : nlohmann::json(found.keeps_gap);
+    json["least_distance"] = finite_or_null(found.least_distance);
     json["faces_too_near"] = found.faces_too_near;
     json["nearest"] = near_facts(found.nearest);
   }
@@ -189,7 +193,8 @@ int run_verify(const VerifyOptions& options) {
   print_summary(options, found, sizes, gap, seconds);
   say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(face_count(hull), "face"),
            counted(original.face_count(), "face"), found.proof, read_seconds);
-  if (has_failed_replay(found) || !found.keeps_gap) return kAnswerIsNo;
+  if (has_failed_replay(found) || found.faces_too_near > 0) return kAnswerIsNo;
+  if (found.encloses && is_gap_undecided(found)) return kUndecided;
   return exit_code_of(found, options.any_scale || !sizes.is_doubtful());
 }
 
@@ -264,10 +269,12 @@ void add_verify(CLI::App& app, Run& run) {
              "files, whose levels touch.",
              "ORIGINAL")
       ->excludes(is_union);
-  add_optional_number(command, "--steps", options->max_steps, {1, 1e15},
-                      "Largest number of steps of each search for parts that lie outside: what is left then is "
-                      "undecided, and the exit code is 4 if nothing else says no. Without this option it is two "
-                      "billion and 2,000 for each face of ORIGINAL, which take some minutes.");
+  add_optional_number(
+      command, "--steps", options->max_steps, {1, 1e15},
+      "Largest number of steps of each search for parts that lie outside, for holes, and for faces nearer "
+      "than the gap: what is left then is undecided, and the exit code is 4 if nothing else says no. Without this "
+      "option it is two "
+      "billion and 2,000 for each face of ORIGINAL, which take some minutes.");
   add_report_option(command, options->report);
   add_examples(
       command,

@@ -32,7 +32,7 @@ struct UnionVerification : Verdict {
   /// Triangles of which neither was found out, whether all of them is covered nor a point that is not.
   std::size_t faces_undecided = 0;
   std::vector<Offender> undecided;  ///< of these, a point in doubt; max_offenders at most, of distance 0
-  bool inside_undecided = false;    ///< the same of the inside
+  bool inside_undecided = false;    ///< whether it is not known that the pieces or balls leave no hole in the solid
   std::size_t turned_pieces = 0;    ///< pieces that were inside out and count as turned
   double union_volume = std::numeric_limits<double>::quiet_NaN();     ///< overlaps count once; rounded
   double original_volume = std::numeric_limits<double>::quiet_NaN();  ///< NaN if the original is not closed
@@ -58,8 +58,9 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
 /// options.solid_only that solid alone. `holes` is at most 1: the search for one ends at the first.
 /// Guaranteed: yes is exact, for the balls with the doubles given, and so is every triangle that counts as outside, and
 /// every hole. Undecided is what the balls cover with less than about 1e-9 of the diagonal to spare, if at all, and
-/// what would take more than a million parts of one triangle or four million cubes of the inside; then the answer
-/// is no. Balls may touch corners of the original, and each other in the middles of edges, with nothing to spare.
+/// what would take more than a million parts of one triangle, four million cubes of the inside, or options.max_steps;
+/// then the answer is no. Balls may touch corners of the original, and each other in the middles of edges, with nothing
+/// to spare.
 UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh original, bool inside,
                                const VerificationOptions& options = {});
 

@@ -28,9 +28,9 @@ struct VerificationOptions {
   /// an inner hull must be enclosed by its solid. It is not looked at if the original is closed.
   const TriangleMesh* closed = nullptr;
   std::size_t max_offenders = 5;
-  /// The most steps of each search for parts that lie outside; faces that are left then are undecided, the same on
-  /// every machine. 0: two billion and 2,000 for each face of the original, which take some minutes. Gaps and spheres
-  /// have no such searches.
+  /// The most steps of each search for parts that lie outside, for holes, and for faces nearer than the gap; what is
+  /// left then is undecided, the same on every machine. 0: two billion and 2,000 for each face of the original, which
+  /// take some minutes.
   std::size_t max_steps = 0;
   Progress progress = {};  ///< stage "verify"
 };
@@ -50,17 +50,19 @@ struct Verification : Verdict {
   std::size_t splits = 0;  ///< vertex splits replayed
   std::size_t signs = 0;   ///< signs of orient3d that the replay decided exactly
 
-  bool keeps_gap = true;           ///< the hull keeps VerificationOptions::gap; exact
+  /// The hull keeps VerificationOptions::gap; exact. If not, and faces_too_near is 0, it is undecided.
+  bool keeps_gap = true;
   std::size_t faces_too_near = 0;  ///< faces of the hull that do not; exact
   std::vector<NearFace> nearest;   ///< the nearest of these, nearest first; max_offenders at most
-  double least_distance = std::numeric_limits<double>::quiet_NaN();  ///< of the hull, rounded; NaN without a gap
+  /// Of the hull, rounded; NaN without a gap, and where the search ended before.
+  double least_distance = std::numeric_limits<double>::quiet_NaN();
 
   std::size_t faces_outside = 0;  ///< faces of the inner mesh of which a part lies outside of the outer one; exact
   /// The farthest of these, farthest first. Caps are numbered behind the faces of the original.
   std::vector<Offender> worst;
   std::size_t cavities = 0;  ///< as in EnclosureReport
-  /// Faces that were left undecided, because meshes intersect themselves or each other so often that they would take
-  /// minutes. If there are any, `encloses` is false.
+  /// Faces that were left undecided, because meshes intersect themselves or each other so often, or are about as near
+  /// as the gap in so many places, that they would take minutes. If there are any, `certified` is false.
   std::size_t faces_undecided = 0;
   /// Faces of the inner mesh that bound no part of its solid, as in folds. Of a progressive hull only the base mesh is
   /// known to cover them; of an original without a solid, they are those that the finest level does not cover.

@@ -55,6 +55,7 @@ struct Asked {
   double gap;
   bool finite_only;
   std::string open_shells;
+  std::size_t steps;  ///< 0: as many as usual
 };
 
 template <class Decide>
@@ -70,21 +71,23 @@ py::dict verified(const TriangleMesh& original, HullSide side, const Asked& aske
                                       .gap = asked.gap,
                                       .finite_only = asked.finite_only,
                                       .closed = closed ? &closed->mesh : nullptr,
+                                      .max_steps = asked.steps,
                                       .progress = watch.progress()});
   }));
 }
 
 py::dict verified_mesh(const TriangleMesh& hull, const TriangleMesh& original, const std::string& side_name,
-                       bool solid_only, double gap, bool finite_only, const std::string& open_shells,
+                       bool solid_only, double gap, bool finite_only, const std::string& open_shells, std::size_t steps,
                        const py::object& progress) {
   const HullSide side = side_called(side_name);
-  return verified(original, side, {solid_only, gap, finite_only, open_shells}, progress,
+  return verified(original, side, {solid_only, gap, finite_only, open_shells, steps}, progress,
                   [&](const VerificationOptions& options) { return verify_hull(hull, original, side, options); });
 }
 
 py::dict verified_levels(const ProgressiveHull& hull, const TriangleMesh& original, bool solid_only, double gap,
-                         bool finite_only, const std::string& open_shells, const py::object& progress) {
-  return verified(original, hull.side(), {solid_only, gap, finite_only, open_shells}, progress,
+                         bool finite_only, const std::string& open_shells, std::size_t steps,
+                         const py::object& progress) {
+  return verified(original, hull.side(), {solid_only, gap, finite_only, open_shells, steps}, progress,
                   [&](const VerificationOptions& options) { return verify_hull(hull, original, options); });
 }
 

@@ -16,7 +16,7 @@ from ._meshes import Mesh
 from ._prohull import InputError
 from ._shown import Shown
 from ._types import Gap, MeshLike, Path, PieceShape, Progress, Rows
-from ._verify import Offender, Proven, Verdict, verdict_of
+from ._verify import Offender, Proven, Verdict, most_steps, verdict_of
 from ._view import Part, balls_part, pieces_part
 
 
@@ -157,8 +157,8 @@ class UnionVerification(Verdict):
 
     faces_outside: int  #: number of triangles of the original of which a part lies outside of all pieces; exact
     worst: list[Offender]  #: the farthest of these, farthest first
-    faces_undecided: int  #: of balls: number of triangles that neither is proven of, to be covered or to reach outside
-    inside_undecided: bool  #: of balls: the same of the inside
+    faces_undecided: int  #: number of triangles that neither is proven of, to be covered or to reach outside
+    inside_undecided: bool  #: whether it is not known that the pieces or balls leave no hole in the solid
     holes: int  #: number of connected parts of the union's surface that leave a hole in the solid; they are looked for only if faces_outside is 0
     turned_pieces: int  #: number of pieces that were inside out and count as turned
     union_volume: float  #: in cubic units; overlaps count once; nan if a piece is not convex
@@ -233,7 +233,7 @@ def spheres(mesh: MeshLike, count: int = 64, *, max_distance: Gap = math.inf, fi
 
 def verify_union(pieces: Union[ConvexCover, SphereCover, Sequence[MeshLike], Rows], original: MeshLike, *,
                  inside: bool = False, solid_only: bool = False, finite_only: bool = False,
-                 progress: Optional[Progress] = None) -> UnionVerification:
+                 steps: Optional[int] = None, progress: Optional[Progress] = None) -> UnionVerification:
     """Decides exactly whether convex pieces, or balls, cover `original`, as `prohull verify --union` does.
 
     It does not matter which program made them. Pieces may touch, share walls and overlap. Every triangle of the original
@@ -245,6 +245,7 @@ def verify_union(pieces: Union[ConvexCover, SphereCover, Sequence[MeshLike], Row
     inside: whether balls must cover the inside of a closed original, too. Convex pieces always must.
     solid_only: whether only the solid must be covered that a closed original bounds, as in verify().
     finite_only: whether triangles of the original that are not finite are left out, as in verify().
+    steps: the largest number of steps of each search, as in verify().
     progress: called as build() calls it, with the stage "verify".
 
     Raises InputError if there is no piece, if a piece is not closed, not finite or has no volume, and if the original
@@ -253,12 +254,13 @@ def verify_union(pieces: Union[ConvexCover, SphereCover, Sequence[MeshLike], Row
         assert prohull.verify_union(["hull_1.stl", "hull_2.stl"], "part.stl")
     """
     second = mesh_of(original, keep_non_finite=True)._core
-    balls = _balls(pieces)
+    balls, most = _balls(pieces), most_steps(steps)
     if balls is not None:
-        facts = _prohull.verify_balls(balls, second, inside, solid_only, finite_only, progress)
+        facts = _prohull.verify_balls(balls, second, inside, solid_only, finite_only, most, progress)
     else:
         given: Any = pieces.pieces if isinstance(pieces, ConvexCover) else pieces
-        facts = _prohull.verify_pieces([mesh_of(piece)._core for piece in given], second, solid_only, finite_only, progress)
+        facts = _prohull.verify_pieces([mesh_of(piece)._core for piece in given], second, solid_only, finite_only, most,
+                                       progress)
     facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
     return UnionVerification(**facts)
 

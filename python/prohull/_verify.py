@@ -88,21 +88,21 @@ class Verification(Verdict):
     faces_outside: int  #: number of triangles of the inner mesh of which a part lies outside of the outer one, and not on it; exact
     worst: list[Offender]  #: the farthest of these, farthest first
     cavities: int  #: number of hollows of the outer mesh that leave a part of the inner one uncovered; they are looked for only if faces_outside is 0
-    faces_undecided: int  #: number of faces whose decision would take minutes; if there are any, `encloses` is false
+    faces_undecided: int  #: number of faces whose decision would take more steps; if there are any, `certified` is false
     faces_beside_solid: int  #: number of faces of the inner mesh that bound no part of its solid, as in folds
     self_intersections: int  #: number of pairs of faces of the hull that meet beyond what they share; exact
     original_volume: float  #: of the solid, in cubic units; overlaps count once; nan if it is not known
     void_ratio: float  #: volume of the hull / volume of the original - 1; nan if one of the two is not known
     notes: list[str]  #: what was left out of the original or turned, and units that seem to differ
-    keeps_gap: bool  #: whether the hull keeps the gap; exact
+    keeps_gap: bool  #: whether the hull keeps the gap; exact. False with faces_too_near of 0: undecided
     faces_too_near: int  #: number of faces of the hull that do not; exact
     nearest: list[NearFace]  #: the nearest of these, nearest first
-    least_distance: float  #: between hull and original, rounded; nan without a gap
+    least_distance: float  #: between hull and original, rounded; nan without a gap, and where the search ended before
 
 
 def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, solid_only: bool = False,
            gap: Gap = 0.0, finite_only: bool = False, open_shells: OpenShells = "keep",
-           progress: Optional[Progress] = None) -> Verification:
+           steps: Optional[int] = None, progress: Optional[Progress] = None) -> Verification:
     """Decides exactly whether `hull` encloses `original`, as `prohull verify` does.
 
     A .phull file is a proof, and is replayed. Any other hull must be closed, and is compared with the original. The
@@ -121,6 +121,9 @@ def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, s
     open_shells: what is done with openings of the original. "close" gives them caps, as build() does, so that what they
         lead into must be enclosed too, and so that an inner hull has an inside to lie in; "keep" asks for the triangles
         only.
+    steps: the largest number of steps of each search for parts that lie outside, for holes, and for faces nearer than
+        the gap, at least 1. What is left then is undecided, the same on every machine. Unless given, it is two billion
+        and 2,000 for each face of the original, which take some minutes.
     progress: called as build() calls it, with the stage "verify".
 
     Raises InputError if a mesh is empty, if it is not finite or not closed where it has to be, or if a coordinate is
@@ -129,18 +132,23 @@ def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, s
         assert prohull.verify("hull.stl", "part.stl", gap="0.5%")
     """
     mesh = mesh_of(original, keep_non_finite=True)
-    second, distance = mesh._core, distance_of("gap", gap, mesh)
+    second, distance, most = mesh._core, distance_of("gap", gap, mesh), most_steps(steps)
     if isinstance(hull, (str, os.PathLike)) and _prohull.is_hull_file(_arrays.path(hull)):
         facts = _prohull.verify_levels(_prohull.load(hull), second, solid_only, distance, finite_only, open_shells,
-                                       progress)
+                                       most, progress)
     else:
         first = mesh_of(hull)
         own_side = first.side if isinstance(first, Hull) else "outer"
         facts = _prohull.verify_mesh(first._core, second, side or own_side, solid_only, distance, finite_only,
-                                     open_shells, progress)
+                                     open_shells, most, progress)
     facts["nearest"] = [NearFace(*near) for near in facts["nearest"]]
     facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
     return Verification(**facts)
+
+
+def most_steps(steps: Optional[int]) -> int:
+    """0 for as many as usual."""
+    return 0 if steps is None else _arrays.count("steps", steps, bits=64, least=1)
 
 
 def distance_bounds(from_: MeshLike, to: MeshLike, *, relative_gap: float = 0.01,

@@ -221,3 +221,10 @@ def test_all_products_have_one_record(pony, tmp_path):
     assert made[2].verdict.encloses_solid is None and made[3].verdict.gap > 0 and made[0].verdict.gap is None
     assert math.isnan(made[4].verdict.distance_bound) and made[1].verdict.distance_bound > 0
     assert isinstance(prohull.verify_union(made[1], ball), prohull.Verdict) and not prohull.verify(ball, made[0])
+
+
+def test_verify_union_ends_after_so_many_steps(pony):
+    cover = prohull.spheres(pony, 16)
+    found = prohull.verify_union(cover, pony, steps=1)
+    assert not found and found.covers_triangles is None and found.faces_undecided > 0
+    assert prohull.verify_union(cover, pony, steps=10**9)

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "prohull/detail/progress_meter.h"
 #include "prohull/geometry.h"
+#include "verify/steps.h"
 #include "verify/surface.h"
 #include "verify/winding.h"
 
@@ -17,31 +17,6 @@ namespace prohull::verify {
 namespace arranged {
 class Segments;
 }
-
-/// A decision would take more steps than it may.
-struct OutOfSteps {};
-
-/// Counts the steps of a decision: pairs of segments that are looked at, and more where rounded numbers do not decide.
-class Steps {
- public:
-  Steps(ProgressMeter& meter, std::size_t most) : meter_(meter), most_(most) {}
-
-  std::size_t taken() const { return taken_; }
-  /// Asks the meter now and then whether to go on. Throws OutOfSteps.
-  void take(std::size_t count) {
-    constexpr std::size_t kInterval = 256;
-    taken_ += count;
-    if (taken_ > most_) throw OutOfSteps();
-    if (taken_ < asked_ + kInterval) return;
-    asked_ = taken_;
-    meter_.go_on();
-  }
-
- private:
-  ProgressMeter& meter_;
-  const std::size_t most_;
-  std::size_t taken_ = 0, asked_ = 0;
-};
 
 /// The winding numbers of up to two surfaces just outside and just inside of a triangle.
 struct Windings {

@@ -278,8 +278,8 @@ std::string undecided(std::size_t faces) {
                      faces == 1 ? "it" : "they", faces == 1 ? "s" : "");
 }
 
-Holes find_holes(const Surface& inner, const Surface& outer, const OpenCells& open_cells, const Progress& progress) {
-  const EnclosureOptions options{.progress = progress};
+Holes find_holes(const Surface& inner, const Surface& outer, const OpenCells& open_cells,
+                 const EnclosureOptions& options) {
   Verifier verifier(inner, outer, options);
   return verifier.find_holes([&](FaceIndex f) {
     const auto cells = open_cells(f);

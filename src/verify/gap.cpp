@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "geometry/bvh.h"
 #include "geometry/triangle_distance.h"
 #include "geometry/triangle_gap.h"
 #include "prohull/detail/progress_meter.h"
+#include "verify/steps.h"
 
 // A gap is kept if and only if no face of the hull is nearer to a face of the original than that. Boxes and planes rule
 // out pairs that are certainly far apart, and are_apart decides the others.
@@ -77,12 +80,19 @@ class AtLeast {
 
 class GapSearch {
  public:
-  GapSearch(const TriangleMesh& original, double gap) : original_(original), gap_(gap), tree_(original) {}
+  GapSearch(const TriangleMesh& original, double gap, Steps& steps)
+      : original_(original), gap_(gap), steps_(steps), tree_(original) {}
 
+  /// Throws OutOfSteps.
   bool keeps_gap(const Triangle& face) const {
     const AtLeast at_least(face);
     bool keeps = true;
-    tree_.visit([&](const Box& box) { return keeps && at_least(box) < gap_; },
+    const auto may_be_near = [&](const Box& box) {
+      if (!keeps) return false;
+      steps_.take(1);
+      return at_least(box) < gap_;
+    };
+    tree_.visit(may_be_near,
                 [&](std::uint32_t f) { keeps = keeps && are_apart(face, original_.triangle(FaceId{f}), gap_); });
     return keeps;
   }
@@ -92,12 +102,13 @@ class GapSearch {
     double proven_distance;  ///< no face of the original is nearer
   };
 
-  /// The face of the original that is nearest, rounded, if it is nearer than `limit`.
+  /// The face of the original that is nearest, rounded, if it is nearer than `limit`. Throws OutOfSteps.
   Found nearest(FaceId id, const Triangle& face, double limit) const {
     Found found{{id, FaceId{}, {}, limit}, limit};
     tree_.least(
         AtLeast(face),
         [&](std::uint32_t f) {
+          steps_.take(1);
           const Triangle t = original_.triangle(FaceId{f});
           const TriangleDistance d = triangle_distance(face, t);
           const double upper = d.lower == 0 && !are_apart(face, t, kTouching) ? 0 : d.upper;
@@ -114,6 +125,7 @@ class GapSearch {
 
   const TriangleMesh& original_;
   const double gap_;
+  Steps& steps_;
   const Bvh tree_;
 };
 
@@ -122,25 +134,32 @@ class GapSearch {
 GapReport verify_gap(const TriangleMesh& hull, const TriangleMesh& original, double gap,
                      const EnclosureOptions& options) {
   ProgressCounter counter(options.progress, "verify", hull.face_count());
-  const GapSearch search(original, gap);
+  Steps steps(counter.meter(), options.max_steps);
+  const GapSearch search(original, gap, steps);
+  constexpr double kAny = std::numeric_limits<double>::infinity();
   GapReport report;
-  report.least_distance = report.proven_distance = std::numeric_limits<double>::infinity();
-  std::vector<NearFace> near;
+  report.least_distance = report.proven_distance = kAny;
+  bool is_measured = true;
   for (const FaceId f : hull.triangles.ids()) {
     counter.next();
     const Triangle face = hull.triangle(f);
-    const bool keeps = search.keeps_gap(face);
-    const auto [nearest, proven_distance] =
-        search.nearest(f, face, keeps ? report.least_distance : std::numeric_limits<double>::infinity());
-    report.least_distance = std::min(report.least_distance, nearest.distance);
-    report.proven_distance = std::min(report.proven_distance, proven_distance);
-    if (!keeps) near.push_back(nearest);
+    std::optional<bool> keeps;
+    try {
+      keeps = search.keeps_gap(face);
+      const auto [nearest, proven_distance] = search.nearest(f, face, *keeps ? report.least_distance : kAny);
+      report.least_distance = std::min(report.least_distance, nearest.distance);
+      report.proven_distance = std::min(report.proven_distance, proven_distance);
+      if (!*keeps) report.nearest.push_back(nearest);
+    } catch (const OutOfSteps&) {
+      is_measured = false;
+    }
+    report.faces_undecided += keeps ? 0 : 1;
+    report.faces_too_near += keeps.value_or(true) ? 0 : 1;
   }
-  if (near.empty()) report.proven_distance = std::max(report.proven_distance, gap);
-  report.faces_too_near = near.size();
-  std::ranges::stable_sort(near, {}, &NearFace::distance);
-  near.resize(std::min(near.size(), options.max_offenders));
-  report.nearest = std::move(near);
+  if (!is_measured) report.least_distance = std::numeric_limits<double>::quiet_NaN(), report.proven_distance = 0;
+  if (report.keeps_gap()) report.proven_distance = std::max(report.proven_distance, gap);
+  std::ranges::stable_sort(report.nearest, {}, &NearFace::distance);
+  report.nearest.resize(std::min(report.nearest.size(), options.max_offenders));
   return report;
 }
 

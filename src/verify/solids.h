@@ -46,7 +46,8 @@ using OpenCells = std::function<std::optional<std::vector<Cell>>(FaceIndex)>;
 /// If `outer` covers every triangle of `inner` (verify_cover), it encloses `inner` if and only if there are no holes.
 /// Exact: no triangle of `inner` reaches the open space around which `outer` winds less than once, so that the winding
 /// of `inner` is the same all over each connected part of that space, and each is bounded by faces of `outer` alone.
-Holes find_holes(const Surface& inner, const Surface& outer, const OpenCells& open_cells, const Progress& progress);
+Holes find_holes(const Surface& inner, const Surface& outer, const OpenCells& open_cells,
+                 const EnclosureOptions& options);
 
 /// The faces of a mesh that lie, in part, outside of the closure of what it winds around at least once: those of folds
 /// and of components that are inside out; and those without area. Whatever encloses the mesh covers all others

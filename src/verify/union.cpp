@@ -64,19 +64,19 @@ class UnionJudge {
   }
 
   void fill_inside() {
-    const verify::Holes holes =
-        verify::find_holes(verify::Surface(original_, "original"), pieces_, all_, meter_.part(0.5, 0.9));
+    const verify::Holes holes = verify::find_holes(verify::Surface(original_, "original"), pieces_, all_,
+                                                   search(original_.face_count(), 0.5, 0.9));
     found_.holes = holes.count;
-    found_.encloses_solid = holes.count > 0 ? Answer::No : found_.certified ? Answer::Yes : Answer::Undecided;
+    found_.inside_undecided = holes.count == 0 && holes.undecided > 0;
+    const bool is_yes = found_.certified && !found_.inside_undecided;
+    found_.encloses_solid = holes.count > 0 ? Answer::No : is_yes ? Answer::Yes : Answer::Undecided;
     if (holes.count > 0)
       refuse(fmt::format("the pieces leave a part of the inside open, for instance at {}", text(holes.point)));
+    if (found_.inside_undecided) refuse(verify::undecided(holes.undecided));
   }
 
   void enclose_solid() {
-    EnclosureReport report = verify_enclosure(original_, together_,
-                                              {.max_offenders = original_.face_count(),
-                                               .progress = meter_.part(0.1, 0.9),
-                                               .max_steps = verify::most_steps(options_, original_.face_count())});
+    EnclosureReport report = verify_enclosure(original_, together_, search(original_.face_count(), 0.1, 0.9));
     found_.holes = report.cavities;
     found_.faces_undecided = report.faces_undecided;
     found_.encloses_solid = verify::answer_of(report);
@@ -103,6 +103,12 @@ class UnionJudge {
   }
 
  private:
+  EnclosureOptions search(std::size_t max_offenders, double from, double to) {
+    return {.max_offenders = max_offenders,
+            .progress = meter_.part(from, to),
+            .max_steps = verify::most_steps(options_, original_.face_count())};
+  }
+
   bool are_convex_around(const Triangle& t) const {
     return std::ranges::all_of(pieces_.near(box_of(t)), [](const verify::Kernel* k) { return k->is_whole_piece(); });
   }
@@ -110,10 +116,7 @@ class UnionJudge {
   void ask_windings(const std::vector<FaceId>& faces) {
     TriangleMesh triangles{original_.positions, {}};
     for (const FaceId f : faces) triangles.triangles.push_back(original_.triangles[f]);
-    const EnclosureReport report = verify_cover(triangles, together_,
-                                                {.max_offenders = faces.size(),
-                                                 .progress = meter_.part(0.1, 0.5),
-                                                 .max_steps = verify::most_steps(options_, original_.face_count())});
+    const EnclosureReport report = verify_cover(triangles, together_, search(faces.size(), 0.1, 0.5));
     found_.faces_undecided = report.faces_undecided;
     for (const Offender& o : report.worst) offenders_.push_back({faces[index(o.face)], o.point, o.distance});
   }

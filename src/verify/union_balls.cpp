@@ -22,6 +22,8 @@
 #include "verify/offenders.h"
 #include "verify/original.h"
 #include "verify/solid_volume.h"
+#include "verify/solids.h"
+#include "verify/steps.h"
 #include "verify/surface.h"
 #include "verify/winding.h"
 
@@ -129,13 +131,13 @@ class TriangleCutter {
     BallSet holders;
   };
 
-  TriangleCutter(const Triangle& t, const Balls& balls, double smallest, ProgressMeter& meter)
+  TriangleCutter(const Triangle& t, const Balls& balls, double smallest, Steps& steps)
       : triangle_(t),
         balls_(balls),
         near_(balls.near(box_of(t))),
         largest_(largest_coordinate(box_of(t))),
         smallest_(smallest),
-        meter_(meter) {}
+        steps_(steps) {}
 
   Decision decide() {
     std::vector<std::array<Corner, 3>> parts{{corner({1, 0, 0}), corner({0, 1, 0}), corner({0, 0, 1})}};
@@ -145,7 +147,6 @@ class TriangleCutter {
     const double coarse = kCoarse * longest_side(parts[0]).second;
     Decision decision = Decision::Covered;
     for (std::size_t count = 1; !parts.empty(); count += 2) {
-      meter_.go_on();
       const auto part = std::move(parts.back());
       parts.pop_back();
       if (have_common(part[0].holders, part[1].holders, part[2].holders)) continue;
@@ -154,9 +155,10 @@ class TriangleCutter {
       Corner middle = corner(part[i].weights * 0.5 + part[j].weights * 0.5);
       if (middle.holders.empty()) return found(middle, Decision::Outside);
       const bool is_small = length < (decision == Decision::Covered ? smallest_ : std::max(smallest_, coarse));
-      if (is_small || is_fine(middle.weights) || count > kMostParts) {
+      const bool is_over = !steps_.may_take(1 + near_.size()) || count > kMostParts;
+      if (is_small || is_fine(middle.weights) || is_over) {
         if (decision == Decision::Covered) decision = found(middle, Decision::Undecided);
-        if (count > kMostParts) break;
+        if (is_over) break;
         continue;
       }
       const bool is_segment = part[j].weights == part[k].weights;
@@ -223,7 +225,7 @@ class TriangleCutter {
   const BallSet near_;
   const double largest_;  // coordinate of the triangle
   const double smallest_;
-  ProgressMeter& meter_;
+  Steps& steps_;
   Corner point_;
 };
 
@@ -276,8 +278,12 @@ std::vector<std::array<Field, 3>> clipped(const Triangle& t, const Box& box) {
 /// Cuts the solid into cubes.
 class CubeCutter {
  public:
-  CubeCutter(const Surface& solid, const Balls& balls, double smallest, const Progress& progress)
-      : solid_(solid), balls_(balls), counter_(progress, "verify", kMostCubes), smallest_(smallest) {}
+  CubeCutter(const Surface& solid, const Balls& balls, double smallest, const EnclosureOptions& options)
+      : solid_(solid),
+        balls_(balls),
+        counter_(options.progress, "verify", kMostCubes),
+        steps_(counter_.meter(), options.max_steps),
+        smallest_(smallest) {}
 
   Decision decide() {
     Box box;
@@ -333,7 +339,8 @@ class CubeCutter {
       return false;
     }
     const double smallest = decision_ == Decision::Covered ? smallest_ : std::max(smallest_, coarse_);
-    if (cube.max.x - cube.min.x < smallest || count_ > kMostCubes) {
+    const bool is_over = !steps_.may_take(1 + near.size() + faces.size()) || count_ > kMostCubes;
+    if (cube.max.x - cube.min.x < smallest || is_over) {
       decision_ = Decision::Undecided;
       return true;
     }
@@ -399,6 +406,7 @@ class CubeCutter {
   const Surface& solid_;
   const Balls& balls_;
   ProgressCounter counter_;
+  Steps steps_;
   double smallest_, largest_ = 0, coarse_ = 0;
   std::size_t count_ = 0;
   Decision decision_ = Decision::Covered;  ///< of the cubes so far
@@ -419,11 +427,12 @@ class BallUnionJudge {
   void cover_triangles() {
     const PerVertex<BallSet> holders = holders_of_vertices();
     std::vector<Offender> offenders;
+    Steps steps(meter_, most_steps(options_, original_.face_count()));
     for (const FaceId f : original_.triangles.ids()) {
       if (index(f) % 64 == 0) meter_.at(0.5 * index(f) / static_cast<double>(original_.face_count()));
       const auto& [a, b, c] = original_.triangles[f];
       if (have_common(holders[a], holders[b], holders[c])) continue;
-      TriangleCutter cutter(original_.triangle(f), balls_, smallest_, meter_);
+      TriangleCutter cutter(original_.triangle(f), balls_, smallest_, steps);
       const Decision decision = cutter.decide();
       const auto& [weights, position, holders_there] = cutter.point();
       if (decision == Decision::Outside) {
@@ -444,7 +453,9 @@ class BallUnionJudge {
 
   void fill_inside() {
     const Surface solid(original_, "original");
-    CubeCutter cutter(solid, balls_, smallest_, meter_.part(0.5, 1));
+    const EnclosureOptions search{.progress = meter_.part(0.5, 1),
+                                  .max_steps = most_steps(options_, original_.face_count())};
+    CubeCutter cutter(solid, balls_, smallest_, search);
     const Decision decision = cutter.decide();
     found_.inside_undecided = decision == Decision::Undecided;
     found_.encloses_solid = decision == Decision::Outside     ? Answer::No

@@ -328,7 +328,7 @@ std::vector<Vec3> points_beyond_kernels(const Triangle& t, int axis, const Piece
   return points;
 }
 
-Holes find_holes(const Surface& solid, const Pieces& pieces, const Surface& all, const Progress& progress) {
+Holes find_holes(const Surface& solid, const Pieces& pieces, const Surface& all, const EnclosureOptions& options) {
   std::vector<std::uint32_t> piece_of;  // by number of the face in all pieces together
   for (std::uint32_t i = 0; i < pieces.meshes.size(); ++i)
     piece_of.resize(piece_of.size() + pieces.meshes[i].face_count(), i);
@@ -344,7 +344,7 @@ Holes find_holes(const Surface& solid, const Pieces& pieces, const Surface& all,
     if (left.is_empty() || (are_whole && pieces.kernels[own].is_whole_piece())) return left.inner_cells();
     return std::nullopt;
   };
-  return find_holes(solid, all, open_cells, progress);
+  return find_holes(solid, all, open_cells, options);
 }
 
 }  // namespace prohull::verify

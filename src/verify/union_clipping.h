@@ -14,6 +14,6 @@ std::vector<Vec3> points_beyond_kernels(const Triangle& t, int axis, const Piece
 
 /// What the pieces leave open in the midst of `solid`, of which they cover every triangle. Exact. `all` is made of
 /// pieces.together().
-Holes find_holes(const Surface& solid, const Pieces& pieces, const Surface& all, const Progress& progress);
+Holes find_holes(const Surface& solid, const Pieces& pieces, const Surface& all, const EnclosureOptions& options);
 
 }  // namespace prohull::verify

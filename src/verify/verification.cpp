@@ -165,7 +165,10 @@ class Judge {
   void cover_what_is_not_in_the_solid(const TriangleMesh& hull) {
     if (!stand_in_ || !is_outer() || !found.is_yes() || stand_in_->rest.empty()) return;
     EnclosureReport report = covered(original_.mesh(), stand_in_->rest, hull, next_step());
-    if (!report.encloses) found.covers_triangles = verify::answer_of(report), found.why_not = kLeavesTriangles;
+    found.covers_triangles = verify::answer_of(report);
+    if (found.covers_triangles == Answer::No) found.why_not = kLeavesTriangles;
+    if (found.covers_triangles == Answer::Undecided) found.why_not = verify::undecided(report.faces_undecided);
+    found.faces_undecided = report.faces_undecided;
     found.faces_outside = report.faces_outside;
     found.worst = std::move(report.worst);
   }
@@ -182,12 +185,17 @@ class Judge {
     verify::GapReport report = verify::verify_gap(hull, original_.mesh(), options_.gap, next_step());
     found.keeps_gap = report.keeps_gap();
     if (found.keeps_gap) found.gap = options_.gap;
+    found.faces_undecided += report.faces_undecided;
     found.faces_too_near = report.faces_too_near;
     found.nearest = std::move(report.nearest);
     found.least_distance = report.least_distance;
-    if (found.encloses && !found.keeps_gap)
-      found.why_not = fmt::format("{} of it {} nearer to the original than that", counted(found.faces_too_near, "face"),
-                                  found.faces_too_near == 1 ? "is" : "are");
+    if (!found.encloses || found.keeps_gap) return;
+    found.why_not =
+        found.faces_too_near > 0
+            ? fmt::format("{} of it {} nearer to the original than that", counted(found.faces_too_near, "face"),
+                          found.faces_too_near == 1 ? "is" : "are")
+            : fmt::format("undecided: {} of it would take too long, because so much of the original is near",
+                          counted(report.faces_undecided, "face"));
   }
 
   void measure(verify::KnownSolid& hull) {

@@ -442,6 +442,16 @@ expect 4 "too few steps" $prohull verify tangled.obj tangled.obj --steps 1 --rep
 says out "too few steps" "UNDECIDED: tangled.obj may enclose tangled.obj: undecided: "
 says verify.json "too few steps" '"encloses_solid": null'
 says verify.json "too few steps" '"certified": false'
+$prohull sample sphere -o ball.obj --faces 300 >out
+expect 0 "a hull with a gap" $prohull build ball.obj -o far.obj --faces 100 --gap 1%
+expect 0 "as many steps as it takes" $prohull verify far.obj ball.obj --gap 1%
+expect 4 "too few steps for a gap" $prohull verify far.obj ball.obj --gap 1% --steps 100 --report verify.json
+says out "too few steps for a gap" "UNDECIDED: far.obj encloses ball.obj, and may keep the gap of "
+says verify.json "too few steps for a gap" '"keeps_gap": null'
+expect 1 "one face that is too near" $prohull verify far.obj ball.obj --gap 50% --steps 100
+expect 0 "spheres" $prohull spheres ball.obj -o balls.yaml --count 8
+expect 4 "too few steps for spheres" $prohull verify --union balls.yaml ball.obj --steps 1
+says out "too few steps for spheres" "UNDECIDED: it is undecided whether the balls cover all of "
 
 
 # --- what is inside out, and what does not enclose ---

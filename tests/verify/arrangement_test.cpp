@@ -183,6 +183,19 @@ TEST(PiecesThatOverlapOften, AreUndecidedAfterAsManyStepsAsAreAllowed) {
   EXPECT_TRUE(verify_union(std::vector{many}, many).certified);
 }
 
+// Walls that nothing meets are decided without steps, and what is in their midst is not.
+TEST(PiecesThatOverlapOften, AreUndecidedInsideAfterAsManyStepsAsAreAllowed) {
+  const TriangleMesh many = together(box({-9, -9, -9}, {9, 9, 9}), scattered_tetrahedra(20, 1));
+  const TriangleMesh original = box({-5, -5, -5}, {5, 5, 5});
+  const UnionVerification found = verify_union(std::vector{many}, original, {.max_steps = 1});
+  EXPECT_FALSE(found.certified || found.is_any(Answer::No));
+  EXPECT_EQ(found.faces_undecided, 0U);
+  EXPECT_TRUE(found.inside_undecided);
+  EXPECT_EQ(found.encloses_solid, Answer::Undecided);
+  EXPECT_NE(found.why_not.find("undecided"), std::string::npos) << found.why_not;
+  EXPECT_TRUE(verify_union(std::vector{many}, original).certified);
+}
+
 TEST(HullsThatOverlapOften, TellProgressWithinOneTriangle) {
   const TriangleMesh hull = scattered_tetrahedra(40, 1);
   const TriangleMesh triangle = mesh_of({{0, 0, 0.4}, {1, 0, 0.5}, {0.5, 1, 0.6}});

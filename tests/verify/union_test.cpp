@@ -265,7 +265,7 @@ TEST(UnionOfBalls, AreUndecidedOfASegmentAfterFewParts) {
     const Progress count = [&](std::string_view, double) { return ++calls > 0; };
     const TriangleMesh segment = make({{middle, 0, 0}, {1, 0, 0}, {-1, 0, 0}}, {{0, 1, 2}});
     EXPECT_EQ(verify_union(balls, segment, false, {.progress = count}).faces_undecided, 1U) << middle;
-    EXPECT_LT(calls, 1000) << middle;
+    EXPECT_LT(calls, 20) << middle << ": one for 256 steps";
   }
 }
 
@@ -313,6 +313,19 @@ TEST(UnionOfBalls, AnswersForTheSolidOnlyWhereItIsAsked) {
   const UnionVerification inside = verify_union(balls_around_small_cubes(kMiddle), kCube, true);
   EXPECT_EQ(inside.covers_triangles, Answer::Yes);
   EXPECT_EQ(inside.encloses_solid, Answer::No);
+}
+
+TEST(UnionOfBalls, AreUndecidedAfterAsManyStepsAsAreAllowed) {
+  const UnionVerification surface = verify_union(balls_around_small_cubes(), kCube, false, {.max_steps = 1});
+  EXPECT_FALSE(surface.certified || surface.is_any(Answer::No));
+  EXPECT_EQ(surface.covers_triangles, Answer::Undecided);
+  EXPECT_EQ(surface.faces_undecided, kCube.face_count());
+  const UnionVerification inside =
+      verify_union(balls_around_small_cubes(), kCube, true, {.solid_only = true, .max_steps = 1});
+  EXPECT_FALSE(inside.certified || inside.is_any(Answer::No));
+  EXPECT_TRUE(inside.inside_undecided);
+  EXPECT_NE(inside.why_not.find("takes too long"), std::string::npos) << inside.why_not;
+  EXPECT_TRUE(verify_union(balls_around_small_cubes(), kCube, true, {.max_steps = 1'000'000}).certified);
 }
 
 TEST(UnionOfBalls, LeavesAHoleInside) {
